@@ -1,0 +1,88 @@
+//! A box of cubes, six tetrahedra to a cube.
+
+use std::path::Path;
+
+use nalgebra::Vector3;
+
+use super::{MeshError, Problem, TetrahedralMesh};
+
+/// The most elements that a box may have: about 5 GB in memory before anything is computed on it.
+const MOST_ELEMENTS: usize = 50_000_000;
+
+/// How far a size times the cells per unit may be from a whole number, relative: sizes such as 0.1 are not exact.
+const WHOLE: f64 = 1e-9;
+
+/// The axes in lexicographic order of their permutations (Kuhn's subdivision of the cube), and whether each is even.
+const PERMUTATIONS: [([usize; 3], bool); 6] = [
+    ([0, 1, 2], true),
+    ([0, 2, 1], false),
+    ([1, 0, 2], false),
+    ([1, 2, 0], true),
+    ([2, 0, 1], true),
+    ([2, 1, 0], false),
+];
+
+/// The box from the origin to `size` (m), in cubes of edge 1/`cells_per_unit`.
+///
+/// Node (i, j, k) has the index `i + (nx+1)(j + (ny+1)k)` and the place (i/n, j/n, k/n). Cells run with k outermost, then
+/// j, then i; each gives one tetrahedron per permutation p of the axes: a = (i, j, k), b = a + e_p0, c = b + e_p1,
+/// d = c + e_p2, as `[a, b, c, d]` where p is even and `[a, b, d, c]` where it is odd, so that all are positive.
+///
+/// Refuses sizes that are not whole numbers of cells, and more than 50 million elements.
+pub fn box_mesh(size: [f64; 3], cells_per_unit: usize) -> Result<TetrahedralMesh, MeshError> {
+    let cells = count_cells(size, cells_per_unit).map_err(|problem| MeshError::in_file(Path::new("box"), problem))?;
+    Ok(TetrahedralMesh { vertices: nodes(cells, cells_per_unit), elements: tetrahedra(cells) })
+}
+
+fn count_cells(size: [f64; 3], cells_per_unit: usize) -> Result<[usize; 3], Problem> {
+    let exact = size.map(|length| length * cells_per_unit as f64);
+    for axis in 0..3 {
+        let whole = exact[axis].round();
+        // NaN and ∞ fail both
+        let fits = whole >= 1.0 && (exact[axis] - whole).abs() <= WHOLE * whole;
+        if !fits {
+            return Err(Problem::BoxCells { axis: ['x', 'y', 'z'][axis], size: size[axis], cells_per_unit });
+        }
+    }
+    let [x, y, z] = exact.map(f64::round);
+    // in floating point, where the product cannot overflow
+    let elements = 6.0 * x * y * z;
+    if elements > MOST_ELEMENTS as f64 {
+        let cells = format!("{x} × {y} × {z}");
+        return Err(Problem::BoxTooFine { cells, elements, most: MOST_ELEMENTS });
+    }
+    Ok([x as usize, y as usize, z as usize])
+}
+
+fn nodes([nx, ny, nz]: [usize; 3], n: usize) -> Vec<Vector3<f64>> {
+    let coordinate = |i: usize| i as f64 / n as f64;
+    let mut nodes = Vec::with_capacity((nx + 1) * (ny + 1) * (nz + 1));
+    for k in 0..=nz {
+        for j in 0..=ny {
+            nodes.extend((0..=nx).map(|i| Vector3::new(coordinate(i), coordinate(j), coordinate(k))));
+        }
+    }
+    nodes
+}
+
+fn tetrahedra([nx, ny, nz]: [usize; 3]) -> Vec<[usize; 4]> {
+    let stride = [1, nx + 1, (nx + 1) * (ny + 1)];
+    let mut tetrahedra = Vec::with_capacity(6 * nx * ny * nz);
+    for k in 0..nz {
+        for j in 0..ny {
+            for i in 0..nx {
+                let a = i * stride[0] + j * stride[1] + k * stride[2];
+                tetrahedra.extend(PERMUTATIONS.map(|(axes, even)| tetrahedron(a, axes.map(|axis| stride[axis]), even)));
+            }
+        }
+    }
+    tetrahedra
+}
+
+/// From the cube's first corner `a` along its three edges, as steps in the node numbers.
+fn tetrahedron(a: usize, steps: [usize; 3], even: bool) -> [usize; 4] {
+    let b = a + steps[0];
+    let c = b + steps[1];
+    let d = c + steps[2];
+    if even { [a, b, c, d] } else { [a, b, d, c] }
+}

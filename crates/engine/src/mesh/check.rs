@@ -1,0 +1,93 @@
+//! What a tetrahedral mesh must keep before anything is computed on it.
+
+use std::path::Path;
+
+use nalgebra::Vector3;
+
+use super::boundary::FACES;
+use super::volume::signed_volume;
+use super::{MeshError, Problem, TetrahedralMesh};
+
+/// A tetrahedron whose volume is below this part of its longest edge cubed is flat.
+///
+/// The triple product rounds to about 1e-15 of that cube, so nothing smaller has a sign to trust; a flat sliver of
+/// aspect 1e6 has 2e-7 of it, and even a needle that is thin in both directions 2e-13.
+const FLAT: f64 = 1e-14;
+
+/// A tetrahedron whose smallest height is below this many roundings of its own coordinates is flat as well: far from the
+/// origin the vertices of a plane no longer lie in it, and the volume that they seem to have is the rounding alone.
+const ROUNDINGS: f64 = 4.0;
+
+/// Finite coordinates, indices in range, four different vertices and a positive volume for every element, no vertex
+/// without an element, and at least one element.
+///
+/// Returns the first thing that is wrong; `source` is the file that the message names.
+pub fn check(mesh: &TetrahedralMesh, source: &Path) -> Result<(), MeshError> {
+    find_problem(mesh).map_err(|problem| MeshError::in_file(source, problem))
+}
+
+fn find_problem(mesh: &TetrahedralMesh) -> Result<(), Problem> {
+    if mesh.vertices.is_empty() {
+        return Err(Problem::Empty { what: "vertices" });
+    }
+    if mesh.elements.is_empty() {
+        return Err(Problem::Empty { what: "tetrahedra" });
+    }
+    if let Some(vertex) = mesh.vertices.iter().position(|x| !x.iter().all(|coordinate| coordinate.is_finite())) {
+        return Err(Problem::VertexNotFinite { vertex });
+    }
+    for (element, nodes) in mesh.elements.iter().enumerate() {
+        check_indices(element, nodes, mesh.vertices.len())?;
+        check_volume(element, nodes.map(|i| mesh.vertices[i]))?;
+    }
+    check_all_referenced(mesh)
+}
+
+fn check_indices(element: usize, nodes: &[usize; 4], count: usize) -> Result<(), Problem> {
+    if let Some(&vertex) = nodes.iter().find(|&&i| i >= count) {
+        return Err(Problem::ElementOutOfRange { element, vertex: vertex as i128, count });
+    }
+    match (1..4).find(|&k| nodes[..k].contains(&nodes[k])) {
+        Some(k) => Err(Problem::RepeatedVertex { element, vertex: nodes[k] }),
+        None => Ok(()),
+    }
+}
+
+fn check_volume(element: usize, corners: [Vector3<f64>; 4]) -> Result<(), Problem> {
+    let volume = signed_volume(corners);
+    let edge = longest_edge(corners);
+    let area = largest_face(corners);
+    if !(volume.is_finite() && edge.powi(3).is_finite() && area.is_finite()) {
+        return Err(Problem::Huge { element });
+    }
+    let extent = corners.iter().map(|x| x.amax()).fold(0.0, f64::max);
+    let rounding = ROUNDINGS * f64::EPSILON * extent;
+    if volume.abs() <= FLAT * edge.powi(3) || 3.0 * volume.abs() <= rounding * area {
+        return Err(Problem::Flat { element, volume });
+    }
+    if volume < 0.0 { Err(Problem::Inverted { element, volume }) } else { Ok(()) }
+}
+
+fn longest_edge(corners: [Vector3<f64>; 4]) -> f64 {
+    let edges = (0..4).flat_map(|i| (0..i).map(move |j| (corners[i] - corners[j]).norm()));
+    edges.fold(0.0, f64::max)
+}
+
+fn largest_face(corners: [Vector3<f64>; 4]) -> f64 {
+    let areas = FACES.map(|face| {
+        let [a, b, c] = face.map(|i| corners[i]);
+        0.5 * (b - a).cross(&(c - a)).norm()
+    });
+    areas.into_iter().fold(0.0, f64::max)
+}
+
+fn check_all_referenced(mesh: &TetrahedralMesh) -> Result<(), Problem> {
+    let mut referenced = vec![false; mesh.vertices.len()];
+    for &vertex in mesh.elements.iter().flatten() {
+        referenced[vertex] = true;
+    }
+    match referenced.iter().position(|&known| !known) {
+        Some(vertex) => Err(Problem::Unreferenced { vertex }),
+        None => Ok(()),
+    }
+}

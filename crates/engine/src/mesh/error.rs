@@ -1,0 +1,106 @@
+//! The one error of everything that reads, checks, builds or writes a mesh.
+
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// What is wrong with a mesh, where, and what to do about it: one message, such as
+/// `bunny.ele, line 7: vertex 400 does not exist, …`.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("{}{}: {problem}", file.display(), line.map(|n| format!(", line {n}")).unwrap_or_default())]
+pub struct MeshError {
+    /// The file, or what stands in for it where a mesh comes from elsewhere.
+    pub file: PathBuf,
+    /// Line in the file, counted from 1, where one line is to blame.
+    pub line: Option<usize>,
+    /// What is wrong; its text names the element or vertex, and the remedy. Boxed, so that a result stays small.
+    pub problem: Box<Problem>,
+}
+
+impl MeshError {
+    /// A problem of a file as a whole.
+    pub fn in_file(file: &Path, problem: Problem) -> Self {
+        Self { file: file.to_owned(), line: None, problem: Box::new(problem) }
+    }
+
+    /// A problem of one line, counted from 1.
+    pub fn in_line(file: &Path, line: usize, problem: Problem) -> Self {
+        Self { file: file.to_owned(), line: Some(line), problem: Box::new(problem) }
+    }
+}
+
+/// What can be wrong with a mesh. Vertices and elements are counted from 0, as in memory, unless the text says otherwise.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[allow(missing_docs)] // the messages are the documentation
+pub enum Problem {
+    #[error("there is no such file; check the path, which counts from the current folder unless it is absolute")]
+    Missing,
+    #[error("the mesh needs `{}` as well, and it is not there; put the .node and the .ele file of a mesh side by side under one name", partner.display())]
+    PartnerMissing { partner: PathBuf },
+    #[error("cannot be read ({reason}); check that it is a file and that you may read it")]
+    Unreadable { reason: String },
+    #[error(
+        "cannot be written ({reason}); check that the folder exists, that you may write there, and that the disk is not full"
+    )]
+    Unwritable { reason: String },
+    #[error("the extension `{found}` is unknown here; use one of {known}")]
+    UnknownExtension { found: String, known: &'static str },
+    #[error("{found} is not supported; {instead}")]
+    Unsupported { found: String, instead: &'static str },
+    #[error("{reason}; export the mesh again")]
+    Malformed { reason: String },
+    #[error("{expected} is missing here; complete the entry or correct the counts above it")]
+    Ends { expected: &'static str },
+    #[error("`{word}` is not {expected}; correct it")]
+    NotA { word: String, expected: &'static str },
+    #[error("announces {announced} {what} and holds {found}; correct the count or complete the file")]
+    WrongCount { what: &'static str, announced: usize, found: usize },
+    #[error("the coordinate `{word}` is not finite; give the vertex a real place or remove it")]
+    NotFinite { word: String },
+    #[error("vertex {vertex} has a coordinate that is not finite; give it a real place or remove it")]
+    VertexNotFinite { vertex: usize },
+    #[error("vertex {index} does not exist, the file's vertices are {first} to {last}; correct the index")]
+    OutOfRange { index: i64, first: i64, last: i64 },
+    #[error("there are no vertices that the index {index} could mean; add them or correct the file's counts")]
+    NoVertices { index: i64 },
+    #[error("element {element} names vertex {vertex}, and there are only 0 to {} (all counted from 0); correct the index", *count as i128 - 1)]
+    ElementOutOfRange { element: usize, vertex: i128, count: usize },
+    #[error("the number {found} stands where {expected} is due; number the entries one after the other, from 0 or 1")]
+    NotConsecutive { expected: i64, found: i64 },
+    #[error("the tag {tag} is given to two nodes; give each node its own")]
+    RepeatedTag { tag: i64 },
+    #[error("the file has no node with the tag {tag}; correct it or export the mesh with all of its nodes")]
+    UnknownTag { tag: i64 },
+    #[error(
+        "element {element} (counted from 0) has vertex {vertex} twice; give it four different vertices or remove it"
+    )]
+    RepeatedVertex { element: usize, vertex: usize },
+    #[error("element {element} (counted from 0) has the negative volume {volume:e} m³; swap two of its vertices")]
+    Inverted { element: usize, volume: f64 },
+    #[error(
+        "element {element} (counted from 0) has no volume ({volume:e} m³ within rounding); remove it or move its vertices apart"
+    )]
+    Flat { element: usize, volume: f64 },
+    #[error("element {element} (counted from 0) is too large to compute its volume; scale the mesh to metres")]
+    Huge { element: usize },
+    #[error(
+        "vertex {vertex} (counted from 0) belongs to no element; remove it or the mesh has a mass that nothing holds"
+    )]
+    Unreferenced { vertex: usize },
+    #[error("the mesh has no {what}; give one that has some")]
+    Empty { what: &'static str },
+    #[error(
+        "the box's size {size} m along {axis} times {cells_per_unit} cells per metre is not a whole number of cells, at least 1; change either"
+    )]
+    BoxCells { axis: char, size: f64, cells_per_unit: usize },
+    #[error(
+        "the box would have {elements:e} elements ({cells} cells), and {most} is the most; lower cells_per_unit or its size"
+    )]
+    BoxTooFine { cells: String, elements: f64, most: usize },
+    #[error(
+        "the field `{name}` has {found} numbers, and {expected} are needed ({components} for each {per}); pass one entry for each {per}"
+    )]
+    FieldSize { name: String, found: usize, expected: usize, components: usize, per: &'static str },
+    #[error("frame {frame} (counted from 0) {reason}; pass frames of one mesh in the order of their times")]
+    Frame { frame: usize, reason: String },
+}

@@ -1,0 +1,178 @@
+//! How well shaped the elements of a mesh are.
+
+use std::f64::consts::PI;
+use std::fmt;
+
+use nalgebra::Vector3;
+
+use super::boundary::FACES;
+use super::{TetrahedralMesh, boundary, signed_volume};
+
+/// A worst value, and the element (counted from 0) that has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extreme {
+    /// The value; infinite in a mesh without elements.
+    pub value: f64,
+    /// The first element that has it.
+    pub element: usize,
+}
+
+/// Sizes and shapes of a mesh's elements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quality {
+    /// Number of vertices.
+    pub vertices: usize,
+    /// Number of tetrahedra.
+    pub elements: usize,
+    /// Number of triangles on the boundary.
+    pub boundary_faces: usize,
+    /// Volume of all elements together, m³.
+    pub volume: f64,
+    /// Smallest and largest volume, m³.
+    pub volumes: [Extreme; 2],
+    /// Smallest height of a vertex above the face opposite, m: what limits an explicit time step.
+    pub smallest_height: Extreme,
+    /// Smallest and largest angle between two faces, degrees.
+    pub dihedral_angles: [Extreme; 2],
+    /// Smallest `3 r / R` of the inscribed and the circumscribed sphere: 1 for a regular tetrahedron, 0 for a flat one.
+    pub radius_ratio: Extreme,
+    /// Mean of `3 r / R` over the elements.
+    pub mean_radius_ratio: f64,
+}
+
+/// Measures a mesh that has passed [`check`](super::check).
+pub fn quality(mesh: &TetrahedralMesh) -> Quality {
+    let shapes: Vec<Shape> = mesh.elements.iter().map(|e| measure(e.map(|i| mesh.vertices[i]))).collect();
+    let smallest = |value: fn(&Shape) -> f64| extreme(&shapes, value);
+    let largest = |value: fn(&Shape) -> f64| extreme(&shapes, |shape| -value(shape)).negated();
+    Quality {
+        vertices: mesh.vertices.len(),
+        elements: mesh.elements.len(),
+        boundary_faces: boundary(mesh).len(),
+        volume: shapes.iter().map(|shape| shape.volume).sum(),
+        volumes: [smallest(|shape| shape.volume), largest(|shape| shape.volume)],
+        smallest_height: smallest(|shape| shape.height),
+        dihedral_angles: [smallest(|shape| shape.angles[0]), largest(|shape| shape.angles[1])],
+        radius_ratio: smallest(|shape| shape.radius_ratio),
+        mean_radius_ratio: shapes.iter().map(|shape| shape.radius_ratio).sum::<f64>() / shapes.len().max(1) as f64,
+    }
+}
+
+/// One element's volume (m³), smallest height (m), smallest and largest dihedral angle (degrees), and `3 r / R`.
+struct Shape {
+    volume: f64,
+    height: f64,
+    angles: [f64; 2],
+    radius_ratio: f64,
+}
+
+fn measure(corners: [Vector3<f64>; 4]) -> Shape {
+    let volume = signed_volume(corners);
+    // outward, and twice as long as the face's area
+    let normals = FACES.map(|face| {
+        let [a, b, c] = face.map(|i| corners[i]);
+        (b - a).cross(&(c - a))
+    });
+    let areas = normals.map(|normal| normal.norm());
+    let largest = areas.into_iter().fold(0.0, f64::max);
+    let inscribed = 6.0 * volume / areas.iter().sum::<f64>();
+    Shape {
+        volume,
+        height: 6.0 * volume / largest,
+        angles: dihedral_angles(normals),
+        radius_ratio: 3.0 * inscribed / circumradius(corners, volume),
+    }
+}
+
+/// Smallest and largest of the six, degrees, by the arc tangent: the arc cosine loses half of the digits of flat angles.
+fn dihedral_angles(normals: [Vector3<f64>; 4]) -> [f64; 2] {
+    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+    for i in 0..4 {
+        for j in 0..i {
+            let between = normals[i].cross(&normals[j]).norm().atan2(normals[i].dot(&normals[j]));
+            let angle = (PI - between).to_degrees();
+            range = [range[0].min(angle), range[1].max(angle)];
+        }
+    }
+    range
+}
+
+/// `|a² (b×c) + b² (c×a) + c² (a×b)| / (12 V)` with a, b, c the edges from one vertex.
+fn circumradius([o, a, b, c]: [Vector3<f64>; 4], volume: f64) -> f64 {
+    let (a, b, c) = (a - o, b - o, c - o);
+    let sum = b.cross(&c) * a.norm_squared() + c.cross(&a) * b.norm_squared() + a.cross(&b) * c.norm_squared();
+    sum.norm() / (12.0 * volume)
+}
+
+fn extreme(shapes: &[Shape], value: impl Fn(&Shape) -> f64) -> Extreme {
+    let mut worst = Extreme { value: f64::INFINITY, element: 0 };
+    for (element, shape) in shapes.iter().enumerate() {
+        if value(shape) < worst.value {
+            worst = Extreme { value: value(shape), element };
+        }
+    }
+    worst
+}
+
+impl Extreme {
+    fn negated(self) -> Self {
+        Self { value: -self.value, ..self }
+    }
+}
+
+impl fmt::Display for Quality {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{:<26}{:>12}", "vertices", self.vertices)?;
+        writeln!(f, "{:<26}{:>12}", "tetrahedra", self.elements)?;
+        writeln!(f, "{:<26}{:>12}", "boundary triangles", self.boundary_faces)?;
+        writeln!(f, "{:<26}{:>12.6e}", "volume, m³", self.volume)?;
+        writeln!(f, "{:<26}{:>12.4}", "mean radius ratio (0…1)", self.mean_radius_ratio)?;
+        writeln!(f, "{:<26}{:>12}{:>12}", "", "", "element")?;
+        let length = |extreme: Extreme| (format!("{:.4e}", extreme.value), extreme.element);
+        let plain = |extreme: Extreme| (format!("{:.4}", extreme.value), extreme.element);
+        let rows = [
+            ("smallest volume, m³", length(self.volumes[0])),
+            ("largest volume, m³", length(self.volumes[1])),
+            ("smallest height, m", length(self.smallest_height)),
+            ("smallest dihedral angle, °", plain(self.dihedral_angles[0])),
+            ("largest dihedral angle, °", plain(self.dihedral_angles[1])),
+            ("worst radius ratio (0…1)", plain(self.radius_ratio)),
+        ];
+        rows.iter().try_for_each(|(name, (value, element))| writeln!(f, "{name:<26}{value:>12}{element:>12}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    fn one(vertices: [[f64; 3]; 4]) -> Quality {
+        quality(&TetrahedralMesh { vertices: vertices.map(Vector3::from).to_vec(), elements: vec![[0, 1, 2, 3]] })
+    }
+
+    #[test]
+    fn the_regular_tetrahedron_is_perfect() {
+        let regular = one([[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]);
+        // this order of its corners is the mirrored one
+        assert_relative_eq!(regular.volume, -1.0 / 3.0, max_relative = 1e-14);
+        let regular = one([[0.0, 0.0, 0.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0]]);
+        assert_relative_eq!(regular.radius_ratio.value, 1.0, max_relative = 1e-14);
+        assert_relative_eq!(regular.smallest_height.value, (4.0_f64 / 3.0).sqrt(), max_relative = 1e-14);
+        let angle = (1.0_f64 / 3.0).acos().to_degrees();
+        assert_relative_eq!(regular.dihedral_angles[0].value, angle, max_relative = 1e-13);
+        assert_relative_eq!(regular.dihedral_angles[1].value, angle, max_relative = 1e-13);
+    }
+
+    #[test]
+    fn the_corner_of_a_cube_has_angles_of_90_degrees_and_of_the_arc_tangent_of_the_root_of_two() {
+        let corner = one([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+        assert_relative_eq!(corner.dihedral_angles[0].value, 2.0_f64.sqrt().atan().to_degrees(), max_relative = 1e-13);
+        assert_relative_eq!(corner.dihedral_angles[1].value, 90.0, max_relative = 1e-13);
+        // r = 1 / (3 + √3), R = √3 / 2
+        let ratio = 3.0 / (3.0 + 3.0_f64.sqrt()) / (3.0_f64.sqrt() / 2.0);
+        assert_relative_eq!(corner.radius_ratio.value, ratio, max_relative = 1e-13);
+        assert_relative_eq!(corner.smallest_height.value, 1.0 / 3.0_f64.sqrt(), max_relative = 1e-13);
+    }
+}

@@ -1,0 +1,65 @@
+//! The loop: steps a simulation and takes its time.
+
+use std::time::Instant;
+
+use crate::simulation::{Failure, Simulation};
+
+/// What a run took, and how it ended.
+#[derive(Clone, Debug, Default)]
+pub struct Run {
+    /// Wall-clock time of each finished step, the physics alone, s.
+    pub step_seconds: Vec<f64>,
+    /// Why it ended before its last step, where it did.
+    pub failure: Option<Failure>,
+}
+
+/// Advances by `steps` steps. `after_step` is called outside the clock; its error ends the run.
+pub fn run<E>(
+    simulation: &mut dyn Simulation,
+    steps: usize,
+    mut after_step: impl FnMut(&dyn Simulation) -> Result<(), E>,
+) -> Result<Run, E> {
+    let mut run = Run::default();
+    for _ in 0..steps {
+        let start = Instant::now();
+        let outcome = simulation.step();
+        let seconds = start.elapsed().as_secs_f64();
+        if let Err(failure) = outcome {
+            run.failure = Some(failure);
+            break;
+        }
+        run.step_seconds.push(seconds);
+        after_step(simulation)?;
+    }
+    Ok(run)
+}
+
+/// The value below which the part `fraction` of the values lies (nearest rank); `None` where there are none.
+pub fn quantile(values: &[f64], fraction: f64) -> Option<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let rank = (fraction * sorted.len() as f64).ceil() as usize;
+    sorted.get(rank.clamp(1, sorted.len().max(1)) - 1).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quantile;
+
+    #[test]
+    fn the_median_of_an_odd_number_of_values_is_the_middle_one() {
+        assert_eq!(quantile(&[3.0, 1.0, 2.0], 0.5), Some(2.0));
+    }
+
+    #[test]
+    fn ninety_five_percent_of_the_values_lie_at_or_below_their_quantile() {
+        let values: Vec<f64> = (1..=100).map(f64::from).collect();
+        assert_eq!(quantile(&values, 0.95), Some(95.0));
+        assert_eq!(quantile(&values, 1.0), Some(100.0));
+    }
+
+    #[test]
+    fn no_values_have_no_quantile() {
+        assert_eq!(quantile(&[], 0.5), None);
+    }
+}

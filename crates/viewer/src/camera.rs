@@ -1,0 +1,191 @@
+//! The camera: circles a body, and says where a pixel looks.
+//!
+//! Its projection is OpenGL's (clip depth −1…1), which is also what the drawing library expects of a camera.
+
+use fem_engine::simulation::Click;
+use kiss3d::camera::Camera3d;
+use kiss3d::event::WindowEvent;
+use kiss3d::glamx::{Mat4, Pose3, Vec2, Vec3};
+use kiss3d::window::Canvas;
+use nalgebra::{Matrix4, Vector3, Vector4};
+
+use crate::geometry::{Bounds, level_axes};
+
+const FIELD_OF_VIEW: f32 = 0.6; // rad, vertical
+const FIRST_YAW: f32 = 0.45; // rad, a little from the side: shows depth
+const FIRST_PITCH: f32 = 0.22; // rad, a little from above
+const STEEPEST_PITCH: f32 = 1.5; // rad, short of straight up, where "right" would lose its meaning
+const MARGIN: f32 = 1.12; // body to picture edge, as a factor on the distance
+const RADIANS_PER_PIXEL: f32 = 0.006;
+
+/// A camera that looks at a target from a distance.
+#[derive(Clone, Debug)]
+pub struct OrbitCamera {
+    /// The point looked at, m.
+    target: Vec3,
+    /// From the target to the eye, m.
+    distance: f32,
+    /// Angle around `up`, rad.
+    yaw: f32,
+    /// Angle above the horizon, rad.
+    pitch: f32,
+    /// Direction that is up in the picture, unit length.
+    up: Vec3,
+    /// Size of what is looked at, m; near and far planes follow it.
+    radius: f32,
+    /// Width and height of the picture, physical pixels.
+    size: Vec2,
+    /// Pixels at the left that something covers; the target is drawn in the middle of the rest.
+    covered: f32,
+}
+
+impl OrbitCamera {
+    /// A camera that has all of `bounds` in the uncovered part of a picture of `size` pixels.
+    pub fn framing(bounds: &Bounds, up: Vec3, size: Vec2, covered: f32) -> Self {
+        let up = up.try_normalize().unwrap_or(Vec3::Y);
+        let mut camera = OrbitCamera {
+            target: bounds.center(),
+            distance: 1.0,
+            yaw: FIRST_YAW,
+            pitch: FIRST_PITCH,
+            up,
+            radius: bounds.radius(),
+            size,
+            covered,
+        };
+        camera.distance = MARGIN * camera.distance_for(bounds);
+        camera
+    }
+
+    /// The smallest distance at which every corner of `bounds` is inside the picture, m.
+    fn distance_for(&self, bounds: &Bounds) -> f32 {
+        let towards_eye = self.direction();
+        let right = self.right();
+        let above = towards_eye.cross(right);
+        let vertical = (FIELD_OF_VIEW / 2.0).tan();
+        let horizontal = vertical * (self.size.x - self.covered).max(1.0) / self.size.y;
+        let needed = |corner: Vec3| {
+            let from_target = corner - self.target;
+            let lateral = f32::max(from_target.dot(right).abs() / horizontal, from_target.dot(above).abs() / vertical);
+            from_target.dot(towards_eye) + lateral
+        };
+        bounds.corners().into_iter().map(needed).fold(self.radius, f32::max)
+    }
+
+    /// Turns by a mouse motion of `pixels` (right, down).
+    pub fn turn(&mut self, pixels: Vec2) {
+        self.yaw -= pixels.x * RADIANS_PER_PIXEL;
+        self.pitch = (self.pitch + pixels.y * RADIANS_PER_PIXEL).clamp(-STEEPEST_PITCH, STEEPEST_PITCH);
+    }
+
+    /// Moves sideways so that the target follows a mouse motion of `pixels` (right, down).
+    pub fn shift(&mut self, pixels: Vec2) {
+        let metres_per_pixel = 2.0 * self.distance * (FIELD_OF_VIEW / 2.0).tan() / self.size.y;
+        let right = self.right();
+        let above = self.direction().cross(right);
+        self.target += (above * pixels.y - right * pixels.x) * metres_per_pixel;
+    }
+
+    /// Comes nearer (positive) or goes away, by notches of the mouse wheel.
+    pub fn zoom(&mut self, notches: f32) {
+        let distance = self.distance * 0.9_f32.powf(notches);
+        self.distance = distance.clamp(0.05 * self.radius, 50.0 * self.radius);
+    }
+
+    /// Follows a change of the picture's size or of its covered part, physical pixels.
+    pub fn resize(&mut self, size: Vec2, covered: f32) {
+        self.size = size.max(Vec2::ONE);
+        self.covered = covered.clamp(0.0, 0.8 * self.size.x);
+    }
+
+    /// Unit vector from the target to the eye.
+    pub fn direction(&self) -> Vec3 {
+        let (right, front) = level_axes(self.up);
+        let level = front * self.yaw.cos() + right * self.yaw.sin();
+        level * self.pitch.cos() + self.up * self.pitch.sin()
+    }
+
+    /// Unit vector to the right of the picture.
+    fn right(&self) -> Vec3 {
+        self.up.cross(self.direction()).normalize()
+    }
+
+    /// Eye to clip space, depth −1…1.
+    fn projection(&self) -> Mat4 {
+        let (near, far) = self.clip_planes();
+        let focal = 1.0 / (FIELD_OF_VIEW / 2.0).tan();
+        let mut columns = [[0.0; 4]; 4];
+        columns[0][0] = focal * self.size.y / self.size.x;
+        columns[1][1] = focal;
+        columns[2][0] = -self.covered / self.size.x; // moves the target out of the covered part
+        columns[2][2] = (far + near) / (near - far);
+        columns[2][3] = -1.0;
+        columns[3][2] = 2.0 * far * near / (near - far);
+        Mat4::from_cols_array_2d(&columns)
+    }
+
+    /// The click at `cursor` (pixels from the upper left) as a simulation wants it.
+    pub fn click(&self, cursor: Vec2) -> Click {
+        Click {
+            win: Vector3::new(f64::from(cursor.x), f64::from(self.size.y - cursor.y), 0.0),
+            view: Matrix4::from_column_slice(&self.view_transform().to_mat4().to_cols_array()),
+            proj: Matrix4::from_column_slice(&self.projection().to_cols_array()),
+            viewport: Vector4::new(0.0, 0.0, self.size.x, self.size.y),
+        }
+    }
+
+    /// Unit vector from the eye through `cursor` (pixels from the upper left).
+    pub fn ray(&self, cursor: Vec2) -> Vec3 {
+        let focal = 1.0 / (FIELD_OF_VIEW / 2.0).tan();
+        let centre = Vec2::new((self.size.x + self.covered) / 2.0, self.size.y / 2.0);
+        let from_centre = (cursor - centre) * 2.0 / (self.size.y * focal);
+        let right = self.right();
+        let above = self.direction().cross(right);
+        (right * from_centre.x - above * from_centre.y - self.direction()).normalize()
+    }
+
+    /// Where the ray through `cursor` meets the plane through `point` that is parallel to the picture.
+    pub fn on_plane(&self, cursor: Vec2, point: Vec3) -> Vec3 {
+        let ray = self.ray(cursor);
+        let normal = self.direction();
+        self.eye() + ray * ((point - self.eye()).dot(normal) / ray.dot(normal))
+    }
+}
+
+impl Camera3d for OrbitCamera {
+    // The window handles the mouse itself, because a drag may belong to the body.
+    fn handle_event(&mut self, _: &Canvas, event: &WindowEvent) {
+        if let WindowEvent::FramebufferSize(width, height) = *event {
+            self.resize(Vec2::new(width as f32, height as f32), self.covered);
+        }
+    }
+
+    fn eye(&self) -> Vec3 {
+        self.target + self.direction() * self.distance
+    }
+
+    fn view_transform(&self) -> Pose3 {
+        Pose3::look_at_rh(self.eye(), self.target, self.up)
+    }
+
+    fn transformation(&self) -> Mat4 {
+        self.projection() * self.view_transform().to_mat4()
+    }
+
+    fn inverse_transformation(&self) -> Mat4 {
+        self.transformation().inverse()
+    }
+
+    fn clip_planes(&self) -> (f32, f32) {
+        (0.02 * self.distance, self.distance + 60.0 * self.radius)
+    }
+
+    fn update(&mut self, _: &Canvas) {}
+
+    fn view_transform_pair(&self, _: usize) -> (Pose3, Mat4) {
+        (self.view_transform(), self.projection())
+    }
+}
+
+#[cfg(test)]
+mod tests;

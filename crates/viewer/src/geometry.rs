@@ -1,0 +1,157 @@
+//! Triangles in single precision, as the graphics card wants them.
+
+use std::collections::BTreeSet;
+
+use kiss3d::glamx::Vec3;
+use nalgebra::{DVector, Vector3};
+
+/// A box around points, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Smallest coordinates.
+    pub low: Vec3,
+    /// Largest coordinates.
+    pub high: Vec3,
+}
+
+impl Bounds {
+    /// The box around `points`; a small one about the origin where there are none.
+    pub fn of(points: &[Vec3]) -> Self {
+        let mut finite = points.iter().copied().filter(|p| p.is_finite());
+        let Some(first) = finite.next() else {
+            return Bounds { low: Vec3::splat(-0.5), high: Vec3::splat(0.5) };
+        };
+        let grow = |b: Bounds, p: Vec3| Bounds { low: b.low.min(p), high: b.high.max(p) };
+        finite.fold(Bounds { low: first, high: first }, grow)
+    }
+
+    /// The middle of the box, m.
+    pub fn center(&self) -> Vec3 {
+        (self.low + self.high) / 2.0
+    }
+
+    /// Half of the diagonal, m; never zero.
+    pub fn radius(&self) -> f32 {
+        ((self.high - self.low).length() / 2.0).max(1e-6)
+    }
+
+    /// The eight corners, m.
+    pub fn corners(&self) -> [Vec3; 8] {
+        std::array::from_fn(|i| {
+            let side = |bit: usize, low: f32, high: f32| if i >> bit & 1 == 0 { low } else { high };
+            Vec3::new(
+                side(0, self.low.x, self.high.x),
+                side(1, self.low.y, self.high.y),
+                side(2, self.low.z, self.high.z),
+            )
+        })
+    }
+}
+
+/// A point in single precision.
+pub fn single(point: &Vector3<f64>) -> Vec3 {
+    Vec3::new(point.x as f32, point.y as f32, point.z as f32)
+}
+
+/// A point in double precision.
+pub fn double(point: Vec3) -> Vector3<f64> {
+    Vector3::new(f64::from(point.x), f64::from(point.y), f64::from(point.z))
+}
+
+/// Stacked positions `[x0 y0 z0 x1 …]` as points.
+pub fn points(q: &DVector<f64>) -> Vec<Vec3> {
+    q.as_slice().chunks_exact(3).map(|p| Vec3::new(p[0] as f32, p[1] as f32, p[2] as f32)).collect()
+}
+
+/// Triangles with 32-bit indices.
+pub fn faces(triangles: &[[usize; 3]]) -> Vec<[u32; 3]> {
+    triangles.iter().map(|t| t.map(|i| i as u32)).collect()
+}
+
+/// Two unit vectors at right angles to `up`: to the right and to the front. They are x and z
+/// where y is up, and x and −y where z is up.
+pub fn level_axes(up: Vec3) -> (Vec3, Vec3) {
+    let hint = if up.x.abs() < 0.9 { Vec3::X } else { Vec3::Z };
+    let front = hint.cross(up).normalize();
+    (up.cross(front), front)
+}
+
+/// Every edge of the triangles once.
+pub fn edges(triangles: &[[usize; 3]]) -> Vec<[usize; 2]> {
+    let sides = |t: &[usize; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].map(|[a, b]| [a.min(b), a.max(b)]);
+    triangles.iter().flat_map(sides).collect::<BTreeSet<_>>().into_iter().collect()
+}
+
+/// Unit normals of the vertices: the mean of the triangles around each, weighted by area.
+pub fn smooth_normals(points: &[Vec3], faces: &[[u32; 3]]) -> Vec<Vec3> {
+    let mut normals = vec![Vec3::ZERO; points.len()];
+    for face in faces {
+        let [a, b, c] = face.map(|i| points[i as usize]);
+        let twice_area = (b - a).cross(c - a);
+        for &i in face {
+            normals[i as usize] += twice_area;
+        }
+    }
+    normals.into_iter().map(|n| n.normalize_or(Vec3::Y)).collect()
+}
+
+/// Distance along the ray to the first triangle that it meets, m.
+pub fn first_hit(origin: Vec3, ray: Vec3, points: &[Vec3], triangles: &[[usize; 3]]) -> Option<f32> {
+    let hit = |t: &[usize; 3]| distance_to_triangle(origin, ray, t.map(|i| points[i]));
+    triangles.iter().filter_map(hit).min_by(f32::total_cmp)
+}
+
+/// Möller and Trumbore's test; both sides of a triangle count.
+fn distance_to_triangle(origin: Vec3, ray: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f32> {
+    let (ab, ac) = (b - a, c - a);
+    let p = ray.cross(ac);
+    let determinant = ab.dot(p);
+    let s = origin - a;
+    let u = s.dot(p) / determinant;
+    let q = s.cross(ab);
+    let v = ray.dot(q) / determinant;
+    let distance = ac.dot(q) / determinant;
+    // A ray in the triangle's plane gives NaN or infinity, which fail these comparisons.
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0).then_some(distance)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TRIANGLE: [Vec3; 3] = [Vec3::ZERO, Vec3::X, Vec3::Y];
+
+    #[test]
+    fn a_ray_meets_the_nearer_of_two_triangles() {
+        let points: Vec<Vec3> = TRIANGLE.into_iter().chain(TRIANGLE.map(|p| p + Vec3::Z)).collect();
+        let hit = first_hit(Vec3::new(0.2, 0.2, 5.0), -Vec3::Z, &points, &[[0, 1, 2], [3, 4, 5]]);
+        assert_eq!(hit, Some(4.0));
+    }
+
+    #[test]
+    fn a_ray_beside_a_triangle_or_in_its_plane_misses() {
+        assert_eq!(first_hit(Vec3::new(0.8, 0.8, 5.0), -Vec3::Z, &TRIANGLE, &[[0, 1, 2]]), None);
+        assert_eq!(first_hit(Vec3::new(-1.0, 0.2, 0.0), Vec3::X, &TRIANGLE, &[[0, 1, 2]]), None);
+    }
+
+    #[test]
+    fn normals_point_out_of_counter_clockwise_triangles() {
+        assert_eq!(smooth_normals(&TRIANGLE, &[[0, 1, 2]]), vec![Vec3::Z; 3]);
+    }
+
+    #[test]
+    fn a_vertex_without_area_still_has_a_unit_normal() {
+        assert_eq!(smooth_normals(&[Vec3::ZERO; 3], &[[0, 1, 2]]), vec![Vec3::Y; 3]);
+    }
+
+    #[test]
+    fn an_edge_of_two_triangles_counts_once() {
+        assert_eq!(edges(&[[0, 1, 2], [2, 1, 3]]).len(), 5);
+    }
+
+    #[test]
+    fn bounds_leave_out_points_that_are_not_finite() {
+        let bounds = Bounds::of(&[Vec3::ZERO, Vec3::ONE, Vec3::splat(f32::NAN)]);
+        assert_eq!((bounds.low, bounds.high), (Vec3::ZERO, Vec3::ONE));
+    }
+}

@@ -1,0 +1,91 @@
+//! The energies of the last seconds, for the plot.
+
+use std::collections::VecDeque;
+
+use fem_engine::simulation::Energies;
+
+/// Simulated seconds that the plot shows.
+pub const SPAN: f64 = 10.0;
+const SAMPLES: f64 = 500.0; // more than the plot has pixels
+
+/// The energies at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Simulated time, s.
+    pub time: f64,
+    /// Energies then, J.
+    pub energies: Energies,
+}
+
+/// The last [`SPAN`] seconds, evenly thinned: its size does not grow with the number of steps.
+#[derive(Clone, Debug, Default)]
+pub struct History {
+    samples: VecDeque<Sample>,
+}
+
+impl History {
+    /// Whether a sample at `time` would add something. Asking first saves computing energies that are thrown away.
+    pub fn wants(&self, time: f64) -> bool {
+        self.samples.back().is_none_or(|last| time - last.time >= 0.999 * SPAN / SAMPLES || time < last.time)
+    }
+
+    /// Adds a sample. A time before the last one starts anew.
+    pub fn push(&mut self, sample: Sample) {
+        if self.samples.back().is_some_and(|last| sample.time < last.time) {
+            self.samples.clear();
+        }
+        self.samples.push_back(sample);
+        while self.samples.front().is_some_and(|first| first.time < sample.time - SPAN) {
+            self.samples.pop_front();
+        }
+    }
+
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        self.samples.clear();
+    }
+
+    /// The samples, oldest first.
+    pub fn to_vec(&self) -> Vec<Sample> {
+        self.samples.iter().copied().collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fill(history: &mut History, steps: usize, dt: f64) {
+        for i in 0..steps {
+            let time = i as f64 * dt;
+            if history.wants(time) {
+                history.push(Sample { time, energies: Energies::default() });
+            }
+        }
+    }
+
+    #[test]
+    fn many_small_steps_are_thinned_and_old_ones_forgotten() {
+        let mut history = History::default();
+        fill(&mut history, 200_000, 1e-4);
+        let samples = history.to_vec();
+        assert!(samples.len() <= 501, "{} samples", samples.len());
+        assert!(samples[0].time >= 20.0 - SPAN - 0.05);
+        assert!(samples.last().unwrap().time > 19.97);
+    }
+
+    #[test]
+    fn large_steps_are_all_kept() {
+        let mut history = History::default();
+        fill(&mut history, 50, 0.02);
+        assert_eq!(history.to_vec().len(), 50);
+    }
+
+    #[test]
+    fn time_that_runs_backwards_starts_anew() {
+        let mut history = History::default();
+        fill(&mut history, 50, 0.1);
+        history.push(Sample { time: 0.0, energies: Energies::default() });
+        assert_eq!(history.to_vec().len(), 1);
+    }
+}

@@ -1,0 +1,228 @@
+//! The material of everything that is drawn. The drawing library's own one has many more abilities, and needs most of
+//! a second for a picture where a processor stands in for the graphics card; this one is made for that case, too.
+
+use std::any::Any;
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use kiss3d::camera::Camera3d;
+use kiss3d::color::Color;
+use kiss3d::context::Context;
+use kiss3d::glamx::{Pose3, Vec3};
+use kiss3d::light::LightCollection;
+use kiss3d::resource::vertex_index::VERTEX_INDEX_FORMAT;
+use kiss3d::resource::{GpuData, GpuMesh3d, Material3d, PipelineCache, RenderContext, multisample_state};
+use kiss3d::scene::{InstancesBuffer3d, ObjectData3d};
+
+use crate::theme;
+
+const FLOATS: usize = 16 + 7 * 4; // of `Scene` in the shader
+const ATTRIBUTES: [[wgpu::VertexAttribute; 1]; 2] =
+    [wgpu::vertex_attr_array![0 => Float32x3], wgpu::vertex_attr_array![1 => Float32x3]];
+
+/// What an object is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// Lit from three sides.
+    Body,
+    /// Flat, and fading into the background.
+    Floor,
+    /// The body, thrown onto the floor.
+    Shadow,
+}
+
+/// What all objects of a scene have in common, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surroundings {
+    /// Unit vector.
+    pub up: Vec3,
+    /// Unit vector to the right of the first look.
+    pub right: Vec3,
+    /// Unit vector towards the eye of the first look.
+    pub front: Vec3,
+    /// Height of the floor along `up`.
+    pub floor: f32,
+    /// Middle of the body at rest.
+    pub centre: Vec3,
+    /// Half of the body's diagonal at rest.
+    pub radius: f32,
+}
+
+/// A material as the drawing library holds it.
+pub type Shared = Rc<RefCell<Box<dyn Material3d>>>;
+
+/// The material of one kind of object in the surroundings that `surroundings` holds at each frame.
+pub fn matte(kind: Kind, surroundings: &Rc<RefCell<Surroundings>>) -> Shared {
+    Rc::new(RefCell::new(Box::new(Matte::new(kind, Rc::clone(surroundings)))))
+}
+
+struct Matte {
+    kind: Kind,
+    surroundings: Rc<RefCell<Surroundings>>,
+    layout: wgpu::BindGroupLayout,
+    pipelines: PipelineCache,
+}
+
+/// The numbers of one object on the graphics card.
+struct Numbers {
+    buffer: wgpu::Buffer,
+    group: wgpu::BindGroup,
+}
+
+impl GpuData for Numbers {
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+}
+
+impl Matte {
+    fn new(kind: Kind, surroundings: Rc<RefCell<Surroundings>>) -> Self {
+        let context = Context::get();
+        let layout = context.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("matte"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            }],
+        });
+        let pipeline_layout = context.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("matte"),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        let shader = context.create_shader_module(Some("matte"), include_str!("matte.wgsl"));
+        let pipelines = PipelineCache::new(move |samples| pipeline(&pipeline_layout, &shader, samples));
+        Matte { kind, surroundings, layout, pipelines }
+    }
+
+    /// `Scene` of the shader, number by number.
+    fn numbers(&self, camera: &dyn Camera3d, color: Color) -> [f32; FLOATS] {
+        let Surroundings { up, right, front, floor, centre, radius } = *self.surroundings.borrow();
+        let kind = match self.kind {
+            Kind::Body => 0.0,
+            Kind::Floor => 1.0,
+            Kind::Shadow => 2.0,
+        };
+        // A shadow lies a little above the floor that would hide it.
+        let floor = if self.kind == Kind::Shadow { floor + 3e-3 * radius } else { floor };
+        let key = (up * 1.0 - right * 0.55 + front * 0.65).normalize();
+        let fill = (up * 0.25 + right * 0.9 + front * 0.35).normalize();
+        let background = theme::BACKGROUND;
+        let rows = [
+            camera.eye().extend(kind),
+            up.extend(floor),
+            key.extend(radius),
+            fill.extend(0.0),
+            centre.extend(0.0),
+            Vec3::new(color.r, color.g, color.b).extend(1.0),
+            Vec3::new(background.r, background.g, background.b).extend(1.0),
+        ];
+        let mut numbers = [0.0; FLOATS];
+        numbers[..16].copy_from_slice(&camera.transformation().to_cols_array());
+        for (place, row) in numbers[16..].chunks_exact_mut(4).zip(rows) {
+            place.copy_from_slice(&row.to_array());
+        }
+        numbers
+    }
+}
+
+impl Material3d for Matte {
+    fn create_gpu_data(&self) -> Box<dyn GpuData> {
+        let context = Context::get();
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let buffer = context.create_buffer_simple(Some("matte"), (4 * FLOATS) as u64, usage);
+        let group = context.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("matte"),
+            layout: &self.layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+        });
+        Box::new(Numbers { buffer, group })
+    }
+
+    fn prepare(
+        &mut self,
+        _: usize,
+        _: Pose3,
+        _: Vec3,
+        camera: &mut dyn Camera3d,
+        _: &LightCollection,
+        object: &ObjectData3d,
+        data: &mut dyn GpuData,
+        _: u32,
+        _: u32,
+    ) {
+        let Some(data) = data.as_any().downcast_ref::<Numbers>() else { return };
+        let bytes: Vec<u8> = self.numbers(camera, object.color()).iter().flat_map(|n| n.to_ne_bytes()).collect();
+        Context::get().write_buffer(&data.buffer, 0, &bytes);
+    }
+
+    fn render(
+        &mut self,
+        _: usize,
+        _: Pose3,
+        _: Vec3,
+        _: &mut dyn Camera3d,
+        _: &LightCollection,
+        _: &ObjectData3d,
+        mesh: &mut GpuMesh3d,
+        _: &mut InstancesBuffer3d,
+        data: &mut dyn GpuData,
+        pass: &mut wgpu::RenderPass<'_>,
+        context: &RenderContext,
+    ) {
+        let indices = mesh.num_indices();
+        let Some(data) = data.as_any().downcast_ref::<Numbers>() else { return };
+        let Some((coords, faces, normals, _)) = mesh.ensure_on_gpu() else { return };
+        pass.set_pipeline(&self.pipelines.get(context.sample_count));
+        pass.set_bind_group(0, &data.group, &[]);
+        pass.set_vertex_buffer(0, coords.slice(..));
+        pass.set_vertex_buffer(1, normals.slice(..));
+        pass.set_index_buffer(faces.slice(..), VERTEX_INDEX_FORMAT);
+        pass.draw_indexed(0..indices, 0, 0..1);
+    }
+}
+
+fn pipeline(layout: &wgpu::PipelineLayout, shader: &wgpu::ShaderModule, samples: u32) -> wgpu::RenderPipeline {
+    let vectors = ATTRIBUTES.each_ref().map(|attributes| {
+        Some(wgpu::VertexBufferLayout { array_stride: 12, step_mode: wgpu::VertexStepMode::Vertex, attributes })
+    });
+    let target =
+        wgpu::ColorTargetState { format: Context::render_format(), blend: None, write_mask: wgpu::ColorWrites::ALL };
+    Context::get().create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("matte"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module: shader,
+            entry_point: Some("place"),
+            buffers: &vectors,
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+        },
+        fragment: Some(wgpu::FragmentState {
+            module: shader,
+            entry_point: Some("paint"),
+            targets: &[Some(target)],
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+        }),
+        primitive: wgpu::PrimitiveState::default(), // triangles, both sides
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: Context::depth_format(),
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Less),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: multisample_state(samples),
+        multiview_mask: None,
+        cache: None,
+    })
+}

@@ -1,0 +1,61 @@
+// A matte body under three lights, a floor that fades into the background, and the body's shadow on it.
+// Colours are linear. There is no texture and no loop, so that it is fast without a graphics card, too.
+
+const BODY = 0.0;
+const SHADOW = 2.0;
+
+struct Scene {
+    clip: mat4x4<f32>,       // world to clip space
+    eye: vec4<f32>,          // the camera, m; w: kind of object (body 0, floor 1, shadow 2)
+    up: vec4<f32>,           // unit vector; w: height of the floor along it, m
+    key: vec4<f32>,          // unit vector to the strongest light; w: radius of the body, m
+    fill: vec4<f32>,         // unit vector to the light from the other side
+    centre: vec4<f32>,       // of the body at rest, m
+    color: vec4<f32>,        // of the object
+    background: vec4<f32>,   // into which the floor fades
+}
+
+@group(0) @binding(0) var<uniform> scene: Scene;
+
+struct Corner {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) at: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+}
+
+@vertex
+fn place(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> Corner {
+    let kind = scene.eye.w;
+    var at = position;
+    if kind == SHADOW {
+        // Slide along the light down to the floor.
+        let above = dot(position, scene.up.xyz) - scene.up.w;
+        at -= scene.key.xyz * (above / dot(scene.key.xyz, scene.up.xyz));
+    }
+    var clip = scene.clip * vec4(at, 1.0);
+    if kind != BODY && dot(scene.eye.xyz, scene.up.xyz) < scene.up.w {
+        clip = vec4(0.0, 0.0, 2.0, 1.0); // seen from below, the floor hides nothing
+    }
+    return Corner(clip, at, normal);
+}
+
+@fragment
+fn paint(corner: Corner, @builtin(front_facing) outside: bool) -> @location(0) vec4<f32> {
+    if scene.eye.w == BODY {
+        return vec4(lit(corner.at, normalize(select(-corner.normal, corner.normal, outside))), 1.0);
+    }
+    let away = distance(corner.at, scene.centre.xyz) / scene.key.w;
+    let floor_color = mix(scene.color.rgb, scene.background.rgb, smoothstep(2.0, 16.0, away));
+    return vec4(floor_color, 1.0);
+}
+
+fn lit(at: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+    let to_eye = normalize(scene.eye.xyz - at);
+    let half_way = normalize(scene.key.xyz + to_eye);
+    let sky = mix(vec3(0.28, 0.25, 0.23), vec3(0.42, 0.44, 0.47), 0.5 + 0.5 * dot(normal, scene.up.xyz));
+    let key = vec3(1.0, 0.93, 0.83) * 0.95 * max(dot(normal, scene.key.xyz), 0.0);
+    let fill = vec3(0.75, 0.85, 1.0) * 0.28 * max(dot(normal, scene.fill.xyz), 0.0);
+    let gloss = vec3(0.07) * pow(max(dot(normal, half_way), 0.0), 22.0);
+    let edge = vec3(0.10, 0.11, 0.12) * pow(1.0 - max(dot(normal, to_eye), 0.0), 3.0);
+    return scene.color.rgb * (sky + key + fill + edge) + gloss;
+}

@@ -1,0 +1,170 @@
+//! Energies over time, painted.
+
+use kiss3d::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
+
+use crate::history::{SPAN, Sample};
+use crate::theme;
+
+const HEIGHT: f32 = 150.0;
+const LEFT: f32 = 52.0; // room for the numbers of the energy axis
+const BELOW: f32 = 30.0; // room for the numbers and the name of the time axis
+const ABOVE: f32 = 16.0; // room for the name of the energy axis
+const FONT: FontId = FontId::proportional(11.0);
+
+/// One curve: its name, colour and value.
+type Curve = (&'static str, Color32, fn(&Sample) -> f64);
+
+const CURVES: [Curve; 3] = [
+    ("kinetic", theme::KINETIC, |s| s.energies.kinetic),
+    ("potential", theme::POTENTIAL, |s| s.energies.potential),
+    ("total", theme::TOTAL, |s| s.energies.total()),
+];
+
+/// Paints the curves, their axes and a legend as wide as there is room.
+pub fn show(ui: &mut Ui, samples: &[Sample]) {
+    let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
+    let frame = Rect::from_min_max(area.min + vec2(LEFT, ABOVE), area.max - vec2(6.0, BELOW));
+    let axes = Axes::around(frame, samples);
+    axes.paint(ui.painter());
+    let inside = ui.painter().with_clip_rect(frame.expand(1.0));
+    for (_, color, value) in CURVES {
+        let at = |s: &Sample| axes.at(s.time, value(s));
+        let curve: Vec<Pos2> = samples.iter().filter(|s| value(s).is_finite()).map(at).collect();
+        inside.add(Shape::line(curve, Stroke::new(1.6, color)));
+    }
+    legend(ui, samples.last());
+}
+
+fn legend(ui: &mut Ui, last: Option<&Sample>) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        for (name, color, value) in CURVES {
+            let (swatch, _) = ui.allocate_exact_size(vec2(14.0, 10.0), Sense::hover());
+            ui.painter().hline(swatch.x_range(), swatch.center().y, Stroke::new(2.5, color));
+            let number = last.map_or_else(String::new, |s| format!(" {}", short(value(s))));
+            ui.small(format!("{name}{number}"));
+            ui.add_space(2.0);
+        }
+    });
+}
+
+/// Which times and energies the frame spans.
+struct Axes {
+    frame: Rect,
+    times: (f64, f64),
+    energies: (f64, f64),
+    step: f64,
+}
+
+impl Axes {
+    fn around(frame: Rect, samples: &[Sample]) -> Self {
+        let last = samples.last().map_or(0.0, |s| s.time);
+        let end = last.max(SPAN);
+        let (energies, step) = energy_range(samples);
+        Axes { frame, times: (end - SPAN, end), energies, step }
+    }
+
+    fn at(&self, time: f64, energy: f64) -> Pos2 {
+        let share = |value: f64, (low, high): (f64, f64)| ((value - low) / (high - low)) as f32;
+        let x = self.frame.left() + share(time, self.times) * self.frame.width();
+        let y = self.frame.bottom() - share(energy, self.energies) * self.frame.height();
+        pos2(x, y)
+    }
+
+    fn paint(&self, painter: &Painter) {
+        painter.rect_filled(self.frame, 0.0, Color32::WHITE);
+        let line = Stroke::new(1.0, theme::GRID);
+        for energy in ticks(self.energies, self.step) {
+            let y = self.at(self.times.0, energy).y;
+            painter.hline(self.frame.x_range(), y, line);
+            let place = pos2(self.frame.left() - 4.0, y);
+            painter.text(place, Align2::RIGHT_CENTER, short(energy), FONT, theme::INK);
+        }
+        for time in ticks(self.times, 2.0) {
+            let x = self.at(time, self.energies.0).x;
+            painter.vline(x, self.frame.y_range(), line);
+            let place = pos2(x, self.frame.bottom() + 2.0);
+            painter.text(place, Align2::CENTER_TOP, format!("{time:.0}"), FONT, theme::INK);
+        }
+        let corner = pos2(self.frame.left() + 2.0, self.frame.top() - ABOVE);
+        painter.text(corner, Align2::LEFT_TOP, "energy (J)", FONT, theme::PALE_INK);
+        let middle = pos2(self.frame.center().x, self.frame.bottom() + BELOW - 2.0);
+        painter.text(middle, Align2::CENTER_BOTTOM, "time (s)", FONT, theme::PALE_INK);
+    }
+}
+
+/// The energies that the axis spans, and the distance of its lines: round numbers around all that is shown.
+fn energy_range(samples: &[Sample]) -> ((f64, f64), f64) {
+    let values = samples.iter().flat_map(|s| CURVES.map(|(_, _, value)| value(s))).filter(|v| v.is_finite());
+    let (low, high) = values.fold((0.0, 0.0), |(low, high), v| (f64::min(low, v), f64::max(high, v)));
+    let span = if high - low > 0.0 { high - low } else { 1.0 };
+    let step = round_step(span / 4.0);
+    let low = (low / step).floor() * step;
+    let high = (high / step).ceil() * step;
+    ((low, high.max(low + step)), step)
+}
+
+/// The next larger of 1, 2 or 5 times a power of ten.
+fn round_step(least: f64) -> f64 {
+    let power = 10.0_f64.powf(least.log10().floor());
+    [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|s| *s >= least * (1.0 - 1e-9)).unwrap_or(10.0 * power)
+}
+
+/// Multiples of `step` in a range.
+fn ticks((low, high): (f64, f64), step: f64) -> Vec<f64> {
+    let first = (low / step - 1e-6).ceil() as i64;
+    let last = (high / step + 1e-6).floor() as i64;
+    (first..=last).take(20).map(|i| i as f64 * step).collect()
+}
+
+/// A number in few letters, with a thousand as k and a million as M.
+pub fn short(value: f64) -> String {
+    let size = value.abs();
+    match size {
+        _ if size == 0.0 => "0".into(),
+        _ if !(1e-3..1e9).contains(&size) => format!("{value:.1e}"),
+        _ if size >= 999.5e3 => format!("{}M", digits(value / 1e6)),
+        _ if size >= 9995.0 => format!("{}k", digits(value / 1e3)),
+        _ => digits(value),
+    }
+}
+
+/// Three digits, without zeros that say nothing.
+fn digits(value: f64) -> String {
+    let decimals = (2 - value.abs().log10().floor() as i32).clamp(0, 6) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use fem_engine::simulation::Energies;
+
+    use super::*;
+
+    fn sample(kinetic: f64, potential: f64) -> Sample {
+        Sample { time: 0.0, energies: Energies { kinetic, potential } }
+    }
+
+    #[test]
+    fn the_energy_axis_spans_all_curves_and_zero_in_round_steps() {
+        let ((low, high), step) = energy_range(&[sample(3.0, -7.2), sample(1.0, 0.0)]);
+        assert_eq!((low, high, step), (-10.0, 5.0, 5.0));
+        assert_eq!(ticks((low, high), step), [-10.0, -5.0, 0.0, 5.0]);
+    }
+
+    #[test]
+    fn an_axis_without_energy_is_still_an_axis() {
+        assert_eq!(energy_range(&[]), ((0.0, 0.5), 0.5));
+        assert_eq!(energy_range(&[sample(f64::NAN, f64::INFINITY)]), ((0.0, 0.5), 0.5));
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        let cases =
+            [(0.0, "0"), (0.25, "0.25"), (-1234.0, "-1234"), (12_345.0, "12.3k"), (2.5e6, "2.5M"), (1e-5, "1.0e-5")];
+        for (value, text) in cases {
+            assert_eq!(short(value), text);
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! The loop of the simulation's thread.
+
+use std::any::Any;
+use std::collections::VecDeque;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::time::{Duration, Instant};
+
+use fem_engine::simulation::{Energies, Simulation};
+
+use super::{Command, Finished, Plan, Slot, Snapshot, Stop, Tempo};
+use crate::geometry::{points, single};
+use crate::history::{History, Sample};
+use crate::pacing::{Pace, Rate};
+
+const STEPS_IN_MEDIAN: usize = 61;
+
+/// Everything that the thread holds.
+pub struct Run {
+    simulation: Box<dyn Simulation>,
+    plan: Plan,
+    commands: Receiver<Command>,
+    slot: Arc<Slot>,
+    started: Instant,
+    pace: Pace,
+    rate: Rate,
+    history: History,
+    recent: VecDeque<f64>,
+    step_seconds: Vec<f64>,
+    energies: Vec<(f64, Energies)>,
+    /// Simulated time of the last frame, s, and whether another is asked for, in [`Tempo::Frames`].
+    last_frame: f64,
+    frame_asked_for: bool,
+    paused: bool,
+    stop: Option<Stop>,
+    refusal: Option<String>,
+    last: Snapshot,
+}
+
+impl Run {
+    /// Takes over a simulation.
+    pub fn new(simulation: Box<dyn Simulation>, plan: Plan, commands: Receiver<Command>, slot: Arc<Slot>) -> Self {
+        Run {
+            simulation,
+            plan,
+            commands,
+            slot,
+            started: Instant::now(),
+            pace: Pace::default(),
+            rate: Rate::default(),
+            history: History::default(),
+            recent: VecDeque::new(),
+            step_seconds: Vec::new(),
+            energies: Vec::new(),
+            last_frame: 0.0,
+            frame_asked_for: false,
+            paused: false,
+            stop: None,
+            refusal: None,
+            last: Snapshot::default(),
+        }
+    }
+
+    /// Steps and obeys until it is told to quit, or until nobody can tell it any more.
+    pub fn until_told(mut self) -> Finished {
+        self.guarded(Self::begin);
+        loop {
+            match self.next_command() {
+                Err(RecvTimeoutError::Disconnected) | Ok(Command::Quit) => break,
+                Ok(command) => self.guarded(|run| run.obey(command)),
+                Err(RecvTimeoutError::Timeout) => self.guarded(Self::step),
+            }
+        }
+        Finished {
+            simulation: Some(self.simulation),
+            step_seconds: self.step_seconds,
+            energies: self.energies,
+            stop: self.stop,
+        }
+    }
+
+    fn begin(&mut self) {
+        self.sample();
+        self.publish();
+    }
+
+    /// Runs `part`; a panic in it becomes a stop, shown with the last snapshot.
+    fn guarded(&mut self, part: impl FnOnce(&mut Self)) {
+        if let Err(panic) = catch_unwind(AssertUnwindSafe(|| part(self))) {
+            self.stop = Some(Stop::Panicked(panic_message(panic.as_ref())));
+            self.last.stop.clone_from(&self.stop);
+            self.slot.put(self.last.clone());
+        }
+    }
+
+    /// The next command; a timeout when it is time for a step. Waits, without work, where no step is due.
+    fn next_command(&mut self) -> Result<Command, RecvTimeoutError> {
+        if !self.is_running() {
+            self.pace.restart();
+            self.rate.restart();
+            return self.commands.recv().map_err(|_| RecvTimeoutError::Disconnected);
+        }
+        let wait = match self.plan.tempo {
+            Tempo::RealTime => self.pace.wait(self.started.elapsed().as_secs_f64(), self.simulation.time()),
+            Tempo::Frames(_) => 0.0,
+        };
+        self.commands.recv_timeout(Duration::from_secs_f64(wait))
+    }
+
+    fn is_running(&self) -> bool {
+        let waits_for_frame = matches!(self.plan.tempo, Tempo::Frames(_)) && !self.frame_asked_for;
+        self.stop.is_none() && !self.paused && !self.is_finished() && !waits_for_frame
+    }
+
+    fn is_finished(&self) -> bool {
+        self.plan.steps.is_some_and(|steps| self.step_seconds.len() >= steps)
+    }
+
+    fn obey(&mut self, command: Command) {
+        match command {
+            Command::TogglePause => self.paused = !self.paused,
+            Command::Reset => self.reset(),
+            Command::NextIntegrator => drop(self.simulation.next_integrator()),
+            Command::Set(key, value) => self.refusal = self.simulation.set_parameter(key, value).err(),
+            Command::Pull(pull) => return self.simulation.pull(pull),
+            Command::Pick(click, reply) => {
+                let positions = self.simulation.positions();
+                let place = |node: usize| (node, positions.fixed_rows::<3>(3 * node).into_owned());
+                let _ = reply.send(self.simulation.pick(&click).into_iter().map(place).collect());
+                return;
+            }
+            Command::NextFrame => return self.frame_asked_for = true,
+            Command::Quit => return,
+        }
+        self.publish();
+    }
+
+    fn reset(&mut self) {
+        self.simulation.reset();
+        self.stop = None;
+        self.refusal = None;
+        self.history.clear();
+        self.step_seconds.clear();
+        self.energies.clear();
+        self.last_frame = 0.0;
+        self.pace.restart();
+        self.rate.restart();
+        self.sample();
+    }
+
+    fn step(&mut self) {
+        let before = Instant::now();
+        let outcome = self.simulation.step();
+        let seconds = before.elapsed().as_secs_f64();
+        match outcome {
+            Ok(()) => self.after_step(seconds),
+            Err(failure) => self.stop = Some(Stop::Failed(failure)),
+        }
+        let show = match self.plan.tempo {
+            Tempo::RealTime => self.slot.wanted.swap(false, Ordering::AcqRel),
+            Tempo::Frames(interval) => self.is_frame(interval),
+        };
+        if show || !self.is_running() {
+            self.publish();
+        }
+    }
+
+    fn after_step(&mut self, seconds: f64) {
+        self.step_seconds.push(seconds);
+        self.recent.push_back(seconds);
+        if self.recent.len() > STEPS_IN_MEDIAN {
+            self.recent.pop_front();
+        }
+        let time = self.simulation.time();
+        self.rate.mark(self.started.elapsed().as_secs_f64(), time);
+        if self.plan.log_energies {
+            self.energies.push((time, self.simulation.energies()));
+        }
+        self.sample();
+    }
+
+    /// Whether the time of the next frame has come; if so, waits to be asked for the one after it.
+    fn is_frame(&mut self, interval: f64) -> bool {
+        let time = self.simulation.time();
+        let due = time >= self.last_frame + interval - 1e-9;
+        if due {
+            // On the raster of the interval, so that steps that do not divide it do not add up to a drift.
+            self.last_frame += interval * ((time - self.last_frame) / interval + 1e-6).floor();
+            self.frame_asked_for = false;
+        }
+        due
+    }
+
+    fn sample(&mut self) {
+        let time = self.simulation.time();
+        if self.history.wants(time) {
+            self.history.push(Sample { time, energies: self.simulation.energies() });
+        }
+    }
+
+    fn publish(&mut self) {
+        let simulation = &self.simulation;
+        self.last = Snapshot {
+            positions: points(&simulation.positions()),
+            display: simulation.display_positions().iter().map(single).collect(),
+            time: simulation.time(),
+            steps: self.step_seconds.len(),
+            step_seconds: median(&self.recent),
+            rate: self.rate.factor(),
+            integrator: simulation.integrator(),
+            parameters: simulation.parameters(),
+            history: self.history.to_vec(),
+            paused: self.paused,
+            finished: self.is_finished(),
+            stop: self.stop.clone(),
+            refusal: self.refusal.clone(),
+        };
+        self.slot.put(self.last.clone());
+    }
+}
+
+fn median(values: &VecDeque<f64>) -> f64 {
+    let mut sorted: Vec<f64> = values.iter().copied().collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// The words of a panic.
+pub fn panic_message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no message".into())
+}

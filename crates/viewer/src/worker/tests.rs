@@ -1,0 +1,252 @@
+//! The thread, driven with a simulation that does nothing but count.
+
+use std::sync::atomic::AtomicUsize;
+use std::time::{Duration, Instant};
+
+use fem_engine::mesh::TetrahedralMesh;
+use fem_engine::simulation::{Cause, Counters, Part, Shape};
+use nalgebra::{DVector, Matrix4, Vector4};
+
+use super::*;
+
+const PATIENCE: Duration = Duration::from_secs(10);
+const REAL_TIME: Plan = Plan { tempo: Tempo::RealTime, steps: None, log_energies: true };
+
+/// One node that rises by one metre per second; fails or panics where it is told to.
+struct Fake {
+    time: f64,
+    offset: f64,
+    fails_at_step: usize,
+    panics_at_step: usize,
+    steps: usize,
+    step_seconds: f64,
+    calls: Arc<AtomicUsize>,
+    pulled: Option<Pull>,
+}
+
+fn fake() -> Fake {
+    Fake {
+        time: 0.0,
+        offset: 0.0,
+        fails_at_step: usize::MAX,
+        panics_at_step: usize::MAX,
+        steps: 0,
+        step_seconds: 0.0,
+        calls: Arc::default(),
+        pulled: None,
+    }
+}
+
+impl Simulation for Fake {
+    fn name(&self) -> &str {
+        "fake"
+    }
+    fn shape(&self) -> Arc<Shape> {
+        Arc::new(Shape { mesh: TetrahedralMesh::default(), boundary: Vec::new(), display: None })
+    }
+    fn positions(&self) -> DVector<f64> {
+        DVector::from_vec(vec![self.offset, self.time, 0.0])
+    }
+    fn velocities(&self) -> DVector<f64> {
+        DVector::zeros(3)
+    }
+    fn display_positions(&self) -> Vec<Vector3<f64>> {
+        vec![Vector3::new(self.offset, self.time, 0.0)]
+    }
+    fn time(&self) -> f64 {
+        self.time
+    }
+    fn dt(&self) -> f64 {
+        0.01
+    }
+    fn step(&mut self) -> Result<(), Failure> {
+        self.calls.fetch_add(1, Ordering::SeqCst);
+        std::thread::sleep(Duration::from_secs_f64(self.step_seconds));
+        if self.steps + 1 == self.fails_at_step {
+            let cause = Cause::Inverted { element: 7, J: -0.5 };
+            return Err(Failure { step: self.steps + 1, time: self.time, cause, remedy: "smaller steps".into() });
+        }
+        assert!(self.steps + 1 != self.panics_at_step, "index out of bounds");
+        self.steps += 1;
+        self.time = self.steps as f64 * self.dt();
+        Ok(())
+    }
+    fn reset(&mut self) {
+        self.steps = 0;
+        self.time = 0.0;
+        self.fails_at_step = usize::MAX;
+        self.panics_at_step = usize::MAX;
+    }
+    fn energies(&self) -> Energies {
+        Energies { kinetic: 1.0, potential: self.time }
+    }
+    fn min_J(&self) -> (f64, usize) {
+        (1.0, 0)
+    }
+    fn integrator(&self) -> &'static str {
+        "verlet"
+    }
+    fn next_integrator(&mut self) -> &'static str {
+        "verlet"
+    }
+    fn parameters(&self) -> Vec<Parameter> {
+        let range = (0.0, 1.0);
+        vec![Parameter { key: "offset", label: "Offset", unit: "m", value: self.offset, range, logarithmic: false }]
+    }
+    fn set_parameter(&mut self, key: &str, value: f64) -> Result<(), String> {
+        if !(0.0..=1.0).contains(&value) {
+            return Err(format!("{key} must lie between 0 and 1"));
+        }
+        self.offset = value;
+        Ok(())
+    }
+    fn pick(&self, click: &Click) -> Vec<usize> {
+        if click.win.x < 0.0 { Vec::new() } else { vec![0] }
+    }
+    fn pull(&mut self, pull: Option<Pull>) {
+        self.pulled = pull;
+    }
+    fn counters(&self) -> Counters {
+        Counters::default()
+    }
+    fn parts(&self) -> Vec<Part> {
+        Vec::new()
+    }
+}
+
+/// Takes snapshots until one is as wanted.
+fn wait_for(worker: &Worker, what: &str, wanted: impl Fn(&Snapshot) -> bool) -> Snapshot {
+    let begun = Instant::now();
+    while begun.elapsed() < PATIENCE {
+        match worker.latest() {
+            Some(snapshot) if wanted(&snapshot) => return snapshot,
+            _ => std::thread::sleep(Duration::from_millis(1)),
+        }
+    }
+    panic!("no snapshot that is {what}");
+}
+
+#[test]
+fn the_first_snapshot_is_the_start_and_steps_follow() {
+    let worker = Worker::start(Box::new(fake()), REAL_TIME);
+    let later = wait_for(&worker, "some steps on", |s| s.steps >= 3);
+    assert!((later.time - 0.01 * later.steps as f64).abs() < 1e-9);
+    assert_eq!(later.positions[0].y, later.time as f32);
+    let finished = worker.finish();
+    assert_eq!(finished.step_seconds.len(), finished.energies.len());
+    assert!(finished.stop.is_none() && finished.simulation.is_some());
+}
+
+#[test]
+fn a_fast_simulation_runs_at_the_speed_of_the_clock() {
+    let begun = Instant::now();
+    let worker = Worker::start(Box::new(fake()), REAL_TIME);
+    let snapshot = wait_for(&worker, "0.2 s on", |s| s.time >= 0.2);
+    assert!(begun.elapsed().as_secs_f64() >= snapshot.time - 0.02);
+}
+
+#[test]
+fn a_pause_takes_no_steps_and_ends() {
+    let fake = fake();
+    let calls = Arc::clone(&fake.calls);
+    let worker = Worker::start(Box::new(fake), REAL_TIME);
+    worker.send(Command::TogglePause);
+    let paused = wait_for(&worker, "paused", |s| s.paused);
+    let before = calls.load(Ordering::SeqCst);
+    std::thread::sleep(Duration::from_millis(60));
+    assert_eq!(calls.load(Ordering::SeqCst), before);
+    worker.send(Command::TogglePause);
+    wait_for(&worker, "going on", |s| !s.paused && s.steps > paused.steps);
+}
+
+#[test]
+fn a_reset_goes_back_to_the_start_even_in_a_pause() {
+    let worker = Worker::start(Box::new(fake()), REAL_TIME);
+    wait_for(&worker, "some steps on", |s| s.steps >= 3);
+    worker.send(Command::TogglePause);
+    worker.send(Command::Reset);
+    let start = wait_for(&worker, "at the start", |s| s.paused && s.steps == 0);
+    assert_eq!((start.time, start.history.len()), (0.0, 1));
+    assert!(worker.finish().step_seconds.is_empty());
+}
+
+#[test]
+fn a_failure_keeps_the_last_good_state_until_a_reset() {
+    let worker = Worker::start(Box::new(Fake { fails_at_step: 4, ..fake() }), REAL_TIME);
+    let failed = wait_for(&worker, "failed", |s| s.stop.is_some());
+    assert_eq!(failed.steps, 3);
+    assert!(failed.stop.unwrap().to_string().contains("smaller steps"));
+    worker.send(Command::Reset);
+    wait_for(&worker, "running again", |s| s.stop.is_none() && s.steps > 4);
+}
+
+#[test]
+fn a_panic_is_shown_and_a_reset_goes_on() {
+    let worker = Worker::start(Box::new(Fake { panics_at_step: 2, ..fake() }), REAL_TIME);
+    let stopped = wait_for(&worker, "stopped", |s| s.stop.is_some());
+    assert_eq!(stopped.stop, Some(Stop::Panicked("index out of bounds".into())));
+    assert_eq!(stopped.positions.len(), 1, "the last snapshot stays");
+    worker.send(Command::Reset);
+    wait_for(&worker, "running again", |s| s.stop.is_none() && s.steps > 2);
+}
+
+#[test]
+fn a_refused_parameter_is_told_and_a_good_one_clears_it() {
+    let worker = Worker::start(Box::new(fake()), REAL_TIME);
+    worker.send(Command::Set("offset", 2.0));
+    let refused = wait_for(&worker, "refused", |s| s.refusal.is_some());
+    assert_eq!(refused.parameters[0].value, 0.0);
+    worker.send(Command::Set("offset", 0.5));
+    let set = wait_for(&worker, "set", |s| s.parameters[0].value == 0.5);
+    assert_eq!(set.refusal, None);
+}
+
+#[test]
+fn a_pick_is_answered_with_nodes_and_places_also_in_a_pause() {
+    let worker = Worker::start(Box::new(Fake { offset: 0.25, ..fake() }), REAL_TIME);
+    worker.send(Command::TogglePause);
+    let pick = |x: f64| {
+        let (reply, answer) = channel();
+        let win = Vector3::new(x, 0.0, 0.0);
+        let (view, viewport) = (Matrix4::identity(), Vector4::zeros());
+        worker.send(Command::Pick(Click { win, view, proj: view, viewport }, reply));
+        answer.recv_timeout(PATIENCE).unwrap()
+    };
+    assert!(pick(-1.0).is_empty());
+    let anchors = pick(1.0);
+    assert_eq!((anchors[0].0, anchors[0].1.x), (0, 0.25));
+}
+
+#[test]
+fn it_stops_after_the_steps_that_were_asked_for() {
+    let worker = Worker::start(Box::new(fake()), Plan { steps: Some(5), ..REAL_TIME });
+    assert_eq!(wait_for(&worker, "finished", |s| s.finished).steps, 5);
+    assert_eq!(worker.finish().energies.len(), 5);
+}
+
+#[test]
+fn recorded_frames_come_one_by_one_and_evenly() {
+    let plan = Plan { tempo: Tempo::Frames(1.0 / 30.0), ..REAL_TIME };
+    let worker = Worker::start(Box::new(fake()), plan);
+    let mut times = vec![wait_for(&worker, "the start", |_| true).time];
+    for _ in 0..6 {
+        std::thread::sleep(Duration::from_millis(5));
+        assert!(worker.latest().is_none(), "nothing comes unasked");
+        worker.send(Command::NextFrame);
+        times.push(wait_for(&worker, "the next frame", |_| true).time);
+    }
+    let steps: Vec<i32> = times.iter().map(|t| (t * 100.0).round() as i32).collect();
+    assert_eq!(steps, [0, 4, 7, 10, 14, 17, 20]);
+}
+
+#[test]
+fn a_thread_without_a_window_ends() {
+    let fake = Fake { step_seconds: 0.001, ..fake() };
+    let calls = Arc::clone(&fake.calls);
+    let Worker { commands, thread, .. } = Worker::start(Box::new(fake), REAL_TIME);
+    drop(commands);
+    assert!(thread.join().unwrap().simulation.is_some());
+    let after = calls.load(Ordering::SeqCst);
+    std::thread::sleep(Duration::from_millis(20));
+    assert_eq!(calls.load(Ordering::SeqCst), after);
+}

@@ -1,0 +1,115 @@
+//! From a scene to a simulation at rest.
+
+use std::cell::RefCell;
+use std::sync::Arc;
+
+use fem_engine::scene::{Body, Integrator, Model, Pipeline, Scene, SceneError};
+use nalgebra::{DVector, Vector3};
+
+use super::constraints::{Constraints, stack};
+use super::{AssignmentSetup, Work};
+use crate::given::{Solver, volumes};
+use crate::{build_skinning_matrix, dphi_linear_tetrahedron_dX, mass_matrix_mesh};
+
+/// The integrators that the course has.
+pub(super) const INTEGRATORS: [Integrator; 2] = [Integrator::LinearlyImplicitEuler, Integrator::ImplicitEuler];
+
+impl AssignmentSetup {
+    /// Builds what the scene names, and nothing else. Refuses what only the engine can do.
+    pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
+        check_pipeline(scene)?;
+        let Some((C, D)) = scene.material.neo_hookean() else {
+            unreachable!("a material without moduli is refused when the scene is read")
+        };
+        let (V, T) = (&body.shape.mesh.vertices, &body.shape.mesh.elements);
+        let constraints = Constraints::new(V, body.fixed.as_deref());
+        let q = constraints.free_coordinates(stack(V));
+        let gravity = scene.gravity.as_ref().map(|gravity| Vector3::from(gravity.acceleration));
+        let skinning = body.shape.display.as_ref().map(|display| build_skinning_matrix(V, T, &display.vertices));
+
+        let mut setup = Self {
+            name: scene.name.clone(),
+            v0: volumes(V, T),
+            C,
+            D,
+            density: scene.material.density,
+            gravity: gravity.map(|g| (g.try_normalize(0.0).unwrap_or_default(), g.norm())),
+            M: mass_matrix_mesh(0, &[], 0.0, &[]),
+            weight: DVector::zeros(0),
+            constraints,
+            skinning,
+            drag_stiffness: scene.drag.as_ref().map_or_else(|| C * extent(V), |drag| drag.stiffness),
+            drag: scene.drag.clone().zip(body.dragged),
+            pull: None,
+            hardly_moved: HARDLY * smallest_height(V, T),
+            integrator: scene.time.integrator,
+            dt: scene.time.dt,
+            time: 0.0,
+            steps_since_reset: 0,
+            qdot: DVector::zeros(q.len()),
+            q,
+            solver: RefCell::new(Solver::default()),
+            work: Work::default(),
+            shape: Arc::new(body.shape),
+        };
+        setup.weigh();
+        Ok(setup)
+    }
+
+    /// Computes mass and weight; again when density or gravity has changed.
+    pub(super) fn weigh(&mut self) {
+        let mesh = &self.shape.mesh;
+        let q_size = 3 * mesh.vertices.len();
+        let M = mass_matrix_mesh(q_size, &mesh.elements, self.density, &self.v0);
+        self.weight = match self.gravity {
+            Some((direction, size)) => &M * DVector::from_fn(q_size, |i, _| direction[i % 3] * size),
+            None => DVector::zeros(0),
+        };
+        self.M = self.constraints.free_block(M);
+    }
+
+    /// Display vertices that lie in no element: skinning carries them along, but stretches them.
+    pub fn display_vertices_outside(&self) -> usize {
+        let outside = |weights: &[f64]| weights.iter().any(|&weight| weight < -1e-6);
+        self.skinning.as_ref().map_or(0, |N| N.row_iter().filter(|row| outside(row.values())).count())
+    }
+}
+
+/// Part of the smallest element's height that a coordinate may move before a stiffness is out of date: a strain of about as
+/// much, to which the directions of projected elements, good to a tenth or so, are blind.
+const HARDLY: f64 = 0.01;
+
+/// The smallest height of all elements, m: one over the longest gradient of a shape function.
+fn smallest_height(V: &[Vector3<f64>], T: &[[usize; 4]]) -> f64 {
+    let gradients = T.iter().map(|element| dphi_linear_tetrahedron_dX(V, element, &V[element[0]]));
+    let longest = gradients.map(|dphi| dphi.row_iter().map(|row| row.norm()).fold(0.0, f64::max)).fold(0.0, f64::max);
+    1.0 / longest
+}
+
+/// Longest edge of the bounding box, m.
+fn extent(V: &[Vector3<f64>]) -> f64 {
+    let (low, high) = V.iter().fold((V[0], V[0]), |(low, high), x| (low.inf(x), high.sup(x)));
+    (high - low).max()
+}
+
+fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
+    if scene.pipeline != Pipeline::Course {
+        return Err(scene.refuse("pipeline", "is \"engine\", which this version does not have yet; write \"course\""));
+    }
+    if scene.material.model != Model::NeoHookean {
+        return Err(scene.refuse("material.model", "is not one that the course has; write \"neo_hookean\""));
+    }
+    if !INTEGRATORS.contains(&scene.time.integrator) {
+        let names = INTEGRATORS.map(Integrator::name).join(" or ");
+        let problem = format!("is {}, which the course does not have; use {names}", scene.time.integrator.name());
+        return Err(scene.refuse("time.integrator", &problem));
+    }
+    let engine_only =
+        [("newton", scene.newton.is_some()), ("solver", scene.solver.is_some()), ("mass.lumped", scene.mass.lumped)];
+    match engine_only.iter().find(|(_, present)| *present) {
+        Some((field, _)) => {
+            Err(scene.refuse(field, "belongs to the engine; the course's pipeline does without, remove it"))
+        }
+        None => Ok(()),
+    }
+}

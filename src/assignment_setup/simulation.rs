@@ -1,0 +1,200 @@
+//! What the window, the headless loop and the reports see.
+
+use std::sync::Arc;
+
+use fem_engine::scene::Integrator;
+use fem_engine::simulation::{Cause, Click, Counters, Energies, Failure, Parameter, Part, Pull, Shape, Simulation};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+use super::build::INTEGRATORS;
+use super::constraints::stack;
+use super::{AssignmentSetup, explain};
+use crate::given::deformation_gradient;
+use crate::{T_linear_tetrahedron, dphi_linear_tetrahedron_dX, dpsi_neo_hookean_dF, pick_nearest_vertices};
+
+impl Simulation for AssignmentSetup {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn shape(&self) -> Arc<Shape> {
+        self.shape.clone()
+    }
+
+    fn positions(&self) -> DVector<f64> {
+        self.constraints.all_coordinates(&self.q)
+    }
+
+    fn velocities(&self) -> DVector<f64> {
+        self.constraints.all_velocities(&self.qdot)
+    }
+
+    fn display_positions(&self) -> Vec<Vector3<f64>> {
+        let x = self.positions();
+        let nodes = x.len() / 3;
+        let Some(N) = &self.skinning else { return (0..nodes).map(|node| super::node(&x, node)).collect() };
+        self.work.count_skinning_rows(N.nrows());
+        self.work.skinning.time(|| {
+            let skinned = N * DMatrix::from_fn(nodes, 3, |node, i| x[3 * node + i]);
+            skinned.row_iter().map(|row| Vector3::new(row[0], row[1], row[2])).collect()
+        })
+    }
+
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    fn step(&mut self) -> Result<(), Failure> {
+        self.work.begin_step();
+        let springs = self.springs(self.time + self.dt);
+        let (mut q, mut qdot) = (self.q.clone(), self.qdot.clone());
+        self.advance(&mut q, &mut qdot, &springs);
+        if let Some(cause) = self.cause_of_failure(&q, &qdot) {
+            return Err(self.failure(cause));
+        }
+        (self.q, self.qdot) = (q, qdot);
+        self.time += self.dt;
+        self.steps_since_reset += 1;
+        self.work.count_step();
+        Ok(())
+    }
+
+    fn reset(&mut self) {
+        self.q = self.constraints.free_coordinates(stack(&self.shape.mesh.vertices));
+        self.qdot.fill(0.0);
+        self.time = 0.0;
+        self.steps_since_reset = 0;
+    }
+
+    fn energies(&self) -> Energies {
+        let v = self.velocities();
+        let elements = self.shape.mesh.elements.iter().zip(&self.v0);
+        Energies {
+            kinetic: elements.map(|(element, &v0)| T_linear_tetrahedron(&v, element, self.density, v0)).sum(),
+            potential: self.potential(&self.q, &self.springs(self.time)),
+        }
+    }
+
+    fn min_J(&self) -> (f64, usize) {
+        self.smallest_J(&self.positions())
+    }
+
+    fn stresses(&self) -> Vec<Matrix3<f64>> {
+        let x = self.positions();
+        let stress = |element: &[usize; 4]| {
+            let F = self.deformation_gradient(&x, element);
+            let P = Matrix3::from_row_slice(dpsi_neo_hookean_dF(&F, self.C, self.D).as_slice());
+            P * F.transpose() / F.determinant()
+        };
+        self.shape.mesh.elements.iter().map(stress).collect()
+    }
+
+    fn integrator(&self) -> &'static str {
+        self.integrator.name()
+    }
+
+    fn next_integrator(&mut self) -> &'static str {
+        let position = INTEGRATORS.iter().position(|&integrator| integrator == self.integrator);
+        self.integrator = INTEGRATORS[position.map_or(0, |i| (i + 1) % INTEGRATORS.len())];
+        self.integrator.name()
+    }
+
+    fn parameters(&self) -> Vec<Parameter> {
+        let parameter =
+            |key, label, unit, value, range, logarithmic| Parameter { key, label, unit, value, range, logarithmic };
+        let mut parameters = vec![
+            parameter("dt", "time step", "s", self.dt, (1e-4, 0.1), true),
+            parameter("C", "stiffness C", "Pa", self.C, (1e2, 1e9), true),
+            parameter("D", "stiffness D", "Pa", self.D, (1e2, 1e9), true),
+            parameter("density", "density", "kg/m³", self.density, (1.0, 2e4), true),
+        ];
+        if let Some((_, size)) = self.gravity {
+            parameters.push(parameter("gravity", "gravity", "m/s²", size, (0.0, 30.0), false));
+        }
+        parameters.push(parameter("drag", "drag stiffness", "N/m", self.drag_stiffness, (1.0, 1e8), true));
+        parameters
+    }
+
+    fn set_parameter(&mut self, key: &str, value: f64) -> Result<(), String> {
+        let Some(parameter) = self.parameters().into_iter().find(|parameter| parameter.key == key) else {
+            return Err(format!("there is no parameter {key}"));
+        };
+        let (low, high) = parameter.range;
+        // NaN fails the comparison.
+        if !(low <= value && value <= high) {
+            return Err(format!("{} = {value} {}; give {low} to {high}", parameter.label, parameter.unit));
+        }
+        match key {
+            "dt" => self.dt = value,
+            "C" => self.C = value,
+            "D" => self.D = value,
+            "density" => self.density = value,
+            "gravity" => self.gravity = self.gravity.map(|(direction, _)| (direction, value)),
+            _ => self.drag_stiffness = value,
+        }
+        self.weigh();
+        Ok(())
+    }
+
+    fn pick(&self, click: &Click) -> Vec<usize> {
+        let x = self.positions();
+        let V: Vec<_> = (0..x.len() / 3).map(|node| super::node(&x, node)).collect();
+        let F = &self.shape.boundary;
+        // A point of a triangle is never farther from a corner than this part of its longest edge.
+        let edges = F.iter().flat_map(|&[a, b, c]| [V[a] - V[b], V[b] - V[c], V[c] - V[a]]);
+        let radius = edges.map(|edge| edge.norm()).fold(0.0, f64::max) / 3f64.sqrt();
+        pick_nearest_vertices(&click.win, &click.view, &click.proj, &click.viewport, &V, F, radius)
+    }
+
+    fn pull(&mut self, pull: Option<Pull>) {
+        self.pull = pull;
+    }
+
+    fn counters(&self) -> Counters {
+        let solver = self.solver.borrow();
+        Counters {
+            factorizations: solver.factorizations,
+            symbolic_factorizations: solver.symbolic_factorizations,
+            ..self.work.counters()
+        }
+    }
+
+    fn parts(&self) -> Vec<Part> {
+        explain::parts(self)
+    }
+}
+
+impl AssignmentSetup {
+    fn deformation_gradient(&self, x: &DVector<f64>, element: &[usize; 4]) -> Matrix3<f64> {
+        let V = &self.shape.mesh.vertices;
+        deformation_gradient(x, element, &dphi_linear_tetrahedron_dX(V, element, &V[element[0]]))
+    }
+
+    /// The smallest J of all elements, and the element that has it.
+    fn smallest_J(&self, x: &DVector<f64>) -> (f64, usize) {
+        let determinants =
+            self.shape.mesh.elements.iter().map(|element| self.deformation_gradient(x, element).determinant());
+        determinants.enumerate().fold((f64::INFINITY, 0), |least, (i, J)| if J < least.0 { (J, i) } else { least })
+    }
+
+    fn cause_of_failure(&self, q: &DVector<f64>, qdot: &DVector<f64>) -> Option<Cause> {
+        let (x, v) = (self.constraints.all_coordinates(q), self.constraints.all_velocities(qdot));
+        if let Some(i) = (0..x.len()).find(|&i| !(x[i].is_finite() && v[i].is_finite())) {
+            return Some(Cause::NotFinite { node: i / 3 });
+        }
+        let (J, element) = self.smallest_J(&x);
+        (J <= 0.0).then_some(Cause::Inverted { element, J })
+    }
+
+    fn failure(&self, cause: Cause) -> Failure {
+        let remedy = match self.integrator {
+            Integrator::LinearlyImplicitEuler => "use implicit_euler, a smaller time step or a gentler pull",
+            _ => "use a smaller time step or a gentler pull",
+        };
+        Failure { step: self.steps_since_reset + 1, time: self.time + self.dt, cause, remedy: remedy.to_owned() }
+    }
+}

@@ -1,0 +1,99 @@
+//! The arguments, as types.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+use fem_engine::scene::Integrator;
+
+/// Deformable solids by the finite element method: shows a scene in a window, or runs it without one.
+#[derive(Debug, Parser)]
+#[command(version, args_conflicts_with_subcommands = true, after_help = EXIT_CODES)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    #[command(flatten)]
+    pub run: RunArguments,
+}
+
+const EXIT_CODES: &str = "\
+Keys in the window: S skinned or simulation mesh, N next integrator, space pause, R reset; drag the body to pull it.
+
+Exit codes: 0 done, 1 the simulation failed, 2 unusable arguments or scene.";
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// The scenes, one line each, with what each builds
+    List,
+    /// Reads, checks, measures and converts meshes
+    Mesh {
+        #[command(subcommand)]
+        action: MeshAction,
+    },
+}
+
+#[derive(Debug, Subcommand)]
+pub enum MeshAction {
+    /// Counts, volume and quality of a tetrahedral mesh (.node, .mesh, .msh, .vtu)
+    Info { file: PathBuf },
+    /// Reads a tetrahedral mesh and writes it in another format
+    Convert { from: PathBuf, to: PathBuf },
+}
+
+#[derive(Debug, Args)]
+pub struct RunArguments {
+    /// Name of a scene (see `list`) or path of a .toml file
+    #[arg(default_value = "bunny", value_name = "SCENE")]
+    pub scene: String,
+    /// Run without a window
+    #[arg(long)]
+    pub headless: bool,
+    /// End after N steps
+    #[arg(long, value_name = "N", value_parser = positive_steps)]
+    pub steps: Option<usize>,
+    /// Time step in seconds
+    #[arg(long, value_name = "S", value_parser = positive_seconds)]
+    pub dt: Option<f64>,
+    /// Time integration method
+    #[arg(long, value_name = "NAME", value_parser = integrator)]
+    pub integrator: Option<Integrator>,
+    /// Write time, positions and velocities at the end
+    #[arg(long, value_name = "FILE.json")]
+    pub state: Option<PathBuf>,
+    /// Write counts and times
+    #[arg(long, value_name = "FILE.json")]
+    pub stats: Option<PathBuf>,
+    /// Write the energies of every step
+    #[arg(long, value_name = "FILE.csv")]
+    pub energies: Option<PathBuf>,
+    /// Write the final mesh: .obj (display), .vtu (ParaView), .glb (animated, Blender)
+    #[arg(long, value_name = "FILE")]
+    pub export: Option<PathBuf>,
+    /// Take a picture at the end
+    #[arg(long, value_name = "FILE.png")]
+    pub screenshot: Option<PathBuf>,
+    /// Take 30 pictures a second of simulated time
+    #[arg(long, value_name = "DIR")]
+    pub record: Option<PathBuf>,
+    /// Print what the scene builds and what it leaves out, and why, then exit
+    #[arg(long)]
+    pub explain: bool,
+}
+
+fn positive_steps(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(0) | Err(_) => Err("give a whole number of steps, 1 or more".to_owned()),
+        Ok(steps) => Ok(steps),
+    }
+}
+
+fn positive_seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds > 0.0 && seconds.is_finite() => Ok(seconds),
+        _ => Err("give a positive number of seconds, such as 0.01".to_owned()),
+    }
+}
+
+fn integrator(text: &str) -> Result<Integrator, String> {
+    let names = || Integrator::ALL.map(Integrator::name).join(", ");
+    Integrator::from_name(text).ok_or_else(|| format!("give one of {}", names()))
+}

@@ -1,0 +1,12 @@
+//! Where the scenes and meshes are.
+
+use std::path::{Path, PathBuf};
+
+/// The folder `data`: of the current folder, of the repository that this program was built in, or else beside the program.
+pub fn folder() -> PathBuf {
+    let has_scenes = |folder: &PathBuf| folder.join("scenes").is_dir();
+    let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");
+    let program = std::env::current_exe().unwrap_or_default();
+    let beside = program.parent().unwrap_or(Path::new("")).join("data");
+    [PathBuf::from("data"), built_in.clone(), beside].into_iter().find(has_scenes).unwrap_or(built_in)
+}

@@ -1,0 +1,22 @@
+//! `--explain`: what a scene builds and what it leaves out.
+
+use fem_engine::scene::Scene;
+use fem_engine::simulation::{Part, Simulation};
+
+/// Prints a line for every part.
+pub fn print(scene: &Scene, simulation: &dyn Simulation) {
+    say!("{}: {}", scene.name, scene.about);
+    say!("pipeline course, {}, dt = {} s", simulation.integrator(), simulation.dt());
+    for part in simulation.parts() {
+        let word = if part.built { "builds" } else { "leaves out" };
+        let size =
+            if part.built && part.bytes > 0 { format!(" ({} KiB)", part.bytes.div_ceil(1024)) } else { String::new() };
+        say!("  {word:<10} {:<12} {}{size}", part.name, part.why);
+    }
+}
+
+/// Names of the parts that are built, for the list of scenes.
+pub fn built(parts: &[Part]) -> String {
+    let names: Vec<_> = parts.iter().filter(|part| part.built).map(|part| part.name).collect();
+    names.join(", ")
+}

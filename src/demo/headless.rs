@@ -1,0 +1,72 @@
+//! A run without a window.
+
+use fem_engine::mesh::write::Frame;
+use fem_engine::simulate;
+use fem_engine::simulation::{Energies, Simulation};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::cli::RunArguments;
+use super::end::End;
+use super::pictures::Camera;
+use super::results::{self, Finished};
+use super::run::Ready;
+
+/// Frames of an animated export in a second of simulated time.
+const EXPORTED_FRAMES_PER_SECOND: f64 = 30.0;
+
+/// Steps, shows progress on a terminal, and writes what the options ask for, after a failure as well.
+pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
+    let Ready { mut simulation, seconds_setup, steps } = ready;
+    let mut camera = Camera::for_run(arguments);
+    let mut log = Log::new(arguments);
+    let bar = progress_bar(steps);
+
+    camera.record(&*simulation)?;
+    log.add(&*simulation);
+    let run = simulate::run(&mut *simulation, steps, |simulation| {
+        bar.inc(1);
+        log.add(simulation);
+        camera.record(simulation)
+    })?;
+    bar.finish_and_clear();
+
+    camera.shoot(&*simulation)?;
+    let Log { energies, frames, .. } = log;
+    results::finish(&Finished { simulation: &*simulation, run, seconds_setup, energies, frames }, arguments)
+}
+
+/// Not drawn where stderr is no terminal.
+fn progress_bar(steps: usize) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:40} step {pos} of {len}, {eta} left").expect("a valid template");
+    ProgressBar::new(steps as u64).with_style(style)
+}
+
+/// What is noted down after each step, where an option asks for it.
+struct Log {
+    wants_energies: bool,
+    wants_frames: bool,
+    energies: Vec<(f64, Energies)>,
+    frames: Vec<Frame>,
+}
+
+impl Log {
+    fn new(arguments: &RunArguments) -> Self {
+        let is_animated = |path: &std::path::PathBuf| path.extension().is_some_and(|extension| extension == "glb");
+        Self {
+            wants_energies: arguments.energies.is_some(),
+            wants_frames: arguments.export.as_ref().is_some_and(is_animated),
+            energies: Vec::new(),
+            frames: Vec::new(),
+        }
+    }
+
+    fn add(&mut self, simulation: &dyn Simulation) {
+        let time = simulation.time();
+        if self.wants_energies {
+            self.energies.push((time, simulation.energies()));
+        }
+        if self.wants_frames && time * EXPORTED_FRAMES_PER_SECOND >= self.frames.len() as f64 - 1e-6 {
+            self.frames.push(Frame { time, positions: simulation.display_positions() });
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! `list`: the scenes.
+
+use fem_engine::scene;
+
+use super::end::End;
+use super::{data, explain, run};
+
+/// Prints a line for each scene: its name, what it is about, and what it builds.
+pub fn print_scenes() -> Result<(), End> {
+    let data = data::folder();
+    let names = scene::names(&data);
+    if names.is_empty() {
+        return Err(End::unusable(format!("there are no scenes in {}; run from the repository", data.display())));
+    }
+    for name in names {
+        let scene = scene::load(&name, &data).map_err(End::unusable)?;
+        let ready = run::build(&scene)?;
+        say!("{name:<10} {} [{}]", scene.about, explain::built(&ready.simulation.parts()));
+    }
+    Ok(())
+}

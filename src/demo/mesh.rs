@@ -1,0 +1,32 @@
+//! `mesh`: looks at meshes and converts them.
+
+use std::path::Path;
+
+use fem_engine::mesh;
+
+use super::cli::MeshAction;
+use super::end::End;
+
+/// Does what is asked of a mesh file.
+pub fn run(action: &MeshAction) -> Result<(), End> {
+    match action {
+        MeshAction::Info { file } => info(file),
+        MeshAction::Convert { from, to } => convert(from, to),
+    }
+    .map_err(End::unusable)
+}
+
+fn info(file: &Path) -> Result<(), mesh::MeshError> {
+    let mesh = mesh::read_tetrahedra(file)?;
+    mesh::check(&mesh, file)?;
+    say!("{}", mesh::quality(&mesh));
+    Ok(())
+}
+
+fn convert(from: &Path, to: &Path) -> Result<(), mesh::MeshError> {
+    let mesh = mesh::read_tetrahedra(from)?;
+    mesh::check(&mesh, from)?;
+    mesh::write_tetrahedra(to, &mesh)?;
+    say!("{}: {} nodes, {} tetrahedra", to.display(), mesh.vertices.len(), mesh.elements.len());
+    Ok(())
+}

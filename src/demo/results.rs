@@ -1,0 +1,93 @@
+//! The files that a run leaves behind, and its last words.
+
+use std::path::Path;
+
+use fem_engine::mesh::write::Frame;
+use fem_engine::output::{self, EXPORTS, Stats};
+use fem_engine::simulate::{Run, quantile};
+use fem_engine::simulation::{Energies, Simulation};
+
+use super::cli::RunArguments;
+use super::end::End;
+
+/// A run that has ended, well or not.
+pub struct Finished<'a> {
+    pub simulation: &'a dyn Simulation,
+    pub run: Run,
+    pub seconds_setup: f64,
+    pub energies: Vec<(f64, Energies)>,
+    pub frames: Vec<Frame>,
+}
+
+/// Refuses output files that could not be written, before any work is done for them.
+pub fn check(arguments: &RunArguments) -> Result<(), End> {
+    let files = [
+        ("--state", &arguments.state),
+        ("--stats", &arguments.stats),
+        ("--energies", &arguments.energies),
+        ("--export", &arguments.export),
+        ("--screenshot", &arguments.screenshot),
+    ];
+    for (option, file) in files {
+        file.as_deref().map_or(Ok(()), |file| check_file(option, file))?;
+    }
+    match &arguments.export {
+        Some(path) if !EXPORTS.iter().any(|known| path.extension().is_some_and(|found| found == *known)) => {
+            let extension = path.extension().unwrap_or_default().to_string_lossy();
+            Err(End::unusable(format!("--export {}", output::unknown_export(path, &extension))))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_file(option: &str, file: &Path) -> Result<(), End> {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if file.is_dir() || file.file_name().is_none() {
+        return Err(End::unusable(format!("{option} {}: is a folder; give the name of a file", file.display())));
+    }
+    if !folder.is_dir() {
+        return Err(End::unusable(format!("{option} {}: its folder does not exist; make it first", file.display())));
+    }
+    Ok(())
+}
+
+/// Writes the files that the options name, then says how the run went.
+pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
+    let Finished { simulation, run, seconds_setup, energies, frames } = finished;
+    if let Some(path) = &arguments.state {
+        output::write_state(path, *simulation).map_err(End::unusable)?;
+    }
+    if let Some(path) = &arguments.energies {
+        output::write_energies(path, energies).map_err(End::unusable)?;
+    }
+    if let Some(path) = &arguments.export {
+        output::export(path, *simulation, frames).map_err(End::unusable)?;
+    }
+    if let Some(path) = &arguments.stats {
+        Stats::of(*simulation, run, *seconds_setup).write(path).map_err(End::unusable)?;
+    }
+    print_summary(*simulation, run);
+    match &run.failure {
+        Some(failure) => Err(End::Failed(failure.clone())),
+        None => Ok(()),
+    }
+}
+
+fn print_summary(simulation: &dyn Simulation, run: &Run) {
+    let (energies, (smallest, _)) = (simulation.energies(), simulation.min_J());
+    let median =
+        quantile(&run.step_seconds, 0.5).map_or("none".to_owned(), |seconds| format!("{:.3} ms", 1e3 * seconds));
+    say!(
+        "{}, {}: {} steps to t = {:.4} s, {median} a step (median)",
+        simulation.name(),
+        simulation.integrator(),
+        simulation.counters().steps,
+        simulation.time(),
+    );
+    say!(
+        "kinetic {:.4e} J, potential {:.4e} J, total {:.4e} J, smallest J {smallest:.4}",
+        energies.kinetic,
+        energies.potential,
+        energies.total(),
+    );
+}

@@ -1,0 +1,67 @@
+//! Runs a scene: in a window where one can be opened, else without.
+
+use std::time::Instant;
+
+use fem_engine::scene::{self, Scene};
+use fem_engine::simulation::Simulation;
+use finite_elements_3d::assignment_setup::AssignmentSetup;
+
+use super::cli::RunArguments;
+use super::end::End;
+use super::{data, explain, headless, results, window};
+
+/// Steps without a window, where neither the scene nor the arguments say how many.
+const DEFAULT_STEPS: usize = 100;
+
+/// A simulation that is ready to start.
+pub struct Ready {
+    pub simulation: Box<dyn Simulation>,
+    pub seconds_setup: f64,
+    pub steps: usize,
+}
+
+/// Everything that a scene's name and the options ask for.
+pub fn run(arguments: &RunArguments) -> Result<(), End> {
+    results::check(arguments)?;
+    let scene = scene_with_overrides(arguments)?;
+    let ready = build(&scene)?;
+    if arguments.explain {
+        explain::print(&scene, &*ready.simulation);
+        return Ok(());
+    }
+    if arguments.headless {
+        return headless::run(ready, arguments);
+    }
+    match window::available() {
+        Ok(()) => window::run(ready, arguments),
+        Err(reason) => {
+            eprintln!("no window ({reason}); running without one, as --headless does");
+            headless::run(ready, arguments)
+        }
+    }
+}
+
+fn scene_with_overrides(arguments: &RunArguments) -> Result<Scene, End> {
+    let mut scene = scene::load(&arguments.scene, &data::folder()).map_err(End::unusable)?;
+    scene.time.dt = arguments.dt.unwrap_or(scene.time.dt);
+    scene.time.integrator = arguments.integrator.unwrap_or(scene.time.integrator);
+    scene.time.steps = arguments.steps.or(scene.time.steps);
+    Ok(scene)
+}
+
+/// Reads the meshes of a scene and builds its simulation.
+pub fn build(scene: &Scene) -> Result<Ready, End> {
+    let start = Instant::now();
+    let body = scene::body(scene, &data::folder()).map_err(End::unusable)?;
+    let setup = AssignmentSetup::new(scene, body).map_err(End::unusable)?;
+    let outside = setup.display_vertices_outside();
+    if outside > 0 {
+        eprintln!(
+            "warning: {}: mesh.display: {outside} vertices lie outside the tetrahedra and follow the nearest one; \
+             use a cage that encloses the surface",
+            scene.path.display()
+        );
+    }
+    let steps = scene.time.steps.unwrap_or(DEFAULT_STEPS);
+    Ok(Ready { simulation: Box::new(setup), seconds_setup: start.elapsed().as_secs_f64(), steps })
+}

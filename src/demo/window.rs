@@ -1,0 +1,63 @@
+//! A run in a window.
+
+use super::cli::RunArguments;
+use super::end::End;
+use super::run::Ready;
+
+/// Whether a window can be opened, and if not, why.
+#[cfg(feature = "viewer")]
+pub fn available() -> Result<(), String> {
+    fem_viewer::display_available()
+}
+
+/// Whether a window can be opened: without the viewer, none can.
+#[cfg(not(feature = "viewer"))]
+pub fn available() -> Result<(), String> {
+    Err("built without the feature `viewer`".to_owned())
+}
+
+/// Shows the simulation until the window is closed, then writes what the options ask for.
+#[cfg(feature = "viewer")]
+pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
+    use fem_engine::simulate::Run;
+    use fem_viewer::{Stop, WindowError, WindowOptions};
+
+    use super::headless;
+    use super::results::{Finished, finish};
+
+    let Ready { simulation, seconds_setup, steps } = ready;
+    let options = WindowOptions {
+        screenshot: arguments.screenshot.clone(),
+        record: arguments.record.clone(),
+        quit_after_steps: arguments.steps,
+        log_energies: arguments.energies.is_some(),
+        ..WindowOptions::default()
+    };
+    let outcome = match fem_viewer::open(simulation, options) {
+        Ok(outcome) => outcome,
+        Err(WindowError::NoWindow(no_window)) => {
+            eprintln!("no window ({}); running without one, as --headless does", no_window.reason);
+            return headless::run(Ready { simulation: no_window.simulation, seconds_setup, steps }, arguments);
+        }
+        Err(error) => return Err(End::unusable(error)),
+    };
+    if let Some(error) = outcome.not_written {
+        return Err(End::unusable(error));
+    }
+    let failure = match outcome.stop {
+        Some(Stop::Failure(failure)) => Some(failure),
+        Some(other) => return Err(End::Stopped(other.to_string())),
+        None => None,
+    };
+    let Some(simulation) = outcome.simulation else { return Err(End::Stopped("the simulation panicked".to_owned())) };
+    let run = Run { step_seconds: outcome.step_seconds, failure };
+    let finished =
+        Finished { simulation: &*simulation, run, seconds_setup, energies: outcome.energies, frames: Vec::new() };
+    finish(&finished, arguments)
+}
+
+/// Never called, because no window is available.
+#[cfg(not(feature = "viewer"))]
+pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
+    super::headless::run(ready, arguments)
+}

@@ -1,0 +1,24 @@
+//! Small quantities that many exercises need.
+
+use nalgebra::{DVector, Matrix3, Matrix4x3, Vector3};
+
+/// Deformation gradient F = Σ q_a ∇φ_aᵀ of one element, dimensionless.
+///
+/// `q  (3n)` positions, m; `dphi  (4×3)` gradients of the shape functions, 1/m.
+///
+/// The gradients of the four shape functions add up to zero, so a common offset of all positions may be taken away
+/// first: with edges instead of positions no digits are lost far from the origin.
+pub fn deformation_gradient(q: &DVector<f64>, element: &[usize; 4], dphi: &Matrix4x3<f64>) -> Matrix3<f64> {
+    let [x0, x1, x2, x3] = element.map(|vertex| Vector3::new(q[3 * vertex], q[3 * vertex + 1], q[3 * vertex + 2]));
+    let edges = Matrix3::from_columns(&[x1 - x0, x2 - x0, x3 - x0]);
+    edges * dphi.fixed_rows::<3>(1)
+}
+
+/// Undeformed volume of each element, m³; negative for an element that is turned inside out.
+pub fn volumes(V: &[Vector3<f64>], T: &[[usize; 4]]) -> Vec<f64> {
+    let volume = |element: &[usize; 4]| {
+        let [a, b, c, d] = element.map(|vertex| V[vertex]);
+        (b - a).cross(&(c - a)).dot(&(d - a)) / 6.0
+    };
+    T.iter().map(volume).collect()
+}

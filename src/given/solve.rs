@@ -1,0 +1,70 @@
+use nalgebra::DVector;
+use nalgebra_sparse::CsrMatrix;
+
+use super::Cholesky;
+
+/// Solves `A x = b` by sparse Cholesky factorisation; where A is not positive definite, a multiple of the identity is
+/// added, ten times more each time, until it is. See [`Solver`] for many systems with entries in the same places.
+///
+/// `A  (n×n)` symmetric, `b  (n)`; returns `x  (n)`, NaN where A or b is not finite.
+pub fn solve(A: &CsrMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
+    Solver::default().solve(A, b)
+}
+
+/// [`solve`](fn@solve) with a memory: systems with entries in the same places are analysed once, and the
+/// same matrix is factorised once.
+#[derive(Default)]
+pub struct Solver {
+    cholesky: Option<Cholesky>,
+    /// Values that the factor belongs to.
+    factored: Vec<f64>,
+    /// How often an order of elimination was chosen.
+    pub symbolic_factorizations: usize,
+    /// How often values were factorised, shifted attempts included.
+    pub factorizations: usize,
+}
+
+/// First diagonal shift, relative to the largest entry of the diagonal.
+const FIRST_SHIFT: f64 = 1e-10;
+
+impl Solver {
+    /// Memory that the factor holds, bytes.
+    pub fn bytes(&self) -> usize {
+        self.cholesky.as_ref().map_or(0, |cholesky| 8 * cholesky.nnz())
+    }
+
+    /// Solves `A x = b`; see [`solve`](fn@solve).
+    pub fn solve(&mut self, A: &CsrMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
+        assert_eq!(A.nrows(), b.len(), "a matrix of {} rows, but a right-hand side of {}", A.nrows(), b.len());
+        if A.values().iter().chain(b).any(|value| !value.is_finite()) {
+            return DVector::from_element(b.len(), f64::NAN);
+        }
+        let mut cholesky = match self.cholesky.take() {
+            Some(cholesky) if cholesky.fits(A.pattern()) => cholesky,
+            _ => {
+                self.symbolic_factorizations += 1;
+                self.factored.clear();
+                Cholesky::analyze(A.pattern())
+            }
+        };
+        if self.factored != A.values() {
+            self.factor(&mut cholesky, A);
+        }
+        self.cholesky.insert(cholesky).solve(b)
+    }
+
+    fn factor(&mut self, cholesky: &mut Cholesky, A: &CsrMatrix<f64>) {
+        self.factored.clear();
+        self.factored.extend_from_slice(A.values());
+        let largest = A.values().iter().fold(f64::MIN_POSITIVE, |largest, value| value.abs().max(largest));
+        let mut shift = 0.0;
+        loop {
+            self.factorizations += 1;
+            if cholesky.factor(A, shift).is_ok() {
+                return;
+            }
+            // A shift above the sum of a row makes any matrix positive definite, so this ends.
+            shift = if shift == 0.0 { FIRST_SHIFT * largest } else { 10.0 * shift };
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! The demo: `cargo run -- arma`. Reads the arguments, runs what they ask for, and ends with the right exit code.
+
+/// Prints a line of results. Who closes our standard output early (`| head`) has seen enough; that is no failure.
+macro_rules! say {
+    ($($line:tt)*) => {{
+        use std::io::Write;
+        let _ = writeln!(std::io::stdout(), $($line)*);
+    }};
+}
+
+mod demo {
+    pub mod cli;
+    pub mod data;
+    pub mod end;
+    pub mod explain;
+    pub mod headless;
+    pub mod list;
+    pub mod mesh;
+    pub mod pictures;
+    pub mod results;
+    pub mod run;
+    pub mod window;
+}
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use demo::cli::{Arguments, Command};
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let result = match &arguments.command {
+        Some(Command::List) => demo::list::print_scenes(),
+        Some(Command::Mesh { action }) => demo::mesh::run(action),
+        None => demo::run::run(&arguments.run),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(end) => end.report(),
+    }
+}

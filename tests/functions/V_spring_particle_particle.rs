@@ -1,0 +1,35 @@
+//! To do: the energy of a spring. Read include-docs/V_spring_particle_particle.md.
+
+use finite_elements_3d::V_spring_particle_particle;
+use nalgebra::Vector3;
+
+use crate::outcome::{Outcome, for_all, near_number};
+use crate::random::{rotation, vector};
+
+#[test]
+fn stretched_and_squeezed_springs_store_half_k_times_the_square() -> Outcome {
+    let (q0, q1) = (Vector3::new(1.0, 2.0, 3.0), Vector3::new(3.0, 5.0, 9.0)); // 7 m apart
+    for (l0, expected) in [(7.0, 0.0), (5.0, 40.0), (9.0, 40.0), (0.0, 490.0), (8.0, 10.0)] {
+        let found = V_spring_particle_particle(&q0, &q1, l0, 20.0);
+        near_number("½ k (|q1 − q0| − l0)² with k = 20 and 7 m", found, expected, 1e-12)?;
+    }
+    Ok(())
+}
+
+#[test]
+fn a_spring_of_no_length_stores_the_energy_of_its_rest_length() -> Outcome {
+    let q = Vector3::new(1.0, 2.0, 3.0);
+    near_number("½ k l0²", V_spring_particle_particle(&q, &q, 2.0, 3.0), 6.0, 1e-15)?;
+    near_number("a spring without any length", V_spring_particle_particle(&q, &q, 0.0, 3.0), 0.0, 0.0)
+}
+
+#[test]
+fn only_the_distance_counts() -> Outcome {
+    let inputs = (vector(-2.0..2.0), vector(-2.0..2.0), vector(-9.0..9.0), rotation(), 0.0..3.0f64, 1.0..1e5f64);
+    for_all(inputs, |(q0, d, shift, R, l0, stiffness)| {
+        let expected = 0.5 * stiffness * (d.norm() - l0).powi(2);
+        let (q0, q1, allowed) = (R * q0 + shift, R * (q0 + d) + shift, 1e-12 * stiffness);
+        near_number("V of a moved spring", V_spring_particle_particle(&q0, &q1, l0, stiffness), expected, allowed)?;
+        near_number("V with the ends exchanged", V_spring_particle_particle(&q1, &q0, l0, stiffness), expected, allowed)
+    })
+}

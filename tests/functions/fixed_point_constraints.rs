@@ -1,0 +1,54 @@
+//! To do: the matrix that leaves out the coordinates of fixed vertices. Read include-docs/fixed_point_constraints.md.
+
+use finite_elements_3d::fixed_point_constraints;
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+
+use crate::outcome::{Outcome, for_all, near};
+
+fn P(q_size: usize, indices: &[usize]) -> DMatrix<f64> {
+    DMatrix::from(&fixed_point_constraints(q_size, indices))
+}
+
+/// The coordinates of q that stay, by plain selection.
+fn kept(q: &DVector<f64>, indices: &[usize]) -> DVector<f64> {
+    let free = (0..q.len() / 3).filter(|vertex| !indices.contains(vertex));
+    DVector::from_vec(free.flat_map(|vertex| [q[3 * vertex], q[3 * vertex + 1], q[3 * vertex + 2]]).collect())
+}
+
+#[test]
+fn fixing_the_middle_of_three_vertices_agrees_with_a_matrix_by_hand() -> Outcome {
+    let expected = DMatrix::from_fn(6, 9, |row, column| if [0, 1, 2, 6, 7, 8][row] == column { 1.0 } else { 0.0 });
+    near("P, (q_size − 3m) × q_size", &P(9, &[1]), &expected, 0.0)
+}
+
+#[test]
+fn p_q_is_q_without_the_fixed_vertices_in_the_old_order() -> Outcome {
+    for_all((1..9usize, prop::collection::vec(0..9usize, 0..7)), |(vertices, indices)| {
+        let indices: Vec<usize> = indices.into_iter().map(|vertex| vertex % vertices).collect();
+        let q = DVector::from_fn(3 * vertices, |row, _| 1.5 + row as f64);
+        let (P, expected) = (P(q.len(), &indices), kept(&q, &indices));
+        near("P q (indices may be unsorted and repeated)", &(&P * &q), &expected, 0.0)?;
+        let identity = DMatrix::<f64>::identity(expected.len(), expected.len());
+        near("P Pᵀ = 1", &(&P * P.transpose()), &identity, 0.0)?;
+        let padded = P.transpose() * expected;
+        let fixed_to_zero = DVector::from_fn(q.len(), |row, _| if indices.contains(&(row / 3)) { 0.0 } else { q[row] });
+        near("Pᵀ puts zeros where vertices are fixed", &padded, &fixed_to_zero, 0.0)
+    })
+}
+
+#[test]
+fn nothing_fixed_is_the_identity() -> Outcome {
+    near("P for no index", &P(12, &[]), &DMatrix::<f64>::identity(12, 12), 0.0)
+}
+
+#[test]
+fn repeats_count_once_and_order_does_not_matter() -> Outcome {
+    near("P for [3, 0, 3, 3, 0]", &P(15, &[3, 0, 3, 3, 0]), &P(15, &[0, 3]), 0.0)
+}
+
+#[test]
+fn everything_fixed_leaves_a_matrix_without_rows() -> Outcome {
+    near("P, all vertices fixed", &P(9, &[2, 0, 1]), &DMatrix::<f64>::zeros(0, 9), 0.0)?;
+    near("P of an empty mesh", &P(0, &[]), &DMatrix::<f64>::zeros(0, 0), 0.0)
+}

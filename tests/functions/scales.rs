@@ -1,0 +1,25 @@
+//! How large round-off may be: errors are judged against the terms that were added, not against their sum.
+
+use nalgebra::Matrix3;
+
+/// Size of the terms of the energy density, J/m³.
+pub fn energy_terms(F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
+    let J = F.determinant();
+    let shape = F.norm_squared() / J.cbrt().powi(2);
+    C * (shape + 3.0) + D * (J * J + 1.0)
+}
+
+/// The least singular value: to within a fraction of it F may be moved before it turns inside out.
+pub fn smallest_stretch(F: &Matrix3<f64>) -> f64 {
+    F.singular_values().min()
+}
+
+/// Size of the terms of the stress, Pa.
+pub fn stress_terms(F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
+    energy_terms(F, C, D) / smallest_stretch(F)
+}
+
+/// Size of the terms of the derivative of the stress, Pa.
+pub fn stiffness_terms(F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
+    stress_terms(F, C, D) / smallest_stretch(F)
+}
