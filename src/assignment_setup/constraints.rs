@@ -27,6 +27,11 @@ impl Constraints {
         }))
     }
 
+    /// Whether no node is fixed.
+    pub(super) fn is_free(&self) -> bool {
+        self.0.as_ref().is_none_or(|fixed| fixed.P.nrows() == fixed.P.ncols())
+    }
+
     /// `Pᵀ q + x0`: fixed coordinates where they are, free ones from q.
     pub(super) fn all_coordinates(&self, q: &DVector<f64>) -> DVector<f64> {
         match &self.0 {

@@ -16,8 +16,8 @@ const EXPORTED_FRAMES_PER_SECOND: f64 = 30.0;
 
 /// Steps, shows progress on a terminal, and writes what the options ask for, after a failure as well.
 pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
-    let Ready { mut simulation, seconds_setup, steps } = ready;
-    let mut camera = Camera::for_run(arguments);
+    let Ready { mut simulation, seconds_setup, steps, up } = ready;
+    let mut camera = Camera::for_run(arguments, &up);
     let mut log = Log::new(arguments);
     let bar = progress_bar(steps);
 

@@ -19,7 +19,7 @@ pub fn run(action: &MeshAction) -> Result<(), End> {
 fn info(file: &Path) -> Result<(), mesh::MeshError> {
     let mesh = mesh::read_tetrahedra(file)?;
     mesh::check(&mesh, file)?;
-    say!("{}", mesh::quality(&mesh));
+    say!("{}", mesh::quality(&mesh).to_string().trim_end());
     Ok(())
 }
 

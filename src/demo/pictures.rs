@@ -1,6 +1,7 @@
 //! Pictures of a run without a window.
 
 use fem_engine::simulation::Simulation;
+use nalgebra::Vector3;
 
 use super::cli::RunArguments;
 use super::end::End;
@@ -28,11 +29,16 @@ mod with_viewer {
 
     impl Camera {
         /// Says in one line why there will be no pictures, if there can be none.
-        pub fn for_run(arguments: &RunArguments) -> Self {
+        ///
+        /// `up` is the direction that is up in them.
+        pub fn for_run(arguments: &RunArguments, up: &Vector3<f64>) -> Self {
             let wanted = arguments.screenshot.is_some() || arguments.record.is_some();
-            let photographer = wanted
+            let mut photographer = wanted
                 .then(|| Photographer::new(SIZE.0, SIZE.1))
                 .and_then(|photographer| photographer.inspect_err(|reason| eprintln!("no pictures: {reason}")).ok());
+            if let Some(photographer) = &mut photographer {
+                photographer.set_up(up);
+            }
             let (screenshot, record) = (arguments.screenshot.clone(), arguments.record.clone());
             Self { photographer, screenshot, record, recorder: None }
         }
@@ -68,7 +74,7 @@ pub struct Camera;
 #[cfg(not(feature = "viewer"))]
 impl Camera {
     /// Says in one line that there will be no pictures, if any are wanted.
-    pub fn for_run(arguments: &RunArguments) -> Self {
+    pub fn for_run(arguments: &RunArguments, _: &Vector3<f64>) -> Self {
         if arguments.screenshot.is_some() || arguments.record.is_some() {
             eprintln!("no pictures: built without the feature `viewer`");
         }

@@ -5,6 +5,7 @@ use std::time::Instant;
 use fem_engine::scene::{self, Scene};
 use fem_engine::simulation::Simulation;
 use finite_elements_3d::assignment_setup::AssignmentSetup;
+use nalgebra::Vector3;
 
 use super::cli::RunArguments;
 use super::end::End;
@@ -18,6 +19,8 @@ pub struct Ready {
     pub simulation: Box<dyn Simulation>,
     pub seconds_setup: f64,
     pub steps: usize,
+    /// The direction that is up in a picture: against gravity, y where there is none.
+    pub up: Vector3<f64>,
 }
 
 /// Everything that a scene's name and the options ask for.
@@ -63,5 +66,7 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
         );
     }
     let steps = scene.time.steps.unwrap_or(DEFAULT_STEPS);
-    Ok(Ready { simulation: Box::new(setup), seconds_setup: start.elapsed().as_secs_f64(), steps })
+    let down = scene.gravity.as_ref().and_then(|gravity| Vector3::from(gravity.acceleration).try_normalize(0.0));
+    let up = down.map_or(Vector3::y(), |down| -down);
+    Ok(Ready { simulation: Box::new(setup), seconds_setup: start.elapsed().as_secs_f64(), steps, up })
 }

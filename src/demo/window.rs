@@ -25,8 +25,9 @@ pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
     use super::headless;
     use super::results::{Finished, finish};
 
-    let Ready { simulation, seconds_setup, steps } = ready;
+    let Ready { simulation, seconds_setup, steps, up } = ready;
     let options = WindowOptions {
+        up,
         screenshot: arguments.screenshot.clone(),
         record: arguments.record.clone(),
         quit_after_steps: arguments.steps,
@@ -37,7 +38,7 @@ pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
         Ok(outcome) => outcome,
         Err(WindowError::NoWindow(no_window)) => {
             eprintln!("no window ({}); running without one, as --headless does", no_window.reason);
-            return headless::run(Ready { simulation: no_window.simulation, seconds_setup, steps }, arguments);
+            return headless::run(Ready { simulation: no_window.simulation, seconds_setup, steps, up }, arguments);
         }
         Err(error) => return Err(End::unusable(error)),
     };
@@ -45,7 +46,7 @@ pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
         return Err(End::unusable(error));
     }
     let failure = match outcome.stop {
-        Some(Stop::Failure(failure)) => Some(failure),
+        Some(Stop::Failed(failure)) => Some(failure),
         Some(other) => return Err(End::Stopped(other.to_string())),
         None => None,
     };

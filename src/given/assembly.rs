@@ -46,6 +46,7 @@ fn neighbours(vertices: usize, T: &[[usize; 4]]) -> (Vec<usize>, Vec<usize>) {
 /// Adds a 3×3 block to the rows of vertex `row` and the columns of vertex `column`.
 ///
 /// Panics where [`sparsity`] left no room for it.
+#[inline]
 pub fn add_block(matrix: &mut CsrMatrix<f64>, row: usize, column: usize, block: &Matrix3<f64>) {
     let (offsets, columns, values) = matrix.csr_data_mut();
     let first_row = &columns[offsets[3 * row]..offsets[3 * row + 1]];

@@ -67,6 +67,7 @@ impl<const N: usize> Tridiagonal<N> {
     }
 
     /// Sturm's count: the pivots of `T − x` have as many signs below zero as T has eigenvalues below x.
+    #[inline]
     fn eigenvalues_below(&self, x: f64) -> usize {
         let mut count = 0;
         let mut pivot = 1.0;
@@ -109,6 +110,7 @@ impl<const N: usize> Tridiagonal<N> {
     }
 
     /// The last index that negligible off-diagonal entries do not cut off from `first`.
+    #[inline]
     fn end_of_block(&self, first: usize) -> usize {
         let is_cut = |&i: &usize| {
             let size = self.diagonal[i].abs() + self.diagonal[i + 1].abs();
@@ -118,6 +120,7 @@ impl<const N: usize> Tridiagonal<N> {
     }
 
     /// Wilkinson's shift: the eigenvalue of the first two rows that is nearer to the first entry.
+    #[inline]
     fn shift(&self, first: usize) -> f64 {
         let (d, e) = (&self.diagonal, &self.off_diagonal);
         let half_gap = (d[first + 1] - d[first]) / (2.0 * e[first]);
@@ -125,6 +128,7 @@ impl<const N: usize> Tridiagonal<N> {
     }
 
     /// One QL step on the block `first..=last`: a chase of plane rotations from its end to its start.
+    #[inline]
     fn ql_step(&mut self, first: usize, last: usize, shift: f64, vectors: &mut [[f64; N]; N]) {
         let (d, e) = (&mut self.diagonal, &mut self.off_diagonal);
         let (mut g, mut sine, mut cosine, mut correction) = (d[last] - shift, 1.0, 1.0, 0.0);
@@ -152,6 +156,7 @@ impl<const N: usize> Tridiagonal<N> {
     }
 
     /// From an eigenvector of T to one of A.
+    #[inline]
     fn transform_back(&self, vector: &mut [f64; N]) {
         for u in self.reflectors[..N.saturating_sub(2)].iter().rev() {
             let along = dot(u, vector);
@@ -162,6 +167,7 @@ impl<const N: usize> Tridiagonal<N> {
     }
 }
 
+#[inline]
 fn identity<const N: usize>() -> [[f64; N]; N] {
     let mut rows = [[0.0; N]; N];
     for (i, row) in rows.iter_mut().enumerate() {
@@ -170,6 +176,7 @@ fn identity<const N: usize>() -> [[f64; N]; N] {
     rows
 }
 
+#[inline]
 fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
     let mut sum = 0.0;
     for i in 0..N {
@@ -197,6 +204,7 @@ fn reflector<const N: usize>(row: &[f64; N], start: usize) -> [f64; N] {
 }
 
 /// `(1 − u uᵀ) A (1 − u uᵀ)`, of which rows before `first` are done with.
+#[inline]
 fn reflect<const N: usize>(rows: &mut [[f64; N]; N], u: &[f64; N], first: usize) {
     let mut p = [0.0; N];
     for i in first..N {
@@ -215,6 +223,7 @@ fn reflect<const N: usize>(rows: &mut [[f64; N]; N], u: &[f64; N], first: usize)
 }
 
 /// Rotates rows i and i + 1 into each other.
+#[inline]
 fn rotate<const N: usize>(rows: &mut [[f64; N]; N], i: usize, sine: f64, cosine: f64) {
     let (upper, lower) = rows.split_at_mut(i + 1);
     for (a, b) in upper[i].iter_mut().zip(&mut lower[0]) {

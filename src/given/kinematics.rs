@@ -8,6 +8,7 @@ use nalgebra::{DVector, Matrix3, Matrix4x3, Vector3};
 ///
 /// The gradients of the four shape functions add up to zero, so a common offset of all positions may be taken away
 /// first: with edges instead of positions no digits are lost far from the origin.
+#[inline]
 pub fn deformation_gradient(q: &DVector<f64>, element: &[usize; 4], dphi: &Matrix4x3<f64>) -> Matrix3<f64> {
     let [x0, x1, x2, x3] = element.map(|vertex| Vector3::new(q[3 * vertex], q[3 * vertex + 1], q[3 * vertex + 2]));
     let edges = Matrix3::from_columns(&[x1 - x0, x2 - x0, x3 - x0]);

@@ -16,8 +16,8 @@ pub fn solve(A: &CsrMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
 #[derive(Default)]
 pub struct Solver {
     cholesky: Option<Cholesky>,
-    /// Values that the factor belongs to.
-    factored: Vec<f64>,
+    /// Values that the factor belongs to, once there is one.
+    factored: Option<Vec<f64>>,
     /// How often an order of elimination was chosen.
     pub symbolic_factorizations: usize,
     /// How often values were factorised, shifted attempts included.
@@ -43,20 +43,20 @@ impl Solver {
             Some(cholesky) if cholesky.fits(A.pattern()) => cholesky,
             _ => {
                 self.symbolic_factorizations += 1;
-                self.factored.clear();
+                self.factored = None;
                 Cholesky::analyze(A.pattern())
             }
         };
-        if self.factored != A.values() {
+        if self.factored.as_deref() != Some(A.values()) {
             self.factor(&mut cholesky, A);
         }
         self.cholesky.insert(cholesky).solve(b)
     }
 
     fn factor(&mut self, cholesky: &mut Cholesky, A: &CsrMatrix<f64>) {
-        self.factored.clear();
-        self.factored.extend_from_slice(A.values());
-        let largest = A.values().iter().fold(f64::MIN_POSITIVE, |largest, value| value.abs().max(largest));
+        self.factored = Some(A.values().to_vec());
+        let largest = A.values().iter().fold(0.0, |largest: f64, value| value.abs().max(largest));
+        let largest = if largest > 0.0 { largest } else { 1.0 };
         let mut shift = 0.0;
         loop {
             self.factorizations += 1;

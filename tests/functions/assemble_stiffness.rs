@@ -1,7 +1,7 @@
 //! To do: the stiffness of the whole mesh, K = −Σ project(∂²V/∂q²). Read include-docs/assemble_stiffness.md.
 
 use finite_elements_3d::{assemble_forces, assemble_stiffness, d2V_linear_tetrahedron_dq2, given};
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, Vector3};
 
 use crate::finite_differences::jacobian;
 use crate::meshes::{Mesh, Tetrahedron, stacked};
@@ -88,7 +88,7 @@ fn a_squeezed_element_is_projected_and_not_flipped() -> Outcome {
     holds("the squeezed element has negative curvature", eigen.eigenvalues.min() < -0.01 * eigen.eigenvalues.max())?;
     let kept = eigen.eigenvalues.map(|value| value.max(0.0));
     let expected =
-        -(eigen.eigenvectors * nalgebra::SMatrix::<f64, 12, 12>::from_diagonal(&kept)) * eigen.eigenvectors.transpose();
+        -(eigen.eigenvectors * SMatrix::<f64, 12, 12>::from_diagonal(&kept)) * eigen.eigenvectors.transpose();
     near("negative eigenvalues become zero, the others stay", &K, &expected, 1e-11 * K.amax())
 }
 

@@ -53,6 +53,17 @@ fn a_spring_of_no_length_has_no_gradient() -> Outcome {
 }
 
 #[test]
+fn a_very_short_spring_still_pushes() -> Outcome {
+    for_all((vector(0.3..2.0), -100.0..0.0, 0.1..2.0f64), |(d, power, l0)| {
+        let (direction, d) = (d.normalize(), d * 10f64.powf(power));
+        let push: Vector3<f64> = direction * (3.0 * (d.norm() - l0));
+        let expected = SVector::<f64, 6>::from_fn(|row, _| if row < 3 { -push[row] } else { push[row - 3] });
+        let found = dV_spring_particle_particle_dq(&Vector3::zeros(), &d, l0, 3.0);
+        near("only a length of exactly zero has no direction", &found, &expected, 1e-14 * (1.0 + l0) * 10.0)
+    })
+}
+
+#[test]
 fn a_spring_shorter_than_any_square_is_finite() -> Outcome {
     for_all((vector(-2.0..2.0), -323.0..-150.0, 0.0..2.0), |(d, power, l0)| {
         let d = d * 10f64.powf(power);

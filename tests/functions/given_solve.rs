@@ -80,3 +80,22 @@ fn nan_and_infinity_give_nan() -> Outcome {
 fn no_unknowns_have_an_empty_solution() -> Outcome {
     near("0×0", &given::solve(&sparse(&DMatrix::zeros(0, 0)), &DVector::zeros(0)), &DVector::<f64>::zeros(0), 0.0)
 }
+
+#[test]
+fn a_matrix_of_zeros_has_a_finite_answer() -> Outcome {
+    let x = given::solve(&sparse(&DMatrix::zeros(3, 3)), &dvector![1.0, 2.0, 3.0]);
+    holds("the answer is finite", x.iter().all(|value| value.is_finite()))
+}
+
+#[test]
+fn a_solver_notices_new_values_and_new_places() -> Outcome {
+    let mut solver = given::Solver::default();
+    let b = dvector![1.0, 2.0];
+    let systems = [dmatrix![4.0, 1.0; 1.0, 3.0], dmatrix![5.0, 1.0; 1.0, 3.0], dmatrix![5.0, 0.0; 0.0, 3.0]];
+    for A in systems.iter().flat_map(|A| [A, A]) {
+        let A = sparse(A);
+        near("A x = b", &solver.solve(&A, &b), &by_elimination(&A, &b), 1e-14)?;
+    }
+    holds("each matrix is factorised once", solver.factorizations == 3)?;
+    holds("each pattern is analysed once", solver.symbolic_factorizations == 2)
+}

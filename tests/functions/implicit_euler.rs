@@ -1,6 +1,6 @@
 //! To do: one step of implicit Euler by Newton's method. Read include-docs/implicit_euler.md.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 
 use finite_elements_3d::implicit_euler;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
@@ -225,15 +225,13 @@ fn a_step_of_an_elastic_body_minimises_its_energy() -> Outcome {
 
 #[test]
 fn a_free_body_keeps_its_momentum() -> Outcome {
-    let calls = Cell::new(0);
     for size in [1.0, 1e-2, 1e-3] {
         let mut body = FreeBody::new(size);
         let before = body.momentum();
         for _ in 0..100 {
             body.implicit_step(0.01);
-            calls.set(calls.get() + 1);
         }
         near("the momentum of a free body after 1 s", &body.momentum(), &before, 1e-12 * before.norm())?;
     }
-    holds("a hundred steps for each size", calls.get() == 300)
+    Ok(())
 }

@@ -39,3 +39,4 @@ mod phi_linear_tetrahedron;
 mod pick_nearest_vertices;
 mod psi_neo_hookean;
 mod quadrature_single_point;
+mod solution;

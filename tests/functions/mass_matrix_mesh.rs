@@ -1,10 +1,10 @@
 //! To do: the mass matrix of the whole mesh. Read include-docs/mass_matrix_mesh.md.
 
 use finite_elements_3d::{T_linear_tetrahedron, mass_matrix_linear_tetrahedron, mass_matrix_mesh};
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DMatrix, Vector3};
 
 use crate::meshes::{Mesh, stacked};
-use crate::outcome::{Outcome, for_all, near, near_number};
+use crate::outcome::{Outcome, for_all, holds, near, near_number};
 use crate::random::vector;
 
 const DENSITY: f64 = 800.0;
@@ -80,7 +80,6 @@ fn it_is_symmetric_and_positive_definite() -> Outcome {
     let mesh = Mesh::uneven_box([1, 1, 2], 1.0);
     let M = dense(3 * mesh.V.len(), &mesh.T, &mesh.v0);
     near("a mass matrix is symmetric", &M, &M.transpose(), 1e-14 * M.amax())?;
-    let is_positive = M.clone().cholesky().is_some();
-    crate::outcome::holds("where every vertex has an element, M is positive definite", is_positive)?;
-    near("M times a body at rest", &(&M * DVector::zeros(M.nrows())), &DVector::<f64>::zeros(M.nrows()), 0.0)
+    let is_positive = M.cholesky().is_some();
+    holds("where every vertex has an element, M is positive definite", is_positive)
 }

@@ -4,7 +4,7 @@ use finite_elements_3d::phi_linear_tetrahedron;
 use nalgebra::{Matrix3, Vector3, Vector4};
 
 use crate::meshes::{Tetrahedron, orders};
-use crate::outcome::{Outcome, for_all, holds, near, near_number};
+use crate::outcome::{Outcome, for_all, near, near_number};
 use crate::random::{tetrahedron, vector};
 
 fn phi(t: &Tetrahedron, x: &Vector3<f64>) -> Vector4<f64> {
@@ -14,7 +14,7 @@ fn phi(t: &Tetrahedron, x: &Vector3<f64>) -> Vector4<f64> {
 #[test]
 fn the_unit_tetrahedron_gives_one_minus_the_sum_and_the_coordinates() -> Outcome {
     let expected = Vector4::new(0.4, 0.1, 0.2, 0.3);
-    near("phi at (0.1, 0.2, 0.3)", &phi(&Tetrahedron::unit(), &Vector3::new(0.1, 0.2, 0.3)), &expected, 1e-15)
+    near("phi at (0.1, 0.2, 0.3)", &phi(&Tetrahedron::unit(), &Vector3::new(0.1, 0.2, 0.3)), &expected, 1e-14)
 }
 
 #[test]
@@ -26,7 +26,7 @@ fn a_tetrahedron_without_symmetry_agrees_with_a_calculation_by_hand() -> Outcome
     let (phi3, phi2) = (0.25, (1.0 - 0.25) / 3.0);
     let phi1 = (1.0 - phi2 - phi3) / 2.0;
     let expected = Vector4::new(1.0 - phi1 - phi2 - phi3, phi1, phi2, phi3);
-    near("edges belong into the columns of the matrix", &phi(&t, &x), &expected, 1e-15)
+    near("edges belong into the columns of the matrix", &phi(&t, &x), &expected, 1e-14)
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn blending_the_vertices_gives_the_point_back() -> Outcome {
 fn a_point_outside_keeps_its_negative_value() -> Outcome {
     let x = Vector3::new(-0.5, 2.0, 0.25);
     let expected = Vector4::new(-0.75, -0.5, 2.0, 0.25);
-    near("nothing is clamped outside the element", &phi(&Tetrahedron::unit(), &x), &expected, 1e-15)
+    near("nothing is clamped outside the element", &phi(&Tetrahedron::unit(), &x), &expected, 1e-14)
 }
 
 #[test]
@@ -73,9 +73,9 @@ fn on_faces_and_edges_the_functions_of_the_other_vertices_vanish() -> Outcome {
     let t = Tetrahedron::new([1, 5, 3, 8], &Matrix3::new(1.0, 0.5, 0.0, 0.0, 2.0, 0.5, 0.5, 0.0, 1.0), &Vector3::x());
     let X = t.X();
     let on_edge = phi(&t, &((X[1] + X[3]) / 2.0));
-    near("the middle of an edge", &on_edge, &Vector4::new(0.0, 0.5, 0.0, 0.5), 1e-15)?;
+    near("the middle of an edge", &on_edge, &Vector4::new(0.0, 0.5, 0.0, 0.5), 1e-14)?;
     let on_face = phi(&t, &((X[0] + X[1] + X[2] * 2.0) / 4.0));
-    near("a point on a face", &on_face, &Vector4::new(0.25, 0.25, 0.5, 0.0), 1e-15)
+    near("a point on a face", &on_face, &Vector4::new(0.25, 0.25, 0.5, 0.0), 1e-14)
 }
 
 #[test]
@@ -106,5 +106,5 @@ fn millimetres_and_kilometres_give_the_same_values() -> Outcome {
         let values = phi(&t, &(Vector3::new(0.1, 0.2, 0.3) * size));
         near("phi has no unit", &values, &Vector4::new(0.4, 0.1, 0.2, 0.3), 1e-14)?;
     }
-    holds("phi has four values", phi(&Tetrahedron::unit(), &Vector3::zeros()).len() == 4)
+    Ok(())
 }

@@ -6,10 +6,12 @@
 mod body;
 mod check;
 mod error;
+mod integrator;
 mod load;
 
 pub use body::{Body, body};
 pub use error::SceneError;
+pub use integrator::Integrator;
 pub use load::{load, names, parse};
 
 use std::path::PathBuf;
@@ -87,6 +89,7 @@ fn one() -> f64 {
 #[serde(deny_unknown_fields)]
 pub struct Cuboid {
     /// Edge lengths, m.
+    #[serde(deserialize_with = "load::three_numbers")]
     pub size: [f64; 3],
     /// Cubes per metre.
     pub cells_per_unit: usize,
@@ -150,6 +153,7 @@ pub struct Mass {
 #[serde(deny_unknown_fields)]
 pub struct Gravity {
     /// m/s²
+    #[serde(deserialize_with = "load::three_numbers")]
     pub acceleration: [f64; 3],
 }
 
@@ -195,54 +199,6 @@ pub struct Time {
     pub steps: Option<usize>,
 }
 
-/// Time integration methods, as scene files and the command line spell them.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-#[allow(missing_docs)] // the names are the field's
-pub enum Integrator {
-    ExplicitEuler,
-    SemiImplicitEuler,
-    Rk2,
-    Rk4,
-    Verlet,
-    LinearlyImplicitEuler,
-    ImplicitEuler,
-    Static,
-}
-
-impl Integrator {
-    /// All of them.
-    pub const ALL: [Self; 8] = [
-        Self::ExplicitEuler,
-        Self::SemiImplicitEuler,
-        Self::Rk2,
-        Self::Rk4,
-        Self::Verlet,
-        Self::LinearlyImplicitEuler,
-        Self::ImplicitEuler,
-        Self::Static,
-    ];
-
-    /// The name as scene files spell it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ExplicitEuler => "explicit_euler",
-            Self::SemiImplicitEuler => "semi_implicit_euler",
-            Self::Rk2 => "rk2",
-            Self::Rk4 => "rk4",
-            Self::Verlet => "verlet",
-            Self::LinearlyImplicitEuler => "linearly_implicit_euler",
-            Self::ImplicitEuler => "implicit_euler",
-            Self::Static => "static",
-        }
-    }
-
-    /// The method of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|integrator| integrator.name() == name)
-    }
-}
-
 /// `[newton]`
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
@@ -283,6 +239,7 @@ pub struct Drag {
     /// N/m
     pub stiffness: f64,
     /// Taken as it is, not normalised.
+    #[serde(deserialize_with = "load::three_numbers")]
     pub direction: [f64; 3],
     /// m
     pub amplitude: f64,

@@ -43,9 +43,7 @@ pub trait Simulation: Send {
     fn min_J(&self) -> (f64, usize);
 
     /// Cauchy stress of each element now, Pa.
-    fn stresses(&self) -> Vec<Matrix3<f64>> {
-        Vec::new()
-    }
+    fn stresses(&self) -> Vec<Matrix3<f64>>;
 
     /// Name of the integrator in use, as scene files spell it.
     fn integrator(&self) -> &'static str;

@@ -26,7 +26,7 @@ fn check_positive(field: &'static str, value: f64, unit: &str) -> Result<(), Pro
     if value > 0.0 && value.is_finite() {
         return Ok(());
     }
-    problem(field, format!("is {value}; give a positive number of {unit}"))
+    problem(field, format!("is {value}; give a positive number{unit}"))
 }
 
 fn check_finite(field: &'static str, values: &[f64]) -> Result<(), Problem> {
@@ -36,8 +36,17 @@ fn check_finite(field: &'static str, values: &[f64]) -> Result<(), Problem> {
     }
 }
 
+/// Finite, and so is its length.
+fn check_vector(field: &'static str, vector: &[f64; 3]) -> Result<(), Problem> {
+    check_finite(field, vector)?;
+    if vector.iter().map(|x| x * x).sum::<f64>().is_finite() {
+        return Ok(());
+    }
+    problem(field, "is too long to compute with; give a shorter vector")
+}
+
 fn check_mesh(mesh: &MeshTable) -> Result<(), Problem> {
-    check_positive("mesh.scale", mesh.scale, "no unit")?;
+    check_positive("mesh.scale", mesh.scale, "")?;
     match (&mesh.file, &mesh.cuboid) {
         (Some(_), Some(_)) => problem("mesh.box", "stands beside `file`; keep one of the two"),
         (None, None) => problem("mesh", "names no tetrahedra; give it `file` or `box`"),
@@ -46,17 +55,17 @@ fn check_mesh(mesh: &MeshTable) -> Result<(), Problem> {
 }
 
 fn check_material(material: &Material) -> Result<(), Problem> {
-    check_positive("material.density", material.density, "kg/m³")?;
+    check_positive("material.density", material.density, " of kg/m³")?;
     match (material.c, material.d, material.young, material.poisson) {
         (Some(C), Some(D), None, None) => {
             if material.model != Model::NeoHookean {
                 return problem("material.C", "and D belong to neo_hookean; give this model young and poisson");
             }
-            check_positive("material.C", C, "Pa")?;
-            check_positive("material.D", D, "Pa")
+            check_positive("material.C", C, " of Pa")?;
+            check_positive("material.D", D, " of Pa")
         }
         (None, None, Some(young), Some(poisson)) => {
-            check_positive("material.young", young, "Pa")?;
+            check_positive("material.young", young, " of Pa")?;
             if poisson > -1.0 && poisson < 0.5 {
                 return Ok(());
             }
@@ -67,12 +76,12 @@ fn check_material(material: &Material) -> Result<(), Problem> {
 }
 
 fn check_time(time: &Time) -> Result<(), Problem> {
-    check_positive("time.dt", time.dt, "seconds")?;
+    check_positive("time.dt", time.dt, " of seconds")?;
     if time.steps == Some(0) { problem("time.steps", "is 0; give at least one step") } else { Ok(()) }
 }
 
 fn check_gravity(gravity: &Gravity) -> Result<(), Problem> {
-    check_finite("gravity.acceleration", &gravity.acceleration)
+    check_vector("gravity.acceleration", &gravity.acceleration)
 }
 
 fn check_fixed(fixed: &Fixed) -> Result<(), Problem> {
@@ -90,16 +99,16 @@ fn check_newton(newton: &Newton) -> Result<(), Problem> {
     if newton.max_iterations == Some(0) {
         return problem("newton.max_iterations", "is 0; give at least one iteration");
     }
-    newton.tolerance.map_or(Ok(()), |tolerance| check_positive("newton.tolerance", tolerance, "no unit"))
+    newton.tolerance.map_or(Ok(()), |tolerance| check_positive("newton.tolerance", tolerance, ""))
 }
 
 fn check_solver(solver: &Solver) -> Result<(), Problem> {
-    solver.tolerance.map_or(Ok(()), |tolerance| check_positive("solver.tolerance", tolerance, "no unit"))
+    solver.tolerance.map_or(Ok(()), |tolerance| check_positive("solver.tolerance", tolerance, ""))
 }
 
 fn check_drag(drag: &Drag) -> Result<(), Problem> {
-    check_positive("drag.stiffness", drag.stiffness, "N/m")?;
-    check_finite("drag.direction", &drag.direction)?;
+    check_positive("drag.stiffness", drag.stiffness, " of N/m")?;
+    check_vector("drag.direction", &drag.direction)?;
     if drag.direction == [0.0; 3] {
         return problem("drag.direction", "is zero; give the direction of the pull");
     }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::de::{Error, Visitor};
+use serde::de::{Deserialize, Deserializer, Error, Visitor};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -101,4 +101,10 @@ impl Visitor<'_> for DragVertexVisitor {
         let valid = usize::try_from(index).map(DragVertex::Index);
         valid.map_err(|_| E::invalid_value(serde::de::Unexpected::Signed(index), &self))
     }
+}
+
+/// Reads a vector. Serde's own arrays would let further numbers pass unnoticed.
+pub(super) fn three_numbers<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {
+    let numbers = Vec::<f64>::deserialize(deserializer)?;
+    <[f64; 3]>::try_from(numbers).map_err(|numbers| D::Error::invalid_length(numbers.len(), &"three numbers"))
 }

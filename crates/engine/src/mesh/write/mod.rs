@@ -42,21 +42,28 @@ pub fn write_surface(path: &Path, mesh: &SurfaceMesh) -> Result<(), MeshError> {
     }
 }
 
-/// Writes to a name of its own in the same folder, then gives the file its name in one step.
+/// Writes to a name of its own in the same folder, then gives the file its name in one step. A link stays a link, to a new
+/// file; a device or pipe is written to as it is.
 pub(crate) fn save(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), MeshError> {
-    let unfinished = unfinished_name(path);
-    let result = write_all(&unfinished, write).and_then(|()| fs::rename(&unfinished, path));
+    let unwritable = |error: io::Error| MeshError::in_file(path, Problem::Unwritable { reason: error.to_string() });
+    if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
+        return write_all(path, write).map(drop).map_err(unwritable);
+    }
+    let target = fs::canonicalize(path).unwrap_or(path.to_owned());
+    let unfinished = unfinished_name(&target);
+    let result =
+        write_all(&unfinished, write).and_then(|file| file.sync_all()).and_then(|()| fs::rename(&unfinished, target));
     result.map_err(|error| {
         // there may be none; the first error is the one to tell
         let _ = fs::remove_file(&unfinished);
-        MeshError::in_file(path, Problem::Unwritable { reason: error.to_string() })
+        unwritable(error)
     })
 }
 
-fn write_all(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+fn write_all(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<File> {
     let mut out = BufWriter::new(File::create(path)?);
     write(&mut out)?;
-    out.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
+    out.into_inner().map_err(io::IntoInnerError::into_error)
 }
 
 /// Differs between processes and between calls, so that no two writers meet in one file.

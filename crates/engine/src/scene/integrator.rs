@@ -1,0 +1,51 @@
+//! The names of time integration methods.
+
+use serde::Deserialize;
+
+/// Time integration methods, as scene files and the command line spell them.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs)] // the names are the field's
+pub enum Integrator {
+    ExplicitEuler,
+    SemiImplicitEuler,
+    Rk2,
+    Rk4,
+    Verlet,
+    LinearlyImplicitEuler,
+    ImplicitEuler,
+    Static,
+}
+
+impl Integrator {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::ExplicitEuler,
+        Self::SemiImplicitEuler,
+        Self::Rk2,
+        Self::Rk4,
+        Self::Verlet,
+        Self::LinearlyImplicitEuler,
+        Self::ImplicitEuler,
+        Self::Static,
+    ];
+
+    /// The name as scene files spell it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ExplicitEuler => "explicit_euler",
+            Self::SemiImplicitEuler => "semi_implicit_euler",
+            Self::Rk2 => "rk2",
+            Self::Rk4 => "rk4",
+            Self::Verlet => "verlet",
+            Self::LinearlyImplicitEuler => "linearly_implicit_euler",
+            Self::ImplicitEuler => "implicit_euler",
+            Self::Static => "static",
+        }
+    }
+
+    /// The method of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|integrator| integrator.name() == name)
+    }
+}

@@ -1,0 +1,94 @@
+//! Energy: who may gain it, and from where.
+
+use fem_engine::scene::{Integrator, Scene, body};
+use fem_engine::simulation::Simulation;
+use nalgebra::Vector3;
+
+use crate::program::{data, shipped_scenes};
+use crate::scene_text::{INTEGRATORS, build, shipped};
+
+const STEPS: usize = 60;
+
+fn with(mut scene: Scene, integrator: Integrator) -> Scene {
+    scene.time.integrator = integrator;
+    scene
+}
+
+#[test]
+fn a_body_without_gravity_and_drag_stays_at_rest() {
+    for (name, integrator) in every_scene_and_integrator() {
+        let mut scene = with(shipped(&name), integrator);
+        (scene.gravity, scene.drag) = (None, None);
+        let mut simulation = build(&scene);
+        let rest = simulation.positions();
+        (0..20).for_each(|_| simulation.step().unwrap());
+        let moved = (simulation.positions() - &rest).amax();
+        assert!(moved <= 1e-14 * rest.amax(), "{name}, {}: moved by {moved} m", integrator.name());
+    }
+}
+
+#[test]
+fn under_gravity_alone_implicit_euler_never_gains_energy() {
+    for name in shipped_scenes() {
+        let mut scene = with(shipped(&name), Integrator::ImplicitEuler);
+        scene.drag = None;
+        let mut simulation = build(&scene);
+        let mut before = simulation.energies().total();
+        for step in 1..=STEPS {
+            simulation.step().unwrap();
+            let energies = simulation.energies();
+            let rounding = 1e-12 * (energies.kinetic + energies.potential.abs());
+            assert!(energies.total() <= before + rounding, "{name}: {before} J, then {energies:?} in step {step}");
+            before = energies.total();
+        }
+        assert!(before < 0.0, "{name}: nothing has sagged");
+    }
+}
+
+#[test]
+fn implicit_euler_never_has_more_energy_than_the_drag_has_put_in() {
+    for name in shipped_scenes() {
+        assert_gains_no_more_than_work(&with(shipped(&name), Integrator::ImplicitEuler));
+    }
+}
+
+/// When the target jumps to where it will be at the end of a step, the spring's energy changes by the work of the drag; the step
+/// itself can only lose energy.
+fn assert_gains_no_more_than_work(scene: &Scene) {
+    let drag = scene.drag.clone().unwrap();
+    let dragged = body(scene, &data()).unwrap().dragged.unwrap();
+    let mut simulation = build(scene);
+    let rest = simulation.shape().mesh.vertices[dragged];
+    let spring = |x: &Vector3<f64>, time: f64| {
+        let swing = drag.amplitude * (std::f64::consts::TAU * drag.frequency * time).sin();
+        0.5 * drag.stiffness * (x - rest - Vector3::from(drag.direction) * swing).norm_squared()
+    };
+    let mut work = 0.0;
+    for step in 1..=STEPS {
+        let x = Vector3::from_column_slice(&simulation.positions().as_slice()[3 * dragged..3 * dragged + 3]);
+        let t = simulation.time();
+        work += spring(&x, t + simulation.dt()) - spring(&x, t);
+        simulation.step().unwrap();
+        let total = simulation.energies().total();
+        assert!(total <= work + 1e-9 * work.abs(), "{}: {total} J from {work} J in step {step}", scene.name);
+    }
+    assert!(work > 0.0);
+}
+
+#[test]
+fn a_steady_body_under_gravity_has_come_to_rest_below_where_it_began() {
+    for integrator in INTEGRATORS {
+        let mut scene = with(shipped("bunny"), integrator);
+        scene.drag = None;
+        scene.time.dt = 0.1;
+        let mut simulation = build(&scene);
+        (0..100).for_each(|_| simulation.step().unwrap());
+        let energies = simulation.energies();
+        assert!(energies.kinetic < 1e-9 && energies.potential < 0.0, "{}: {energies:?}", integrator.name());
+    }
+}
+
+fn every_scene_and_integrator() -> Vec<(String, Integrator)> {
+    let pair = |name: String| INTEGRATORS.map(|integrator| (name.clone(), integrator));
+    shipped_scenes().into_iter().flat_map(pair).collect()
+}

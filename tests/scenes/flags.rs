@@ -1,0 +1,125 @@
+//! Options that override a scene, and those that tell about it.
+
+use crate::program::{Desk, data, shipped_scenes};
+use crate::scene_text::{CUBE, edit, shipped};
+
+#[test]
+fn without_a_scene_the_bunny_runs() {
+    let outcome = Desk::new().run_well("--headless --steps 1");
+    assert!(outcome.stdout.starts_with("bunny, linearly_implicit_euler: 1 steps"), "{}", outcome.stdout);
+}
+
+#[test]
+fn the_options_override_time_step_steps_and_integrator() {
+    let desk = Desk::with("cube.toml", CUBE);
+    let outcome = desk.run_well("cube.toml --headless --dt 0.25e-2 --steps 7 --integrator linearly_implicit_euler");
+    assert!(outcome.stdout.starts_with("cube, linearly_implicit_euler: 7 steps to t = 0.0175 s"), "{}", outcome.stdout);
+}
+
+#[test]
+fn an_override_gives_the_same_motion_as_the_number_in_the_scene() {
+    let desk = Desk::with("cube.toml", CUBE);
+    desk.write("other.toml", edit(CUBE, "dt = 0.01", "dt = 0.003"));
+    desk.run_well("cube.toml --headless --dt 0.003 --state flag.json");
+    desk.run_well("other.toml --headless --state scene.json");
+    assert_eq!(desk.read("flag.json"), desk.read("scene.json"));
+}
+
+#[test]
+fn a_scene_runs_for_its_own_number_of_steps_or_for_100() {
+    let desk = Desk::with("cube.toml", CUBE);
+    assert!(desk.run_well("cube.toml --headless").stdout.contains(": 4 steps to t = 0.0400 s"));
+    desk.write("cube.toml", edit(CUBE, "steps = 4\n", ""));
+    assert!(desk.run_well("cube.toml --headless").stdout.contains(": 100 steps to t = 1.0000 s"));
+}
+
+#[test]
+fn options_may_stand_before_the_scene() {
+    let desk = Desk::with("cube.toml", CUBE);
+    assert!(desk.run_well("--headless --steps 2 cube.toml").stdout.starts_with("cube, implicit_euler: 2 steps"));
+}
+
+// Elsewhere than on Linux a window needs no variable that could be taken away.
+#[cfg(any(target_os = "linux", not(feature = "viewer")))]
+#[test]
+fn where_no_window_can_open_the_scene_runs_without_one_and_one_line_says_so() {
+    let desk = Desk::with("cube.toml", CUBE);
+    let outcome = desk.run("cube.toml");
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    assert_eq!(outcome.stderr.lines().count(), 1, "{}", outcome.stderr);
+    assert!(outcome.stderr.starts_with("no window (") && outcome.stderr.contains("--headless"), "{}", outcome.stderr);
+    assert!(outcome.stdout.starts_with("cube, "), "{}", outcome.stdout);
+}
+
+#[test]
+fn a_scene_in_the_current_folder_is_found_by_its_path_and_one_in_its_data_by_its_name() {
+    let desk = Desk::with("data/scenes/mine.toml", CUBE);
+    assert!(desk.run_well("mine --headless").stdout.starts_with("mine, "));
+    assert!(desk.run_well("./data/scenes/mine.toml --headless").stdout.starts_with("mine, "));
+    assert!(desk.run_well("list").stdout.starts_with("mine "));
+}
+
+#[test]
+fn explain_tells_every_part_with_its_reason_and_takes_no_step() {
+    for name in shipped_scenes() {
+        let desk = Desk::new();
+        let text = desk.run_well(&format!("{name} --explain --headless --state q.json")).stdout;
+        assert!(!desk.path("q.json").exists(), "{name} has run");
+        assert!(text.contains(&shipped(&name).about), "{text}");
+        let parts =
+            ["mesh", "mass", "gravity", "fixed", "drag", "skinning", "forces", "stiffness", "solver", "line_search"];
+        for part in parts {
+            let line = text.lines().find(|line| line.split_whitespace().any(|word| word == part));
+            let line = line.unwrap_or_else(|| panic!("no line about {part}:\n{text}"));
+            assert!(line.contains("builds ") || line.contains("leaves out "), "{line}");
+        }
+    }
+}
+
+#[test]
+fn explain_tells_what_a_scene_leaves_out() {
+    let desk = Desk::with("cube.toml", crate::scene_text::free_cube());
+    let text = desk.run_well("cube.toml --explain --integrator linearly_implicit_euler").stdout;
+    let left_out: Vec<_> = text.lines().filter_map(|line| line.trim_start().strip_prefix("leaves out ")).collect();
+    let names: Vec<_> = left_out.iter().map(|line| line.split_whitespace().next().unwrap()).collect();
+    assert_eq!(names, ["gravity", "fixed", "drag", "skinning", "line_search"], "{text}");
+}
+
+#[test]
+fn the_list_has_one_line_for_each_scene() {
+    let text = Desk::new().run_well("list").stdout;
+    let first_words: Vec<_> = text.lines().map(|line| line.split_whitespace().next().unwrap()).collect();
+    assert_eq!(first_words, shipped_scenes());
+    for (line, name) in text.lines().zip(shipped_scenes()) {
+        assert!(line.contains(&shipped(&name).about) && line.ends_with(']') && line.contains("[mesh, mass"), "{line}");
+    }
+}
+
+#[test]
+fn help_and_version_are_results_not_errors() {
+    let desk = Desk::new();
+    assert!(desk.run_well("--help").stdout.contains("Exit codes: 0 done"));
+    assert!(desk.run_well("--version").stdout.contains(env!("CARGO_PKG_VERSION")));
+    assert!(desk.run_well("mesh --help").stdout.contains("convert"));
+}
+
+#[test]
+fn the_data_of_the_repository_is_found_from_any_folder() {
+    assert!(data().join("scenes").is_dir());
+    assert_eq!(Desk::new().run_well("arma --headless --steps 1 --export a.obj").code, Some(0));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_output_file_never_takes_the_place_of_a_link_or_a_device() {
+    use std::os::unix::fs::FileTypeExt;
+
+    let desk = Desk::with("cube.toml", CUBE);
+    desk.write("target.json", "old");
+    std::os::unix::fs::symlink(desk.path("target.json"), desk.path("link.json")).unwrap();
+    desk.run_well("cube.toml --headless --steps 1 --state link.json");
+    assert!(desk.path("link.json").is_symlink(), "the link has become a file");
+    assert!(desk.json("target.json")["q"].is_array(), "the link's target holds the state");
+    desk.run_well("cube.toml --headless --steps 1 --state /dev/null");
+    assert!(std::fs::metadata("/dev/null").unwrap().file_type().is_char_device(), "/dev/null has become a file");
+}

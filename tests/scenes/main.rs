@@ -1,0 +1,27 @@
+//! The scenes: each shipped one runs, moves as mechanics says, and leaves files behind that others can read; whatever cannot
+//! be used is refused in one message.
+//!
+//! `cargo test --no-default-features --features demo --test scenes` runs them without the window.
+
+#![allow(non_snake_case)] // V, T, F, J, C and D are the names that the mathematics and the course use
+
+mod bad_arguments;
+mod bad_meshes;
+mod bad_scenes;
+mod driving;
+mod energies;
+mod exports;
+mod flags;
+mod freedom;
+mod mesh_command;
+mod momentum;
+mod moral;
+mod one_step;
+mod program;
+mod pulling;
+mod reference;
+mod scene_text;
+mod shipped;
+mod skinning;
+mod statistics;
+mod unusual;

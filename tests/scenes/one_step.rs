@@ -1,0 +1,83 @@
+//! The whole step against one that is implemented a second time, in another way.
+
+use fem_engine::scene::{Scene, body};
+use fem_engine::simulation::Simulation;
+use nalgebra::{DVector, Vector3};
+
+use crate::program::data;
+use crate::reference::{Model, Spring};
+use crate::scene_text::{CUBE, build, edit, free_cube, parse};
+
+fn model_of(scene: &Scene) -> Model {
+    let body = body(scene, &data()).unwrap();
+    let (C, D) = scene.material.neo_hookean().unwrap();
+    Model {
+        V: body.shape.mesh.vertices,
+        T: body.shape.mesh.elements,
+        C,
+        D,
+        density: scene.material.density,
+        gravity: scene.gravity.as_ref().map_or(Vector3::zeros(), |gravity| gravity.acceleration.into()),
+        fixed: body.fixed.unwrap_or_default(),
+    }
+}
+
+fn springs_at(scene: &Scene, time: f64, model: &Model) -> Vec<Spring> {
+    let spring = |drag: &fem_engine::scene::Drag| {
+        let node = body(scene, &data()).unwrap().dragged.unwrap();
+        let swing = drag.amplitude * (std::f64::consts::TAU * drag.frequency * time).sin();
+        let target = model.V[node] + Vector3::from(drag.direction) * swing;
+        Spring { node, stiffness: drag.stiffness, target }
+    };
+    scene.drag.as_ref().map(spring).into_iter().collect()
+}
+
+/// Steps both and compares positions and velocities after each step.
+fn assert_agrees(text: &str, steps: usize) {
+    let scene = parse(text);
+    let (model, mut simulation) = (model_of(&scene), build(&scene));
+    let (mut q, mut v) = (simulation.positions(), DVector::zeros(3 * model.V.len()));
+    for step in 1..=steps {
+        model.step(&mut q, &mut v, scene.time.dt, &springs_at(&scene, step as f64 * scene.time.dt, &model));
+        simulation.step().unwrap();
+        let apart = (simulation.positions() - &q).amax();
+        assert!(apart <= 1e-8 * q.amax(), "step {step}: {apart:e} m apart");
+        let apart = (simulation.velocities() - &v).amax();
+        assert!(apart <= 1e-8 * v.amax() + 1e-8 / scene.time.dt * q.amax(), "step {step}: {apart:e} m/s apart");
+        assert!((&q - simulation.positions()).amax() < 1e-3 * (&q - rest(&model)).amax(), "nothing has moved");
+    }
+}
+
+fn rest(model: &Model) -> DVector<f64> {
+    DVector::from_fn(3 * model.V.len(), |i, _| model.V[i / 3][i % 3])
+}
+
+fn small(text: &str) -> String {
+    edit(text, "cells_per_unit = 2", "cells_per_unit = 1")
+}
+
+#[test]
+fn a_cube_of_six_elements_under_weight_and_drag_moves_as_the_reference_says() {
+    assert_agrees(&edit(&small(CUBE), "vertex = \"highest\"", "vertex = 7"), 8);
+}
+
+#[test]
+fn a_free_cube_that_is_pulled_by_a_corner_moves_as_the_reference_says() {
+    let drag = "[drag]\nvertex = 7\nstiffness = 1e5\ndirection = [1, 0.5, -0.2]\namplitude = 0.2\nfrequency = 1.0\n";
+    assert_agrees(&format!("{}{drag}", small(&free_cube())), 8);
+}
+
+#[test]
+fn a_cube_of_given_young_and_poisson_moves_as_the_reference_says() {
+    let text = edit(&small(CUBE), "C = 1e5\nD = 4e5\n", "young = 3e5\npoisson = 0.3\n");
+    assert_agrees(&edit(&text, "vertex = \"highest\"", "vertex = 6"), 5);
+}
+
+#[test]
+fn a_small_cube_moves_as_the_reference_says() {
+    // A centimetre: a tolerance in metres or newtons would show here.
+    let text = edit(&small(CUBE), "[material]", "scale = 0.01\n[material]");
+    let text = edit(&edit(&text, "stiffness = 1e5", "stiffness = 1e2"), "amplitude = 0.2", "amplitude = 0.002");
+    let text = edit(&edit(&text, "below = 0.1", "below = 0.001"), "dt = 0.01", "dt = 0.001");
+    assert_agrees(&edit(&text, "vertex = \"highest\"", "vertex = 7"), 5);
+}

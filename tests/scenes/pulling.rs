@@ -1,0 +1,120 @@
+//! Fixed nodes and pulled ones.
+
+use fem_engine::scene::body;
+use fem_engine::simulation::{Pull, Simulation};
+use nalgebra::{DVector, Vector3};
+
+use crate::program::{data, shipped_scenes};
+use crate::scene_text::{CUBE, INTEGRATORS, build, build_with, edit, free_cube, shipped};
+
+fn node(q: &DVector<f64>, node: usize) -> Vector3<f64> {
+    Vector3::new(q[3 * node], q[3 * node + 1], q[3 * node + 2])
+}
+
+#[test]
+fn fixed_nodes_never_move_by_a_single_bit() {
+    for name in shipped_scenes() {
+        let scene = shipped(&name);
+        let fixed = body(&scene, &data()).unwrap().fixed.unwrap();
+        assert!(!fixed.is_empty(), "{name} fixes no node");
+        for integrator in INTEGRATORS {
+            let mut scene = scene.clone();
+            scene.time.integrator = integrator;
+            let mut simulation = build(&scene);
+            for _ in 0..10 {
+                simulation.step().unwrap();
+                let (q, v) = (simulation.positions(), simulation.velocities());
+                for &i in &fixed {
+                    assert_eq!(node(&q, i), simulation.shape().mesh.vertices[i], "{name}: node {i}");
+                    assert_eq!(node(&v, i), Vector3::zeros(), "{name}: node {i}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_very_stiff_drag_puts_its_node_where_the_target_is_at_the_end_of_the_step() {
+    let text = edit(CUBE, "stiffness = 1e5", "stiffness = 1e13");
+    let text = edit(&text, "vertex = \"highest\"", "vertex = 26");
+    let text =
+        edit(&edit(&text, "direction = [1, 0, 0]", "direction = [0.5, 0, 1]"), "amplitude = 0.2", "amplitude = 0.1");
+    for integrator in INTEGRATORS {
+        let mut simulation = build_with(&text, integrator);
+        let rest = simulation.shape().mesh.vertices[26];
+        for step in 1..=20 {
+            simulation.step().unwrap();
+            let swing = 0.1 * (std::f64::consts::TAU * 1.0 * 0.01 * f64::from(step)).sin();
+            let target = rest + Vector3::new(0.5, 0.0, 1.0) * swing;
+            let distance = (node(&simulation.positions(), 26) - target).norm();
+            // Some 1e4 N from the body stretch the spring by some 1e-9 m.
+            assert!(distance < 1e-7, "{}: {distance} m in step {step}", integrator.name());
+        }
+    }
+}
+
+#[test]
+fn the_dragged_node_stays_as_near_to_its_target_as_the_energy_of_the_spring_allows() {
+    for name in shipped_scenes() {
+        let scene = shipped(&name);
+        let (drag, dragged) = (scene.drag.clone().unwrap(), body(&scene, &data()).unwrap().dragged.unwrap());
+        let mut simulation = build(&scene);
+        let rest = simulation.shape().mesh.vertices[dragged];
+        let mut farthest: f64 = 0.0;
+        for _ in 0..50 {
+            simulation.step().unwrap();
+            let swing = drag.amplitude * (std::f64::consts::TAU * drag.frequency * simulation.time()).sin();
+            let target = rest + Vector3::from(drag.direction) * swing;
+            farthest = farthest.max((node(&simulation.positions(), dragged) - target).norm());
+        }
+        assert!(farthest < 0.5 * drag.amplitude, "{name}: {farthest} m behind");
+    }
+}
+
+#[test]
+fn a_hand_replaces_the_scripted_drag_and_letting_go_brings_it_back() {
+    for integrator in INTEGRATORS {
+        let (mut held, mut alone) = (build_with(CUBE, integrator), build_with(CUBE, integrator));
+        held.pull(Some(Pull { anchors: vec![], offset: Vector3::zeros() }));
+        held.pull(None);
+        for _ in 0..3 {
+            held.step().unwrap();
+            alone.step().unwrap();
+        }
+        assert_eq!(held.positions(), alone.positions(), "{}", integrator.name());
+
+        // A hand that holds nothing leaves the cube to its weight alone, which pulls no node along x.
+        held.reset();
+        held.pull(Some(Pull { anchors: vec![], offset: Vector3::zeros() }));
+        (0..3).for_each(|_| held.step().unwrap());
+        assert!((0..3).all(|_| alone.step().is_ok()));
+        let sideways = |q: &DVector<f64>| q[3 * 26] - 1.0;
+        assert!(sideways(&alone.positions()).abs() > sideways(&held.positions()).abs());
+    }
+}
+
+#[test]
+fn a_hand_pulls_the_nodes_that_it_holds_towards_itself() {
+    for integrator in INTEGRATORS {
+        let mut simulation = build_with(&free_cube(), integrator);
+        let place = simulation.shape().mesh.vertices[13];
+        simulation.pull(Some(Pull { anchors: vec![(13, place)], offset: Vector3::new(0.0, 0.0, 0.1) }));
+        simulation.set_parameter("drag", 1e8).unwrap();
+        simulation.step().unwrap();
+        let moved = node(&simulation.positions(), 13) - place;
+        assert!((moved - Vector3::new(0.0, 0.0, 0.1)).norm() < 2e-3, "{}: {moved}", integrator.name());
+    }
+}
+
+#[test]
+fn several_nodes_can_be_held_at_once() {
+    let mut simulation = build_with(&free_cube(), INTEGRATORS[1]);
+    let V = simulation.shape().mesh.vertices.clone();
+    simulation.pull(Some(Pull { anchors: vec![(0, V[0]), (26, V[26])], offset: Vector3::x() * 0.01 }));
+    simulation.set_parameter("drag", 1e8).unwrap();
+    simulation.step().unwrap();
+    let q = simulation.positions();
+    for i in [0, 26] {
+        assert!((node(&q, i) - V[i] - Vector3::x() * 0.01).norm() < 1e-3, "node {i} is at {}", node(&q, i));
+    }
+}

@@ -1,0 +1,142 @@
+//! `--stats`: its keys are promised, and its counts prove what a scene builds and what it leaves out.
+
+use fem_engine::simulation::Simulation;
+use serde_json::Value;
+
+use crate::program::{Desk, shipped_scenes};
+use crate::scene_text::{CUBE, build, edit, shipped, without};
+
+const KEYS: [&str; 19] = [
+    "scene",
+    "status",
+    "nodes",
+    "elements",
+    "steps",
+    "seconds_setup",
+    "seconds_per_step_median",
+    "seconds_per_step_p95",
+    "newton_iterations",
+    "factorizations",
+    "symbolic_factorizations",
+    "stiffness_assemblies",
+    "energy_evaluations",
+    "line_search_backtracks",
+    "projections",
+    "skinning_rows",
+    "peak_memory_bytes",
+    "min_J",
+    "parts",
+];
+
+const STEPS: usize = 6;
+
+fn stats_of(desk: &Desk, arguments: &str) -> Value {
+    desk.run_well(&format!("{arguments} --headless --stats s.json"));
+    desk.json("s.json")
+}
+
+fn count(stats: &Value, key: &str) -> usize {
+    stats[key].as_u64().unwrap_or_else(|| panic!("{key} is {}", stats[key])) as usize
+}
+
+fn parts(stats: &Value) -> Vec<String> {
+    let mut names: Vec<_> = stats["parts"].as_object().unwrap().keys().cloned().collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn the_statistics_of_every_shipped_scene_have_the_promised_keys_and_sound_values() {
+    for name in shipped_scenes() {
+        let desk = Desk::new();
+        let stats = stats_of(&desk, &format!("{name} --steps {STEPS}"));
+        let (mut found, mut promised): (Vec<_>, _) = (stats.as_object().unwrap().keys().collect(), KEYS);
+        found.sort();
+        promised.sort();
+        assert_eq!(found, promised, "{name}");
+
+        let mesh = &build(&shipped(&name)).shape().mesh;
+        assert_eq!((&stats["scene"], &stats["status"]), (&name.clone().into(), &"done".into()));
+        assert_eq!((count(&stats, "nodes"), count(&stats, "elements")), (mesh.vertices.len(), mesh.elements.len()));
+        assert_eq!((count(&stats, "steps"), count(&stats, "symbolic_factorizations")), (STEPS, 1), "{name}");
+        let seconds = |key: &str| stats[key].as_f64().unwrap();
+        assert!(seconds("seconds_setup") > 0.0 && seconds("seconds_per_step_median") > 0.0, "{name}");
+        assert!(seconds("seconds_per_step_p95") >= seconds("seconds_per_step_median"), "{name}");
+        assert!((0.0..=1.0).contains(&stats["min_J"].as_f64().unwrap()), "{name}: min_J is {}", stats["min_J"]);
+        if cfg!(target_os = "linux") {
+            assert!(count(&stats, "peak_memory_bytes") > 1_000_000, "{name}");
+        }
+    }
+}
+
+#[test]
+fn linearly_implicit_euler_assembles_and_solves_once_a_step_and_evaluates_no_energy() {
+    for name in shipped_scenes() {
+        let stats = stats_of(&Desk::new(), &format!("{name} --steps {STEPS} --integrator linearly_implicit_euler"));
+        for key in ["energy_evaluations", "line_search_backtracks", "newton_iterations"] {
+            assert_eq!(count(&stats, key), 0, "{name}: {key}");
+        }
+        assert_eq!(count(&stats, "stiffness_assemblies"), STEPS, "{name}");
+        assert_eq!(count(&stats, "factorizations"), STEPS, "{name}");
+        assert_eq!(count(&stats, "projections"), STEPS * count(&stats, "elements"), "{name}");
+        assert!(!parts(&stats).contains(&"line_search".to_owned()), "{name}");
+    }
+}
+
+#[test]
+fn implicit_euler_counts_its_iterations_energies_and_assemblies() {
+    for name in shipped_scenes() {
+        let stats = stats_of(&Desk::new(), &format!("{name} --steps {STEPS} --integrator implicit_euler"));
+        let iterations = count(&stats, "newton_iterations");
+        assert!((STEPS..=5 * STEPS).contains(&iterations), "{name}: {iterations} iterations");
+        let assemblies = count(&stats, "stiffness_assemblies");
+        assert!((STEPS..=iterations).contains(&assemblies), "{name}: {assemblies} assemblies");
+        assert_eq!(count(&stats, "projections"), assemblies * count(&stats, "elements"), "{name}");
+        assert!((assemblies..=2 * iterations).contains(&count(&stats, "factorizations")), "{name}");
+        // One energy where a step starts or two, and one for each trial of a line search.
+        let energies = count(&stats, "energy_evaluations");
+        let trials = iterations + count(&stats, "line_search_backtracks");
+        assert!((trials + STEPS..=trials + 2 * STEPS).contains(&energies), "{name}: {energies} energies");
+        assert!(parts(&stats).contains(&"line_search".to_owned()), "{name}");
+    }
+}
+
+#[test]
+fn a_part_that_a_scene_leaves_out_has_no_key() {
+    let surface = "v 0.2 0.2 0.5\nv 0.8 0.2 0.5\nv 0.5 0.8 0.5\nf 1 2 3\n";
+    let full = edit(CUBE, "[mesh]\n", "[mesh]\ndisplay = \"surface.obj\"\n");
+    let variants = [
+        ("", full.clone()),
+        ("gravity", without(&full, "gravity")),
+        ("fixed", without(&full, "fixed")),
+        ("drag", without(&full, "drag")),
+        ("skinning", CUBE.to_owned()),
+        ("line_search", edit(&full, "\"implicit_euler\"", "\"linearly_implicit_euler\"")),
+    ];
+    let all = ["drag", "fixed", "forces", "gravity", "line_search", "mass", "mesh", "skinning", "solver", "stiffness"];
+    for (missing, text) in variants {
+        let desk = Desk::with("cube.toml", text);
+        desk.write("surface.obj", surface);
+        let stats = stats_of(&desk, "cube.toml");
+        let expected: Vec<_> = all.into_iter().filter(|part| *part != missing).collect();
+        assert_eq!(parts(&stats), expected, "without {missing}");
+        for (part, cost) in stats["parts"].as_object().unwrap() {
+            assert!(cost["bytes"].is_u64() && cost["seconds"].as_f64().unwrap() >= 0.0, "{part}: {cost}");
+        }
+    }
+}
+
+#[test]
+fn nothing_is_skinned_unless_somebody_looks() {
+    for name in shipped_scenes() {
+        let rows = build(&shipped(&name)).shape().display.as_ref().unwrap().vertices.len();
+        let desk = Desk::new();
+        let skinned = |export: &str| count(&stats_of(&desk, &format!("{name} --steps 2 {export}")), "skinning_rows");
+        assert_eq!(skinned(""), 0, "{name}");
+        assert_eq!(skinned("--state q.json --energies e.csv"), 0, "{name}");
+        assert_eq!(skinned("--export x.vtu"), 0, "{name}");
+        assert_eq!(skinned("--export x.obj"), rows, "{name}");
+        let animated = skinned("--export x.glb");
+        assert!(animated >= rows && animated % rows == 0, "{name}: {animated} rows of {rows}");
+    }
+}

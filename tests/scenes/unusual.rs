@@ -1,0 +1,111 @@
+//! Scenes at the edge of what makes sense, which must work all the same.
+
+use fem_engine::simulation::Simulation;
+
+use crate::program::Desk;
+use crate::scene_text::{CUBE, INTEGRATORS, build_with, edit, without};
+
+/// The cube's scene with the mesh `m.node` in place of the box.
+fn with_mesh_file(text: &str) -> String {
+    edit(text, "box = { size = [1, 1, 1], cells_per_unit = 2 }", "file = \"m.node\"")
+}
+
+fn desk_with_mesh(text: &str, nodes: &str, elements: &str) -> Desk {
+    let desk = Desk::with("scene.toml", with_mesh_file(text));
+    desk.write("m.node", nodes);
+    desk.write("m.ele", elements);
+    desk
+}
+
+fn assert_runs(desk: &Desk) {
+    for integrator in INTEGRATORS {
+        let outcome = desk.run_well(&format!("scene.toml --headless --integrator {}", integrator.name()));
+        assert!(outcome.stdout.contains(": 4 steps") && !outcome.stdout.contains("NaN"), "{}", outcome.stdout);
+    }
+}
+
+#[test]
+fn where_every_node_is_fixed_nothing_moves() {
+    let text = edit(CUBE, "below = 0.1", "below = 1.0");
+    assert_runs(&Desk::with("scene.toml", &text));
+    for integrator in INTEGRATORS {
+        let mut simulation = build_with(&text, integrator);
+        let rest = simulation.positions();
+        (0..3).for_each(|_| simulation.step().unwrap());
+        simulation.set_parameter("density", 500.0).unwrap();
+        simulation.reset();
+        simulation.step().unwrap();
+        assert_eq!(simulation.positions(), rest);
+    }
+}
+
+#[test]
+fn an_empty_list_of_fixed_nodes_fixes_none() {
+    let text = edit(CUBE, "plane = { axis = \"y\", below = 0.1 }", "nodes = []");
+    let (mut empty, mut left_out) =
+        (build_with(&text, INTEGRATORS[1]), build_with(&without(CUBE, "fixed"), INTEGRATORS[1]));
+    for _ in 0..4 {
+        empty.step().unwrap();
+        left_out.step().unwrap();
+    }
+    assert_eq!(empty.positions(), left_out.positions());
+    assert!(empty.parts().iter().all(|part| part.name != "fixed" || !part.built));
+}
+
+#[test]
+fn nodes_that_are_fixed_twice_and_in_any_order_are_fixed_once() {
+    let build = |list: &str| {
+        let text = edit(CUBE, "plane = { axis = \"y\", below = 0.1 }", &format!("nodes = {list}"));
+        build_with(&text, INTEGRATORS[0])
+    };
+    let (mut one, mut other) = (build("[2, 0, 18, 0, 2]"), build("[0, 2, 18]"));
+    one.step().unwrap();
+    other.step().unwrap();
+    assert_eq!(one.positions(), other.positions());
+}
+
+#[test]
+fn a_drag_may_pull_a_fixed_node_in_vain() {
+    let mut simulation = build_with(&edit(CUBE, "vertex = \"highest\"", "vertex = 0"), INTEGRATORS[1]);
+    (0..4).for_each(|_| simulation.step().unwrap());
+    assert_eq!(simulation.positions().as_slice()[..3], [0.0; 3]);
+}
+
+#[test]
+fn a_single_tetrahedron_is_a_body() {
+    assert_runs(&desk_with_mesh(CUBE, "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n", "1 4 0\n0 0 1 2 3\n"));
+}
+
+#[test]
+fn the_smallest_box_is_a_body() {
+    assert_runs(&Desk::with("scene.toml", edit(CUBE, "cells_per_unit = 2", "cells_per_unit = 1")));
+}
+
+#[test]
+fn parts_that_do_not_touch_move_each_for_itself() {
+    let nodes = "8 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 5 0 0\n5 6 0 0\n6 5 1 0\n7 5 0 1\n";
+    let elements = "2 4 0\n0 0 1 2 3\n1 4 5 6 7\n";
+    for text in [CUBE.to_owned(), without(CUBE, "fixed")] {
+        assert_runs(&desk_with_mesh(&text, nodes, elements));
+    }
+}
+
+#[test]
+fn vertices_may_lie_in_one_place() {
+    // Two tetrahedra with a common face, each with its own copy of that face's vertices.
+    let nodes = "8 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 0 0 0\n5 0 1 0\n6 1 0 0\n7 0 0 -1\n";
+    assert_runs(&desk_with_mesh(CUBE, nodes, "2 4 0\n0 0 1 2 3\n1 4 5 6 7\n"));
+}
+
+#[test]
+fn a_scene_with_a_byte_order_mark_and_the_line_ends_of_windows_is_read() {
+    let text = format!("\u{feff}{}", CUBE.replace('\n', "\r\n"));
+    assert_runs(&Desk::with("scene.toml", text));
+}
+
+#[test]
+fn a_pull_of_no_amplitude_or_no_frequency_holds_its_node_at_rest() {
+    for (from, to) in [("amplitude = 0.2", "amplitude = 0"), ("frequency = 1.0", "frequency = 0")] {
+        assert_runs(&Desk::with("scene.toml", edit(CUBE, from, to)));
+    }
+}
