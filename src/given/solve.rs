@@ -6,7 +6,7 @@ use super::Cholesky;
 /// Solves `A x = b` by sparse Cholesky factorisation; where A is not positive definite, a multiple of the identity is
 /// added, ten times more each time, until it is. See [`Solver`] for many systems with entries in the same places.
 ///
-/// `A  (n×n)` symmetric, `b  (n)`; returns `x  (n)`, NaN where A or b is not finite.
+/// `A  (n×n)` symmetric, `b  (n)`; returns `x  (n)`, NaN where A or b is not finite or too large to compute with.
 pub fn solve(A: &CsrMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
     Solver::default().solve(A, b)
 }
@@ -50,21 +50,26 @@ impl Solver {
         if self.factored.as_deref() != Some(A.values()) {
             self.factor(&mut cholesky, A);
         }
-        self.cholesky.insert(cholesky).solve(b)
+        let cholesky = self.cholesky.insert(cholesky);
+        match self.factored {
+            Some(_) => cholesky.solve(b),
+            None => DVector::from_element(b.len(), f64::NAN),
+        }
     }
 
     fn factor(&mut self, cholesky: &mut Cholesky, A: &CsrMatrix<f64>) {
-        self.factored = Some(A.values().to_vec());
         let largest = A.values().iter().fold(0.0, |largest: f64, value| value.abs().max(largest));
-        let largest = if largest > 0.0 { largest } else { 1.0 };
+        let first_shift = FIRST_SHIFT * if largest > 0.0 { largest } else { 1.0 };
         let mut shift = 0.0;
-        loop {
+        self.factored = None;
+        // A shift above the sum of a row makes any matrix positive definite; past that, numbers are too large to compute with.
+        while f64::is_finite(shift) {
             self.factorizations += 1;
             if cholesky.factor(A, shift).is_ok() {
+                self.factored = Some(A.values().to_vec());
                 return;
             }
-            // A shift above the sum of a row makes any matrix positive definite, so this ends.
-            shift = if shift == 0.0 { FIRST_SHIFT * largest } else { 10.0 * shift };
+            shift = if shift == 0.0 { first_shift } else { 10.0 * shift };
         }
     }
 }

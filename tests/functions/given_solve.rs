@@ -99,3 +99,10 @@ fn a_solver_notices_new_values_and_new_places() -> Outcome {
     holds("each matrix is factorised once", solver.factorizations == 3)?;
     holds("each pattern is analysed once", solver.symbolic_factorizations == 2)
 }
+
+#[test]
+fn numbers_too_large_to_compute_with_end_in_nan() -> Outcome {
+    let huge = dmatrix![1e308, -1.7e308; -1.7e308, 1e308];
+    let x = given::solve(&sparse(&huge), &dvector![1.0, 2.0]);
+    holds("it ends, and the answer is NaN or finite", x.iter().all(|value| value.is_nan() || value.is_finite()))
+}
