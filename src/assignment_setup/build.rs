@@ -75,9 +75,9 @@ impl AssignmentSetup {
     }
 }
 
-/// Part of the smallest element's height that a coordinate may move before a stiffness is out of date: a strain of about as
-/// much, to which the directions of projected elements, good to a tenth or so, are blind.
-const HARDLY: f64 = 0.01;
+/// Part of the smallest element's height that a coordinate may move before a stiffness is out of date. Few elements are strained
+/// by that much then, and projection makes Newton's directions worse than a stiffness of that age does.
+const HARDLY: f64 = 0.1;
 
 /// The smallest height of all elements, m: one over the longest gradient of a shape function.
 fn smallest_height(V: &[Vector3<f64>], T: &[[usize; 4]]) -> f64 {

@@ -16,61 +16,55 @@ pub(super) fn parts(setup: &AssignmentSetup) -> Vec<Part> {
 fn bodies(setup: &AssignmentSetup) -> Vec<Part> {
     let mesh = &setup.shape.mesh;
     let (nodes, elements) = (mesh.vertices.len(), mesh.elements.len());
-    let free = setup.q.len() / 3;
+    let held = nodes - setup.q.len() / 3;
+    let skinning = setup.skinning.as_ref().map(bytes);
     vec![
-        part("mesh", true, format!("[mesh]: {nodes} nodes, {elements} tetrahedra"), 24 * nodes + 40 * elements, 0.0),
-        part("mass", true, format!("consistent, {} entries", setup.M.nnz()), bytes(&setup.M), 0.0),
-        part(
-            "gravity",
-            setup.gravity.is_some(),
-            "[gravity]: the weight of every node".into(),
-            8 * setup.weight.len(),
-            0.0,
-        ),
-        part(
-            "fixed",
-            free < nodes,
-            format!("[fixed]: P leaves {} nodes out", nodes - free),
-            setup.constraints.bytes(),
-            0.0,
-        ),
-        part("drag", setup.drag.is_some(), "[drag]: a spring in force and stiffness".into(), 0, 0.0),
-        part(
-            "skinning",
-            setup.skinning.is_some(),
-            "mesh.display: weights of the display vertices".into(),
-            setup.skinning.as_ref().map_or(0, bytes),
-            setup.work.skinning.seconds(),
-        ),
+        built("mesh", format!("[mesh]: {nodes} nodes, {elements} tetrahedra"), 24 * nodes + 40 * elements, 0.0),
+        built("mass", format!("consistent, {} entries", setup.M.nnz()), bytes(&setup.M), 0.0),
+        match setup.gravity {
+            Some(_) => built("gravity", "[gravity]: the weight of every node".into(), 8 * setup.weight.len(), 0.0),
+            None => left_out("gravity", "the scene has no [gravity]"),
+        },
+        match held {
+            0 => left_out("fixed", "the scene fixes no node, so every coordinate is free"),
+            _ => built("fixed", format!("[fixed]: P leaves {held} nodes out"), setup.constraints.bytes(), 0.0),
+        },
+        match setup.drag {
+            Some(_) => built("drag", "[drag]: a spring in force and stiffness".into(), 0, 0.0),
+            None => left_out("drag", "the scene has no [drag]; a hand in the window pulls all the same"),
+        },
+        match skinning {
+            Some(bytes) => {
+                let why = "mesh.display: four weights for each display vertex";
+                built("skinning", why.into(), bytes, setup.work.skinning.seconds())
+            }
+            None => left_out("skinning", "the scene has no mesh.display, so the tetrahedra are shown"),
+        },
     ]
 }
 
 fn methods(setup: &AssignmentSetup) -> Vec<Part> {
-    let implicit = setup.integrator == Integrator::ImplicitEuler;
-    let entries = 16 * setup.M.nnz();
-    let search =
-        "time.integrator = \"implicit_euler\": the energy that Newton's method decreases along its line search";
     let work = &setup.work;
+    let stiffness = "assemble_stiffness, projected element by element";
+    let solver = "sparse Cholesky; its order of elimination is chosen once";
     vec![
-        part("forces", true, "assemble_forces, at least once a step".into(), 8 * setup.q.len(), work.forces.seconds()),
-        part(
-            "stiffness",
-            true,
-            "assemble_stiffness, projected element by element".into(),
-            entries,
-            work.stiffness.seconds(),
-        ),
-        part(
-            "solver",
-            true,
-            "sparse Cholesky; its order is chosen once".into(),
-            setup.solver.borrow().bytes(),
-            work.solve.seconds(),
-        ),
-        part("line_search", implicit, search.into(), 0, work.energy.seconds()),
+        built("forces", "assemble_forces, at least once a step".into(), 8 * setup.q.len(), work.forces.seconds()),
+        built("stiffness", stiffness.into(), bytes(&setup.M), work.stiffness.seconds()),
+        built("solver", solver.into(), setup.solver.borrow().bytes(), work.solve.seconds()),
+        match setup.integrator {
+            Integrator::ImplicitEuler => {
+                let why = "implicit_euler: Newton's method decreases an energy along each direction";
+                built("line_search", why.into(), 0, work.energy.seconds())
+            }
+            other => left_out("line_search", &format!("{} solves once a step and needs no energy", other.name())),
+        },
     ]
 }
 
-fn part(name: &'static str, built: bool, why: String, bytes: usize, seconds: f64) -> Part {
-    Part { name, built, why, bytes, seconds }
+fn built(name: &'static str, why: String, bytes: usize, seconds: f64) -> Part {
+    Part { name, built: true, why, bytes, seconds }
+}
+
+fn left_out(name: &'static str, why: &str) -> Part {
+    Part { name, built: false, why: why.to_owned(), bytes: 0, seconds: 0.0 }
 }

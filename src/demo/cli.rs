@@ -48,10 +48,10 @@ pub struct RunArguments {
     #[arg(long)]
     pub headless: bool,
     /// End after N steps
-    #[arg(long, value_name = "N", value_parser = positive_steps)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = positive_steps)]
     pub steps: Option<usize>,
     /// Time step in seconds
-    #[arg(long, value_name = "S", value_parser = positive_seconds)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = positive_seconds)]
     pub dt: Option<f64>,
     /// Time integration method
     #[arg(long, value_name = "NAME", value_parser = integrator)]

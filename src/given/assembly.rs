@@ -25,19 +25,25 @@ pub fn sparsity(q_size: usize, T: &[[usize; 4]]) -> CsrMatrix<f64> {
 
 /// The vertices of each vertex's elements, itself among them, ascending: `neighbours[starts[i]..starts[i + 1]]`.
 fn neighbours(vertices: usize, T: &[[usize; 4]]) -> (Vec<usize>, Vec<usize>) {
-    let mut lists = vec![Vec::with_capacity(64); vertices];
-    for element in T {
+    let mut elements_of = vec![Vec::with_capacity(32); vertices];
+    for (index, element) in T.iter().enumerate() {
         for &vertex in element {
             assert!(vertex < vertices, "an element has vertex {vertex}, but there are only {vertices}");
-            lists[vertex].extend(element);
+            elements_of[vertex].push(index);
         }
     }
-    let (mut starts, mut neighbours) = (Vec::with_capacity(vertices + 1), Vec::new());
-    starts.push(0);
-    for list in &mut lists {
-        list.sort_unstable();
-        list.dedup();
-        neighbours.extend_from_slice(list);
+    let (mut starts, mut neighbours) = (vec![0], Vec::with_capacity(16 * vertices));
+    // The last vertex whose list each vertex has entered.
+    let mut entered = vec![usize::MAX; vertices];
+    for (vertex, elements) in elements_of.iter().enumerate() {
+        let start = neighbours.len();
+        for &other in elements.iter().flat_map(|&index| &T[index]) {
+            if entered[other] != vertex {
+                entered[other] = vertex;
+                neighbours.push(other);
+            }
+        }
+        neighbours[start..].sort_unstable();
         starts.push(neighbours.len());
     }
     (starts, neighbours)

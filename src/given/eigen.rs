@@ -98,7 +98,7 @@ impl<const N: usize> Tridiagonal<N> {
                 }
                 // Eigenvalues come out roughly in the order of their distance from the first shift, and those that are
                 // wanted are small.
-                let shift = if step == 0 { 0.0 } else { self.shift(first) };
+                let shift = if step == 0 && first == 0 { 0.0 } else { self.shift(first) };
                 self.ql_step(first, last, shift, vectors);
             }
             wanted -= usize::from(self.diagonal[first] < threshold);
@@ -190,11 +190,12 @@ fn reflector<const N: usize>(row: &[f64; N], start: usize) -> [f64; N] {
     let mut u = [0.0; N];
     u[start..].copy_from_slice(&row[start..]);
     let scale = u.iter().fold(0.0, |scale: f64, entry| scale.max(entry.abs()));
-    if scale == 0.0 {
-        return u;
+    if scale < f64::MIN_POSITIVE {
+        return [0.0; N];
     }
+    let inverse = 1.0 / scale;
     for entry in &mut u {
-        *entry /= scale;
+        *entry *= inverse;
     }
     let norm = dot(&u, &u).sqrt();
     u[start] += norm.copysign(u[start]);
@@ -206,9 +207,12 @@ fn reflector<const N: usize>(row: &[f64; N], start: usize) -> [f64; N] {
 /// `(1 − u uᵀ) A (1 − u uᵀ)`, of which rows before `first` are done with.
 #[inline]
 fn reflect<const N: usize>(rows: &mut [[f64; N]; N], u: &[f64; N], first: usize) {
+    // A is symmetric, so A u is a sum of its rows, which needs no sum across a vector.
     let mut p = [0.0; N];
-    for i in first..N {
-        p[i] = dot(&rows[i], u);
+    for i in first + 1..N {
+        for j in 0..N {
+            p[j] += u[i] * rows[i][j];
+        }
     }
     let half = 0.5 * dot(&p, u);
     for i in 0..N {
