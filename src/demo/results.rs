@@ -28,8 +28,13 @@ pub fn check(arguments: &RunArguments) -> Result<(), End> {
         ("--export", &arguments.export),
         ("--screenshot", &arguments.screenshot),
     ];
-    for (option, file) in files {
-        file.as_deref().map_or(Ok(()), |file| check_file(option, file))?;
+    for (i, (option, file)) in files.iter().enumerate() {
+        let Some(file) = file else { continue };
+        check_file(option, file)?;
+        if let Some((earlier, _)) = files[..i].iter().find(|(_, other)| other.as_ref() == Some(file)) {
+            let problem = format!("{earlier} and {option} name the same file {}; give each its own", file.display());
+            return Err(End::unusable(problem));
+        }
     }
     match &arguments.export {
         Some(path) if !EXPORTS.iter().any(|known| path.extension().is_some_and(|found| found == *known)) => {

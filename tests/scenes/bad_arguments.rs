@@ -101,3 +101,10 @@ fn meshes_that_cannot_be_read_or_written_are_refused() {
     assert_refused(&desk, "mesh info", &["FILE", "--help"]);
     assert!(!desk.path("x.vtu").exists() && !desk.path("x.stl").exists());
 }
+
+#[test]
+fn two_results_do_not_share_a_file() {
+    let desk = Desk::with("cube.toml", CUBE);
+    let arguments = "cube.toml --headless --state x.json --stats x.json";
+    assert_refused(&desk, arguments, &["--state and --stats", "x.json", "give each its own"]);
+}
