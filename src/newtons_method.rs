@@ -20,7 +20,8 @@ pub fn newtons_method(
     for _ in 0..max_steps {
         let gradient = g(x0);
         let norm = gradient.norm();
-        if norm <= *tolerance.get_or_insert(GRADIENT_TOLERANCE * norm) {
+        // A gradient whose norm overflows is not small, though ∞ ≤ ∞.
+        if norm.is_finite() && norm <= *tolerance.get_or_insert(GRADIENT_TOLERANCE * norm) {
             break;
         }
         let direction = solve(&H(x0), &-&gradient);

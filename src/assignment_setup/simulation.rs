@@ -6,9 +6,9 @@ use fem_engine::scene::Integrator;
 use fem_engine::simulation::{Cause, Click, Counters, Energies, Failure, Parameter, Part, Pull, Shape, Simulation};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-use super::build::INTEGRATORS;
+use super::build::{INTEGRATORS, extent};
 use super::constraints::stack;
-use super::{AssignmentSetup, explain};
+use super::{AssignmentSetup, Spring, explain};
 use crate::given::deformation_gradient;
 use crate::{T_linear_tetrahedron, dphi_linear_tetrahedron_dX, dpsi_neo_hookean_dF, pick_nearest_vertices};
 
@@ -53,7 +53,8 @@ impl Simulation for AssignmentSetup {
         let springs = self.springs(self.time + self.dt);
         let (mut q, mut qdot) = (self.q.clone(), self.qdot.clone());
         self.advance(&mut q, &mut qdot, &springs);
-        if let Some(cause) = self.cause_of_failure(&q, &qdot) {
+        let cause = self.cause_of_failure(&q, &qdot).or_else(|| self.stuck(&q, &qdot, &springs));
+        if let Some(cause) = cause {
             return Err(self.failure(cause));
         }
         (self.q, self.qdot) = (q, qdot);
@@ -188,6 +189,24 @@ impl AssignmentSetup {
         }
         let (J, element) = self.smallest_J(&x);
         (J <= 0.0).then_some(Cause::Inverted { element, J })
+    }
+
+    /// Whether implicit Euler has accepted no direction, though the forces on the body are not in balance.
+    ///
+    /// A settled body accepts none either, but what is left of its forces is round-off of those that act on it.
+    fn stuck(&self, q: &DVector<f64>, qdot: &DVector<f64>, springs: &[Spring]) -> Option<Cause> {
+        let has_moved = *qdot != self.qdot && qdot.iter().any(|&v| v != 0.0);
+        if self.integrator != Integrator::ImplicitEuler || has_moved || qdot.is_empty() {
+            return None;
+        }
+        let x = self.constraints.all_coordinates(q);
+        let pulls =
+            springs.iter().map(|spring| self.drag_stiffness * (super::node(&x, spring.node) - spring.target).amax());
+        let inertia = &self.M * &self.qdot / self.dt;
+        let acting = self.weight.iter().chain(&inertia).map(|force| force.abs()).chain(pulls).fold(0.0, f64::max);
+        let elastic = (self.C + self.D) * extent(&self.shape.mesh.vertices).powi(2);
+        let unbalanced = (&self.M * (qdot - &self.qdot) / self.dt - self.force(q, springs)).amax();
+        (unbalanced > 1e-6 * (acting + elastic)).then_some(Cause::Stuck { unbalanced })
     }
 
     fn failure(&self, cause: Cause) -> Failure {

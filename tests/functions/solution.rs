@@ -1,9 +1,10 @@
 //! What our own solution holds beyond what the pages ask of a student: energies near rest to the digits that F has, and the
-//! first element of those that hold a display vertex.
+//! first element of those that hold a display vertex, and numbers so large that a norm overflows.
 
-use finite_elements_3d::{build_skinning_matrix, phi_linear_tetrahedron, psi_neo_hookean};
-use nalgebra::{Matrix3, Vector3};
+use finite_elements_3d::{build_skinning_matrix, newtons_method, phi_linear_tetrahedron, psi_neo_hookean};
+use nalgebra::{DVector, Matrix3, Vector3, dmatrix, dvector};
 
+use crate::bodies::sparse;
 use crate::build_skinning_matrix::{dense, overlapping, row};
 use crate::outcome::{Outcome, for_all, holds, near, near_number};
 use crate::psi_neo_hookean::energy_near_rest;
@@ -74,4 +75,16 @@ fn a_point_within_a_millionth_outside_still_counts_as_inside() -> Outcome {
         }
     }
     Ok(())
+}
+
+#[test]
+fn a_gradient_whose_norm_overflows_is_not_taken_for_a_small_one() -> Outcome {
+    // ½ stiff (x − 1)²: the gradient is finite, its square is not.
+    let stiff = 1e200;
+    let mut x = dvector![0.0];
+    let f = |x: &DVector<f64>| 0.5 * stiff * (x[0] - 1.0).powi(2);
+    let g = |x: &DVector<f64>| dvector![stiff * (x[0] - 1.0)];
+    let H = |_: &DVector<f64>| sparse(&dmatrix![stiff]);
+    newtons_method(&mut x, f, g, H, |_, b| b / stiff, 5);
+    near("the minimum of a very stiff parabola", &x, &dvector![1.0], 1e-12)
 }

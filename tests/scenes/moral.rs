@@ -61,3 +61,14 @@ fn under_linearly_implicit_euler_the_harsh_pull_fails_and_the_message_says_where
     assert_eq!(desk.read("e.csv").lines().count() as u64, 2 + finished);
     assert!(desk.path("x.vtu").exists());
 }
+
+#[test]
+fn a_pull_that_no_method_follows_is_told_and_not_passed_over() {
+    let far = edit(&harsh_pull(), "amplitude = 1.0", "amplitude = 1e9");
+    let desk = Desk::with("far.toml", far);
+    let outcome = desk.run("far.toml --headless --steps 5 --stats s.json");
+    assert_eq!(outcome.code, Some(1), "{outcome:?}");
+    assert_one_message(&outcome.stderr);
+    assert_names(&outcome.stderr, &["step", "N are not in balance", "gentler pull"]);
+    assert!(desk.json("s.json")["status"].as_str().unwrap().starts_with("failed"));
+}

@@ -195,6 +195,11 @@ pub enum Cause {
         /// Its J = det F ≤ 0.
         J: f64,
     },
+    /// Newton's method found no velocity of lower energy, though forces are not in balance.
+    Stuck {
+        /// The largest component of what is left of the forces, N.
+        unbalanced: f64,
+    },
 }
 
 impl fmt::Display for Failure {
@@ -203,6 +208,10 @@ impl fmt::Display for Failure {
         match self.cause {
             Cause::NotFinite { node } => write!(f, "node {node} is no longer at a finite place")?,
             Cause::Inverted { element, J } => write!(f, "element {element} is inverted (J = {J:.3e})")?,
+            Cause::Stuck { unbalanced } => write!(
+                f,
+                "Newton's method finds no way to lower the energy, and {unbalanced:.3e} N are not in balance"
+            )?,
         }
         write!(f, "; {}", self.remedy)
     }
