@@ -16,6 +16,7 @@ mod demo {
     pub mod headless;
     pub mod list;
     pub mod mesh;
+    pub mod missing;
     pub mod pictures;
     pub mod results;
     pub mod run;
@@ -32,7 +33,7 @@ fn main() -> ExitCode {
     let result = match &arguments.command {
         Some(Command::List) => demo::list::print_scenes(),
         Some(Command::Mesh { action }) => demo::mesh::run(action),
-        None => demo::run::run(&arguments.run),
+        None => demo::missing::caught(|| demo::run::run(&arguments.run)),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

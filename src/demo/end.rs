@@ -11,7 +11,6 @@ pub enum End {
     /// The simulation failed: exit code 1.
     Failed(Failure),
     /// The simulation stopped for a reason of its own, told in words: exit code 1.
-    #[cfg_attr(not(feature = "viewer"), allow(dead_code))] // only the window's thread can stop like that
     Stopped(String),
     /// Arguments, scene or output files cannot be used: exit code 2.
     Unusable(String),

@@ -1,0 +1,16 @@
+//! What stands between a submission and the process that judges it.
+//!
+//! A submission's functions become a [`Functions`] table; [`serve`](serve()) calls them as the parent asks and sends back what they
+//! return. Nothing here knows what a right answer is.
+
+#![allow(non_snake_case)] // V, T, F, C and D are the names that the mathematics and the course use
+#![deny(missing_docs)]
+
+mod functions;
+mod serve;
+pub mod simulation;
+mod standard;
+pub mod wire;
+
+pub use functions::{Force, Functions, Gradient, Hessian, NOTHING, Objective, Solve, Stiffness};
+pub use serve::{GivenSolve, serve};

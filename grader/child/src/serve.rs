@@ -1,0 +1,175 @@
+//! The loop in which a submission is asked: one call, one answer, until the other side closes.
+
+use std::any::Any;
+use std::cell::RefCell;
+use std::hint::black_box;
+use std::io;
+use std::os::fd::AsFd;
+use std::os::unix::net::UnixStream;
+use std::panic::{self, AssertUnwindSafe};
+use std::process;
+use std::sync::Mutex;
+
+use nalgebra::{DVector, Matrix3, Matrix4, Vector3, Vector4};
+use nalgebra_sparse::CsrMatrix;
+
+use crate::simulation::simulate;
+use crate::standard;
+use crate::wire::{self, Argument, Wire, bytes, kind, read};
+use crate::{Functions, plain_functions};
+
+/// `given::solve`, which the program is linked with and this crate is not.
+pub type GivenSolve = fn(&CsrMatrix<f64>, &DVector<f64>) -> DVector<f64>;
+
+/// Answers calls that arrive on standard input, a socket, until the parent closes it.
+///
+/// The answers leave through the same socket; nothing that a submission prints goes there.
+pub fn serve(functions: &Functions, solve: GivenSolve) {
+    let Ok(socket) = io::stdin().as_fd().try_clone_to_owned() else { process::exit(3) };
+    let parent = Parent(RefCell::new(UnixStream::from(socket)));
+    remember_where_panics_happen();
+    parent.send(kind::READY, &[]);
+    loop {
+        let (called, body) = parent.receive();
+        let answered = panic::catch_unwind(AssertUnwindSafe(|| match called {
+            kind::REPEAT => repeat(functions, &parent, &body),
+            kind::SIMULATE => read(&body).map(|scene| bytes(&simulate(functions, &scene, solve))),
+            _ => answer(functions, &parent, called, &body),
+        }));
+        match answered {
+            Ok(Some(answer)) => parent.send(kind::RETURNED, &answer),
+            // The parent speaks another version, or a submission has read from the socket.
+            Ok(None) => process::exit(4),
+            Err(panic) => parent.send(kind::PANICKED, &bytes(&(message(&*panic), place()))),
+        }
+    }
+}
+
+/// The other end of the socket. Without it there is nothing left to do, so the process ends.
+struct Parent(RefCell<UnixStream>);
+
+impl Parent {
+    fn send(&self, kind: u8, body: &[u8]) {
+        if wire::send(&mut *self.0.borrow_mut(), kind, body).is_err() {
+            process::exit(0);
+        }
+    }
+
+    fn receive(&self) -> (u8, Vec<u8>) {
+        wire::receive(&mut *self.0.borrow_mut()).unwrap_or_else(|_| process::exit(0))
+    }
+
+    /// Has the parent evaluate a closure.
+    fn ask<T: Wire>(&self, closure: u8, arguments: &[u8]) -> T {
+        self.send(kind::CLOSURE + closure, arguments);
+        match self.receive() {
+            (kind::ANSWER, body) => read(&body).unwrap_or_else(|| process::exit(4)),
+            _ => process::exit(4),
+        }
+    }
+}
+
+static PLACE: Mutex<String> = Mutex::new(String::new());
+
+fn remember_where_panics_happen() {
+    panic::set_hook(Box::new(|info| {
+        let place = info.location().map(|location| format!("{}:{}", location.file(), location.line()));
+        if let Ok(mut kept) = PLACE.lock() {
+            *kept = place.unwrap_or_default();
+        }
+    }));
+}
+
+fn place() -> String {
+    PLACE.lock().map(|place| place.clone()).unwrap_or_default()
+}
+
+fn message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
+    text.unwrap_or("a panic without a message").to_owned()
+}
+
+macro_rules! plain {
+    ($($number:literal $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        fn plain(functions: &Functions, called: u8, input: &mut &[u8]) -> Option<Box<dyn Fn() -> Vec<u8>>> {
+            match called {
+                $($number => {
+                    $(let $argument = <<$type as Argument>::Stored as Wire>::get(input)?;)*
+                    let function = functions.$name;
+                    Some(Box::new(move || bytes(&black_box(function($(<$type as Argument>::lend(black_box(&$argument))),*)))))
+                })*
+                _ => None,
+            }
+        }
+    };
+}
+plain_functions!(plain);
+
+/// Makes one call, closures answered by the parent.
+fn answer(functions: &Functions, parent: &Parent, called: u8, body: &[u8]) -> Option<Vec<u8>> {
+    let mut input = body;
+    let two = |a: &DVector<f64>, b: &DVector<f64>| [bytes(a), bytes(b)].concat();
+    let solve = |A: &CsrMatrix<f64>, b: &DVector<f64>| parent.ask(4, &[bytes(A), bytes(b)].concat());
+    let force = |q: &DVector<f64>, v: &DVector<f64>| parent.ask(2, &two(q, v));
+    let stiffness = |q: &DVector<f64>, v: &DVector<f64>| parent.ask(3, &two(q, v));
+    let objective = |x: &DVector<f64>| parent.ask(1, &bytes(x));
+    match called {
+        kind::QUADRATURE_OF_NUMBER => {
+            let (V, element, volume) = quadrature(&mut input)?;
+            let integrand = |X: &Vector3<f64>| parent.ask(0, &bytes(X));
+            Some(bytes(&(functions.quadrature_of_number)(&V, &element, volume, &integrand)))
+        }
+        kind::QUADRATURE_OF_VECTOR => {
+            let (V, element, volume) = quadrature(&mut input)?;
+            let integrand = |X: &Vector3<f64>| parent.ask(0, &bytes(X));
+            Some(bytes(&(functions.quadrature_of_vector)(&V, &element, volume, &integrand)))
+        }
+        kind::LINEARLY_IMPLICIT_EULER => {
+            let (mut q, mut qdot, dt, mass) = step(&mut input)?;
+            (functions.linearly_implicit_euler)(&mut q, &mut qdot, dt, &mass, &force, &stiffness, &solve);
+            Some(two(&q, &qdot))
+        }
+        kind::IMPLICIT_EULER => {
+            let (mut q, mut qdot, dt, mass) = step(&mut input)?;
+            (functions.implicit_euler)(&mut q, &mut qdot, dt, &mass, &objective, &force, &stiffness, &solve);
+            Some(two(&q, &qdot))
+        }
+        kind::NEWTONS_METHOD => {
+            let mut x: DVector<f64> = Wire::get(&mut input)?;
+            let max_steps = Wire::get(&mut input)?;
+            let gradient = |x: &DVector<f64>| parent.ask(2, &bytes(x));
+            let hessian = |x: &DVector<f64>| parent.ask(3, &bytes(x));
+            let f = (functions.newtons_method)(&mut x, &objective, &gradient, &hessian, &solve, max_steps);
+            Some(bytes(&(x, f)))
+        }
+        _ => plain(functions, called, &mut input).map(|call| call()),
+    }
+}
+
+type Quadrature = (Vec<Vector3<f64>>, [usize; 4], f64);
+
+fn quadrature(input: &mut &[u8]) -> Option<Quadrature> {
+    Some((Wire::get(input)?, Wire::get(input)?, Wire::get(input)?))
+}
+
+type Step = (DVector<f64>, DVector<f64>, f64, CsrMatrix<f64>);
+
+fn step(input: &mut &[u8]) -> Option<Step> {
+    Some((Wire::get(input)?, Wire::get(input)?, Wire::get(input)?, Wire::get(input)?))
+}
+
+/// Makes the call that follows many times, so that the way to the parent and back does not count. Functions that take closures
+/// work on a problem of their own here.
+fn repeat(functions: &Functions, parent: &Parent, body: &[u8]) -> Option<Vec<u8>> {
+    let times: u64 = read(body)?;
+    let (called, body) = parent.receive();
+    let call: Box<dyn Fn() -> Vec<u8>> = match called {
+        0..18 => plain(functions, called, &mut &body[..])?,
+        _ => standard::load(*functions, called)?,
+    };
+    let mut last = Vec::new();
+    for _ in 0..times {
+        last = call();
+    }
+    Some(last)
+}

@@ -1,0 +1,13 @@
+//! Checks your functions: `cargo run -p grader -- check`.
+
+use std::env;
+use std::process::ExitCode;
+
+/// The sandbox starts this program a second time with the hidden command `confine`; all else is for you.
+fn main() -> ExitCode {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    match arguments.split_first() {
+        Some((command, rest)) if command == "confine" => grader::sandbox::confine(rest),
+        _ => grader::check::main(),
+    }
+}

@@ -1,0 +1,155 @@
+//! Submissions as archives: `.zip`, `.tar.gz`, `.tgz` and `.tar`, unpacked into memory, within limits, and never onto the disk.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use flate2::read::MultiGzDecoder;
+use grader::submission::entries::{Content, Entry, may_be_taken};
+use grader::submission::{MAX_FILE_BYTES, Submission, Unreadable};
+
+/// All that is unpacked of one archive, bytes.
+const MAX_BYTES: u64 = 64 << 20;
+
+/// Files, folders and links of one archive.
+const MAX_ENTRIES: usize = 10_000;
+
+/// The endings of archives, longest first.
+const ENDINGS: [&str; 4] = [".tar.gz", ".tgz", ".tar", ".zip"];
+
+/// Reads a submission: a folder or an archive.
+pub fn read_submission(path: &Path) -> Result<Submission, Unreadable> {
+    if path.is_dir() {
+        return Submission::read_folder(path);
+    }
+    let Some((name, ending)) = ending(path) else {
+        return Err(unreadable("it is neither a folder nor a .zip, .tar.gz, .tgz or .tar; hand in one of these"));
+    };
+    let file = File::open(path).map_err(|error| unreadable(format!("it cannot be opened: {error}")))?;
+    let entries = match ending {
+        ".zip" => zip_entries(file),
+        ".tar" => tar_entries(file),
+        _ => tar_entries(MultiGzDecoder::new(file)),
+    };
+    Submission::from_entries(name, entries?)
+}
+
+/// A path's file name without the ending of an archive, and that ending.
+fn ending(path: &Path) -> Option<(String, &'static str)> {
+    let name = path.file_name()?.to_string_lossy().into_owned();
+    let lower = name.to_ascii_lowercase();
+    let ending = ENDINGS.into_iter().find(|ending| lower.ends_with(ending))?;
+    // Lower case has the same length, in ASCII.
+    Some((name[..name.len() - ending.len()].to_owned(), ending))
+}
+
+fn unreadable(reason: impl Into<String>) -> Unreadable {
+    Unreadable(reason.into())
+}
+
+fn broken(error: impl ToString) -> Unreadable {
+    unreadable(format!("the archive is damaged: {}; pack it again", error.to_string()))
+}
+
+/// Counts what is unpacked, and stops at the limits.
+struct Unpacked {
+    entries: Vec<Entry>,
+    bytes: u64,
+}
+
+impl Unpacked {
+    fn new() -> Self {
+        Self { entries: Vec::new(), bytes: 0 }
+    }
+
+    /// Adds an entry; `content` is only read where it may be taken.
+    fn add(&mut self, path: &str, is_link: bool, content: impl Read) -> Result<(), Unreadable> {
+        if self.entries.len() >= MAX_ENTRIES {
+            return Err(unreadable(format!("the archive holds more than {MAX_ENTRIES} files; hand in `src` alone")));
+        }
+        let path = inner_path(path)?;
+        let content = match (is_link, may_be_taken(&path)) {
+            (true, _) => Content::Link,
+            (false, false) => Content::Unread,
+            (false, true) => self.read(content)?,
+        };
+        self.entries.push((path, content));
+        Ok(())
+    }
+
+    fn read(&mut self, content: impl Read) -> Result<Content, Unreadable> {
+        let mut bytes = Vec::new();
+        content.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(broken)?;
+        self.count(bytes.len() as u64)?;
+        Ok(if bytes.len() as u64 > MAX_FILE_BYTES { Content::Unread } else { Content::File(bytes) })
+    }
+
+    fn count(&mut self, bytes: u64) -> Result<(), Unreadable> {
+        self.bytes = self.bytes.saturating_add(bytes);
+        match self.bytes <= MAX_BYTES {
+            true => Ok(()),
+            false => Err(unreadable("the archive unpacks to more than 64 MiB; hand in `src` alone")),
+        }
+    }
+}
+
+/// A path in an archive with `/` between its parts and no `./`. Such as lead out of the archive are refused, together with it:
+/// nobody packs them by accident.
+fn inner_path(path: &str) -> Result<String, Unreadable> {
+    let path = path.replace('\\', "/");
+    let has_drive = path.as_bytes().get(1) == Some(&b':');
+    let mut parts = path.split('/');
+    if path.starts_with('/') || has_drive || parts.any(|part| part == "..") {
+        return Err(unreadable("the archive holds a path that leads out of it; pack it again from the folder itself"));
+    }
+    let parts: Vec<_> = path.split('/').filter(|part| !part.is_empty() && *part != ".").collect();
+    Ok(parts.join("/"))
+}
+
+fn zip_entries(file: File) -> Result<Vec<Entry>, Unreadable> {
+    let mut archive = zip::ZipArchive::new(io::BufReader::new(file)).map_err(broken)?;
+    let mut unpacked = Unpacked::new();
+    for index in 0..archive.len() {
+        let raw = archive.by_index_raw(index).map_err(broken)?;
+        let (path, is_folder, is_encrypted) = (raw.name().map_err(broken)?.into_owned(), raw.is_dir(), raw.encrypted());
+        let is_link = raw.is_symlink();
+        drop(raw);
+        if is_folder {
+            continue;
+        }
+        if is_encrypted {
+            return Err(unreadable("the archive asks for a password; pack it without"));
+        }
+        if is_link || !may_be_taken(&inner_path(&path)?) {
+            unpacked.add(&path, is_link, io::empty())?;
+        } else {
+            let content = archive.by_index(index).map_err(broken)?;
+            unpacked.add(&path, false, content)?;
+        }
+    }
+    Ok(unpacked.entries)
+}
+
+fn tar_entries(stream: impl Read) -> Result<Vec<Entry>, Unreadable> {
+    // Whatever lies between the files that are taken must be unpacked to get past it, so the stream itself has an end.
+    let mut archive = tar::Archive::new(stream.take(MAX_BYTES));
+    let mut unpacked = Unpacked::new();
+    for entry in archive.entries().map_err(broken)? {
+        let entry = entry.map_err(broken)?;
+        unpacked.count(entry.size())?;
+        let kind = entry.header().entry_type();
+        let path = String::from_utf8_lossy(&entry.path_bytes()).into_owned();
+        if kind.is_file() || kind.is_contiguous() || kind.is_gnu_sparse() {
+            unpacked.add(&path, false, entry)?;
+        } else if !kind.is_dir() && !kind.is_pax_global_extensions() {
+            unpacked.add(&path, true, io::empty())?;
+        }
+    }
+    if unpacked.entries.is_empty() {
+        return Err(unreadable("the archive is empty or damaged; pack it again"));
+    }
+    Ok(unpacked.entries)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,118 @@
+use std::fs;
+use std::io::{Cursor, Write};
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use grader::submission::{Source, Submission, Unreadable};
+use zip::write::SimpleFileOptions;
+
+use super::read_submission;
+
+const BODY: &str = "pub fn psi_neo_hookean() {}";
+
+fn read(name: &str, bytes: &[u8]) -> Result<Submission, Unreadable> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    fs::write(&path, bytes).unwrap();
+    read_submission(&path)
+}
+
+fn tar_of(files: &[(&str, &[u8])]) -> Vec<u8> {
+    let mut tar = tar::Builder::new(Vec::new());
+    for (path, bytes) in files {
+        let mut header = tar::Header::new_gnu();
+        // Written by hand, because the builder refuses hostile paths.
+        header.as_gnu_mut().unwrap().name[..path.len()].copy_from_slice(path.as_bytes());
+        header.set_size(bytes.len() as u64);
+        header.set_mode(0o644);
+        header.set_cksum();
+        tar.append(&header, *bytes).unwrap();
+    }
+    tar.into_inner().unwrap()
+}
+
+fn gzip(bytes: &[u8]) -> Vec<u8> {
+    let mut gzip = GzEncoder::new(Vec::new(), Compression::fast());
+    gzip.write_all(bytes).unwrap();
+    gzip.finish().unwrap()
+}
+
+fn zip_of(files: &[(&str, &[u8])]) -> Vec<u8> {
+    let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    for (path, bytes) in files {
+        zip.start_file(*path, SimpleFileOptions::default()).unwrap();
+        zip.write_all(bytes).unwrap();
+    }
+    zip.finish().unwrap().into_inner()
+}
+
+#[test]
+fn every_kind_of_archive_gives_the_same_submission() {
+    let files = [("ada/src/psi_neo_hookean.rs", BODY.as_bytes()), ("ada/data/mesh.obj", b"v 0 0 0")];
+    let tar = tar_of(&files);
+    let dotted = tar_of(&[("./src/psi_neo_hookean.rs", BODY.as_bytes())]);
+    let submissions = [
+        read("ada.zip", &zip_of(&files)),
+        read("ada.tar", &tar),
+        read("ada.tar.gz", &gzip(&tar)),
+        read("ada.TGZ", &gzip(&tar)),
+        read("ada.tgz", &gzip(&dotted)),
+    ];
+    for submission in submissions {
+        let submission = submission.unwrap();
+        assert_eq!(submission.name, "ada");
+        assert_eq!(submission.functions["psi_neo_hookean"], Source::Written(BODY.to_owned()));
+    }
+}
+
+#[test]
+fn what_is_no_archive_or_damaged_is_told_and_no_fault() {
+    let zip = zip_of(&[("src/psi_neo_hookean.rs", BODY.as_bytes())]);
+    let tar = gzip(&tar_of(&[("src/psi_neo_hookean.rs", &[b' '; 5000])]));
+    for (name, bytes) in [
+        ("a.zip", &b"not a zip"[..]),
+        ("a.zip", b""),
+        ("a.zip", &zip[..zip.len() / 2]),
+        ("a.tar.gz", b"not a tar"),
+        ("a.tar.gz", &tar[..tar.len() - 20]),
+        ("a.tgz", b""),
+        ("a.tar", b""),
+        ("a.tar", &[b'x'; 2048]),
+        ("a.rar", b"Rar!"),
+    ] {
+        assert!(read(name, bytes).is_err(), "{name} of {} bytes", bytes.len());
+    }
+}
+
+#[test]
+fn a_path_that_leads_out_is_refused() {
+    for path in ["../src/psi_neo_hookean.rs", "/src/psi_neo_hookean.rs", "a/../../x", "C:\\src\\psi_neo_hookean.rs"] {
+        let tar = read("a.tar", &tar_of(&[(path, b"")]));
+        assert!(tar.is_err_and(|error| error.to_string().contains("leads out")), "{path}");
+    }
+}
+
+#[test]
+fn links_are_refused() {
+    let mut tar = tar::Builder::new(Vec::new());
+    let mut header = tar::Header::new_gnu();
+    header.set_entry_type(tar::EntryType::Symlink);
+    header.set_size(0);
+    tar.append_link(&mut header, "src/psi_neo_hookean.rs", "/etc/passwd").unwrap();
+    let submission = read("a.tar", &tar.into_inner().unwrap()).unwrap();
+    assert!(
+        matches!(&submission.functions["psi_neo_hookean"], Source::Refused { reason, .. } if reason.contains("link"))
+    );
+}
+
+#[test]
+fn a_bomb_costs_neither_memory_nor_the_grader() {
+    let zeros = vec![0; 80 << 20];
+    let large_file = read("a.zip", &zip_of(&[("src/psi_neo_hookean.rs", &zeros)])).unwrap();
+    assert!(matches!(large_file.functions["psi_neo_hookean"], Source::Refused { .. }));
+    let bomb = read("a.tgz", &gzip(&tar_of(&[("data/zeros", &zeros), ("src/psi_neo_hookean.rs", b"")])));
+    assert!(bomb.is_err_and(|error| error.to_string().contains("64 MiB")));
+    let names: Vec<_> = (0..10_001).map(|i| format!("data/{i}")).collect();
+    let many: Vec<_> = names.iter().map(|name| (name.as_str(), &b""[..])).collect();
+    assert!(read("a.zip", &zip_of(&many)).is_err_and(|error| error.to_string().contains("10000")));
+}

@@ -1,0 +1,237 @@
+//! The public checks on a student's own machine: every function of a repository, those that do not compile included.
+
+mod program;
+mod watch;
+
+use std::collections::BTreeSet;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use thiserror::Error;
+
+use crate::compile::prebuilt::{PrebuildError, Prebuilt};
+use crate::compile::{Plan, build};
+use crate::implementation::Trouble;
+use crate::implementation::sandboxed::Sandboxed;
+use crate::properties::outcome::{Mistake, told};
+use crate::properties::{Check, Course, FUNCTIONS};
+use crate::sandbox::{Confined, Limits, Profile, Sandbox};
+use crate::status::Status;
+use crate::submission::{Source, Submission, Unreadable};
+pub use program::{Options, main};
+use watch::watch;
+
+/// Where random inputs start; the same in every run, so that a mended function shows.
+const SEED: u64 = 2024;
+
+/// Longest time for one answer.
+const LIMIT: Duration = Duration::from_secs(5);
+
+/// Why nothing could be checked.
+#[derive(Debug, Error)]
+pub enum CheckError {
+    /// The libraries could not be built.
+    #[error(transparent)]
+    Prebuild(#[from] PrebuildError),
+    /// The folder holds no repository.
+    #[error(transparent)]
+    Unreadable(#[from] Unreadable),
+    /// No file can be written, no program started.
+    #[error("{0}; the checks need a folder to work in and a compiler to start")]
+    Io(#[from] io::Error),
+    /// A name that is none.
+    #[error("`{0}` is no function of the course; the README lists their names")]
+    Unknown(String),
+    /// Saved files cannot be noticed.
+    #[error("{0}; run `check` without `--watch`")]
+    Watch(#[from] notify::Error),
+}
+
+/// How one function fared.
+pub struct Report {
+    /// The function.
+    pub name: &'static str,
+    /// Its place in the course, from 1.
+    pub place: usize,
+    /// The outcome.
+    pub status: Status,
+    /// Number of its checks, where they were run.
+    pub checks: usize,
+    /// What went wrong, for its author.
+    pub messages: Vec<String>,
+}
+
+/// How many failing checks of one function are told at once.
+const MOST_MESSAGES: usize = 3;
+
+/// Checks the functions of the repository at `folder`, or one of them.
+///
+/// # Errors
+/// Where nothing can be checked; a function that fails is no error.
+pub fn check(folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckError> {
+    if let Some(name) = only
+        && !FUNCTIONS.iter().any(|(found, _)| *found == name)
+    {
+        return Err(CheckError::Unknown(name.to_owned()));
+    }
+    let submission = Submission::read_folder(folder)?;
+    let prebuilt = Prebuilt::new(&library_root(folder))?;
+    let bar = ProgressBar::new(FUNCTIONS.len() as u64 + 1);
+    if let Ok(style) = ProgressStyle::with_template("{bar:22} {msg}") {
+        bar.set_style(style);
+    }
+    bar.set_message("compiling");
+    let work = tempfile::Builder::new().prefix("check-").tempdir()?;
+    let wanted = wanted(&submission, only);
+    let built = build(&prebuilt, &Sandbox::none(), &plan(&submission, &wanted), work.path())?;
+    let start = |program: Option<PathBuf>| Sandboxed::new(starter(program, work.path().to_owned()), LIMIT);
+    // Two processes, because a check may need another function while the one that it judges is not done.
+    let (subject, trusted) = (start(built.program.clone()), start(built.program.clone()));
+    let mut reports = Vec::new();
+    for (index, (name, checks)) in FUNCTIONS.iter().enumerate() {
+        if only.is_some_and(|only| only != *name) {
+            continue;
+        }
+        bar.inc(1);
+        bar.set_message(*name);
+        subject.next_function();
+        trusted.next_function();
+        let (status, messages) = match (submission.functions.get(name), built.faults.get(name)) {
+            (_, Some(fault)) => (Status::DidNotCompile, vec![fault.clone()]),
+            (Some(Source::Written(text)), None) => {
+                let course = Course { subject: &subject, trusted: &trusted, seed: SEED };
+                held_to(name, checks, &course, &missing_that(text, name, &submission))
+            }
+            (Some(Source::Refused { line, reason }), None) => (Status::Refused, vec![refused(*line, reason)]),
+            _ => (Status::Missing, Vec::new()),
+        };
+        reports.push(Report { name, place: index + 1, status, checks: checks.len(), messages });
+    }
+    bar.finish_and_clear();
+    Ok(reports)
+}
+
+/// The grader builds its libraries from the repository that is checked; where that is only a folder of functions, from its own.
+fn library_root(folder: &Path) -> PathBuf {
+    if folder.join("grader/child/Cargo.toml").exists() {
+        return folder.to_owned();
+    }
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    own.parent().unwrap_or(own).to_owned()
+}
+
+fn refused(line: Option<usize>, reason: &str) -> String {
+    line.map_or_else(|| reason.to_owned(), |line| format!("line {line}: {reason}"))
+}
+
+/// The functions that go into the program: all, or one and those that it calls or that its checks compare it with.
+fn wanted(submission: &Submission, only: Option<&str>) -> BTreeSet<&'static str> {
+    let all = FUNCTIONS.iter().map(|(name, _)| *name);
+    let Some(only) = only else { return all.collect() };
+    // The derivatives' checks need what they derive, and those of the integrators need whole bodies, so no more is left out than
+    // files that do not compile: those cannot be told from here, and `build` leaves them out anyway.
+    all.filter(|name| *name == only || matches!(submission.functions.get(name), Some(Source::Written(_)))).collect()
+}
+
+fn plan(submission: &Submission, wanted: &BTreeSet<&'static str>) -> Plan {
+    let written = wanted.iter().filter_map(|name| match submission.functions.get(name) {
+        Some(Source::Written(text)) => Some((*name, text.clone())),
+        _ => None,
+    });
+    Plan { own: written.collect(), reference: None }
+}
+
+/// Functions that a text names and that are not written.
+fn missing_that(text: &str, name: &str, submission: &Submission) -> Vec<&'static str> {
+    let is_missing = |other: &&'static str| !matches!(submission.functions.get(other), Some(Source::Written(_)));
+    let others = FUNCTIONS.iter().map(|(other, _)| *other);
+    others.filter(|other| *other != name && text.contains(other)).filter(is_missing).collect()
+}
+
+fn held_to(name: &str, checks: &[Check], course: &Course, missing: &[&str]) -> (Status, Vec<String>) {
+    let (mut status, mut messages) = (Status::Passed, Vec::new());
+    for check in checks {
+        let Err(mistake) = (check.run)(course) else { continue };
+        let found = match &mistake {
+            Mistake::Wrong { .. } | Mistake::Trouble(Trouble::Malformed) => Status::Failed,
+            Mistake::Trouble(Trouble::TimedOut(_)) => Status::TimedOut,
+            Mistake::Trouble(Trouble::Missing) | Mistake::Waits { .. } => Status::Missing,
+            Mistake::Trouble(_) => Status::Crashed,
+        };
+        // A wrong answer says more than a check that has to wait.
+        status = if status == Status::Passed { found } else { status.min(found) };
+        let message = match &mistake {
+            Mistake::Trouble(Trouble::Missing) if !missing.is_empty() => format!("waits for {}", missing.join(", ")),
+            Mistake::Trouble(Trouble::GivenUp) => continue,
+            Mistake::Trouble(Trouble::Panicked { message, .. }) => format!("{}: {message}", told(name, &mistake)),
+            _ => told(name, &mistake),
+        };
+        if !messages.contains(&message) && messages.len() < MOST_MESSAGES {
+            messages.push(message);
+        }
+    }
+    (status, messages)
+}
+
+fn starter(program: Option<PathBuf>, folder: PathBuf) -> impl Fn() -> io::Result<crate::sandbox::Running> + 'static {
+    move || {
+        let Some(program) = program.clone() else { return Err(io::ErrorKind::NotFound.into()) };
+        let limits = Limits {
+            wall: Duration::from_secs(600),
+            cpu: Duration::from_secs(600),
+            memory: 4 << 30,
+            processes: 64,
+            file_size: 0,
+            open_files: 64,
+            output: 0,
+        };
+        Sandbox::none().start(&Confined {
+            program,
+            arguments: Vec::new(),
+            environment: Vec::new(),
+            folder: folder.clone(),
+            readable: Vec::new(),
+            writable: Vec::new(),
+            profile: Profile::Submission,
+            limits,
+        })
+    }
+}
+
+/// Prints what was found, one line for each function and what to do below those that fail.
+pub fn print(reports: &[Report]) {
+    for report in reports {
+        let word = match report.status {
+            Status::Passed => format!("passed ({} checks)", report.checks),
+            Status::Failed => "failed".to_owned(),
+            Status::Crashed => "crashed".to_owned(),
+            Status::TimedOut => "took too long".to_owned(),
+            Status::DidNotCompile => "does not compile".to_owned(),
+            Status::Refused => "refused".to_owned(),
+            Status::Missing if report.messages.is_empty() => {
+                format!("not written yet: src/{0}.rs, include-docs/{0}.md", report.name)
+            }
+            Status::Missing => "waits".to_owned(),
+        };
+        println!("{:2} {:32} {word}", report.place, report.name);
+        for line in report.messages.iter().flat_map(|message| message.lines()) {
+            println!("      {line}");
+        }
+    }
+    let passed = reports.iter().filter(|report| report.status == Status::Passed).count();
+    println!("\n{passed} of {} functions pass", reports.len());
+}
+
+/// Checks once and prints, or again and again whenever a file is saved.
+///
+/// # Errors
+/// Where nothing can be checked.
+pub fn run(options: &Options) -> Result<(), CheckError> {
+    if options.watch {
+        return watch(&options.folder, options.only.as_deref());
+    }
+    print(&check(&options.folder, options.only.as_deref())?);
+    Ok(())
+}

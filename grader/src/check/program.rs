@@ -1,0 +1,47 @@
+//! The command line of a student's grader, which can check and nothing else.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use super::{CheckError, run};
+
+#[derive(Parser)]
+#[command(name = "grader", version, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Hold the functions of this repository to the public checks.
+    Check(Options),
+}
+
+/// What to check, and how often.
+#[derive(clap::Args)]
+pub struct Options {
+    /// The repository.
+    #[arg(value_name = "DIR", default_value = ".")]
+    pub folder: PathBuf,
+    /// One function alone.
+    #[arg(long, value_name = "NAME")]
+    pub only: Option<String>,
+    /// Check again whenever a file is saved.
+    #[arg(long)]
+    pub watch: bool,
+}
+
+/// The whole program: 0 checked (whatever came of it), 1 the checks themselves failed, 2 unusable arguments.
+pub fn main() -> ExitCode {
+    let Command::Check(options) = Arguments::parse().command;
+    match run(&options) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::from(if matches!(error, CheckError::Unknown(_) | CheckError::Unreadable(_)) { 2 } else { 1 })
+        }
+    }
+}

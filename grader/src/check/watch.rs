@@ -1,0 +1,39 @@
+//! Checks again whenever a file is saved.
+
+use std::path::Path;
+use std::sync::mpsc::channel;
+use std::time::Duration;
+
+use notify::{RecursiveMode, Watcher, recommended_watcher};
+
+use super::{CheckError, check, print};
+
+/// Editors save in several strokes; this long without another one counts as saved.
+const QUIET: Duration = Duration::from_millis(200);
+
+/// Checks whenever a file in `src` changes, until the program is stopped.
+///
+/// # Errors
+/// Where the folder cannot be watched; what a check finds wrong with the repository is printed, and watching goes on.
+pub fn watch(folder: &Path, only: Option<&str>) -> Result<(), CheckError> {
+    let (sender, changes) = channel();
+    let mut watcher = recommended_watcher(move |event: notify::Result<notify::Event>| {
+        // Reading a file is an event too, and the checks read them all.
+        if event.is_ok_and(|event| !event.kind.is_access()) {
+            // The receiver is gone when watching ends.
+            let _ = sender.send(());
+        }
+    })?;
+    watcher.watch(&folder.join("src"), RecursiveMode::NonRecursive)?;
+    loop {
+        match check(folder, only) {
+            Ok(reports) => print(&reports),
+            Err(error) => eprintln!("{error}"),
+        }
+        println!("waiting for a file to be saved in {}; stop with Ctrl-C", folder.join("src").display());
+        if changes.recv().is_err() {
+            return Ok(());
+        }
+        while changes.recv_timeout(QUIET).is_ok() {}
+    }
+}

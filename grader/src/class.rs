@@ -1,0 +1,145 @@
+//! Grades a whole class: every submission of a folder, each by its own process, again only where it must be.
+//!
+//! What is finished lies complete in `OUT/grades/KEY`, so that a run may be killed at any time and be started again.
+
+mod find;
+mod key;
+mod merge;
+mod process;
+mod schedule;
+mod store;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+
+use crate::grade::Grade;
+pub use key::Identity;
+
+/// Writes what is known of a class into a folder; called again and again as a run goes on.
+pub type Report = fn(&Summary, &Path) -> io::Result<()>;
+
+/// How to grade a class.
+#[derive(Clone, Debug)]
+pub struct ClassOptions {
+    /// Holds the submissions: each sub-folder and each `.zip`, `.tar.gz` or `.tgz` is one; `students.csv` may name students.
+    pub folder: PathBuf,
+    /// Takes the results, and holds those of earlier runs.
+    pub out: PathBuf,
+    /// So many submissions are graded at a time; at least one.
+    pub jobs: usize,
+    /// Part k, from 1, of n: the students whose names fall into it.
+    pub shard: Option<(usize, usize)>,
+    pub seed: u64,
+    /// Called as `GRADER grade SUBMISSION --out DIR --seed N EXTRA…`.
+    pub grader: PathBuf,
+    /// A submission that takes longer, by the clock on the wall, is given up.
+    pub time_limit: Duration,
+    /// Further arguments for the grader.
+    pub extra: Vec<String>,
+    /// Writes `class.html`, and whatever else is wanted beside `grades.csv` and `errors.csv`.
+    pub report: Report,
+}
+
+/// A class as far as it is graded.
+#[derive(Clone, Debug)]
+pub struct Summary {
+    pub identity: Identity,
+    pub shard: Option<(usize, usize)>,
+    /// By name of the student, then of the submission.
+    pub entries: Vec<Entry>,
+    /// What an instructor should look at: other files, students that may be one, conflicts, …
+    pub remarks: Vec<String>,
+    /// How many this run graded.
+    pub graded_now: usize,
+    /// How many were found graded.
+    pub kept: usize,
+    /// Whether the run was stopped before it was through.
+    pub interrupted: bool,
+}
+
+/// One submission of a class.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// File name of the folder or archive, without the ending where that is unique.
+    pub submission: String,
+    pub student: String,
+    pub outcome: Outcome,
+}
+
+/// What became of a submission. Only a graded one has a score: the others have none, which is not zero.
+#[derive(Clone, Debug)]
+pub enum Outcome {
+    /// The grade, and the folder of its reports relative to the output.
+    Graded(Box<Grade>, PathBuf),
+    /// Why there is no grade.
+    NotGraded(String),
+    /// Its turn has not come.
+    Waiting,
+    /// A newer submission of the same student counts.
+    Older { newer: String },
+}
+
+/// Why a class could not be graded or joined.
+#[derive(Debug, thiserror::Error)]
+pub enum ClassError {
+    #[error("{path}: {source}", path = path.display())]
+    File { path: PathBuf, source: io::Error },
+    #[error("{path}: {message}", path = path.display())]
+    Unreadable { path: PathBuf, message: String },
+    #[error("{0}: another run is at work there; wait for it or name another folder")]
+    Locked(String),
+    #[error("shard {0}/{1}: the first figure runs from 1 to the second")]
+    Shard(usize, usize),
+    #[error("rustc --version: {0}; install the toolchain or put it on the PATH")]
+    Toolchain(String),
+    #[error("{first} and {second} do not belong together: their {what} differ", first = first.display(), second = second.display())]
+    Mismatch { first: PathBuf, second: PathBuf, what: &'static str },
+    #[error("name at least one folder to merge")]
+    Nothing,
+    #[error("the report: {0}")]
+    Report(io::Error),
+}
+
+/// Adds the path that an error of the file system is about.
+fn at(path: &Path) -> impl FnOnce(io::Error) -> ClassError {
+    let path = path.to_path_buf();
+    move |source| ClassError::File { path, source }
+}
+
+/// The part of a class that a run was given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Shard {
+    k: usize,
+    n: usize,
+}
+
+/// Grades what is not graded yet. Failures of single submissions are in the summary; an error is about the run itself.
+pub fn run(options: &ClassOptions) -> Result<Summary, ClassError> {
+    if let Some((k, n)) = options.shard
+        && !(1..=n).contains(&k)
+    {
+        return Err(ClassError::Shard(k, n));
+    }
+    let mut class = find::class(&options.folder)?;
+    if let Some((k, n)) = options.shard {
+        class.submissions.retain(|submission| key::shard(&submission.student, n) == k);
+    }
+    let identity = Identity::of(&options.grader, options.seed, &options.extra)?;
+    let store = store::Store::open(&options.out)?;
+    schedule::grade(options, class, identity, &store)
+}
+
+/// Joins the outputs `dirs` of shards into `out`, with copies of the reports.
+///
+/// They must come from one grader, toolchain and seed. A submission that was graded in two of them with two results is a
+/// conflict and gets no grade, and so is a student for whom two submissions count.
+pub fn merge(dirs: &[PathBuf], out: &Path, report: Report) -> Result<Summary, ClassError> {
+    merge::join(dirs, out, report)
+}

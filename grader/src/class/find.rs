@@ -1,0 +1,203 @@
+//! Finds the submissions of a folder and whose they are.
+//!
+//! `students.csv` decides where it names a submission (columns `submission`, `student` and, if wanted, `time`). Elsewhere the
+//! student is the name up to the first `__` or `@`, or all of it. Nothing else is guessed: two students taken for one would
+//! cost one of them the grade. Of a student's submissions the newest counts: by `time` where there is one, else by the
+//! newest modification, else by name.
+
+use std::collections::{BTreeMap, HashMap};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use serde::Deserialize;
+
+use super::{ClassError, at};
+
+const STUDENTS: &str = "students.csv";
+const ENDINGS: [&str; 3] = [".tar.gz", ".tgz", ".zip"];
+
+/// What a folder holds.
+pub struct Class {
+    pub submissions: Vec<Submission>,
+    pub remarks: Vec<String>,
+}
+
+/// One submission as it was handed in.
+pub struct Submission {
+    pub name: String,
+    pub path: PathBuf,
+    pub student: String,
+    /// Name of the newer submission of the same student.
+    pub newer: Option<String>,
+    time: Option<Time>,
+    modified: SystemTime,
+}
+
+/// A time of `students.csv`: a number, or a text that sorts by time such as `2026-05-01T12:00`.
+#[derive(Clone, PartialEq, PartialOrd)]
+enum Time {
+    Number(f64),
+    Text(String),
+}
+
+#[derive(Deserialize)]
+struct Row {
+    submission: String,
+    student: String,
+    time: Option<String>,
+}
+
+/// The submissions of `folder`, by student and name.
+pub fn class(folder: &Path) -> Result<Class, ClassError> {
+    let (mut submissions, mut remarks) = list(folder)?;
+    unique_names(&mut submissions);
+    let path = folder.join(STUDENTS);
+    if path.is_file() {
+        apply(&path, &mut submissions, &mut remarks)?;
+    } else {
+        remarks.extend(lookalikes(&submissions));
+    }
+    mark_older(&mut submissions);
+    submissions.sort_by(|a, b| (&a.student, &a.name).cmp(&(&b.student, &b.name)));
+    Ok(Class { submissions, remarks })
+}
+
+fn list(folder: &Path) -> Result<(Vec<Submission>, Vec<String>), ClassError> {
+    let mut submissions = Vec::new();
+    let mut remarks = Vec::new();
+    for entry in fs::read_dir(folder).map_err(at(folder))? {
+        let path = entry.map_err(at(folder))?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if name == STUDENTS {
+            continue;
+        }
+        if name.starts_with('.') || !(path.is_dir() || stem(&name).is_some()) {
+            remarks.push(format!("{name}: left aside, it is neither a folder nor a .zip, .tar.gz or .tgz"));
+            continue;
+        }
+        // Grading will tell what cannot be read; here it must not keep the others from being graded.
+        let modified = newest(&path).unwrap_or(SystemTime::UNIX_EPOCH);
+        submissions.push(Submission { student: student(&name), name, path, newer: None, time: None, modified });
+    }
+    remarks.sort();
+    Ok((submissions, remarks))
+}
+
+/// The name of an archive without its ending.
+fn stem(name: &str) -> Option<&str> {
+    let lower = name.to_ascii_lowercase();
+    let ending = ENDINGS.iter().find(|ending| lower.ends_with(*ending) && lower.len() > ending.len())?;
+    name.get(..name.len() - ending.len())
+}
+
+fn student(name: &str) -> String {
+    let name = stem(name).unwrap_or(name);
+    let end = [name.find("__"), name.find('@')].into_iter().flatten().filter(|&end| end > 0).min();
+    name[..end.unwrap_or(name.len())].to_string()
+}
+
+/// Takes off the endings, except where `anna.zip` and `anna` would then bear one name.
+fn unique_names(submissions: &mut [Submission]) {
+    let mut counts: HashMap<String, usize> = HashMap::new();
+    for submission in &*submissions {
+        *counts.entry(stem(&submission.name).unwrap_or(&submission.name).to_string()).or_default() += 1;
+    }
+    for submission in submissions {
+        if let Some(stem) = stem(&submission.name)
+            && counts.get(stem) == Some(&1)
+        {
+            submission.name = stem.to_string();
+        }
+    }
+}
+
+/// When something in `path` was last changed. Links are not followed.
+fn newest(path: &Path) -> io::Result<SystemTime> {
+    let data = fs::symlink_metadata(path)?;
+    let mut time = data.modified()?;
+    if data.is_dir() {
+        // A folder's own time is that of unpacking; its files tell when the student worked.
+        let mut files = Vec::new();
+        for entry in fs::read_dir(path)? {
+            files.push(newest(&entry?.path())?);
+        }
+        time = files.into_iter().max().unwrap_or(time);
+    }
+    Ok(time)
+}
+
+fn apply(path: &Path, submissions: &mut [Submission], remarks: &mut Vec<String>) -> Result<(), ClassError> {
+    let unreadable =
+        |error: csv::Error| ClassError::Unreadable { path: path.to_path_buf(), message: error.to_string() };
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(unreadable)?;
+    for row in reader.deserialize() {
+        let row: Row = row.map_err(unreadable)?;
+        let is_it = |submission: &&mut Submission| {
+            submission.name == row.submission
+                || submission.path.file_name().is_some_and(|name| *name == *row.submission)
+        };
+        match submissions.iter_mut().find(is_it) {
+            Some(_) if row.student.is_empty() => {
+                remarks.push(format!("{STUDENTS}: {} has no student", row.submission));
+            }
+            Some(submission) => {
+                submission.student = row.student;
+                submission.time = row.time.filter(|time| !time.is_empty()).map(Time::read);
+            }
+            None => remarks.push(format!("{STUDENTS}: there is no submission {}", row.submission)),
+        }
+    }
+    Ok(())
+}
+
+impl Time {
+    fn read(text: String) -> Self {
+        text.parse().map_or(Self::Text(text), Self::Number)
+    }
+}
+
+/// Names such as `anna` and `anna-2`, that only an instructor can tell to be one student.
+fn lookalikes(submissions: &[Submission]) -> Vec<String> {
+    let mut alike: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for submission in submissions {
+        let student = submission.student.as_str();
+        let end = student.find(['_', '-', ' ', '(']).unwrap_or(student.len());
+        let students = alike.entry(&student[..end]).or_default();
+        if !students.contains(&student) {
+            students.push(student);
+        }
+    }
+    // `submission_1`, `submission_2` … share a first word and are no relations: one of them must be that word alone.
+    alike.retain(|word, students| students.len() > 1 && students.contains(word));
+    let tell = |students: &mut Vec<&str>| {
+        students.sort_unstable();
+        format!("{}: counted as different students; if they are one, {STUDENTS} must say so", students.join(", "))
+    };
+    alike.values_mut().map(tell).collect()
+}
+
+fn mark_older(submissions: &mut [Submission]) {
+    let mut newest: HashMap<String, usize> = HashMap::new();
+    for (i, submission) in submissions.iter().enumerate() {
+        let best = newest.entry(submission.student.clone()).or_insert(i);
+        if submission.is_newer_than(&submissions[*best]) {
+            *best = i;
+        }
+    }
+    for i in 0..submissions.len() {
+        if let Some(&best) = newest.get(&submissions[i].student)
+            && best != i
+        {
+            submissions[i].newer = Some(submissions[best].name.clone());
+        }
+    }
+}
+
+impl Submission {
+    fn is_newer_than(&self, other: &Self) -> bool {
+        let by_time = self.time.partial_cmp(&other.time).unwrap_or(std::cmp::Ordering::Equal);
+        by_time.then(self.modified.cmp(&other.modified)).then(self.name.cmp(&other.name)).is_gt()
+    }
+}

@@ -1,0 +1,109 @@
+//! What a grade depends on, as one hash: where nothing of it changed, the grade stands.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::Path;
+use std::process::Command;
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+use super::{ClassError, at};
+
+/// What all grades of a class have in common. The rubric is part of the grader's program.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Identity {
+    /// Hash of the grader's program.
+    pub grader: String,
+    /// What `rustc --version` prints.
+    pub toolchain: String,
+    pub seed: u64,
+    /// Further arguments of the grader.
+    pub extra: Vec<String>,
+}
+
+impl Identity {
+    /// Reads the program and asks the toolchain.
+    pub fn of(grader: &Path, seed: u64, extra: &[String]) -> Result<Self, ClassError> {
+        let mut hash = Sha256::new();
+        add_file(&mut hash, grader).map_err(at(grader))?;
+        Ok(Self { grader: hex(hash), toolchain: toolchain()?, seed, extra: extra.to_vec() })
+    }
+
+    /// The key of one submission. Its name counts, since its reports show it: two students with one answer get two reports.
+    pub fn key(&self, name: &str, submission: &Path) -> io::Result<String> {
+        let mut hash = Sha256::new();
+        let seed = self.seed.to_string();
+        for text in [&self.grader, &self.toolchain, &seed, &self.extra.join("\0"), name] {
+            add(&mut hash, text.as_bytes());
+        }
+        add_path(&mut hash, submission)?;
+        Ok(hex(hash))
+    }
+}
+
+/// The shard, from 1 to n, of a student: the same on every machine and whoever else is in the class.
+pub fn shard(student: &str, n: usize) -> usize {
+    let digest = Sha256::digest(student.as_bytes());
+    let rest = digest.iter().fold(0, |rest: u128, byte| (rest * 256 + u128::from(*byte)) % n as u128);
+    rest as usize + 1
+}
+
+fn toolchain() -> Result<String, ClassError> {
+    let output = Command::new("rustc").arg("--version").output().map_err(|e| ClassError::Toolchain(e.to_string()))?;
+    if !output.status.success() {
+        return Err(ClassError::Toolchain(output.status.to_string()));
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).trim().to_string())
+}
+
+/// Adds bytes with their length, so that no two lists of texts look alike.
+fn add(hash: &mut Sha256, bytes: &[u8]) {
+    hash.update((bytes.len() as u64).to_le_bytes());
+    hash.update(bytes);
+}
+
+fn add_file(hash: &mut Sha256, path: &Path) -> io::Result<()> {
+    let mut file = File::open(path)?;
+    hash.update(file.metadata()?.len().to_le_bytes());
+    let mut block = vec![0; 1 << 16];
+    loop {
+        let read = io::Read::read(&mut file, &mut block)?;
+        if read == 0 {
+            return Ok(());
+        }
+        hash.update(&block[..read]);
+    }
+}
+
+/// Adds all files below `path`, by name. Links count as the path that they hold: following one could lead anywhere.
+fn add_path(hash: &mut Sha256, path: &Path) -> io::Result<()> {
+    let kind = fs::symlink_metadata(path)?.file_type();
+    if kind.is_symlink() {
+        add(hash, b"link");
+        add(hash, fs::read_link(path)?.as_os_str().as_encoded_bytes());
+    } else if kind.is_dir() {
+        let mut names = fs::read_dir(path)?.map(|entry| Ok(entry?.file_name())).collect::<io::Result<Vec<_>>>()?;
+        // What cargo and git keep is large and never graded.
+        names.retain(|name| name != "target" && name != ".git");
+        names.sort();
+        add(hash, b"folder");
+        hash.update((names.len() as u64).to_le_bytes());
+        for name in names {
+            add(hash, name.as_encoded_bytes());
+            add_path(hash, &path.join(name))?;
+        }
+    } else if kind.is_file() {
+        add(hash, b"file");
+        add_file(hash, path)?;
+    } else {
+        // A pipe or a device never ends, and is no answer.
+        add(hash, b"other");
+    }
+    Ok(())
+}
+
+fn hex(hash: Sha256) -> String {
+    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,119 @@
+//! One grader's process with all that it starts, and the wish of the user to stop.
+
+use std::fs::File;
+use std::io;
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+/// A process that leads its own group; the group dies with this value.
+pub struct Process {
+    child: Child,
+    deadline: Instant,
+    reaped: bool,
+}
+
+/// How a process stands.
+pub enum State {
+    Running,
+    TimedOut,
+    Ended(ExitStatus),
+}
+
+impl Process {
+    /// Starts `command` with its output in the file `log`.
+    pub fn start(command: &mut Command, log: &Path, limit: Duration) -> io::Result<Self> {
+        let log = File::create(log)?;
+        command.stdin(Stdio::null()).stdout(log.try_clone()?).stderr(log);
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(command, 0);
+        let child = command.spawn()?;
+        let now = Instant::now();
+        let deadline = now.checked_add(limit).unwrap_or(now + Duration::from_secs(u32::MAX.into()));
+        Ok(Self { child, deadline, reaped: false })
+    }
+
+    /// Looks without waiting.
+    pub fn state(&mut self) -> io::Result<State> {
+        if let Some(status) = self.child.try_wait()? {
+            self.reaped = true;
+            return Ok(State::Ended(status));
+        }
+        Ok(if Instant::now() >= self.deadline { State::TimedOut } else { State::Running })
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        // Also after a regular end: what the grader left behind must not slow down the others. A group that is gone
+        // already, and a child that cannot be waited for, are what is wanted here.
+        kill_group(self.child.id());
+        if !self.reaped {
+            let _ = self.child.kill();
+            let _ = self.child.wait();
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+fn kill_group(leader: u32) {
+    use nix::sys::signal::{Signal, killpg};
+    if let Ok(leader) = i32::try_from(leader) {
+        let _ = killpg(nix::unistd::Pid::from_raw(leader), Signal::SIGKILL);
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+fn kill_group(_leader: u32) {}
+
+/// Turns Ctrl-C and a polite kill into something that can be asked for, as long as it lives.
+#[cfg(target_os = "linux")]
+pub struct Interrupt {
+    signals: nix::sys::signalfd::SignalFd,
+    before: nix::sys::signal::SigSet,
+}
+
+#[cfg(target_os = "linux")]
+impl Interrupt {
+    /// Holds both signals back from this thread; a child starts without that.
+    pub fn watch() -> io::Result<Self> {
+        use nix::sys::signal::{SigSet, SigmaskHow, Signal};
+        use nix::sys::signalfd::{SfdFlags, SignalFd};
+        let mut set = SigSet::empty();
+        set.add(Signal::SIGINT);
+        set.add(Signal::SIGTERM);
+        let before = set.thread_swap_mask(SigmaskHow::SIG_BLOCK)?;
+        let signals = SignalFd::with_flags(&set, SfdFlags::SFD_NONBLOCK | SfdFlags::SFD_CLOEXEC)?;
+        Ok(Self { signals, before })
+    }
+
+    /// Whether one has come since it was last asked.
+    pub fn has_come(&mut self) -> io::Result<bool> {
+        Ok(self.signals.read_signal()?.is_some())
+    }
+}
+
+#[cfg(target_os = "linux")]
+impl Drop for Interrupt {
+    fn drop(&mut self) {
+        // Setting a mask that was read a moment ago cannot fail.
+        let _ = self.before.thread_set_mask();
+    }
+}
+
+/// Elsewhere the signals end the program, which loses nothing that was finished.
+#[cfg(not(target_os = "linux"))]
+pub struct Interrupt;
+
+#[cfg(not(target_os = "linux"))]
+impl Interrupt {
+    /// Does nothing.
+    pub fn watch() -> io::Result<Self> {
+        Ok(Self)
+    }
+
+    /// Never.
+    pub fn has_come(&mut self) -> io::Result<bool> {
+        Ok(false)
+    }
+}

@@ -1,0 +1,233 @@
+//! What lies in the output folder: complete grades by key, an index, tables, and logs of what failed.
+//!
+//! A folder of grades appears under its key by one renaming, when it is complete. Tables are written beside and renamed.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::thread::sleep;
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+
+use super::{ClassError, Entry, Identity, Outcome, Report, Shard, Summary, at};
+use crate::grade::{FORMAT_VERSION, Grade};
+
+const INDEX: &str = "class.json";
+const PARTIAL: &str = ".partial-";
+
+/// An output folder that no other run works in, as long as this value lives.
+pub struct Store {
+    pub out: PathBuf,
+    _lock: File,
+}
+
+/// `class.json`: what a class consists of, for whoever joins shards.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Index {
+    pub format_version: u32,
+    pub identity: Identity,
+    pub shard: Option<Shard>,
+    pub remarks: Vec<String>,
+    pub submissions: Vec<IndexRow>,
+}
+
+/// One submission of `class.json`.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct IndexRow {
+    pub submission: String,
+    pub student: String,
+    pub state: IndexState,
+}
+
+/// How a submission of `class.json` stands.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum IndexState {
+    /// Folder of the grade, relative to the index.
+    Graded(PathBuf),
+    /// Why not.
+    NotGraded(String),
+    Waiting,
+    /// The newer one that counts.
+    Older(String),
+}
+
+impl Store {
+    /// Makes the folder where needed, locks it and clears away what a killed run left unfinished.
+    pub fn open(out: &Path) -> Result<Self, ClassError> {
+        for folder in ["grades", "failed", "submissions"] {
+            let folder = out.join(folder);
+            fs::create_dir_all(&folder).map_err(at(&folder))?;
+        }
+        let path = out.join(".lock");
+        let lock = File::options().create(true).truncate(false).write(true).open(&path).map_err(at(&path))?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(fs::TryLockError::WouldBlock) => return Err(ClassError::Locked(out.display().to_string())),
+            Err(fs::TryLockError::Error(source)) => return Err(ClassError::File { path, source }),
+        }
+        let store = Self { out: out.to_path_buf(), _lock: lock };
+        store.clear_partial()?;
+        Ok(store)
+    }
+
+    fn clear_partial(&self) -> Result<(), ClassError> {
+        let grades = self.out.join("grades");
+        for entry in fs::read_dir(&grades).map_err(at(&grades))? {
+            let path = entry.map_err(at(&grades))?.path();
+            if path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(PARTIAL)) {
+                remove_while_written(&path).map_err(at(&path))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A new empty folder for a grader to write into. It bears this process's number: one that outlives a killed run
+    /// cannot write into it.
+    pub fn begin(&self, key: &str) -> io::Result<PathBuf> {
+        let path = self.out.join("grades").join(format!("{PARTIAL}{}-{key}", std::process::id()));
+        fs::create_dir(&path)?;
+        Ok(path)
+    }
+
+    /// Makes a complete folder count, and forgets an earlier failure.
+    pub fn finish(&self, partial: &Path, name: &str, key: &str) -> io::Result<()> {
+        let place = self.out.join(folder(key));
+        if place.exists() {
+            // It was there and could not be read, else nobody would have graded again.
+            fs::remove_dir_all(&place)?;
+        }
+        fs::rename(partial, place)?;
+        self.point(name, key)?;
+        remove_if_there(&log(&self.out, name))
+    }
+
+    /// Keeps the log of a grader that failed, and clears its folder away.
+    pub fn fail(&self, partial: &Path, name: &str) -> io::Result<()> {
+        fs::rename(partial.join("log.txt"), log(&self.out, name))?;
+        fs::remove_dir_all(partial)
+    }
+
+    /// The grade of an earlier run. One that cannot be read is none.
+    pub fn find(&self, key: &str) -> Option<Grade> {
+        read_grade(&self.out.join(folder(key))).ok()
+    }
+
+    /// Leads from a submission's name to its reports.
+    pub fn point(&self, name: &str, key: &str) -> io::Result<()> {
+        let target = Path::new("..").join(folder(key));
+        let place = self.out.join("submissions").join(name);
+        remove_if_there(&place)?;
+        #[cfg(unix)]
+        return std::os::unix::fs::symlink(target, place);
+        #[cfg(not(unix))]
+        return fs::write(place, target.display().to_string());
+    }
+
+    /// Writes the index, the tables and the report.
+    pub fn publish(&self, summary: &Summary, report: Report) -> Result<(), ClassError> {
+        let index = serde_json::to_vec_pretty(&Index::of(summary)).map_err(io::Error::from).map_err(at(&self.out))?;
+        for (name, bytes) in [
+            (INDEX, Ok(index)),
+            ("grades.csv", super::table::grades(&summary.entries)),
+            ("errors.csv", super::table::errors(&summary.entries)),
+        ] {
+            let path = self.out.join(name);
+            bytes.and_then(|bytes| replace(&path, &bytes)).map_err(at(&path))?;
+        }
+        report(summary, &self.out).map_err(ClassError::Report)
+    }
+}
+
+/// Where an output folder keeps the log of a submission that could not be graded.
+pub fn log(out: &Path, name: &str) -> PathBuf {
+    out.join("failed").join(format!("{name}.log"))
+}
+
+/// Where the grade of a key lies in an output folder.
+pub fn folder(key: &str) -> PathBuf {
+    Path::new("grades").join(key)
+}
+
+/// Reads the `grade.json` of a folder.
+pub fn read_grade(folder: &Path) -> Result<Grade, String> {
+    let text = fs::read(folder.join("grade.json")).map_err(|error| format!("grade.json: {error}"))?;
+    let grade: Grade = serde_json::from_slice(&text).map_err(|error| format!("grade.json: {error}"))?;
+    if grade.format_version != FORMAT_VERSION {
+        return Err(format!("grade.json has format {}, expected is {FORMAT_VERSION}", grade.format_version));
+    }
+    if !(grade.score.is_finite() && grade.max_score.is_finite() && 0.0 <= grade.score && grade.score <= grade.max_score)
+    {
+        return Err(format!("grade.json has the score {} of {}", grade.score, grade.max_score));
+    }
+    Ok(grade)
+}
+
+/// Removes a folder, or a file in its place, that the grader of a killed run may still write.
+fn remove_while_written(path: &Path) -> io::Result<()> {
+    let mut tries = 20;
+    loop {
+        let result = if path.is_dir() { fs::remove_dir_all(path) } else { remove_if_there(path) };
+        match result {
+            Err(error) if error.kind() == io::ErrorKind::DirectoryNotEmpty && tries > 0 => tries -= 1,
+            result => return result,
+        }
+        sleep(Duration::from_millis(50));
+    }
+}
+
+fn remove_if_there(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// Puts a file in its place as a whole: a reader sees the old one or the new one.
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let mut file = tempfile::NamedTempFile::new_in(folder)?;
+    file.write_all(bytes)?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
+impl Index {
+    /// The index of an output folder.
+    pub fn read(out: &Path) -> Result<Self, ClassError> {
+        let path = out.join(INDEX);
+        let text = fs::read(&path).map_err(at(&path))?;
+        let index: Self = serde_json::from_slice(&text)
+            .map_err(|error| ClassError::Unreadable { path: path.clone(), message: error.to_string() })?;
+        if index.format_version == FORMAT_VERSION {
+            return Ok(index);
+        }
+        let message = format!("has format {}, expected is {FORMAT_VERSION}", index.format_version);
+        Err(ClassError::Unreadable { path, message })
+    }
+
+    fn of(summary: &Summary) -> Self {
+        Self {
+            format_version: FORMAT_VERSION,
+            identity: summary.identity.clone(),
+            shard: summary.shard.map(|(k, n)| Shard { k, n }),
+            remarks: summary.remarks.clone(),
+            submissions: summary.entries.iter().map(IndexRow::of).collect(),
+        }
+    }
+}
+
+impl IndexRow {
+    fn of(entry: &Entry) -> Self {
+        let state = match &entry.outcome {
+            Outcome::Graded(_, folder) => IndexState::Graded(folder.clone()),
+            Outcome::NotGraded(reason) => IndexState::NotGraded(reason.clone()),
+            Outcome::Waiting => IndexState::Waiting,
+            Outcome::Older { newer } => IndexState::Older(newer.clone()),
+        };
+        Self { submission: entry.submission.clone(), student: entry.student.clone(), state }
+    }
+}

@@ -1,0 +1,93 @@
+//! The command line: arguments as types. What they ask for is done elsewhere.
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand};
+
+use crate::pack::Engine;
+
+/// Hands out the exercises, checks them, grades submissions and whole classes.
+#[derive(Parser)]
+#[command(name = "grader", version, max_term_width = 100)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Subcommand)]
+pub enum Command {
+    /// Write the students' repository: every exercise empty, everything else as it is.
+    Handout {
+        /// A new or empty folder.
+        #[arg(value_name = "DIR")]
+        to: PathBuf,
+    },
+    /// Hold the functions of a repository to the public checks.
+    Check(grader::check::Options),
+    /// Grade one submission: a folder or archive with src/NAME.rs files.
+    Grade {
+        /// Folder, .zip or .tar.gz.
+        submission: PathBuf,
+        #[command(flatten)]
+        options: GradeOptions,
+    },
+    /// Grade every submission in a folder; goes on where it was stopped.
+    Class {
+        /// A folder with a folder or archive for each submission.
+        folder: PathBuf,
+        #[command(flatten)]
+        options: GradeOptions,
+        /// Submissions at a time; one for each core unless told.
+        #[arg(long, value_name = "N")]
+        jobs: Option<usize>,
+        /// The K-th of N parts of the class, for several machines; `merge` joins them.
+        #[arg(long, value_name = "K/N", value_parser = shard)]
+        shard: Option<(usize, usize)>,
+    },
+    /// Join the results of shards.
+    Merge {
+        /// Result folders of `class`.
+        #[arg(required = true)]
+        folders: Vec<PathBuf>,
+        /// Where the joined results go.
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+    },
+    /// Write what an engine that instructors already use needs to run the grader.
+    Pack {
+        engine: Engine,
+        /// A new or empty folder.
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+        /// Where random inputs start.
+        #[arg(long, value_name = "N", default_value_t = 1)]
+        seed: u64,
+        /// Pack the sources of all dependencies too, so that setting up needs no crates from the network.
+        #[arg(long)]
+        vendor: bool,
+    },
+}
+
+#[derive(clap::Args)]
+pub struct GradeOptions {
+    /// Where results go.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Where random inputs start.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Points, levels and tolerances, instead of the grader's own.
+    #[arg(long, value_name = "FILE")]
+    pub rubric: Option<PathBuf>,
+    /// Grade even where this machine has no sandbox at all: a submission may then do what you may.
+    #[arg(long)]
+    pub without_sandbox: bool,
+}
+
+fn shard(text: &str) -> Result<(usize, usize), String> {
+    let parts = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
+    match parts {
+        Some((k, n)) if 1 <= k && k <= n => Ok((k, n)),
+        _ => Err("give two numbers K/N with 1 ≤ K ≤ N, such as 2/8".to_owned()),
+    }
+}

@@ -1,0 +1,186 @@
+//! What each command does, and how it ends: 0 done, 1 the grader itself failed, 2 unusable arguments.
+
+use std::collections::BTreeMap;
+use std::env;
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Duration;
+
+use grader::compile::names;
+use grader::sandbox::Sandbox;
+use grader::submission::{Source, Submission};
+
+use crate::class::Outcome;
+use crate::cli::GradeOptions;
+use crate::grading::{Grading, repository};
+use crate::pack::{self, PackOptions};
+use crate::reports::{self, ClassEntry, Options};
+use crate::rubric::Rubric;
+use crate::{archive, class, handout};
+
+/// The grader or its machine failed; there is no grade.
+pub const GRADER_FAILED: u8 = 1;
+/// An argument, the rubric or a path cannot be used.
+pub const UNUSABLE: u8 = 2;
+
+/// Longest time for one submission of a class; the slowest honest ones take some seconds.
+const LONGEST: Duration = Duration::from_secs(600);
+
+/// Why a command did not do its work.
+pub struct Problem {
+    pub message: String,
+    pub code: u8,
+}
+
+/// The end of a command.
+pub type Done = Result<(), Problem>;
+
+fn failed(error: impl Display) -> Problem {
+    Problem { message: error.to_string(), code: GRADER_FAILED }
+}
+
+fn unusable(error: impl Display) -> Problem {
+    Problem { message: error.to_string(), code: UNUSABLE }
+}
+
+pub fn handout(to: &Path) -> Done {
+    handout::write(&repository(), to).map_err(unusable)?;
+    println!("The students' repository is in {}; its README.md tells how to begin.", to.display());
+    Ok(())
+}
+
+pub fn check(options: &grader::check::Options) -> Done {
+    use grader::check::CheckError;
+    grader::check::run(options).map_err(|error| match error {
+        CheckError::Unknown(_) | CheckError::Unreadable(_) => unusable(error),
+        _ => failed(error),
+    })
+}
+
+pub fn grade(submission: &Path, options: &GradeOptions) -> Done {
+    let rubric = Rubric::load(options.rubric.as_deref()).map_err(unusable)?;
+    if !submission.exists() {
+        return Err(unusable(format!(
+            "{}: there is no such submission; name a folder or archive",
+            submission.display()
+        )));
+    }
+    let origin = reports::classroom50::Origin::from_environment();
+    let reports = Options { show_diagnosis: rubric.students.diagnosis, origin };
+    let show_hints = rubric.students.hints;
+    let grading = Grading::new(&repository(), rubric, sandbox(options)?, options.seed).map_err(failed)?;
+    let mut grade = grading.grade(&read(submission)).map_err(failed)?;
+    if !show_hints {
+        grade.functions.iter_mut().for_each(|function| function.hint = None);
+    }
+    reports::write_all(&grade, &options.out, &reports).map_err(|error| unwritable(&options.out, &error))?;
+    reports::terminal::print(&grade, reports.show_diagnosis).map_err(failed)
+}
+
+fn unwritable(folder: &Path, error: &dyn Display) -> Problem {
+    failed(format!("{}: {error}; name a folder that can be written to", folder.display()))
+}
+
+/// A submission that cannot be read is graded all the same: nothing in it counts, and the report says why.
+fn read(path: &Path) -> Submission {
+    let read = if path.is_dir() { Submission::read_folder(path) } else { archive::read_submission(path) };
+    read.unwrap_or_else(|error| {
+        let why = "the submission cannot be read";
+        let functions: BTreeMap<_, _> = names().map(|name| (name, Source::Missing(why.to_owned()))).collect();
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Submission { name, functions, remarks: vec![error.to_string()] }
+    })
+}
+
+fn sandbox(options: &GradeOptions) -> Result<Sandbox, Problem> {
+    if options.without_sandbox {
+        return Ok(Sandbox::none());
+    }
+    let sandbox = Sandbox::probe(&env::current_exe().map_err(failed)?);
+    if !sandbox.is_some_layer() {
+        let advice = "grade on Linux, or give --without-sandbox if you trust the submissions as you trust yourself";
+        return Err(failed(format!("this machine has no layer of a sandbox; {advice}")));
+    }
+    Ok(sandbox)
+}
+
+pub fn class(folder: &Path, options: &GradeOptions, jobs: Option<usize>, shard: Option<(usize, usize)>) -> Done {
+    let rubric = Rubric::load(options.rubric.as_deref()).map_err(unusable)?;
+    // What all submissions share is built before the first one, and the sandbox is looked at once.
+    let _ = Grading::new(&repository(), rubric, sandbox(options)?, options.seed).map_err(failed)?;
+    let mut extra = Vec::new();
+    if let Some(rubric) = &options.rubric {
+        extra.extend(["--rubric".to_owned(), rubric.display().to_string()]);
+    }
+    if options.without_sandbox {
+        extra.push("--without-sandbox".to_owned());
+    }
+    let cores = thread::available_parallelism().map_or(1, Into::into);
+    let summary = class::run(&class::ClassOptions {
+        folder: folder.to_owned(),
+        out: options.out.clone(),
+        jobs: jobs.unwrap_or(cores).max(1),
+        shard,
+        seed: options.seed,
+        grader: env::current_exe().map_err(failed)?,
+        time_limit: LONGEST,
+        extra,
+        report,
+    });
+    told(summary, &options.out)
+}
+
+pub fn merge(folders: &[PathBuf], out: &Path) -> Done {
+    told(class::merge(folders, out, report), out)
+}
+
+/// Prints what became of a class.
+fn told(summary: Result<class::Summary, class::ClassError>, out: &Path) -> Done {
+    let summary = summary.map_err(unusable)?;
+    let count = |wanted: fn(&Outcome) -> bool| summary.entries.iter().filter(|entry| wanted(&entry.outcome)).count();
+    let graded = count(|outcome| matches!(outcome, Outcome::Graded(..)));
+    println!("{graded} graded: {} now, {} before", summary.graded_now, summary.kept);
+    for entry in &summary.entries {
+        if let Outcome::NotGraded(reason) = &entry.outcome {
+            println!("not graded: {} ({reason}); it has no score, which is not zero", entry.submission);
+        }
+    }
+    summary.remarks.iter().for_each(|remark| println!("{remark}"));
+    println!("grades.csv and class.html are in {}", out.display());
+    if summary.interrupted {
+        return Err(failed("stopped; the same command goes on from here"));
+    }
+    Ok(())
+}
+
+/// What the reports need of a class: the submissions that count, each with the older ones of its student.
+fn class_entries(summary: &class::Summary) -> Vec<ClassEntry> {
+    let older = |newest: &str| {
+        let is_older = |entry: &&class::Entry| matches!(&entry.outcome, Outcome::Older { newer } if newer == newest);
+        summary.entries.iter().filter(is_older).map(|entry| entry.submission.clone()).collect()
+    };
+    let mut entries = Vec::new();
+    for entry in &summary.entries {
+        if let Outcome::Graded(grade, folder) = &entry.outcome {
+            entries.push(ClassEntry {
+                grade: (**grade).clone(),
+                student: entry.student.clone(),
+                page: Some(folder.join("report.html").to_string_lossy().replace('\\', "/")),
+                older: older(&entry.submission),
+            });
+        }
+    }
+    entries
+}
+
+/// The class's page, from what is graded so far.
+fn report(summary: &class::Summary, out: &Path) -> std::io::Result<()> {
+    reports::write_class(&class_entries(summary), out)
+}
+
+pub fn pack(options: PackOptions) -> Done {
+    pack::pack(&options).map_err(unusable)?;
+    println!("{} is ready; the page in it tells what to do with it.", options.out.display());
+    Ok(())
+}

@@ -1,0 +1,142 @@
+//! Turns the files of a submission into a program that answers calls. One call of rustc for many functions; a file that does not
+//! compile costs its own function alone.
+
+mod diagnostics;
+pub mod prebuilt;
+mod sources;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use std::{fs, io};
+
+use crate::sandbox::{Confined, Limits, Profile, Sandbox};
+use diagnostics::faults;
+use prebuilt::Prebuilt;
+pub use sources::names;
+
+/// How long rustc may take for one program.
+const TIME: Duration = Duration::from_secs(20);
+
+/// What goes into a program.
+#[derive(Clone, Default)]
+pub struct Plan {
+    /// Texts of the submission, by function.
+    pub own: BTreeMap<&'static str, String>,
+    /// A library with right functions for those that are not `own`, and their names.
+    pub reference: Option<(PathBuf, BTreeSet<&'static str>)>,
+}
+
+/// A program, and what could not become part of it.
+pub struct Built {
+    /// The program; `None` where nothing could be built.
+    pub program: Option<PathBuf>,
+    /// For each function that does not compile, what to tell its author.
+    pub faults: BTreeMap<&'static str, String>,
+}
+
+/// Builds a program in `folder`. Files that do not compile are left out, and their functions panic when they are called.
+///
+/// # Errors
+/// Where files cannot be written or rustc cannot be started: the machine's trouble, not the submission's.
+pub fn build(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path) -> io::Result<Built> {
+    let mut plan = plan.clone();
+    let mut all_faults = BTreeMap::new();
+    loop {
+        let attempt = compile(prebuilt, sandbox, &plan, folder)?;
+        let mut found = match attempt {
+            Attempt::Built(program) => return Ok(Built { program: Some(program), faults: all_faults }),
+            Attempt::Failed(messages) => faults(&messages),
+            Attempt::GaveUp(_) => BTreeMap::new(),
+        };
+        found.retain(|name, _| plan.own.contains_key(name));
+        if found.is_empty() {
+            found = one_by_one(prebuilt, sandbox, &plan, folder)?;
+        }
+        if found.is_empty() {
+            // No file is to blame alone, so all of them are.
+            let sentence = "the files compile one by one, but not together";
+            found = plan.own.keys().map(|name| (*name, sentence.to_owned())).collect();
+        }
+        plan.own.retain(|name, _| !found.contains_key(name));
+        all_faults.extend(found);
+    }
+}
+
+/// Finds the files that cannot be compiled even alone.
+fn one_by_one(
+    prebuilt: &Prebuilt,
+    sandbox: &Sandbox,
+    plan: &Plan,
+    folder: &Path,
+) -> io::Result<BTreeMap<&'static str, String>> {
+    let mut found = BTreeMap::new();
+    for (name, text) in &plan.own {
+        let own = BTreeMap::from([(*name, text.clone())]);
+        let fault = match compile(prebuilt, sandbox, &Plan { own, reference: plan.reference.clone() }, folder)? {
+            Attempt::Built(_) => continue,
+            Attempt::Failed(messages) => faults(&messages).remove(name),
+            Attempt::GaveUp(why) => Some(why),
+        };
+        found.insert(*name, fault.unwrap_or_else(|| "the file does not compile".to_owned()));
+    }
+    Ok(found)
+}
+
+enum Attempt {
+    Built(PathBuf),
+    /// What the compiler says, one JSON object a line.
+    Failed(String),
+    /// The compiler itself ended badly.
+    GaveUp(String),
+}
+
+fn compile(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path) -> io::Result<Attempt> {
+    sources::write(plan, &folder.join("src"))?;
+    let program = folder.join("program");
+    if program.exists() {
+        fs::remove_file(&program)?;
+    }
+    let mut arguments = prebuilt.arguments();
+    arguments
+        .extend(["--crate-name=submission", "--crate-type=bin", "-o", "program", "src/main.rs"].map(str::to_owned));
+    let mut readable = prebuilt.readable();
+    if let Some((library, _)) = &plan.reference {
+        arguments.extend(["--extern".to_owned(), format!("course_below={}", library.display())]);
+        readable.extend(library.parent().map(Path::to_owned));
+    }
+    let ended = sandbox.run(&Confined {
+        program: prebuilt.rustc.clone(),
+        arguments,
+        environment: vec![
+            ("PATH".to_owned(), "/usr/bin:/bin".to_owned()),
+            ("TMPDIR".to_owned(), folder.display().to_string()),
+            // The compiler finds its own library by /proc, which there is none of in the sandbox.
+            ("LD_LIBRARY_PATH".to_owned(), prebuilt.sysroot.join("lib").display().to_string()),
+        ],
+        folder: folder.to_owned(),
+        readable,
+        writable: vec![folder.to_owned()],
+        profile: Profile::Compiler,
+        limits: Limits {
+            wall: TIME,
+            cpu: TIME,
+            memory: 4 << 30,
+            processes: 64,
+            file_size: 256 << 20,
+            open_files: 256,
+            output: 4 << 20,
+        },
+    })?;
+    Ok(if ended.code == Some(0) && program.exists() {
+        Attempt::Built(program)
+    } else if ended.timed_out {
+        Attempt::GaveUp(format!("the compiler did not finish within {} s", TIME.as_secs()))
+    } else if ended.stderr.starts_with(b"{") {
+        Attempt::Failed(String::from_utf8_lossy(&ended.stderr).into_owned())
+    } else {
+        let how =
+            ended.signal.map_or_else(|| format!("exit code {:?}", ended.code), |signal| format!("signal {signal}"));
+        Attempt::GaveUp(format!("the compiler ended with {how}"))
+    })
+}

@@ -1,0 +1,64 @@
+//! What rustc says, sorted by the file that is to blame.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::sources::{names, signature};
+
+/// How much of the compiler's text is kept for one function, bytes.
+const MOST_TEXT: usize = 4000;
+
+#[derive(Deserialize)]
+struct Message {
+    level: String,
+    message: String,
+    spans: Vec<Span>,
+    rendered: Option<String>,
+}
+
+#[derive(Deserialize)]
+struct Span {
+    file_name: String,
+    expansion: Option<Box<Expansion>>,
+}
+
+#[derive(Deserialize)]
+struct Expansion {
+    span: Span,
+}
+
+/// For each function with an error in its file, or in the line that calls it, what to tell.
+pub fn faults(messages: &str) -> BTreeMap<&'static str, String> {
+    let mut found: BTreeMap<&'static str, String> = BTreeMap::new();
+    // Lines that are no message come from a linker or a panicking compiler; they blame no file.
+    for message in messages.lines().filter_map(|line| serde_json::from_str::<Message>(line).ok()) {
+        if message.level != "error" {
+            continue;
+        }
+        let Some((name, is_call)) = message.spans.iter().find_map(blamed) else { continue };
+        let text = if is_call {
+            format!("the signature is not the course's, which is `{}`", signature(name))
+        } else {
+            message.rendered.unwrap_or(message.message)
+        };
+        let told = found.entry(name).or_default();
+        if told.len() + text.len() < MOST_TEXT && !told.contains(&text) {
+            told.push_str(&text);
+            told.push('\n');
+        } else if told.is_empty() {
+            told.extend(text.chars().take(MOST_TEXT));
+        }
+    }
+    found
+}
+
+/// The function whose file a place is in, and whether it is the line that calls the function.
+fn blamed(span: &Span) -> Option<(&'static str, bool)> {
+    let here = span.file_name.strip_prefix("src/").and_then(|file| {
+        let (is_call, file) = file.strip_prefix("calls/").map_or((false, file), |file| (true, file));
+        let stem = file.strip_suffix(".rs")?;
+        names().find(|name| *name == stem).map(|name| (name, is_call))
+    });
+    here.or_else(|| span.expansion.as_ref().and_then(|expansion| blamed(&expansion.span)))
+}

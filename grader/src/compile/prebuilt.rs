@@ -1,0 +1,208 @@
+//! What every program of a submission is linked with, built once for each toolchain: nalgebra, what the course gives, and the
+//! loop that answers calls.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{self, Path, PathBuf};
+use std::process::Command;
+use std::{env, fs, io};
+
+use thiserror::Error;
+
+use crate::sandbox::system_folders;
+
+/// Why the libraries could not be built: trouble of the machine or of the repository, never of a submission.
+#[derive(Debug, Error)]
+pub enum PrebuildError {
+    /// A file cannot be read or written, a program cannot be started.
+    #[error("{what}: {error}; it is needed to prepare the grader's libraries")]
+    Io {
+        /// Which file or program.
+        what: String,
+        /// Why.
+        error: io::Error,
+    },
+    /// A compiler says no.
+    #[error("{what} failed while the grader's libraries were prepared:\n{output}")]
+    Failed {
+        /// Which step.
+        what: String,
+        /// Its output.
+        output: String,
+    },
+}
+
+/// Libraries to link with, and the compiler that made them.
+#[derive(Clone)]
+pub struct Prebuilt {
+    /// The folder that holds them.
+    pub folder: PathBuf,
+    /// The compiler itself, not rustup's stand-in for it.
+    pub rustc: PathBuf,
+    /// Its standard library.
+    pub sysroot: PathBuf,
+    /// What `rustc --version` prints.
+    pub toolchain: String,
+}
+
+/// Crates that a submission may name, apart from the course's own.
+const CRATES: [&str; 3] = ["nalgebra", "nalgebra_sparse", "grader_child"];
+
+impl Prebuilt {
+    /// Builds the libraries of the repository at `root`, or finds them already built.
+    ///
+    /// # Errors
+    /// Where a compiler or a file is missing or something does not compile.
+    pub fn new(root: &Path) -> Result<Self, PrebuildError> {
+        let root = &fs::canonicalize(root).map_err(io_error(root))?;
+        let sysroot = PathBuf::from(output(Command::new("rustc").current_dir(root).args(["--print", "sysroot"]))?);
+        let rustc = sysroot.join("bin").join(if cfg!(windows) { "rustc.exe" } else { "rustc" });
+        let toolchain = output(Command::new(&rustc).arg("--version"))?;
+        let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
+        let target = path::absolute(&target).map_err(io_error(&target))?;
+        let folder = target.join("grader").join(format!("{:016x}", key(root, &toolchain)?));
+        let prebuilt = Self { folder, rustc, sysroot, toolchain };
+        if !prebuilt.folder.join("complete").exists() {
+            prebuilt.build(root)?;
+        }
+        Ok(prebuilt)
+    }
+
+    /// Arguments that every program is compiled with.
+    pub fn arguments(&self) -> Vec<String> {
+        let deps = self.folder.join("deps");
+        let mut all = vec![
+            "--edition=2024".to_owned(),
+            "--error-format=json".to_owned(),
+            format!("--sysroot={}", self.sysroot.display()),
+            "-Copt-level=2".to_owned(),
+            "-Ccodegen-units=1".to_owned(),
+            // The linker that comes with Rust wants /proc.
+            #[cfg(target_os = "linux")]
+            "-Clinker-features=-lld".to_owned(),
+            format!("-Ldependency={}", deps.display()),
+            format!("--extern=course_given={}", self.folder.join("given/libcourse_given.rlib").display()),
+        ];
+        all.extend(CRATES.map(|name| format!("--extern={name}={}", deps.join(format!("lib{name}.rlib")).display())));
+        all
+    }
+
+    /// What a compiler must be able to read: itself, the system's linker, the libraries.
+    pub fn readable(&self) -> Vec<PathBuf> {
+        let own = [self.sysroot.clone(), self.folder.join("deps"), self.folder.join("given")];
+        system_folders().into_iter().chain(own).collect()
+    }
+
+    fn build(&self, root: &Path) -> Result<(), PrebuildError> {
+        let work = self.folder.join("work");
+        let deps = self.folder.join("deps");
+        for folder in [&work.join("src"), &deps, &self.folder.join("given")] {
+            fs::create_dir_all(folder).map_err(io_error(folder))?;
+        }
+        write(&work.join("Cargo.toml"), &manifest(root)?)?;
+        write(&work.join("src/lib.rs"), "")?;
+        let lock = root.join("Cargo.lock");
+        fs::copy(&lock, work.join("Cargo.lock")).map_err(io_error(&lock))?;
+        let target = work.join("target");
+        let cargo = || {
+            let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+            cargo.args(["build", "--release", "--quiet", "--manifest-path"]).arg(work.join("Cargo.toml"));
+            cargo.env("CARGO_TARGET_DIR", &target).env_remove("RUSTFLAGS").env("RUSTC", &self.rustc);
+            cargo
+        };
+        // What the grader itself was built with is on this machine already, so the network is the second choice.
+        output(cargo().arg("--offline")).or_else(|_| output(&mut cargo()))?;
+        self.collect(&target.join("release/deps"), &deps)?;
+        self.library(&root.join("src/given/mod.rs"), "course_given", &self.folder.join("given"), &[])?;
+        fs::remove_dir_all(&work).map_err(io_error(&work))?;
+        write(&self.folder.join("complete"), &self.toolchain)
+    }
+
+    /// Copies what cargo built; the crates that are named on the command line lose the hash in their file name.
+    fn collect(&self, from: &Path, to: &Path) -> Result<(), PrebuildError> {
+        for entry in fs::read_dir(from).map_err(io_error(from))?.flatten() {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let is_library = name.ends_with(".rlib") || name.ends_with(".so") || name.ends_with(".dylib");
+            if !is_library || name.starts_with("libprebuilt") {
+                continue;
+            }
+            let stem = name.trim_start_matches("lib").split('-').next().unwrap_or_default();
+            let is_named = CRATES.contains(&stem) && name.ends_with(".rlib");
+            let place = to.join(if is_named { format!("lib{stem}.rlib") } else { name.clone() });
+            fs::copy(entry.path(), &place).map_err(io_error(&place))?;
+        }
+        Ok(())
+    }
+
+    /// Compiles one more library from its root file.
+    ///
+    /// # Errors
+    /// Where it does not compile.
+    pub fn library(&self, source: &Path, name: &str, to: &Path, more: &[String]) -> Result<(), PrebuildError> {
+        let mut rustc = Command::new(&self.rustc);
+        let given = self
+            .arguments()
+            .into_iter()
+            .filter(|argument| name != "course_given" || !argument.contains("course_given="));
+        rustc.args(given).args(["--crate-type=rlib", "--cap-lints=allow", "--crate-name", name, "--out-dir"]);
+        output(rustc.arg(to).args(more).arg(source)).map(drop)
+    }
+}
+
+/// The package that has the libraries as its dependencies, with the versions of the repository.
+fn manifest(root: &Path) -> Result<String, PrebuildError> {
+    let path = root.join("Cargo.toml");
+    let text = fs::read_to_string(&path).map_err(io_error(&path))?;
+    let version = |name: &str| {
+        let line = text.lines().find_map(|line| line.strip_prefix(&format!("{name} = \"")));
+        line.and_then(|rest| rest.strip_suffix('"')).map(str::to_owned)
+    };
+    let missing = |name: &str| PrebuildError::Failed {
+        what: path.display().to_string(),
+        output: format!("no line `{name} = \"…\"` among the workspace's dependencies"),
+    };
+    let nalgebra = version("nalgebra").ok_or_else(|| missing("nalgebra"))?;
+    let sparse = version("nalgebra-sparse").ok_or_else(|| missing("nalgebra-sparse"))?;
+    let child = root.join("grader/child");
+    Ok(format!(
+        "[package]\nname = \"prebuilt\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[workspace]\n[workspace.package]\n\
+         [dependencies]\nnalgebra = \"{nalgebra}\"\nnalgebra-sparse = \"{sparse}\"\n\
+         grader-child = {{ path = {:?} }}\n[profile.release]\nopt-level = 2\ndebug = false\n",
+        child.display().to_string()
+    ))
+}
+
+/// Changes with whatever the libraries are made of.
+fn key(root: &Path, toolchain: &str) -> Result<u64, PrebuildError> {
+    let mut hasher = DefaultHasher::new();
+    (toolchain, env!("CARGO_PKG_VERSION")).hash(&mut hasher);
+    let mut files = vec![root.join("Cargo.lock"), root.join("grader/child/Cargo.toml")];
+    for folder in ["grader/child/src", "src/given"] {
+        let folder = root.join(folder);
+        let entries = fs::read_dir(&folder).map_err(io_error(&folder))?;
+        files.extend(entries.flatten().map(|entry| entry.path()));
+    }
+    files.sort();
+    for file in files {
+        fs::read(&file).map_err(io_error(&file))?.hash(&mut hasher);
+    }
+    Ok(hasher.finish())
+}
+
+fn write(path: &Path, text: &str) -> Result<(), PrebuildError> {
+    fs::write(path, text).map_err(io_error(path))
+}
+
+fn io_error(path: &Path) -> impl FnOnce(io::Error) -> PrebuildError {
+    let what = path.display().to_string();
+    move |error| PrebuildError::Io { what, error }
+}
+
+/// What a program prints, without the space around it.
+fn output(command: &mut Command) -> Result<String, PrebuildError> {
+    let what = format!("{:?}", command.get_program());
+    let output = command.output().map_err(|error| PrebuildError::Io { what: what.clone(), error })?;
+    if !output.status.success() {
+        return Err(PrebuildError::Failed { what, output: String::from_utf8_lossy(&output.stderr).into_owned() });
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+}

@@ -1,0 +1,145 @@
+//! Mistakes that change the right answer as a whole: its sign, its size, the order of its entries.
+
+use super::{Candidate, Case};
+use crate::reference::trial::{Input, Observed, Trial};
+
+/// Simplest first. The factor of a constant one is read off the answers.
+pub fn candidates<'a>(cases: &[&Case]) -> Vec<Candidate<'a>> {
+    let mut all = vec![
+        Candidate::new("zero", "Every entry is zero. Is the result of the computation returned?", |trial, answer| {
+            scaled(trial, answer, 0.0)
+        }),
+        Candidate::new(
+            "negated",
+            "Every entry has the opposite sign. Is the function asked for the energy's gradient or for the force?",
+            |trial, answer| scaled(trial, answer, -1.0),
+        ),
+    ];
+    all.extend(constant(cases));
+    all.extend(by_quantities());
+    all.extend(reordered());
+    all
+}
+
+fn scaled(trial: &Trial, answer: &Observed, factor: f64) -> Option<Observed> {
+    // Vertex numbers have no size, and a matrix that selects has none either.
+    let countable = matches!(trial.input, Input::Pick(_));
+    // 0 · ∞ is no number, and not what somebody who returns 0 answers.
+    let times = |x: &f64| if factor == 0.0 { 0.0 } else { x * factor };
+    (!countable).then(|| Observed { numbers: answer.numbers.iter().map(times).collect(), ..answer.clone() })
+}
+
+/// One factor for all answers, whatever it is.
+fn constant<'a>(cases: &[&Case]) -> Option<Candidate<'a>> {
+    let ratio = |case: &Case| {
+        let entries = case.expected.numbers.iter().zip(&case.observed.numbers);
+        let largest = entries.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+        (largest.0.abs() > 1e-3 * case.trial.scale(0)).then_some(largest.1 / largest.0)
+    };
+    let factor = cases.iter().find_map(|case| ratio(case)).filter(|factor| factor.is_finite() && *factor != 0.0)?;
+    let name = written(factor);
+    let sentence = format!(
+        "Every entry is {name} times as large as it should be. Which constant of the formula is missing, or there twice?"
+    );
+    Some(Candidate::new(format!("scaled by {name}"), sentence, move |trial, answer| scaled(trial, answer, factor)))
+}
+
+/// A factor as a person would write it: 0.5, 20, 1/6.
+fn written(factor: f64) -> String {
+    let near = |denominator: &u32| {
+        let numerator = factor * f64::from(*denominator);
+        numerator.round() != 0.0 && (numerator - numerator.round()).abs() < 1e-6 * numerator.abs()
+    };
+    match (1..=120).find(near) {
+        Some(denominator @ (1 | 2 | 4 | 5 | 10 | 20)) => {
+            let denominator = f64::from(denominator);
+            format!("{}", (factor * denominator).round() / denominator)
+        }
+        Some(denominator) => format!("{}/{denominator}", (factor * f64::from(denominator)).round()),
+        None => format!("{factor:.6}"),
+    }
+}
+
+/// A quantity of the input, where there is one.
+type Quantity = fn(&Input) -> Option<f64>;
+
+fn volume(input: &Input) -> Option<f64> {
+    match input {
+        Input::Kinetic { volume, .. } | Input::Quadrature { volume, .. } | Input::ElementMass { volume, .. } => {
+            Some(*volume)
+        }
+        Input::Elastic(elastic) => Some(elastic.volume),
+        _ => None,
+    }
+}
+
+fn density(input: &Input) -> Option<f64> {
+    match input {
+        Input::Kinetic { density, .. } | Input::ElementMass { density, .. } | Input::MeshMass { density, .. } => {
+            Some(*density)
+        }
+        _ => None,
+    }
+}
+
+fn stiffness(input: &Input) -> Option<f64> {
+    if let Input::Spring { stiffness, .. } = input { Some(*stiffness) } else { None }
+}
+
+fn by_quantities<'a>() -> Vec<Candidate<'a>> {
+    let quantities: [(&str, Quantity); 3] = [("volume", volume), ("density", density), ("stiffness", stiffness)];
+    let both = |(name, quantity): (&'static str, Quantity)| {
+        let missing = format!(
+            "The answer does not grow with the {name}. What are the units of the answer, and what does the {name} add to them?"
+        );
+        let twice = format!("The {name} is there once too often. What are the units of the answer?");
+        [
+            Candidate::new(format!("missing {name}"), missing, move |trial, answer| {
+                scaled(trial, answer, 1.0 / quantity(&trial.input)?)
+            }),
+            Candidate::new(format!("scaled by {name}"), twice, move |trial, answer| {
+                scaled(trial, answer, quantity(&trial.input)?)
+            }),
+        ]
+    };
+    quantities.into_iter().flat_map(both).collect()
+}
+
+fn reordered<'a>() -> Vec<Candidate<'a>> {
+    vec![
+        Candidate::new(
+            "transposed",
+            "Rows and columns are exchanged. Which index counts what, according to the page of the function?",
+            |_, answer| {
+                let [rows, columns] = answer.shape;
+                (columns > 1).then(|| Observed::matrix(columns, rows, |i, j| answer.entry(j, i)))
+            },
+        ),
+        Candidate::new(
+            "columns for rows",
+            "The entries are right, but a matrix is flattened column by column. In which order does this course flatten it?",
+            |_, answer| permuted(answer, 9, |k| 3 * (k % 3) + k / 3),
+        ),
+        Candidate::new(
+            "grouped by coordinate",
+            "The entries are right, but all x come first, then all y, then all z. In which order does q hold them?",
+            |_, answer| {
+                let n = answer.shape[0];
+                let countable = n % 3 == 0 && n > 3;
+                let vertices = (n / 3).max(1);
+                countable.then(|| permuted(answer, n, |k| 3 * (k % vertices) + k / vertices)).flatten()
+            },
+        ),
+    ]
+}
+
+/// The entries of a vector or of a square matrix of this size, taken from other places.
+fn permuted(answer: &Observed, size: usize, from: impl Fn(usize) -> usize) -> Option<Observed> {
+    match answer.shape {
+        [rows, 1] if rows == size => Some(Observed::vector((0..rows).map(|k| answer.numbers[from(k)]).collect())),
+        [rows, columns] if rows == size && columns == size => {
+            Some(Observed::matrix(size, size, |i, j| answer.entry(from(i), from(j))))
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,67 @@
+//! What is known about a submission once it is graded. `grade.json` is this, field by field.
+
+use std::collections::BTreeMap;
+
+use grader::status::Status;
+use serde::{Deserialize, Serialize};
+
+/// Version of the format of `grade.json`.
+pub const FORMAT_VERSION: u32 = 1;
+
+/// One graded submission.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Grade {
+    pub format_version: u32,
+    /// Name of the submission: its folder or archive without the ending.
+    pub submission: String,
+    /// Hash of the 22 files as they were read; submissions with the same hash are the same.
+    pub files: String,
+    pub score: f64,
+    pub max_score: f64,
+    pub seed: u64,
+    /// What `rustc --version` prints.
+    pub toolchain: String,
+    /// Layers of the sandbox, and whether this machine had them.
+    pub sandbox: BTreeMap<String, bool>,
+    /// What concerns the submission as a whole: it cannot be read, files were left aside, …
+    pub remarks: Vec<String>,
+    /// In teaching order, all 22.
+    pub functions: Vec<FunctionGrade>,
+    /// The whole simulation with the submission's functions alone.
+    pub simulation: FunctionGrade,
+    /// Processor time of this grading with all its processes, s.
+    pub seconds: f64,
+}
+
+/// One function of a submission.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct FunctionGrade {
+    pub name: String,
+    pub score: f64,
+    pub max_score: f64,
+    pub status: Status,
+    /// Short name of the mistake that explains the answers, such as `negated`.
+    pub diagnosis: Option<String>,
+    /// A sentence for the student: what the diagnosis means, why the file was refused, what the compiler says, …
+    pub message: Option<String>,
+    /// A hint of the rubric, where the function does not pass.
+    pub hint: Option<String>,
+    /// Worst relative error against the reference; `None` where there is no answer to compare.
+    pub error: Option<f64>,
+    /// Time of one call on a standard load, s.
+    pub seconds: Option<f64>,
+    /// The same for the reference on the same machine in the same minute, s.
+    pub reference_seconds: Option<f64>,
+    pub checks: Vec<CheckGrade>,
+}
+
+/// One check of a function.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct CheckGrade {
+    pub name: String,
+    pub status: Status,
+    /// What must hold or what went wrong, without inputs and figures: fit for students.
+    pub message: String,
+    /// Input and figures of the failure: the instructor's.
+    pub counterexample: Option<String>,
+}

@@ -1,0 +1,133 @@
+//! One function: its comparison with the reference, its properties, its time, and what explains a failure.
+
+use std::panic::{self, AssertUnwindSafe};
+
+use grader::implementation::sandboxed::Sandboxed;
+use grader::implementation::{Local, Trouble};
+use grader::properties::outcome::Mistake;
+use grader::properties::{Course, FUNCTIONS};
+use grader::status::Status;
+
+use super::load::{SERIES, load};
+use super::programs::start;
+use super::{Grading, GradingError, finished};
+use crate::diagnosis::diagnose;
+use crate::grade::{CheckGrade, FunctionGrade};
+use crate::reference::REFERENCE;
+use crate::reference::compare::Check;
+use crate::reference::judge::judge;
+use crate::rubric::Function;
+use crate::variants;
+
+impl Grading {
+    /// Judges a function that compiled.
+    pub(super) fn judge(&self, function: &Function, subject: &Sandboxed) -> Result<FunctionGrade, GradingError> {
+        let name = function.name.get_ref().as_str();
+        subject.next_function();
+        let mut grade = finished(function, Status::Passed, None);
+        let tolerance = function.tolerance.unwrap_or(self.rubric.tolerance);
+        self.compare(&mut grade, name, subject, tolerance);
+        let trusted = Local(REFERENCE);
+        let course = Course { subject, trusted: &trusted, seed: self.seed };
+        let properties = FUNCTIONS.iter().find(|(found, _)| *found == name).map_or(&[][..], |(_, checks)| checks);
+        for check in properties {
+            // A check may stumble over an answer that makes no sense; that is the answer's fault.
+            let outcome = panic::catch_unwind(AssertUnwindSafe(|| (check.run)(&course)));
+            let stumbled = || Err(Mistake::Trouble(Trouble::Malformed));
+            grade.checks.push(check_grade(check.name, outcome.unwrap_or_else(|_| stumbled())));
+        }
+        grade.status = grade.checks.iter().map(|check| check.status).max().unwrap_or(Status::Failed);
+        if grade.status == Status::Passed {
+            grade.score = grade.max_score;
+            grade.hint = None;
+        } else {
+            self.explain(&mut grade, name, subject);
+        }
+        self.time(&mut grade, name, subject)?;
+        Ok(grade)
+    }
+
+    fn compare(&self, grade: &mut FunctionGrade, name: &str, subject: &Sandboxed, tolerance: f64) {
+        let judged = panic::catch_unwind(AssertUnwindSafe(|| judge(name, self.seed, subject, tolerance)));
+        let Ok(Ok(judgement)) = judged else {
+            grade.checks.push(check_grade(Check::Agrees.name(), Err(Mistake::Trouble(Trouble::Malformed))));
+            return;
+        };
+        grade.error = judgement.worst_error.filter(|error| error.is_finite());
+        for (check, failure) in judgement.checks(name) {
+            let outcome = match (&judgement.trouble, failure) {
+                (Some(trouble), _) => Err(Mistake::Trouble(trouble.clone())),
+                (None, None) => Ok(()),
+                (None, Some(failure)) => Err(Mistake::Wrong {
+                    rule: failure.what.to_owned(),
+                    figures: failure.figures.clone(),
+                    counterexample: format!("{} (trial {}, {})", failure.input, failure.trial.0, failure.trial.1),
+                }),
+            };
+            grade.checks.push(check_grade(check.name(), outcome));
+        }
+    }
+
+    /// Partial credit, and the mistake that explains the answers.
+    fn explain(&self, grade: &mut FunctionGrade, name: &str, subject: &Sandboxed) {
+        let passed = grade.checks.iter().filter(|check| check.status == Status::Passed).count();
+        let is_right_at_heart =
+            grade.checks.iter().any(|check| check.name == Check::Agrees.name() && check.status == Status::Passed);
+        if self.rubric.partial_credit && is_right_at_heart && grade.status == Status::Failed {
+            let share = passed as f64 / grade.checks.len() as f64;
+            grade.score = (grade.max_score * share * 100.0).floor() / 100.0;
+        }
+        if grade.status == Status::Failed {
+            let asked = AssertUnwindSafe(|| diagnose(name, self.seed, subject, variants::of(name)));
+            if let Some(diagnosis) = panic::catch_unwind(asked).ok().flatten() {
+                grade.diagnosis = Some(diagnosis.name);
+                grade.message = Some(diagnosis.sentence);
+            }
+        }
+        if grade.message.is_none() {
+            let first = grade.checks.iter().find(|check| check.status == grade.status);
+            grade.message = first.map(|check| check.message.clone());
+        }
+    }
+
+    fn time(&self, grade: &mut FunctionGrade, name: &str, subject: &Sandboxed) -> Result<(), GradingError> {
+        let Some((number, body, times)) = load(name) else { return Ok(()) };
+        grade.seconds = subject.seconds(number, &body, times, SERIES).ok();
+        let program = self.programs.reference.clone();
+        let folder = program.parent().map(ToOwned::to_owned).unwrap_or_default();
+        let reference = Sandboxed::new(start(&self.sandbox, Some(program), &folder), self.limit());
+        let seconds = reference.seconds(number, &body, times, SERIES);
+        grade.reference_seconds = Some(seconds.map_err(|trouble| GradingError::Reference(trouble.to_string()))?);
+        Ok(())
+    }
+}
+
+/// What a check found, apart: what students may read, and what is the instructor's.
+fn check_grade(name: &str, outcome: Result<(), Mistake>) -> CheckGrade {
+    let (status, message, counterexample) = match outcome {
+        Ok(()) => (Status::Passed, String::new(), None),
+        Err(Mistake::Wrong { rule, figures, counterexample }) => {
+            let details: Vec<_> = [figures, counterexample].into_iter().filter(|text| !text.is_empty()).collect();
+            (Status::Failed, rule, (!details.is_empty()).then(|| details.join("\nwith input ")))
+        }
+        Err(Mistake::Trouble(trouble)) => {
+            let told = match &trouble {
+                Trouble::Panicked { message, .. } => Some(message.clone()),
+                _ => None,
+            };
+            (status_of(&trouble), trouble.to_string(), told)
+        }
+        Err(Mistake::Waits { needs, trouble }) => (Status::Failed, format!("{needs}: {trouble}"), None),
+    };
+    CheckGrade { name: name.to_owned(), status, message, counterexample }
+}
+
+fn status_of(trouble: &Trouble) -> Status {
+    match trouble {
+        Trouble::Missing => Status::Missing,
+        Trouble::Panicked { .. } | Trouble::Crashed(_) => Status::Crashed,
+        Trouble::TimedOut(_) => Status::TimedOut,
+        // The trouble that came before giving up is no milder, so it decides how the function fared.
+        Trouble::Malformed | Trouble::GivenUp => Status::Failed,
+    }
+}

@@ -1,0 +1,125 @@
+//! The whole simulation with a submission's functions alone: the student's own code from the mass matrix to the last step.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use grader::compile::{Plan, build, names};
+use grader::implementation::Trouble;
+use grader::implementation::sandboxed::Sandboxed;
+use grader::status::Status;
+use grader::submission::{Source, Submission};
+use grader_child::simulation::Scene;
+use nalgebra::{DVector, Vector3};
+
+use super::load::cube;
+use super::programs::start;
+use super::{Grading, GradingError, work_folder};
+use crate::grade::FunctionGrade;
+
+/// Longest time for the simulation, s; the reference needs a fraction of a second.
+const LIMIT: Duration = Duration::from_secs(30);
+
+/// Largest distance from the reference's positions, in lengths of the body. Newton's method may end a little earlier or later.
+const TOLERANCE: f64 = 1e-6;
+
+impl Grading {
+    /// Grades the simulation; where a function is missing it cannot run, which costs nothing more by itself.
+    pub(super) fn grade_simulation(
+        &self,
+        submission: &Submission,
+        functions: &BTreeMap<String, FunctionGrade>,
+    ) -> Result<FunctionGrade, GradingError> {
+        let mut grade = FunctionGrade {
+            name: "simulation".to_owned(),
+            score: 0.0,
+            max_score: self.rubric.simulation.points,
+            status: Status::Missing,
+            diagnosis: None,
+            message: None,
+            hint: None,
+            error: None,
+            seconds: None,
+            reference_seconds: None,
+            checks: Vec::new(),
+        };
+        let absent = functions.values().filter(|function| function.status > Status::TimedOut);
+        let absent: Vec<&str> = absent.map(|function| function.name.as_str()).collect();
+        if !absent.is_empty() {
+            grade.message = Some(format!("the whole simulation needs {}", absent.join(", ")));
+            return Ok(grade);
+        }
+        let own = names().filter_map(|name| match submission.functions.get(name) {
+            Some(Source::Written(text)) => Some((name, text.clone())),
+            _ => None,
+        });
+        let folder = work_folder()?;
+        let built = build(&self.prebuilt, &self.sandbox, &Plan { own: own.collect(), reference: None }, folder.path())?;
+        if let Some((name, fault)) = built.faults.into_iter().next() {
+            grade.status = Status::DidNotCompile;
+            grade.message = Some(format!("{name} does not compile with the student's other files:\n{fault}"));
+            return Ok(grade);
+        }
+        let subject = Sandboxed::new(start(&self.sandbox, built.program, folder.path()), LIMIT);
+        self.compare_simulations(grade, &subject)
+    }
+
+    fn compare_simulations(
+        &self,
+        mut grade: FunctionGrade,
+        subject: &Sandboxed,
+    ) -> Result<FunctionGrade, GradingError> {
+        let program = self.programs.reference.clone();
+        let folder = program.parent().map(ToOwned::to_owned).unwrap_or_default();
+        let reference = Sandboxed::new(start(&self.sandbox, Some(program), &folder), LIMIT);
+        let mut worst = 0.0_f64;
+        for integrator in [0, 1] {
+            let scene = scene(integrator);
+            let failed = |trouble: Trouble| GradingError::Reference(trouble.to_string());
+            let (expected, reference_seconds) = reference.simulate(&scene, LIMIT).map_err(failed)?;
+            match subject.simulate(&scene, LIMIT) {
+                Ok((positions, seconds)) => {
+                    worst = worst.max(distance(&positions, &expected));
+                    grade.seconds = Some(grade.seconds.unwrap_or(0.0) + seconds);
+                    grade.reference_seconds = Some(grade.reference_seconds.unwrap_or(0.0) + reference_seconds);
+                }
+                Err(trouble) => {
+                    let is_late = matches!(trouble, Trouble::TimedOut(_));
+                    grade.status = if is_late { Status::TimedOut } else { Status::Crashed };
+                    grade.message = Some(trouble.to_string());
+                    return Ok(grade);
+                }
+            }
+        }
+        grade.error = worst.is_finite().then_some(worst);
+        if worst <= TOLERANCE {
+            grade.status = Status::Passed;
+            grade.score = grade.max_score;
+        } else {
+            grade.status = Status::Failed;
+            grade.message = Some("the body does not move as it should; mend the functions that fail".to_owned());
+        }
+        Ok(grade)
+    }
+}
+
+/// Largest distance between two simulations; ∞ where they cannot be compared.
+fn distance(positions: &[DVector<f64>], expected: &[DVector<f64>]) -> f64 {
+    let is_comparable = positions.len() == expected.len()
+        && positions.iter().zip(expected).all(|(a, b)| a.len() == b.len() && a.iter().all(|x| x.is_finite()));
+    if !is_comparable {
+        return f64::INFINITY;
+    }
+    positions.iter().zip(expected).map(|(a, b)| (a - b).amax()).fold(0.0, f64::max)
+}
+
+/// A rubber cube of 1 m that stands on its lowest vertices, sags, and is pulled at a corner.
+fn scene(integrator: usize) -> Scene {
+    let (V, T, v0) = cube(3);
+    let fixed = (0..V.len()).filter(|&vertex| V[vertex].z == 0.0).collect();
+    let pulled = V.len() - 1;
+    let target = V[pulled] + Vector3::new(0.2, 0.1, 0.05);
+    let V_skin = V.iter().map(|X| X * 0.98 + Vector3::repeat(0.01)).collect();
+    let (C, D, density, pull) = (2e4, 5e4, 1000.0, 2e3);
+    let gravity = Vector3::new(0.0, 0.0, -9.81);
+    Scene { V, T, v0, fixed, pulled, target, pull, C, D, density, gravity, dt: 0.01, steps: 20, integrator, V_skin }
+}

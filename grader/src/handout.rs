@@ -1,0 +1,84 @@
+//! Writes the students' repository from this one: the same layout, the 22 functions empty, and no solution anywhere.
+//!
+//! Everything is put together in memory and looked through for leaks before the first file is written.
+
+mod collect;
+mod leak;
+mod lock;
+mod manifest;
+mod stub;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+pub use leak::{Leak, leaks};
+pub use stub::stub;
+
+/// Files by their path from the root of the students' repository.
+pub type Files = BTreeMap<PathBuf, Vec<u8>>;
+
+/// Why no handout is written.
+#[derive(Debug, thiserror::Error)]
+pub enum HandoutError {
+    #[error("{}: {error}", .path.display())]
+    Io { path: PathBuf, error: io::Error },
+    #[error("{}: the folder is not empty; name a new one", .0.display())]
+    NotEmpty(PathBuf),
+    #[error("{}: lies inside this repository, where it would be built as a part of it; name a folder outside", .0.display())]
+    Inside(PathBuf),
+    #[error("{}: {problem}", .path.display())]
+    Unusable { path: PathBuf, problem: String },
+    #[error("the handout would give solutions away:\n{}", .0.iter().map(Leak::to_string).collect::<Vec<_>>().join("\n"))]
+    Leaks(Vec<Leak>),
+}
+
+impl HandoutError {
+    fn io(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |error| Self::Io { path: path.to_owned(), error }
+    }
+
+    fn unusable(path: impl Into<PathBuf>, problem: impl ToString) -> Self {
+        Self::Unusable { path: path.into(), problem: problem.to_string() }
+    }
+}
+
+/// Writes the students' repository of the repository `root` into the new or empty folder `to`.
+pub fn write(root: &Path, to: &Path) -> Result<(), HandoutError> {
+    check_place(root, to)?;
+    let files = collect::collect(root)?;
+    let found = leaks(root, &files)?;
+    if !found.is_empty() {
+        return Err(HandoutError::Leaks(found));
+    }
+    for (path, bytes) in &files {
+        let path = to.join(path);
+        let folder = path.parent().unwrap_or(to);
+        fs::create_dir_all(folder).map_err(HandoutError::io(folder))?;
+        fs::write(&path, bytes).map_err(HandoutError::io(&path))?;
+    }
+    Ok(())
+}
+
+/// Refuses folders that hold something, and such in the repository other than in its build products.
+fn check_place(root: &Path, to: &Path) -> Result<(), HandoutError> {
+    match fs::read_dir(to).map(|mut entries| entries.next().is_none()) {
+        Ok(true) => {}
+        Ok(false) => return Err(HandoutError::NotEmpty(to.to_owned())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+        Err(error) => return Err(HandoutError::Io { path: to.to_owned(), error }),
+    }
+    let root = root.canonicalize().map_err(HandoutError::io(root))?;
+    let absolute = std::path::absolute(to).map_err(HandoutError::io(to))?;
+    let there = absolute.ancestors().find_map(|folder| folder.canonicalize().ok());
+    match there {
+        Some(there) if there.starts_with(&root) && !there.starts_with(root.join("target")) => {
+            Err(HandoutError::Inside(to.to_owned()))
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests;

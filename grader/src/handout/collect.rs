@@ -1,0 +1,152 @@
+//! Which files are handed out, and with what in them.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use grader::submission::NAMES;
+use syn::Item;
+
+use super::{Files, HandoutError, lock, manifest, stub};
+
+/// What comes along as it is. Everything else of the repository is ours: its tests of itself, its map, its history.
+const WHOLE: [&str; 13] = [
+    ".gitignore",
+    "LICENSE-APACHE",
+    "LICENSE-MIT",
+    "rustfmt.toml",
+    "Cargo.toml",
+    "Cargo.lock",
+    "crates",
+    "data",
+    "docs",
+    "grader/child",
+    "include-docs",
+    "src",
+    "tests/functions",
+];
+
+/// Checks that hold for our own solution, but that no page asks for.
+const OURS: &str = "tests/functions/solution.rs";
+
+const README: &str = include_str!("../../handout/README.md");
+const PROGRAM: &str = include_str!("../../handout/main.rs");
+
+/// All files of the handout.
+pub fn collect(root: &Path) -> Result<Files, HandoutError> {
+    let mut files = Files::new();
+    for name in WHOLE {
+        add(root, Path::new(name), &mut files)?;
+    }
+    files.remove(Path::new(OURS));
+    edit(&mut files, "tests/functions/main.rs", |text| Ok(text.replace("mod solution;\n", "")))?;
+    for name in NAMES {
+        edit(&mut files, &format!("src/{name}.rs"), |text| stub::stub(name, text))?;
+    }
+    add_module(root, Path::new("grader/src/lib.rs"), &mut files)?;
+    files.insert("grader/src/main.rs".into(), PROGRAM.into());
+    add(root, Path::new("grader/Cargo.toml"), &mut files)?;
+    edit(&mut files, "grader/Cargo.toml", manifest::without_instructors_part)?;
+    let has: Vec<_> = files.keys().cloned().collect();
+    let is_there = |path: &str| has.iter().any(|found| found == Path::new(path));
+    edit(&mut files, "Cargo.toml", |text| manifest::root_manifest(text, is_there))?;
+    let members = members(&files)?;
+    edit(&mut files, "Cargo.lock", |text| Ok(lock::pruned(text, &members)))?;
+    files.insert("README.md".into(), readme(root)?.into_bytes());
+    Ok(files)
+}
+
+/// Adds a file or a folder, without hidden files and build products.
+fn add(root: &Path, path: &Path, files: &mut Files) -> Result<(), HandoutError> {
+    let full = root.join(path);
+    if !full.is_dir() {
+        files.insert(path.to_owned(), fs::read(&full).map_err(HandoutError::io(&full))?);
+        return Ok(());
+    }
+    for entry in fs::read_dir(&full).map_err(HandoutError::io(&full))? {
+        let name = entry.map_err(HandoutError::io(&full))?.file_name();
+        let is_left_out = name.to_string_lossy().starts_with('.') || name == "target";
+        if !is_left_out && !full.join(&name).join("CACHEDIR.TAG").exists() {
+            add(root, &path.join(&name), files)?;
+        }
+    }
+    Ok(())
+}
+
+fn edit(
+    files: &mut Files,
+    path: &str,
+    change: impl FnOnce(&str) -> Result<String, String>,
+) -> Result<(), HandoutError> {
+    let unusable = |problem: String| HandoutError::unusable(path, problem);
+    let bytes = files.get_mut(Path::new(path)).ok_or_else(|| unusable("is not there".to_owned()))?;
+    let text = std::str::from_utf8(bytes).map_err(|error| unusable(error.to_string()))?;
+    *bytes = change(text).map_err(unusable)?.into_bytes();
+    Ok(())
+}
+
+/// Adds a file of the grader's library, the modules that it declares, and the texts that it includes.
+fn add_module(root: &Path, path: &Path, files: &mut Files) -> Result<(), HandoutError> {
+    add(root, path, files)?;
+    let text = String::from_utf8_lossy(&files[path]).into_owned();
+    let file = syn::parse_file(&text).map_err(|error| HandoutError::unusable(path, error))?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let inside = match path.file_stem().map(|stem| stem.to_string_lossy().into_owned()) {
+        Some(stem) if stem != "lib" && stem != "mod" => folder.join(stem),
+        _ => folder.to_owned(),
+    };
+    for item in &file.items {
+        if let Item::Mod(module) = item
+            && module.content.is_none()
+        {
+            let (beside, within) =
+                (inside.join(format!("{}.rs", module.ident)), inside.join(format!("{}/mod.rs", module.ident)));
+            let next = if root.join(&beside).exists() { beside } else { within };
+            add_module(root, &next, files)?;
+        }
+    }
+    for included in text.split("include_str!(\"").skip(1).filter_map(|rest| rest.split('"').next()) {
+        let included = normal(&folder.join(included));
+        if root.join(&included).is_file() {
+            add(root, &included, files)?;
+        }
+    }
+    Ok(())
+}
+
+/// A path without `..`.
+fn normal(path: &Path) -> PathBuf {
+    path.components().fold(PathBuf::new(), |mut normal, part| {
+        if part.as_os_str() == ".." {
+            normal.pop();
+        } else {
+            normal.push(part)
+        }
+        normal
+    })
+}
+
+/// The packages that are handed out, each with what its manifest asks for.
+fn members(files: &Files) -> Result<BTreeMap<String, std::collections::BTreeSet<String>>, HandoutError> {
+    let manifests = files.iter().filter(|(path, _)| path.ends_with("Cargo.toml"));
+    let read = manifests.map(|(path, bytes)| {
+        let unusable = |problem: String| HandoutError::unusable(path, problem);
+        let text = String::from_utf8_lossy(bytes);
+        let table: toml::Table = text.parse().map_err(|error: toml::de::Error| unusable(error.to_string()))?;
+        let name = table.get("package").and_then(|package| package.get("name")).and_then(toml::Value::as_str);
+        let name = name.ok_or_else(|| unusable("names no package".to_owned()))?;
+        Ok((name.to_owned(), manifest::dependencies(&text).map_err(unusable)?))
+    });
+    read.collect()
+}
+
+/// The students' first page, with the table of functions and that of scenes as they stand on ours.
+fn readme(root: &Path) -> Result<String, HandoutError> {
+    let path = root.join("README.md");
+    let ours = fs::read_to_string(&path).map_err(HandoutError::io(&path))?;
+    let table = |head: &str| -> String {
+        let lines = ours.lines().skip_while(|line| !line.starts_with(head)).take_while(|line| line.starts_with('|'));
+        lines.flat_map(|line| [line, "\n"]).collect()
+    };
+    Ok(README.replace("{functions}\n", &table("| | function |")).replace("{scenes}\n", &table("| scene |")))
+}

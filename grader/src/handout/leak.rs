@@ -1,0 +1,110 @@
+//! Looks for solutions in what is handed out.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::fmt;
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use grader::submission::NAMES;
+use proc_macro2::{TokenStream, TokenTree};
+use syn::spanned::Spanned;
+use syn::visit::Visit;
+
+use super::{Files, HandoutError};
+
+/// So many words and signs of a body in a row are no coincidence. Every sign counts by itself, so this is about a line; with
+/// fewer, `let mut f = DVector::zeros(q.len());` would be a solution.
+const WINDOW: usize = 24;
+
+/// A piece of a solution that stands in a file of the handout.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Leak {
+    /// The function whose solution it is.
+    pub function: &'static str,
+    /// The file, from the root of the handout.
+    pub path: PathBuf,
+    /// The piece.
+    pub piece: String,
+}
+
+impl fmt::Display for Leak {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: holds `{}` of {}", self.path.display(), self.piece, self.function)
+    }
+}
+
+/// Where pieces of the bodies in the repository `root` stand in these files; the first of each function in each file.
+pub fn leaks(root: &Path, files: &Files) -> Result<Vec<Leak>, HandoutError> {
+    let mut pieces: HashMap<Vec<String>, &'static str> = HashMap::new();
+    for name in NAMES {
+        let path = root.join(format!("src/{name}.rs"));
+        let text = fs::read_to_string(&path).map_err(HandoutError::io(&path))?;
+        for body in bodies(&text).map_err(|error| HandoutError::unusable(&path, error))? {
+            let words = words(&body);
+            pieces.extend(words.windows(WINDOW.min(words.len())).map(|window| (window.to_vec(), name)));
+        }
+    }
+    // A body that is shorter than a window counts as a whole.
+    let lengths: BTreeSet<usize> = pieces.keys().map(Vec::len).collect();
+    let mut found = BTreeMap::new();
+    for (path, bytes) in files {
+        let Ok(text) = std::str::from_utf8(bytes) else { continue };
+        if path.starts_with("data") {
+            continue; // figures
+        }
+        let words = words(text);
+        for window in lengths.iter().flat_map(|&length| words.windows(length)) {
+            if let Some(&function) = pieces.get(window) {
+                let leak = || Leak { function, path: path.clone(), piece: window.join(" ") };
+                found.entry((path, function)).or_insert_with(leak);
+            }
+        }
+    }
+    Ok(found.into_values().collect())
+}
+
+/// The bodies of all functions in a file, without comments.
+fn bodies(text: &str) -> syn::Result<Vec<String>> {
+    struct Bodies(Vec<Range<usize>>);
+    impl<'ast> Visit<'ast> for Bodies {
+        fn visit_item_fn(&mut self, function: &'ast syn::ItemFn) {
+            self.0.push(function.block.span().byte_range());
+        }
+    }
+    let mut bodies = Bodies(Vec::new());
+    bodies.visit_file(&syn::parse_file(text)?);
+    let without_comments = |range: Range<usize>| Ok(source_of(text[range.clone()].parse()?, &text[range]));
+    bodies.0.into_iter().map(without_comments).collect()
+}
+
+/// The tokens as written; spaces do not matter to whoever reads words.
+fn source_of(tokens: TokenStream, text: &str) -> String {
+    let written = tokens.into_iter().map(|token| match token {
+        TokenTree::Group(group) => {
+            let (open, close) = (group.span_open().byte_range(), group.span_close().byte_range());
+            format!("{} {} {}", &text[open], source_of(group.stream(), text), &text[close])
+        }
+        other => text[other.span().byte_range()].to_owned(),
+    });
+    written.collect::<Vec<_>>().join(" ")
+}
+
+/// Words and signs, one by one. Works for any text, so that solutions are found in pages and tests as well.
+fn words(text: &str) -> Vec<String> {
+    let mut words = Vec::new();
+    let mut word = String::new();
+    for c in text.chars() {
+        let is_in_word = c.is_alphanumeric() || c == '_';
+        if !is_in_word && !word.is_empty() {
+            words.push(std::mem::take(&mut word));
+        }
+        match is_in_word {
+            true => word.push(c),
+            false if !c.is_whitespace() => words.push(c.to_string()),
+            false => {}
+        }
+    }
+    words.extend((!word.is_empty()).then_some(word));
+    words
+}

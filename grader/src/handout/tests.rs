@@ -1,0 +1,113 @@
+//! The students' repository: whole, without a solution, and without a warning.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use grader::submission::{NAMES, is_stub};
+
+use super::{Files, leaks, write};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
+}
+
+fn written() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    write(&root(), folder.path()).unwrap_or_else(|error| panic!("{error}"));
+    folder
+}
+
+fn names(folder: &Path) -> BTreeSet<String> {
+    let entries = fs::read_dir(folder).unwrap().flatten();
+    entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect()
+}
+
+#[test]
+fn the_handout_has_no_strays() {
+    let folder = written();
+    let expected = [
+        ".gitignore",
+        "Cargo.lock",
+        "Cargo.toml",
+        "LICENSE-APACHE",
+        "LICENSE-MIT",
+        "README.md",
+        "crates",
+        "data",
+        "docs",
+        "grader",
+        "include-docs",
+        "rustfmt.toml",
+        "src",
+        "tests",
+    ];
+    assert_eq!(names(folder.path()), expected.map(str::to_owned).into());
+    assert_eq!(names(&folder.path().join("tests")), ["functions".to_owned()].into());
+    assert_eq!(names(&folder.path().join("grader")), ["Cargo.toml", "child", "src"].map(str::to_owned).into());
+    for private in ["reference.rs", "reference", "variants.rs", "variants", "grade.rs", "handout.rs", "archive.rs"] {
+        assert!(!folder.path().join("grader/src").join(private).exists(), "{private} is the instructor's");
+    }
+}
+
+#[test]
+fn every_function_is_empty_and_names_its_page() {
+    let folder = written();
+    for name in NAMES {
+        let text = fs::read_to_string(folder.path().join(format!("src/{name}.rs"))).unwrap();
+        assert!(is_stub(name, &text), "{text}");
+        assert!(text.contains(&format!("include-docs/{name}.md")), "{text}");
+        assert!(folder.path().join(format!("include-docs/{name}.md")).exists());
+        assert!(text.lines().count() < 25 && !text.contains("(_"), "{text}");
+    }
+}
+
+#[test]
+fn a_solution_in_any_text_is_found() {
+    let solved = fs::read_to_string(root().join("src/newtons_method.rs")).unwrap();
+    let inside = format!("# Hints\n\n{}", solved.replace("    ", " ").replace('\n', "  \n"));
+    let files = Files::from([("include-docs/hints.md".into(), inside.into_bytes())]);
+    assert_eq!(leaks(&root(), &files).unwrap().len(), 1);
+}
+
+#[test]
+fn links_of_its_pages_lead_somewhere() {
+    let folder = written();
+    let pages = fs::read_dir(folder.path().join("include-docs")).unwrap().flatten().map(|entry| entry.path());
+    for page in
+        pages.chain([folder.path().join("README.md")]).filter(|path| path.extension().is_some_and(|e| e == "md"))
+    {
+        let text = fs::read_to_string(&page).unwrap();
+        for target in text.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next()) {
+            let is_local = !target.is_empty() && !target.contains(':');
+            assert!(!is_local || page.parent().unwrap().join(target).exists(), "{}: {target}", page.display());
+        }
+    }
+}
+
+#[test]
+fn folders_that_hold_something_or_lie_in_the_sources_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("mine"), "").unwrap();
+    assert!(write(&root(), folder.path()).is_err_and(|error| error.to_string().contains("not empty")));
+    let inside = root().join("src/handout");
+    assert!(write(&root(), &inside).is_err_and(|error| error.to_string().contains("inside")));
+    assert!(!inside.exists());
+}
+
+#[test]
+fn it_compiles_without_a_warning() {
+    let folder = written();
+    let built = std::env::current_exe().unwrap();
+    let target = built.ancestors().nth(3).unwrap().join("handout");
+    let output = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()))
+        .args(["check", "--workspace", "--exclude", "fem-viewer", "--no-default-features", "--tests", "--offline"])
+        .env("CARGO_TARGET_DIR", target)
+        .env_remove("RUSTFLAGS")
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    let messages = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && !messages.contains("warning"), "{messages}");
+}

@@ -1,0 +1,117 @@
+//! Whoever computes: this process, a sandboxed child, a deliberately wrong variant. A property is written once and judges all.
+
+mod local;
+pub mod sandboxed;
+
+use std::fmt;
+use std::time::Duration;
+
+use grader_child::{Force, Gradient, Hessian, Objective, Solve, Stiffness, plain_functions};
+use nalgebra::{DVector, Matrix3, Matrix4, Matrix4x3, SMatrix, SVector, Vector3, Vector4};
+use nalgebra_sparse::CsrMatrix;
+
+pub use local::Local;
+
+/// Why there is no answer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Trouble {
+    /// The function is not there, or is still the handout's `todo!`.
+    Missing,
+    /// The function panicked.
+    Panicked {
+        /// What it said. May hold the inputs of a check, so it is the instructor's.
+        message: String,
+        /// File and line.
+        place: String,
+    },
+    /// The process of the submission ended: by itself, by an overflow of the stack, by a signal.
+    Crashed(String),
+    /// The submission took longer than this.
+    TimedOut(Duration),
+    /// The answer makes no sense: wrong number of bytes, a sparse matrix that is none.
+    Malformed,
+    /// The function was given up after earlier trouble.
+    GivenUp,
+}
+
+impl fmt::Display for Trouble {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Missing => f.write_str("the function is not written yet"),
+            Self::Panicked { place, .. } if place.starts_with("src/") => write!(f, "the function panicked at {place}"),
+            Self::Panicked { .. } => f.write_str("the function panicked"),
+            Self::Crashed(how) => write!(f, "the program with the function ended: {how}"),
+            Self::TimedOut(limit) => write!(f, "no answer within {:.0} s", limit.as_secs_f64()),
+            Self::Malformed => f.write_str("the answer is not of the promised type"),
+            Self::GivenUp => f.write_str("not tried any more after what came before"),
+        }
+    }
+}
+
+/// What a function answered, or why it did not.
+pub type Answer<T> = Result<T, Trouble>;
+
+macro_rules! methods {
+    ($($number:literal $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        /// The 22 functions, as whoever judges them calls them. `quadrature_single_point`, which is generic, is asked for numbers
+        /// and for vectors.
+        #[allow(clippy::too_many_arguments)] // the course's signatures
+        pub trait Implementation {
+            $(
+                #[doc = concat!("See the page of `", stringify!($name), "`.")]
+                #[allow(missing_docs)]
+                fn $name(&self, $($argument: $type),*) -> Answer<$result>;
+            )*
+            /// See the page of `quadrature_single_point`.
+            fn quadrature_of_number(
+                &self,
+                V: &[Vector3<f64>],
+                element: &[usize; 4],
+                volume: f64,
+                integrand: &dyn Fn(&Vector3<f64>) -> f64,
+            ) -> Answer<f64>;
+            /// See the page of `quadrature_single_point`.
+            fn quadrature_of_vector(
+                &self,
+                V: &[Vector3<f64>],
+                element: &[usize; 4],
+                volume: f64,
+                integrand: &dyn Fn(&Vector3<f64>) -> DVector<f64>,
+            ) -> Answer<DVector<f64>>;
+            /// See the page of `linearly_implicit_euler`.
+            fn linearly_implicit_euler(
+                &self,
+                q: &mut DVector<f64>,
+                qdot: &mut DVector<f64>,
+                dt: f64,
+                mass: &CsrMatrix<f64>,
+                force: Force,
+                stiffness: Stiffness,
+                solve: Solve,
+            ) -> Answer<()>;
+            /// See the page of `newtons_method`.
+            fn newtons_method(
+                &self,
+                x0: &mut DVector<f64>,
+                f: Objective,
+                g: Gradient,
+                H: Hessian,
+                solve: Solve,
+                max_steps: usize,
+            ) -> Answer<f64>;
+            /// See the page of `implicit_euler`.
+            fn implicit_euler(
+                &self,
+                q: &mut DVector<f64>,
+                qdot: &mut DVector<f64>,
+                dt: f64,
+                mass: &CsrMatrix<f64>,
+                energy: Objective,
+                force: Force,
+                stiffness: Stiffness,
+                solve: Solve,
+            ) -> Answer<()>;
+        }
+    };
+}
+plain_functions!(methods);

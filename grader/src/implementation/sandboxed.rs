@@ -1,0 +1,238 @@
+//! Functions in a process of their own, behind a sandbox.
+
+use std::cell::{Cell, RefCell};
+use std::io;
+use std::time::{Duration, Instant};
+
+use grader_child::simulation::Scene;
+use grader_child::wire::{Argument, Wire, bytes, kind, read};
+use grader_child::{Force, Gradient, Hessian, Objective, Solve, Stiffness, plain_functions};
+use nalgebra::{DVector, Matrix3, Matrix4, Matrix4x3, SMatrix, SVector, Vector3, Vector4};
+use nalgebra_sparse::CsrMatrix;
+
+use super::{Answer, Implementation, Trouble};
+use crate::protocol::{self, Closures};
+use crate::sandbox::Running;
+
+/// A program with a submission's functions. It is started when it is first asked, and again after it has died.
+pub struct Sandboxed {
+    start: Box<dyn Fn() -> io::Result<Running>>,
+    running: RefCell<Option<Running>>,
+    limit: Duration,
+    /// Once a process has died or been late, the function that it was asked for gets no further chance.
+    given_up: Cell<bool>,
+}
+
+impl Sandboxed {
+    /// A program that `start` starts; each call must be answered within `limit`.
+    pub fn new(start: impl Fn() -> io::Result<Running> + 'static, limit: Duration) -> Self {
+        Self { start: Box::new(start), running: RefCell::new(None), limit, given_up: Cell::new(false) }
+    }
+
+    /// Forgets earlier trouble: the next function is asked afresh, in a process of its own, where no thread and no panic hook of
+    /// the one before can speak for it.
+    pub fn next_function(&self) {
+        *self.running.borrow_mut() = None;
+        self.given_up.set(false);
+    }
+
+    /// Time of one call on the standard load of the function with this number, s: the fastest of a few series.
+    ///
+    /// # Errors
+    /// Where there is no answer.
+    pub fn seconds(&self, number: u8, body: &[u8], times: u64, series: usize) -> Answer<f64> {
+        let mut fastest = f64::INFINITY;
+        for _ in 0..series {
+            let frames = [(kind::REPEAT, bytes(&times)), (number, body.to_vec())];
+            let begin = Instant::now();
+            self.frames(&frames, self.limit, &mut |_, _| None)?;
+            fastest = fastest.min(begin.elapsed().as_secs_f64());
+        }
+        Ok(fastest / times as f64)
+    }
+
+    /// Positions of a whole simulation and how long it took, s.
+    ///
+    /// # Errors
+    /// Where there is no answer within `limit`.
+    pub fn simulate(&self, scene: &Scene, limit: Duration) -> Answer<(Vec<DVector<f64>>, f64)> {
+        let begin = Instant::now();
+        let body = self.frames(&[(kind::SIMULATE, bytes(scene))], limit, &mut |_, _| None)?;
+        let passed = begin.elapsed().as_secs_f64();
+        read(&body).map(|positions| (positions, passed)).ok_or(Trouble::Malformed)
+    }
+
+    fn call<T: Wire>(&self, number: u8, body: Vec<u8>, closures: Closures) -> Answer<T> {
+        let answer = self.frames(&[(number, body)], self.limit, closures)?;
+        read(&answer).ok_or(Trouble::Malformed)
+    }
+
+    fn frames(&self, frames: &[(u8, Vec<u8>)], limit: Duration, closures: Closures) -> Answer<Vec<u8>> {
+        if self.given_up.get() {
+            return Err(Trouble::GivenUp);
+        }
+        let mut place = self.running.borrow_mut();
+        let answer = match self.alive(&mut place) {
+            Ok(running) => protocol::call(running, frames, limit, closures),
+            Err(trouble) => Err(trouble),
+        };
+        if let Err(trouble) = &answer
+            && !matches!(trouble, Trouble::Panicked { .. } | Trouble::Missing)
+        {
+            *place = None;
+            self.given_up.set(true);
+        }
+        answer
+    }
+
+    fn alive<'a>(&self, place: &'a mut Option<Running>) -> Answer<&'a mut Running> {
+        match place {
+            Some(running) => Ok(running),
+            None => {
+                let mut started =
+                    (self.start)().map_err(|error| Trouble::Crashed(format!("cannot be started: {error}")))?;
+                protocol::greet(&mut started, self.limit)?;
+                Ok(place.insert(started))
+            }
+        }
+    }
+}
+
+/// Appends one argument.
+type Append<'a> = &'a dyn Fn(&mut Vec<u8>);
+
+/// The arguments of a call, one after the other.
+fn body(arguments: &[Append]) -> Vec<u8> {
+    let mut out = Vec::new();
+    arguments.iter().for_each(|append| append(&mut out));
+    out
+}
+
+macro_rules! calls {
+    ($($number:literal $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        impl Implementation for Sandboxed {
+            $(fn $name(&self, $($argument: $type),*) -> Answer<$result> {
+                self.call($number, body(&[$(&|out| Argument::append(&$argument, out)),*]), &mut |_, _| None)
+            })*
+
+            fn quadrature_of_number(
+                &self,
+                V: &[Vector3<f64>],
+                element: &[usize; 4],
+                volume: f64,
+                integrand: &dyn Fn(&Vector3<f64>) -> f64,
+            ) -> Answer<f64> {
+                let body = bytes(&(V.to_vec(), (*element, volume)));
+                self.call(kind::QUADRATURE_OF_NUMBER, body, &mut |_, X| Some(bytes(&integrand(&read(X)?))))
+            }
+
+            fn quadrature_of_vector(
+                &self,
+                V: &[Vector3<f64>],
+                element: &[usize; 4],
+                volume: f64,
+                integrand: &dyn Fn(&Vector3<f64>) -> DVector<f64>,
+            ) -> Answer<DVector<f64>> {
+                let body = bytes(&(V.to_vec(), (*element, volume)));
+                self.call(kind::QUADRATURE_OF_VECTOR, body, &mut |_, X| Some(bytes(&integrand(&read(X)?))))
+            }
+
+            fn linearly_implicit_euler(
+                &self,
+                q: &mut DVector<f64>,
+                qdot: &mut DVector<f64>,
+                dt: f64,
+                mass: &CsrMatrix<f64>,
+                force: Force,
+                stiffness: Stiffness,
+                solve: Solve,
+            ) -> Answer<()> {
+                let none = |_: &DVector<f64>| f64::NAN;
+                let body = step(q, qdot, dt, mass);
+                let mut closures = |which: u8, input: &[u8]| integrator(which, input, &none, force, stiffness, solve);
+                (*q, *qdot) = self.call(kind::LINEARLY_IMPLICIT_EULER, body, &mut closures)?;
+                Ok(())
+            }
+
+            fn newtons_method(
+                &self,
+                x0: &mut DVector<f64>,
+                f: Objective,
+                g: Gradient,
+                H: Hessian,
+                solve: Solve,
+                max_steps: usize,
+            ) -> Answer<f64> {
+                let body = bytes(&(x0.clone(), max_steps));
+                let mut closures = |which: u8, input: &[u8]| match which {
+                    1 => Some(bytes(&f(&read(input)?))),
+                    2 => Some(bytes(&g(&read(input)?))),
+                    3 => Some(bytes(&H(&read(input)?))),
+                    4 => solved(input, solve),
+                    _ => None,
+                };
+                let (x, value) = self.call(kind::NEWTONS_METHOD, body, &mut closures)?;
+                *x0 = x;
+                Ok(value)
+            }
+
+            fn implicit_euler(
+                &self,
+                q: &mut DVector<f64>,
+                qdot: &mut DVector<f64>,
+                dt: f64,
+                mass: &CsrMatrix<f64>,
+                energy: Objective,
+                force: Force,
+                stiffness: Stiffness,
+                solve: Solve,
+            ) -> Answer<()> {
+                let body = step(q, qdot, dt, mass);
+                let mut closures = |which: u8, input: &[u8]| integrator(which, input, energy, force, stiffness, solve);
+                (*q, *qdot) = self.call(kind::IMPLICIT_EULER, body, &mut closures)?;
+                Ok(())
+            }
+        }
+
+        /// The number under which a plain function travels.
+        pub fn number(name: &str) -> Option<u8> {
+            match name {
+                $(stringify!($name) => Some($number),)*
+                "quadrature_single_point" => Some(kind::QUADRATURE_OF_NUMBER),
+                "linearly_implicit_euler" => Some(kind::LINEARLY_IMPLICIT_EULER),
+                "newtons_method" => Some(kind::NEWTONS_METHOD),
+                "implicit_euler" => Some(kind::IMPLICIT_EULER),
+                _ => None,
+            }
+        }
+    };
+}
+plain_functions!(calls);
+
+fn step(q: &DVector<f64>, qdot: &DVector<f64>, dt: f64, mass: &CsrMatrix<f64>) -> Vec<u8> {
+    bytes(&((q.clone(), qdot.clone()), (dt, mass.clone())))
+}
+
+/// A submission may call a closure with vectors of any length; what the closure cannot take is not answered.
+fn integrator(
+    which: u8,
+    input: &[u8],
+    energy: Objective,
+    force: Force,
+    stiffness: Stiffness,
+    solve: Solve,
+) -> Option<Vec<u8>> {
+    let state = || read::<(DVector<f64>, DVector<f64>)>(input);
+    match which {
+        1 => Some(bytes(&energy(&read(input)?))),
+        2 => state().map(|(q, v)| bytes(&force(&q, &v))),
+        3 => state().map(|(q, v)| bytes(&stiffness(&q, &v))),
+        4 => solved(input, solve),
+        _ => None,
+    }
+}
+
+fn solved(input: &[u8], solve: Solve) -> Option<Vec<u8>> {
+    let (A, b): (CsrMatrix<f64>, DVector<f64>) = read(input)?;
+    (A.nrows() == A.ncols() && A.nrows() == b.len()).then(|| bytes(&solve(&A, &b)))
+}

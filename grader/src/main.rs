@@ -1,0 +1,58 @@
+//! The grader's program: hands out exercises, checks them, grades submissions and whole classes.
+
+#![allow(non_snake_case)] // V, T, F, C and D are the names that the mathematics and the course use
+
+mod archive;
+mod class;
+mod cli;
+mod commands;
+mod diagnosis;
+mod grade;
+mod grading;
+mod handout;
+mod pack;
+mod reference;
+mod reports;
+mod rubric;
+mod variants;
+
+use std::env;
+use std::panic;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use cli::{Arguments, Command};
+use pack::PackOptions;
+
+fn main() -> ExitCode {
+    let words: Vec<String> = env::args().skip(1).collect();
+    if words.first().is_some_and(|word| word == "confine") {
+        return grader::sandbox::confine(&words[1..]);
+    }
+    let arguments = Arguments::parse();
+    // Checks catch panics of what they judge; those are part of the result and not to be printed.
+    panic::set_hook(Box::new(|_| {}));
+    let done = panic::catch_unwind(|| match arguments.command {
+        Command::Handout { to } => commands::handout(&to),
+        Command::Check(options) => commands::check(&options),
+        Command::Grade { submission, options } => commands::grade(&submission, &options),
+        Command::Class { folder, options, jobs, shard } => commands::class(&folder, &options, jobs, shard),
+        Command::Merge { folders, out } => commands::merge(&folders, &out),
+        Command::Pack { engine, out, seed, vendor } => {
+            commands::pack(PackOptions { engine, out, repository: grading::repository(), seed, vendor })
+        }
+    });
+    match done {
+        Ok(Ok(())) => ExitCode::SUCCESS,
+        Ok(Err(problem)) => {
+            eprintln!("{}", problem.message);
+            ExitCode::from(problem.code)
+        }
+        Err(panic) => {
+            let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+            eprintln!("the grader itself failed ({}); nothing was graded", text.unwrap_or("without a message"));
+            ExitCode::from(commands::GRADER_FAILED)
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! Packs what the engines that instructors already use need: Gradescope, Classroom 50, Slurm.
+
+#[cfg(test)]
+mod tests;
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use clap::ValueEnum;
+
+/// An engine that grades classes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Engine {
+    Gradescope,
+    Classroom50,
+    Slurm,
+}
+
+/// What to pack.
+#[derive(Clone, Debug)]
+pub struct PackOptions {
+    pub engine: Engine,
+    /// New or empty.
+    pub out: PathBuf,
+    /// The solved repository.
+    pub repository: PathBuf,
+    pub seed: u64,
+    /// Whether to pack the sources of all dependencies too, so that setting up needs no crates from the network.
+    pub vendor: bool,
+}
+
+/// Why nothing was packed.
+#[derive(Debug, thiserror::Error)]
+pub enum PackError {
+    #[error("{path}: {source}", path = .path.display())]
+    File { path: PathBuf, source: io::Error },
+    #[error("{path}: is not empty; name a new folder", path = .0.display())]
+    NotEmpty(PathBuf),
+    #[error("{path}: is not the repository; Cargo.toml, Cargo.lock, src and grader belong there", path = .0.display())]
+    NotTheRepository(PathBuf),
+    #[error("autograder.zip: {0}")]
+    Zip(#[from] zip::result::ZipError),
+    #[error("{command}: {message}")]
+    Command { command: &'static str, message: String },
+}
+
+/// A file to write: its name, its text and whether it is a program.
+type Template = (&'static str, &'static str, bool);
+
+const GRADESCOPE: [Template; 3] = [
+    ("setup.sh", include_str!("pack/templates/setup.sh"), true),
+    ("run_autograder", include_str!("pack/templates/run_autograder"), true),
+    ("AUTOGRADER.md", include_str!("pack/templates/gradescope.md"), false),
+];
+const CLASSROOM50: [Template; 3] = [
+    ("autograder.py", include_str!("pack/templates/autograder.py"), false),
+    ("runtime.json", include_str!("pack/templates/runtime.json"), false),
+    ("README.md", include_str!("pack/templates/classroom50.md"), false),
+];
+const SLURM: [Template; 4] = [
+    ("submit.sh", include_str!("pack/templates/submit.sh"), true),
+    ("array.sbatch", include_str!("pack/templates/array.sbatch"), true),
+    ("merge.sbatch", include_str!("pack/templates/merge.sbatch"), true),
+    ("README.md", include_str!("pack/templates/slurm.md"), false),
+];
+
+/// Adds the path that an error of the file system is about.
+fn at(path: &Path) -> impl FnOnce(io::Error) -> PackError {
+    let path = path.to_path_buf();
+    move |source| PackError::File { path, source }
+}
+
+/// Writes the package into `options.out`.
+pub fn pack(options: &PackOptions) -> Result<(), PackError> {
+    let out = &options.out;
+    fs::create_dir_all(out).map_err(at(out))?;
+    if fs::read_dir(out).map_err(at(out))?.next().is_some() {
+        return Err(PackError::NotEmpty(out.clone()));
+    }
+    match options.engine {
+        Engine::Gradescope => gradescope(options),
+        Engine::Classroom50 => write(out, &CLASSROOM50, &fields(options)?),
+        Engine::Slurm => write(out, &SLURM, &fields(options)?),
+    }
+}
+
+/// What stands for the marks of the templates.
+fn fields(options: &PackOptions) -> Result<[(&'static str, String); 6], PackError> {
+    Ok([
+        ("@TOOLCHAIN@", toolchain()?),
+        ("@SEED@", options.seed.to_string()),
+        ("@SHARDS@", "8".into()),
+        ("@CPUS@", "4".into()),
+        ("@MEMORY@", "2G".into()),
+        ("@TIME@", "08:00:00".into()),
+    ])
+}
+
+/// The version of the toolchain at work: grades are made with the one that the instructor tried.
+fn toolchain() -> Result<String, PackError> {
+    let text = output(Command::new("rustc").arg("--version"), "rustc --version")?;
+    let version = text.split_whitespace().nth(1).unwrap_or("stable");
+    Ok(version.to_string())
+}
+
+fn output(command: &mut Command, name: &'static str) -> Result<String, PackError> {
+    let fail = |message: String| PackError::Command { command: name, message };
+    let output = command.output().map_err(|error| fail(error.to_string()))?;
+    if !output.status.success() {
+        return Err(fail(String::from_utf8_lossy(&output.stderr).trim().to_string()));
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+fn write(out: &Path, templates: &[Template], fields: &[(&str, String)]) -> Result<(), PackError> {
+    for (name, text, is_program) in templates {
+        let text = fields.iter().fold((*text).to_string(), |text, (mark, value)| text.replace(mark, value));
+        let path = out.join(name);
+        fs::write(&path, text).map_err(at(&path))?;
+        if *is_program {
+            make_program(&path).map_err(at(&path))?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(unix)]
+fn make_program(path: &Path) -> io::Result<()> {
+    fs::set_permissions(path, std::os::unix::fs::PermissionsExt::from_mode(0o755))
+}
+
+#[cfg(not(unix))]
+fn make_program(_path: &Path) -> io::Result<()> {
+    Ok(())
+}
+
+fn gradescope(options: &PackOptions) -> Result<(), PackError> {
+    let root = &options.repository;
+    if !["Cargo.toml", "Cargo.lock", "src", "grader"].iter().all(|name| root.join(name).exists()) {
+        return Err(PackError::NotTheRepository(root.clone()));
+    }
+    let files = options.out.join("autograder");
+    fs::create_dir(&files).map_err(at(&files))?;
+    let own = fs::canonicalize(&options.out).map_err(at(&options.out))?;
+    copy_sources(root, &files, &own)?;
+    if options.vendor {
+        vendor(&files)?;
+    }
+    write(&files, &GRADESCOPE, &fields(options)?)?;
+    archive(&files, &options.out.join("autograder.zip"))
+}
+
+/// Copies the sources: not what is hidden or built, and not the package into itself.
+fn copy_sources(from: &Path, to: &Path, own: &Path) -> Result<(), PackError> {
+    for entry in fs::read_dir(from).map_err(at(from))? {
+        let entry = entry.map_err(at(from))?;
+        let (path, target) = (entry.path(), to.join(entry.file_name()));
+        if entry.file_name().to_string_lossy().starts_with('.') || entry.file_name() == "target" {
+            continue;
+        }
+        let kind = entry.file_type().map_err(at(&path))?;
+        if kind.is_dir() && fs::canonicalize(&path).map_err(at(&path))? != own {
+            fs::create_dir(&target).map_err(at(&target))?;
+            copy_sources(&path, &target, own)?;
+        } else if kind.is_file() {
+            fs::copy(&path, &target).map_err(at(&path))?;
+        }
+    }
+    Ok(())
+}
+
+/// Puts the sources of all dependencies into `vendor`, and tells cargo so.
+fn vendor(files: &Path) -> Result<(), PackError> {
+    let mut command = Command::new("cargo");
+    let settings = output(command.args(["vendor", "--locked", "vendor"]).current_dir(files), "cargo vendor")?;
+    let folder = files.join(".cargo");
+    fs::create_dir(&folder).map_err(at(&folder))?;
+    let path = folder.join("config.toml");
+    fs::write(&path, settings).map_err(at(&path))
+}
+
+/// Packs the content of a folder, not the folder: Gradescope looks for its scripts at the top.
+fn archive(files: &Path, path: &Path) -> Result<(), PackError> {
+    let partial = path.with_extension("zip.partial");
+    let mut zip = zip::ZipWriter::new(File::create(&partial).map_err(at(&partial))?);
+    add(&mut zip, files, "")?;
+    let mut file = zip.finish()?;
+    file.flush().map_err(at(&partial))?;
+    fs::rename(&partial, path).map_err(at(path))
+}
+
+fn add(zip: &mut zip::ZipWriter<File>, folder: &Path, prefix: &str) -> Result<(), PackError> {
+    let entries = fs::read_dir(folder).and_then(Iterator::collect::<io::Result<Vec<_>>>).map_err(at(folder))?;
+    let mut paths: Vec<PathBuf> = entries.into_iter().map(|entry| entry.path()).collect();
+    paths.sort();
+    for path in paths {
+        let name = format!("{prefix}{}", path.file_name().unwrap_or_default().to_string_lossy());
+        if path.is_dir() {
+            add(zip, &path, &format!("{name}/"))?;
+            continue;
+        }
+        let settings = zip::write::SimpleFileOptions::default().unix_permissions(mode(&path).map_err(at(&path))?);
+        zip.start_file(name, settings)?;
+        let mut file = File::open(&path).map_err(at(&path))?;
+        io::copy(&mut file, zip).map_err(at(&path))?;
+    }
+    Ok(())
+}
+
+#[cfg(unix)]
+fn mode(path: &Path) -> io::Result<u32> {
+    Ok(std::os::unix::fs::PermissionsExt::mode(&fs::metadata(path)?.permissions()) & 0o777)
+}
+
+#[cfg(not(unix))]
+fn mode(path: &Path) -> io::Result<u32> {
+    // Gradescope's scripts have no ending that Windows knows; all that lies at the top may as well be run.
+    Ok(if path.extension().is_none_or(|ending| ending == "sh") { 0o755 } else { 0o644 })
+}

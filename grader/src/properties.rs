@@ -1,0 +1,90 @@
+//! What must hold for each function, written once: `cargo test`, `check`, `grade` and the grader's own tests use it.
+//!
+//! A property calls the function that it judges on [`Course::subject`] and, where it needs other functions, those of
+//! [`Course::trusted`]: the reference when a submission is graded, the student's own functions on a student's machine.
+
+/// The checks of these names, as data.
+macro_rules! checks {
+    ($($name:ident),* $(,)?) => { &[$($crate::properties::Check { name: stringify!($name), run: $name }),*] };
+}
+
+pub mod bodies;
+pub mod double_double;
+pub mod finite_differences;
+#[cfg(test)]
+mod hostile;
+pub mod meshes;
+pub mod outcome;
+pub mod random;
+pub mod scales;
+
+pub mod T_linear_tetrahedron;
+pub mod V_linear_tetrahedron;
+pub mod V_spring_particle_particle;
+pub mod assemble_forces;
+pub mod assemble_stiffness;
+pub mod build_skinning_matrix;
+pub mod d2V_linear_tetrahedron_dq2;
+pub mod d2psi_neo_hookean_dF2;
+pub mod dV_linear_tetrahedron_dq;
+pub mod dV_spring_particle_particle_dq;
+pub mod dphi_linear_tetrahedron_dX;
+pub mod dpsi_neo_hookean_dF;
+pub mod fixed_point_constraints;
+pub mod implicit_euler;
+pub mod linearly_implicit_euler;
+pub mod mass_matrix_linear_tetrahedron;
+pub mod mass_matrix_mesh;
+pub mod newtons_method;
+pub mod phi_linear_tetrahedron;
+pub mod pick_nearest_vertices;
+pub mod psi_neo_hookean;
+pub mod quadrature_single_point;
+
+use crate::implementation::Implementation;
+use outcome::Outcome;
+
+/// Whom a property asks.
+pub struct Course<'a> {
+    /// The implementation that is judged.
+    pub subject: &'a dyn Implementation,
+    /// An implementation for the functions that a check needs beside the one that it judges.
+    pub trusted: &'a dyn Implementation,
+    /// Where random inputs start.
+    pub seed: u64,
+}
+
+/// One property of one function.
+#[derive(Clone, Copy)]
+pub struct Check {
+    /// The property as a sentence, in snake case.
+    pub name: &'static str,
+    /// Holds an implementation to it.
+    pub run: fn(&Course) -> Outcome,
+}
+
+/// The functions of the course in teaching order, each with its checks.
+pub const FUNCTIONS: [(&str, &[Check]); 22] = [
+    ("phi_linear_tetrahedron", phi_linear_tetrahedron::CHECKS),
+    ("dphi_linear_tetrahedron_dX", dphi_linear_tetrahedron_dX::CHECKS),
+    ("psi_neo_hookean", psi_neo_hookean::CHECKS),
+    ("dpsi_neo_hookean_dF", dpsi_neo_hookean_dF::CHECKS),
+    ("d2psi_neo_hookean_dF2", d2psi_neo_hookean_dF2::CHECKS),
+    ("T_linear_tetrahedron", T_linear_tetrahedron::CHECKS),
+    ("quadrature_single_point", quadrature_single_point::CHECKS),
+    ("V_linear_tetrahedron", V_linear_tetrahedron::CHECKS),
+    ("dV_linear_tetrahedron_dq", dV_linear_tetrahedron_dq::CHECKS),
+    ("d2V_linear_tetrahedron_dq2", d2V_linear_tetrahedron_dq2::CHECKS),
+    ("V_spring_particle_particle", V_spring_particle_particle::CHECKS),
+    ("dV_spring_particle_particle_dq", dV_spring_particle_particle_dq::CHECKS),
+    ("mass_matrix_linear_tetrahedron", mass_matrix_linear_tetrahedron::CHECKS),
+    ("mass_matrix_mesh", mass_matrix_mesh::CHECKS),
+    ("assemble_forces", assemble_forces::CHECKS),
+    ("assemble_stiffness", assemble_stiffness::CHECKS),
+    ("build_skinning_matrix", build_skinning_matrix::CHECKS),
+    ("fixed_point_constraints", fixed_point_constraints::CHECKS),
+    ("pick_nearest_vertices", pick_nearest_vertices::CHECKS),
+    ("linearly_implicit_euler", linearly_implicit_euler::CHECKS),
+    ("newtons_method", newtons_method::CHECKS),
+    ("implicit_euler", implicit_euler::CHECKS),
+];

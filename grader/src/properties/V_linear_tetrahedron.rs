@@ -1,0 +1,103 @@
+//! To do: the elastic energy of one element. Read include-docs/V_linear_tetrahedron.md.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::meshes::{Tetrahedron, orders};
+use super::outcome::{Outcome, near_number};
+use super::random::{constants, deformed_tetrahedron, for_all, for_some, rotation, stretches, tetrahedron, vector};
+use super::scales::energy_terms;
+use super::{Check, Course};
+use crate::implementation::Answer;
+
+/// What must hold for the function.
+pub const CHECKS: &[Check] = checks![
+    an_element_that_only_moves_stores_nothing,
+    uniform_stretch_costs_volume_times_d,
+    simple_shear_costs_volume_times_c,
+    any_stretch_in_any_frame_has_the_energy_of_its_stretches,
+    the_volume_that_is_given_counts,
+    an_element_turned_inside_out_costs_infinitely_much,
+    the_order_of_the_vertices_does_not_matter,
+    an_element_far_from_the_origin_stores_the_same,
+];
+
+/// Energy of the element after X → F X + shift.
+fn energy(course: &Course, t: &Tetrahedron, F: &Matrix3<f64>, shift: &Vector3<f64>, C: f64, D: f64) -> Answer<f64> {
+    course.subject.V_linear_tetrahedron(&t.moved(F, shift), &t.V, &t.element, t.volume, C, D)
+}
+
+/// Round-off: F comes from positions, whose digits count against the lowest height of the element.
+fn allowed(t: &Tetrahedron, F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
+    1e-11 * t.volume * energy_terms(F, C, D) * t.size() / t.height()
+}
+
+fn an_element_that_only_moves_stores_nothing(course: &Course) -> Outcome {
+    for_all(course.seed, (tetrahedron(), rotation(), vector(-3.0..3.0), constants()), |(t, R, shift, (C, D))| {
+        let found = energy(course, &t, &R, &(shift * t.size()), C, D)?;
+        near_number("V of a moved and rotated element", found, 0.0, allowed(&t, &R, C, D))
+    })
+}
+
+fn uniform_stretch_costs_volume_times_d(course: &Course) -> Outcome {
+    for_all(course.seed, (tetrahedron(), -1.0..1.0, constants()), |(t, power, (C, D))| {
+        let (s, F) = (f64::exp(power), Matrix3::identity() * f64::exp(power));
+        let expected = t.volume * D * (s.powi(3) - 1.0).powi(2);
+        let found = energy(course, &t, &F, &Vector3::zeros(), C, D)?;
+        near_number("V(s X) = volume · D (s³ − 1)²", found, expected, allowed(&t, &F, C, D))
+    })
+}
+
+fn simple_shear_costs_volume_times_c(course: &Course) -> Outcome {
+    for_all(course.seed, (tetrahedron(), -2.0..2.0, constants()), |(t, gamma, (C, D))| {
+        for (i, j) in [(0, 1), (1, 0), (0, 2), (2, 0), (1, 2), (2, 1)] {
+            let mut F = Matrix3::identity();
+            F[(i, j)] = gamma;
+            let expected = t.volume * C * gamma * gamma;
+            let found = energy(course, &t, &F, &Vector3::zeros(), C, D)?;
+            near_number("V of a simple shear = volume · C γ²", found, expected, allowed(&t, &F, C, D))?;
+        }
+        Ok(())
+    })
+}
+
+fn any_stretch_in_any_frame_has_the_energy_of_its_stretches(course: &Course) -> Outcome {
+    let inputs = (tetrahedron(), rotation(), stretches(), rotation(), constants());
+    for_all(course.seed, inputs, |(t, U, sigma, W, (C, D))| {
+        let F = U * Matrix3::from_diagonal(&sigma) * W.transpose();
+        let J = sigma.product();
+        let density = C * (sigma.norm_squared() / (J * J).cbrt() - 3.0) + D * (J - 1.0).powi(2);
+        let found = energy(course, &t, &F, &Vector3::zeros(), C, D)?;
+        near_number("V = volume · psi(F)", found, t.volume * density, allowed(&t, &F, C, D))
+    })
+}
+
+fn the_volume_that_is_given_counts(course: &Course) -> Outcome {
+    let t = Tetrahedron::unit();
+    let q = t.moved(&(Matrix3::identity() * 2.0), &Vector3::zeros());
+    let found = course.subject.V_linear_tetrahedron(&q, &t.V, &t.element, 3.0, 1.0, 1.0)?;
+    near_number("V(2 X) = volume · D · 49 with a volume of 3", found, 147.0, 1e-11)
+}
+
+fn an_element_turned_inside_out_costs_infinitely_much(course: &Course) -> Outcome {
+    for_all(course.seed, (deformed_tetrahedron(), constants()), |((t, F, shift), (C, D))| {
+        near_number("V of a mirrored element", energy(course, &t, &-F, &shift, C, D)?, f64::INFINITY, 0.0)
+    })
+}
+
+fn the_order_of_the_vertices_does_not_matter(course: &Course) -> Outcome {
+    for_some(course.seed, (deformed_tetrahedron(), constants()), |((t, F, shift), (C, D))| {
+        let expected = energy(course, &t, &F, &shift, C, D)?;
+        for order in orders() {
+            let found = energy(course, &t.reordered(order), &F, &shift, C, D)?;
+            near_number("V of the same element", found, expected, 10.0 * allowed(&t, &F, C, D))?;
+        }
+        Ok(())
+    })
+}
+
+fn an_element_far_from_the_origin_stores_the_same(course: &Course) -> Outcome {
+    let offset = Vector3::new(1048576.0, -2097152.0, 524288.0);
+    let t = Tetrahedron::new([3, 0, 6, 2], &Matrix3::identity(), &offset);
+    let found = energy(course, &t, &(Matrix3::identity() * 2.0), &Vector3::zeros(), 1.0, 1.0)?;
+    near_number("V(2 X), 1000 km away", found, t.volume * 49.0, 1e-6)
+}

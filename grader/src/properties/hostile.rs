@@ -1,0 +1,137 @@
+//! Nothing that an implementation answers makes a check panic or pass by mistake.
+
+use grader_child::{Functions, NOTHING, plain_functions};
+use nalgebra::{DVector, Matrix3, Matrix4, SMatrix, Vector3, Vector4};
+use nalgebra_sparse::CsrMatrix;
+
+use super::outcome::{Mistake, told};
+use super::{Check, Course, FUNCTIONS};
+use crate::implementation::{Local, Trouble};
+
+/// Answers that make no sense, of several kinds.
+trait Garbage {
+    fn garbage(kind: u8) -> Self;
+}
+
+impl Garbage for f64 {
+    fn garbage(kind: u8) -> Self {
+        [f64::NAN, f64::INFINITY, f64::MAX, -f64::MAX][usize::from(kind % 4)]
+    }
+}
+
+impl<const R: usize, const C: usize> Garbage for SMatrix<f64, R, C> {
+    fn garbage(kind: u8) -> Self {
+        Self::repeat(f64::garbage(kind))
+    }
+}
+
+impl Garbage for DVector<f64> {
+    fn garbage(kind: u8) -> Self {
+        DVector::from_element([0, 1, 2, 1000][usize::from(kind % 4)], f64::garbage(kind))
+    }
+}
+
+impl Garbage for CsrMatrix<f64> {
+    fn garbage(kind: u8) -> Self {
+        let (rows, columns) = [(0, 0), (1, usize::MAX), (usize::from(kind), 3), (24, 24)][usize::from(kind % 4)];
+        CsrMatrix::zeros(rows, columns)
+    }
+}
+
+impl Garbage for Vec<usize> {
+    fn garbage(kind: u8) -> Self {
+        vec![usize::MAX; usize::from(kind)]
+    }
+}
+
+macro_rules! garbage {
+    ($($number:literal $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        fn answering_garbage<const KIND: u8>() -> Functions {
+            Functions {
+                $($name: |$(_: $type),*| Garbage::garbage(KIND),)*
+                quadrature_of_number: |_, _, _, f| f(&Vector3::garbage(KIND)),
+                quadrature_of_vector: |_, _, _, f| f(&Vector3::garbage(KIND)).push(1.0),
+                linearly_implicit_euler: |q, qdot, _, _, force, stiffness, solve| {
+                    force(&DVector::garbage(KIND), &DVector::garbage(KIND));
+                    stiffness(qdot, &DVector::garbage(KIND));
+                    solve(&CsrMatrix::garbage(KIND), &DVector::garbage(KIND));
+                    (*q, *qdot) = (DVector::garbage(KIND), DVector::garbage(KIND));
+                },
+                newtons_method: |x, f, g, H, solve, _| {
+                    (f(&DVector::garbage(KIND)), g(&DVector::garbage(KIND)), H(&DVector::garbage(KIND)));
+                    solve(&CsrMatrix::garbage(KIND), &DVector::garbage(KIND));
+                    *x = DVector::garbage(KIND);
+                    f64::garbage(KIND)
+                },
+                implicit_euler: |q, qdot, _, _, energy, force, stiffness, solve| {
+                    (energy(&DVector::garbage(KIND)), force(&DVector::garbage(KIND), qdot));
+                    stiffness(&DVector::garbage(KIND), &DVector::garbage(KIND));
+                    solve(&CsrMatrix::garbage(KIND), &DVector::garbage(KIND));
+                    (*q, *qdot) = (DVector::garbage(KIND), DVector::garbage(KIND));
+                },
+            }
+        }
+    };
+}
+plain_functions!(garbage);
+
+fn mistakes(function: &str, checks: &[Check], functions: Functions) -> Vec<Mistake> {
+    let asked = Local(functions);
+    let course = Course { subject: &asked, trusted: &asked, seed: 7 };
+    let found: Vec<_> = checks.iter().filter_map(|check| (check.run)(&course).err()).collect();
+    assert!(!found.is_empty(), "{function} passes although it is none");
+    found
+}
+
+#[test]
+fn a_function_that_is_not_there_fails_every_check() {
+    for (function, checks) in FUNCTIONS {
+        let found = mistakes(function, checks, NOTHING);
+        assert_eq!(found.len(), checks.len(), "{function}");
+        assert!(found.iter().all(|mistake| !matches!(mistake, Mistake::Wrong { .. })), "{function}: {found:?}");
+    }
+}
+
+#[test]
+fn whatever_is_answered_no_check_panics() {
+    let kinds =
+        [answering_garbage::<0>(), answering_garbage::<1>(), answering_garbage::<2>(), answering_garbage::<3>()];
+    for functions in kinds {
+        for (function, checks) in FUNCTIONS {
+            // These functions do not panic, so whatever did is a closure of a check.
+            let panicked = |mistake: &Mistake| matches!(mistake, Mistake::Trouble(Trouble::Panicked { .. }));
+            assert!(!mistakes(function, checks, functions).iter().any(panicked), "{function}");
+        }
+    }
+}
+
+#[test]
+fn a_function_that_a_check_needs_is_named_where_it_is_not_there() {
+    let (asked, needed) = (Local(answering_garbage::<0>()), Local(NOTHING));
+    let course = Course { subject: &asked, trusted: &needed, seed: 7 };
+    let (_, checks) = FUNCTIONS.iter().find(|(name, _)| *name == "dpsi_neo_hookean_dF").expect("a function");
+    let waits = checks.iter().filter_map(|check| (check.run)(&course).err());
+    let needs = waits.filter_map(|mistake| match mistake {
+        Mistake::Waits { needs, .. } => Some(needs),
+        _ => None,
+    });
+    let needs: Vec<_> = needs.collect();
+    assert_eq!(needs, ["psi_neo_hookean"]);
+}
+
+#[test]
+fn a_student_is_told_the_page() {
+    let text = told("psi_neo_hookean", &Mistake::Trouble(Trouble::Missing));
+    assert!(text.ends_with("Read include-docs/psi_neo_hookean.md"), "{text}");
+}
+
+#[test]
+fn names_of_checks_are_unique_and_every_function_has_some() {
+    for (function, checks) in FUNCTIONS {
+        let mut names: Vec<_> = checks.iter().map(|check| check.name).collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert!(count > 1 && names.len() == count, "{function}: {names:?}");
+    }
+}

@@ -1,0 +1,128 @@
+//! To do: the line search α = 1, ½, ¼ … of Newton's method. Read include-docs/newtons_method.md.
+
+use nalgebra::{DVector, dmatrix, dvector};
+
+use super::super::Course;
+use super::super::outcome::{Mistake, Outcome, holds, near, near_number};
+use super::objectives::{Asked, Objective, Run, bowl, line, log_barrier, overshooting, rosenbrock};
+
+/// Two questions about the same point, but for round-off.
+fn is_same(a: &DVector<f64>, b: &DVector<f64>) -> bool {
+    (a - b).norm() <= 1e-14 * b.norm()
+}
+
+/// The α at which f was asked along each direction. Questions about the point that is left do not count, nor do those that ask
+/// again about the point that was reached.
+fn alphas(run: &Run, start: &[f64]) -> Result<Vec<Vec<f64>>, Mistake> {
+    let mut x = DVector::from_column_slice(start);
+    let mut all = Vec::new();
+    for (direction, trials) in run.directions().into_iter().zip(run.trials()) {
+        let mut along: Vec<_> = trials.into_iter().filter(|trial| !is_same(trial, &x)).collect();
+        along.dedup_by(|again, before| is_same(again, before));
+        let alpha = |trial: &&DVector<f64>| (*trial - &x).dot(direction) / direction.norm_squared();
+        all.push(along.iter().map(alpha).collect());
+        let Some(last) = along.last() else {
+            holds("f is asked along every direction", false)?;
+            break;
+        };
+        x.clone_from(last);
+    }
+    Ok(all)
+}
+
+pub(super) fn every_direction_is_tried_in_full_first_and_then_halved(course: &Course) -> Outcome {
+    for (objective, start) in [(overshooting(), vec![5.0]), (rosenbrock(), vec![-1.2, 1.0])] {
+        let run = objective.minimise(course, &start, 20)?;
+        let alphas = alphas(&run, &start)?;
+        holds("this objective needs shorter steps", alphas.iter().any(|list| list.len() > 2))?;
+        for list in alphas {
+            for (k, alpha) in list.iter().enumerate() {
+                let expected = 0.5f64.powi(k as i32);
+                near_number("α = 1, ½, ¼ … anew for each direction", *alpha, expected, 1e-6 * expected)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn the_direction_solves_the_hessian_against_minus_the_gradient(course: &Course) -> Outcome {
+    let H = dmatrix![4.0, 1.0; 1.0, 3.0];
+    let run = Objective::quadratic(H.clone(), dvector![0.0, 0.0]).minimise(course, &[1.0, 2.0], 1)?;
+    let solve = run.asked.iter().find_map(|asked| if let Asked::Solve(b, _) = asked { Some(b.clone()) } else { None });
+    let expected = -(H * dvector![1.0, 2.0]);
+    near("the right-hand side of the solve is −g", &solve.unwrap_or_default(), &expected, 1e-14)
+}
+
+pub(super) fn a_decrease_must_be_at_least_1e_8_of_what_the_slope_promises(course: &Course) -> Outcome {
+    // The slope is −1, so the full step must gain 1e-8 and the half step 0.5e-8.
+    let enough = |t: f64| if t == 1.0 { -1.5e-8 } else { 0.0 };
+    near("1.5e-8 gained at α = 1 is enough", &line(enough).minimise(course, &[0.0], 1)?.x, &dvector![1.0], 0.0)?;
+    let too_little = |t: f64| if t == 1.0 || t == 0.5 { -0.8e-8 } else { 0.0 };
+    let run = line(too_little).minimise(course, &[0.0], 1)?;
+    near("0.8e-8 gained is too little at α = 1 and enough at ½", &run.x, &dvector![0.5], 0.0)?;
+    near_number("f there", run.f, -0.8e-8, 0.0)?;
+    let later = |t: f64| if t == 0.0 { 0.0 } else { -0.3e-8 };
+    near("the bound shrinks with α", &line(later).minimise(course, &[0.0], 1)?.x, &dvector![0.25], 0.0)?;
+    let exactly = |t: f64| if t == 1.0 { -1e-8 } else { 0.0 };
+    near("exactly the bound is enough", &line(exactly).minimise(course, &[0.0], 1)?.x, &dvector![1.0], 0.0)
+}
+
+pub(super) fn it_gives_up_below_1e_8_and_leaves_x_as_it_was(course: &Course) -> Outcome {
+    // No step decreases f, because the Hessian has the wrong sign: d points uphill.
+    let uphill = Objective::new((bowl()).f, |x| x.clone(), |_| dmatrix![-1.0, 0.0; 0.0, -1.0]);
+    let run = uphill.minimise(course, &[1.0, 2.0], 10)?;
+    near("x0 stays where no step decreases f", &run.x, &dvector![1.0, 2.0], 0.0)?;
+    near_number("and f(x0) is returned", run.f, 5.5, 0.0)?;
+    holds("giving up ends it", run.directions().len() == 1)?;
+    let trials = run.trials().first().map_or(0, |list| list.iter().filter(|x| x[0] != 1.0).count());
+    holds("27 halvings from 1 down to 2⁻²⁶, the last above 1e-8", trials == 27)
+}
+
+pub(super) fn the_smallest_step_above_1e_8_is_still_tried(course: &Course) -> Outcome {
+    let last = 0.5f64.powi(26);
+    let only_there = move |t: f64| if t == last { -1.0 } else { 0.0 };
+    near("α = 2⁻²⁶ = 1.5e-8", &line(only_there).minimise(course, &[0.0], 1)?.x, &dvector![last], 0.0)?;
+    let only_beyond = move |t: f64| if t != 0.0 && t < last { -1.0 } else { 0.0 };
+    near("α = 2⁻²⁷ = 0.7e-8 is not", &line(only_beyond).minimise(course, &[0.0], 1)?.x, &dvector![0.0], 0.0)
+}
+
+pub(super) fn infinite_and_undefined_values_are_never_accepted(course: &Course) -> Outcome {
+    for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        // Only a quarter of the step has a value.
+        let objective = line(move |t| {
+            if t == 0.25 {
+                -1.0
+            } else if t == 0.0 {
+                0.0
+            } else {
+                value
+            }
+        });
+        near("the first step with a finite f", &objective.minimise(course, &[0.0], 1)?.x, &dvector![0.25], 0.0)?;
+        let nowhere = line(move |t| if t == 0.0 { 7.0 } else { value });
+        let run = nowhere.minimise(course, &[0.0], 3)?;
+        near("x0 stays where no step has a finite f", &run.x, &dvector![0.0], 0.0)?;
+        near_number("and f(x0) is returned", run.f, 7.0, 0.0)?;
+    }
+    Ok(())
+}
+
+pub(super) fn an_infinite_start_takes_the_first_finite_step_and_no_other(course: &Course) -> Outcome {
+    let lost = |t: f64| if t == 0.5 { 100.0 } else { f64::INFINITY };
+    let run = line(lost).minimise(course, &[0.0], 1)?;
+    near("from f = +∞ any finite f is a decrease", &run.x, &dvector![0.5], 0.0)?;
+    near_number("f there", run.f, 100.0, 0.0)?;
+    let run = line(|_| f64::INFINITY).minimise(course, &[0.0], 3)?;
+    near("∞ ≤ ∞ is true, but no reason to move", &run.x, &dvector![0.0], 0.0)?;
+    near_number("f stays infinite", run.f, f64::INFINITY, 0.0)?;
+    let run = log_barrier(f64::NAN).minimise(course, &[0.5], 20)?;
+    near("a start inside is not disturbed", &run.x, &dvector![1.0], 1e-7)
+}
+
+pub(super) fn a_direction_without_an_answer_leaves_x_as_it_was(course: &Course) -> Outcome {
+    // The Hessian is singular, so the solve of these checks answers NaN.
+    let singular = Objective::new((bowl()).f, |x| x.clone(), |_| dmatrix![0.0, 0.0; 0.0, 0.0]);
+    let run = singular.minimise(course, &[1.0, 2.0], 5)?;
+    near("x0 stays where the solve gives NaN", &run.x, &dvector![1.0, 2.0], 0.0)?;
+    near_number("and f(x0) is returned", run.f, 5.5, 0.0)
+}

@@ -1,0 +1,169 @@
+//! How a check passes or fails. No comparison trusts an answer: a wrong shape and NaN fail, and nothing panics.
+
+use std::fmt;
+
+use nalgebra::{DMatrix, DVector, Dim, Matrix, RawStorage, SymmetricEigen};
+use nalgebra_sparse::CsrMatrix;
+
+use crate::implementation::Trouble;
+
+/// Why a check fails.
+#[derive(Clone, PartialEq)]
+pub enum Mistake {
+    /// The answer is wrong.
+    Wrong {
+        /// What must hold, as a sentence without figures; anyone may read it.
+        rule: String,
+        /// What came and what should have come; empty where the rule says it all. Not for students while they are graded.
+        figures: String,
+        /// The input, as simple as shrinking made it; empty where the rule names it. Not for students while they are graded.
+        counterexample: String,
+    },
+    /// There is no answer.
+    Trouble(Trouble),
+    /// A function that the check needs beside the one that it judges gives no answer.
+    Waits {
+        /// Which one.
+        needs: &'static str,
+        /// Why it does not answer.
+        trouble: Trouble,
+    },
+}
+
+/// Passed, or why not.
+pub type Outcome = Result<(), Mistake>;
+
+impl From<Trouble> for Mistake {
+    fn from(trouble: Trouble) -> Self {
+        Self::Trouble(trouble)
+    }
+}
+
+// A test that returns an error prints its `Debug` form, so that is the whole story.
+impl fmt::Debug for Mistake {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Wrong { rule, figures, counterexample } => {
+                f.write_str(rule)?;
+                if !figures.is_empty() {
+                    write!(f, ": {figures}")?;
+                }
+                if !counterexample.is_empty() {
+                    write!(f, "\nwith input {counterexample}")?;
+                }
+                Ok(())
+            }
+            Self::Trouble(trouble) => write!(f, "{trouble}"),
+            Self::Waits { needs, trouble } => write!(f, "this check needs {needs}: {trouble}"),
+        }
+    }
+}
+
+/// The mistake as its maker reads it: what is wrong, and which page tells how it should be.
+pub fn told(function: &str, mistake: &Mistake) -> String {
+    format!("{mistake:?}\nRead include-docs/{function}.md")
+}
+
+fn wrong(rule: &str, figures: String) -> Mistake {
+    Mistake::Wrong { rule: rule.to_owned(), figures, counterexample: String::new() }
+}
+
+/// For an answer of [`Course::trusted`](super::Course::trusted): its trouble is not the fault of the function that is judged.
+pub fn waits(needs: &'static str) -> impl Fn(Trouble) -> Mistake {
+    move |trouble| Mistake::Waits { needs, trouble }
+}
+
+/// Fails with the sentence `rule` where the condition does not hold.
+///
+/// # Errors
+/// The mistake.
+pub fn holds(rule: &str, condition: bool) -> Outcome {
+    if condition { Ok(()) } else { Err(wrong(rule, String::new())) }
+}
+
+/// Compares two numbers; NaN is never near, equal infinities are.
+///
+/// # Errors
+/// The mistake, with both numbers.
+pub fn near_number(rule: &str, actual: f64, expected: f64, allowed: f64) -> Outcome {
+    if is_near(actual, expected, allowed) {
+        return Ok(());
+    }
+    Err(wrong(rule, format!("got {actual:e}, expected {expected:e} (may differ by {allowed:.1e})")))
+}
+
+/// Compares two vectors or matrices entry by entry.
+///
+/// # Errors
+/// The mistake, with the shapes or with the first entry that is not near.
+pub fn near<R1: Dim, C1: Dim, S1, R2: Dim, C2: Dim, S2>(
+    rule: &str,
+    actual: &Matrix<f64, R1, C1, S1>,
+    expected: &Matrix<f64, R2, C2, S2>,
+    allowed: f64,
+) -> Outcome
+where
+    S1: RawStorage<f64, R1, C1>,
+    S2: RawStorage<f64, R2, C2>,
+{
+    has_shape(rule, actual.shape(), expected.shape())?;
+    for column in 0..actual.ncols() {
+        for row in 0..actual.nrows() {
+            let (a, e) = (actual[(row, column)], expected[(row, column)]);
+            if !is_near(a, e, allowed) {
+                let place = if actual.ncols() == 1 { format!("[{row}]") } else { format!("[({row}, {column})]") };
+                let figures = format!("entry {place} is {a:e}, expected {e:e} (may differ by {allowed:.1e})");
+                return Err(wrong(rule, figures));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn is_near(actual: f64, expected: f64, allowed: f64) -> bool {
+    // A comparison with NaN is false, and ∞ − ∞ is NaN.
+    actual == expected || (actual - expected).abs() <= allowed
+}
+
+fn has_shape(rule: &str, actual: (usize, usize), expected: (usize, usize)) -> Outcome {
+    if actual == expected { Ok(()) } else { Err(wrong(rule, format!("got shape {actual:?}, expected {expected:?}"))) }
+}
+
+/// A vector of this length, which what follows may rely on.
+///
+/// # Errors
+/// The mistake, where the length is another one.
+pub fn long(length: usize, answer: DVector<f64>) -> Result<DVector<f64>, Mistake> {
+    has_shape("the answer has the length that the page promises", answer.shape(), (length, 1))?;
+    Ok(answer)
+}
+
+/// The sparse answer as a dense matrix of this shape, which what follows may rely on.
+///
+/// # Errors
+/// The mistake, where the shape is another one; then no room is set aside for it.
+pub fn dense_of(shape: (usize, usize), answer: &CsrMatrix<f64>) -> Result<DMatrix<f64>, Mistake> {
+    has_shape("the answer has the shape that the page promises", (answer.nrows(), answer.ncols()), shape)?;
+    Ok(DMatrix::from(answer))
+}
+
+/// Eigenvalues of a symmetric answer.
+///
+/// # Errors
+/// The mistake, where the answer is not finite or none are found.
+pub fn eigenvalues_of<R: Dim, S: RawStorage<f64, R, R>>(
+    answer: &Matrix<f64, R, R, S>,
+) -> Result<DVector<f64>, Mistake> {
+    let size = answer.nrows();
+    let matrix = DMatrix::from_fn(size, size, |row, column| answer[(row, column)]);
+    let scale = matrix.amax();
+    holds("every entry is finite", matrix.iter().all(|entry| entry.is_finite()))?;
+    if scale == 0.0 {
+        return Ok(DVector::zeros(size));
+    }
+    let eigen = SymmetricEigen::try_new(matrix / scale, f64::EPSILON, MOST_SWEEPS);
+    eigen.map(|eigen| eigen.eigenvalues * scale).ok_or_else(|| wrong("eigenvalues can be found", String::new()))
+}
+
+/// Iterations after which the search for eigenvalues ends; a few for each eigenvalue are usual.
+const MOST_SWEEPS: usize = 10_000;

@@ -1,0 +1,120 @@
+//! All trials of a function, and what comes of them.
+
+use super::compare::{Check, compare};
+use super::random::Random;
+use super::trial::{Observed, Trial};
+use super::{REFERENCE, elements, meshes, picks, steps};
+use grader::implementation::{Answer, Implementation, Local, Trouble};
+
+/// What the comparison with the reference says about a function.
+#[derive(Clone, Debug, Default)]
+pub struct Judgement {
+    /// Number of calls that were made.
+    pub trials: usize,
+    /// Worst scale-aware relative error; `None` where no answer has finite numbers in the right places.
+    pub worst_error: Option<f64>,
+    /// What went wrong, in the order of the trials.
+    pub failures: Vec<Failure>,
+    /// Why the function did not answer; of several reasons the last.
+    pub trouble: Option<Trouble>,
+}
+
+/// One trial that went wrong.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// Which trial: its place among the trials, and what is special about its input.
+    pub trial: (usize, &'static str),
+    /// The check that it fails.
+    pub check: Check,
+    /// What must hold, without figures: fit for students.
+    pub what: &'static str,
+    /// What came and what should have come: the instructor's.
+    pub figures: String,
+    /// The input: the instructor's.
+    pub input: String,
+}
+
+impl Judgement {
+    /// The checks of this function, each with its first failure.
+    pub fn checks(&self, function: &str) -> Vec<(Check, Option<&Failure>)> {
+        let has_edges = trials(function, 0).iter().any(|trial| trial.edge);
+        let has_calls = matches!(function, "linearly_implicit_euler" | "implicit_euler" | "newtons_method");
+        let mut checks = vec![Check::Agrees];
+        checks.extend(has_edges.then_some(Check::EdgeCases));
+        checks.extend(has_calls.then_some(Check::Calls));
+        checks.into_iter().map(|check| (check, self.failures.iter().find(|failure| failure.check == check))).collect()
+    }
+}
+
+/// The trials of a function, drawn anew from a seed; none for a name that is no function.
+pub fn trials(function: &str, seed: u64) -> Vec<Trial> {
+    let random = &mut Random::new(seed, function);
+    let Some(&(function, draw)) = DRAWN_BY.iter().find(|(name, _)| *name == function) else { return Vec::new() };
+    draw(function, random)
+}
+
+type Draw = fn(&'static str, &mut Random) -> Vec<Trial>;
+
+/// The functions in teaching order, and who draws their trials.
+pub const DRAWN_BY: [(&str, Draw); 22] = [
+    ("phi_linear_tetrahedron", elements::shapes),
+    ("dphi_linear_tetrahedron_dX", elements::shapes),
+    ("psi_neo_hookean", elements::densities),
+    ("dpsi_neo_hookean_dF", elements::densities),
+    ("d2psi_neo_hookean_dF2", elements::densities),
+    ("T_linear_tetrahedron", elements::kinetic),
+    ("quadrature_single_point", elements::quadratures),
+    ("V_linear_tetrahedron", elements::elastic),
+    ("dV_linear_tetrahedron_dq", elements::elastic),
+    ("d2V_linear_tetrahedron_dq2", elements::elastic),
+    ("V_spring_particle_particle", elements::springs),
+    ("dV_spring_particle_particle_dq", elements::springs),
+    ("mass_matrix_linear_tetrahedron", elements::masses),
+    ("mass_matrix_mesh", meshes::masses),
+    ("assemble_forces", meshes::assembled),
+    ("assemble_stiffness", meshes::assembled),
+    ("build_skinning_matrix", meshes::skinnings),
+    ("fixed_point_constraints", meshes::constraints),
+    ("pick_nearest_vertices", picks::picks),
+    ("linearly_implicit_euler", steps::steps),
+    ("newtons_method", steps::minima),
+    ("implicit_euler", steps::steps),
+];
+
+/// Compares a function with the reference. After an answer that never comes, nothing more is asked.
+///
+/// An error means that the reference itself did not answer: the grader failed, and there is no judgement.
+pub fn judge(function: &str, seed: u64, subject: &dyn Implementation, tolerance: f64) -> Answer<Judgement> {
+    let mut judgement = Judgement::default();
+    for (index, trial) in trials(function, seed).iter().enumerate() {
+        judgement.trials += 1;
+        let expected = trial.run(&Local(REFERENCE))?;
+        match trial.run(subject) {
+            Ok(observed) => judgement.add(index, trial, &observed, &expected, tolerance),
+            Err(trouble) => {
+                let panicked = matches!(trouble, Trouble::Panicked { .. });
+                judgement.trouble = Some(trouble);
+                if !panicked {
+                    break;
+                }
+            }
+        }
+    }
+    Ok(judgement)
+}
+
+impl Judgement {
+    fn add(&mut self, index: usize, trial: &Trial, observed: &Observed, expected: &Observed, tolerance: f64) {
+        let verdict = compare(trial, observed, expected, tolerance);
+        if let Some(error) = verdict.error {
+            self.worst_error = Some(self.worst_error.map_or(error, |worst| worst.max(error)));
+        }
+        self.failures.extend(verdict.wrongs.into_iter().map(|wrong| Failure {
+            trial: (index, trial.name),
+            check: wrong.check,
+            what: wrong.rule,
+            figures: wrong.figures,
+            input: format!("{}: {:?}", trial.name, trial.input),
+        }));
+    }
+}

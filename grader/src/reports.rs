@@ -1,0 +1,99 @@
+//! Every report of a graded submission and of a class, each format in its own file.
+//!
+//! `grade.json`, `grades.csv` and `class.html` are the instructor's. All other files may be read by students: they hold
+//! names, statuses, messages and hints, never an input, an expected value or a path.
+
+mod charts;
+mod class_html;
+pub mod classroom50;
+mod csv;
+mod escape;
+mod gradescope;
+mod html;
+pub mod json;
+mod junit;
+mod markdown;
+mod page;
+pub mod terminal;
+mod view;
+
+#[cfg(test)]
+mod sample;
+#[cfg(test)]
+mod tests;
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+
+use crate::grade::Grade;
+
+/// What the reports of one submission show, and for whom.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Whether students read the name of the mistake and the sentence that explains it.
+    pub show_diagnosis: bool,
+    /// Where the submission comes from in a classroom of Classroom 50; `result.json` is written with it alone.
+    pub origin: Option<classroom50::Origin>,
+}
+
+/// One submission of a class.
+#[derive(Clone, Debug)]
+pub struct ClassEntry {
+    /// The submission that counts.
+    pub grade: Grade,
+    /// Who handed it in; the submission's name where nothing else is known.
+    pub student: String,
+    /// Where its page is, relative to `class.html`, parts divided by `/`, as the file system names them.
+    pub page: Option<String>,
+    /// Names of earlier submissions of the same student, which do not count.
+    pub older: Vec<String>,
+}
+
+/// Writes `grade.json`, `results.json`, `junit.xml`, `report.md` and `report.html` into `folder`, and with an origin
+/// `result.json`. `grade.json` comes last: where it stands, everything does.
+pub fn write_all(grade: &Grade, folder: &Path, options: &Options) -> io::Result<()> {
+    let record = json::render(grade)?;
+    fs::create_dir_all(folder)?;
+    write_file(folder, "results.json", &gradescope::render(grade, options.show_diagnosis)?)?;
+    if let Some(origin) = &options.origin {
+        write_file(folder, "result.json", &classroom50::render(grade, origin, options.show_diagnosis)?)?;
+    }
+    write_file(folder, "junit.xml", &junit::render(grade, options.show_diagnosis)?)?;
+    write_file(folder, "report.md", &markdown::render(grade, options.show_diagnosis))?;
+    write_file(folder, "report.html", &html::render(grade, options.show_diagnosis))?;
+    write_file(folder, "grade.json", &record)
+}
+
+/// Writes `grades.csv` and `class.html` into `folder`, submissions ordered by student.
+pub fn write_class(entries: &[ClassEntry], folder: &Path) -> io::Result<()> {
+    let mut ordered: Vec<&ClassEntry> = entries.iter().collect();
+    ordered.sort_by_key(|entry| (entry.student.to_lowercase(), entry.grade.submission.clone()));
+    fs::create_dir_all(folder)?;
+    write_file(folder, "grades.csv", &csv::render(&ordered)?)?;
+    write_file(folder, "class.html", &class_html::render(&ordered))
+}
+
+/// Writes a file beside its place and moves it there, so that a reader meets the whole file or the one before.
+fn write_file(folder: &Path, name: &str, text: &str) -> io::Result<()> {
+    let explain = |error: io::Error| {
+        io::Error::new(error.kind(), format!("cannot write {}: {error}", folder.join(name).display()))
+    };
+    let mut file = tempfile::Builder::new().prefix(name).tempfile_in(folder).map_err(explain)?;
+    file.write_all(text.as_bytes()).map_err(explain)?;
+    make_readable(file.as_file()).map_err(explain)?;
+    file.persist(folder.join(name)).map_err(|error| explain(error.error))?;
+    Ok(())
+}
+
+/// Temporary files are readable by their owner alone; reports are read by web servers and harnesses too.
+#[cfg(unix)]
+fn make_readable(file: &fs::File) -> io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    file.set_permissions(fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn make_readable(_: &fs::File) -> io::Result<()> {
+    Ok(())
+}

@@ -1,0 +1,155 @@
+//! Grades for the tests: an ordinary one, and one whose every text attacks the reports.
+
+use std::collections::BTreeMap;
+
+use grader::status::Status;
+
+use super::ClassEntry;
+use crate::grade::{CheckGrade, FORMAT_VERSION, FunctionGrade, Grade};
+
+/// What only the instructor may read; no student's file may hold it.
+pub const SECRET: &str = "SECRET-INPUT-0.4711";
+
+/// Text that tries every format at once.
+pub const HOSTILE: &str = "=cmd|'/C calc'!A0 </title><script>alert(1)</script> ``` `x` | ]]> \
+    \u{1b}[2J\u{1b}]0;owned\u{7}\u{0}\u{8}\u{ffff}\u{202e} \"q\" & 'a' [l](http://x)";
+
+const NAMES: [&str; 22] = [
+    "phi_linear_tetrahedron",
+    "dphi_linear_tetrahedron_dX",
+    "psi_neo_hookean",
+    "dpsi_neo_hookean_dF",
+    "d2psi_neo_hookean_dF2",
+    "T_linear_tetrahedron",
+    "quadrature_single_point",
+    "V_linear_tetrahedron",
+    "dV_linear_tetrahedron_dq",
+    "d2V_linear_tetrahedron_dq2",
+    "V_spring_particle_particle",
+    "dV_spring_particle_particle_dq",
+    "mass_matrix_linear_tetrahedron",
+    "mass_matrix_mesh",
+    "assemble_forces",
+    "assemble_stiffness",
+    "build_skinning_matrix",
+    "fixed_point_constraints",
+    "pick_nearest_vertices",
+    "linearly_implicit_euler",
+    "newtons_method",
+    "implicit_euler",
+];
+
+/// A submission whose functions fare differently, by `variant`.
+pub fn grade(variant: usize) -> Grade {
+    let functions: Vec<FunctionGrade> = (0..NAMES.len()).map(|i| function(i, variant)).collect();
+    let score = functions.iter().map(|f| f.score).sum();
+    Grade {
+        format_version: FORMAT_VERSION,
+        submission: format!("submission-{variant:02}"),
+        files: "0123abcd".to_owned(),
+        score,
+        max_score: 100.0,
+        seed: u64::MAX,
+        toolchain: "rustc 1.89.0".to_owned(),
+        sandbox: BTreeMap::from([("namespaces".to_owned(), true), ("landlock".to_owned(), false)]),
+        remarks: if variant % 5 == 1 { vec!["README.txt was left aside".to_owned()] } else { Vec::new() },
+        functions,
+        simulation: FunctionGrade { name: "simulation".to_owned(), max_score: 12.0, score: 0.0, ..function(3, 0) },
+        seconds: 12.345678,
+    }
+}
+
+fn function(i: usize, variant: usize) -> FunctionGrade {
+    let status = match (i * 7 + variant * 5 + i * variant) % 17 {
+        1 | 9 => Status::Failed,
+        4 => Status::DidNotCompile,
+        6 if variant.is_multiple_of(3) => Status::TimedOut,
+        8 if variant.is_multiple_of(4) => Status::Missing,
+        11 if variant.is_multiple_of(5) => Status::Crashed,
+        13 if variant.is_multiple_of(6) => Status::Refused,
+        _ => Status::Passed,
+    };
+    let answers = matches!(status, Status::Passed | Status::Failed);
+    let failed = status == Status::Failed;
+    let spread = ((i * 13 + variant * 29) % 10) as f64;
+    FunctionGrade {
+        name: NAMES[i].to_owned(),
+        score: if status == Status::Passed {
+            4.0
+        } else if failed {
+            1.5
+        } else {
+            0.0
+        },
+        max_score: 4.0,
+        status,
+        diagnosis: failed.then(|| ["negated", "scaled by 0.5", "transposed"][(i + variant) % 3].to_owned()),
+        message: message(status),
+        hint: (status != Status::Passed).then(|| "compare with a finite difference of the energy".to_owned()),
+        error: answers.then(|| if failed { 10_f64.powf(-spread) } else { 1e-15 * (1.0 + spread) }),
+        seconds: answers.then(|| 1e-6 * (1.0 + spread) * 10_f64.powi((i % 4) as i32)),
+        reference_seconds: Some(2e-6 * 10_f64.powi((i % 4) as i32)),
+        checks: if answers { checks(status) } else { Vec::new() },
+    }
+}
+
+fn message(status: Status) -> Option<String> {
+    match status {
+        Status::Failed => Some("Every entry has the opposite sign.".to_owned()),
+        Status::DidNotCompile => Some(
+            "error[E0308]: mismatched types\n --> src/x.rs:12:5\n   |\n\
+             12 |     0\n   |     ^ expected `f64`, found integer"
+                .to_owned(),
+        ),
+        Status::Refused => Some("line 3: `unsafe` is not allowed".to_owned()),
+        Status::Crashed => Some("The function panicked: index out of bounds.".to_owned()),
+        Status::TimedOut => Some("No answer within 10 seconds.".to_owned()),
+        _ => None,
+    }
+}
+
+fn checks(status: Status) -> Vec<CheckGrade> {
+    let check = |name: &str, status, message: &str| CheckGrade {
+        name: name.to_owned(),
+        status,
+        message: message.to_owned(),
+        counterexample: Some(SECRET.to_owned()),
+    };
+    vec![
+        check("is_zero_at_rest", Status::Passed, ""),
+        check("does_not_change_under_rotation", Status::Passed, ""),
+        check("equals_the_reference", status, "the answer differs from the energy's finite difference"),
+    ]
+}
+
+/// A submission whose every text is [`HOSTILE`] and whose figures are no numbers.
+pub fn hostile() -> Grade {
+    let mut grade = grade(1);
+    grade.submission = HOSTILE.to_owned();
+    grade.remarks = vec![HOSTILE.to_owned()];
+    grade.seconds = 0.0;
+    for function in &mut grade.functions {
+        function.diagnosis = Some(HOSTILE.to_owned());
+        function.message = Some(format!("{HOSTILE}\n{HOSTILE}"));
+        function.error = Some(f64::NAN);
+        function.seconds = Some(f64::INFINITY);
+        for check in &mut function.checks {
+            check.status = Status::Failed;
+            check.message = HOSTILE.to_owned();
+        }
+    }
+    grade
+}
+
+/// A class of thirty, the last of them hostile.
+pub fn class() -> Vec<ClassEntry> {
+    let entry = |grade: Grade, student: &str| ClassEntry {
+        page: Some(format!("{}/report.html", grade.submission)),
+        student: student.to_owned(),
+        older: if student == "Ünal 03" { vec!["submission-03-first".to_owned()] } else { Vec::new() },
+        grade,
+    };
+    let mut entries: Vec<ClassEntry> = (0..29).map(|i| entry(grade(i), &format!("Ünal {i:02}"))).collect();
+    entries.push(entry(hostile(), HOSTILE));
+    entries
+}

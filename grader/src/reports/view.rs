@@ -1,0 +1,130 @@
+//! What the reports say of a grade: words, figures as people read them, and what students may see.
+
+use grader::status::Status;
+
+use super::escape;
+use crate::grade::{FunctionGrade, Grade};
+
+/// The error that a double cannot fall below: a plot draws smaller ones here.
+pub const ERROR_FLOOR: f64 = 1e-16;
+
+/// The functions, and the whole simulation after them.
+pub fn parts(grade: &Grade) -> impl Iterator<Item = &FunctionGrade> {
+    grade.functions.iter().chain([&grade.simulation])
+}
+
+/// A status as people say it.
+pub fn label(status: Status) -> &'static str {
+    match status {
+        Status::Passed => "passed",
+        Status::Failed => "failed",
+        Status::Crashed => "crashed",
+        Status::TimedOut => "timed out",
+        Status::DidNotCompile => "does not compile",
+        Status::Refused => "refused",
+        Status::Missing => "missing",
+    }
+}
+
+/// A status as `grade.json` spells it.
+pub fn key(status: Status) -> &'static str {
+    match status {
+        Status::TimedOut => "timed_out",
+        Status::DidNotCompile => "did_not_compile",
+        other => label(other),
+    }
+}
+
+/// The name of a check as a sentence.
+pub fn sentence(check: &str) -> String {
+    escape::line(&check.replace('_', " "))
+}
+
+/// What a student is told of a function: the diagnosis, its sentence or the compiler's words, the hint.
+pub fn notes(function: &FunctionGrade, show_diagnosis: bool) -> Vec<String> {
+    let mut notes = Vec::new();
+    match &function.diagnosis {
+        // The message explains the diagnosis: hidden together.
+        Some(_) if !show_diagnosis => {}
+        Some(diagnosis) => {
+            notes.push(format!("Looks like: {diagnosis}"));
+            notes.extend(function.message.clone());
+        }
+        None => notes.extend(function.message.clone()),
+    }
+    if function.status != Status::Passed {
+        notes.extend(function.hint.as_ref().map(|hint| format!("Hint: {hint}")));
+    }
+    notes.retain(|note| !note.trim().is_empty());
+    notes
+}
+
+/// How many functions pass, out of how many.
+pub fn passed(grade: &Grade) -> (usize, usize) {
+    (grade.functions.iter().filter(|f| f.status == Status::Passed).count(), grade.functions.len())
+}
+
+/// Points without needless digits: `7`, `7.5`, `7.25`.
+pub fn points(points: f64) -> String {
+    let text = format!("{points:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Points as numbers in files: sums like 78.30000000000001 are rounded.
+pub fn rounded(points: f64) -> f64 {
+    (points * 1e4).round() / 1e4
+}
+
+/// The score between nothing and everything, 0 to 1.
+pub fn fraction(score: f64, max_score: f64) -> f64 {
+    if max_score > 0.0 && score.is_finite() { (score / max_score).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// A relative error, such as `2.1e-9`.
+pub fn error(error: Option<f64>) -> String {
+    match error.filter(|error| error.is_finite()) {
+        Some(0.0) => "0".to_owned(),
+        Some(error) => format!("{error:.1e}"),
+        None => "–".to_owned(),
+    }
+}
+
+/// A time with the unit that suits it, such as `3.2 µs`.
+pub fn seconds(seconds: Option<f64>) -> String {
+    match seconds.filter(|seconds| seconds.is_finite() && *seconds >= 0.0) {
+        Some(s) if s < 1e-6 => format!("{:.0} ns", s * 1e9),
+        Some(s) if s < 1e-3 => format!("{:.1} µs", s * 1e6),
+        Some(s) if s < 1.0 => format!("{:.1} ms", s * 1e3),
+        Some(s) if s < 100.0 => format!("{s:.1} s"),
+        Some(s) => format!("{s:.0} s"),
+        None => "–".to_owned(),
+    }
+}
+
+/// The submission's time in terms of the reference's, such as `1.3×`.
+pub fn ratio(function: &FunctionGrade) -> String {
+    match (function.seconds, function.reference_seconds) {
+        (Some(own), Some(reference)) if own.is_finite() && reference > 0.0 => format!("{:.1}×", own / reference),
+        _ => "–".to_owned(),
+    }
+}
+
+/// The worst error of the functions that answer.
+pub fn worst_error(grade: &Grade) -> Option<f64> {
+    grade.functions.iter().filter_map(|f| f.error.filter(|error| error.is_finite())).reduce(f64::max)
+}
+
+/// The sum of the times of the functions that answer, and how many do.
+pub fn total_seconds(grade: &Grade) -> (Option<f64>, usize) {
+    sum(grade.functions.iter().map(|f| f.seconds))
+}
+
+/// The reference's time for the same functions, and how many were timed.
+pub fn reference_seconds(grade: &Grade) -> (Option<f64>, usize) {
+    sum(grade.functions.iter().map(|f| f.reference_seconds))
+}
+
+fn sum(times: impl Iterator<Item = Option<f64>>) -> (Option<f64>, usize) {
+    let known: Vec<f64> = times.flatten().filter(|time| time.is_finite() && *time > 0.0).collect();
+    ((!known.is_empty()).then(|| known.iter().sum()), known.len())
+}

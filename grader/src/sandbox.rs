@@ -1,0 +1,180 @@
+//! Runs the compiler and programs with a submission's code where they can do no harm.
+//!
+//! On Linux the grader starts itself a second time as a *launcher* (the hidden subcommand `confine`). The launcher makes the
+//! namespaces and keeps the process tree; a third process gives up its rights one after the other and becomes the program.
+//! Every layer is tried out beforehand ([`Sandbox::probe`]), and those that the machine has must all hold, or nothing is run.
+//! On other systems there are no layers, and a program runs plainly.
+
+#[cfg(target_os = "linux")]
+mod calls;
+#[cfg(target_os = "linux")]
+mod confine;
+#[cfg(target_os = "linux")]
+mod enter;
+#[cfg(target_os = "linux")]
+mod files;
+#[cfg(target_os = "linux")]
+mod keep;
+#[cfg(target_os = "linux")]
+mod owner;
+#[cfg(target_os = "linux")]
+mod probe;
+#[cfg(target_os = "linux")]
+mod root;
+mod run;
+mod running;
+mod spec;
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+
+pub use running::Running;
+
+/// What is run, which decides what it may do beside computing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Profile {
+    /// rustc and what it calls: may start other programs that it can read.
+    Compiler,
+    /// A program with a submission's code: threads, but no other process.
+    Submission,
+}
+
+/// What a program may use up.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Limits {
+    /// Time until the whole process tree is killed.
+    pub wall: Duration,
+    /// Processor time of one process, rounded up to seconds.
+    pub cpu: Duration,
+    /// Address space of one process, bytes.
+    pub memory: u64,
+    /// Processes and threads.
+    pub processes: u64,
+    /// Size of one file, bytes.
+    pub file_size: u64,
+    /// Open files of one process.
+    pub open_files: u64,
+    /// Bytes of stdout and stderr together that are kept; what comes after is dropped.
+    pub output: usize,
+}
+
+/// A program and what it may see.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Confined {
+    /// The program.
+    pub program: PathBuf,
+    /// Its arguments.
+    pub arguments: Vec<String>,
+    /// Its whole environment; nothing of the grader's is handed on.
+    pub environment: Vec<(String, String)>,
+    /// The folder in which it starts, one of `writable` or `readable` or below.
+    pub folder: PathBuf,
+    /// Files and folders that it may read. All paths are absolute.
+    pub readable: Vec<PathBuf>,
+    /// Files and folders that it may also change. Without another way their owner becomes the program's user.
+    pub writable: Vec<PathBuf>,
+    /// What it may do.
+    pub profile: Profile,
+    /// What it may use up.
+    pub limits: Limits,
+}
+
+/// How a program ended that ran to its end.
+#[derive(Clone, Debug)]
+pub struct Ended {
+    /// Exit code; none if a signal ended it.
+    pub code: Option<i32>,
+    /// Signal that ended it.
+    pub signal: Option<i32>,
+    /// Whether it was killed because its time was over.
+    pub timed_out: bool,
+    /// Processor time of the whole process tree, s. Zero where nothing measures it: outside a sandbox.
+    pub seconds: f64,
+    /// Start of what it printed.
+    pub stdout: Vec<u8>,
+    /// Start of its errors.
+    pub stderr: Vec<u8>,
+}
+
+/// The layers that this machine has.
+#[derive(Clone, Debug)]
+pub struct Sandbox {
+    /// The program that confines, and the layers; none at all without it.
+    launcher: Option<PathBuf>,
+    layers: BTreeMap<String, bool>,
+}
+
+impl Sandbox {
+    /// Tries each layer in a throw-away process. `launcher` is a program that calls [`confine`] for its subcommand `confine`.
+    pub fn probe(launcher: &Path) -> Self {
+        #[cfg(target_os = "linux")]
+        let layers = probe::layers(launcher);
+        #[cfg(not(target_os = "linux"))]
+        let layers = BTreeMap::new();
+        let launcher = layers.values().any(|there| *there).then(|| launcher.to_path_buf());
+        Self { launcher, layers }
+    }
+
+    /// No layer: for a student's own code on their own machine.
+    pub fn none() -> Self {
+        Self { launcher: None, layers: BTreeMap::new() }
+    }
+
+    /// The layers by name, and whether this machine has them.
+    ///
+    /// `user_namespace` is what an ordinary user needs for the other namespaces; where root does without it, it is not listed.
+    /// `own_user` holds only if the program runs as a user that owns nothing else, which takes root.
+    pub fn layers(&self) -> BTreeMap<String, bool> {
+        self.layers.clone()
+    }
+
+    /// Whether there is any layer.
+    pub fn is_some_layer(&self) -> bool {
+        self.layers.values().any(|there| *there)
+    }
+
+    /// Runs a program to its end, with nothing to read on its standard input.
+    ///
+    /// An error says that the program was not started, or that it cannot be said how it ended: it is the grader's, not the
+    /// program's.
+    pub fn run(&self, confined: &Confined) -> io::Result<Ended> {
+        run::run(self, confined)
+    }
+
+    /// Starts a program whose standard input is a socket, and whose output goes nowhere.
+    pub fn start(&self, confined: &Confined) -> io::Result<Running> {
+        running::start(self, confined)
+    }
+}
+
+/// Folders with a C linker and what rustc and its linker load. Beside them, the toolchain must be readable
+/// (`rustc --print sysroot`), and `LD_LIBRARY_PATH` must name its `lib`, and on x86-64 rustc takes
+/// `-Clinker-features=-lld`: without `/proc`, neither rustc nor its own linker finds what belongs to it.
+pub fn system_folders() -> Vec<PathBuf> {
+    present(&["/usr", "/bin", "/lib", "/lib64", "/etc/alternatives", "/etc/ld.so.cache"])
+}
+
+/// Folders with the libraries that a Rust program loads at its start.
+pub fn library_folders() -> Vec<PathBuf> {
+    present(&["/lib", "/lib64", "/usr/lib", "/usr/lib64", "/etc/ld.so.cache"])
+}
+
+fn present(paths: &[&str]) -> Vec<PathBuf> {
+    paths.iter().map(PathBuf::from).filter(|path| path.exists()).collect()
+}
+
+/// The body of the launcher's subcommand `confine`; `arguments` are those after it.
+pub fn confine(arguments: &[String]) -> ExitCode {
+    #[cfg(target_os = "linux")]
+    return confine::confine(arguments);
+    #[cfg(not(target_os = "linux"))]
+    {
+        eprintln!("there is no sandbox on this system for {arguments:?}");
+        ExitCode::FAILURE
+    }
+}

@@ -1,0 +1,215 @@
+//! The process between the grader and the program: makes the namespaces, starts the program, ends everything.
+
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::os::fd::{AsFd, AsRawFd};
+use std::os::unix::net::UnixStream;
+use std::process::{Child, Command, Stdio};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use nix::errno::Errno;
+use nix::sched::{CloneFlags, unshare};
+use nix::sys::prctl::set_child_subreaper;
+use nix::sys::resource::{UsageWho, getrusage};
+use nix::sys::signal::{Signal, kill};
+use nix::sys::wait::{Id, WaitPidFlag, WaitStatus, waitid, waitpid};
+use nix::unistd::{Pid, pipe};
+
+use super::owner;
+use super::spec::{Control, News, Spec};
+
+/// Runs the program of a spec and tells the grader about it, until the program ends, its time is over or the grader is gone.
+pub fn keep(spec: Spec) -> Result<(), String> {
+    let control = control(spec.control).map_err(|error| format!("no way to the grader: {error}"))?;
+    if let Err(why) = separate(&spec) {
+        return tell(&control, &News::Refused(why));
+    }
+    let watch = watch(&spec, &control).map_err(|error| format!("no ear for the grader: {error}"))?;
+    match begin(&spec, &watch) {
+        Ok(program) => {
+            tell(&control, &News::Started)?;
+            let (status, timed_out) = attend(program, &watch)?;
+            sweep(&spec);
+            tell(&control, &ended(status, timed_out)?)
+        }
+        Err(why) => tell(&control, &News::Refused(why)),
+    }
+}
+
+fn control(place: Control) -> io::Result<UnixStream> {
+    let descriptor = match place {
+        Control::Stdin => io::stdin().as_fd().try_clone_to_owned()?,
+        Control::Stdout => io::stdout().as_fd().try_clone_to_owned()?,
+    };
+    Ok(UnixStream::from(descriptor))
+}
+
+fn tell(mut control: &UnixStream, news: &News) -> Result<(), String> {
+    let mut line = serde_json::to_string(news).map_err(|error| error.to_string())?;
+    line.push('\n');
+    // The grader may have lost interest, which is no failure.
+    match control.write_all(line.as_bytes()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.to_string()),
+        _ => Ok(()),
+    }
+}
+
+/// Makes the namespaces but that of processes.
+fn separate(spec: &Spec) -> Result<(), String> {
+    let flags = namespaces(spec);
+    let (user, group) = (nix::unistd::geteuid(), nix::unistd::getegid());
+    unshare(flags).map_err(|error| format!("namespaces: {error}"))?;
+    if flags.contains(CloneFlags::CLONE_NEWUSER) {
+        // Root in the namespace, so that the next process may mount; it gives that up.
+        let itself = File::open("/proc/self").map_err(|error| format!("/proc: {error}"))?;
+        owner::map(&itself, (0, user.as_raw()), (0, group.as_raw()))
+            .map_err(|error| format!("user_namespace: {error}"))?;
+    }
+    Ok(())
+}
+
+/// Starts the program; an error is what its launcher says.
+fn begin(spec: &Spec, watch: &Mutex<Watch>) -> Result<Child, String> {
+    if spec.layers.contains("pid_namespace") {
+        // From here on, no more thread can be started.
+        unshare(CloneFlags::CLONE_NEWPID).map_err(|error| format!("pid_namespace: {error}"))?;
+    }
+    set_child_subreaper(true).map_err(|error| format!("process_tree: {error}"))?;
+    let (reports, told) = pipe().map_err(|error| error.to_string())?;
+    let mut command = Command::new("/proc/self/exe");
+    let text = serde_json::to_string(spec).map_err(|error| error.to_string())?;
+    command.args(["confine", "enter", &told.as_raw_fd().to_string(), &text]).env_clear();
+    match spec.control {
+        Control::Stdin => command.stdin(Stdio::null()),
+        Control::Stdout => command.stdout(Stdio::null()),
+    };
+    let child = command.spawn().map_err(|error| format!("the launcher: {error}"))?;
+    drop(told);
+    lock(watch).begun(Pid::from_raw(child.id().cast_signed()));
+    // The other end closes when the program begins.
+    let mut report = String::new();
+    File::from(reports).read_to_string(&mut report).map_err(|error| error.to_string())?;
+    if report.is_empty() {
+        return Ok(child);
+    }
+    // What is left of the process says nothing more.
+    let _ = { child }.wait();
+    Err(report)
+}
+
+fn namespaces(spec: &Spec) -> CloneFlags {
+    let flags = [
+        ("user_namespace", CloneFlags::CLONE_NEWUSER),
+        ("mount_namespace", CloneFlags::CLONE_NEWNS),
+        ("network_namespace", CloneFlags::CLONE_NEWNET),
+        ("ipc_namespace", CloneFlags::CLONE_NEWIPC | CloneFlags::CLONE_NEWUTS),
+    ];
+    flags.into_iter().filter(|(name, _)| spec.layers.contains(*name)).map(|(_, flag)| flag).collect()
+}
+
+/// Who may kill the program, and why that was done.
+#[derive(Default)]
+struct Watch {
+    /// The program from its start until it is waited for; so long its number is nobody else's.
+    program: Option<Pid>,
+    /// Whether its time is over or the grader gone.
+    over: bool,
+    timed_out: bool,
+}
+
+impl Watch {
+    fn begun(&mut self, program: Pid) {
+        self.program = Some(program);
+        self.kill_if_over();
+    }
+
+    fn kill_if_over(&self) {
+        if let Some(program) = self.program.filter(|_| self.over) {
+            // It may have ended by itself just now.
+            let _ = kill(program, Signal::SIGKILL);
+        }
+    }
+}
+
+fn lock(watch: &Mutex<Watch>) -> MutexGuard<'_, Watch> {
+    watch.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Ends the program when its time is over or the grader is gone.
+fn watch(spec: &Spec, control: &UnixStream) -> io::Result<Arc<Mutex<Watch>>> {
+    let watch = Arc::new(Mutex::new(Watch::default()));
+    let shared = watch.clone();
+    let ear = control.try_clone()?;
+    ear.set_read_timeout(Some(spec.confined.limits.wall.max(Duration::from_millis(1))))?;
+    thread::Builder::new().spawn(move || {
+        // The grader says nothing: this returns when it closes the socket or dies, or when the time is over.
+        let heard = (&ear).read(&mut [0]);
+        let mut watch = lock(&shared);
+        watch.over = true;
+        watch.timed_out = watch.program.is_some() && heard.is_err();
+        watch.kill_if_over();
+    })?;
+    Ok(watch)
+}
+
+/// Waits for the end of the program.
+fn attend(mut program: Child, watch: &Mutex<Watch>) -> Result<(WaitStatus, bool), String> {
+    let pid = Pid::from_raw(program.id().cast_signed());
+    let status = retry(|| waitid(Id::Pid(pid), WaitPidFlag::WEXITED | WaitPidFlag::WNOWAIT));
+    let mut watch = lock(watch);
+    watch.program = None;
+    let status = status.map_err(|error| error.to_string())?;
+    program.wait().map_err(|error| error.to_string())?;
+    Ok((status, watch.timed_out))
+}
+
+fn retry<T>(mut call: impl FnMut() -> nix::Result<T>) -> nix::Result<T> {
+    loop {
+        match call() {
+            Err(Errno::EINTR) => {}
+            done => return done,
+        }
+    }
+}
+
+/// Kills what the program has left behind. In a namespace of its own, the kernel has done so.
+fn sweep(spec: &Spec) {
+    // Orphans become children of this process, generation by generation.
+    loop {
+        if !spec.layers.contains("pid_namespace") {
+            children().into_iter().for_each(|pid| {
+                let _ = kill(pid, Signal::SIGKILL);
+            });
+        }
+        if let Err(Errno::ECHILD) = waitpid(None, None) {
+            return;
+        }
+    }
+}
+
+/// The processes whose parent is this one.
+fn children() -> Vec<Pid> {
+    let own = std::process::id().to_string();
+    let Ok(processes) = fs::read_dir("/proc") else { return Vec::new() };
+    let numbers = processes.flatten().filter_map(|entry| entry.file_name().to_str()?.parse::<i32>().ok());
+    let parent_is_own = |pid: &i32| {
+        let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
+        // After the name, which may hold anything: `) state parent …`.
+        stat.rsplit_once(')').and_then(|(_, rest)| rest.split_whitespace().nth(1)) == Some(&own)
+    };
+    numbers.filter(parent_is_own).map(Pid::from_raw).collect()
+}
+
+fn ended(status: WaitStatus, timed_out: bool) -> Result<News, String> {
+    let usage = getrusage(UsageWho::RUSAGE_CHILDREN).map_err(|error| error.to_string())?;
+    let seconds =
+        [usage.user_time(), usage.system_time()].iter().map(|t| t.tv_sec() as f64 + t.tv_usec() as f64 * 1e-6).sum();
+    let (code, signal) = match status {
+        WaitStatus::Exited(_, code) => (Some(code), None),
+        WaitStatus::Signaled(_, signal, _) => (None, Some(signal as i32)),
+        other => return Err(format!("the program did not end: {other:?}")),
+    };
+    Ok(News::Ended { code, signal, timed_out, seconds })
+}

@@ -1,0 +1,70 @@
+//! Finds out which layers the machine has, by trying them.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Duration;
+
+use nix::unistd::geteuid;
+
+use super::{Confined, Limits, Profile, Sandbox, library_folders};
+
+/// Layers in the order in which they are tried, beside `user_namespace`.
+const LAYERS: [&str; 9] = [
+    "mount_namespace",
+    "network_namespace",
+    "pid_namespace",
+    "ipc_namespace",
+    "resource_limits",
+    "process_tree",
+    "landlock",
+    "seccomp",
+    "own_user",
+];
+
+/// Each layer, and whether it holds beside those before it.
+pub fn layers(launcher: &Path) -> BTreeMap<String, bool> {
+    let mut sandbox = Sandbox { launcher: Some(launcher.to_path_buf()), layers: BTreeMap::new() };
+    let confined = nothing(launcher);
+    let mut holds = |name: &str| {
+        sandbox.layers.insert(name.to_string(), true);
+        let holds = sandbox.run(&confined).is_ok_and(|ended| ended.code == Some(0));
+        sandbox.layers.insert(name.to_string(), holds);
+        holds
+    };
+    let root = geteuid().is_root();
+    let mut layers = LAYERS.iter();
+    // Root that may mount needs no user namespace, and is safer without: programs then run as another user.
+    if !(root && holds(LAYERS[0])) {
+        let _ = holds("user_namespace");
+    } else {
+        layers.next();
+    }
+    for name in layers {
+        holds(name);
+    }
+    sandbox.layers
+}
+
+/// The launcher as the program, asked to do nothing.
+fn nothing(launcher: &Path) -> Confined {
+    let mut readable = library_folders();
+    readable.push(launcher.to_path_buf());
+    Confined {
+        program: launcher.to_path_buf(),
+        arguments: vec!["confine".into(), "nothing".into()],
+        environment: Vec::new(),
+        folder: "/".into(),
+        readable,
+        writable: Vec::new(),
+        profile: Profile::Submission,
+        limits: Limits {
+            wall: Duration::from_secs(5),
+            cpu: Duration::from_secs(5),
+            memory: 1 << 30,
+            processes: 16,
+            file_size: 1 << 20,
+            open_files: 32,
+            output: 1000,
+        },
+    }
+}

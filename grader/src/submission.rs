@@ -1,0 +1,134 @@
+//! A submission: what is taken of a folder or an archive, and what is not.
+//!
+//! Taken are the files `src/NAME.rs` of the 22 functions alone, as text. Everything else of a submission – its manifest, build
+//! script, toolchain, tests – never reaches a compiler.
+
+pub mod entries;
+mod folder;
+pub mod scan;
+mod stub;
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+
+pub use entries::Unreadable;
+pub use stub::is_stub;
+
+/// The functions of the course in teaching order.
+pub const NAMES: [&str; 22] = [
+    "phi_linear_tetrahedron",
+    "dphi_linear_tetrahedron_dX",
+    "psi_neo_hookean",
+    "dpsi_neo_hookean_dF",
+    "d2psi_neo_hookean_dF2",
+    "T_linear_tetrahedron",
+    "quadrature_single_point",
+    "V_linear_tetrahedron",
+    "dV_linear_tetrahedron_dq",
+    "d2V_linear_tetrahedron_dq2",
+    "V_spring_particle_particle",
+    "dV_spring_particle_particle_dq",
+    "mass_matrix_linear_tetrahedron",
+    "mass_matrix_mesh",
+    "assemble_forces",
+    "assemble_stiffness",
+    "build_skinning_matrix",
+    "fixed_point_constraints",
+    "pick_nearest_vertices",
+    "linearly_implicit_euler",
+    "newtons_method",
+    "implicit_euler",
+];
+
+/// A file may have as many bytes as this; a function of the course has a few thousand.
+pub const MAX_FILE_BYTES: u64 = 1 << 20;
+
+/// What a submission has for one function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Nothing yet; why.
+    Missing(String),
+    /// Something that is not taken.
+    Refused {
+        /// Where it stands, counted from one; none where it concerns the file as a whole.
+        line: Option<usize>,
+        /// What is wrong, and what to do.
+        reason: String,
+    },
+    /// The file's text, without a byte-order mark and with `\n` at the end of each line.
+    Written(String),
+}
+
+/// What is taken of one submission.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Submission {
+    /// Its folder's or archive's name without the ending.
+    pub name: String,
+    /// All 22, by name.
+    pub functions: BTreeMap<&'static str, Source>,
+    /// What was left aside and may surprise, a sentence each.
+    pub remarks: Vec<String>,
+}
+
+impl Submission {
+    /// Reads a folder that holds `src/NAME.rs`, itself or in the one folder in it. Never follows a symbolic link.
+    pub fn read_folder(folder: &Path) -> Result<Self, Unreadable> {
+        let entries = folder::entries(folder)?;
+        Self::from_entries(display_name(folder), entries)
+    }
+
+    /// A hash of the files that are taken or refused for their text, in hexadecimal digits; equal for equal work, whatever
+    /// the submission is called.
+    pub fn hash(&self) -> String {
+        let mut hasher = Sha256::new();
+        for (name, source) in &self.functions {
+            let (kind, text) = match source {
+                Source::Missing(_) => continue,
+                Source::Refused { reason, .. } => ("refused", reason),
+                Source::Written(text) => ("written", text),
+            };
+            hasher.update(format!("{name} {kind} {}\n", text.len()));
+            hasher.update(text);
+        }
+        hasher.finalize().iter().fold(String::new(), |mut digits, byte| {
+            // Writing to a string cannot fail.
+            let _ = write!(digits, "{byte:02x}");
+            digits
+        })
+    }
+}
+
+/// The name of a folder; that of the current one where the path is `.`.
+fn display_name(folder: &Path) -> String {
+    let full = folder.canonicalize();
+    let path = full.as_deref().unwrap_or(folder);
+    path.file_name().map_or_else(|| "submission".to_owned(), |name| name.to_string_lossy().into_owned())
+}
+
+/// Judges the bytes of one file.
+pub fn source(name: &str, bytes: &[u8]) -> Source {
+    let refused = |line, reason: &str| Source::Refused { line, reason: reason.to_owned() };
+    if bytes.len() as u64 > MAX_FILE_BYTES {
+        return refused(None, "the file is larger than 1 MiB; shorten it");
+    }
+    let text = match std::str::from_utf8(bytes) {
+        Ok(text) => text.trim_start_matches('\u{feff}').replace("\r\n", "\n"),
+        Err(error) => {
+            let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
+            return refused(Some(line), "the file is not UTF-8 text; save it as UTF-8");
+        }
+    };
+    if text.trim().is_empty() {
+        return Source::Missing(format!("src/{name}.rs is empty"));
+    }
+    if is_stub(name, &text) {
+        return Source::Missing(format!("src/{name}.rs still holds the `todo!` of the handout"));
+    }
+    match scan::scan(&text) {
+        Some(found) => Source::Refused { line: Some(found.line), reason: found.reason },
+        None => Source::Written(text),
+    }
+}

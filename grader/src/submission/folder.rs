@@ -1,0 +1,90 @@
+//! The entries of a folder. Looks into `src` alone, so that build products and meshes cost nothing.
+
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use super::MAX_FILE_BYTES;
+use super::entries::{Content, Entry, Unreadable, may_be_taken};
+
+/// A folder with more entries than this is none of a course.
+const MAX_ENTRIES: usize = 10_000;
+
+/// What lies in a folder, in its `src`, and in the `src` of its folders.
+pub fn entries(folder: &Path) -> Result<Vec<Entry>, Unreadable> {
+    let unreadable = |error: io::Error| Unreadable(format!("the folder cannot be read: {error}"));
+    let mut found = Vec::new();
+    for (name, path) in listing(folder).map_err(unreadable)? {
+        if name == "src" {
+            found.extend(source_files("src/", &path).map_err(unreadable)?);
+        } else if is_folder(&path) && !name.starts_with('.') && name != "target" {
+            // A wrapping folder, perhaps; what else is in it is left alone.
+            let src = path.join("src");
+            if is_folder(&src) {
+                found.extend(source_files(&format!("{name}/src/"), &src).map_err(unreadable)?);
+                found.extend(other_files(&format!("{name}/"), &path).map_err(unreadable)?);
+            }
+            found.push((name, Content::Unread));
+        } else {
+            found.push((name, Content::Unread));
+        }
+    }
+    Ok(found)
+}
+
+/// Names and paths of what is in a folder, sorted.
+fn listing(folder: &Path) -> io::Result<Vec<(String, PathBuf)>> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        found.push((entry.file_name().to_string_lossy().into_owned(), entry.path()));
+        if found.len() > MAX_ENTRIES {
+            return Err(io::Error::other(format!("it holds more than {MAX_ENTRIES} files")));
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+fn is_folder(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_dir())
+}
+
+fn other_files(prefix: &str, folder: &Path) -> io::Result<Vec<Entry>> {
+    let names = listing(folder)?.into_iter().filter(|(name, _)| name != "src");
+    Ok(names.map(|(name, _)| (format!("{prefix}{name}"), Content::Unread)).collect())
+}
+
+fn source_files(prefix: &str, folder: &Path) -> io::Result<Vec<Entry>> {
+    if !is_folder(folder) {
+        return Err(io::Error::other("src is a link or a file; hand in the folder itself"));
+    }
+    let files = listing(folder)?.into_iter().map(|(name, path)| {
+        let whole = format!("{prefix}{name}");
+        let content = if may_be_taken(&whole) { content(&path) } else { Content::Unread };
+        (whole, content)
+    });
+    Ok(files.collect())
+}
+
+/// Opens nothing but a plain file, and reads no more of it than may be taken.
+fn content(path: &Path) -> Content {
+    let metadata = match fs::symlink_metadata(path) {
+        Ok(metadata) => metadata,
+        Err(error) => return Content::Broken(error.to_string()),
+    };
+    if metadata.is_symlink() {
+        return Content::Link;
+    }
+    if !metadata.is_file() {
+        return Content::Broken("it is no plain file".to_owned());
+    }
+    if metadata.len() > MAX_FILE_BYTES {
+        return Content::Unread;
+    }
+    let mut bytes = Vec::new();
+    match fs::File::open(path).and_then(|file| file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)) {
+        Ok(_) => Content::File(bytes),
+        Err(error) => Content::Broken(error.to_string()),
+    }
+}

@@ -1,0 +1,91 @@
+//! Wrong implementations of every function, as students write them: the grader's own test, and what answers are compared with
+//! to find out which mistake was made.
+
+use grader_child::Functions;
+
+/// Makes a [`Variant`]: the function, the name of the mistake, what the student is told, and the wrong body.
+macro_rules! variant {
+    ($name:ident, $diagnosis:literal, $sentence:literal, $body:expr $(,)?) => {
+        $crate::variants::Variant {
+            function: stringify!($name),
+            diagnosis: Some($diagnosis),
+            sentence: $sentence,
+            functions: grader_child::Functions { $name: $body, ..$crate::reference::REFERENCE },
+        }
+    };
+}
+
+mod T_linear_tetrahedron;
+mod V_linear_tetrahedron;
+mod V_spring_particle_particle;
+mod assemble_forces;
+mod assemble_stiffness;
+mod build_skinning_matrix;
+mod d2V_linear_tetrahedron_dq2;
+mod d2psi_neo_hookean_dF2;
+mod dV_linear_tetrahedron_dq;
+mod dV_spring_particle_particle_dq;
+mod dphi_linear_tetrahedron_dX;
+mod dpsi_neo_hookean_dF;
+mod fixed_point_constraints;
+mod implicit_euler;
+mod linearly_implicit_euler;
+mod mass_matrix_linear_tetrahedron;
+mod mass_matrix_mesh;
+mod newtons_method;
+mod phi_linear_tetrahedron;
+mod pick_nearest_vertices;
+mod psi_neo_hookean;
+mod quadrature_single_point;
+mod scatter;
+#[cfg(test)]
+mod tests;
+
+/// One mistake in one function.
+pub struct Variant {
+    /// The function that is wrong.
+    pub function: &'static str,
+    /// Name of the diagnosis, such as `negated` or `columns for rows`; `None` where no short name explains the mistake.
+    pub diagnosis: Option<&'static str>,
+    /// What a student is told: teaches, and does not give the answer.
+    pub sentence: &'static str,
+    /// The reference with this mistake in it.
+    pub functions: Functions,
+}
+
+/// The variants of each function, in the order in which the course teaches the functions.
+pub const ALL: [&[Variant]; 22] = [
+    phi_linear_tetrahedron::VARIANTS,
+    dphi_linear_tetrahedron_dX::VARIANTS,
+    psi_neo_hookean::VARIANTS,
+    dpsi_neo_hookean_dF::VARIANTS,
+    d2psi_neo_hookean_dF2::VARIANTS,
+    T_linear_tetrahedron::VARIANTS,
+    quadrature_single_point::VARIANTS,
+    V_linear_tetrahedron::VARIANTS,
+    dV_linear_tetrahedron_dq::VARIANTS,
+    d2V_linear_tetrahedron_dq2::VARIANTS,
+    V_spring_particle_particle::VARIANTS,
+    dV_spring_particle_particle_dq::VARIANTS,
+    mass_matrix_linear_tetrahedron::VARIANTS,
+    mass_matrix_mesh::VARIANTS,
+    assemble_forces::VARIANTS,
+    assemble_stiffness::VARIANTS,
+    build_skinning_matrix::VARIANTS,
+    fixed_point_constraints::VARIANTS,
+    pick_nearest_vertices::VARIANTS,
+    linearly_implicit_euler::VARIANTS,
+    newtons_method::VARIANTS,
+    implicit_euler::VARIANTS,
+];
+
+/// The variants of one function; none for a name that is no function.
+pub fn of(function: &str) -> &'static [Variant] {
+    ALL.into_iter().find(|variants| variants.iter().any(|variant| variant.function == function)).unwrap_or(&[])
+}
+
+/// All variants of all functions.
+#[cfg(test)]
+pub fn all() -> impl Iterator<Item = &'static Variant> {
+    ALL.into_iter().flatten()
+}

@@ -1,0 +1,152 @@
+//! A submission that starts as the solutions, is spoilt function by function, and is graded by the real program.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use grader::submission::NAMES;
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// Longest time for a grading on a slow machine, libraries and late answers included.
+const LIMIT: Duration = Duration::from_secs(400);
+
+/// Files that students may read.
+const OPEN: [&str; 4] = ["results.json", "report.md", "report.html", "junit.xml"];
+
+/// The first grading prepares libraries, which two at a time must not do.
+static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+
+/// A submission before it is graded.
+pub struct Classroom {
+    folder: TempDir,
+    expected: BTreeMap<&'static str, &'static str>,
+    solutions: BTreeMap<&'static str, String>,
+}
+
+/// What came of it.
+pub struct Attacked {
+    out: TempDir,
+    expected: BTreeMap<&'static str, &'static str>,
+    grade: Value,
+}
+
+fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the grader lies in the repository").to_owned()
+}
+
+fn solutions() -> BTreeMap<&'static str, String> {
+    let read = |name| fs::read_to_string(repository().join(format!("src/{name}.rs"))).expect("a solution");
+    NAMES.map(|name| (name, read(name))).into()
+}
+
+impl Classroom {
+    /// All functions as they should be.
+    pub fn new() -> Self {
+        let folder = TempDir::new().expect("a folder");
+        let room = Self { folder, expected: NAMES.map(|name| (name, "passed")).into(), solutions: solutions() };
+        room.solutions.iter().for_each(|(name, text)| room.add(&format!("src/{name}.rs"), text));
+        room
+    }
+
+    /// Writes a file of the submission.
+    pub fn add(&self, path: &str, text: &str) {
+        let path = self.folder.path().join("hostile").join(path);
+        fs::create_dir_all(path.parent().expect("it has a folder")).expect("a folder");
+        fs::write(path, text).expect("a file");
+    }
+
+    /// Changes a function's file, and tells what it must come to.
+    pub fn change(&mut self, name: &'static str, status: &'static str, change: impl FnOnce(String) -> String) {
+        self.expected.insert(name, status);
+        self.add(&format!("src/{name}.rs"), &change(self.solutions[name].clone()));
+    }
+
+    /// Puts another body into a function.
+    pub fn replace_body(&mut self, name: &'static str, status: &'static str, body: &str) {
+        self.change(name, status, |text| {
+            let start = text.find(&format!("pub fn {name}")).expect("the function");
+            let open = start + text[start..].find("{\n").expect("its body");
+            format!("{}\n{{\n{body}\n}}\n", &text[..open])
+        });
+    }
+
+    /// Grades it, and makes sure that the repository is as before.
+    pub fn grade(self) -> Attacked {
+        let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let out = TempDir::new().expect("a folder");
+        let rubric = self.folder.path().join("rubric.toml");
+        let text = fs::read_to_string(repository().join("grader/rubric.toml")).expect("the rubric");
+        assert!(text.contains("seconds = 5.0"));
+        fs::write(&rubric, text.replace("seconds = 5.0", "seconds = 1.0")).expect("a file");
+        let begun = Instant::now();
+        let output = Command::new(env!("CARGO_BIN_EXE_grader"))
+            .arg("grade")
+            .arg(self.folder.path().join("hostile"))
+            .arg("--out")
+            .arg(out.path())
+            .arg("--rubric")
+            .arg(&rubric)
+            .output()
+            .expect("the grader starts");
+        println!("{}\n{:?}", String::from_utf8_lossy(&output.stdout), begun.elapsed());
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(begun.elapsed() < LIMIT, "{:?}", begun.elapsed());
+        assert_eq!(solutions(), self.solutions, "the repository is as before");
+        let grade = fs::read(out.path().join("grade.json")).expect("a grade");
+        let grade = serde_json::from_slice(&grade).expect("JSON");
+        Attacked { out, expected: self.expected, grade }
+    }
+}
+
+impl Attacked {
+    fn function(&self, name: &str) -> &Value {
+        let functions = self.grade["functions"].as_array().expect("functions");
+        functions.iter().find(|function| function["name"] == name).expect("all 22 are there")
+    }
+
+    /// Each function has the status that it should have, full marks where it is honest and none where it is not.
+    pub fn is_as_expected(&self) {
+        let mut wrong = Vec::new();
+        for (name, status) in &self.expected {
+            let found = self.function(name);
+            let points = if *status == "passed" { &found["max_score"] } else { &Value::from(0.0) };
+            if !status.split(" or ").any(|status| found["status"] == status) || found["score"] != *points {
+                wrong.push(format!(
+                    "{name} should be {status}: {} {} {}",
+                    found["status"], found["score"], found["message"]
+                ));
+            }
+        }
+        assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    }
+
+    /// What its author is told about a function.
+    pub fn message(&self, name: &str) -> &str {
+        self.function(name)["message"].as_str().unwrap_or_default()
+    }
+
+    /// What is remarked about the submission as a whole.
+    pub fn remarks(&self) -> Vec<&str> {
+        self.grade["remarks"].as_array().into_iter().flatten().filter_map(Value::as_str).collect()
+    }
+
+    /// A submission's text does not become markup on a page.
+    pub fn shows_no_browser(&self, markup: &str) {
+        for name in ["report.html", "junit.xml"] {
+            let text = fs::read_to_string(self.out.path().join(name)).expect("a report");
+            assert!(!text.contains(markup), "{name} holds {markup}");
+        }
+    }
+
+    /// A word of the instructor's is in no file that students read.
+    pub fn shows_students_nothing_of(&self, secret: &str) {
+        for name in OPEN {
+            let text = fs::read_to_string(self.out.path().join(name)).expect("a report");
+            assert!(!text.contains(secret), "{name} holds {secret}");
+        }
+    }
+}
