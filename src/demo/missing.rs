@@ -27,7 +27,7 @@ pub fn caught(run: impl FnOnce() -> Result<(), End>) -> Result<(), End> {
     }
 }
 
-fn text(payload: &(dyn Any + Send + 'static)) -> &str {
+fn text(payload: &(dyn Any + Send)) -> &str {
     payload.downcast_ref::<String>().map(String::as_str).or_else(|| payload.downcast_ref().copied()).unwrap_or_default()
 }
 
