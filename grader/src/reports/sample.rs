@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use grader::status::Status;
+use grader::submission::NAMES;
 
 use super::ClassEntry;
 use crate::grade::{CheckGrade, FORMAT_VERSION, FunctionGrade, Grade};
@@ -13,31 +14,6 @@ pub const SECRET: &str = "SECRET-INPUT-0.4711";
 /// Text that tries every format at once.
 pub const HOSTILE: &str = "=cmd|'/C calc'!A0 </title><script>alert(1)</script> ``` `x` | ]]> \
     \u{1b}[2J\u{1b}]0;owned\u{7}\u{0}\u{8}\u{ffff}\u{202e} \"q\" & 'a' [l](http://x)";
-
-const NAMES: [&str; 22] = [
-    "phi_linear_tetrahedron",
-    "dphi_linear_tetrahedron_dX",
-    "psi_neo_hookean",
-    "dpsi_neo_hookean_dF",
-    "d2psi_neo_hookean_dF2",
-    "T_linear_tetrahedron",
-    "quadrature_single_point",
-    "V_linear_tetrahedron",
-    "dV_linear_tetrahedron_dq",
-    "d2V_linear_tetrahedron_dq2",
-    "V_spring_particle_particle",
-    "dV_spring_particle_particle_dq",
-    "mass_matrix_linear_tetrahedron",
-    "mass_matrix_mesh",
-    "assemble_forces",
-    "assemble_stiffness",
-    "build_skinning_matrix",
-    "fixed_point_constraints",
-    "pick_nearest_vertices",
-    "linearly_implicit_euler",
-    "newtons_method",
-    "implicit_euler",
-];
 
 /// A submission whose functions fare differently, by `variant`.
 pub fn grade(variant: usize) -> Grade {

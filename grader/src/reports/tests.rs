@@ -203,13 +203,3 @@ fn an_empty_class_still_has_its_page() {
     write_class(&[], folder.path()).unwrap();
     assert!(fs::read_to_string(folder.path().join("class.html")).unwrap().contains("No submission"));
 }
-
-#[test]
-#[ignore = "writes pages to look at into the folder that REPORT_SAMPLES names"]
-fn sample_pages_are_written() {
-    let folder = std::path::PathBuf::from(std::env::var_os("REPORT_SAMPLES").unwrap());
-    write_all(&sample::grade(2), &folder, &options()).unwrap();
-    write_all(&sample::hostile(), &folder.join("hostile"), &options()).unwrap();
-    write_class(&sample::class(), &folder).unwrap();
-    fs::write(folder.join("terminal.txt"), terminal::render(&sample::grade(2), true, false)).unwrap();
-}
