@@ -6,31 +6,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The functions of the course, in the order in which it teaches them.
-const FUNCTIONS: [&str; 22] = [
-    "phi_linear_tetrahedron",
-    "dphi_linear_tetrahedron_dX",
-    "psi_neo_hookean",
-    "dpsi_neo_hookean_dF",
-    "d2psi_neo_hookean_dF2",
-    "T_linear_tetrahedron",
-    "quadrature_single_point",
-    "V_linear_tetrahedron",
-    "dV_linear_tetrahedron_dq",
-    "d2V_linear_tetrahedron_dq2",
-    "V_spring_particle_particle",
-    "dV_spring_particle_particle_dq",
-    "mass_matrix_linear_tetrahedron",
-    "mass_matrix_mesh",
-    "assemble_forces",
-    "assemble_stiffness",
-    "build_skinning_matrix",
-    "fixed_point_constraints",
-    "pick_nearest_vertices",
-    "linearly_implicit_euler",
-    "newtons_method",
-    "implicit_euler",
-];
+use grader::submission::NAMES;
 
 /// Exercises of two parts each – a search and what to do where it finds nothing, a ray and its hit, a direction and the step
 /// along it – that would not be clearer in two files.
@@ -83,7 +59,7 @@ fn every_file_in_src_is_an_exercise_or_belongs_to_the_demo() {
     let rest = ["lib", "main", "assignment_setup"];
     let found: BTreeSet<_> =
         files("rs").iter().filter(|path| path.parent() == Some(Path::new("src"))).map(|path| stem(path)).collect();
-    let expected: BTreeSet<_> = FUNCTIONS.iter().chain(&rest).map(|name| name.to_string()).collect();
+    let expected: BTreeSet<_> = NAMES.iter().chain(&rest).map(|name| name.to_string()).collect();
     let both = format!("{:?}", found.symmetric_difference(&expected));
     assert_eq!(found, expected, "src/ and the list in tests/tidy.rs differ by {both}; add or remove the file");
 }
@@ -91,7 +67,7 @@ fn every_file_in_src_is_an_exercise_or_belongs_to_the_demo() {
 #[test]
 fn every_exercise_file_holds_one_public_function_that_is_named_like_it() {
     let mut problems = Vec::new();
-    for name in FUNCTIONS {
+    for name in NAMES {
         let text = read(format!("src/{name}.rs"));
         let public: Vec<_> = text.lines().filter(|line| line.starts_with("pub")).collect();
         let is_function =
@@ -108,7 +84,7 @@ fn lib_rs_names_the_page_the_module_and_the_function_of_every_exercise() {
     let text = read("src/lib.rs");
     let lines: Vec<_> = text.lines().collect();
     let mut problems = Vec::new();
-    for name in FUNCTIONS {
+    for name in NAMES {
         let include = format!("#[doc = include_str!(\"../include-docs/{name}.md\")]");
         let (module, export) = (format!("pub mod {name};"), format!("pub use {name}::{name};"));
         for line in [&include, &module, &export] {
@@ -133,18 +109,18 @@ fn every_exercise_has_a_page_with_the_same_headings_in_the_same_order() {
         let text = read(format!("include-docs/{name}.md"));
         text.lines().filter(|line| line.starts_with('#')).map(str::to_owned).collect()
     };
-    let expected = headings(FUNCTIONS[0]);
-    assert!(expected.len() >= 5, "include-docs/{}.md has the headings {expected:?} alone; complete it", FUNCTIONS[0]);
+    let expected = headings(NAMES[0]);
+    assert!(expected.len() >= 5, "include-docs/{}.md has the headings {expected:?} alone; complete it", NAMES[0]);
     let differs = |name: &&str| headings(name) != expected;
     let problem = |name| format!("include-docs/{name}.md: headings {:?}; make them {expected:?}", headings(name));
-    assert_none(FUNCTIONS.into_iter().filter(differs).map(problem).collect());
+    assert_none(NAMES.into_iter().filter(differs).map(problem).collect());
 }
 
 #[test]
 fn every_exercise_has_its_module_of_checks() {
     let list = read("grader/src/properties.rs");
     let mut problems = Vec::new();
-    for name in FUNCTIONS {
+    for name in NAMES {
         for line in [format!("pub mod {name};"), format!("    (\"{name}\", {name}::CHECKS),")] {
             if !list.lines().any(|found| found == line) {
                 problems.push(format!("grader/src/properties.rs: add `{}`, with the checks of {name}", line.trim()));
@@ -158,12 +134,9 @@ fn every_exercise_has_its_module_of_checks() {
 fn the_readme_has_a_table_of_all_functions_in_the_order_of_the_course() {
     let text = read("README.md");
     let rows = text.lines().filter(|line| line.starts_with('|'));
-    let named = |row: &str| FUNCTIONS.into_iter().find(|name| row.contains(&format!("`{name}`")));
+    let named = |row: &str| NAMES.into_iter().find(|name| row.contains(&format!("`{name}`")));
     let found: Vec<_> = rows.filter_map(named).collect();
-    assert_eq!(
-        found, FUNCTIONS,
-        "README.md: give every function one row of the table, its name in backquotes, in order"
-    );
+    assert_eq!(found, NAMES, "README.md: give every function one row of the table, its name in backquotes, in order");
 }
 
 #[test]
@@ -180,7 +153,7 @@ fn every_scene_is_in_the_readme() {
 #[test]
 fn exercises_are_short() {
     let mut problems = Vec::new();
-    for name in FUNCTIONS {
+    for name in NAMES {
         let (lines, most) =
             (read(format!("src/{name}.rs")).lines().count(), if LONGER_EXERCISES.contains(&name) { 85 } else { 60 });
         if lines > most {

@@ -34,6 +34,14 @@ pub fn read_submission(path: &Path) -> Result<Submission, Unreadable> {
     Submission::from_entries(name, entries?)
 }
 
+/// What a submission is called: its file name without the ending of an archive.
+pub fn name(path: &Path) -> String {
+    let full = path.canonicalize();
+    let path = full.as_deref().unwrap_or(path);
+    let whole = || path.file_name().map_or_else(|| "submission".to_owned(), |name| name.to_string_lossy().into_owned());
+    ending(path).map_or_else(whole, |(name, _)| name)
+}
+
 /// A path's file name without the ending of an archive, and that ending.
 fn ending(path: &Path) -> Option<(String, &'static str)> {
     let name = path.file_name()?.to_string_lossy().into_owned();

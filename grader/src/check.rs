@@ -3,8 +3,9 @@
 mod program;
 mod watch;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
+use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -29,6 +30,9 @@ const SEED: u64 = 2024;
 /// Longest time for one answer.
 const LIMIT: Duration = Duration::from_secs(5);
 
+/// Longest processor time for the compiler; all functions together take it some seconds.
+const COMPILE_LIMIT: Duration = Duration::from_secs(20);
+
 /// Why nothing could be checked.
 #[derive(Debug, Error)]
 pub enum CheckError {
@@ -36,8 +40,13 @@ pub enum CheckError {
     #[error(transparent)]
     Prebuild(#[from] PrebuildError),
     /// The folder holds no repository.
-    #[error(transparent)]
-    Unreadable(#[from] Unreadable),
+    #[error("{}: {reason}; name the repository, a folder with `src` in it", .folder.display())]
+    Unreadable {
+        /// The folder.
+        folder: PathBuf,
+        /// What is wrong with it.
+        reason: Unreadable,
+    },
     /// No file can be written, no program started.
     #[error("{0}; the checks need a folder to work in and a compiler to start")]
     Io(#[from] io::Error),
@@ -47,6 +56,13 @@ pub enum CheckError {
     /// Saved files cannot be noticed.
     #[error("{0}; run `check` without `--watch`")]
     Watch(#[from] notify::Error),
+}
+
+impl CheckError {
+    /// Whether an argument is to blame.
+    pub fn is_unusable(&self) -> bool {
+        matches!(self, Self::Unknown(_) | Self::Unreadable { .. })
+    }
 }
 
 /// How one function fared.
@@ -71,19 +87,11 @@ const MOST_MESSAGES: usize = 3;
 /// # Errors
 /// Where nothing can be checked; a function that fails is no error.
 pub fn check(folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckError> {
-    if let Some(name) = only
-        && !FUNCTIONS.iter().any(|(found, _)| *found == name)
-    {
-        return Err(CheckError::Unknown(name.to_owned()));
-    }
-    let submission = Submission::read_folder(folder)?;
+    let submission = usable(folder, only)?;
+    let bar = bar();
     let prebuilt = Prebuilt::new(&library_root(folder))?;
-    let bar = ProgressBar::new(FUNCTIONS.len() as u64 + 1);
-    if let Ok(style) = ProgressStyle::with_template("{bar:22} {msg}") {
-        bar.set_style(style);
-    }
     bar.set_message("compiling");
-    let work = tempfile::Builder::new().prefix("check-").tempdir()?;
+    let work = tempfile::Builder::new().prefix("check-").tempdir_in(&prebuilt.folder)?;
     let wanted = wanted(&submission, only);
     let built = build(&prebuilt, &Sandbox::none(), &plan(&submission, &wanted), work.path())?;
     let start = |program: Option<PathBuf>| Sandboxed::new(starter(program, work.path().to_owned()), LIMIT);
@@ -113,6 +121,27 @@ pub fn check(folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckErro
     Ok(reports)
 }
 
+/// Reads the functions of a repository, and makes sure that the one to be checked is one.
+fn usable(folder: &Path, only: Option<&str>) -> Result<Submission, CheckError> {
+    if let Some(name) = only
+        && !FUNCTIONS.iter().any(|(found, _)| *found == name)
+    {
+        return Err(CheckError::Unknown(name.to_owned()));
+    }
+    Submission::read_folder(folder).map_err(|reason| CheckError::Unreadable { folder: folder.to_owned(), reason })
+}
+
+/// Shows itself on terminals alone, and is gone in the end.
+fn bar() -> ProgressBar {
+    let bar = ProgressBar::new(FUNCTIONS.len() as u64 + 1);
+    if let Ok(style) = ProgressStyle::with_template("{bar:22} {msg}") {
+        bar.set_style(style);
+    }
+    bar.set_message("preparing libraries; the first time takes a minute");
+    bar.tick();
+    bar
+}
+
 /// The grader builds its libraries from the repository that is checked; where that is only a folder of functions, from its own.
 fn library_root(folder: &Path) -> PathBuf {
     if folder.join("grader/child/Cargo.toml").exists() {
@@ -140,7 +169,7 @@ fn plan(submission: &Submission, wanted: &BTreeSet<&'static str>) -> Plan {
         Some(Source::Written(text)) => Some((*name, text.clone())),
         _ => None,
     });
-    Plan { own: written.collect(), reference: None }
+    Plan { own: written.collect(), reference: None, helpers: BTreeMap::new(), limit: COMPILE_LIMIT }
 }
 
 /// Functions that a text names and that are not written.
@@ -153,7 +182,13 @@ fn missing_that(text: &str, name: &str, submission: &Submission) -> Vec<&'static
 fn held_to(name: &str, checks: &[Check], course: &Course, missing: &[&str]) -> (Status, Vec<String>) {
     let (mut status, mut messages) = (Status::Passed, Vec::new());
     for check in checks {
-        let Err(mistake) = (check.run)(course) else { continue };
+        // A check may stumble over an answer that makes no sense; that is the answer's fault.
+        let outcome = panic::catch_unwind(AssertUnwindSafe(|| (check.run)(course)));
+        let Err(mistake) = outcome.unwrap_or(Err(Mistake::Trouble(Trouble::Malformed))) else { continue };
+        // What made it give up has been told.
+        if mistake == Mistake::Trouble(Trouble::GivenUp) && status != Status::Passed {
+            continue;
+        }
         let found = match &mistake {
             Mistake::Wrong { .. } | Mistake::Trouble(Trouble::Malformed) => Status::Failed,
             Mistake::Trouble(Trouble::TimedOut(_)) => Status::TimedOut,
@@ -164,7 +199,6 @@ fn held_to(name: &str, checks: &[Check], course: &Course, missing: &[&str]) -> (
         status = if status == Status::Passed { found } else { status.min(found) };
         let message = match &mistake {
             Mistake::Trouble(Trouble::Missing) if !missing.is_empty() => format!("waits for {}", missing.join(", ")),
-            Mistake::Trouble(Trouble::GivenUp) => continue,
             Mistake::Trouble(Trouble::Panicked { message, .. }) => format!("{}: {message}", told(name, &mistake)),
             _ => told(name, &mistake),
         };
@@ -210,9 +244,7 @@ pub fn print(reports: &[Report]) {
             Status::TimedOut => "took too long".to_owned(),
             Status::DidNotCompile => "does not compile".to_owned(),
             Status::Refused => "refused".to_owned(),
-            Status::Missing if report.messages.is_empty() => {
-                format!("not written yet: src/{0}.rs, include-docs/{0}.md", report.name)
-            }
+            Status::Missing if report.messages.is_empty() => "not written yet".to_owned(),
             Status::Missing => "waits".to_owned(),
         };
         println!("{:2} {:32} {word}", report.place, report.name);
@@ -222,6 +254,9 @@ pub fn print(reports: &[Report]) {
     }
     let passed = reports.iter().filter(|report| report.status == Status::Passed).count();
     println!("\n{passed} of {} functions pass", reports.len());
+    if let Some(next) = reports.iter().find(|report| report.status != Status::Passed) {
+        println!("next: src/{0}.rs, with the page include-docs/{0}.md", next.name);
+    }
 }
 
 /// Checks once and prints, or again and again whenever a file is saved.
@@ -234,4 +269,33 @@ pub fn run(options: &Options) -> Result<(), CheckError> {
     }
     print(&check(&options.folder, options.only.as_deref())?);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::implementation::{Implementation, Local};
+    use grader_child::NOTHING;
+
+    fn outcome(checks: &[Check]) -> (Status, usize) {
+        let nothing = Local(NOTHING);
+        let course = Course { subject: &nothing, trusted: &nothing, seed: SEED };
+        let (status, messages) = held_to("psi_neo_hookean", checks, &course, &[]);
+        (status, messages.len())
+    }
+
+    #[test]
+    fn a_function_that_is_late_has_not_crashed_and_one_that_trips_a_check_has_failed() {
+        let late = Check { name: "late", run: |_| Err(Mistake::Trouble(Trouble::TimedOut(LIMIT))) };
+        let given_up = Check { name: "given up", run: |_| Err(Mistake::Trouble(Trouble::GivenUp)) };
+        let trips = Check { name: "trips", run: |_| panic!("a check stumbles") };
+        assert_eq!(outcome(&[late, given_up]), (Status::TimedOut, 1));
+        assert_eq!(outcome(&[trips]), (Status::Failed, 1));
+    }
+
+    #[test]
+    fn a_function_that_a_program_lacks_is_missing_and_has_not_panicked() {
+        let answer = Local(NOTHING).mass_matrix_linear_tetrahedron(1.0, 1.0);
+        assert_eq!(answer.map(drop), Err(Trouble::Missing));
+    }
 }

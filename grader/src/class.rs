@@ -5,10 +5,10 @@
 mod find;
 mod key;
 mod merge;
+mod places;
 mod process;
 mod schedule;
 mod store;
-mod table;
 #[cfg(test)]
 mod tests;
 
@@ -20,6 +20,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::grade::Grade;
 pub use key::Identity;
+pub use places::{apart, distinct};
+pub use process::end_with;
 
 /// Writes what is known of a class into a folder; called again and again as a run goes on.
 pub type Report = fn(&Summary, &Path) -> io::Result<()>;
@@ -36,13 +38,15 @@ pub struct ClassOptions {
     /// Part k, from 1, of n: the students whose names fall into it.
     pub shard: Option<(usize, usize)>,
     pub seed: u64,
-    /// Called as `GRADER grade SUBMISSION --out DIR --seed N EXTRA…`.
+    /// Called as `GRADER grade SUBMISSION --out DIR --seed N --ends-with PID EXTRA…`, PID being this process.
     pub grader: PathBuf,
     /// A submission that takes longer, by the clock on the wall, is given up.
     pub time_limit: Duration,
+    /// Handed on as `--rubric FILE`; what stands in it decides whether an earlier grade still counts.
+    pub rubric: Option<PathBuf>,
     /// Further arguments for the grader.
     pub extra: Vec<String>,
-    /// Writes `class.html`, and whatever else is wanted beside `grades.csv` and `errors.csv`.
+    /// Writes what people read of a class: tables, pages.
     pub report: Report,
 }
 
@@ -100,6 +104,12 @@ pub enum ClassError {
     Toolchain(String),
     #[error("{first} and {second} do not belong together: their {what} differ", first = first.display(), second = second.display())]
     Mismatch { first: PathBuf, second: PathBuf, what: &'static str },
+    #[error("{path}: {source}; name a folder with submissions in it", path = path.display())]
+    NoClass { path: PathBuf, source: io::Error },
+    #[error("{path}: {source}; name folders that `class` has written", path = path.display())]
+    NoResults { path: PathBuf, source: io::Error },
+    #[error("{path}: lies where {what}; name another folder for the results", path = path.display())]
+    InTheWay { path: PathBuf, what: &'static str },
     #[error("name at least one folder to merge")]
     Nothing,
     #[error("the report: {0}")]
@@ -131,7 +141,7 @@ pub fn run(options: &ClassOptions) -> Result<Summary, ClassError> {
     if let Some((k, n)) = options.shard {
         class.submissions.retain(|submission| key::shard(&submission.student, n) == k);
     }
-    let identity = Identity::of(&options.grader, options.seed, &options.extra)?;
+    let identity = Identity::of(&options.grader, options.seed, options.rubric.as_deref(), &options.extra)?;
     let store = store::Store::open(&options.out)?;
     schedule::grade(options, class, identity, &store)
 }

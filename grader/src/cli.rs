@@ -30,6 +30,9 @@ pub enum Command {
         submission: PathBuf,
         #[command(flatten)]
         options: GradeOptions,
+        /// Ends as soon as the process with this number does, which must be the one that starts this one.
+        #[arg(long, value_name = "PID", hide = true)]
+        ends_with: Option<u32>,
     },
     /// Grade every submission in a folder; goes on where it was stopped.
     Class {
@@ -38,7 +41,7 @@ pub enum Command {
         #[command(flatten)]
         options: GradeOptions,
         /// Submissions at a time; one for each core unless told.
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", value_parser = jobs, allow_hyphen_values = true)]
         jobs: Option<usize>,
         /// The K-th of N parts of the class, for several machines; `merge` joins them.
         #[arg(long, value_name = "K/N", value_parser = shard)]
@@ -60,7 +63,7 @@ pub enum Command {
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
         /// Where random inputs start.
-        #[arg(long, value_name = "N", default_value_t = 1)]
+        #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed, allow_hyphen_values = true)]
         seed: u64,
         /// Pack the sources of all dependencies too, so that setting up needs no crates from the network.
         #[arg(long)]
@@ -74,7 +77,7 @@ pub struct GradeOptions {
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Where random inputs start.
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed, allow_hyphen_values = true)]
     pub seed: u64,
     /// Points, levels and tolerances, instead of the grader's own.
     #[arg(long, value_name = "FILE")]
@@ -82,6 +85,14 @@ pub struct GradeOptions {
     /// Grade even where this machine has no sandbox at all: a submission may then do what you may.
     #[arg(long)]
     pub without_sandbox: bool,
+}
+
+fn jobs(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|&jobs| jobs > 0).ok_or_else(|| "give a whole number from 1 on".to_owned())
+}
+
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("give a whole number from 0 to {}", u64::MAX))
 }
 
 fn shard(text: &str) -> Result<(usize, usize), String> {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::env;
 use std::fmt::Display;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
@@ -15,7 +16,7 @@ use crate::class::Outcome;
 use crate::cli::GradeOptions;
 use crate::grading::{Grading, repository};
 use crate::pack::{self, PackOptions};
-use crate::reports::{self, ClassEntry, Options};
+use crate::reports::{self, Options};
 use crate::rubric::Rubric;
 use crate::{archive, class, handout};
 
@@ -51,14 +52,13 @@ pub fn handout(to: &Path) -> Done {
 }
 
 pub fn check(options: &grader::check::Options) -> Done {
-    use grader::check::CheckError;
-    grader::check::run(options).map_err(|error| match error {
-        CheckError::Unknown(_) | CheckError::Unreadable(_) => unusable(error),
-        _ => failed(error),
-    })
+    grader::check::run(options).map_err(|error| if error.is_unusable() { unusable(error) } else { failed(error) })
 }
 
-pub fn grade(submission: &Path, options: &GradeOptions) -> Done {
+pub fn grade(submission: &Path, options: &GradeOptions, ends_with: Option<u32>) -> Done {
+    if let Some(parent) = ends_with {
+        class::end_with(parent).map_err(failed)?;
+    }
     let rubric = Rubric::load(options.rubric.as_deref()).map_err(unusable)?;
     if !submission.exists() {
         return Err(unusable(format!(
@@ -66,6 +66,7 @@ pub fn grade(submission: &Path, options: &GradeOptions) -> Done {
             submission.display()
         )));
     }
+    writable(&options.out)?;
     let origin = reports::classroom50::Origin::from_environment();
     let reports = Options { show_diagnosis: rubric.students.diagnosis, origin };
     let show_hints = rubric.students.hints;
@@ -74,12 +75,18 @@ pub fn grade(submission: &Path, options: &GradeOptions) -> Done {
     if !show_hints {
         grade.functions.iter_mut().for_each(|function| function.hint = None);
     }
-    reports::write_all(&grade, &options.out, &reports).map_err(|error| unwritable(&options.out, &error))?;
+    reports::write_all(&grade, &options.out, &reports).map_err(|error| failed(unwritable(&options.out, &error)))?;
     reports::terminal::print(&grade, reports.show_diagnosis).map_err(failed)
 }
 
-fn unwritable(folder: &Path, error: &dyn Display) -> Problem {
-    failed(format!("{}: {error}; name a folder that can be written to", folder.display()))
+fn unwritable(folder: &Path, error: &dyn Display) -> String {
+    format!("{}: {error}; name a folder that can be written to", folder.display())
+}
+
+/// Makes the folder for results, before any work is done for them.
+fn writable(out: &Path) -> Done {
+    let tried = fs::create_dir_all(out).and_then(|()| tempfile::tempfile_in(out));
+    tried.map(drop).map_err(|error| unusable(unwritable(out, &error)))
 }
 
 /// A submission that cannot be read is graded all the same: nothing in it counts, and the report says why.
@@ -88,8 +95,7 @@ fn read(path: &Path) -> Submission {
     read.unwrap_or_else(|error| {
         let why = "the submission cannot be read";
         let functions: BTreeMap<_, _> = names().map(|name| (name, Source::Missing(why.to_owned()))).collect();
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Submission { name, functions, remarks: vec![error.to_string()] }
+        Submission { name: archive::name(path), functions, remarks: vec![error.to_string()] }
     })
 }
 
@@ -107,15 +113,11 @@ fn sandbox(options: &GradeOptions) -> Result<Sandbox, Problem> {
 
 pub fn class(folder: &Path, options: &GradeOptions, jobs: Option<usize>, shard: Option<(usize, usize)>) -> Done {
     let rubric = Rubric::load(options.rubric.as_deref()).map_err(unusable)?;
+    class::apart(folder, &options.out).map_err(unusable)?;
+    writable(&options.out)?;
     // What all submissions share is built before the first one, and the sandbox is looked at once.
     let _ = Grading::new(&repository(), rubric, sandbox(options)?, options.seed).map_err(failed)?;
-    let mut extra = Vec::new();
-    if let Some(rubric) = &options.rubric {
-        extra.extend(["--rubric".to_owned(), rubric.display().to_string()]);
-    }
-    if options.without_sandbox {
-        extra.push("--without-sandbox".to_owned());
-    }
+    let extra = options.without_sandbox.then(|| "--without-sandbox".to_owned()).into_iter().collect();
     let cores = thread::available_parallelism().map_or(1, Into::into);
     let summary = class::run(&class::ClassOptions {
         folder: folder.to_owned(),
@@ -125,14 +127,17 @@ pub fn class(folder: &Path, options: &GradeOptions, jobs: Option<usize>, shard: 
         seed: options.seed,
         grader: env::current_exe().map_err(failed)?,
         time_limit: LONGEST,
+        rubric: options.rubric.clone(),
         extra,
-        report,
+        report: reports::write_class,
     });
     told(summary, &options.out)
 }
 
 pub fn merge(folders: &[PathBuf], out: &Path) -> Done {
-    told(class::merge(folders, out, report), out)
+    class::distinct(folders, out).map_err(unusable)?;
+    writable(out)?;
+    told(class::merge(folders, out, reports::write_class), out)
 }
 
 /// Prints what became of a class.
@@ -152,31 +157,6 @@ fn told(summary: Result<class::Summary, class::ClassError>, out: &Path) -> Done 
         return Err(failed("stopped; the same command goes on from here"));
     }
     Ok(())
-}
-
-/// What the reports need of a class: the submissions that count, each with the older ones of its student.
-fn class_entries(summary: &class::Summary) -> Vec<ClassEntry> {
-    let older = |newest: &str| {
-        let is_older = |entry: &&class::Entry| matches!(&entry.outcome, Outcome::Older { newer } if newer == newest);
-        summary.entries.iter().filter(is_older).map(|entry| entry.submission.clone()).collect()
-    };
-    let mut entries = Vec::new();
-    for entry in &summary.entries {
-        if let Outcome::Graded(grade, folder) = &entry.outcome {
-            entries.push(ClassEntry {
-                grade: (**grade).clone(),
-                student: entry.student.clone(),
-                page: Some(folder.join("report.html").to_string_lossy().replace('\\', "/")),
-                older: older(&entry.submission),
-            });
-        }
-    }
-    entries
-}
-
-/// The class's page, from what is graded so far.
-fn report(summary: &class::Summary, out: &Path) -> std::io::Result<()> {
-    reports::write_class(&class_entries(summary), out)
 }
 
 pub fn pack(options: PackOptions) -> Done {

@@ -8,23 +8,30 @@ mod sources;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-use std::{fs, io};
+use std::{env, fs, io};
 
 use crate::sandbox::{Confined, Limits, Profile, Sandbox};
 use diagnostics::faults;
 use prebuilt::Prebuilt;
 pub use sources::names;
 
-/// How long rustc may take for one program.
-const TIME: Duration = Duration::from_secs(20);
+/// By the clock on the wall, rustc may take so many times its limit: a busy machine is no fault of a submission.
+const PATIENCE: u32 = 6;
+
+/// Part of its limit after which a compiler that was killed is one that did not finish: processor time is counted coarsely.
+const ALMOST: f64 = 0.95;
 
 /// What goes into a program.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub struct Plan {
     /// Texts of the submission, by function.
     pub own: BTreeMap<&'static str, String>,
     /// A library with right functions for those that are not `own`, and their names.
     pub reference: Option<(PathBuf, BTreeSet<&'static str>)>,
+    /// Texts of the submission that are there for what else they hold: a call of their function goes to the reference.
+    pub helpers: BTreeMap<&'static str, String>,
+    /// How much processor time rustc may take for one program.
+    pub limit: Duration,
 }
 
 /// A program, and what could not become part of it.
@@ -72,8 +79,8 @@ fn one_by_one(
 ) -> io::Result<BTreeMap<&'static str, String>> {
     let mut found = BTreeMap::new();
     for (name, text) in &plan.own {
-        let own = BTreeMap::from([(*name, text.clone())]);
-        let fault = match compile(prebuilt, sandbox, &Plan { own, reference: plan.reference.clone() }, folder)? {
+        let alone = Plan { own: BTreeMap::from([(*name, text.clone())]), ..plan.clone() };
+        let fault = match compile(prebuilt, sandbox, &alone, folder)? {
             Attempt::Built(_) => continue,
             Attempt::Failed(messages) => faults(&messages).remove(name),
             Attempt::GaveUp(why) => Some(why),
@@ -93,13 +100,13 @@ enum Attempt {
 
 fn compile(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path) -> io::Result<Attempt> {
     sources::write(plan, &folder.join("src"))?;
-    let program = folder.join("program");
+    let file = format!("program{}", env::consts::EXE_SUFFIX);
+    let program = folder.join(&file);
     if program.exists() {
         fs::remove_file(&program)?;
     }
     let mut arguments = prebuilt.arguments();
-    arguments
-        .extend(["--crate-name=submission", "--crate-type=bin", "-o", "program", "src/main.rs"].map(str::to_owned));
+    arguments.extend(["--crate-name=submission", "--crate-type=bin", "-o", &file, "src/main.rs"].map(str::to_owned));
     let mut readable = prebuilt.readable();
     if let Some((library, _)) = &plan.reference {
         arguments.extend(["--extern".to_owned(), format!("course_below={}", library.display())]);
@@ -119,8 +126,8 @@ fn compile(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path) -
         writable: vec![folder.to_owned()],
         profile: Profile::Compiler,
         limits: Limits {
-            wall: TIME,
-            cpu: TIME,
+            wall: plan.limit * PATIENCE,
+            cpu: plan.limit,
             memory: 4 << 30,
             processes: 64,
             file_size: 256 << 20,
@@ -130,13 +137,14 @@ fn compile(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path) -
     })?;
     Ok(if ended.code == Some(0) && program.exists() {
         Attempt::Built(program)
-    } else if ended.timed_out {
-        Attempt::GaveUp(format!("the compiler did not finish within {} s", TIME.as_secs()))
+    } else if ended.timed_out || (ended.signal.is_some() && ended.seconds >= ALMOST * plan.limit.as_secs_f64()) {
+        Attempt::GaveUp(format!("the compiler did not finish within {} s", plan.limit.as_secs_f64()))
     } else if ended.stderr.starts_with(b"{") {
         Attempt::Failed(String::from_utf8_lossy(&ended.stderr).into_owned())
     } else {
         let how =
             ended.signal.map_or_else(|| format!("exit code {:?}", ended.code), |signal| format!("signal {signal}"));
-        Attempt::GaveUp(format!("the compiler ended with {how}"))
+        let most = plan.limit.as_secs_f64();
+        Attempt::GaveUp(format!("the compiler ended with {how}; it may compute for {most} s and take 4 GiB"))
     })
 }

@@ -29,7 +29,7 @@ pub struct Grade {
     pub functions: Vec<FunctionGrade>,
     /// The whole simulation with the submission's functions alone.
     pub simulation: FunctionGrade,
-    /// Processor time of this grading with all its processes, s.
+    /// Processor time of this grading with all its processes, s; on a system that does not tell it, the time that passed.
     pub seconds: f64,
 }
 
@@ -48,7 +48,7 @@ pub struct FunctionGrade {
     pub hint: Option<String>,
     /// Worst relative error against the reference; `None` where there is no answer to compare.
     pub error: Option<f64>,
-    /// Time of one call on a standard load, s.
+    /// Time of one call on a standard load by the clock on the wall, s: the fastest of a few series.
     pub seconds: Option<f64>,
     /// The same for the reference on the same machine in the same minute, s.
     pub reference_seconds: Option<f64>,

@@ -1,17 +1,19 @@
 //! Grades one submission: builds its functions level by level, holds each to its checks, and asks which mistake explains a failure.
 
+mod clock;
+mod groups;
 mod judge;
+mod level;
 mod load;
 mod programs;
 mod whole;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use grader::compile::prebuilt::{PrebuildError, Prebuilt};
-use grader::compile::{Plan, build, names};
 use grader::implementation::sandboxed::Sandboxed;
 use grader::sandbox::Sandbox;
 use grader::status::Status;
@@ -20,7 +22,8 @@ use thiserror::Error;
 
 use crate::grade::{FORMAT_VERSION, FunctionGrade, Grade};
 use crate::rubric::{Function, Rubric};
-use programs::{Programs, start};
+use clock::Clock;
+use programs::Programs;
 
 /// Trouble of the grader or its machine; never a grade.
 #[derive(Debug, Error)]
@@ -39,6 +42,8 @@ pub struct Grading {
     prebuilt: Prebuilt,
     sandbox: Sandbox,
     programs: Programs,
+    /// All functions of the reference, to take their times.
+    reference: Sandboxed,
     seed: u64,
 }
 
@@ -50,7 +55,9 @@ impl Grading {
     pub fn new(root: &Path, rubric: Rubric, sandbox: Sandbox, seed: u64) -> Result<Self, GradingError> {
         let prebuilt = Prebuilt::new(root)?;
         let programs = Programs::new(root, &rubric, &prebuilt)?;
-        Ok(Self { rubric, prebuilt, sandbox, programs, seed })
+        let limit = Duration::from_secs_f64(rubric.seconds);
+        let reference = Sandboxed::new(programs.start_reference(&sandbox), limit);
+        Ok(Self { rubric, prebuilt, sandbox, programs, reference, seed })
     }
 
     /// Grades a submission.
@@ -58,7 +65,7 @@ impl Grading {
     /// # Errors
     /// Trouble of the grader, not of the submission.
     pub fn grade(&self, submission: &Submission) -> Result<Grade, GradingError> {
-        let begin = Instant::now();
+        let clock = Clock::start();
         let mut graded = BTreeMap::new();
         for function in &self.rubric.functions {
             if let Some(grade) = without_running(function, submission) {
@@ -84,7 +91,7 @@ impl Grading {
             remarks: submission.remarks.clone(),
             functions,
             simulation,
-            seconds: begin.elapsed().as_secs_f64(),
+            seconds: clock.seconds(),
         })
     }
 
@@ -92,57 +99,8 @@ impl Grading {
         Duration::from_secs_f64(self.rubric.seconds)
     }
 
-    fn grade_level(
-        &self,
-        level: u32,
-        submission: &Submission,
-        graded: &mut BTreeMap<String, FunctionGrade>,
-    ) -> Result<(), GradingError> {
-        let judged: Vec<&Function> = self
-            .rubric
-            .functions
-            .iter()
-            .filter(|function| *function.level.get_ref() == level && !graded.contains_key(function.name.get_ref()))
-            .collect();
-        if judged.is_empty() {
-            return Ok(());
-        }
-        let below: BTreeSet<&'static str> = names().filter(|name| self.rubric.level(name) < level).collect();
-        let own = self.with_what_they_call(&judged, &below, submission);
-        let folder = work_folder()?;
-        let plan = Plan { own, reference: self.programs.below(level).map(|library| (library, below)) };
-        let built = build(&self.prebuilt, &self.sandbox, &plan, folder.path())?;
-        let subject = Sandboxed::new(start(&self.sandbox, built.program.clone(), folder.path()), self.limit());
-        for function in judged {
-            let name = function.name.get_ref();
-            let grade = match built.faults.get(name.as_str()) {
-                Some(fault) => {
-                    finished(function, Status::DidNotCompile, Some(format!("the file does not compile:\n{fault}")))
-                }
-                None => self.judge(function, &subject)?,
-            };
-            graded.insert(name.clone(), grade);
-        }
-        Ok(())
-    }
-
-    /// The texts of some functions, and of the student's others that they call and that are not in the reference below.
-    fn with_what_they_call(
-        &self,
-        judged: &[&Function],
-        below: &BTreeSet<&'static str>,
-        submission: &Submission,
-    ) -> BTreeMap<&'static str, String> {
-        let mut own = BTreeMap::new();
-        let mut wanted: Vec<&'static str> =
-            names().filter(|name| judged.iter().any(|function| function.name.get_ref() == name)).collect();
-        while let Some(name) = wanted.pop() {
-            let Some(Source::Written(text)) = submission.functions.get(name) else { continue };
-            if own.insert(name, text.clone()).is_none() {
-                wanted.extend(names().filter(|other| *other != name && !below.contains(other) && text.contains(other)));
-            }
-        }
-        own
+    fn compile_limit(&self) -> Duration {
+        Duration::from_secs_f64(self.rubric.compile_seconds)
     }
 }
 

@@ -58,7 +58,7 @@ pub fn write(root: &Path, to: &Path) -> Result<(), HandoutError> {
         fs::create_dir_all(folder).map_err(HandoutError::io(folder))?;
         fs::write(&path, bytes).map_err(HandoutError::io(&path))?;
     }
-    Ok(())
+    lock::settle(to)
 }
 
 /// Refuses folders that hold something, and such in the repository other than in its build products.

@@ -6,7 +6,7 @@ pub mod sandboxed;
 use std::fmt;
 use std::time::Duration;
 
-use grader_child::{Force, Gradient, Hessian, Objective, Solve, Stiffness, plain_functions};
+use grader_child::{Force, Gradient, Hessian, Objective, Solve, Stiffness, all_functions};
 use nalgebra::{DVector, Matrix3, Matrix4, Matrix4x3, SMatrix, SVector, Vector3, Vector4};
 use nalgebra_sparse::CsrMatrix;
 
@@ -62,56 +62,7 @@ macro_rules! methods {
                 #[allow(missing_docs)]
                 fn $name(&self, $($argument: $type),*) -> Answer<$result>;
             )*
-            /// See the page of `quadrature_single_point`.
-            fn quadrature_of_number(
-                &self,
-                V: &[Vector3<f64>],
-                element: &[usize; 4],
-                volume: f64,
-                integrand: &dyn Fn(&Vector3<f64>) -> f64,
-            ) -> Answer<f64>;
-            /// See the page of `quadrature_single_point`.
-            fn quadrature_of_vector(
-                &self,
-                V: &[Vector3<f64>],
-                element: &[usize; 4],
-                volume: f64,
-                integrand: &dyn Fn(&Vector3<f64>) -> DVector<f64>,
-            ) -> Answer<DVector<f64>>;
-            /// See the page of `linearly_implicit_euler`.
-            fn linearly_implicit_euler(
-                &self,
-                q: &mut DVector<f64>,
-                qdot: &mut DVector<f64>,
-                dt: f64,
-                mass: &CsrMatrix<f64>,
-                force: Force,
-                stiffness: Stiffness,
-                solve: Solve,
-            ) -> Answer<()>;
-            /// See the page of `newtons_method`.
-            fn newtons_method(
-                &self,
-                x0: &mut DVector<f64>,
-                f: Objective,
-                g: Gradient,
-                H: Hessian,
-                solve: Solve,
-                max_steps: usize,
-            ) -> Answer<f64>;
-            /// See the page of `implicit_euler`.
-            fn implicit_euler(
-                &self,
-                q: &mut DVector<f64>,
-                qdot: &mut DVector<f64>,
-                dt: f64,
-                mass: &CsrMatrix<f64>,
-                energy: Objective,
-                force: Force,
-                stiffness: Stiffness,
-                solve: Solve,
-            ) -> Answer<()>;
         }
     };
 }
-plain_functions!(methods);
+all_functions!(methods);

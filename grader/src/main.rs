@@ -26,7 +26,8 @@ use cli::{Arguments, Command};
 use pack::PackOptions;
 
 fn main() -> ExitCode {
-    let words: Vec<String> = env::args().skip(1).collect();
+    // A name that is no Unicode may be asked to be graded like any other.
+    let words: Vec<String> = env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
     if words.first().is_some_and(|word| word == "confine") {
         return grader::sandbox::confine(&words[1..]);
     }
@@ -36,7 +37,7 @@ fn main() -> ExitCode {
     let done = panic::catch_unwind(|| match arguments.command {
         Command::Handout { to } => commands::handout(&to),
         Command::Check(options) => commands::check(&options),
-        Command::Grade { submission, options } => commands::grade(&submission, &options),
+        Command::Grade { submission, options, ends_with } => commands::grade(&submission, &options, ends_with),
         Command::Class { folder, options, jobs, shard } => commands::class(&folder, &options, jobs, shard),
         Command::Merge { folders, out } => commands::merge(&folders, &out),
         Command::Pack { engine, out, seed, vendor } => {

@@ -1,5 +1,6 @@
 //! Packs what the engines that instructors already use need: Gradescope, Classroom 50, Slurm.
 
+mod sources;
 #[cfg(test)]
 mod tests;
 
@@ -40,6 +41,8 @@ pub enum PackError {
     NotEmpty(PathBuf),
     #[error("{path}: is not the repository; Cargo.toml, Cargo.lock, src and grader belong there", path = .0.display())]
     NotTheRepository(PathBuf),
+    #[error("{path}: {message}", path = .path.display())]
+    Manifest { path: PathBuf, message: String },
     #[error("autograder.zip: {0}")]
     Zip(#[from] zip::result::ZipError),
     #[error("{command}: {message}")]
@@ -143,42 +146,12 @@ fn gradescope(options: &PackOptions) -> Result<(), PackError> {
     }
     let files = options.out.join("autograder");
     fs::create_dir(&files).map_err(at(&files))?;
-    let own = fs::canonicalize(&options.out).map_err(at(&options.out))?;
-    copy_sources(root, &files, &own)?;
+    sources::copy(root, &files)?;
     if options.vendor {
-        vendor(&files)?;
+        sources::vendor(&files)?;
     }
     write(&files, &GRADESCOPE, &fields(options)?)?;
     archive(&files, &options.out.join("autograder.zip"))
-}
-
-/// Copies the sources: not what is hidden or built, and not the package into itself.
-fn copy_sources(from: &Path, to: &Path, own: &Path) -> Result<(), PackError> {
-    for entry in fs::read_dir(from).map_err(at(from))? {
-        let entry = entry.map_err(at(from))?;
-        let (path, target) = (entry.path(), to.join(entry.file_name()));
-        if entry.file_name().to_string_lossy().starts_with('.') || entry.file_name() == "target" {
-            continue;
-        }
-        let kind = entry.file_type().map_err(at(&path))?;
-        if kind.is_dir() && fs::canonicalize(&path).map_err(at(&path))? != own {
-            fs::create_dir(&target).map_err(at(&target))?;
-            copy_sources(&path, &target, own)?;
-        } else if kind.is_file() {
-            fs::copy(&path, &target).map_err(at(&path))?;
-        }
-    }
-    Ok(())
-}
-
-/// Puts the sources of all dependencies into `vendor`, and tells cargo so.
-fn vendor(files: &Path) -> Result<(), PackError> {
-    let mut command = Command::new("cargo");
-    let settings = output(command.args(["vendor", "--locked", "vendor"]).current_dir(files), "cargo vendor")?;
-    let folder = files.join(".cargo");
-    fs::create_dir(&folder).map_err(at(&folder))?;
-    let path = folder.join("config.toml");
-    fs::write(&path, settings).map_err(at(&path))
 }
 
 /// Packs the content of a folder, not the folder: Gradescope looks for its scripts at the top.

@@ -2,10 +2,10 @@
 //! agreed. Nothing that arrives is trusted to be complete, in time or of the promised type.
 
 use std::io::{self, Read};
-use std::os::unix::net::UnixStream;
 use std::panic::{self, AssertUnwindSafe};
 use std::time::{Duration, Instant};
 
+use grader_child::socket::Socket;
 use grader_child::wire::{self, kind, read};
 
 use crate::implementation::Trouble;
@@ -108,7 +108,7 @@ fn lost(running: &mut Running, error: &io::Error, limit: Duration) -> Trouble {
 
 /// Reads until a point in time, however the bytes trickle.
 struct Timed<'a> {
-    socket: &'a UnixStream,
+    socket: &'a Socket,
     deadline: Instant,
 }
 

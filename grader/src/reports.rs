@@ -1,6 +1,6 @@
 //! Every report of a graded submission and of a class, each format in its own file.
 //!
-//! `grade.json`, `grades.csv` and `class.html` are the instructor's. All other files may be read by students: they hold
+//! `grade.json`, `grades.csv`, `errors.csv` and `class.html` are the instructor's. All other files may be read by students: they hold
 //! names, statuses, messages and hints, never an input, an expected value or a path.
 
 mod charts;
@@ -14,6 +14,7 @@ pub mod json;
 mod junit;
 mod markdown;
 mod page;
+mod rows;
 pub mod terminal;
 mod view;
 
@@ -26,6 +27,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
+use crate::class::Summary;
 use crate::grade::Grade;
 
 /// What the reports of one submission show, and for whom.
@@ -35,19 +37,6 @@ pub struct Options {
     pub show_diagnosis: bool,
     /// Where the submission comes from in a classroom of Classroom 50; `result.json` is written with it alone.
     pub origin: Option<classroom50::Origin>,
-}
-
-/// One submission of a class.
-#[derive(Clone, Debug)]
-pub struct ClassEntry {
-    /// The submission that counts.
-    pub grade: Grade,
-    /// Who handed it in; the submission's name where nothing else is known.
-    pub student: String,
-    /// Where its page is, relative to `class.html`, parts divided by `/`, as the file system names them.
-    pub page: Option<String>,
-    /// Names of earlier submissions of the same student, which do not count.
-    pub older: Vec<String>,
 }
 
 /// Writes `grade.json`, `results.json`, `junit.xml`, `report.md` and `report.html` into `folder`, and with an origin
@@ -65,13 +54,13 @@ pub fn write_all(grade: &Grade, folder: &Path, options: &Options) -> io::Result<
     write_file(folder, "grade.json", &record)
 }
 
-/// Writes `grades.csv` and `class.html` into `folder`, submissions ordered by student.
-pub fn write_class(entries: &[ClassEntry], folder: &Path) -> io::Result<()> {
-    let mut ordered: Vec<&ClassEntry> = entries.iter().collect();
-    ordered.sort_by_key(|entry| (entry.student.to_lowercase(), entry.grade.submission.clone()));
+/// Writes `grades.csv`, `errors.csv` and `class.html` into `folder`, as far as the class is graded.
+pub fn write_class(summary: &Summary, folder: &Path) -> io::Result<()> {
+    let rows = rows::rows(&summary.entries);
     fs::create_dir_all(folder)?;
-    write_file(folder, "grades.csv", &csv::render(&ordered)?)?;
-    write_file(folder, "class.html", &class_html::render(&ordered))
+    write_file(folder, "grades.csv", &csv::grades(&rows)?)?;
+    write_file(folder, "errors.csv", &csv::errors(&rows)?)?;
+    write_file(folder, "class.html", &class_html::render(&rows))
 }
 
 /// Writes a file beside its place and moves it there, so that a reader meets the whole file or the one before.

@@ -22,6 +22,8 @@ pub struct Rubric {
     pub tolerance: f64,
     /// Longest time for one answer, s.
     pub seconds: f64,
+    /// Longest processor time for the compiler and one program, s.
+    pub compile_seconds: f64,
     pub students: Students,
     pub simulation: Simulation,
     /// The functions in the order of the reports.
@@ -61,7 +63,7 @@ pub struct Function {
 pub enum RubricError {
     #[error("{0}: {1}; name a rubric that can be read")]
     Io(PathBuf, std::io::Error),
-    #[error("{0}: {1}")]
+    #[error("{0}: {1}grader/rubric.toml shows what must stand in a rubric")]
     Toml(PathBuf, toml::de::Error),
     #[error("{file}, line {line}: {problem}")]
     Value { file: PathBuf, line: usize, problem: String },
@@ -78,7 +80,7 @@ impl Rubric {
         let file = path.unwrap_or(Path::new("rubric.toml"));
         let text = match path {
             None => OURS.to_owned(),
-            Some(path) => fs::read_to_string(path).map_err(|error| RubricError::Io(path.to_owned(), error))?,
+            Some(path) => text(path)?,
         };
         let rubric: Self = toml::from_str(&text).map_err(|error| RubricError::Toml(file.to_owned(), error))?;
         rubric.check(file, &text)?;
@@ -101,33 +103,42 @@ impl Rubric {
                 return Err(at(function.name.span(), format!("`{name}` stands here a second time; remove one")));
             }
             let points = *function.points.get_ref();
-            if !(points.is_finite() && points >= 0.0) {
+            if !is_points(points) {
                 return Err(at(
                     function.points.span(),
-                    format!("points = {points}; give a number that is not negative"),
+                    format!("points = {points}; give a number from 0 to {MOST_POINTS}"),
                 ));
             }
             if *function.level.get_ref() == 0 {
                 return Err(at(function.level.span(), "level = 0; levels count from 1".to_owned()));
             }
         }
-        let whole = |problem: &str| Err(RubricError::Whole(file.to_owned(), problem.to_owned()));
+        self.check_whole().map_err(|problem| RubricError::Whole(file.to_owned(), problem))
+    }
+
+    fn check_whole(&self) -> Result<(), String> {
         if let Some(missing) =
             names().find(|name| !self.functions.iter().any(|function| function.name.get_ref() == name))
         {
-            return whole(&format!(
+            return Err(format!(
                 "`{missing}` is missing; add a table [[function]] for it, with 0 points if it is not asked for"
             ));
         }
-        let tolerances = self.functions.iter().filter_map(|function| function.tolerance).chain([self.tolerance]);
-        if tolerances.into_iter().any(|tolerance| !(tolerance > 0.0 && tolerance < 1.0)) {
-            return whole("a `tolerance` is not between 0 and 1");
+        let own =
+            self.functions.iter().filter_map(|function| Some((function.name.get_ref().as_str(), function.tolerance?)));
+        for (whose, tolerance) in own.chain([("all functions", self.tolerance)]) {
+            if !(tolerance > 0.0 && tolerance < 1.0) {
+                return Err(format!("tolerance = {tolerance} of {whose}; give a number between 0 and 1, such as 1e-9"));
+            }
         }
-        if !(self.seconds > 0.0 && self.seconds <= 600.0) {
-            return whole("`seconds` is not between 0 and 600");
+        for (what, seconds) in [("seconds", self.seconds), ("compile_seconds", self.compile_seconds)] {
+            if !(0.1..=600.0).contains(&seconds) {
+                return Err(format!("{what} = {seconds}; give a number from 0.1 to 600"));
+            }
         }
-        if !(self.simulation.points.is_finite() && self.simulation.points >= 0.0) {
-            return whole("`points` of [simulation] is negative or no number");
+        if !is_points(self.simulation.points) {
+            let points = self.simulation.points;
+            return Err(format!("points = {points} of [simulation]; give a number from 0 to {MOST_POINTS}"));
         }
         Ok(())
     }
@@ -147,11 +158,28 @@ impl Rubric {
     }
 }
 
+/// More than any exercise is worth, so that sums stay numbers.
+const MOST_POINTS: f64 = 1e6;
+
+fn is_points(points: f64) -> bool {
+    (0.0..=MOST_POINTS).contains(&points)
+}
+
+/// A file as text, or the line where it is none.
+fn text(path: &Path) -> Result<String, RubricError> {
+    let bytes = fs::read(path).map_err(|error| RubricError::Io(path.to_owned(), error))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
+        RubricError::Value { file: path.to_owned(), line, problem: "is not UTF-8 text; save it as UTF-8".to_owned() }
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn problem(text: &str) -> String {
+    fn problem(text: impl AsRef<[u8]>) -> String {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("rubric.toml");
         fs::write(&path, text).unwrap();
@@ -175,11 +203,20 @@ mod tests {
             "{}",
             problem(&unknown)
         );
-        assert!(problem(&OURS.replacen("points = 4.0", "points = -4.0", 1)).contains("points = -4"));
-        assert!(problem(&OURS.replacen("points = 4.0", "points = \"four\"", 1)).contains("line "));
-        assert!(problem(&OURS.replacen("hints = true", "hint = true", 1)).contains("hint"));
-        assert!(problem(&OURS.replacen("tolerance = 1e-9", "tolerance = nan", 1)).contains("tolerance"));
+        assert!(problem(OURS.replacen("points = 4.0", "points = -4.0", 1)).contains("points = -4"));
+        assert!(problem(OURS.replacen("points = 4.0", "points = 1e308", 1)).contains("from 0 to 1000000"));
+        assert!(problem(OURS.replacen("points = 4.0", "points = \"four\"", 1)).contains("line "));
+        assert!(problem(OURS.replacen("hints = true", "hint = true", 1)).contains("hint"));
+        assert!(problem(OURS.replacen("tolerance = 1e-9", "tolerance = nan", 1)).contains("tolerance"));
+        assert!(
+            problem(OURS.replacen("compile_seconds = 20.0", "compile_seconds = 0.0", 1)).contains("compile_seconds")
+        );
         let twice = format!("{OURS}\n[[function]]\nname = \"psi_neo_hookean\"\npoints = 1.0\nlevel = 1\n");
-        assert!(problem(&twice).contains("second time"));
+        assert!(problem(twice).contains("second time"));
+        assert!(problem(b"partial_credit = true\n# \xff").contains("line 2: is not UTF-8 text"));
+        assert!(problem("").contains("grader/rubric.toml shows"));
+        let own = OURS.replacen("name = \"psi_neo_hookean\"", "name = \"psi_neo_hookean\"\ntolerance = 2.0", 1);
+        assert!(problem(own).contains("tolerance = 2 of psi_neo_hookean; give"));
+        assert!(problem(OURS.replacen("seconds = 5.0", "seconds = 1e-12", 1)).contains("from 0.1 to 600"));
     }
 }

@@ -23,6 +23,7 @@ mod probe;
 mod root;
 mod run;
 mod running;
+#[cfg(target_os = "linux")]
 mod spec;
 
 use std::collections::BTreeMap;
@@ -105,24 +106,33 @@ pub struct Ended {
 #[derive(Clone, Debug)]
 pub struct Sandbox {
     /// The program that confines, and the layers; none at all without it.
+    #[cfg(target_os = "linux")]
     launcher: Option<PathBuf>,
     layers: BTreeMap<String, bool>,
 }
 
 impl Sandbox {
     /// Tries each layer in a throw-away process. `launcher` is a program that calls [`confine`] for its subcommand `confine`.
+    #[cfg(target_os = "linux")]
     pub fn probe(launcher: &Path) -> Self {
-        #[cfg(target_os = "linux")]
         let layers = probe::layers(launcher);
-        #[cfg(not(target_os = "linux"))]
-        let layers = BTreeMap::new();
         let launcher = layers.values().any(|there| *there).then(|| launcher.to_path_buf());
         Self { launcher, layers }
     }
 
+    /// Other systems have no layer to try.
+    #[cfg(not(target_os = "linux"))]
+    pub fn probe(_launcher: &Path) -> Self {
+        Self::none()
+    }
+
     /// No layer: for a student's own code on their own machine.
     pub fn none() -> Self {
-        Self { launcher: None, layers: BTreeMap::new() }
+        Self {
+            #[cfg(target_os = "linux")]
+            launcher: None,
+            layers: BTreeMap::new(),
+        }
     }
 
     /// The layers by name, and whether this machine has them.
@@ -143,12 +153,20 @@ impl Sandbox {
     /// An error says that the program was not started, or that it cannot be said how it ended: it is the grader's, not the
     /// program's.
     pub fn run(&self, confined: &Confined) -> io::Result<Ended> {
-        run::run(self, confined)
+        #[cfg(target_os = "linux")]
+        if self.launcher.is_some() {
+            return run::launched(self, confined);
+        }
+        run::plain(confined)
     }
 
-    /// Starts a program whose standard input is a socket, and whose output goes nowhere.
+    /// Starts a program that finds a socket to its parent ([`grader_child::socket`]), and whose output goes nowhere.
     pub fn start(&self, confined: &Confined) -> io::Result<Running> {
-        running::start(self, confined)
+        #[cfg(target_os = "linux")]
+        if self.launcher.is_some() {
+            return running::launched(self, confined);
+        }
+        running::plain(confined)
     }
 }
 

@@ -5,6 +5,7 @@
 
 pub mod entries;
 mod folder;
+mod mentions;
 pub mod scan;
 mod stub;
 
@@ -15,6 +16,7 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 pub use entries::Unreadable;
+pub use mentions::mentions;
 pub use stub::is_stub;
 
 /// The functions of the course in teaching order.

@@ -12,30 +12,14 @@ use finite_elements_3d as course;
 use grader::implementation::Local;
 use grader::properties::outcome::told;
 use grader::properties::{Check, Course, FUNCTIONS};
-use grader_child::{Functions, plain_functions};
+use grader_child::{Functions, functions_of};
 use libtest_mimic::{Arguments, Trial};
 
 /// Random inputs are the same ones in every run.
 const SEED: u64 = 2024;
 
-macro_rules! table {
-    ($($number:literal $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
-        /// The functions of src/.
-        const WRITTEN: Functions = Functions {
-            $($name: course::$name,)*
-            quadrature_of_number: |V, element, volume, f| course::quadrature_single_point(V, element, volume, f),
-            quadrature_of_vector: |V, element, volume, f| course::quadrature_single_point(V, element, volume, f),
-            linearly_implicit_euler: |q, qdot, dt, mass, force, stiffness, solve| {
-                course::linearly_implicit_euler(q, qdot, dt, mass, force, stiffness, solve)
-            },
-            newtons_method: |x0, f, g, H, solve, max_steps| course::newtons_method(x0, f, g, H, solve, max_steps),
-            implicit_euler: |q, qdot, dt, mass, energy, force, stiffness, solve| {
-                course::implicit_euler(q, qdot, dt, mass, energy, force, stiffness, solve)
-            },
-        };
-    };
-}
-plain_functions!(table);
+/// The functions of src/.
+const WRITTEN: Functions = functions_of!(course);
 
 fn trial(function: &'static str, check: &Check) -> Trial {
     let run = check.run;

@@ -9,6 +9,7 @@
 mod functions;
 mod serve;
 pub mod simulation;
+pub mod socket;
 mod standard;
 pub mod wire;
 

@@ -3,10 +3,7 @@
 use std::any::Any;
 use std::cell::RefCell;
 use std::hint::black_box;
-use std::io;
-use std::os::fd::AsFd;
-use std::os::unix::net::UnixStream;
-use std::panic::{self, AssertUnwindSafe};
+use std::panic::{self, AssertUnwindSafe, Location};
 use std::process;
 use std::sync::Mutex;
 
@@ -14,6 +11,7 @@ use nalgebra::{DVector, Matrix3, Matrix4, Vector3, Vector4};
 use nalgebra_sparse::CsrMatrix;
 
 use crate::simulation::simulate;
+use crate::socket::{self, Socket};
 use crate::standard;
 use crate::wire::{self, Argument, Wire, bytes, kind, read};
 use crate::{Functions, plain_functions};
@@ -21,12 +19,12 @@ use crate::{Functions, plain_functions};
 /// `given::solve`, which the program is linked with and this crate is not.
 pub type GivenSolve = fn(&CsrMatrix<f64>, &DVector<f64>) -> DVector<f64>;
 
-/// Answers calls that arrive on standard input, a socket, until the parent closes it.
+/// Answers calls that arrive on the parent's socket until the parent closes it.
 ///
 /// The answers leave through the same socket; nothing that a submission prints goes there.
 pub fn serve(functions: &Functions, solve: GivenSolve) {
-    let Ok(socket) = io::stdin().as_fd().try_clone_to_owned() else { process::exit(3) };
-    let parent = Parent(RefCell::new(UnixStream::from(socket)));
+    let Ok(socket) = socket::parent() else { process::exit(3) };
+    let parent = Parent(RefCell::new(socket));
     remember_where_panics_happen();
     parent.send(kind::READY, &[]);
     loop {
@@ -46,7 +44,7 @@ pub fn serve(functions: &Functions, solve: GivenSolve) {
 }
 
 /// The other end of the socket. Without it there is nothing left to do, so the process ends.
-struct Parent(RefCell<UnixStream>);
+struct Parent(RefCell<Socket>);
 
 impl Parent {
     fn send(&self, kind: u8, body: &[u8]) {
@@ -73,7 +71,9 @@ static PLACE: Mutex<String> = Mutex::new(String::new());
 
 fn remember_where_panics_happen() {
     panic::set_hook(Box::new(|info| {
-        let place = info.location().map(|location| format!("{}:{}", location.file(), location.line()));
+        // Windows divides paths in its own way.
+        let place = |location: &Location| format!("{}:{}", location.file().replace('\\', "/"), location.line());
+        let place = info.location().map(place);
         if let Ok(mut kept) = PLACE.lock() {
             *kept = place.unwrap_or_default();
         }

@@ -1,11 +1,12 @@
 //! The command line of a student's grader, which can check and nothing else.
 
+use std::panic;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use super::{CheckError, run};
+use super::run;
 
 #[derive(Parser)]
 #[command(name = "grader", version, max_term_width = 100)]
@@ -37,11 +38,18 @@ pub struct Options {
 /// The whole program: 0 checked (whatever came of it), 1 the checks themselves failed, 2 unusable arguments.
 pub fn main() -> ExitCode {
     let Command::Check(options) = Arguments::parse().command;
-    match run(&options) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
+    // Panics of what is checked are told with its check.
+    panic::set_hook(Box::new(|_| {}));
+    match panic::catch_unwind(|| run(&options)) {
+        Ok(Ok(())) => ExitCode::SUCCESS,
+        Ok(Err(error)) => {
             eprintln!("{error}");
-            ExitCode::from(if matches!(error, CheckError::Unknown(_) | CheckError::Unreadable(_)) { 2 } else { 1 })
+            ExitCode::from(if error.is_unusable() { 2 } else { 1 })
+        }
+        Err(panic) => {
+            let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+            eprintln!("the checks themselves failed ({}); nothing was checked", text.unwrap_or("without a message"));
+            ExitCode::FAILURE
         }
     }
 }

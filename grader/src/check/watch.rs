@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use notify::{RecursiveMode, Watcher, recommended_watcher};
 
-use super::{CheckError, check, print};
+use super::{CheckError, check, print, usable};
 
 /// Editors save in several strokes; this long without another one counts as saved.
 const QUIET: Duration = Duration::from_millis(200);
@@ -14,8 +14,9 @@ const QUIET: Duration = Duration::from_millis(200);
 /// Checks whenever a file in `src` changes, until the program is stopped.
 ///
 /// # Errors
-/// Where the folder cannot be watched; what a check finds wrong with the repository is printed, and watching goes on.
+/// Where the folder or the name is none, or cannot be watched; what a later check finds wrong with the repository is printed, and watching goes on.
 pub fn watch(folder: &Path, only: Option<&str>) -> Result<(), CheckError> {
+    usable(folder, only)?;
     let (sender, changes) = channel();
     let mut watcher = recommended_watcher(move |event: notify::Result<notify::Event>| {
         // Reading a file is an event too, and the checks read them all.

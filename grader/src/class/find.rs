@@ -6,6 +6,7 @@
 //! newest modification, else by name.
 
 use std::collections::{BTreeMap, HashMap};
+use std::ffi::OsStr;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -69,7 +70,7 @@ fn list(folder: &Path) -> Result<(Vec<Submission>, Vec<String>), ClassError> {
     let mut remarks = Vec::new();
     for entry in fs::read_dir(folder).map_err(at(folder))? {
         let path = entry.map_err(at(folder))?.path();
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let name = shown(path.file_name().unwrap_or_default());
         if name == STUDENTS {
             continue;
         }
@@ -83,6 +84,16 @@ fn list(folder: &Path) -> Result<(Vec<Submission>, Vec<String>), ClassError> {
     }
     remarks.sort();
     Ok((submissions, remarks))
+}
+
+/// A file's name as it may stand in tables and names of files: what is invisible or no Unicode is written out, and two names
+/// that differ stay two.
+fn shown(name: &OsStr) -> String {
+    let visible = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
+    match name.to_str() {
+        Some(name) => name.chars().map(visible).collect(),
+        None => name.as_encoded_bytes().escape_ascii().to_string(),
+    }
 }
 
 /// The name of an archive without its ending.
@@ -158,19 +169,19 @@ impl Time {
     }
 }
 
-/// Names such as `anna` and `anna-2`, that only an instructor can tell to be one student.
+/// Names such as `anna` and `anna-2`, or `anna` and `Anna`, that only an instructor can tell to be one student.
 fn lookalikes(submissions: &[Submission]) -> Vec<String> {
-    let mut alike: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    let mut alike: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     for submission in submissions {
         let student = submission.student.as_str();
         let end = student.find(['_', '-', ' ', '(']).unwrap_or(student.len());
-        let students = alike.entry(&student[..end]).or_default();
+        let students = alike.entry(student[..end].to_lowercase()).or_default();
         if !students.contains(&student) {
             students.push(student);
         }
     }
     // `submission_1`, `submission_2` … share a first word and are no relations: one of them must be that word alone.
-    alike.retain(|word, students| students.len() > 1 && students.contains(word));
+    alike.retain(|word, students| students.len() > 1 && students.iter().any(|student| student.to_lowercase() == *word));
     let tell = |students: &mut Vec<&str>| {
         students.sort_unstable();
         format!("{}: counted as different students; if they are one, {STUDENTS} must say so", students.join(", "))
@@ -199,5 +210,27 @@ impl Submission {
     fn is_newer_than(&self, other: &Self) -> bool {
         let by_time = self.time.partial_cmp(&other.time).unwrap_or(std::cmp::Ordering::Equal);
         by_time.then(self.modified.cmp(&other.modified)).then(self.name.cmp(&other.name)).is_gt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn names_that_no_table_can_show_stay_different_students() {
+        use std::os::unix::ffi::OsStrExt;
+        let room = tempfile::tempdir().unwrap();
+        let names = ["Anna", "anna", "Jörg Müller", "new\nline"].map(str::as_bytes);
+        for name in names.into_iter().chain([&b"bin\xfe"[..], b"bin\xff"]) {
+            std::fs::create_dir(room.path().join(std::ffi::OsStr::from_bytes(name))).unwrap();
+        }
+        let class = super::class(room.path()).unwrap();
+        let names: Vec<_> = class.submissions.iter().map(|found| found.name.as_str()).collect();
+        assert_eq!(names, ["Anna", "Jörg Müller", "anna", r"bin\xfe", r"bin\xff", r"new\nline"]);
+        assert!(class.submissions.iter().all(|found| found.newer.is_none()));
+        assert_eq!(
+            class.remarks,
+            ["Anna, anna: counted as different students; if they are one, students.csv must say so"]
+        );
     }
 }

@@ -10,7 +10,7 @@ use sha2::{Digest, Sha256};
 
 use super::{ClassError, at};
 
-/// What all grades of a class have in common. The rubric is part of the grader's program.
+/// What all grades of a class have in common. Without a file, the rubric is part of the grader's program.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Identity {
@@ -19,23 +19,30 @@ pub struct Identity {
     /// What `rustc --version` prints.
     pub toolchain: String,
     pub seed: u64,
+    /// Hash of the rubric's file, if there is one.
+    pub rubric: Option<String>,
     /// Further arguments of the grader.
     pub extra: Vec<String>,
 }
 
 impl Identity {
     /// Reads the program and asks the toolchain.
-    pub fn of(grader: &Path, seed: u64, extra: &[String]) -> Result<Self, ClassError> {
-        let mut hash = Sha256::new();
-        add_file(&mut hash, grader).map_err(at(grader))?;
-        Ok(Self { grader: hex(hash), toolchain: toolchain()?, seed, extra: extra.to_vec() })
+    pub fn of(grader: &Path, seed: u64, rubric: Option<&Path>, extra: &[String]) -> Result<Self, ClassError> {
+        let hashed = |path: &Path| {
+            let mut hash = Sha256::new();
+            add_file(&mut hash, path).map_err(at(path))?;
+            Ok(hex(hash))
+        };
+        let rubric = rubric.map(hashed).transpose()?;
+        Ok(Self { grader: hashed(grader)?, toolchain: toolchain()?, seed, rubric, extra: extra.to_vec() })
     }
 
     /// The key of one submission. Its name counts, since its reports show it: two students with one answer get two reports.
     pub fn key(&self, name: &str, submission: &Path) -> io::Result<String> {
         let mut hash = Sha256::new();
         let seed = self.seed.to_string();
-        for text in [&self.grader, &self.toolchain, &seed, &self.extra.join("\0"), name] {
+        let rubric = self.rubric.as_deref().unwrap_or_default();
+        for text in [&self.grader, &self.toolchain, &seed, rubric, &self.extra.join("\0"), name] {
             add(&mut hash, text.as_bytes());
         }
         add_path(&mut hash, submission)?;

@@ -57,11 +57,12 @@ fn finish(store: &Store, mut summary: Summary, report: Report) -> Result<Summary
 }
 
 fn difference(a: &Index, b: &Index) -> Option<&'static str> {
-    let Identity { grader, toolchain, seed, extra } = &b.identity;
+    let Identity { grader, toolchain, seed, rubric, extra } = &b.identity;
     let pairs = [
         (a.identity.grader == *grader, "graders"),
         (a.identity.toolchain == *toolchain, "toolchains"),
         (a.identity.seed == *seed, "seeds"),
+        (a.identity.rubric == *rubric, "rubrics"),
         (a.identity.extra == *extra, "arguments for the grader"),
         (a.shard.map(|shard| shard.n) == b.shard.map(|shard| shard.n), "numbers of shards"),
     ];

@@ -128,7 +128,11 @@ impl<'a> Run<'a> {
         let partial = self.store.begin(key)?;
         let mut command = Command::new(&self.options.grader);
         command.arg("grade").arg(&self.submissions[index].path).arg("--out").arg(&partial);
-        command.arg("--seed").arg(self.options.seed.to_string()).args(&self.options.extra);
+        command.arg("--seed").arg(self.options.seed.to_string());
+        command.arg("--ends-with").arg(std::process::id().to_string()).args(&self.options.extra);
+        if let Some(rubric) = &self.options.rubric {
+            command.arg("--rubric").arg(rubric);
+        }
         let process = Process::start(&mut command, &partial.join("log.txt"), self.options.time_limit)?;
         Ok((partial, process))
     }

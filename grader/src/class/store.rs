@@ -1,6 +1,6 @@
-//! What lies in the output folder: complete grades by key, an index, tables, and logs of what failed.
+//! What lies in the output folder: complete grades by key, an index, and logs of what failed.
 //!
-//! A folder of grades appears under its key by one renaming, when it is complete. Tables are written beside and renamed.
+//! A folder of grades appears under its key by one renaming, when it is complete. The index is written beside its place and renamed.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -10,6 +10,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use super::places::FOLDERS;
 use super::{ClassError, Entry, Identity, Outcome, Report, Shard, Summary, at};
 use crate::grade::{FORMAT_VERSION, Grade};
 
@@ -58,7 +59,7 @@ pub enum IndexState {
 impl Store {
     /// Makes the folder where needed, locks it and clears away what a killed run left unfinished.
     pub fn open(out: &Path) -> Result<Self, ClassError> {
-        for folder in ["grades", "failed", "submissions"] {
+        for folder in FOLDERS {
             let folder = out.join(folder);
             fs::create_dir_all(&folder).map_err(at(&folder))?;
         }
@@ -127,17 +128,11 @@ impl Store {
         return fs::write(place, target.display().to_string());
     }
 
-    /// Writes the index, the tables and the report.
+    /// Writes the index and the report.
     pub fn publish(&self, summary: &Summary, report: Report) -> Result<(), ClassError> {
         let index = serde_json::to_vec_pretty(&Index::of(summary)).map_err(io::Error::from).map_err(at(&self.out))?;
-        for (name, bytes) in [
-            (INDEX, Ok(index)),
-            ("grades.csv", super::table::grades(&summary.entries)),
-            ("errors.csv", super::table::errors(&summary.entries)),
-        ] {
-            let path = self.out.join(name);
-            bytes.and_then(|bytes| replace(&path, &bytes)).map_err(at(&path))?;
-        }
+        let path = self.out.join(INDEX);
+        replace(&path, &index).map_err(at(&path))?;
         report(summary, &self.out).map_err(ClassError::Report)
     }
 }
@@ -199,7 +194,7 @@ impl Index {
     /// The index of an output folder.
     pub fn read(out: &Path) -> Result<Self, ClassError> {
         let path = out.join(INDEX);
-        let text = fs::read(&path).map_err(at(&path))?;
+        let text = fs::read(&path).map_err(|source| ClassError::NoResults { path: path.clone(), source })?;
         let index: Self = serde_json::from_slice(&text)
             .map_err(|error| ClassError::Unreadable { path: path.clone(), message: error.to_string() })?;
         if index.format_version == FORMAT_VERSION {

@@ -7,6 +7,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant, SystemTime};
 
 use super::*;
+use crate::reports;
 
 /// Notes the call and obeys; `base` is the folder of the test, `out` where the grade belongs.
 const GRADER: &str = r#"#!/bin/sh
@@ -58,6 +59,14 @@ impl Room {
         calls
     }
 
+    /// The cells of a table, the heading first.
+    fn table(&self, name: &str) -> Vec<Vec<String>> {
+        let text = fs::read_to_string(self.path(name)).unwrap();
+        let text = text.trim_start_matches('\u{feff}').as_bytes();
+        let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(text);
+        reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect()
+    }
+
     fn start(&self) -> Child {
         // The harness has further threads, which a signal would end: here it is left to the one that watches for it.
         Command::new("env")
@@ -89,8 +98,9 @@ fn options(base: &Path) -> ClassOptions {
         seed: 7,
         grader: base.join("grader"),
         time_limit: Duration::from_secs(60),
+        rubric: None,
         extra: Vec::new(),
-        report: |summary, out| fs::write(out.join("class.html"), summary.entries.len().to_string()),
+        report: reports::write_class,
     }
 }
 
@@ -138,17 +148,14 @@ fn one_that_hangs_crashes_or_writes_garbage_costs_nobody_else_a_grade() {
     let summary = run(&options).unwrap();
     assert_eq!(outcomes(&summary), "+-----+");
     assert_eq!(room.calls(), ["a", "b", "c", "d", "e", "f", "g"]);
-    let table = fs::read_to_string(room.path("out/grades.csv")).unwrap();
-    assert!(
-        table.starts_with(
-            "student,submission,score,max_score,note,f\na,a,1.5,2,,1\nb,b,,,not graded: no end within 1.5 s"
-        ),
-        "{table}"
-    );
-    assert_eq!(fs::read_to_string(room.path("out/errors.csv")).unwrap().lines().count(), 6);
+    let table = room.table("out/grades.csv");
+    assert_eq!(table[0][..6], ["student", "submission", "score", "max_score", "note", "f"]);
+    assert_eq!(table[1][..6], ["a", "a", "1.5", "2", "", "1"]);
+    assert_eq!(table[2][..6], ["b", "b", "", "", "not graded: no end within 1.5 s; see failed/b.log", ""]);
+    assert_eq!((table.len(), room.table("out/errors.csv").len()), (8, 6));
     assert!(room.path("out/submissions/a/grade.json").exists());
     assert!(room.path("out/failed/b.log").exists());
-    assert_eq!(fs::read_to_string(room.path("out/class.html")).unwrap(), "7");
+    assert!(fs::read_to_string(room.path("out/class.html")).unwrap().contains("<b>5</b><span>without a grade"));
     let forked = fs::read_to_string(room.path("forked")).unwrap();
     let state = fs::read_to_string(format!("/proc/{}/stat", forked.trim())).unwrap_or_default();
     assert!(state.is_empty() || state.contains(") Z "), "what it forked still runs: {state}");
@@ -165,6 +172,17 @@ fn a_second_run_repeats_what_failed_or_changed_and_nothing_else() {
     let other_seed = ClassOptions { seed: 8, ..options(room.0.path()) };
     let summary = run(&other_seed).unwrap();
     assert_eq!((outcomes(&summary).as_str(), room.calls().len()), ("---", 8), "a grade with another seed is none");
+}
+
+#[test]
+fn another_rubric_in_the_same_file_grades_all_again() {
+    let room = Room::new(&[("a", GOOD)]);
+    let options = ClassOptions { rubric: Some(room.path("rubric.toml")), ..options(room.0.path()) };
+    for (text, calls) in [("points = 1", 1), ("points = 1", 1), ("points = 2", 2)] {
+        fs::write(room.path("rubric.toml"), text).unwrap();
+        run(&options).unwrap();
+        assert_eq!(room.calls().len(), calls, "{text}");
+    }
 }
 
 #[test]
@@ -193,8 +211,9 @@ fn an_interrupt_ends_what_runs_and_keeps_what_is_done() {
     let id = nix::unistd::Pid::from_raw(child.id().try_into().unwrap());
     nix::sys::signal::kill(id, nix::sys::signal::Signal::SIGINT).unwrap();
     assert!(child.wait().unwrap().success());
-    let table = fs::read_to_string(room.path("out/grades.csv")).unwrap();
-    assert!(table.contains("a,a,1.5,2,,1\nb,b,,,not graded yet,\nc,c,,,not graded yet,"), "{table}");
+    let notes: Vec<[String; 3]> =
+        room.table("out/grades.csv").into_iter().map(|row| [0, 2, 4].map(|i| row[i].clone())).collect();
+    assert_eq!(notes[1..], [["a", "1.5", ""], ["b", "", "not graded yet"], ["c", "", "not graded yet"]]);
     fs::write(room.path("go"), "").unwrap();
     room.run();
     assert_eq!(room.calls(), ["a", "b", "b", "c"]);
@@ -208,6 +227,7 @@ fn the_newest_submission_of_a_student_counts_and_the_older_ones_are_named() {
     fs::write(room.path("hw/notes.txt"), "").unwrap();
     let summary = room.run();
     assert_eq!(outcomes(&summary), "+++o+");
+    assert_eq!(room.table("out/grades.csv")[3][..5], ["bob", "bob__1", "1.5", "2", "in place of bob__2"]);
     assert!(matches!(&summary.entries[3].outcome, Outcome::Older { newer } if newer == "bob__1"));
     assert_eq!(summary.remarks.len(), 2, "the strange file, and anna with anna-2: {:?}", summary.remarks);
 
@@ -243,14 +263,14 @@ fn shards_join_to_the_whole_class() {
         seen.extend(run(&options).unwrap().entries.into_iter().map(|entry| entry.submission));
     }
     assert_eq!((seen.len(), room.calls().len()), (12, 12));
-    let merged = merge(&dirs, &room.path("merged"), |_, _| Ok(())).unwrap();
+    let merged = merge(&dirs, &room.path("merged"), reports::write_class).unwrap();
     assert_eq!((merged.kept, merged.remarks.len()), (12, 0), "{:?}", merged.remarks);
     room.run();
     let read = |folder: &str| fs::read_to_string(room.path(folder).join("grades.csv")).unwrap();
     assert_eq!(read("merged"), read("out"));
     assert!(room.path("merged/submissions/student3/grade.json").exists());
 
-    let part = merge(&dirs[..2], &room.path("part"), |_, _| Ok(())).unwrap();
+    let part = merge(&dirs[..2], &room.path("part"), reports::write_class).unwrap();
     assert!(part.remarks.iter().any(|remark| remark.starts_with("shard 3/3 is missing")));
 }
 
@@ -262,7 +282,7 @@ fn a_merge_refuses_strangers_and_tells_doubles_and_conflicts() {
     fs::write(room.path("hw/b/do.sh"), format!("{GOOD}\n")).unwrap();
     run(&dir("two")).unwrap();
     run(&ClassOptions { seed: 8, ..dir("three") }).unwrap();
-    let join = |names: [&str; 2]| merge(&names.map(|name| room.path(name)), &room.path("merged"), |_, _| Ok(()));
+    let join = |names: [&str; 2]| merge(&names.map(|name| room.path(name)), &room.path("merged"), reports::write_class);
     let joined = join(["one", "two"]).unwrap();
     assert_eq!((outcomes(&joined).as_str(), joined.remarks.len()), ("+-", 2), "{:?}", joined.remarks);
     assert!(matches!(join(["one", "three"]), Err(ClassError::Mismatch { what: "seeds", .. })));

@@ -55,7 +55,9 @@ pub fn faults(messages: &str) -> BTreeMap<&'static str, String> {
 
 /// The function whose file a place is in, and whether it is the line that calls the function.
 fn blamed(span: &Span) -> Option<(&'static str, bool)> {
-    let here = span.file_name.strip_prefix("src/").and_then(|file| {
+    // Windows divides paths in its own way.
+    let file_name = span.file_name.replace('\\', "/");
+    let here = file_name.strip_prefix("src/").and_then(|file| {
         let (is_call, file) = file.strip_prefix("calls/").map_or((false, file), |file| (true, file));
         let stem = file.strip_suffix(".rs")?;
         names().find(|name| *name == stem).map(|name| (name, is_call))

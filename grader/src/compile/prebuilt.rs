@@ -53,17 +53,17 @@ impl Prebuilt {
     /// # Errors
     /// Where a compiler or a file is missing or something does not compile.
     pub fn new(root: &Path) -> Result<Self, PrebuildError> {
-        let root = &fs::canonicalize(root).map_err(io_error(root))?;
+        // Linkers on Windows do not read what that system calls a canonical path.
+        let whole = if cfg!(windows) { path::absolute(root) } else { fs::canonicalize(root) };
+        let root = &whole.map_err(io_error(root))?;
         let sysroot = PathBuf::from(output(Command::new("rustc").current_dir(root).args(["--print", "sysroot"]))?);
-        let rustc = sysroot.join("bin").join(if cfg!(windows) { "rustc.exe" } else { "rustc" });
+        let rustc = sysroot.join("bin").join(format!("rustc{}", env::consts::EXE_SUFFIX));
         let toolchain = output(Command::new(&rustc).arg("--version"))?;
         let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
         let target = path::absolute(&target).map_err(io_error(&target))?;
         let folder = target.join("grader").join(format!("{:016x}", key(root, &toolchain)?));
         let prebuilt = Self { folder, rustc, sysroot, toolchain };
-        if !prebuilt.folder.join("complete").exists() {
-            prebuilt.build(root)?;
-        }
+        once(&prebuilt.folder, || prebuilt.build(root))?;
         Ok(prebuilt)
     }
 
@@ -76,8 +76,10 @@ impl Prebuilt {
             format!("--sysroot={}", self.sysroot.display()),
             "-Copt-level=2".to_owned(),
             "-Ccodegen-units=1".to_owned(),
-            // The linker that comes with Rust wants /proc.
-            #[cfg(target_os = "linux")]
+            // What std brings along for debuggers takes the linker longer than the rest of its work.
+            "-Cstrip=debuginfo".to_owned(),
+            // The linker that comes with Rust wants /proc. Elsewhere rustc takes the system's, and knows no such option.
+            #[cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
             "-Clinker-features=-lld".to_owned(),
             format!("-Ldependency={}", deps.display()),
             format!("--extern=course_given={}", self.folder.join("given/libcourse_given.rlib").display()),
@@ -113,15 +115,14 @@ impl Prebuilt {
         output(cargo().arg("--offline")).or_else(|_| output(&mut cargo()))?;
         self.collect(&target.join("release/deps"), &deps)?;
         self.library(&root.join("src/given/mod.rs"), "course_given", &self.folder.join("given"), &[])?;
-        fs::remove_dir_all(&work).map_err(io_error(&work))?;
-        write(&self.folder.join("complete"), &self.toolchain)
+        fs::remove_dir_all(&work).map_err(io_error(&work))
     }
 
     /// Copies what cargo built; the crates that are named on the command line lose the hash in their file name.
     fn collect(&self, from: &Path, to: &Path) -> Result<(), PrebuildError> {
         for entry in fs::read_dir(from).map_err(io_error(from))?.flatten() {
             let name = entry.file_name().to_string_lossy().into_owned();
-            let is_library = name.ends_with(".rlib") || name.ends_with(".so") || name.ends_with(".dylib");
+            let is_library = name.ends_with(".rlib") || name.ends_with(env::consts::DLL_SUFFIX);
             if !is_library || name.starts_with("libprebuilt") {
                 continue;
             }
@@ -146,6 +147,28 @@ impl Prebuilt {
         rustc.args(given).args(["--crate-type=rlib", "--cap-lints=allow", "--crate-name", name, "--out-dir"]);
         output(rustc.arg(to).args(more).arg(source)).map(drop)
     }
+}
+
+/// Has `build` fill a folder unless that is done. Shards of a class start together and share the folder: one of them works, the
+/// others wait.
+///
+/// # Errors
+/// Those of `build`, and where the folder cannot be written.
+pub fn once<E: From<PrebuildError>>(folder: &Path, build: impl FnOnce() -> Result<(), E>) -> Result<(), E> {
+    let complete = folder.join("complete");
+    if complete.exists() {
+        return Ok(());
+    }
+    fs::create_dir_all(folder).map_err(io_error(folder))?;
+    let path = folder.join(".lock");
+    let lock = fs::File::create(&path).map_err(io_error(&path))?;
+    // Some network file systems know no locks; there it must not be started twice at the same time, and works all the same.
+    let _ = lock.lock();
+    if !complete.exists() {
+        build()?;
+        write(&complete, "")?;
+    }
+    Ok(())
 }
 
 /// The package that has the libraries as its dependencies, with the versions of the repository.
@@ -205,4 +228,33 @@ fn output(command: &mut Command) -> Result<String, PrebuildError> {
         return Err(PrebuildError::Failed { what, output: String::from_utf8_lossy(&output.stderr).into_owned() });
     }
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::thread;
+    use std::time::Duration;
+
+    #[test]
+    fn of_several_that_start_together_one_builds_and_a_failure_leaves_nothing_complete() {
+        let folder = tempfile::tempdir().unwrap();
+        let failure = || Err(PrebuildError::Failed { what: "it".into(), output: String::new() });
+        assert!(once(folder.path(), failure).is_err());
+        let built = AtomicUsize::new(0);
+        thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| {
+                    let build = || -> Result<(), PrebuildError> {
+                        thread::sleep(Duration::from_millis(20));
+                        built.fetch_add(1, Ordering::Relaxed);
+                        Ok(())
+                    };
+                    once(folder.path(), build).unwrap();
+                    assert_eq!(built.load(Ordering::Relaxed), 1);
+                });
+            }
+        });
+    }
 }

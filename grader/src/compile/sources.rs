@@ -102,6 +102,10 @@ pub fn write(plan: &Plan, folder: &Path) -> io::Result<()> {
             root.push_str(&format!("pub mod {name};\npub use {name}::{name};\n"));
             let absent = || format!("{IMPORTS}\n{} {{\n    panic!(\"not yet implemented\")\n}}\n", signature(name));
             fs::write(folder.join(format!("{name}.rs")), plan.own.get(name).cloned().unwrap_or_else(absent))?;
+        } else if let Some(text) = plan.helpers.get(name) {
+            // The function is a value and the module is not, so the two can stand side by side under one name.
+            root.push_str(&format!("pub mod {name};\npub use course_below::{name}::{name};\n"));
+            fs::write(folder.join(format!("{name}.rs")), text)?;
         } else {
             root.push_str(&format!("pub use course_below::{name};\n"));
         }

@@ -4,21 +4,24 @@ use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-use std::{fs, io};
+use std::{env, fs, io};
 
-use grader::compile::prebuilt::Prebuilt;
+use grader::compile::prebuilt::{Prebuilt, once};
 use grader::compile::{Plan, build, names};
 use grader::sandbox::{Confined, Limits, Profile, Running, Sandbox, library_folders};
+use grader::submission::mentions;
 
 use super::GradingError;
+use super::groups::{Calls, Names};
 use crate::rubric::Rubric;
 
 /// Where our own programs lie.
 pub struct Programs {
     folder: PathBuf,
     lowest: u32,
-    /// All functions of the reference; in a process of its own like a submission's, so that times can be compared.
-    pub reference: PathBuf,
+    /// Whom each function of the reference calls.
+    pub calls: Calls,
+    texts: BTreeMap<&'static str, String>,
 }
 
 impl Programs {
@@ -33,13 +36,13 @@ impl Programs {
         }
         let levels: Vec<u32> = names().map(|name| rubric.level(name)).collect();
         let mut hasher = DefaultHasher::new();
-        (&texts, levels).hash(&mut hasher);
+        // Times are compared only between programs that were compiled alike.
+        (&texts, levels, prebuilt.arguments()).hash(&mut hasher);
         let folder = prebuilt.folder.join(format!("reference-{:016x}", hasher.finish()));
         let lowest = rubric.levels().first().copied().unwrap_or(1);
-        let programs = Self { reference: folder.join("whole/program"), folder, lowest };
-        if !programs.folder.join("complete").exists() {
-            programs.build(rubric, prebuilt, texts)?;
-        }
+        let calls = texts.iter().map(|(name, text)| (*name, mentions(text))).collect();
+        let programs = Self { folder, lowest, calls, texts };
+        once(&programs.folder, || programs.build(rubric, prebuilt))?;
         Ok(programs)
     }
 
@@ -48,40 +51,50 @@ impl Programs {
         (level > self.lowest).then(|| self.folder.join(format!("below-{level}/libcourse_below.rlib")))
     }
 
-    fn build(
-        &self,
-        rubric: &Rubric,
-        prebuilt: &Prebuilt,
-        texts: BTreeMap<&'static str, String>,
-    ) -> Result<(), GradingError> {
-        for level in rubric.levels() {
-            let to = self.folder.join(format!("below-{level}"));
-            let sources = self.folder.join(format!("sources-{level}"));
-            fs::create_dir_all(&to)?;
-            fs::create_dir_all(&sources)?;
-            let mut library = String::from("pub extern crate course_given as given;\n");
-            for (name, text) in texts.iter().filter(|(name, _)| rubric.level(name) < level) {
-                library.push_str(&format!("pub mod {name};\npub use {name}::{name};\n"));
-                fs::write(sources.join(format!("{name}.rs")), text)?;
-            }
-            let file = sources.join("lib.rs");
-            fs::write(&file, library)?;
-            prebuilt.library(&file, "course_below", &to, &[])?;
-            fs::remove_dir_all(&sources)?;
+    /// How the reference is started, in a process of its own like a submission's, so that times can be compared.
+    pub fn start_reference(&self, sandbox: &Sandbox) -> impl Fn() -> io::Result<Running> + use<> {
+        let folder = self.folder.join("whole");
+        start(sandbox, Some(folder.join(format!("program{}", env::consts::EXE_SUFFIX))), &folder)
+    }
+
+    /// Builds the library with the reference of these functions in a folder that holds nothing else.
+    ///
+    /// # Errors
+    /// Where our own sources do not compile, or these call others.
+    pub fn library(&self, prebuilt: &Prebuilt, of: &Names, to: &Path) -> Result<PathBuf, GradingError> {
+        let sources = to.join("sources");
+        fs::create_dir_all(&sources)?;
+        let mut library = String::from("pub extern crate course_given as given;\n");
+        for (name, text) in self.texts.iter().filter(|(name, _)| of.contains(*name)) {
+            library.push_str(&format!("pub mod {name};\npub use {name}::{name};\n"));
+            fs::write(sources.join(format!("{name}.rs")), text)?;
+        }
+        let file = sources.join("lib.rs");
+        fs::write(&file, library)?;
+        prebuilt.library(&file, "course_below", to, &[])?;
+        fs::remove_dir_all(&sources)?;
+        Ok(to.join("libcourse_below.rlib"))
+    }
+
+    fn build(&self, rubric: &Rubric, prebuilt: &Prebuilt) -> Result<(), GradingError> {
+        for level in rubric.levels().into_iter().filter(|level| *level > self.lowest) {
+            let below = names().filter(|name| rubric.level(name) < level).collect();
+            self.library(prebuilt, &below, &self.folder.join(format!("below-{level}")))?;
         }
         let whole = self.folder.join("whole");
         fs::create_dir_all(&whole)?;
-        let built = build(prebuilt, &Sandbox::none(), &Plan { own: texts, reference: None }, &whole)?;
+        let limit = Duration::from_secs(600);
+        let plan = Plan { own: self.texts.clone(), reference: None, helpers: BTreeMap::new(), limit };
+        let built = build(prebuilt, &Sandbox::none(), &plan, &whole)?;
         if built.program.is_none() || !built.faults.is_empty() {
             return Err(GradingError::Reference(format!("{:?}", built.faults)));
         }
-        fs::remove_dir_all(whole.join("src"))?;
-        Ok(fs::write(self.folder.join("complete"), "")?)
+        Ok(fs::remove_dir_all(whole.join("src"))?)
     }
 }
 
 /// How a program in `folder` is started: it sees the system's libraries and itself, and may write nothing.
-pub fn start(sandbox: &Sandbox, program: Option<PathBuf>, folder: &Path) -> impl Fn() -> io::Result<Running> + 'static {
+pub fn start(sandbox: &Sandbox, program: Option<PathBuf>, folder: &Path) -> impl Fn() -> io::Result<Running> + use<> {
     let sandbox = sandbox.clone();
     let folder = folder.to_owned();
     move || {

@@ -53,7 +53,9 @@ impl Grading {
             _ => None,
         });
         let folder = work_folder()?;
-        let built = build(&self.prebuilt, &self.sandbox, &Plan { own: own.collect(), reference: None }, folder.path())?;
+        let limit = self.compile_limit();
+        let plan = Plan { own: own.collect(), reference: None, helpers: BTreeMap::new(), limit };
+        let built = build(&self.prebuilt, &self.sandbox, &plan, folder.path())?;
         if let Some((name, fault)) = built.faults.into_iter().next() {
             grade.status = Status::DidNotCompile;
             grade.message = Some(format!("{name} does not compile with the student's other files:\n{fault}"));
@@ -68,9 +70,7 @@ impl Grading {
         mut grade: FunctionGrade,
         subject: &Sandboxed,
     ) -> Result<FunctionGrade, GradingError> {
-        let program = self.programs.reference.clone();
-        let folder = program.parent().map(ToOwned::to_owned).unwrap_or_default();
-        let reference = Sandboxed::new(start(&self.sandbox, Some(program), &folder), LIMIT);
+        let reference = Sandboxed::new(self.programs.start_reference(&self.sandbox), LIMIT);
         let mut worst = 0.0_f64;
         for integrator in [0, 1] {
             let scene = scene(integrator);

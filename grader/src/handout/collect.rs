@@ -1,13 +1,12 @@
 //! Which files are handed out, and with what in them.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use grader::submission::NAMES;
 use syn::Item;
 
-use super::{Files, HandoutError, lock, manifest, stub};
+use super::{Files, HandoutError, manifest, stub};
 
 /// What comes along as it is. Everything else of the repository is ours: its tests of itself, its map, its history.
 const WHOLE: [&str; 13] = [
@@ -50,8 +49,6 @@ pub fn collect(root: &Path) -> Result<Files, HandoutError> {
     let has: Vec<_> = files.keys().cloned().collect();
     let is_there = |path: &str| has.iter().any(|found| found == Path::new(path));
     edit(&mut files, "Cargo.toml", |text| manifest::root_manifest(text, is_there))?;
-    let members = members(&files)?;
-    edit(&mut files, "Cargo.lock", |text| Ok(lock::pruned(text, &members)))?;
     files.insert("README.md".into(), readme(root)?.into_bytes());
     Ok(files)
 }
@@ -124,20 +121,6 @@ fn normal(path: &Path) -> PathBuf {
         }
         normal
     })
-}
-
-/// The packages that are handed out, each with what its manifest asks for.
-fn members(files: &Files) -> Result<BTreeMap<String, std::collections::BTreeSet<String>>, HandoutError> {
-    let manifests = files.iter().filter(|(path, _)| path.ends_with("Cargo.toml"));
-    let read = manifests.map(|(path, bytes)| {
-        let unusable = |problem: String| HandoutError::unusable(path, problem);
-        let text = String::from_utf8_lossy(bytes);
-        let table: toml::Table = text.parse().map_err(|error: toml::de::Error| unusable(error.to_string()))?;
-        let name = table.get("package").and_then(|package| package.get("name")).and_then(toml::Value::as_str);
-        let name = name.ok_or_else(|| unusable("names no package".to_owned()))?;
-        Ok((name.to_owned(), manifest::dependencies(&text).map_err(unusable)?))
-    });
-    read.collect()
 }
 
 /// The students' first page, with the table of functions and that of scenes as they stand on ours.

@@ -13,8 +13,10 @@ use syn::visit::Visit;
 
 use super::{Files, HandoutError};
 
-/// So many words and signs of a body in a row are no coincidence. Every sign counts by itself, so this is about a line; with
-/// fewer, `let mut f = DVector::zeros(q.len());` would be a solution.
+/// So many words and signs of a body in a row are no coincidence. Every sign counts by itself – `::` is two, `2.0` three – so
+/// this is about a line, and the smallest number without a false alarm. With 23, three lines of the checks that say in Rust what
+/// a page says in a formula would be solutions, such as `… - 3.0) + D * (J - 1.0).powi(2);`; with 16, twelve files, for
+/// `let mut f = DVector::zeros(q.len());` and other idioms; with 12, thirty-five.
 const WINDOW: usize = 24;
 
 /// A piece of a solution that stands in a file of the handout.

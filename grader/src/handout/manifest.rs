@@ -1,7 +1,5 @@
 //! The manifests of the students' repository.
 
-use std::collections::BTreeSet;
-
 use toml::{Table, Value};
 
 /// From this line on, `grader/Cargo.toml` is the instructor's.
@@ -51,14 +49,4 @@ fn without_table(text: &str, kind: &str, name: &str) -> String {
         rest = &rest[end..];
     }
     kept + rest
-}
-
-/// Names of the crates that a manifest asks for.
-pub fn dependencies(manifest: &str) -> Result<BTreeSet<String>, String> {
-    let table: Table = manifest.parse().map_err(|error: toml::de::Error| error.to_string())?;
-    let targets = table.get("target").and_then(Value::as_table).into_iter().flat_map(|targets| targets.values());
-    let tables = targets.filter_map(Value::as_table).chain([&table]);
-    let kinds = ["dependencies", "dev-dependencies", "build-dependencies"];
-    let lists = tables.flat_map(|table| kinds.iter().filter_map(|kind| table.get(*kind).and_then(Value::as_table)));
-    Ok(lists.flat_map(|list| list.keys().cloned()).collect())
 }

@@ -60,6 +60,7 @@ fn every_function_is_empty_and_names_its_page() {
         assert!(text.contains(&format!("include-docs/{name}.md")), "{text}");
         assert!(folder.path().join(format!("include-docs/{name}.md")).exists());
         assert!(text.lines().count() < 25 && !text.contains("(_"), "{text}");
+        assert_eq!(text.matches("fn ").count(), 1, "a helper is half a solution:\n{text}");
     }
 }
 
@@ -97,12 +98,13 @@ fn folders_that_hold_something_or_lie_in_the_sources_are_refused() {
 }
 
 #[test]
-fn it_compiles_without_a_warning() {
+fn it_compiles_with_its_lock_file_and_without_a_warning() {
     let folder = written();
     let built = std::env::current_exe().unwrap();
     let target = built.ancestors().nth(3).unwrap().join("handout");
     let output = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()))
-        .args(["check", "--workspace", "--exclude", "fem-viewer", "--no-default-features", "--tests", "--offline"])
+        .args(["check", "--workspace", "--exclude", "fem-viewer", "--no-default-features", "--features", "demo"])
+        .args(["--all-targets", "--offline", "--locked"])
         .env("CARGO_TARGET_DIR", target)
         .env_remove("RUSTFLAGS")
         .current_dir(folder.path())

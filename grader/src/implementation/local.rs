@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::panic::{self, AssertUnwindSafe};
 
-use grader_child::{Force, Functions, Gradient, Hessian, Objective, Solve, Stiffness, plain_functions};
+use grader_child::{Force, Functions, Gradient, Hessian, Objective, Solve, Stiffness, all_functions};
 use nalgebra::{DVector, Matrix3, Matrix4, Matrix4x3, SMatrix, SVector, Vector3, Vector4};
 use nalgebra_sparse::CsrMatrix;
 
@@ -30,66 +30,7 @@ macro_rules! calls {
             $(fn $name(&self, $($argument: $type),*) -> Answer<$result> {
                 caught(|| (self.0.$name)($($argument),*))
             })*
-
-            fn quadrature_of_number(
-                &self,
-                V: &[Vector3<f64>],
-                element: &[usize; 4],
-                volume: f64,
-                integrand: &dyn Fn(&Vector3<f64>) -> f64,
-            ) -> Answer<f64> {
-                caught(|| (self.0.quadrature_of_number)(V, element, volume, integrand))
-            }
-
-            fn quadrature_of_vector(
-                &self,
-                V: &[Vector3<f64>],
-                element: &[usize; 4],
-                volume: f64,
-                integrand: &dyn Fn(&Vector3<f64>) -> DVector<f64>,
-            ) -> Answer<DVector<f64>> {
-                caught(|| (self.0.quadrature_of_vector)(V, element, volume, integrand))
-            }
-
-            fn linearly_implicit_euler(
-                &self,
-                q: &mut DVector<f64>,
-                qdot: &mut DVector<f64>,
-                dt: f64,
-                mass: &CsrMatrix<f64>,
-                force: Force,
-                stiffness: Stiffness,
-                solve: Solve,
-            ) -> Answer<()> {
-                caught(|| (self.0.linearly_implicit_euler)(q, qdot, dt, mass, force, stiffness, solve))
-            }
-
-            fn newtons_method(
-                &self,
-                x0: &mut DVector<f64>,
-                f: Objective,
-                g: Gradient,
-                H: Hessian,
-                solve: Solve,
-                max_steps: usize,
-            ) -> Answer<f64> {
-                caught(|| (self.0.newtons_method)(x0, f, g, H, solve, max_steps))
-            }
-
-            fn implicit_euler(
-                &self,
-                q: &mut DVector<f64>,
-                qdot: &mut DVector<f64>,
-                dt: f64,
-                mass: &CsrMatrix<f64>,
-                energy: Objective,
-                force: Force,
-                stiffness: Stiffness,
-                solve: Solve,
-            ) -> Answer<()> {
-                caught(|| (self.0.implicit_euler)(q, qdot, dt, mass, energy, force, stiffness, solve))
-            }
         }
     };
 }
-plain_functions!(calls);
+all_functions!(calls);

@@ -3,7 +3,7 @@
 use nalgebra::{DVector, Matrix3, Vector3};
 
 use super::meshes::{Tetrahedron, orders};
-use super::outcome::{Outcome, holds, near_number};
+use super::outcome::{Outcome, holds, near_number, with_input};
 use super::random::{deformation, for_all, for_some, tetrahedron, vector};
 use super::{Check, Course};
 use crate::implementation::Answer;
@@ -76,7 +76,10 @@ fn the_volume_that_is_given_counts(course: &Course) -> Outcome {
     let t = Tetrahedron::unit();
     let found =
         course.subject.T_linear_tetrahedron(&t.moved(&Matrix3::zeros(), &Vector3::y()), &t.element, 2.0, 5.0)?;
-    near_number("T = ½ ρ volume |v|² with ρ = 2, volume = 5", found, 5.0, 1e-13)
+    with_input(
+        "ρ = 2 kg/m³, a volume of 5 m³, all vertices at 1 m/s",
+        near_number("T = ½ ρ volume |v|² with the volume that is given", found, 5.0, 1e-13),
+    )
 }
 
 fn the_order_of_the_vertices_does_not_matter(course: &Course) -> Outcome {

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::meshes::{Tetrahedron, orders};
-use super::outcome::{Outcome, near_number};
+use super::outcome::{Outcome, near_number, with_input};
 use super::random::{constants, deformed_tetrahedron, for_all, for_some, rotation, stretches, tetrahedron, vector};
 use super::scales::energy_terms;
 use super::{Check, Course};
@@ -75,7 +75,8 @@ fn the_volume_that_is_given_counts(course: &Course) -> Outcome {
     let t = Tetrahedron::unit();
     let q = t.moved(&(Matrix3::identity() * 2.0), &Vector3::zeros());
     let found = course.subject.V_linear_tetrahedron(&q, &t.V, &t.element, 3.0, 1.0, 1.0)?;
-    near_number("V(2 X) = volume · D · 49 with a volume of 3", found, 147.0, 1e-11)
+    let rule = "V = volume · psi(F) with the volume that is given";
+    with_input("q = 2 X of the unit tetrahedron, a volume of 3 m³, C = D = 1", near_number(rule, found, 147.0, 1e-11))
 }
 
 fn an_element_turned_inside_out_costs_infinitely_much(course: &Course) -> Outcome {
@@ -99,5 +100,6 @@ fn an_element_far_from_the_origin_stores_the_same(course: &Course) -> Outcome {
     let offset = Vector3::new(1048576.0, -2097152.0, 524288.0);
     let t = Tetrahedron::new([3, 0, 6, 2], &Matrix3::identity(), &offset);
     let found = energy(course, &t, &(Matrix3::identity() * 2.0), &Vector3::zeros(), 1.0, 1.0)?;
-    near_number("V(2 X), 1000 km away", found, t.volume * 49.0, 1e-6)
+    let rule = "V of a stretched element far from the origin; subtract positions first";
+    with_input("q = 2 X, 1000 km away, C = D = 1", near_number(rule, found, t.volume * 49.0, 1e-6))
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::outcome::{Outcome, near_number};
+use super::outcome::{Outcome, near_number, with_input};
 use super::random::{for_all, rotation, vector};
 use super::{Check, Course};
 
@@ -17,14 +17,18 @@ fn stretched_and_squeezed_springs_store_half_k_times_the_square(course: &Course)
     let (q0, q1) = (Vector3::new(1.0, 2.0, 3.0), Vector3::new(3.0, 5.0, 9.0)); // 7 m apart
     for (l0, expected) in [(7.0, 0.0), (5.0, 40.0), (9.0, 40.0), (0.0, 490.0), (8.0, 10.0)] {
         let found = course.subject.V_spring_particle_particle(&q0, &q1, l0, 20.0)?;
-        near_number("½ k (|q1 − q0| − l0)² with k = 20 and 7 m", found, expected, 1e-12)?;
+        let rule = "the energy of a spring is half its stiffness times the square of its change of length";
+        let input = format!("stiffness = 20 N/m, ends 7 m apart, l0 = {l0} m");
+        with_input(&input, near_number(rule, found, expected, 1e-12))?;
     }
     Ok(())
 }
 
 fn a_spring_of_no_length_stores_the_energy_of_its_rest_length(course: &Course) -> Outcome {
     let q = Vector3::new(1.0, 2.0, 3.0);
-    near_number("½ k l0²", course.subject.V_spring_particle_particle(&q, &q, 2.0, 3.0)?, 6.0, 1e-15)?;
+    let found = course.subject.V_spring_particle_particle(&q, &q, 2.0, 3.0)?;
+    let rule = "a spring whose ends meet is squeezed by its whole rest length";
+    with_input("l0 = 2 m, stiffness = 3 N/m", near_number(rule, found, 6.0, 1e-15))?;
     near_number("a spring without any length", course.subject.V_spring_particle_particle(&q, &q, 0.0, 3.0)?, 0.0, 0.0)
 }
 

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, Matrix3, Vector3, Vector4};
 
 use super::meshes::{Mesh, Tetrahedron};
-use super::outcome::{Mistake, Outcome, dense_of, holds, near, near_number, waits};
+use super::outcome::{Mistake, Outcome, dense_of, holds, near, near_number, waits, with_input};
 use super::random::{for_all, for_some, vector};
 use super::{Check, Course};
 
@@ -14,6 +14,7 @@ pub const CHECKS: &[Check] = checks![
     at_rest_the_display_stands_where_it_was_and_follows_affine_motions,
     a_row_has_the_four_weights_of_one_element,
     vertices_edges_and_faces_belong_to_the_elements_that_they_bound,
+    a_point_just_outside_an_element_belongs_to_the_neighbour_that_holds_it,
     a_point_in_no_element_goes_to_the_one_that_misses_it_least,
     vertices_without_elements_move_nothing,
     nothing_to_skin_gives_a_matrix_without_rows,
@@ -120,6 +121,26 @@ fn vertices_edges_and_faces_belong_to_the_elements_that_they_bound(course: &Cour
     Ok(())
 }
 
+fn a_point_just_outside_an_element_belongs_to_the_neighbour_that_holds_it(course: &Course) -> Outcome {
+    let V = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z(), Vector3::new(2.0, 2.0, 2.0)];
+    let (inner, outer) = ([0, 1, 2, 3], [1, 2, 3, 4]);
+    // Just more than the slack for round-off, and much more.
+    for missed_by in [1.5e-6, 1e-4, 1e-2] {
+        // On the diagonal, where the coordinates add up to 1 on the face between, and to 6 at the last vertex.
+        let beyond = (1.0 + missed_by, outer, [(1.0 - missed_by / 5.0) / 3.0, missed_by / 5.0]);
+        let before = (1.0 - 5.0 * missed_by, inner, [(1.0 - 5.0 * missed_by) / 3.0, 5.0 * missed_by]);
+        for (sum, element, [shared, own]) in [beyond, before] {
+            let weights = if element == outer { [shared, shared, shared, own] } else { [own, shared, shared, shared] };
+            for T in [[inner, outer], [outer, inner]] {
+                let found = dense(course, &V, &T, &[Vector3::repeat(sum / 3.0)])?;
+                let rule = "a point more than the slack outside of an element belongs to the neighbour that holds it";
+                near(rule, &found, &row(5, element, weights), 1e-12)?;
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Two elements that overlap: the unit tetrahedron and one twice as large, with other vertices.
 pub fn overlapping() -> (Vec<Vector3<f64>>, [[usize; 4]; 2]) {
     let small = Tetrahedron::unit();
@@ -145,7 +166,7 @@ fn vertices_without_elements_move_nothing(course: &Course) -> Outcome {
     let t = Tetrahedron::new([7, 1, 4, 2], &Matrix3::identity(), &Vector3::zeros());
     let expected = row(9, t.element, [0.4, 0.1, 0.2, 0.3]);
     near(
-        "nine vertices, one element",
+        "the vertices of the element that holds the point have its weights, all others none",
         &dense(course, &t.V, &[t.element], &[Vector3::new(0.1, 0.2, 0.3)])?,
         &expected,
         1e-13,
@@ -165,5 +186,5 @@ fn far_from_the_origin_the_display_still_follows(course: &Course) -> Outcome {
     let x = Vector3::new(0.4, 0.5, 0.6) + offset;
     let N = dense(course, &mesh.V, &mesh.T, &[x])?;
     let blend = (0..mesh.V.len()).map(|vertex| (mesh.V[vertex] - offset) * N[(0, vertex)]).sum::<Vector3<f64>>();
-    near("1000 km away", &blend, &(x - offset), 1e-8)
+    with_input("1000 km away", near("N V = V_skin, far from the origin", &blend, &(x - offset), 1e-8))
 }

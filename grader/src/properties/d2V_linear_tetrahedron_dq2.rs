@@ -63,11 +63,11 @@ fn the_unit_tetrahedron_at_rest_agrees_with_a_calculation_by_hand(course: &Cours
     let (C, D) = (3.0, 10.0);
     let (shear, lambda) = (2.0 * C, 2.0 * D - 4.0 / 3.0 * C);
     let H = d2V(course, &Tetrahedron::unit(), &Matrix3::identity(), &Vector3::zeros(), C, D)? * 6.0;
-    near_number("entry (3, 3)", H[(3, 3)], lambda + 2.0 * shear, 1e-12)?;
-    near_number("entry (4, 4)", H[(4, 4)], shear, 1e-12)?;
-    near_number("entry (3, 4)", H[(3, 4)], 0.0, 1e-12)?;
-    near_number("entry (3, 7): vertex 1 along x, vertex 2 along y", H[(3, 7)], lambda, 1e-12)?;
-    near_number("entry (4, 6): vertex 1 along y, vertex 2 along x", H[(4, 6)], shear, 1e-12)
+    near_number("a vertex that moves along its edge pulls at itself along it", H[(3, 3)], lambda + 2.0 * shear, 1e-12)?;
+    near_number("a vertex that moves across its edge pulls at itself across it", H[(4, 4)], shear, 1e-12)?;
+    near_number("a vertex that moves along its edge does not pull at itself across it", H[(3, 4)], 0.0, 1e-12)?;
+    near_number("vertex 1 along x, vertex 2 along y", H[(3, 7)], lambda, 1e-12)?;
+    near_number("vertex 1 along y, vertex 2 along x", H[(4, 6)], shear, 1e-12)
 }
 
 fn it_is_symmetric(course: &Course) -> Outcome {

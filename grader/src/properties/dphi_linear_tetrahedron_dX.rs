@@ -121,5 +121,10 @@ fn far_from_the_origin_no_digits_are_lost(course: &Course) -> Outcome {
     let shape = Matrix3::new(1.0, 0.5, 0.0, 0.0, 2.0, 0.5, 0.5, 0.0, 1.0);
     let here = Tetrahedron::new([3, 0, 6, 2], &shape, &Vector3::zeros());
     let far = Tetrahedron::new([3, 0, 6, 2], &shape, &Vector3::new(1048576.0, -2097152.0, 524288.0));
-    near("1000 km away; use edges", &dphi(course, &far, &middle(&far))?, &dphi(course, &here, &middle(&here))?, 1e-9)
+    near(
+        "far from the origin; use edges",
+        &dphi(course, &far, &middle(&far))?,
+        &dphi(course, &here, &middle(&here))?,
+        1e-9,
+    )
 }

@@ -51,7 +51,12 @@ fn nothing_fixed_is_the_identity(course: &Course) -> Outcome {
 }
 
 fn repeats_count_once_and_order_does_not_matter(course: &Course) -> Outcome {
-    near("P for [3, 0, 3, 3, 0]", &P(course, 15, &[3, 0, 3, 3, 0])?, &P(course, 15, &[0, 3])?, 0.0)
+    near(
+        "repeats count once, and the order of the indices does not matter",
+        &P(course, 15, &[3, 0, 3, 3, 0])?,
+        &P(course, 15, &[0, 3])?,
+        0.0,
+    )
 }
 
 fn everything_fixed_leaves_a_matrix_without_rows(course: &Course) -> Outcome {

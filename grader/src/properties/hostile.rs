@@ -105,6 +105,23 @@ fn whatever_is_answered_no_check_panics() {
     }
 }
 
+/// Figures of the pages and names of entries, which anyone may read.
+const PUBLIC: [&str; 4] = ["1e-10", "P_01", "P_10", "12×12"];
+
+#[test]
+fn no_rule_gives_away_an_input() {
+    let kinds =
+        [answering_garbage::<0>(), answering_garbage::<1>(), answering_garbage::<2>(), answering_garbage::<3>()];
+    for (functions, (function, checks)) in kinds.into_iter().flat_map(|kind| FUNCTIONS.map(|entry| (kind, entry))) {
+        for mistake in mistakes(function, checks, functions) {
+            let Mistake::Wrong { rule, .. } = mistake else { continue };
+            let secret = PUBLIC.iter().fold(rule.clone(), |rule, public| rule.replace(public, ""));
+            let mut figures = secret.split(|c: char| !c.is_ascii_digit() && c != '.');
+            assert!(figures.all(|figure| figure.len() < 2), "{function}: {rule:?}; figures belong into the input");
+        }
+    }
+}
+
 #[test]
 fn a_function_that_a_check_needs_is_named_where_it_is_not_there() {
     let (asked, needed) = (Local(answering_garbage::<0>()), Local(NOTHING));

@@ -57,5 +57,10 @@ fn its_eigenvalues_are_a_twentieth_and_a_quarter_of_the_mass(course: &Course) ->
     let mut eigenvalues: Vec<f64> = eigenvalues_of(&M)?.iter().copied().collect();
     eigenvalues.sort_by(f64::total_cmp);
     let expected = SVector::<f64, 12>::from_fn(|k, _| if k < 9 { 5.0 } else { 25.0 });
-    near("eigenvalues for a mass of 100 kg", &SVector::<f64, 12>::from_vec(eigenvalues), &expected, 1e-11)
+    near(
+        "the eigenvalues are a twentieth and a quarter of the mass",
+        &SVector::<f64, 12>::from_vec(eigenvalues),
+        &expected,
+        1e-11,
+    )
 }

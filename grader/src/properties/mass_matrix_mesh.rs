@@ -47,11 +47,21 @@ fn elements_add_up_where_they_share_vertices(course: &Course) -> Outcome {
 fn each_element_has_its_own_volume(course: &Course) -> Outcome {
     let T = [[0, 1, 2, 3], [3, 2, 1, 4]];
     let M = dense(course, 15, &T, &[1.0, 20.0])?;
-    near_number("vertex 0 has the first element alone", M[(0, 0)], DENSITY * 1.0 / 10.0, 1e-10)?;
-    near_number("vertex 4 has the second element alone", M[(14, 14)], DENSITY * 20.0 / 10.0, 1e-10)?;
-    near_number("vertex 3 has both", M[(10, 10)], DENSITY * 21.0 / 10.0, 1e-10)?;
-    near_number("vertices 1 and 2 have both", M[(5, 8)], DENSITY * 21.0 / 20.0, 1e-10)?;
-    near_number("vertices 0 and 4 have none", M[(0, 12)], 0.0, 0.0)
+    near_number(
+        "a vertex of the first element alone has mass of that element",
+        M[(0, 0)],
+        DENSITY * 1.0 / 10.0,
+        1e-10,
+    )?;
+    near_number(
+        "a vertex of the second element alone has mass of that element",
+        M[(14, 14)],
+        DENSITY * 20.0 / 10.0,
+        1e-10,
+    )?;
+    near_number("a vertex of both elements has mass of both", M[(10, 10)], DENSITY * 21.0 / 10.0, 1e-10)?;
+    near_number("two vertices that share both elements are coupled by both", M[(5, 8)], DENSITY * 21.0 / 20.0, 1e-10)?;
+    near_number("two vertices that share no element are not coupled", M[(0, 12)], 0.0, 0.0)
 }
 
 fn half_v_m_v_is_the_kinetic_energy_of_the_elements(course: &Course) -> Outcome {
@@ -81,7 +91,7 @@ fn the_total_mass_is_density_times_volume(course: &Course) -> Outcome {
 
 fn vertices_without_elements_have_no_mass_and_the_matrix_keeps_its_size(course: &Course) -> Outcome {
     let M = dense(course, 24, &[[6, 2, 5, 1]], &[2.0])?;
-    near("eight vertices, one element", &M, &by_definition(course, 24, &[[6, 2, 5, 1]], &[2.0])?, 1e-10)?;
+    near("vertices without elements have no mass", &M, &by_definition(course, 24, &[[6, 2, 5, 1]], &[2.0])?, 1e-10)?;
     near("no element at all", &dense(course, 6, &[], &[])?, &DMatrix::zeros(6, 6), 0.0)
 }
 

@@ -12,11 +12,11 @@ use crate::implementation::Trouble;
 pub enum Mistake {
     /// The answer is wrong.
     Wrong {
-        /// What must hold, as a sentence without figures; anyone may read it.
+        /// What must hold, as a sentence; anyone may read it, so it holds no input and no expected value.
         rule: String,
         /// What came and what should have come; empty where the rule says it all. Not for students while they are graded.
         figures: String,
-        /// The input, as simple as shrinking made it; empty where the rule names it. Not for students while they are graded.
+        /// The input, as simple as shrinking made it; empty where there is none. Not for students while they are graded.
         counterexample: String,
     },
     /// There is no answer.
@@ -79,6 +79,17 @@ pub fn waits(needs: &'static str) -> impl Fn(Trouble) -> Mistake {
 /// The mistake.
 pub fn holds(rule: &str, condition: bool) -> Outcome {
     if condition { Ok(()) } else { Err(wrong(rule, String::new())) }
+}
+
+/// The same outcome; a mistake tells this input beside its rule, which must not name it.
+///
+/// # Errors
+/// The mistake.
+pub fn with_input(input: &str, outcome: Outcome) -> Outcome {
+    outcome.map_err(|mistake| match mistake {
+        Mistake::Wrong { rule, figures, .. } => Mistake::Wrong { rule, figures, counterexample: input.to_owned() },
+        other => other,
+    })
 }
 
 /// Compares two numbers; NaN is never near, equal infinities are.

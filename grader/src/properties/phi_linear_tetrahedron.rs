@@ -28,7 +28,8 @@ fn phi(course: &Course, t: &Tetrahedron, x: &Vector3<f64>) -> Answer<Vector4<f64
 
 fn the_unit_tetrahedron_gives_one_minus_the_sum_and_the_coordinates(course: &Course) -> Outcome {
     let expected = Vector4::new(0.4, 0.1, 0.2, 0.3);
-    near("phi at (0.1, 0.2, 0.3)", &phi(course, &Tetrahedron::unit(), &Vector3::new(0.1, 0.2, 0.3))?, &expected, 1e-14)
+    let rule = "in the unit tetrahedron, one minus the sum of the coordinates, then the coordinates";
+    near(rule, &phi(course, &Tetrahedron::unit(), &Vector3::new(0.1, 0.2, 0.3))?, &expected, 1e-14)
 }
 
 fn a_tetrahedron_without_symmetry_agrees_with_a_calculation_by_hand(course: &Course) -> Outcome {
@@ -102,7 +103,7 @@ fn far_from_the_origin_no_digits_are_lost(course: &Course) -> Outcome {
     let offset = Vector3::new(1048576.0, -2097152.0, 524288.0); // powers of two, so that the sums below are exact
     let t = Tetrahedron::new([3, 0, 6, 2], &Matrix3::identity(), &offset);
     let values = phi(course, &t, &(offset + Vector3::new(0.125, 0.25, 0.5)))?;
-    near("1000 km away; subtract positions first", &values, &Vector4::new(0.125, 0.125, 0.25, 0.5), 1e-9)
+    near("far from the origin; subtract positions first", &values, &Vector4::new(0.125, 0.125, 0.25, 0.5), 1e-9)
 }
 
 fn millimetres_and_kilometres_give_the_same_values(course: &Course) -> Outcome {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix4, Orthographic3, Perspective3, Point3, Rotation3, Vector3, Vector4};
 
-use super::outcome::{Outcome, holds};
+use super::outcome::{Outcome, holds, with_input};
 use super::random::{for_all, vector};
 use super::{Check, Course};
 use crate::implementation::Answer;
@@ -14,6 +14,7 @@ pub const CHECKS: &[Check] = checks![
     all_vertices_within_the_radius_are_returned_in_ascending_order,
     a_pixel_beside_the_body_picks_nothing,
     what_lies_behind_the_camera_is_not_picked,
+    what_is_too_near_to_be_shown_is_not_picked,
     depth_of_the_pixel_does_not_matter,
     the_window_may_lie_anywhere,
     triangles_are_hit_from_either_side,
@@ -101,11 +102,15 @@ fn all_vertices_within_the_radius_are_returned_in_ascending_order(course: &Cours
     V.extend([Vector3::new(0.0, 0.0, 0.5), Vector3::new(0.0, 0.0, 1.4), Vector3::new(0.0, 0.0, 0.4)]);
     let camera = Camera::perspective();
     let win = camera.pixel(&Vector3::z());
-    holds("within 0.55 of (0, 0, 1)", camera.pick(course, &win, &V, &F, 0.55)? == [8, 9])?;
-    holds("within 0.65 of (0, 0, 1)", camera.pick(course, &win, &V, &F, 0.65)? == [8, 9, 10])?;
-    holds("within 1.5 of (0, 0, 1)", camera.pick(course, &win, &V, &F, 1.5)? == [4, 5, 6, 7, 8, 9, 10])?;
-    holds("within 9 of (0, 0, 1)", camera.pick(course, &win, &V, &F, 9.0)?.len() == 11)?;
-    holds("nobody within 0.3 of (0, 0, 1)", camera.pick(course, &win, &V, &F, 0.3)?.is_empty())
+    let all: Vec<usize> = (0..11).collect();
+    for (radius, expected) in
+        [(0.3, &[][..]), (0.55, &[8, 9]), (0.65, &[8, 9, 10]), (1.5, &[4, 5, 6, 7, 8, 9, 10]), (9.0, &all)]
+    {
+        let is_right = camera.pick(course, &win, &V, &F, radius)? == expected;
+        let rule = "all vertices within the radius of the hit point, in ascending order, and no others";
+        with_input(&format!("hit point (0, 0, 1), radius {radius} m"), holds(rule, is_right))?;
+    }
+    Ok(())
 }
 
 fn a_pixel_beside_the_body_picks_nothing(course: &Course) -> Outcome {
@@ -131,6 +136,19 @@ fn what_lies_behind_the_camera_is_not_picked(course: &Course) -> Outcome {
     let both: Vec<_> = behind.iter().chain(&V).copied().collect();
     let faces: Vec<_> = F.iter().copied().chain(F.iter().map(|face| face.map(|vertex| vertex + 8))).collect();
     holds("the box before the eye is hit", camera.pick(course, &win, &both, &faces, 1.5)? == [12, 13, 14, 15])
+}
+
+fn what_is_too_near_to_be_shown_is_not_picked(course: &Course) -> Outcome {
+    let (mut V, mut F) = cube();
+    F.push([8, 9, 10]);
+    // The nearest depth that is shown is at z = 4.9 in perspective and at z = 4 in parallel projection.
+    for (camera, z) in [(Camera::perspective(), 4.91), (Camera::parallel(), 4.1)] {
+        V.truncate(8);
+        V.extend([Vector3::new(-0.1, -0.1, z), Vector3::new(0.1, -0.1, z), Vector3::new(0.0, 0.1, z)]);
+        let found = camera.pick(course, &camera.pixel(&Vector3::zeros()), &V, &F, 1.5)?;
+        holds("the line of sight begins at the nearest depth that is shown", found == [4, 5, 6, 7])?;
+    }
+    Ok(())
 }
 
 fn depth_of_the_pixel_does_not_matter(course: &Course) -> Outcome {
@@ -194,7 +212,7 @@ fn just_outside_an_edge_is_a_miss(course: &Course) -> Outcome {
     // The triangle (−1, −1), (1, −1), (−1, 1) at 200 pixels a metre: just beyond each of its three edges.
     for win in [[300.0, 99.9], [199.9, 200.0], [400.1, 300.1]] {
         let found = camera.pick(course, &Vector3::new(win[0], win[1], 0.0), &V, &[[4, 5, 6]], 9.0)?;
-        holds("half a millimetre beside the triangle", found.is_empty())?;
+        holds("a pixel just beside a triangle misses it", found.is_empty())?;
     }
     Ok(())
 }
@@ -230,9 +248,12 @@ fn a_sphere_is_hit_where_geometry_says(course: &Course) -> Outcome {
         // The facets lie up to some millimetres below the sphere.
         let within =
             |radius: f64| (0..sphere.V.len()).filter(|&k| (sphere.V[k] - point).norm() <= radius).collect::<Vec<_>>();
-        holds("vertices within 0.49 m are picked", within(0.49).iter().all(|vertex| found.contains(vertex)))?;
+        holds(
+            "vertices clearly within the radius are picked",
+            within(0.49).iter().all(|vertex| found.contains(vertex)),
+        )?;
         let is_near = |&k: &usize| sphere.V.get(k).is_some_and(|vertex| (vertex - point).norm() <= 0.51);
-        holds("vertices beyond 0.51 m are not", found.iter().all(is_near))?;
+        holds("vertices clearly beyond the radius are not", found.iter().all(is_near))?;
         holds("some are", !found.is_empty() && found.is_sorted())
     })
 }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::double_double::DoubleDouble;
-use super::outcome::{Outcome, holds, near_number};
+use super::outcome::{Outcome, holds, near_number, with_input};
 use super::random::{constants, deformation, for_all, rotation, stretches};
 use super::scales::energy_terms;
 use super::{Check, Course};
@@ -59,7 +59,8 @@ fn simple_shear_costs_c_alone(course: &Course) -> Outcome {
 
 fn the_table_of_the_page_holds(course: &Course) -> Outcome {
     let F = Matrix3::from_diagonal(&Vector3::new(2.0, 1.0, 0.5));
-    near_number("psi(diag(2, 1, ½)) = 9/4 C", course.subject.psi_neo_hookean(&F, 4.0, 7.0)?, 9.0, 1e-12)
+    let found = course.subject.psi_neo_hookean(&F, 4.0, 7.0)?;
+    with_input("F = diag(2, 1, ½), C = 4, D = 7", near_number("the table of the page", found, 9.0, 1e-12))
 }
 
 fn only_the_principal_stretches_count(course: &Course) -> Outcome {
@@ -115,7 +116,9 @@ fn strong_but_possible_states_have_a_finite_energy(course: &Course) -> Outcome {
     }
     let flattened = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 1e-6));
     let expected = 2.0 * (2.0 * 1e4 - 3.0) + 7.0 * (1.0 - 1e-6_f64).powi(2);
-    near_number("psi(diag(1, 1, 1e-6))", course.subject.psi_neo_hookean(&flattened, 2.0, 7.0)?, expected, 1e-6)
+    let found = course.subject.psi_neo_hookean(&flattened, 2.0, 7.0)?;
+    let rule = "a body that is almost flat has a large and finite energy";
+    with_input("F = diag(1, 1, 1e-6), C = 2, D = 7", near_number(rule, found, expected, 1e-6))
 }
 
 /// The energy of F = 1 + E for a small E, in 32 digits.

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use nalgebra::{DVector, Matrix3, Vector3};
 
 use super::meshes::Tetrahedron;
-use super::outcome::{Outcome, holds, near, near_number};
+use super::outcome::{Outcome, holds, near, near_number, with_input};
 use super::random::{for_all, tetrahedron, vector};
 use super::{Check, Course};
 
@@ -23,14 +23,15 @@ pub const CHECKS: &[Check] = checks![
 fn a_constant_integrates_to_itself_times_the_volume(course: &Course) -> Outcome {
     for_all(course.seed, tetrahedron(), |t| {
         let integral = course.subject.quadrature_of_number(&t.V, &t.element, t.volume, &|_| 3.0)?;
-        near_number("the integral of 3", integral, 3.0 * t.volume, 1e-14 * t.volume)
+        near_number("a constant integrates to itself times the volume", integral, 3.0 * t.volume, 1e-14 * t.volume)
     })
 }
 
 fn the_volume_that_is_given_counts(course: &Course) -> Outcome {
     let t = Tetrahedron::unit();
     let integral = course.subject.quadrature_of_number(&t.V, &t.element, 7.0, &|_| 2.0)?;
-    near_number("2 over a volume of 7, whatever the vertices are", integral, 14.0, 1e-14)
+    let rule = "the volume that is given counts, whatever the vertices are";
+    with_input("the constant 2, a volume of 7 m³", near_number(rule, integral, 14.0, 1e-14))
 }
 
 fn linear_functions_are_integrated_exactly(course: &Course) -> Outcome {
@@ -58,7 +59,8 @@ fn the_point_is_the_undeformed_centroid(course: &Course) -> Outcome {
 fn a_quadratic_is_taken_at_the_centroid(course: &Course) -> Outcome {
     let t = Tetrahedron::unit();
     let integral = course.subject.quadrature_of_number(&t.V, &t.element, t.volume, &|X| X.norm_squared())?;
-    near_number("|X|² at (¼, ¼, ¼) times 1/6", integral, 3.0 / 16.0 / 6.0, 1e-15)
+    let rule = "a quadratic counts with its value at the centroid";
+    with_input("|X|² over the unit tetrahedron", near_number(rule, integral, 3.0 / 16.0 / 6.0, 1e-15))
 }
 
 fn the_integrand_is_asked_once(course: &Course) -> Outcome {

@@ -6,7 +6,8 @@ use grader::status::Status;
 
 use super::charts::{self, Bar, Point};
 use super::page::{figure, page};
-use super::{ClassEntry, escape, view};
+use super::rows::Row;
+use super::{escape, view};
 use crate::grade::Grade;
 
 /// Statuses as the bars group them: class in the page's style, words.
@@ -16,29 +17,33 @@ const GROUPS: [(&str, &str); 4] =
 /// The most common diagnoses that the page lists.
 const DIAGNOSES: usize = 15;
 
-/// The text of `class.html`, submissions in the given order.
-pub fn render(entries: &[&ClassEntry]) -> String {
-    let mut body = head(entries);
+/// The text of `class.html`. Figures and charts count what is graded; the table holds every row.
+pub fn render(rows: &[Row]) -> String {
+    let grades: Vec<&Grade> = rows.iter().filter_map(Row::grade).collect();
+    let mut body = head(rows.len(), &grades);
     body.push_str("<div class=\"charts\">\n<figure>\n<h2>Scores</h2>\n");
-    let shares: Vec<f64> = entries.iter().map(|entry| share(&entry.grade)).collect();
+    let shares: Vec<f64> = grades.iter().map(|grade| share(grade)).collect();
     body.push_str(&charts::histogram(&shares));
     body.push_str("<figcaption>Submissions by share of the points.</figcaption>\n</figure>\n");
-    body.push_str(&error_against_time(entries));
-    body.push_str(&success(entries));
-    body.push_str(&common_diagnoses(entries));
+    body.push_str(&error_against_time(rows));
+    body.push_str(&success(&grades));
+    body.push_str(&common_diagnoses(&grades));
     body.push_str("</div>\n");
-    body.push_str(&table(entries));
+    body.push_str(&table(rows));
     page("Class", &body)
 }
 
-fn head(entries: &[&ClassEntry]) -> String {
-    let mut shares: Vec<f64> = entries.iter().map(|entry| share(&entry.grade)).collect();
+fn head(submissions: usize, grades: &[&Grade]) -> String {
+    let mut shares: Vec<f64> = grades.iter().map(|grade| share(grade)).collect();
     shares.sort_by(f64::total_cmp);
     let percent = |share: Option<f64>| share.map_or("–".to_owned(), |share| format!("{:.0} %", 100.0 * share));
     let mean = (!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64);
-    let complete = entries.iter().filter(|entry| view::parts(&entry.grade).all(|p| p.status == Status::Passed)).count();
+    let complete = grades.iter().filter(|grade| view::parts(grade).all(|p| p.status == Status::Passed)).count();
     let mut head = String::from("<h1>Class</h1>\n<div class=\"figures\">\n");
-    head.push_str(&figure(&entries.len().to_string(), "submissions"));
+    head.push_str(&figure(&submissions.to_string(), "submissions"));
+    if grades.len() < submissions {
+        head.push_str(&figure(&(submissions - grades.len()).to_string(), "without a grade"));
+    }
     head.push_str(&figure(&percent(median(&shares)), "median score"));
     head.push_str(&figure(&percent(mean), "mean score"));
     head.push_str(&figure(&complete.to_string(), "pass everything"));
@@ -55,9 +60,9 @@ fn median(sorted: &[f64]) -> Option<f64> {
 }
 
 /// Every submission that answers, and the reference among them.
-fn error_against_time(entries: &[&ClassEntry]) -> String {
-    let mut points: Vec<Point> = entries.iter().filter_map(|entry| point(entry)).collect();
-    let mut references: Vec<f64> = entries.iter().filter_map(|entry| full_reference(&entry.grade)).collect();
+fn error_against_time(rows: &[Row]) -> String {
+    let mut points: Vec<Point> = rows.iter().filter_map(point).collect();
+    let mut references: Vec<f64> = rows.iter().filter_map(Row::grade).filter_map(full_reference).collect();
     references.sort_by(f64::total_cmp);
     if let Some(x) = median(&references) {
         let title = format!("reference: {}", view::seconds(Some(x)));
@@ -73,13 +78,13 @@ fn error_against_time(entries: &[&ClassEntry]) -> String {
     figure + "</figure>\n"
 }
 
-fn point(entry: &ClassEntry) -> Option<Point> {
-    let grade = &entry.grade;
+fn point(row: &Row) -> Option<Point> {
+    let grade = row.grade()?;
     let (seconds, answered) = view::total_seconds(grade);
     let (x, error) = (seconds?, view::worst_error(grade)?);
     let title = format!(
         "{}: error {}, {}, {answered} of {} functions answer, {} points",
-        escape::line(&entry.student),
+        escape::line(&row.entry.student),
         view::error(Some(error)),
         view::seconds(Some(x)),
         grade.functions.len(),
@@ -95,10 +100,9 @@ fn full_reference(grade: &Grade) -> Option<f64> {
     seconds.filter(|_| timed == grade.functions.len())
 }
 
-fn success(entries: &[&ClassEntry]) -> String {
-    let names: Vec<&str> =
-        entries.first().map_or(Vec::new(), |entry| view::parts(&entry.grade).map(|part| part.name.as_str()).collect());
-    let bars: Vec<Bar> = names.iter().map(|name| bar(name, entries)).collect();
+fn success(grades: &[&Grade]) -> String {
+    let names = grades.first().map_or(Vec::new(), |grade| view::parts(grade).map(|part| part.name.as_str()).collect());
+    let bars: Vec<Bar> = names.iter().map(|name| bar(name, grades)).collect();
     let keys = GROUPS.map(|(class, words)| {
         let colour = class.trim_start_matches("s-");
         format!("<span class=\"key\" style=\"color:var(--{colour})\">{words}</span>")
@@ -110,8 +114,8 @@ fn success(entries: &[&ClassEntry]) -> String {
     )
 }
 
-fn bar(name: &str, entries: &[&ClassEntry]) -> Bar {
-    let statuses = entries.iter().filter_map(|entry| view::parts(&entry.grade).find(|part| part.name == name));
+fn bar(name: &str, grades: &[&Grade]) -> Bar {
+    let statuses = grades.iter().filter_map(|grade| view::parts(grade).find(|part| part.name == name));
     let mut counts = [0_usize; GROUPS.len()];
     for part in statuses {
         counts[group(part.status)] += 1;
@@ -135,9 +139,9 @@ fn group(status: Status) -> usize {
     }
 }
 
-fn common_diagnoses(entries: &[&ClassEntry]) -> String {
+fn common_diagnoses(grades: &[&Grade]) -> String {
     let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
-    for part in entries.iter().flat_map(|entry| view::parts(&entry.grade)) {
+    for part in grades.iter().flat_map(|grade| view::parts(grade)) {
         if let Some(diagnosis) = &part.diagnosis {
             *counts.entry((&part.name, diagnosis)).or_default() += 1;
         }
@@ -159,36 +163,38 @@ fn common_diagnoses(entries: &[&ClassEntry]) -> String {
     figure + "</table></div>\n</figure>\n"
 }
 
-fn table(entries: &[&ClassEntry]) -> String {
+fn table(rows: &[Row]) -> String {
     let mut table = String::from("<h2>Submissions</h2>\n<div class=\"scroll\"><table>\n<tr><th>student</th>");
     table.push_str("<th>submission</th><th class=\"right\">points</th><th class=\"right\">functions</th>");
     table.push_str("<th class=\"right\">worst error</th><th class=\"right\">run time</th><th>remarks</th></tr>\n");
-    for entry in entries {
-        table.push_str(&row(entry));
+    for row in rows {
+        table.push_str(&line(row));
     }
     table + "</table></div>\n"
 }
 
-fn row(entry: &ClassEntry) -> String {
-    let grade = &entry.grade;
-    let (passed, all) = view::passed(grade);
-    let name = escape::html(&escape::line(&grade.submission));
-    let submission = match &entry.page {
-        Some(page) => format!("<a href=\"{}\">{name}</a>", escape::link(page)),
+fn line(row: &Row) -> String {
+    let name = escape::html(&escape::line(&row.entry.submission));
+    let submission = match row.page() {
+        Some(page) => format!("<a href=\"{}\">{name}</a>", escape::link(&page)),
         None => name,
     };
-    let mut remarks: Vec<String> = grade.remarks.iter().map(|remark| escape::html(remark)).collect();
-    if !entry.older.is_empty() {
-        remarks.push(format!("in place of {}", escape::html(&entry.older.join(", "))));
-    }
     format!(
-        "<tr><td>{}</td><td>{submission}</td><td class=\"right\">{} / {}</td><td class=\"right\">{passed} / {all}</td>\
-         <td class=\"right\">{}</td><td class=\"right\">{}</td><td class=\"soft\">{}</td></tr>\n",
-        escape::html(&entry.student),
+        "<tr><td>{}</td><td>{submission}</td>{}<td class=\"soft wide\">{}</td></tr>\n",
+        escape::html(&row.entry.student),
+        row.grade().map_or("<td class=\"right\">–</td>".repeat(4), figures),
+        escape::html(&row.notes().join("; "))
+    )
+}
+
+fn figures(grade: &Grade) -> String {
+    let (passed, all) = view::passed(grade);
+    format!(
+        "<td class=\"right\">{} / {}</td><td class=\"right\">{passed} / {all}</td>\
+         <td class=\"right\">{}</td><td class=\"right\">{}</td>",
         view::points(grade.score),
         view::points(grade.max_score),
         view::error(view::worst_error(grade)),
-        view::seconds(view::total_seconds(grade).0),
-        remarks.join("; ")
+        view::seconds(view::total_seconds(grade).0)
     )
 }

@@ -18,7 +18,10 @@ pub fn render(grade: &Grade, show_diagnosis: bool) -> io::Result<String> {
     for part in view::parts(grade) {
         report.add_test_suite(suite(part, show_diagnosis));
     }
-    report.to_string().map_err(io::Error::other)
+    let text = report.to_string().map_err(io::Error::other)?;
+    // Jenkins' schema (xunit-plugin, junit-10.xsd) refuses this attribute on `testsuites`, the first tag that has it. In a name
+    // it would be written with `&quot;`.
+    Ok(text.replacen(" skipped=\"0\"", "", 1))
 }
 
 fn suite(part: &FunctionGrade, show_diagnosis: bool) -> TestSuite {

@@ -1,11 +1,12 @@
 //! Grades for the tests: an ordinary one, and one whose every text attacks the reports.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use grader::status::Status;
 use grader::submission::NAMES;
 
-use super::ClassEntry;
+use crate::class::{Entry, Identity, Outcome, Summary};
 use crate::grade::{CheckGrade, FORMAT_VERSION, FunctionGrade, Grade};
 
 /// What only the instructor may read; no student's file may hold it.
@@ -117,15 +118,39 @@ pub fn hostile() -> Grade {
     grade
 }
 
-/// A class of thirty, the last of them hostile.
-pub fn class() -> Vec<ClassEntry> {
-    let entry = |grade: Grade, student: &str| ClassEntry {
-        page: Some(format!("{}/report.html", grade.submission)),
+/// A class of 33: 29 ordinary grades, a hostile one, three without a grade; besides, an older submission.
+pub fn class() -> Summary {
+    let entry = |submission: &str, student: &str, outcome| Entry {
+        submission: submission.to_owned(),
         student: student.to_owned(),
-        older: if student == "Ünal 03" { vec!["submission-03-first".to_owned()] } else { Vec::new() },
-        grade,
+        outcome,
     };
-    let mut entries: Vec<ClassEntry> = (0..29).map(|i| entry(grade(i), &format!("Ünal {i:02}"))).collect();
-    entries.push(entry(hostile(), HOSTILE));
-    entries
+    let graded = |grade: Grade| Outcome::Graded(Box::new(grade), PathBuf::from("grades/key"));
+    let mut entries: Vec<Entry> =
+        (0..29).map(|i| entry(&format!("submission-{i:02}"), &format!("Ünal {i:02}"), graded(grade(i)))).collect();
+    entries.push(entry(HOSTILE, HOSTILE, graded(hostile())));
+    entries.push(entry("late", "+late", Outcome::Waiting));
+    entries.push(entry("lost", "@lost", Outcome::NotGraded("no end within 600 s; see failed/lost.log".to_owned())));
+    entries.push(entry("-odd", "\t=odd", Outcome::NotGraded(HOSTILE.to_owned())));
+    entries.push(entry("first", "Ünal 03", Outcome::Older { newer: "submission-03".to_owned() }));
+    Summary { entries, ..empty_class() }
+}
+
+/// A class that nobody has handed anything in to.
+pub fn empty_class() -> Summary {
+    Summary {
+        identity: Identity {
+            grader: String::new(),
+            toolchain: String::new(),
+            seed: 1,
+            rubric: None,
+            extra: Vec::new(),
+        },
+        shard: None,
+        entries: Vec::new(),
+        remarks: Vec::new(),
+        graded_now: 0,
+        kept: 0,
+        interrupted: false,
+    }
 }

@@ -1,5 +1,7 @@
 //! Each format keeps its shape, whatever a submission's texts and figures are.
 
+mod formats;
+
 use std::fs;
 
 use serde_json::Value;
@@ -73,73 +75,9 @@ fn figures_that_are_no_numbers_become_null_and_scores_are_refused() {
 }
 
 #[test]
-fn grade_json_has_the_keys_of_the_contract() {
-    let grade: Value = serde_json::from_str(&json::render(&sample::grade(0)).unwrap()).unwrap();
-    for key in ["format_version", "score", "max_score", "seed", "toolchain", "sandbox", "functions"] {
-        assert!(!grade[key].is_null(), "{key}");
-    }
-    let function = grade["functions"][0].as_object().unwrap();
-    for key in ["name", "score", "max_score", "status", "diagnosis", "error", "seconds", "reference_seconds", "checks"]
-    {
-        assert!(function.contains_key(key), "{key}");
-    }
-    assert_eq!(grade["seed"].as_u64(), Some(u64::MAX));
-}
-
-#[test]
-fn gradescope_gets_allowed_values_alone() {
-    for grade in [sample::grade(2), sample::hostile()] {
-        let results: Value = serde_json::from_str(&gradescope::render(&grade, true).unwrap()).unwrap();
-        let score = results["score"].as_f64().unwrap();
-        assert!((0.0..=grade.max_score).contains(&score));
-        assert_eq!(results["stdout_visibility"], "hidden");
-        assert_eq!(results["visibility"], "visible");
-        assert!(results["execution_time"].is_number());
-        let tests = results["tests"].as_array().unwrap();
-        assert_eq!(tests.len(), 23);
-        for test in tests {
-            assert!(test["score"].as_f64().unwrap() <= test["max_score"].as_f64().unwrap());
-            assert!(["passed", "failed"].contains(&test["status"].as_str().unwrap()));
-            assert_eq!(test["output_format"], "text");
-        }
-        assert!(results["leaderboard"].as_array().unwrap().iter().all(|entry| entry["value"].is_number()));
-    }
-}
-
-#[test]
-fn classroom50_gets_whole_numbers_and_the_origin() {
-    let text = classroom50::render(&sample::grade(2), &options().origin.unwrap(), true).unwrap();
-    let result: Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(result["schema"], "classroom50/result/v1");
-    assert!(result["submission"].as_str().unwrap().starts_with("submit/"));
-    assert!(result["score"].as_u64().unwrap() <= result["max-score"].as_u64().unwrap());
-    assert_eq!(result["max-score"], 10_000);
-    for test in result["tests"].as_array().unwrap() {
-        assert!(test["test-name"].is_string() && test["passed"].is_boolean());
-        assert!(test["score"].as_u64().unwrap() <= test["max-score"].as_u64().unwrap());
-    }
-    assert!(classroom50::Origin::from_variables(|_| None).is_none());
-}
-
-#[test]
-fn junit_has_a_case_for_every_check_and_for_every_function_without() {
-    let grade = sample::grade(2);
-    let report = quick_junit::Report::deserialize_from_str(&junit::render(&grade, true).unwrap()).unwrap();
-    assert_eq!(report.test_suites.len(), 23);
-    for (suite, part) in report.test_suites.iter().zip(view::parts(&grade)) {
-        assert_eq!(suite.test_cases.len(), part.checks.len().max(1), "{}", part.name);
-        assert_eq!(suite.failures + suite.errors > 0, part.status != grader::status::Status::Passed, "{}", part.name);
-    }
-    let hostile = junit::render(&sample::hostile(), true).unwrap();
-    assert!(!hostile.contains(|c: char| c.is_control() && c != '\n' || c == '\u{ffff}'));
-    quick_junit::Report::deserialize_from_str(&hostile).unwrap();
-}
-
-#[test]
 fn pages_run_no_text_of_a_submission() {
     let class = sample::class();
-    let ordered: Vec<&ClassEntry> = class.iter().collect();
-    for page in [html::render(&sample::hostile(), true), class_html::render(&ordered)] {
+    for page in [html::render(&sample::hostile(), true), class_html::render(&rows::rows(&class.entries))] {
         assert!(!page.contains("<script"));
         assert_eq!(page.matches("</title>").count(), page.matches("<title>").count());
         assert!(!page.contains("NaN") && !page.contains("inf"));
@@ -180,26 +118,65 @@ fn a_spreadsheet_runs_no_cell() {
     assert_eq!(escape::cell("O'Brien, \"x\""), "O'Brien, \"x\"");
 }
 
+/// The cells of a written table, the heading first.
+fn table(folder: &Path, name: &str) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(folder.join(name)).unwrap();
+    let text = text.strip_prefix('\u{feff}').expect("a mark for Excel");
+    let mut reader = ::csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes());
+    reader.records().map(|row| row.unwrap().iter().map(str::to_owned).collect()).collect()
+}
+
 #[test]
-fn the_class_table_has_a_row_per_submission_and_a_mark_for_excel() {
+fn the_class_table_has_a_row_for_each_submission_that_counts_graded_or_not() {
     let folder = tempfile::tempdir().unwrap();
     write_class(&sample::class(), folder.path()).unwrap();
-    let text = fs::read_to_string(folder.path().join("grades.csv")).unwrap();
-    let mut reader = ::csv::Reader::from_reader(text.strip_prefix('\u{feff}').unwrap().as_bytes());
-    assert_eq!(
-        reader.headers().unwrap().iter().take(4).collect::<Vec<_>>(),
-        ["submission", "student", "score", "max_score"]
+    let rows = table(folder.path(), "grades.csv");
+    assert_eq!(rows[0][..6], ["student", "submission", "score", "max_score", "note", "phi_linear_tetrahedron"]);
+    assert_eq!(rows.len(), 1 + 33);
+    let row = |submission: &str| rows.iter().find(|row| row[1] == submission).expect(submission);
+    assert_eq!(row("late")[..5], ["'+late", "late", "", "", "not graded yet"]);
+    assert_eq!(row("lost")[4], "not graded: no end within 600 s; see failed/lost.log");
+    assert!(row("lost")[5..].iter().all(String::is_empty));
+    assert_eq!(row("submission-03")[4], "in place of first");
+    assert_eq!(row("submission-01")[4], "README.txt was left aside");
+    assert!(!rows.iter().any(|row| row[1] == "first"), "an older submission would be a second row of its student");
+}
+
+#[test]
+fn no_cell_of_a_class_table_is_a_formula() {
+    let folder = tempfile::tempdir().unwrap();
+    write_class(&sample::class(), folder.path()).unwrap();
+    let (grades, errors) = (table(folder.path(), "grades.csv"), table(folder.path(), "errors.csv"));
+    assert_eq!((grades.len(), errors.len()), (34, 3));
+    assert!(!grades.iter().chain(&errors).flatten().any(|cell| cell.starts_with(['=', '+', '-', '@', '\t', '\r'])));
+    for rows in [&grades, &errors] {
+        assert!(rows.iter().any(|row| row[..2] == ["'=odd", "'-odd"]));
+    }
+    assert!(grades.iter().any(|row| row[1] == escape::cell(HOSTILE)));
+}
+
+#[test]
+fn the_class_page_shows_what_is_not_graded_and_counts_it_in_no_figure() {
+    let folder = tempfile::tempdir().unwrap();
+    write_class(&sample::class(), folder.path()).unwrap();
+    let page = fs::read_to_string(folder.path().join("class.html")).unwrap();
+    assert!(
+        page.contains("<b>33</b><span>submissions</span>") && page.contains("<b>3</b><span>without a grade</span>")
     );
-    let rows: Vec<::csv::StringRecord> = reader.records().map(Result::unwrap).collect();
-    assert_eq!(rows.len(), 30);
-    let unsafe_cell = |cell: &str| cell.starts_with(['=', '+', '-', '@', '\t']);
-    assert!(!rows.iter().flatten().any(unsafe_cell));
-    assert!(rows.iter().any(|row| row[0] == escape::cell(HOSTILE)));
+    assert!(page.contains("<td>@lost</td><td>lost</td><td class=\"right\">–</td>"));
+    assert!(page.contains("not graded: no end within 600 s") && page.contains("in place of first"));
+    let graded = Summary { entries: sample::class().entries.drain(..30).collect(), ..sample::empty_class() };
+    write_class(&graded, folder.path()).unwrap();
+    let without = fs::read_to_string(folder.path().join("class.html")).unwrap();
+    assert!(!without.contains("without a grade"));
+    let median = |page: &str| page[..page.find("median score").unwrap()].rsplit("<b>").next().unwrap().to_owned();
+    assert_eq!(median(&page), median(&without));
 }
 
 #[test]
 fn an_empty_class_still_has_its_page() {
     let folder = tempfile::tempdir().unwrap();
-    write_class(&[], folder.path()).unwrap();
+    write_class(&sample::empty_class(), folder.path()).unwrap();
     assert!(fs::read_to_string(folder.path().join("class.html")).unwrap().contains("No submission"));
+    assert_eq!(table(folder.path(), "grades.csv").len(), 1);
 }

@@ -101,10 +101,13 @@ pub fn seconds(seconds: Option<f64>) -> String {
     }
 }
 
-/// The submission's time in terms of the reference's, such as `1.3×`.
+/// The submission's time in terms of the reference's, such as `1.3×` or `0.04×`.
 pub fn ratio(function: &FunctionGrade) -> String {
     match (function.seconds, function.reference_seconds) {
-        (Some(own), Some(reference)) if own.is_finite() && reference > 0.0 => format!("{:.1}×", own / reference),
+        (Some(own), Some(reference)) if own.is_finite() && reference > 0.0 => {
+            let ratio = own / reference;
+            if ratio < 0.1 { format!("{ratio:.2}×") } else { format!("{ratio:.1}×") }
+        }
         _ => "–".to_owned(),
     }
 }

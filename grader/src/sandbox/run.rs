@@ -9,22 +9,30 @@ use std::thread;
 use std::time::Duration;
 
 use super::running::Tree;
-use super::spec::Control;
-use super::{Confined, Ended, Sandbox};
+use super::{Confined, Ended};
+#[cfg(target_os = "linux")]
+use super::{Sandbox, spec::Control};
 
 /// How long after its time a program may take to end.
 const GRACE: Duration = Duration::from_secs(10);
 
-/// Runs a program to its end.
-pub fn run(sandbox: &Sandbox, confined: &Confined) -> io::Result<Ended> {
-    let mut tree = match sandbox.launcher {
-        None => {
-            Tree::plain(confined, |command| command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()))?
-        }
-        Some(_) => Tree::launch(sandbox, confined, Control::Stdin, |command| {
-            command.stdout(Stdio::piped()).stderr(Stdio::piped())
-        })?,
-    };
+/// Runs a program without any layer to its end.
+pub fn plain(confined: &Confined) -> io::Result<Ended> {
+    let tree =
+        Tree::plain(confined, |command| command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()))?;
+    followed(tree, confined)
+}
+
+/// Runs a program in the sandbox to its end.
+#[cfg(target_os = "linux")]
+pub fn launched(sandbox: &Sandbox, confined: &Confined) -> io::Result<Ended> {
+    let tree = Tree::launch(sandbox, confined, Control::Stdin, |command| {
+        command.stdout(Stdio::piped()).stderr(Stdio::piped())
+    })?;
+    followed(tree, confined)
+}
+
+fn followed(mut tree: Tree, confined: &Confined) -> io::Result<Ended> {
     let room = Arc::new(AtomicUsize::new(confined.limits.output));
     let stdout = tree.child.stdout.take().map(|pipe| keep(pipe, room.clone()));
     let stderr = tree.child.stderr.take().map(|pipe| keep(pipe, room));

@@ -1,24 +1,26 @@
 //! A program that runs, as the grader sees it.
 
-use std::io::{self, BufRead, BufReader};
-use std::os::fd::OwnedFd;
-use std::os::unix::net::UnixStream;
-use std::os::unix::process::{CommandExt, ExitStatusExt};
-use std::process::{Child, Command, Stdio};
-use std::sync::atomic::{AtomicU32, Ordering};
+#[cfg(target_os = "linux")]
+mod launch;
+
+use std::io;
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::spec::{Control, News, Spec};
-use super::{Confined, Sandbox};
+use grader_child::socket::Socket;
+
+use super::Confined;
+#[cfg(target_os = "linux")]
+pub use launch::launched;
 
 /// How long a killed process tree may take to vanish, and a launcher to begin.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// A program that runs. Dropping it kills the whole process tree.
 pub struct Running {
-    /// The other end of the program's standard input.
-    pub socket: UnixStream,
+    /// The way to the program.
+    pub socket: Socket,
     tree: Tree,
 }
 
@@ -34,17 +36,39 @@ impl Running {
     }
 }
 
-/// Starts a program with a socket as its standard input.
-pub fn start(sandbox: &Sandbox, confined: &Confined) -> io::Result<Running> {
-    let (ours, theirs) = UnixStream::pair()?;
-    let input = Stdio::from(OwnedFd::from(theirs));
-    let tree = match &sandbox.launcher {
-        None => Tree::plain(confined, |command| command.stdin(input).stdout(Stdio::null()).stderr(Stdio::null()))?,
-        Some(_) => {
-            Tree::launch(sandbox, confined, Control::Stdout, |command| command.stdin(input).stderr(Stdio::null()))?
+/// Starts a program without any layer, with a socket as its standard input.
+#[cfg(unix)]
+pub fn plain(confined: &Confined) -> io::Result<Running> {
+    let (socket, theirs) = Socket::pair()?;
+    let input = Stdio::from(std::os::fd::OwnedFd::from(theirs));
+    let tree = Tree::plain(confined, |command| command.stdin(input).stdout(Stdio::null()).stderr(Stdio::null()))?;
+    Ok(Running { socket, tree })
+}
+
+/// Starts a program without any layer, and waits until it has called back.
+#[cfg(not(unix))]
+pub fn plain(confined: &Confined) -> io::Result<Running> {
+    let listener = std::net::TcpListener::bind((std::net::Ipv4Addr::LOCALHOST, 0))?;
+    listener.set_nonblocking(true)?;
+    let mut confined = confined.clone();
+    confined.arguments.push(listener.local_addr()?.port().to_string());
+    let mut tree =
+        Tree::plain(&confined, |command| command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()))?;
+    let until = Instant::now() + PATIENCE;
+    loop {
+        match listener.accept() {
+            Ok((socket, _)) => {
+                socket.set_nonblocking(false)?;
+                socket.set_nodelay(true)?;
+                return Ok(Running { socket, tree });
+            }
+            Err(error) if error.kind() != io::ErrorKind::WouldBlock || Instant::now() >= until => return Err(error),
+            Err(_) => {}
         }
-    };
-    Ok(Running { socket: ours, tree })
+        if let Some(end) = tree.ended(Duration::from_millis(1)) {
+            return Err(io::Error::other(format!("it ends at once: {end}")));
+        }
+    }
 }
 
 /// How a program ended.
@@ -60,7 +84,12 @@ impl std::fmt::Display for End {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match (self.timed_out, self.code, self.signal) {
             (true, ..) => f.write_str("its time was over"),
-            (_, Some(code), _) => write!(f, "exit code {code}"),
+            (_, Some(code), _) => match code.cast_unsigned() {
+                // How Windows says it.
+                0xC000_00FD => f.write_str("stack overflow"),
+                0xC000_0409 => f.write_str("abort"),
+                _ => write!(f, "exit code {code}"),
+            },
             (_, _, Some(signal)) => write!(f, "signal {signal} ({})", meaning(signal)),
             _ => f.write_str("nobody knows how"),
         }
@@ -86,7 +115,8 @@ fn meaning(signal: i32) -> &'static str {
 pub struct Tree {
     pub child: Child,
     /// The socket to the launcher: when it closes, the launcher kills everything. None for a plain program.
-    control: Option<BufReader<UnixStream>>,
+    #[cfg(target_os = "linux")]
+    control: Option<io::BufReader<Socket>>,
     /// When a plain program's time is over.
     deadline: Instant,
     end: Option<End>,
@@ -96,77 +126,36 @@ impl Tree {
     /// Starts a program without any layer; `wire` connects its standard descriptors.
     pub fn plain(confined: &Confined, wire: impl FnOnce(&mut Command) -> &mut Command) -> io::Result<Self> {
         let mut command = Command::new(&confined.program);
-        command
-            .args(&confined.arguments)
-            .env_clear()
-            .envs(confined.environment.iter().map(|(name, value)| (name, value)));
-        command.current_dir(&confined.folder).process_group(0);
+        command.args(&confined.arguments).current_dir(&confined.folder);
+        // On other systems only the user's own environment tells where linker and system libraries are.
+        if cfg!(target_os = "linux") {
+            command.env_clear().envs(confined.environment.iter().map(|(name, value)| (name, value)));
+        }
+        // In our own group of processes, so that Ctrl-C at a terminal ends an endless loop along with us.
         let child = wire(&mut command).spawn()?;
-        Ok(Self { child, control: None, deadline: Instant::now() + confined.limits.wall, end: None })
-    }
-
-    /// Starts a program through the launcher and waits until it has begun.
-    pub fn launch(
-        sandbox: &Sandbox,
-        confined: &Confined,
-        control: Control,
-        wire: impl FnOnce(&mut Command) -> &mut Command,
-    ) -> io::Result<Self> {
-        let Some(launcher) = &sandbox.launcher else { return Err(io::Error::other("the sandbox has no launcher")) };
-        let layers = sandbox.layers.iter().filter(|(_, there)| **there).map(|(name, _)| name.clone()).collect();
-        let spec = Spec { confined: confined.clone(), layers, owner: unused_user(), control };
-        let (ours, theirs) = UnixStream::pair()?;
-        let theirs = Stdio::from(OwnedFd::from(theirs));
-        let mut command = Command::new(launcher);
-        command.args(["confine", "keep", &serde_json::to_string(&spec)?]).env_clear().process_group(0);
-        match control {
-            Control::Stdin => wire(&mut command).stdin(theirs),
-            Control::Stdout => wire(&mut command).stdout(theirs),
-        };
-        let child = command.spawn()?;
-        drop(command); // it holds the launcher's end of the socket
-        let deadline = Instant::now() + confined.limits.wall;
-        let mut tree = Self { child, control: Some(BufReader::new(ours)), deadline, end: None };
-        match tree.news(PATIENCE)? {
-            Some(News::Started) => Ok(tree),
-            Some(News::Refused(why)) => Err(io::Error::other(format!("the sandbox cannot run the program: {why}"))),
-            Some(News::Ended { .. }) | None => Err(io::Error::other("the sandbox does not start")),
-        }
-    }
-
-    /// What the launcher says next; `None` if it says nothing for so long.
-    fn news(&mut self, wait: Duration) -> io::Result<Option<News>> {
-        let Some(control) = &mut self.control else { return Ok(None) };
-        control.get_ref().set_read_timeout(Some(wait.max(Duration::from_millis(1))))?;
-        let mut line = String::new();
-        match control.read_line(&mut line) {
-            Ok(0) => Err(io::Error::new(io::ErrorKind::UnexpectedEof, "the sandbox's launcher ended without a word")),
-            Ok(_) => Ok(Some(serde_json::from_str(&line)?)),
-            Err(error) if matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut) => Ok(None),
-            Err(error) => Err(error),
-        }
+        Ok(Self {
+            child,
+            #[cfg(target_os = "linux")]
+            control: None,
+            deadline: Instant::now() + confined.limits.wall,
+            end: None,
+        })
     }
 
     /// Waits at most so long for the end.
     pub fn ended(&mut self, wait: Duration) -> Option<End> {
         if self.end.is_none() {
-            self.end = if self.control.is_some() { self.launched_end(wait) } else { self.plain_end(wait) };
+            self.end = self.end_within(wait);
         }
         self.end.clone()
     }
 
-    fn launched_end(&mut self, wait: Duration) -> Option<End> {
-        match self.news(wait) {
-            Ok(Some(News::Ended { code, signal, timed_out, seconds })) => {
-                Some(End { code, signal, timed_out, seconds })
-            }
-            Ok(None) => None,
-            // The launcher is gone or talks nonsense, so what it kept is dead, or about to be.
-            Ok(Some(_)) | Err(_) => {
-                self.kill();
-                Some(End { code: None, signal: None, timed_out: false, seconds: 0.0 })
-            }
+    fn end_within(&mut self, wait: Duration) -> Option<End> {
+        #[cfg(target_os = "linux")]
+        if self.control.is_some() {
+            return self.launched_end(wait);
         }
+        self.plain_end(wait)
     }
 
     fn plain_end(&mut self, wait: Duration) -> Option<End> {
@@ -177,7 +166,7 @@ impl Tree {
                 self.kill_plain();
             }
             if let Ok(Some(status)) = self.child.try_wait() {
-                return Some(End { code: status.code(), signal: status.signal(), timed_out, seconds: 0.0 });
+                return Some(End { code: status.code(), signal: signal(status), timed_out, seconds: 0.0 });
             }
             if Instant::now() >= until {
                 return None;
@@ -188,7 +177,7 @@ impl Tree {
 
     /// Kills everything and waits until it is gone.
     pub fn kill(&mut self) {
-        if self.control.take().is_none() {
+        if !self.closes_control() {
             self.kill_plain();
         }
         let until = Instant::now() + PATIENCE;
@@ -200,7 +189,15 @@ impl Tree {
         }
     }
 
-    /// Kills the group of processes that was started.
+    /// Tells the launcher to kill everything, if there is one.
+    fn closes_control(&mut self) -> bool {
+        #[cfg(target_os = "linux")]
+        return self.control.take().is_some();
+        #[cfg(not(target_os = "linux"))]
+        false
+    }
+
+    /// Kills what was started: a launcher with its group; a plain program has none of its own.
     fn kill_plain(&mut self) {
         // The process may be gone already, which is what is wanted.
         #[cfg(target_os = "linux")]
@@ -218,8 +215,12 @@ impl Drop for Tree {
     }
 }
 
-/// One of the user numbers that neither distributions nor systemd give to anyone, another one for each start.
-fn unused_user() -> u32 {
-    static NEXT: AtomicU32 = AtomicU32::new(0);
-    61_000 + (std::process::id().wrapping_add(NEXT.fetch_add(1, Ordering::Relaxed))) % 184
+#[cfg(unix)]
+fn signal(status: ExitStatus) -> Option<i32> {
+    std::os::unix::process::ExitStatusExt::signal(&status)
+}
+
+#[cfg(not(unix))]
+fn signal(_: ExitStatus) -> Option<i32> {
+    None
 }

@@ -56,10 +56,16 @@ pub(super) fn the_direction_solves_the_hessian_against_minus_the_gradient(course
 pub(super) fn a_decrease_must_be_at_least_1e_8_of_what_the_slope_promises(course: &Course) -> Outcome {
     // The slope is −1, so the full step must gain 1e-8 and the half step 0.5e-8.
     let enough = |t: f64| if t == 1.0 { -1.5e-8 } else { 0.0 };
-    near("1.5e-8 gained at α = 1 is enough", &line(enough).minimise(course, &[0.0], 1)?.x, &dvector![1.0], 0.0)?;
+    let rule = "a decrease a little above the bound is enough";
+    near(rule, &line(enough).minimise(course, &[0.0], 1)?.x, &dvector![1.0], 0.0)?;
     let too_little = |t: f64| if t == 1.0 || t == 0.5 { -0.8e-8 } else { 0.0 };
     let run = line(too_little).minimise(course, &[0.0], 1)?;
-    near("0.8e-8 gained is too little at α = 1 and enough at ½", &run.x, &dvector![0.5], 0.0)?;
+    near(
+        "a decrease a little below the bound is too little, and a shorter step has a lower bound",
+        &run.x,
+        &dvector![0.5],
+        0.0,
+    )?;
     near_number("f there", run.f, -0.8e-8, 0.0)?;
     let later = |t: f64| if t == 0.0 { 0.0 } else { -0.3e-8 };
     near("the bound shrinks with α", &line(later).minimise(course, &[0.0], 1)?.x, &dvector![0.25], 0.0)?;
@@ -75,15 +81,20 @@ pub(super) fn it_gives_up_below_1e_8_and_leaves_x_as_it_was(course: &Course) -> 
     near_number("and f(x0) is returned", run.f, 5.5, 0.0)?;
     holds("giving up ends it", run.directions().len() == 1)?;
     let trials = run.trials().first().map_or(0, |list| list.iter().filter(|x| x[0] != 1.0).count());
-    holds("27 halvings from 1 down to 2⁻²⁶, the last above 1e-8", trials == 27)
+    holds("every halving of α down to 1e-8 is tried, and none below", trials == 27)
 }
 
 pub(super) fn the_smallest_step_above_1e_8_is_still_tried(course: &Course) -> Outcome {
     let last = 0.5f64.powi(26);
     let only_there = move |t: f64| if t == last { -1.0 } else { 0.0 };
-    near("α = 2⁻²⁶ = 1.5e-8", &line(only_there).minimise(course, &[0.0], 1)?.x, &dvector![last], 0.0)?;
+    near(
+        "the last α that is not below 1e-8 is tried",
+        &line(only_there).minimise(course, &[0.0], 1)?.x,
+        &dvector![last],
+        0.0,
+    )?;
     let only_beyond = move |t: f64| if t != 0.0 && t < last { -1.0 } else { 0.0 };
-    near("α = 2⁻²⁷ = 0.7e-8 is not", &line(only_beyond).minimise(course, &[0.0], 1)?.x, &dvector![0.0], 0.0)
+    near("an α below 1e-8 is not", &line(only_beyond).minimise(course, &[0.0], 1)?.x, &dvector![0.0], 0.0)
 }
 
 pub(super) fn infinite_and_undefined_values_are_never_accepted(course: &Course) -> Outcome {

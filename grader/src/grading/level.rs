@@ -1,0 +1,143 @@
+//! One level: its functions in as few programs as possible, and once more, each alone, those that do not compile for want of
+//! something in the student's other files.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use grader::compile::{Built, Plan, build, names};
+use grader::implementation::sandboxed::Sandboxed;
+use grader::status::Status;
+use grader::submission::{Source, Submission, mentions};
+
+use super::groups::{Calls, Group, Names, groups};
+use super::programs::start;
+use super::{Grading, GradingError, finished, work_folder};
+use crate::grade::FunctionGrade;
+use crate::rubric::Function;
+
+impl Grading {
+    /// Grades the functions of a level that are not yet `graded`.
+    pub(super) fn grade_level(
+        &self,
+        level: u32,
+        submission: &Submission,
+        graded: &mut BTreeMap<String, FunctionGrade>,
+    ) -> Result<(), GradingError> {
+        let is_due = |name: &&str| self.rubric.level(name) == level && !graded.contains_key(*name);
+        let judged: Vec<&'static str> = names().filter(is_due).collect();
+        let below: Names = names().filter(|name| self.rubric.level(name) < level).collect();
+        let own = calls_of(submission);
+        for group in groups(&judged, &below, &own, &self.programs.calls) {
+            // Not one folder: the student's program may read its own, and no reference lies there.
+            let (folder, beside) = (work_folder()?, work_folder()?);
+            let library = if group.reference == below {
+                self.programs.below(level)
+            } else {
+                Some(self.programs.library(&self.prebuilt, &group.reference, beside.path())?)
+            };
+            let plan = Plan {
+                own: with_what_they_call(&group, &own, submission),
+                reference: library.map(|library| (library, group.reference.clone())),
+                helpers: BTreeMap::new(),
+                limit: self.compile_limit(),
+            };
+            self.grade_group(&group, &plan, submission, folder.path(), graded)?;
+        }
+        Ok(())
+    }
+
+    fn grade_group(
+        &self,
+        group: &Group,
+        plan: &Plan,
+        submission: &Submission,
+        folder: &Path,
+        graded: &mut BTreeMap<String, FunctionGrade>,
+    ) -> Result<(), GradingError> {
+        let built = build(&self.prebuilt, &self.sandbox, plan, folder)?;
+        let subject = self.subject(&built, folder);
+        for function in &self.rubric.functions {
+            let Some(name) = group.judged.iter().copied().find(|name| name == function.name.get_ref()) else {
+                continue;
+            };
+            let grade = match built.faults.get(name) {
+                None => self.judge(function, &subject)?,
+                Some(fault) => self.judge_with_helpers(function, name, fault, plan, submission)?,
+            };
+            graded.insert(name.to_owned(), grade);
+        }
+        Ok(())
+    }
+
+    /// A file that does not compile may only miss a private function or type in another file of its author, in whose place the
+    /// reference stands. With that file beside the reference it gets a second chance.
+    fn judge_with_helpers(
+        &self,
+        function: &Function,
+        name: &'static str,
+        fault: &str,
+        plan: &Plan,
+        submission: &Submission,
+    ) -> Result<FunctionGrade, GradingError> {
+        let own: BTreeMap<_, _> =
+            plan.own.get_key_value(name).map(|(name, text)| (*name, text.clone())).into_iter().collect();
+        let helpers = helpers(name, plan, submission);
+        if !helpers.is_empty() {
+            let folder = work_folder()?;
+            let alone = Plan { own, helpers, ..plan.clone() };
+            let built = build(&self.prebuilt, &self.sandbox, &alone, folder.path())?;
+            if built.faults.is_empty() {
+                return self.judge(function, &self.subject(&built, folder.path()));
+            }
+        }
+        Ok(finished(function, Status::DidNotCompile, Some(format!("the file does not compile:\n{fault}"))))
+    }
+
+    fn subject(&self, built: &Built, folder: &Path) -> Sandboxed {
+        Sandboxed::new(start(&self.sandbox, built.program.clone(), folder), self.limit())
+    }
+}
+
+/// The text of a function, where the submission has one that may be compiled.
+fn text<'a>(name: &str, submission: &'a Submission) -> Option<&'a String> {
+    match submission.functions.get(name) {
+        Some(Source::Written(text)) => Some(text),
+        _ => None,
+    }
+}
+
+fn calls_of(submission: &Submission) -> Calls {
+    names().filter_map(|name| Some((name, mentions(text(name, submission)?)))).collect()
+}
+
+/// The texts of a group, and of the student's others that they call and that no reference answers.
+fn with_what_they_call(group: &Group, calls: &Calls, submission: &Submission) -> BTreeMap<&'static str, String> {
+    let mut own = BTreeMap::new();
+    let mut wanted = group.judged.clone();
+    while let Some(name) = wanted.pop() {
+        let Some(text) = text(name, submission) else { continue };
+        if own.insert(name, text.clone()).is_none() {
+            let called = calls.get(name).into_iter().flatten();
+            wanted.extend(called.filter(|other| !group.reference.contains(*other)));
+        }
+    }
+    own
+}
+
+/// The student's files that a file reaches into beside the functions that the reference answers, and those that they reach into.
+fn helpers(name: &'static str, plan: &Plan, submission: &Submission) -> BTreeMap<&'static str, String> {
+    let Some((_, reference)) = &plan.reference else { return BTreeMap::new() };
+    let reaches_into = |from: &str| -> BTreeSet<&'static str> {
+        let Some(text) = text(from, submission) else { return BTreeSet::new() };
+        let is_path = |other: &&'static str| text.contains(&format!("{other}::"));
+        mentions(text).into_iter().filter(|other| *other != name && reference.contains(other)).filter(is_path).collect()
+    };
+    let (mut found, mut next) = (BTreeMap::new(), reaches_into(name));
+    while let Some(other) = next.pop_first() {
+        if let Some(text) = text(other, submission).filter(|_| !found.contains_key(other)) {
+            found.insert(other, text.clone());
+            next.extend(reaches_into(other));
+        }
+    }
+    found
+}

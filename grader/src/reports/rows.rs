@@ -1,0 +1,56 @@
+//! A class as its table and its page show it: one row for each submission that counts, graded or not.
+
+use crate::class::{Entry, Outcome};
+use crate::grade::Grade;
+
+/// A submission that counts, with the older ones of its student.
+pub struct Row<'a> {
+    pub entry: &'a Entry,
+    /// Names of the submissions in whose place it counts.
+    pub older: Vec<&'a str>,
+}
+
+/// The rows of a class, by student and then by submission. An older submission is named in the row of its student.
+pub fn rows(entries: &[Entry]) -> Vec<Row<'_>> {
+    let is_older = |entry: &&Entry| matches!(entry.outcome, Outcome::Older { .. });
+    let older = |student: &str| {
+        let of_student = entries.iter().filter(is_older).filter(|entry| entry.student == student);
+        of_student.map(|entry| entry.submission.as_str()).collect()
+    };
+    let counting = entries.iter().filter(|entry| !is_older(entry));
+    let mut rows: Vec<Row> = counting.map(|entry| Row { entry, older: older(&entry.student) }).collect();
+    rows.sort_by_key(|row| (row.entry.student.to_lowercase(), row.entry.submission.clone()));
+    rows
+}
+
+impl Row<'_> {
+    /// The grade; one that is missing is not a grade of zero.
+    pub fn grade(&self) -> Option<&Grade> {
+        match &self.entry.outcome {
+            Outcome::Graded(grade, _) => Some(grade),
+            _ => None,
+        }
+    }
+
+    /// Where the submission's own page is, relative to the class's, parts divided by `/`.
+    pub fn page(&self) -> Option<String> {
+        match &self.entry.outcome {
+            Outcome::Graded(_, folder) => Some(folder.join("report.html").to_string_lossy().replace('\\', "/")),
+            _ => None,
+        }
+    }
+
+    /// What an instructor should know: why there is no grade, what the grader remarked, what it counts in place of.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = match &self.entry.outcome {
+            Outcome::Graded(grade, _) => grade.remarks.clone(),
+            Outcome::NotGraded(reason) => vec![format!("not graded: {reason}")],
+            Outcome::Waiting => vec!["not graded yet".to_owned()],
+            Outcome::Older { newer } => vec![format!("{newer} is newer")],
+        };
+        if !self.older.is_empty() {
+            notes.push(format!("in place of {}", self.older.join(", ")));
+        }
+        notes
+    }
+}

@@ -1,0 +1,169 @@
+//! The whole course: what is handed out holds nothing yet, every step counts for itself, and right work has full marks.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::LazyLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use grader::check::check;
+use grader::compile::prebuilt::Prebuilt;
+use grader::compile::{Plan, build};
+use grader::implementation::sandboxed::Sandboxed;
+use grader::properties::{Course, FUNCTIONS};
+use grader::sandbox::{Confined, Limits, Profile, Running, Sandbox};
+use grader::status::Status;
+use grader::submission::NAMES;
+use tempfile::TempDir;
+
+/// The grader's libraries, built by whichever test comes first.
+static LIBRARIES: LazyLock<Prebuilt> =
+    LazyLock::new(|| Prebuilt::new(&repository()).unwrap_or_else(|error| panic!("{error}")));
+
+/// The students' repository.
+static HANDOUT: LazyLock<TempDir> = LazyLock::new(|| {
+    let folder = TempDir::new().expect("a folder");
+    let output = Command::new(env!("CARGO_BIN_EXE_grader")).arg("handout").arg(folder.path()).output();
+    let output = output.expect("the grader starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    folder
+});
+
+fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the grader lies in the repository").to_owned()
+}
+
+/// The 22 files of a repository.
+fn texts(repository: &Path) -> BTreeMap<&'static str, String> {
+    let read = |name| fs::read_to_string(repository.join(format!("src/{name}.rs"))).expect("a function");
+    NAMES.map(|name| (name, read(name))).into()
+}
+
+/// What `check` says of the handout in which the first functions are solved: status and messages of each.
+fn checked_with_first(solved: usize) -> BTreeMap<&'static str, (Status, Vec<String>)> {
+    let folder = TempDir::new().expect("a folder");
+    fs::create_dir(folder.path().join("src")).expect("a folder");
+    let (empty, full) = (texts(HANDOUT.path()), texts(&repository()));
+    for (place, name) in NAMES.iter().enumerate() {
+        let text = if place < solved { &full[name] } else { &empty[name] };
+        fs::write(folder.path().join(format!("src/{name}.rs")), text).expect("a file");
+    }
+    let reports = check(folder.path(), None).unwrap_or_else(|error| panic!("{error}"));
+    reports.into_iter().map(|report| (report.name, (report.status, report.messages))).collect()
+}
+
+#[test]
+fn each_solved_function_counts_in_teaching_order_and_changes_no_other() {
+    LazyLock::force(&LIBRARIES);
+    let next = AtomicUsize::new(0);
+    // Each step is a folder of its own, so steps may be checked at the same time.
+    let steps = || {
+        let step = || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|&step| step <= NAMES.len());
+        std::iter::from_fn(step).map(|step| (step, checked_with_first(step))).collect::<Vec<_>>()
+    };
+    let threads = thread::available_parallelism().map_or(1, Into::into);
+    let results: BTreeMap<usize, _> = thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(steps)).collect();
+        workers.into_iter().flat_map(|worker| worker.join().expect("the steps are checked")).collect()
+    });
+    assert!(results[&0].values().all(|(status, messages)| *status == Status::Missing && messages.is_empty()));
+    for (place, name) in NAMES.iter().enumerate() {
+        let mut expected = results[&place].clone();
+        expected.insert(name, (Status::Passed, Vec::new()));
+        assert_eq!(results[&(place + 1)], expected, "{name} is solved, and nothing else has changed");
+    }
+}
+
+/// A program with these functions.
+fn program(texts: BTreeMap<&'static str, String>, folder: &Path) -> PathBuf {
+    let plan = Plan { own: texts, reference: None, helpers: BTreeMap::new(), limit: Duration::from_secs(20) };
+    let built = build(&LIBRARIES, &Sandbox::none(), &plan, folder).expect("the compiler starts");
+    assert!(built.faults.is_empty(), "{:?}", built.faults);
+    built.program.expect("a program")
+}
+
+/// The program in a process of its own.
+fn process(program: &Path, folder: &Path) -> Sandboxed {
+    let (program, folder) = (program.to_owned(), folder.to_owned());
+    let start = move || -> io::Result<Running> {
+        let second = Duration::from_secs(1);
+        Sandbox::none().start(&Confined {
+            program: program.clone(),
+            arguments: Vec::new(),
+            environment: Vec::new(),
+            folder: folder.clone(),
+            readable: Vec::new(),
+            writable: Vec::new(),
+            profile: Profile::Submission,
+            limits: Limits {
+                wall: 600 * second,
+                cpu: 600 * second,
+                memory: 4 << 30,
+                processes: 64,
+                file_size: 0,
+                open_files: 64,
+                output: 0,
+            },
+        })
+    };
+    Sandboxed::new(start, Duration::from_secs(30))
+}
+
+#[test]
+fn an_empty_function_fails_each_of_its_checks_and_a_solved_one_passes_them() {
+    let folders = [(); 2].map(|()| TempDir::new().expect("a folder"));
+    let [at_empty, at_solved] = folders.each_ref().map(TempDir::path);
+    let empty = process(&program(texts(HANDOUT.path()), at_empty), at_empty);
+    let solution = program(texts(&repository()), at_solved);
+    // Two processes, because a closure of one that is judged may ask another function.
+    let (solved, trusted) = (process(&solution, at_solved), process(&solution, at_solved));
+    for (name, checks) in FUNCTIONS {
+        assert!(!checks.is_empty(), "{name} has no checks");
+        for check in checks {
+            empty.next_function();
+            let failed = (check.run)(&Course { subject: &empty, trusted: &trusted, seed: 7 });
+            assert!(failed.is_err(), "{name}: {} passes although nothing is written", check.name);
+            let passed = (check.run)(&Course { subject: &solved, trusted: &trusted, seed: 7 });
+            assert!(passed.is_ok(), "{name}: {}: {passed:?}", check.name);
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+mod grades {
+    use super::*;
+    use serde_json::Value;
+
+    /// What a submission is graded as, by the program itself.
+    fn graded(submission: &Path, seed: u64) -> Value {
+        LazyLock::force(&LIBRARIES);
+        let out = TempDir::new().expect("a folder");
+        let mut grader = Command::new(env!("CARGO_BIN_EXE_grader"));
+        grader.arg("grade").arg(submission).arg("--out").arg(out.path()).args(["--seed", &seed.to_string()]);
+        let output = grader.output().expect("the grader starts");
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        let grade = fs::read(out.path().join("grade.json")).expect("a grade");
+        serde_json::from_slice(&grade).expect("JSON")
+    }
+
+    fn has_full_marks(grade: &Value) {
+        let functions = grade["functions"].as_array().expect("functions");
+        let less: Vec<_> = functions.iter().filter(|function| function["status"] != "passed").collect();
+        assert!(less.is_empty(), "{less:#?}");
+        assert_eq!(functions.len(), NAMES.len());
+        assert!(grade["score"].as_f64() > Some(0.0) && grade["score"] == grade["max_score"], "{}", grade["score"]);
+    }
+
+    /// One after the other: the first one builds what the others share.
+    #[test]
+    fn right_work_has_full_marks_with_any_seed_and_in_any_style() {
+        for seed in [1, 2, 20_260_101] {
+            has_full_marks(&graded(&repository(), seed));
+        }
+        has_full_marks(&graded(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/other_style"), 3));
+    }
+}
