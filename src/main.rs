@@ -12,6 +12,7 @@ mod demo {
     pub mod cli;
     pub mod data;
     pub mod end;
+    pub mod engine;
     pub mod explain;
     pub mod headless;
     pub mod list;

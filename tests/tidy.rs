@@ -225,7 +225,9 @@ fn dependencies(manifest: &str) -> Vec<String> {
     let mut is_list = false;
     for line in manifest.lines() {
         if let Some(table) = line.strip_prefix('[') {
-            is_list = table.trim_end_matches(']').ends_with("dependencies");
+            let table = table.trim_end_matches(']');
+            is_list = table.ends_with("dependencies");
+            names.extend(table.split_once("dependencies.").map(|(_, name)| name.to_owned()));
         } else if is_list && !line.contains("path = ") && !line.starts_with('#') {
             names.extend(line.split(['.', ' ', '=']).next().filter(|name| !name.is_empty()).map(str::to_owned));
         }

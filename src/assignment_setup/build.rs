@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use fem_engine::scene::{Body, Integrator, Model, Pipeline, Scene, SceneError};
+use fem_engine::scene::{Body, Integrator, Model, Pipeline, Precision, Scene, SceneError};
 use nalgebra::{DVector, Vector3};
 
 use super::constraints::{Constraints, stack};
@@ -94,7 +94,9 @@ pub(super) fn extent(V: &[Vector3<f64>]) -> f64 {
 
 fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
     if scene.pipeline != Pipeline::Course {
-        return Err(scene.refuse("pipeline", "is \"engine\", which this version does not have yet; write \"course\""));
+        return Err(
+            scene.refuse("pipeline", "is \"engine\", and these are the functions of the course; write \"course\"")
+        );
     }
     if scene.material.model != Model::NeoHookean {
         return Err(scene.refuse("material.model", "is not one that the course has; write \"neo_hookean\""));
@@ -104,8 +106,19 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         let problem = format!("is {}, which the course does not have; use {names}", scene.time.integrator.name());
         return Err(scene.refuse("time.integrator", &problem));
     }
-    let engine_only =
-        [("newton", scene.newton.is_some()), ("solver", scene.solver.is_some()), ("mass.lumped", scene.mass.lumped)];
+    let engine_only = [
+        ("mesh.refine", scene.mesh.refine > 0),
+        ("time.precision", scene.time.precision != Precision::F64),
+        ("newton", scene.newton.is_some()),
+        ("solver", scene.solver.is_some()),
+        ("mass.lumped", scene.mass.lumped),
+        ("damping", scene.damping.is_some()),
+        ("static", scene.statics.is_some()),
+        ("body_force", scene.body_force.is_some()),
+        ("traction", !scene.traction.is_empty()),
+        ("springs", !scene.springs.is_empty()),
+        ("prescribed", !scene.prescribed.is_empty()),
+    ];
     match engine_only.iter().find(|(_, present)| *present) {
         Some((field, _)) => {
             Err(scene.refuse(field, "belongs to the engine; the course's pipeline does without, remove it"))

@@ -1,5 +1,6 @@
 //! The arguments, as types.
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
@@ -68,6 +69,12 @@ pub struct RunArguments {
     /// Write the final mesh: .obj (display), .vtu (ParaView), .glb (animated, Blender)
     #[arg(long, value_name = "FILE")]
     pub export: Option<PathBuf>,
+    /// Write the mesh with its fields at every step and a .pvd that lists them (ParaView); opens no window
+    #[arg(long, value_name = "DIR")]
+    pub vtu_series: Option<PathBuf>,
+    /// Write every Nth step of the series only
+    #[arg(long, value_name = "N", default_value = "1", requires = "vtu_series")]
+    pub every: NonZeroUsize,
     /// Take a picture at the end
     #[arg(long, value_name = "FILE.png")]
     pub screenshot: Option<PathBuf>,

@@ -22,14 +22,21 @@ impl End {
         Self::Unusable(error.to_string())
     }
 
+    /// What it says.
+    pub fn message(&self) -> String {
+        match self {
+            Self::Failed(failure) => failure.to_string(),
+            Self::Stopped(message) | Self::Unusable(message) => message.clone(),
+        }
+    }
+
     /// Says it on stderr and gives the exit code.
     pub fn report(&self) -> ExitCode {
-        let (code, message) = match self {
-            Self::Failed(failure) => (1, failure.to_string()),
-            Self::Stopped(message) => (1, message.clone()),
-            Self::Unusable(message) => (2, message.clone()),
+        let code = match self {
+            Self::Failed(_) | Self::Stopped(_) => 1,
+            Self::Unusable(_) => 2,
         };
-        eprintln!("error: {message}");
+        eprintln!("error: {}", self.message());
         ExitCode::from(code)
     }
 }

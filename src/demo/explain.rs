@@ -1,12 +1,16 @@
 //! `--explain`: what a scene builds and what it leaves out.
 
-use fem_engine::scene::Scene;
+use fem_engine::scene::{Pipeline, Scene};
 use fem_engine::simulation::{Part, Simulation};
 
 /// Prints a line for every part.
 pub fn print(scene: &Scene, simulation: &dyn Simulation) {
     say!("{}: {}", scene.name, scene.about);
-    say!("pipeline course, {}, dt = {} s", simulation.integrator(), simulation.dt());
+    let pipeline = match scene.pipeline {
+        Pipeline::Course => "course",
+        Pipeline::Engine => "engine",
+    };
+    say!("pipeline {pipeline}, {}, dt = {} s", simulation.integrator(), simulation.dt());
     for part in simulation.parts() {
         let word = if part.built { "builds" } else { "leaves out" };
         let size =

@@ -1,6 +1,7 @@
 //! A run without a window.
 
 use fem_engine::mesh::write::Frame;
+use fem_engine::output::Series;
 use fem_engine::simulate;
 use fem_engine::simulation::{Energies, Simulation};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -16,23 +17,27 @@ const EXPORTED_FRAMES_PER_SECOND: f64 = 30.0;
 
 /// Steps, shows progress on a terminal, and writes what the options ask for, after a failure as well.
 pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
-    let Ready { mut simulation, seconds_setup, steps, up } = ready;
+    let Ready { mut simulation, seconds_setup, steps, up, expected_tip } = ready;
     let mut camera = Camera::for_run(arguments, &up);
-    let mut log = Log::new(arguments);
+    let mut log = Log::new(arguments)?;
     let bar = progress_bar(steps);
 
     camera.record(&*simulation)?;
-    log.add(&*simulation);
+    log.add(&*simulation)?;
     let run = simulate::run(&mut *simulation, steps, |simulation| {
         bar.inc(1);
-        log.add(simulation);
+        log.add(simulation)?;
         camera.record(simulation)
     })?;
     bar.finish_and_clear();
 
     camera.shoot(&*simulation)?;
+    log.finish(&*simulation)?;
     let Log { energies, frames, .. } = log;
-    results::finish(&Finished { simulation: &*simulation, run, seconds_setup, energies, frames }, arguments)
+    results::finish(
+        &Finished { simulation: &*simulation, run, seconds_setup, energies, frames, expected_tip },
+        arguments,
+    )
 }
 
 /// Not drawn where stderr is no terminal.
@@ -47,20 +52,23 @@ struct Log {
     wants_frames: bool,
     energies: Vec<(f64, Energies)>,
     frames: Vec<Frame>,
+    series: Option<Series>,
 }
 
 impl Log {
-    fn new(arguments: &RunArguments) -> Self {
+    fn new(arguments: &RunArguments) -> Result<Self, End> {
         let is_animated = |path: &std::path::PathBuf| path.extension().is_some_and(|extension| extension == "glb");
-        Self {
+        let series = arguments.vtu_series.as_ref().map(|folder| Series::new(folder, arguments.every));
+        Ok(Self {
             wants_energies: arguments.energies.is_some(),
             wants_frames: arguments.export.as_ref().is_some_and(is_animated),
             energies: Vec::new(),
             frames: Vec::new(),
-        }
+            series: series.transpose().map_err(End::unusable)?,
+        })
     }
 
-    fn add(&mut self, simulation: &dyn Simulation) {
+    fn add(&mut self, simulation: &dyn Simulation) -> Result<(), End> {
         let time = simulation.time();
         if self.wants_energies {
             self.energies.push((time, simulation.energies()));
@@ -68,5 +76,15 @@ impl Log {
         if self.wants_frames && time * EXPORTED_FRAMES_PER_SECOND >= self.frames.len() as f64 - 1e-6 {
             self.frames.push(Frame { time, positions: simulation.display_positions() });
         }
+        self.series.as_mut().map_or(Ok(()), |series| series.add(simulation)).map_err(End::unusable)
+    }
+
+    /// Writes the list of the series, where there is one.
+    fn finish(&self, simulation: &dyn Simulation) -> Result<(), End> {
+        let listed = self.series.as_ref().map(|series| series.finish(simulation)).transpose().map_err(End::unusable)?;
+        if let Some(path) = listed {
+            say!("{}: the series, for ParaView", path.display());
+        }
+        Ok(())
     }
 }

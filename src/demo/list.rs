@@ -12,10 +12,14 @@ pub fn print_scenes() -> Result<(), End> {
     if names.is_empty() {
         return Err(End::unusable(format!("there are no scenes in {}; run from the repository", data.display())));
     }
+    let width = names.iter().map(String::len).max().unwrap_or_default();
     for name in names {
         let scene = scene::load(&name, &data).map_err(End::unusable)?;
-        let ready = run::build(&scene)?;
-        say!("{name:<10} {} [{}]", scene.about, explain::built(&ready.simulation.parts()));
+        // One scene that cannot be built does not hide the others.
+        match run::build(&scene) {
+            Ok(ready) => say!("{name:<width$} {} [{}]", scene.about, explain::built(&ready.simulation.parts())),
+            Err(end) => say!("{name:<width$} {} [not to be run: {}]", scene.about, end.message()),
+        }
     }
     Ok(())
 }

@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
+use fem_engine::cantilever;
 use fem_engine::mesh::write::Frame;
 use fem_engine::output::{self, EXPORTS, Stats};
 use fem_engine::simulate::{Run, quantile};
 use fem_engine::simulation::{Energies, Simulation};
+
+use nalgebra::Vector3;
 
 use super::cli::RunArguments;
 use super::end::End;
@@ -17,6 +20,8 @@ pub struct Finished<'a> {
     pub seconds_setup: f64,
     pub energies: Vec<(f64, Energies)>,
     pub frames: Vec<Frame>,
+    /// Timoshenko's displacement of the tip, m, where the scene is a cantilever.
+    pub expected_tip: Option<Vector3<f64>>,
 }
 
 /// Refuses output files that could not be written, before any work is done for them.
@@ -35,6 +40,9 @@ pub fn check(arguments: &RunArguments) -> Result<(), End> {
             let problem = format!("{earlier} and {option} name the same file {}; give each its own", file.display());
             return Err(End::unusable(problem));
         }
+    }
+    if let Some(file) = arguments.vtu_series.as_ref().filter(|folder| folder.exists() && !folder.is_dir()) {
+        return Err(End::unusable(format!("--vtu-series {}: is a file; give the name of a folder", file.display())));
     }
     match &arguments.export {
         Some(path) if !EXPORTS.iter().any(|known| path.extension().is_some_and(|found| found == *known)) => {
@@ -58,7 +66,7 @@ fn check_file(option: &str, file: &Path) -> Result<(), End> {
 
 /// Writes the files that the options name, then says how the run went.
 pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
-    let Finished { simulation, run, seconds_setup, energies, frames } = finished;
+    let Finished { simulation, run, seconds_setup, energies, frames, expected_tip } = finished;
     if let Some(path) = &arguments.state {
         output::write_state(path, *simulation).map_err(End::unusable)?;
     }
@@ -72,6 +80,7 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
         Stats::of(*simulation, run, *seconds_setup).write(path).map_err(End::unusable)?;
     }
     print_summary(*simulation, run);
+    print_tip(*simulation, *expected_tip);
     match &run.failure {
         Some(failure) => Err(End::Failed(failure.clone())),
         None => Ok(()),
@@ -95,4 +104,13 @@ fn print_summary(simulation: &dyn Simulation, run: &Run) {
         energies.potential,
         energies.total(),
     );
+}
+
+/// A cantilever beside the theory.
+fn print_tip(simulation: &dyn Simulation, expected: Option<Vector3<f64>>) {
+    let Some(expected) = expected else { return };
+    let (found, size) = (cantilever::tip_displacement(simulation), expected.norm());
+    let along = if size > 0.0 { found.dot(&expected) / size } else { found.norm() };
+    let part = if size > 0.0 { format!(", {:.4} of it", along / size) } else { String::new() };
+    say!("the tip moves {along:.6e} m; Timoshenko's beam {size:.6e} m{part}");
 }

@@ -2,14 +2,15 @@
 
 use std::time::Instant;
 
-use fem_engine::scene::{self, Scene};
+use fem_engine::cantilever;
+use fem_engine::scene::{self, Body, Integrator, Pipeline, Scene};
 use fem_engine::simulation::Simulation;
 use finite_elements_3d::assignment_setup::AssignmentSetup;
 use nalgebra::Vector3;
 
 use super::cli::RunArguments;
 use super::end::End;
-use super::{data, explain, headless, results, window};
+use super::{data, engine, explain, headless, results, window};
 
 /// Steps without a window, where neither the scene nor the arguments say how many.
 const DEFAULT_STEPS: usize = 100;
@@ -21,6 +22,8 @@ pub struct Ready {
     pub steps: usize,
     /// The direction that is up in a picture: against gravity, y where there is none.
     pub up: Vector3<f64>,
+    /// Timoshenko's displacement of the tip, m, where the scene is a cantilever.
+    pub expected_tip: Option<Vector3<f64>>,
 }
 
 /// Everything that a scene's name and the options ask for.
@@ -32,7 +35,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), End> {
         explain::print(&scene, &*ready.simulation);
         return Ok(());
     }
-    if arguments.headless {
+    if arguments.headless || arguments.vtu_series.is_some() {
         return headless::run(ready, arguments);
     }
     match window::available() {
@@ -56,6 +59,33 @@ fn scene_with_overrides(arguments: &RunArguments) -> Result<Scene, End> {
 pub fn build(scene: &Scene) -> Result<Ready, End> {
     let start = Instant::now();
     let body = scene::body(scene, &data::folder()).map_err(End::unusable)?;
+    let simulation = match scene.pipeline {
+        Pipeline::Course => course(scene, body)?,
+        Pipeline::Engine => engine::build(scene, body)?,
+    };
+    let seconds_setup = start.elapsed().as_secs_f64();
+    let down = scene.gravity.as_ref().and_then(|gravity| Vector3::from(gravity.acceleration).try_normalize(0.0));
+    let up = down.map_or(Vector3::y(), |down| -down);
+    Ok(Ready {
+        simulation,
+        seconds_setup,
+        steps: steps(scene),
+        up,
+        expected_tip: cantilever::expected_tip_displacement(scene),
+    })
+}
+
+/// Those that the scene says; else its load steps where it is static.
+fn steps(scene: &Scene) -> usize {
+    let load_steps = match scene.time.integrator {
+        Integrator::Static => Some(scene.statics.as_ref().map_or(1, |statics| statics.load_steps)),
+        _ => None,
+    };
+    scene.time.steps.or(load_steps).unwrap_or(DEFAULT_STEPS)
+}
+
+/// The functions of the assignment.
+fn course(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, End> {
     let setup = AssignmentSetup::new(scene, body).map_err(End::unusable)?;
     let outside = setup.display_vertices_outside();
     if outside > 0 {
@@ -65,8 +95,5 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
             scene.path.display()
         );
     }
-    let steps = scene.time.steps.unwrap_or(DEFAULT_STEPS);
-    let down = scene.gravity.as_ref().and_then(|gravity| Vector3::from(gravity.acceleration).try_normalize(0.0));
-    let up = down.map_or(Vector3::y(), |down| -down);
-    Ok(Ready { simulation: Box::new(setup), seconds_setup: start.elapsed().as_secs_f64(), steps, up })
+    Ok(Box::new(setup))
 }

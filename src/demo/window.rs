@@ -25,7 +25,7 @@ pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
     use super::headless;
     use super::results::{Finished, finish};
 
-    let Ready { simulation, seconds_setup, steps, up } = ready;
+    let Ready { simulation, seconds_setup, steps, up, expected_tip } = ready;
     let options = WindowOptions {
         up,
         screenshot: arguments.screenshot.clone(),
@@ -38,7 +38,10 @@ pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
         Ok(outcome) => outcome,
         Err(WindowError::NoWindow(no_window)) => {
             eprintln!("no window ({}); running without one, as --headless does", no_window.reason);
-            return headless::run(Ready { simulation: no_window.simulation, seconds_setup, steps, up }, arguments);
+            return headless::run(
+                Ready { simulation: no_window.simulation, seconds_setup, steps, up, expected_tip },
+                arguments,
+            );
         }
         Err(error) => return Err(End::unusable(error)),
     };
@@ -52,8 +55,14 @@ pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
     };
     let Some(simulation) = outcome.simulation else { return Err(End::Stopped("the simulation panicked".to_owned())) };
     let run = Run { step_seconds: outcome.step_seconds, failure };
-    let finished =
-        Finished { simulation: &*simulation, run, seconds_setup, energies: outcome.energies, frames: Vec::new() };
+    let finished = Finished {
+        simulation: &*simulation,
+        run,
+        seconds_setup,
+        energies: outcome.energies,
+        frames: Vec::new(),
+        expected_tip,
+    };
     finish(&finished, arguments)
 }
 

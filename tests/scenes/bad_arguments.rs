@@ -1,6 +1,6 @@
 //! Arguments that cannot be used: exit code 2 and one message that tells the remedy.
 
-use crate::program::{Desk, assert_names, shipped_scenes};
+use crate::program::{Desk, assert_names, course_scenes};
 use crate::scene_text::CUBE;
 
 /// Refused with a message that holds these parts.
@@ -12,7 +12,7 @@ fn assert_refused(desk: &Desk, arguments: &str, parts: &[&str]) {
 fn a_scene_that_does_not_exist_is_refused_with_those_that_do() {
     let message = Desk::new().refused("nosuch --headless");
     assert_names(&message, &["`nosuch`", ".toml"]);
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         assert!(message.contains(&name), "{message}");
     }
 }

@@ -180,11 +180,23 @@ fn a_box_that_is_no_whole_number_of_cells_is_refused() {
 
 #[test]
 fn what_only_the_engine_has_is_refused_in_a_scene_of_the_course() {
-    for table in ["[newton]\n", "[solver]\nkind = \"cholesky\"\n"] {
+    let on = "on = { axis = \"y\", side = \"max\", within = 0 }\n";
+    let tables = [
+        "[newton]\n".to_owned(),
+        "[solver]\nkind = \"cholesky\"\n".to_owned(),
+        "[damping]\nalpha = 1\n".to_owned(),
+        "[static]\nload_steps = 2\n".to_owned(),
+        "[body_force]\ndensity = [0, 0, 1]\n".to_owned(),
+        "[[springs]]\nnodes = [0, 26]\nstiffness = 1\n".to_owned(),
+        format!("[[traction]]\n{on}pressure = 1\n"),
+        format!("[[prescribed]]\n{on}displacement = [1, 0, 0]\n"),
+    ];
+    for table in tables {
         assert_text_refused(&format!("{CUBE}{table}"), 24, &["belongs to the engine", "remove it"]);
     }
     assert_text_refused(&format!("{CUBE}[mass]\nlumped = true\n"), 25, &["mass.lumped belongs to the engine"]);
-    assert_refused("\"course\"", "\"engine\"", 2, &["pipeline is \"engine\"", "write \"course\""]);
+    assert_refused("dt = 0.01", "precision = \"f32\"\ndt = 0.01", 15, &["time.precision belongs to the engine"]);
+    assert_refused("[material]", "refine = 1\n[material]", 5, &["mesh.refine belongs to the engine"]);
     assert_refused(
         "\"implicit_euler\"",
         "\"verlet\"",

@@ -3,12 +3,12 @@
 use fem_engine::simulation::{Click, Pull, Simulation};
 use nalgebra::{Matrix4, Perspective3, Point3, Vector3, Vector4};
 
-use crate::program::shipped_scenes;
+use crate::program::course_scenes;
 use crate::scene_text::{CUBE, INTEGRATORS, build, build_with, edit, free_cube, parse, shipped, without};
 
 #[test]
 fn a_reset_returns_to_the_start_and_the_same_motion_follows() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let mut simulation = build(&shipped(&name));
         let rest = simulation.positions();
         let run = |simulation: &mut dyn Simulation| {

@@ -4,7 +4,7 @@ use fem_engine::scene::{Integrator, Scene, body};
 use fem_engine::simulation::Simulation;
 use nalgebra::Vector3;
 
-use crate::program::{data, shipped_scenes};
+use crate::program::{course_scenes, data};
 use crate::scene_text::{INTEGRATORS, build, shipped};
 
 const STEPS: usize = 60;
@@ -29,7 +29,7 @@ fn a_body_without_gravity_and_drag_stays_at_rest() {
 
 #[test]
 fn under_gravity_alone_implicit_euler_never_gains_energy() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let mut scene = with(shipped(&name), Integrator::ImplicitEuler);
         scene.drag = None;
         let mut simulation = build(&scene);
@@ -47,7 +47,7 @@ fn under_gravity_alone_implicit_euler_never_gains_energy() {
 
 #[test]
 fn implicit_euler_never_has_more_energy_than_the_drag_has_put_in() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         assert_gains_no_more_than_work(&with(shipped(&name), Integrator::ImplicitEuler));
     }
 }
@@ -90,5 +90,5 @@ fn a_steady_body_under_gravity_has_come_to_rest_below_where_it_began() {
 
 fn every_scene_and_integrator() -> Vec<(String, Integrator)> {
     let pair = |name: String| INTEGRATORS.map(|integrator| (name.clone(), integrator));
-    shipped_scenes().into_iter().flat_map(pair).collect()
+    course_scenes().into_iter().flat_map(pair).collect()
 }

@@ -5,12 +5,12 @@ use std::fs;
 use fem_engine::mesh::{read_surface, read_tetrahedra};
 use fem_engine::simulation::Simulation;
 
-use crate::program::{Desk, shipped_scenes};
+use crate::program::{Desk, course_scenes};
 use crate::scene_text::{CUBE, build, parse, shipped};
 
 #[test]
 fn an_obj_of_a_shipped_scene_holds_its_display_surface_where_it_is_at_the_end() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let desk = Desk::new();
         desk.run_well(&format!("{name} --headless --steps 3 --export x.obj"));
         let found = read_surface(&desk.path("x.obj")).unwrap();
@@ -34,7 +34,7 @@ fn a_scene_without_a_display_surface_exports_the_boundary_of_its_mesh() {
 
 #[test]
 fn a_vtu_of_a_shipped_scene_holds_its_simulation_mesh_and_the_fields() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let desk = Desk::new();
         desk.run_well(&format!("{name} --headless --steps 3 --export x.vtu"));
         assert_eq!(read_tetrahedra(&desk.path("x.vtu")).unwrap(), build(&shipped(&name)).shape().mesh, "{name}");
@@ -47,7 +47,7 @@ fn a_vtu_of_a_shipped_scene_holds_its_simulation_mesh_and_the_fields() {
 
 #[test]
 fn a_glb_of_a_shipped_scene_is_a_complete_file_of_gltf_2() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let desk = Desk::new();
         desk.run_well(&format!("{name} --headless --steps 8 --export x.glb"));
         let bytes = fs::read(desk.path("x.glb")).unwrap();
@@ -66,4 +66,41 @@ fn an_export_leaves_no_unfinished_file_behind() {
     let mut names: Vec<_> = fs::read_dir(desk.path("")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
     assert_eq!(names, ["cube.toml", "e.csv", "q.json", "s.json", "x.vtu"]);
+}
+
+#[test]
+fn a_series_holds_the_state_at_rest_and_after_every_nth_step_with_a_list_of_their_times() {
+    let desk = Desk::with("cube.toml", CUBE);
+    desk.run_well("cube.toml --headless --steps 5 --vtu-series out/cube --every 2 --export last.vtu");
+    let mut names: Vec<_> =
+        fs::read_dir(desk.path("out/cube")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["cube.pvd", "cube_000000.vtu", "cube_000002.vtu", "cube_000004.vtu"]);
+    let list = desk.read("out/cube/cube.pvd");
+    let times = ["0.0", "0.02", "0.04"].map(|time| format!("timestep=\"{time}\""));
+    for (time, file) in times.iter().zip(["cube_000000.vtu", "cube_000002.vtu", "cube_000004.vtu"]) {
+        let line = list.lines().find(|line| line.contains(file)).unwrap();
+        assert!(line.contains(time), "{line}");
+    }
+    for field in ["displacement (m)", "velocity (m/s)", "Cauchy stress (Pa)", "von Mises stress (Pa)"] {
+        assert!(desk.read("out/cube/cube_000004.vtu").contains(&format!("\"{field}\"")), "{field}");
+    }
+    desk.run_well("cube.toml --headless --steps 4 --export last.vtu");
+    assert_eq!(desk.read("out/cube/cube_000004.vtu"), desk.read("last.vtu"), "a file of the series is an export");
+}
+
+#[test]
+fn a_series_of_every_step_is_the_default_and_needs_no_word_about_the_window() {
+    let desk = Desk::with("cube.toml", CUBE);
+    desk.run_well("cube.toml --steps 2 --vtu-series out");
+    assert_eq!(fs::read_dir(desk.path("out")).unwrap().count(), 4);
+}
+
+#[test]
+fn a_series_that_cannot_be_written_is_refused_before_the_first_step() {
+    let desk = Desk::with("cube.toml", CUBE);
+    let message = desk.refused("cube.toml --headless --vtu-series cube.toml");
+    assert!(message.contains("--vtu-series cube.toml: is a file; give the name of a folder"), "{message}");
+    assert!(desk.refused("cube.toml --headless --every 2").contains("--vtu-series"));
+    assert!(desk.refused("cube.toml --headless --vtu-series out --every 0").contains("--every"));
 }

@@ -2,7 +2,7 @@
 
 use fem_engine::simulation::Simulation;
 
-use crate::program::shipped_scenes;
+use crate::program::course_scenes;
 use crate::scene_text::{INTEGRATORS, build, build_with, edit, free_cube, shipped};
 
 /// After n steps of an implicit method a body that falls from rest is at x0 + g dt² n(n+1)/2.
@@ -38,7 +38,7 @@ fn a_cube_that_nothing_holds_falls_as_galilei_says() {
 
 #[test]
 fn every_shipped_body_falls_freely_when_nothing_holds_it() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         for integrator in INTEGRATORS {
             let mut scene = shipped(&name);
             (scene.fixed, scene.drag, scene.time.integrator) = (None, None, integrator);

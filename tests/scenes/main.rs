@@ -5,6 +5,7 @@
 
 #![allow(non_snake_case)] // V, T, F, J, C and D are the names that the mathematics and the course use
 
+mod agreement;
 mod bad_arguments;
 mod bad_meshes;
 mod bad_scenes;

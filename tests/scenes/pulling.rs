@@ -4,7 +4,7 @@ use fem_engine::scene::body;
 use fem_engine::simulation::{Pull, Simulation};
 use nalgebra::{DVector, Vector3};
 
-use crate::program::{data, shipped_scenes};
+use crate::program::{course_scenes, data};
 use crate::scene_text::{CUBE, INTEGRATORS, build, build_with, edit, free_cube, shipped};
 
 fn node(q: &DVector<f64>, node: usize) -> Vector3<f64> {
@@ -13,7 +13,7 @@ fn node(q: &DVector<f64>, node: usize) -> Vector3<f64> {
 
 #[test]
 fn fixed_nodes_never_move_by_a_single_bit() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let scene = shipped(&name);
         let fixed = body(&scene, &data()).unwrap().fixed.unwrap();
         assert!(!fixed.is_empty(), "{name} fixes no node");
@@ -55,7 +55,7 @@ fn a_very_stiff_drag_puts_its_node_where_the_target_is_at_the_end_of_the_step() 
 
 #[test]
 fn the_dragged_node_stays_as_near_to_its_target_as_the_energy_of_the_spring_allows() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let scene = shipped(&name);
         let (drag, dragged) = (scene.drag.clone().unwrap(), body(&scene, &data()).unwrap().dragged.unwrap());
         let mut simulation = build(&scene);

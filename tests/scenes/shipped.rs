@@ -2,14 +2,14 @@
 
 use fem_engine::simulation::Simulation;
 
-use crate::program::{Desk, data, numbers, shipped_scenes};
+use crate::program::{Desk, course_scenes, data, numbers};
 use crate::scene_text::{build, shipped};
 
 const STEPS: usize = 12;
 
 #[test]
 fn every_shipped_scene_runs_by_name_and_by_path() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let desk = Desk::new();
         let outcome = desk.run_well(&format!("{name} --headless --steps 2 --state by_name.json"));
         assert!(outcome.stdout.starts_with(&format!("{name}, ")), "{}", outcome.stdout);
@@ -21,7 +21,7 @@ fn every_shipped_scene_runs_by_name_and_by_path() {
 
 #[test]
 fn every_shipped_scene_says_what_it_is_about_and_runs_as_long_as_it_says() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let scene = shipped(&name);
         assert!(!scene.about.is_empty() && !scene.about.contains('\n'), "{name} has no line `about`");
         assert!(scene.time.steps.is_some(), "{name} has no time.steps");
@@ -30,7 +30,7 @@ fn every_shipped_scene_says_what_it_is_about_and_runs_as_long_as_it_says() {
 
 #[test]
 fn no_element_of_a_shipped_scene_is_inverted_in_any_step() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let mut simulation = build(&shipped(&name));
         for step in 1..=4 * STEPS {
             simulation.step().unwrap_or_else(|failure| panic!("{name}: {failure}"));
@@ -42,7 +42,7 @@ fn no_element_of_a_shipped_scene_is_inverted_in_any_step() {
 
 #[test]
 fn the_program_writes_the_state_that_the_library_computes_with_17_digits() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let desk = Desk::new();
         desk.run_well(&format!("{name} --headless --steps {STEPS} --state q.json"));
         let mut simulation = build(&shipped(&name));
@@ -73,7 +73,7 @@ fn assert_17_digits(text: &str) {
 
 #[test]
 fn the_program_writes_the_energies_of_every_step() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let desk = Desk::new();
         desk.run_well(&format!("{name} --headless --steps {STEPS} --energies e.csv"));
         let text = desk.read("e.csv");
@@ -97,7 +97,7 @@ fn the_program_writes_the_energies_of_every_step() {
 
 #[test]
 fn at_the_start_every_shipped_scene_has_no_energy() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let energies = build(&shipped(&name)).energies();
         assert_eq!(energies.kinetic, 0.0, "{name}");
         assert!(energies.potential.abs() <= 1e-9, "{name}: {energies:?}");
@@ -106,7 +106,7 @@ fn at_the_start_every_shipped_scene_has_no_energy() {
 
 #[test]
 fn two_runs_of_a_shipped_scene_give_the_same_files_bit_for_bit() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let desk = Desk::new();
         for run in ["first", "second"] {
             desk.run_well(&format!("{name} --headless --steps {STEPS} --state {run}.json --energies {run}.csv"));

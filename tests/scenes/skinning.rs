@@ -4,12 +4,12 @@ use fem_engine::scene::body;
 use fem_engine::simulation::Simulation;
 use finite_elements_3d::build_skinning_matrix;
 
-use crate::program::{Desk, data, shipped_scenes};
+use crate::program::{Desk, course_scenes, data};
 use crate::scene_text::{CUBE, build, edit, shipped};
 
 #[test]
 fn at_rest_every_display_vertex_of_a_shipped_scene_is_where_its_file_says() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let simulation = build(&shipped(&name));
         let shape = simulation.shape();
         let expected = &shape.display.as_ref().unwrap().vertices;
@@ -21,7 +21,7 @@ fn at_rest_every_display_vertex_of_a_shipped_scene_is_where_its_file_says() {
 
 #[test]
 fn the_weights_of_every_shipped_scene_are_not_negative_and_add_up_to_one() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let shape = body(&shipped(&name), &data()).unwrap().shape;
         let display = &shape.display.as_ref().unwrap().vertices;
         let N = build_skinning_matrix(&shape.mesh.vertices, &shape.mesh.elements, display);

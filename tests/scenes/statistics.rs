@@ -3,7 +3,7 @@
 use fem_engine::simulation::Simulation;
 use serde_json::Value;
 
-use crate::program::{Desk, shipped_scenes};
+use crate::program::{Desk, course_scenes};
 use crate::scene_text::{CUBE, build, edit, shipped, without};
 
 const KEYS: [&str; 19] = [
@@ -47,7 +47,7 @@ fn parts(stats: &Value) -> Vec<String> {
 
 #[test]
 fn the_statistics_of_every_shipped_scene_have_the_promised_keys_and_sound_values() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let desk = Desk::new();
         let stats = stats_of(&desk, &format!("{name} --steps {STEPS}"));
         let (mut found, mut promised): (Vec<_>, _) = (stats.as_object().unwrap().keys().collect(), KEYS);
@@ -71,7 +71,7 @@ fn the_statistics_of_every_shipped_scene_have_the_promised_keys_and_sound_values
 
 #[test]
 fn linearly_implicit_euler_assembles_and_solves_once_a_step_and_evaluates_no_energy() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let stats = stats_of(&Desk::new(), &format!("{name} --steps {STEPS} --integrator linearly_implicit_euler"));
         for key in ["energy_evaluations", "line_search_backtracks", "newton_iterations"] {
             assert_eq!(count(&stats, key), 0, "{name}: {key}");
@@ -85,7 +85,7 @@ fn linearly_implicit_euler_assembles_and_solves_once_a_step_and_evaluates_no_ene
 
 #[test]
 fn implicit_euler_counts_its_iterations_energies_and_assemblies() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let stats = stats_of(&Desk::new(), &format!("{name} --steps {STEPS} --integrator implicit_euler"));
         let iterations = count(&stats, "newton_iterations");
         assert!((STEPS..=5 * STEPS).contains(&iterations), "{name}: {iterations} iterations");
@@ -128,7 +128,7 @@ fn a_part_that_a_scene_leaves_out_has_no_key() {
 
 #[test]
 fn nothing_is_skinned_unless_somebody_looks() {
-    for name in shipped_scenes() {
+    for name in course_scenes() {
         let rows = build(&shipped(&name)).shape().display.as_ref().unwrap().vertices.len();
         let desk = Desk::new();
         let skinned = |export: &str| count(&stats_of(&desk, &format!("{name} --steps 2 {export}")), "skinning_rows");

@@ -1,4 +1,8 @@
-//! What a run leaves behind: state, energies, statistics, the final mesh.
+//! What a run leaves behind: state, energies, statistics, the final mesh, a series of meshes.
+
+mod series;
+
+pub use series::Series;
 
 use std::fmt::Write as _;
 use std::path::Path;

@@ -8,11 +8,20 @@ mod check;
 mod error;
 mod integrator;
 mod load;
+mod loads;
+mod methods;
+mod motion;
+mod nodes;
 
 pub use body::{Body, body};
 pub use error::SceneError;
 pub use integrator::Integrator;
 pub use load::{load, names, parse};
+pub use loads::{BodyForce, Drag, DragVertex, Gravity, SidePlane, Spring, Traction};
+pub use methods::{Damping, Newton, Precision, Preconditioner, Projection, Solver, SolverKind, Static, Time};
+pub use motion::{Fixed, Plane, Prescribed, Rotation};
+
+pub use crate::mesh::Side;
 
 use std::path::PathBuf;
 
@@ -42,10 +51,26 @@ pub struct Scene {
     pub mass: Mass,
     /// Gravity.
     pub gravity: Option<Gravity>,
+    /// A force on every piece of the body.
+    pub body_force: Option<BodyForce>,
+    /// Forces on parts of the surface.
+    #[serde(default)]
+    pub traction: Vec<Traction>,
+    /// Springs between nodes.
+    #[serde(default)]
+    pub springs: Vec<Spring>,
     /// Nodes that never move.
     pub fixed: Option<Fixed>,
+    /// Nodes that move as the scene says.
+    #[serde(default)]
+    pub prescribed: Vec<Prescribed>,
     /// Time steps.
     pub time: Time,
+    /// Rayleigh damping.
+    pub damping: Option<Damping>,
+    /// Equilibrium.
+    #[serde(rename = "static")]
+    pub statics: Option<Static>,
     /// Newton's method of the engine.
     pub newton: Option<Newton>,
     /// Linear solver of the engine.
@@ -78,6 +103,9 @@ pub struct MeshTable {
     /// Factor for all coordinates of both.
     #[serde(default = "one")]
     pub scale: f64,
+    /// How often every tetrahedron is cut into eight.
+    #[serde(default)]
+    pub refine: u32,
 }
 
 fn one() -> f64 {
@@ -148,35 +176,6 @@ pub struct Mass {
     pub lumped: bool,
 }
 
-/// `[gravity]`
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct Gravity {
-    /// m/s²
-    #[serde(deserialize_with = "load::three_numbers")]
-    pub acceleration: [f64; 3],
-}
-
-/// `[fixed]`: nodes by a plane or by index.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct Fixed {
-    /// All nodes on one side of a plane.
-    pub plane: Option<Plane>,
-    /// These nodes.
-    pub nodes: Option<Vec<usize>>,
-}
-
-/// All nodes whose coordinate is at most the mesh's smallest plus `below`.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct Plane {
-    /// Which coordinate.
-    pub axis: Axis,
-    /// Distance from the smallest coordinate of the mesh, m.
-    pub below: f64,
-}
-
 /// A coordinate axis; its number is the index of the coordinate.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
@@ -185,79 +184,4 @@ pub enum Axis {
     X,
     Y,
     Z,
-}
-
-/// `[time]`
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct Time {
-    /// Time step, s.
-    pub dt: f64,
-    /// Method that advances a step.
-    pub integrator: Integrator,
-    /// Steps of a run without a window.
-    pub steps: Option<usize>,
-}
-
-/// `[newton]`
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct Newton {
-    /// Largest number of iterations in a step.
-    pub max_iterations: Option<usize>,
-    /// Relative tolerance on the velocity update.
-    pub tolerance: Option<f64>,
-}
-
-/// `[solver]`
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct Solver {
-    /// Which solver.
-    pub kind: SolverKind,
-    /// Relative residual of the iterative ones.
-    pub tolerance: Option<f64>,
-}
-
-/// Linear solvers.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-#[allow(missing_docs)] // the names are the field's
-pub enum SolverKind {
-    Cholesky,
-    Lu,
-    Cg,
-    Pcg,
-}
-
-/// `[drag]`: a spring of no rest length from a vertex to a target that swings about where the vertex was at rest.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct Drag {
-    /// The vertex that is pulled.
-    pub vertex: DragVertex,
-    /// N/m
-    pub stiffness: f64,
-    /// Taken as it is, not normalised.
-    #[serde(deserialize_with = "load::three_numbers")]
-    pub direction: [f64; 3],
-    /// m
-    pub amplitude: f64,
-    /// Hz
-    pub frequency: f64,
-}
-
-/// The vertex of a drag.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DragVertex {
-    /// The first vertex of largest y.
-    Highest,
-    /// This one.
-    Index(usize),
-}
-
-impl<'de> Deserialize<'de> for DragVertex {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(load::DragVertexVisitor)
-    }
 }

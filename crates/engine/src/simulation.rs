@@ -63,6 +63,11 @@ pub trait Simulation: Send {
     /// Springs that a person holds: replaces the scene's scripted drag until `None` is given.
     fn pull(&mut self, pull: Option<Pull>);
 
+    /// The forces with which `[fixed]` and each `[[prescribed]]` hold the body now; none where a pipeline does not know them.
+    fn reactions(&self) -> Vec<Reaction> {
+        Vec::new()
+    }
+
     /// Counts of the work done since the start (a reset does not clear them).
     fn counters(&self) -> Counters;
 
@@ -95,6 +100,15 @@ impl Energies {
     pub fn total(&self) -> f64 {
         self.kinetic + self.potential
     }
+}
+
+/// What holds a part of the body, and how hard.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reaction {
+    /// The scene's table: `fixed`, or such as `prescribed[0]`.
+    pub name: String,
+    /// Sum over the nodes of the force on the body, in the directions that are held, N.
+    pub force: [f64; 3],
 }
 
 /// A number that a person may change while the simulation runs.
@@ -142,6 +156,7 @@ pub struct Pull {
 pub struct Counters {
     pub steps: usize,
     pub newton_iterations: usize,
+    pub unconverged_steps: usize,
     pub factorizations: usize,
     pub symbolic_factorizations: usize,
     pub force_assemblies: usize,
@@ -195,11 +210,42 @@ pub enum Cause {
         /// Its J = det F ≤ 0.
         J: f64,
     },
+    /// A linear system was not solved.
+    Solver(Breakdown),
     /// Newton's method found no velocity of lower energy, though forces are not in balance.
     Stuck {
         /// The largest component of what is left of the forces, N.
         unbalanced: f64,
     },
+}
+
+/// Why a linear system was not solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Breakdown {
+    /// The matrix is not positive definite: a pivot, or the curvature along a search direction, is not positive.
+    NotPositiveDefinite,
+    /// The matrix is singular, or holds a number that is not finite.
+    Singular,
+    /// The iteration ended before it reached its tolerance.
+    NotConverged {
+        /// Relative residual that was reached.
+        residual: f64,
+    },
+    /// The factor would not fit into memory.
+    TooLarge,
+}
+
+impl fmt::Display for Breakdown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotPositiveDefinite => write!(f, "the stiffness is not positive definite"),
+            Self::Singular => write!(f, "the stiffness is singular, or not finite"),
+            Self::NotConverged { residual } => {
+                write!(f, "the linear solver does not converge (relative residual {residual:.1e})")
+            }
+            Self::TooLarge => write!(f, "the factor of the stiffness does not fit into memory"),
+        }
+    }
 }
 
 impl fmt::Display for Failure {
@@ -208,6 +254,7 @@ impl fmt::Display for Failure {
         match self.cause {
             Cause::NotFinite { node } => write!(f, "node {node} is no longer at a finite place")?,
             Cause::Inverted { element, J } => write!(f, "element {element} is inverted (J = {J:.3e})")?,
+            Cause::Solver(breakdown) => write!(f, "{breakdown}")?,
             Cause::Stuck { unbalanced } => write!(
                 f,
                 "Newton's method finds no way to lower the energy, and {unbalanced:.3e} N are not in balance"

@@ -28,6 +28,13 @@ const WHOLE: [&str; 13] = [
 /// Checks that hold for our own solution, but that no page asks for.
 const OURS: &str = "tests/functions/solution.rs";
 
+/// From this line on, a file of the engine's package is about the fast engine.
+const FAST: &str = "The fast engine: not handed out";
+
+/// Of the fast engine, what no module declares.
+const FAST_FILES: [&str; 2] = ["crates/engine/tests", "crates/engine/benches"];
+
+const ENGINE: &str = include_str!("../../handout/engine.rs");
 const README: &str = include_str!("../../handout/README.md");
 const PROGRAM: &str = include_str!("../../handout/main.rs");
 
@@ -42,6 +49,7 @@ pub fn collect(root: &Path) -> Result<Files, HandoutError> {
     for name in NAMES {
         edit(&mut files, &format!("src/{name}.rs"), |text| stub::stub(name, text))?;
     }
+    leave_out_the_engine(&mut files)?;
     add_module(root, Path::new("grader/src/lib.rs"), &mut files)?;
     files.insert("grader/src/main.rs".into(), PROGRAM.into());
     add(root, Path::new("grader/Cargo.toml"), &mut files)?;
@@ -51,6 +59,32 @@ pub fn collect(root: &Path) -> Result<Files, HandoutError> {
     edit(&mut files, "Cargo.toml", |text| manifest::root_manifest(text, is_there))?;
     files.insert("README.md".into(), readme(root)?.into_bytes());
     Ok(files)
+}
+
+/// The engine computes what students are to write, and its scenes run on nothing else.
+fn leave_out_the_engine(files: &mut Files) -> Result<(), HandoutError> {
+    let mut fast: Vec<PathBuf> = FAST_FILES.iter().map(PathBuf::from).collect();
+    edit(files, "crates/engine/src/lib.rs", |text| {
+        let (kept, left_out) = parted(text)?;
+        for name in left_out.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')) {
+            fast.push(format!("crates/engine/src/{name}").into());
+            fast.push(format!("crates/engine/src/{name}.rs").into());
+        }
+        Ok(kept)
+    })?;
+    edit(files, "crates/engine/Cargo.toml", |text| Ok(parted(text)?.0))?;
+    let needs_it = |path: &Path, text: &[u8]| {
+        path.starts_with("data/scenes") && String::from_utf8_lossy(text).contains("pipeline = \"engine\"")
+    };
+    files.retain(|path, text| !fast.iter().any(|fast| path.starts_with(fast)) && !needs_it(path, text));
+    files.insert("src/demo/engine.rs".into(), ENGINE.into());
+    Ok(())
+}
+
+/// What stands above the line that begins the fast engine's part, and what below.
+fn parted(text: &str) -> Result<(String, String), String> {
+    let at = text.find(FAST).and_then(|at| text[..at].rfind('\n')).ok_or_else(|| format!("holds no line `{FAST}`"))?;
+    Ok((format!("{}\n", text[..at].trim_end()), text[at..].to_owned()))
 }
 
 /// Adds a file or a folder, without hidden files and build products.
@@ -129,7 +163,8 @@ fn readme(root: &Path) -> Result<String, HandoutError> {
     let ours = fs::read_to_string(&path).map_err(HandoutError::io(&path))?;
     let table = |head: &str| -> String {
         let lines = ours.lines().skip_while(|line| !line.starts_with(head)).take_while(|line| line.starts_with('|'));
-        lines.flat_map(|line| [line, "\n"]).collect()
+        let handed_out = |line: &&str| !line.contains("engine");
+        lines.filter(handed_out).flat_map(|line| [line, "\n"]).collect()
     };
     Ok(README.replace("{functions}\n", &table("| | function |")).replace("{scenes}\n", &table("| scene |")))
 }

@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 
 use super::{MeshError, Problem, TetrahedralMesh};
 
-/// The most elements that a box may have: about 5 GB in memory before anything is computed on it.
-const MOST_ELEMENTS: usize = 50_000_000;
+/// The most elements that a box or a refined mesh may have: about 5 GB in memory before anything is computed on it.
+pub(super) const MOST_ELEMENTS: usize = 50_000_000;
 
 /// How far a size times the cells per unit may be from a whole number, relative: sizes such as 0.1 are not exact.
 const WHOLE: f64 = 1e-9;

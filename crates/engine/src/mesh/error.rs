@@ -97,6 +97,8 @@ pub enum Problem {
         "the box would have {elements:e} elements ({cells} cells), and {most} is the most; lower cells_per_unit or its size"
     )]
     BoxTooFine { cells: String, elements: f64, most: usize },
+    #[error("refined {times} times the mesh would have {elements:e} elements, and {most} is the most; refine it less")]
+    RefinedTooFine { times: u32, elements: f64, most: usize },
     #[error(
         "the field `{name}` has {found} numbers, and {expected} are needed ({components} for each {per}); pass one entry for each {per}"
     )]

@@ -6,8 +6,10 @@ mod boundary;
 mod box_mesh;
 mod check;
 mod error;
+mod faces;
 mod quality;
 mod read;
+mod refine;
 mod volume;
 pub mod write;
 
@@ -15,8 +17,12 @@ pub use boundary::boundary;
 pub use box_mesh::box_mesh;
 pub use check::check;
 pub use error::{MeshError, Problem};
+pub use faces::{
+    Side, area_vector, faces_on_side, nodes_on_side, pressure_forces, pressure_stiffness, traction_forces,
+};
 pub use quality::{Extreme, Quality, quality};
 pub use read::{read_surface, read_tetrahedra};
+pub use refine::refine;
 pub use volume::{signed_volume, volumes};
 pub use write::{write_surface, write_tetrahedra};
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::load::line_of;
-use super::{Drag, DragVertex, Fixed, Scene, SceneError};
+use super::{Scene, SceneError, nodes};
 use crate::mesh::{self, MeshError, SurfaceMesh, TetrahedralMesh};
 use crate::simulation::Shape;
 
@@ -14,21 +14,44 @@ pub struct Body {
     pub shape: Shape,
     /// Nodes that never move, ascending, each once; `None` where the scene fixes none.
     pub fixed: Option<Vec<usize>>,
+    /// Nodes of each `[[prescribed]]`, ascending. No coordinate is prescribed twice, none of a fixed node at all.
+    pub prescribed: Vec<Vec<usize>>,
+    /// Boundary triangles of each `[[traction]]`, outward.
+    pub loaded_faces: Vec<Vec<[usize; 3]>>,
+    /// Rest length of each of `[[springs]]`, m.
+    pub rest_lengths: Vec<f64>,
     /// The node that the scripted drag pulls.
     pub dragged: Option<usize>,
 }
 
 /// Reads and checks the meshes of a scene. Files are looked for beside the scene and then in `data`.
 pub fn body(scene: &Scene, data: &Path) -> Result<Body, SceneError> {
+    let mesh = checked_mesh(scene, data)?;
+    let display = scene.mesh.display.as_ref().map(|file| surface(scene, data, file)).transpose()?;
+    let boundary = mesh::boundary(&mesh);
+    let fixed = scene.fixed.as_ref().map(|fixed| nodes::fixed(scene, fixed, &mesh)).transpose()?;
+    Ok(Body {
+        prescribed: nodes::prescribed(scene, fixed.as_deref(), &mesh)?,
+        loaded_faces: nodes::loaded_faces(scene, &mesh, &boundary)?,
+        rest_lengths: nodes::rest_lengths(scene, &mesh)?,
+        dragged: scene.drag.as_ref().map(|drag| nodes::dragged(scene, drag, &mesh)).transpose()?,
+        fixed,
+        shape: Shape { mesh, boundary, display },
+    })
+}
+
+/// Scaled, checked and refined.
+fn checked_mesh(scene: &Scene, data: &Path) -> Result<TetrahedralMesh, SceneError> {
     let mesh = scale(tetrahedra(scene, data)?, scene.mesh.scale);
     let source = scene.mesh.file.clone().unwrap_or_else(|| PathBuf::from("box"));
     mesh::check(&mesh, &source).map_err(|error| mesh_error(scene, "mesh", error))?;
-
-    let display = scene.mesh.display.as_ref().map(|file| surface(scene, data, file)).transpose()?;
-    let fixed = scene.fixed.as_ref().map(|fixed| fixed_nodes(scene, fixed, &mesh)).transpose()?;
-    let dragged = scene.drag.as_ref().map(|drag| dragged_node(scene, drag, &mesh)).transpose()?;
-    let boundary = mesh::boundary(&mesh);
-    Ok(Body { shape: Shape { mesh, boundary, display }, fixed, dragged })
+    if scene.mesh.refine == 0 {
+        return Ok(mesh);
+    }
+    let refined = mesh::refine(mesh, scene.mesh.refine, &source);
+    // Small elements far from the origin can lose their volume to rounding.
+    let checked = refined.and_then(|mesh| mesh::check(&mesh, &source).map(|()| mesh));
+    checked.map_err(|error| mesh_error(scene, "mesh.refine", error))
 }
 
 fn tetrahedra(scene: &Scene, data: &Path) -> Result<TetrahedralMesh, SceneError> {
@@ -60,38 +83,6 @@ fn scale<const N: usize>(mut mesh: mesh::Mesh<3, N>, factor: f64) -> mesh::Mesh<
 fn find(scene: &Scene, data: &Path, file: &Path) -> PathBuf {
     let beside = scene.path.parent().unwrap_or(Path::new("")).join(file);
     if beside.exists() { beside } else { data.join(file) }
-}
-
-fn fixed_nodes(scene: &Scene, fixed: &Fixed, mesh: &TetrahedralMesh) -> Result<Vec<usize>, SceneError> {
-    if let Some(plane) = &fixed.plane {
-        let coordinate = |node: usize| mesh.vertices[node][plane.axis as usize];
-        let all = 0..mesh.vertices.len();
-        let smallest = all.clone().map(coordinate).fold(f64::INFINITY, f64::min);
-        return Ok(all.filter(|&node| coordinate(node) <= smallest + plane.below).collect());
-    }
-    let mut nodes = fixed.nodes.clone().unwrap_or_default();
-    nodes.sort_unstable();
-    nodes.dedup();
-    match nodes.last() {
-        Some(&node) if node >= mesh.vertices.len() => Err(no_such_node(scene, "fixed.nodes", node, mesh)),
-        _ => Ok(nodes),
-    }
-}
-
-fn dragged_node(scene: &Scene, drag: &Drag, mesh: &TetrahedralMesh) -> Result<usize, SceneError> {
-    match drag.vertex {
-        DragVertex::Index(node) if node >= mesh.vertices.len() => Err(no_such_node(scene, "drag.vertex", node, mesh)),
-        DragVertex::Index(node) => Ok(node),
-        DragVertex::Highest => {
-            let heights = mesh.vertices.iter().map(|vertex| vertex.y).enumerate();
-            let higher = |best: (usize, f64), next: (usize, f64)| if next.1 > best.1 { next } else { best };
-            Ok(heights.fold((0, f64::NEG_INFINITY), higher).0)
-        }
-    }
-}
-
-fn no_such_node(scene: &Scene, field: &str, node: usize, mesh: &TetrahedralMesh) -> SceneError {
-    scene.refuse(field, &format!("names node {node}; the mesh has nodes 0 to {}", mesh.vertices.len() - 1))
 }
 
 fn mesh_error(scene: &Scene, field: &'static str, error: MeshError) -> SceneError {

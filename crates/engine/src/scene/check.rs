@@ -1,27 +1,34 @@
 //! What a scene's numbers must keep, beyond what its types do.
 
-use super::{Drag, Fixed, Gravity, Material, MeshTable, Model, Newton, Scene, Solver, Time};
+mod loads;
+mod motion;
+
+use super::{Damping, Material, MeshTable, Model, Newton, Scene, Solver, SolverKind, Static, Time};
 
 /// The field that is wrong, and what is wrong with it together with the remedy.
-type Problem = (&'static str, String);
+type Problem = (String, String);
+
+/// The most cuts of each tetrahedron into eight: 8⁴ = 4096 of each.
+const MOST_REFINEMENTS: u32 = 4;
 
 /// Returns the first problem.
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     check_mesh(&scene.mesh)?;
     check_material(&scene.material)?;
     check_time(&scene.time)?;
-    scene.gravity.as_ref().map_or(Ok(()), check_gravity)?;
-    scene.fixed.as_ref().map_or(Ok(()), check_fixed)?;
+    loads::check(scene)?;
+    motion::check(scene)?;
+    scene.damping.as_ref().map_or(Ok(()), check_damping)?;
+    scene.statics.as_ref().map_or(Ok(()), check_static)?;
     scene.newton.as_ref().map_or(Ok(()), check_newton)?;
-    scene.solver.as_ref().map_or(Ok(()), check_solver)?;
-    scene.drag.as_ref().map_or(Ok(()), check_drag)
+    scene.solver.as_ref().map_or(Ok(()), check_solver)
 }
 
-fn problem<T>(field: &'static str, text: impl Into<String>) -> Result<T, Problem> {
-    Err((field, text.into()))
+fn problem<T>(field: &str, text: impl Into<String>) -> Result<T, Problem> {
+    Err((field.to_owned(), text.into()))
 }
 
-fn check_positive(field: &'static str, value: f64, unit: &str) -> Result<(), Problem> {
+fn check_positive(field: &str, value: f64, unit: &str) -> Result<(), Problem> {
     // NaN fails the comparison.
     if value > 0.0 && value.is_finite() {
         return Ok(());
@@ -29,7 +36,15 @@ fn check_positive(field: &'static str, value: f64, unit: &str) -> Result<(), Pro
     problem(field, format!("is {value}; give a positive number{unit}"))
 }
 
-fn check_finite(field: &'static str, values: &[f64]) -> Result<(), Problem> {
+fn check_not_negative(field: &str, value: f64, unit: &str) -> Result<(), Problem> {
+    // NaN fails the comparison.
+    if value >= 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    problem(field, format!("is {value}; give 0 {unit} or more"))
+}
+
+fn check_finite(field: &str, values: &[f64]) -> Result<(), Problem> {
     match values.iter().find(|value| !value.is_finite()) {
         Some(value) => problem(field, format!("is {value}; give finite numbers")),
         None => Ok(()),
@@ -37,7 +52,7 @@ fn check_finite(field: &'static str, values: &[f64]) -> Result<(), Problem> {
 }
 
 /// Finite, and so is its length.
-fn check_vector(field: &'static str, vector: &[f64; 3]) -> Result<(), Problem> {
+fn check_vector(field: &str, vector: &[f64; 3]) -> Result<(), Problem> {
     check_finite(field, vector)?;
     if vector.iter().map(|x| x * x).sum::<f64>().is_finite() {
         return Ok(());
@@ -47,6 +62,10 @@ fn check_vector(field: &'static str, vector: &[f64; 3]) -> Result<(), Problem> {
 
 fn check_mesh(mesh: &MeshTable) -> Result<(), Problem> {
     check_positive("mesh.scale", mesh.scale, "")?;
+    if mesh.refine > MOST_REFINEMENTS {
+        let text = format!("is {}; cut every tetrahedron at most {MOST_REFINEMENTS} times", mesh.refine);
+        return problem("mesh.refine", text);
+    }
     match (&mesh.file, &mesh.cuboid) {
         (Some(_), Some(_)) => problem("mesh.box", "stands beside `file`; keep one of the two"),
         (None, None) => problem("mesh", "names no tetrahedra; give it `file` or `box`"),
@@ -80,18 +99,15 @@ fn check_time(time: &Time) -> Result<(), Problem> {
     if time.steps == Some(0) { problem("time.steps", "is 0; give at least one step") } else { Ok(()) }
 }
 
-fn check_gravity(gravity: &Gravity) -> Result<(), Problem> {
-    check_vector("gravity.acceleration", &gravity.acceleration)
+fn check_damping(damping: &Damping) -> Result<(), Problem> {
+    check_not_negative("damping.alpha", damping.alpha, "1/s")?;
+    check_not_negative("damping.beta", damping.beta, "s")
 }
 
-fn check_fixed(fixed: &Fixed) -> Result<(), Problem> {
-    match (&fixed.plane, &fixed.nodes) {
-        (Some(plane), None) if plane.below >= 0.0 && plane.below.is_finite() => Ok(()),
-        (Some(plane), None) => {
-            problem("fixed.plane", format!("has below = {}; give a distance of 0 m or more", plane.below))
-        }
-        (None, Some(_)) => Ok(()),
-        _ => problem("fixed", "needs either plane or nodes; give one and only one"),
+fn check_static(statics: &Static) -> Result<(), Problem> {
+    match statics.load_steps {
+        0 => problem("static.load_steps", "is 0; give at least one load step"),
+        _ => Ok(()),
     }
 }
 
@@ -103,18 +119,9 @@ fn check_newton(newton: &Newton) -> Result<(), Problem> {
 }
 
 fn check_solver(solver: &Solver) -> Result<(), Problem> {
-    solver.tolerance.map_or(Ok(()), |tolerance| check_positive("solver.tolerance", tolerance, ""))
-}
-
-fn check_drag(drag: &Drag) -> Result<(), Problem> {
-    check_positive("drag.stiffness", drag.stiffness, " of N/m")?;
-    check_vector("drag.direction", &drag.direction)?;
-    if drag.direction == [0.0; 3] {
-        return problem("drag.direction", "is zero; give the direction of the pull");
+    solver.tolerance.map_or(Ok(()), |tolerance| check_positive("solver.tolerance", tolerance, ""))?;
+    if solver.preconditioner.is_some() && solver.kind != SolverKind::Pcg {
+        return problem("solver.preconditioner", "belongs to the kind \"pcg\"; write that kind or remove it");
     }
-    check_finite("drag.amplitude", &[drag.amplitude])?;
-    if drag.frequency >= 0.0 && drag.frequency.is_finite() {
-        return Ok(());
-    }
-    problem("drag.frequency", format!("is {}; give 0 Hz or more", drag.frequency))
+    Ok(())
 }

@@ -30,7 +30,7 @@ pub fn parse(text: &str, path: &Path) -> Result<Scene, SceneError> {
     scene.path = path.to_owned();
     check(&scene).map_err(|(field, problem)| SceneError::Line {
         file: path.to_owned(),
-        line: line_of(text, field),
+        line: line_of(text, &field),
         problem: format!("{field} {problem}"),
     })?;
     Ok(scene)
@@ -63,20 +63,40 @@ fn line_at(text: &str, position: usize) -> usize {
     1 + text.bytes().take(position).filter(|&byte| byte == b'\n').count()
 }
 
-/// The line of a field such as `time.dt`; where the file leaves it out, that of the table that it belongs to.
+/// The line of a field such as `time.dt` or `traction[0].on`; where the file leaves it out, that of the table that it
+/// belongs to.
 pub(super) fn line_of(text: &str, field: &str) -> usize {
     let Ok(root) = DeTable::parse(text) else { return 1 };
     let mut table: &DeTable<'_> = root.get_ref();
     let mut position = 0;
     for key in field.split('.') {
+        let (key, number) = numbered(key);
         let Some((name, value)) = table.iter().find(|(name, _)| name.get_ref() == key) else { break };
         position = Spanned::span(name).start;
+        let Some(value) = entry(value, number) else { break };
+        if number.is_some() {
+            position = value.span().start;
+        }
         match value.get_ref() {
             DeValue::Table(inner) => table = inner,
             _ => break,
         }
     }
     line_at(text, position)
+}
+
+/// `("traction", Some(0))` of `traction[0]`.
+fn numbered(key: &str) -> (&str, Option<usize>) {
+    let parts = key.strip_suffix(']').and_then(|key| key.split_once('['));
+    parts.map_or((key, None), |(name, number)| (name, number.parse().ok()))
+}
+
+fn entry<'a, 'b>(value: &'a Spanned<DeValue<'b>>, number: Option<usize>) -> Option<&'a Spanned<DeValue<'b>>> {
+    match (value.get_ref(), number) {
+        (DeValue::Array(entries), Some(number)) => entries.get(number),
+        (_, Some(_)) => None,
+        (_, None) => Some(value),
+    }
 }
 
 /// Reads `vertex = "highest"` or `vertex = 12`.
@@ -105,6 +125,27 @@ impl Visitor<'_> for DragVertexVisitor {
 
 /// Reads a vector. Serde's own arrays would let further numbers pass unnoticed.
 pub(super) fn three_numbers<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {
-    let numbers = Vec::<f64>::deserialize(deserializer)?;
-    <[f64; 3]>::try_from(numbers).map_err(|numbers| D::Error::invalid_length(numbers.len(), &"three numbers"))
+    exactly(Vec::deserialize(deserializer)?, "three numbers")
+}
+
+/// Reads a vector that a table may leave out.
+pub(super) fn three_numbers_if_any<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f64; 3]>, D::Error> {
+    three_numbers(deserializer).map(Some)
+}
+
+/// Reads the two ends of a spring.
+pub(super) fn two_nodes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[usize; 2], D::Error> {
+    exactly(Vec::deserialize(deserializer)?, "two nodes")
+}
+
+/// Reads triangles that a table may leave out.
+pub(super) fn triangles_if_any<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Vec<[usize; 3]>>, D::Error> {
+    let faces = Vec::<Vec<usize>>::deserialize(deserializer)?;
+    faces.into_iter().map(|nodes| exactly(nodes, "three nodes")).collect::<Result<_, _>>().map(Some)
+}
+
+fn exactly<T, const N: usize, E: Error>(list: Vec<T>, expected: &str) -> Result<[T; N], E> {
+    <[T; N]>::try_from(list).map_err(|list| E::invalid_length(list.len(), &expected))
 }

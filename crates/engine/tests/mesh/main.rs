@@ -3,8 +3,10 @@
 mod box_rule;
 mod checks;
 mod errors;
+mod faces;
 mod formats;
 mod garbage;
+mod refined;
 mod round_trip;
 mod shipped;
 mod written;

@@ -7,7 +7,7 @@ use fem_engine::scene::{SceneError, parse};
 use crate::{LEAST, body, edit, read};
 
 /// Refused at this line with a text that begins like this.
-fn assert_refused(text: &str, expected_line: usize, beginning: &str) {
+pub fn assert_refused(text: &str, expected_line: usize, beginning: &str) {
     match parse(text, Path::new("folder/name.toml")) {
         Err(SceneError::Line { file, line, problem }) => {
             assert_eq!((file.as_path(), line), (Path::new("folder/name.toml"), expected_line), "{problem}\n{text}");

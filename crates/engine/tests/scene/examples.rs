@@ -58,8 +58,8 @@ fn a_scene_with_every_table_says_what_its_file_says() {
     let fixed = scene.fixed.unwrap();
     assert_eq!((fixed.plane, fixed.nodes), (Some(Plane { axis: Axis::X, below: 1e-9 }), None));
     assert_eq!((scene.time.dt, scene.time.integrator, scene.time.steps), (0.01, Integrator::ImplicitEuler, Some(50)));
-    assert_eq!(scene.newton, Some(Newton { max_iterations: Some(50), tolerance: Some(1e-10) }));
-    assert_eq!(scene.solver, Some(Solver { kind: SolverKind::Cholesky, tolerance: Some(1e-12) }));
+    assert_eq!(scene.newton, Some(Newton { max_iterations: Some(50), tolerance: Some(1e-10), projection: None }));
+    assert_eq!(scene.solver, Some(Solver { kind: SolverKind::Cholesky, tolerance: Some(1e-12), preconditioner: None }));
     let drag = Drag {
         vertex: DragVertex::Highest,
         stiffness: 1e5,
@@ -129,6 +129,6 @@ fn a_drag_may_name_its_vertex_by_index_and_fixed_nodes_may_be_listed() {
 #[test]
 fn tables_of_newton_and_solver_may_leave_out_their_numbers() {
     let scene = read(&format!("{LEAST}[newton]\n[solver]\nkind = \"pcg\"\n"));
-    assert_eq!(scene.newton, Some(Newton { max_iterations: None, tolerance: None }));
-    assert_eq!(scene.solver, Some(Solver { kind: SolverKind::Pcg, tolerance: None }));
+    assert_eq!(scene.newton, Some(Newton { max_iterations: None, tolerance: None, projection: None }));
+    assert_eq!(scene.solver, Some(Solver { kind: SolverKind::Pcg, tolerance: None, preconditioner: None }));
 }

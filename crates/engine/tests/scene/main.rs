@@ -3,10 +3,13 @@
 #![allow(non_snake_case)] // C, D and E are the names that the mathematics and the course use
 
 mod bodies;
+mod cantilevers;
 mod errors;
 mod examples;
 mod lookup;
 mod moduli;
+mod motions;
+mod tables;
 
 use std::path::{Path, PathBuf};
 

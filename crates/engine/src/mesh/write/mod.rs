@@ -6,6 +6,7 @@ mod glb;
 mod gmsh;
 mod medit;
 mod obj;
+mod pvd;
 mod tetgen;
 mod vtu;
 
@@ -18,6 +19,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use nalgebra::Vector3;
 
 pub use self::glb::{Frame, write_glb};
+pub use self::pvd::write_pvd;
 pub use self::vtu::{Field, write_vtu};
 use super::read::{SURFACES, TETRAHEDRAL, extension, unknown_extension};
 use super::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
@@ -77,4 +79,9 @@ fn unfinished_name(path: &Path) -> PathBuf {
 /// `x y z`, exact.
 fn place(x: &Vector3<f64>) -> String {
     format!("{:?} {:?} {:?}", x[0], x[1], x[2])
+}
+
+/// A name as an XML attribute.
+fn escape(name: &str) -> String {
+    name.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

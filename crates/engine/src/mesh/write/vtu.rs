@@ -5,7 +5,7 @@ use std::path::Path;
 
 use base64::prelude::{BASE64_STANDARD, Engine};
 
-use super::save;
+use super::{escape, save};
 use crate::mesh::{MeshError, Problem, TetrahedralMesh};
 
 /// VTK's number for the tetrahedron with 4 nodes.
@@ -97,9 +97,4 @@ fn array(
         r#"<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="binary">{}</DataArray>"#,
         BASE64_STANDARD.encode(&bytes)
     )
-}
-
-/// A name as an XML attribute.
-fn escape(name: &str) -> String {
-    name.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

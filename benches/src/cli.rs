@@ -1,0 +1,146 @@
+//! The arguments, as types.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use fem_engine::scene::{Preconditioner, Scene, Solver, SolverKind};
+
+/// Times the engine: beside its peers, part by part, by size and by solver.
+#[derive(Debug, Parser)]
+#[command(version, after_help = "Exit codes: 0 done, 1 answers disagree or a run failed, 2 unusable arguments.")]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// The engine and its peers in turn, on the same scenes: a table of times per step, and whether answers agree
+    Peers(PeersArguments),
+    /// What each part of a step costs
+    Parts(RunArguments),
+    /// The beam from 1 000 to 60 000 nodes: time per step, its exponent, memory
+    Scaling(SizesArguments),
+    /// The beam with each linear solver
+    Solvers(SizesArguments),
+    /// Runs a scene once and prints its times as JSON
+    Run(RunArguments),
+}
+
+#[derive(Debug, Args)]
+pub struct PeersArguments {
+    /// The program `a3`, in C++ with Eigen
+    #[arg(long, value_name = "PROGRAM")]
+    pub eigen: Option<PathBuf>,
+    /// The program `fenris_peer`, in Rust with fenris
+    #[arg(long, value_name = "PROGRAM")]
+    pub fenris: Option<PathBuf>,
+    /// How often each is run
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = positive)]
+    pub rounds: usize,
+    /// Steps of each run instead of the scene's
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub steps: Option<usize>,
+    /// Cells per metre of the beam
+    #[arg(long, value_name = "N,N", value_delimiter = ',', default_values_t = [6, 10, 16], value_parser = positive)]
+    pub cells: Vec<usize>,
+    /// Folder of meshes and scenes
+    #[arg(long, value_name = "DIR", default_value = "data")]
+    pub data: PathBuf,
+    /// Write the same here
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct SizesArguments {
+    /// Cells per metre of the beam; left out, those that suit the command
+    #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = positive)]
+    pub cells: Vec<usize>,
+    /// Steps of each run
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = positive)]
+    pub steps: usize,
+    /// How often each is run
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = positive)]
+    pub rounds: usize,
+    /// Folder of meshes and scenes
+    #[arg(long, value_name = "DIR", default_value = "data")]
+    pub data: PathBuf,
+}
+
+/// A scene and what is different in this run.
+#[derive(Clone, Debug, Args)]
+pub struct RunArguments {
+    /// Name of a scene or path of a .toml file
+    pub scene: String,
+    /// Steps instead of the scene's
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub steps: Option<usize>,
+    /// Cells per metre of a box
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub cells: Option<usize>,
+    /// Linear solver instead of the scene's
+    #[arg(long, value_name = "NAME")]
+    pub solver: Option<SolverName>,
+    /// Folder of meshes and scenes
+    #[arg(long, value_name = "DIR", default_value = "data")]
+    pub data: PathBuf,
+}
+
+/// A linear solver with its preconditioner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub enum SolverName {
+    Cholesky,
+    BlockJacobi,
+    IncompleteCholesky,
+    Multigrid,
+}
+
+impl SolverName {
+    /// The table `[solver]` of a scene.
+    pub fn table(self) -> Solver {
+        let (kind, preconditioner) = match self {
+            Self::Cholesky => (SolverKind::Cholesky, None),
+            Self::BlockJacobi => (SolverKind::Pcg, Some(Preconditioner::BlockJacobi)),
+            Self::IncompleteCholesky => (SolverKind::Pcg, Some(Preconditioner::IncompleteCholesky)),
+            Self::Multigrid => (SolverKind::Pcg, Some(Preconditioner::Multigrid)),
+        };
+        Solver { kind, tolerance: None, preconditioner }
+    }
+
+    /// As the command line spells it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cholesky => "cholesky",
+            Self::BlockJacobi => "block_jacobi",
+            Self::IncompleteCholesky => "incomplete_cholesky",
+            Self::Multigrid => "multigrid",
+        }
+    }
+}
+
+impl RunArguments {
+    /// The scene with what is different in this run.
+    pub fn scene(&self) -> Result<Scene, String> {
+        let mut scene = fem_engine::scene::load(&self.scene, &self.data).map_err(|error| error.to_string())?;
+        scene.time.steps = self.steps.or(scene.time.steps);
+        if let Some(solver) = self.solver {
+            scene.solver = Some(solver.table());
+        }
+        match (self.cells, &mut scene.mesh.cuboid) {
+            (None, _) => {}
+            (Some(cells), Some(cuboid)) => cuboid.cells_per_unit = cells,
+            (Some(_), None) => return Err(format!("--cells: {} is no box; leave it out", self.scene)),
+        }
+        Ok(scene)
+    }
+}
+
+/// Whole numbers from 1 on.
+fn positive(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(0) | Err(_) => Err("give a whole number, 1 or more".to_owned()),
+        Ok(number) => Ok(number),
+    }
+}

@@ -1,0 +1,41 @@
+//! How the program ends other than well.
+
+use std::fmt;
+use std::process::ExitCode;
+
+/// Why it ended.
+#[derive(Debug)]
+pub enum End {
+    /// Arguments, scenes or programs that cannot be used.
+    Unusable(String),
+    /// Something that was timed failed, or its answer is not the others'.
+    Wrong(String),
+}
+
+impl End {
+    /// An error of the arguments or of what they name.
+    pub fn unusable(error: impl fmt::Display) -> Self {
+        Self::Unusable(error.to_string())
+    }
+
+    /// A failure of what was timed.
+    pub fn wrong(error: impl fmt::Display) -> Self {
+        Self::Wrong(error.to_string())
+    }
+
+    /// 2 for what cannot be used, 1 for what went wrong.
+    pub fn exit_code(&self) -> ExitCode {
+        match self {
+            Self::Unusable(_) => ExitCode::from(2),
+            Self::Wrong(_) => ExitCode::from(1),
+        }
+    }
+}
+
+impl fmt::Display for End {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unusable(message) | Self::Wrong(message) => f.write_str(message),
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! One run of a scene, in this process or in one of its own.
+
+use std::process::Command;
+use std::time::Instant;
+
+use fem_engine::output::Stats;
+use fem_engine::simulate;
+use nix::time::{ClockId, clock_gettime};
+use serde::{Deserialize, Serialize};
+
+use crate::cli::RunArguments;
+use crate::end::End;
+
+/// Steps, where neither the scene nor the arguments say how many.
+const DEFAULT_STEPS: usize = 100;
+
+/// What a run took. Times are means over its steps, s.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct Run {
+    pub nodes: usize,
+    pub elements: usize,
+    pub steps: usize,
+    pub seconds_setup: f64,
+    /// By the clock on the wall.
+    pub wall_per_step: f64,
+    /// By the processor's clock, all threads together.
+    pub cpu_per_step: f64,
+    pub newton_per_step: f64,
+    pub unconverged_steps: usize,
+    pub peak_memory_bytes: Option<usize>,
+    /// Of all nodes at the end, m.
+    pub positions: Vec<f64>,
+}
+
+/// Runs a scene and prints its [`Run`].
+pub fn print(arguments: &RunArguments) -> Result<(), End> {
+    let run = here(arguments)?;
+    println!("{}", serde_json::to_string(&run).map_err(End::wrong)?);
+    Ok(())
+}
+
+fn here(arguments: &RunArguments) -> Result<Run, End> {
+    let scene = arguments.scene().map_err(End::unusable)?;
+    let steps = scene.time.steps.unwrap_or(DEFAULT_STEPS);
+    let start = Instant::now();
+    let body = fem_engine::scene::body(&scene, &arguments.data).map_err(End::unusable)?;
+    let mut simulation = fem_engine::engine::build(&scene, body).map_err(End::unusable)?;
+    let seconds_setup = start.elapsed().as_secs_f64();
+
+    let (wall, cpu) = (Instant::now(), processor_seconds()?);
+    let Ok(run) = simulate::run(&mut *simulation, steps, |_| Ok::<(), std::convert::Infallible>(()));
+    let (wall, cpu) = (wall.elapsed().as_secs_f64(), processor_seconds()? - cpu);
+    let stats = Stats::of(&*simulation, &run, seconds_setup);
+    if let Some(failure) = run.failure {
+        return Err(End::wrong(format!("{}: {failure}", scene.name)));
+    }
+    let counters = simulation.counters();
+    Ok(Run {
+        nodes: stats.nodes,
+        elements: stats.elements,
+        steps,
+        seconds_setup,
+        wall_per_step: wall / steps as f64,
+        cpu_per_step: cpu / steps as f64,
+        newton_per_step: counters.newton_iterations as f64 / steps as f64,
+        unconverged_steps: counters.unconverged_steps,
+        peak_memory_bytes: stats.peak_memory_bytes,
+        positions: simulation.positions().as_slice().to_vec(),
+    })
+}
+
+/// Processor time of this process so far, s.
+fn processor_seconds() -> Result<f64, End> {
+    let time = clock_gettime(ClockId::CLOCK_PROCESS_CPUTIME_ID).map_err(End::wrong)?;
+    Ok(time.tv_sec() as f64 + 1e-9 * time.tv_nsec() as f64)
+}
+
+/// Runs a scene in a process of its own, with so many threads.
+pub fn apart(arguments: &RunArguments, threads: usize) -> Result<Run, End> {
+    let program = std::env::current_exe().map_err(End::unusable)?;
+    let mut command = Command::new(program);
+    command.env("RAYON_NUM_THREADS", threads.to_string()).arg("run").arg(&arguments.scene);
+    command.arg("--data").arg(&arguments.data);
+    for (name, number) in [("--steps", arguments.steps), ("--cells", arguments.cells)] {
+        if let Some(number) = number {
+            command.arg(name).arg(number.to_string());
+        }
+    }
+    if let Some(solver) = arguments.solver {
+        command.args(["--solver", solver.name()]);
+    }
+    let printed = output_of(&mut command)?;
+    serde_json::from_str(&printed).map_err(|error| End::wrong(format!("a run printed what is no JSON: {error}")))
+}
+
+/// What a program prints; what it complains of is an error.
+pub fn output_of(command: &mut Command) -> Result<String, End> {
+    let program = command.get_program().to_string_lossy().into_owned();
+    let output = command.output().map_err(|error| End::unusable(format!("{program}: {error}; give its path")))?;
+    if !output.status.success() {
+        let complaint = String::from_utf8_lossy(&output.stderr);
+        return Err(End::wrong(format!("{program} ended with {}: {}", output.status, complaint.trim())));
+    }
+    String::from_utf8(output.stdout).map_err(|error| End::wrong(format!("{program}: {error}")))
+}

@@ -1,0 +1,142 @@
+//! What is computed for one batch of elements.
+
+use simba::simd::{SimdPartialOrd, SimdValue};
+
+use super::Batch;
+use crate::materials::Law;
+use crate::number::Real;
+use crate::tensor::{Tensor, Tensor4, zero};
+
+/// A D×D block for each lane.
+pub(super) type LaneBlock<T, const D: usize> = [[<T as Real>::Lanes; D]; D];
+
+/// Displacement gradients G_ij = Σ_e (u_{e+1} − u_0)_i (∇φ_{e+1})_j of the elements with these corners. In the plane the third
+/// direction stays as it is: plane strain.
+#[inline(always)]
+pub(super) fn displacement_gradient<T: Real, const D: usize, const N: usize>(
+    batch: &Batch<T, D>,
+    corners: &[[u32; N]],
+    u: &[[T; D]],
+) -> Tensor<T::Lanes> {
+    let mut edges = batch.inverse;
+    for lane in 0..T::WIDTH {
+        let corners = &corners[lane];
+        let first = u[corners[0] as usize];
+        for e in 0..D {
+            let x = u[corners[e + 1] as usize];
+            for i in 0..D {
+                T::each_mut(&mut edges[e][i])[lane] = x[i] - first[i];
+            }
+        }
+    }
+    let mut G = zero::<T::Lanes>();
+    for i in 0..D {
+        for j in 0..D {
+            G[i][j] = edges[0][i] * batch.inverse[0][j];
+            for e in 1..D {
+                G[i][j] += edges[e][i] * batch.inverse[e][j];
+            }
+        }
+    }
+    G
+}
+
+/// Gradient of the element's energy by the positions of its corners but the first: V P ∇φ.
+#[inline(always)]
+pub(super) fn corner_gradients<T: Real, const D: usize>(
+    batch: &Batch<T, D>,
+    P: &Tensor<T::Lanes>,
+) -> [[T::Lanes; D]; D] {
+    let mut gradients = batch.inverse;
+    for e in 0..D {
+        for i in 0..D {
+            let mut sum = P[i][0] * batch.inverse[e][0];
+            for j in 1..D {
+                sum += P[i][j] * batch.inverse[e][j];
+            }
+            gradients[e][i] = sum * batch.volume;
+        }
+    }
+    gradients
+}
+
+/// Blocks V Σ_jl H_(ij)(kl) (∇φ_a)_j (∇φ_b)_l of the element's Hessian for corners a + 1 and b + 1, b ≤ a.
+#[inline(always)]
+pub(super) fn corner_blocks<T: Real, const D: usize>(
+    batch: &Batch<T, D>,
+    H: &Tensor4<T::Lanes>,
+) -> [[LaneBlock<T, D>; D]; D] {
+    let zero = T::Lanes::splat(T::default());
+    let mut blocks = [[[[zero; D]; D]; D]; D];
+    for b in 0..D {
+        // H contracted with ∇φ_b from the right, times the volume.
+        let mut right = [[zero; D]; 9];
+        for (row, right) in right.iter_mut().enumerate() {
+            if row % 3 >= D || row / 3 >= D {
+                continue;
+            }
+            for k in 0..D {
+                let mut sum = H[row][3 * k] * batch.inverse[b][0];
+                for l in 1..D {
+                    sum += H[row][3 * k + l] * batch.inverse[b][l];
+                }
+                right[k] = sum * batch.volume;
+            }
+        }
+        for a in b..D {
+            for i in 0..D {
+                for k in 0..D {
+                    let mut sum = right[3 * i][k] * batch.inverse[a][0];
+                    for j in 1..D {
+                        sum += right[3 * i + j][k] * batch.inverse[a][j];
+                    }
+                    blocks[a][b][i][k] = sum;
+                }
+            }
+        }
+    }
+    blocks
+}
+
+/// All blocks with row ≥ column of an element's Hessian: a translation costs nothing, so the first corner's are what makes
+/// each row of blocks sum up to zero.
+#[inline(always)]
+pub(super) fn element_hessian<T: Real, const D: usize, const N: usize>(
+    batch: &Batch<T, D>,
+    H: &Tensor4<T::Lanes>,
+) -> [[LaneBlock<T, D>; N]; N] {
+    let zero = T::Lanes::splat(T::default());
+    let inner = corner_blocks(batch, H);
+    let mut all = [[[[zero; D]; D]; N]; N];
+    for a in 0..D {
+        for b in 0..=a {
+            all[a + 1][b + 1] = inner[a][b];
+        }
+    }
+    for a in 0..D {
+        for i in 0..D {
+            for k in 0..D {
+                let mut sum = zero;
+                for b in 0..D {
+                    sum += if b <= a { inner[a][b][i][k] } else { inner[b][a][k][i] };
+                }
+                all[a + 1][0][i][k] = -sum;
+                all[0][0][i][k] += sum;
+            }
+        }
+    }
+    all
+}
+
+/// Energy of a batch, J.
+#[inline(always)]
+pub(super) fn energy<T: Real, const D: usize, L: Law<T::Lanes>>(
+    batch: &Batch<T, D>,
+    law: L,
+    G: &Tensor<T::Lanes>,
+) -> f64 {
+    // An element of no volume has no energy, whatever its lane holds.
+    let none = T::Lanes::splat(T::default());
+    let energy = (law.energy(G) * batch.counted).select(batch.counted.simd_gt(none), none);
+    T::each(&energy).iter().map(|energy| energy.as_f64()).sum()
+}

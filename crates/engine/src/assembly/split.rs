@@ -1,0 +1,39 @@
+//! Chunks side by side, each with its own part of the output.
+
+use super::Chunk;
+use crate::number::Real;
+
+/// Calls `work` for each chunk with its part of `output`, in parallel where there is more than one, and adds up what it
+/// returns, in the same order with any number of threads. `end` is where a chunk's part ends.
+pub(super) fn over_chunks<T: Real, X: Send, const D: usize, const N: usize>(
+    chunks: &[Chunk<T, D, N>],
+    output: &mut [X],
+    end: impl Fn(&Chunk<T, D, N>) -> usize + Copy + Sync,
+    work: impl Fn(&Chunk<T, D, N>, &mut [X]) -> f64 + Copy + Sync,
+) -> f64 {
+    recurse(chunks, output, 0, end, work)
+}
+
+fn recurse<T: Real, X: Send, const D: usize, const N: usize>(
+    chunks: &[Chunk<T, D, N>],
+    output: &mut [X],
+    start: usize,
+    end: impl Fn(&Chunk<T, D, N>) -> usize + Copy + Sync,
+    work: impl Fn(&Chunk<T, D, N>, &mut [X]) -> f64 + Copy + Sync,
+) -> f64 {
+    match chunks {
+        [] => 0.0,
+        [chunk] => {
+            let length = end(chunk) - start;
+            work(chunk, &mut output[..length])
+        }
+        _ => {
+            let (first, second) = chunks.split_at(chunks.len() / 2);
+            let middle = first.last().map_or(start, end);
+            let (left, right) = output.split_at_mut(middle - start);
+            let (a, b) =
+                rayon::join(|| recurse(first, left, start, end, work), || recurse(second, right, middle, end, work));
+            a + b
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! The engine's simulation of one scene: what drives [`System`] and [`State`] as a [`Simulation`].
+
+mod build;
+mod parts;
+mod reactions;
+mod rigid;
+mod simulation;
+mod stepper;
+
+use crate::number::Real;
+use crate::pulls::Spring;
+use crate::scene::{Body, Integrator, Precision, Scene, SceneError};
+use crate::simulation::{Counters, Pull, Simulation};
+use crate::skinning::Skinning;
+use crate::state::State;
+use crate::system::System;
+use stepper::Stepper;
+
+pub use build::integrators;
+
+/// A body that the engine moves, in one float type.
+pub struct Engine<T: Real> {
+    scene: Scene,
+    system: System<T>,
+    state: State<T>,
+    /// Where a step that fails returns to.
+    last_good: State<T>,
+    stepper: Stepper<T>,
+    integrator: Integrator,
+    dt: f64,
+    skinning: Option<Skinning>,
+    /// Stiffness of every pull, N/m.
+    drag_stiffness: f64,
+    /// A person's pull, which takes the place of the scene's.
+    pull: Option<Pull>,
+    springs: Vec<Spring<T>>,
+    counters: Counters,
+    /// Display vertices that were computed; pictures are asked for through `&self`.
+    skinned_rows: std::sync::atomic::AtomicUsize,
+    seconds: Seconds,
+}
+
+/// Wall-clock time spent in each part, s.
+#[derive(Clone, Copy, Debug, Default)]
+struct Seconds {
+    steps: f64,
+}
+
+/// Builds what the scene names, in the precision that it names.
+pub fn build(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, SceneError> {
+    Ok(match scene.time.precision {
+        Precision::F64 => Box::new(Engine::<f64>::new(scene, body)?),
+        Precision::F32 => Box::new(Engine::<f32>::new(scene, body)?),
+    })
+}

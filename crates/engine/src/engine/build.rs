@@ -1,0 +1,96 @@
+//! From a scene to a simulation at rest.
+
+use crate::materials::Material;
+use crate::number::Real;
+use crate::scene::{Body, Integrator, Scene, SceneError, Solver, SolverKind};
+use crate::skinning::Skinning;
+use crate::solvers::{Preconditioner, SolverChoice};
+use crate::state::State;
+use crate::system::System;
+
+use super::stepper::Stepper;
+use super::{Engine, Seconds, rigid};
+
+/// Methods that a running simulation can be switched to.
+pub fn integrators(scene: &Scene) -> &'static [Integrator] {
+    match scene.time.integrator {
+        Integrator::Static => &[Integrator::Static],
+        Integrator::LinearlyImplicitEuler | Integrator::ImplicitEuler => {
+            &[Integrator::LinearlyImplicitEuler, Integrator::ImplicitEuler]
+        }
+        // Where an explicit method is meant to be stable, all are.
+        _ => &[
+            Integrator::ExplicitEuler,
+            Integrator::SemiImplicitEuler,
+            Integrator::Rk2,
+            Integrator::Rk4,
+            Integrator::Verlet,
+            Integrator::LinearlyImplicitEuler,
+            Integrator::ImplicitEuler,
+        ],
+    }
+}
+
+/// Nodes up to which a factor is cheaper than iterations, where the scene names no solver: in motion, where inertia keeps
+/// iterations few, and in equilibrium, where one factor does.
+const DIRECT: (usize, usize) = (8000, 20_000);
+
+/// The solver that the scene names, or the one that suits its size.
+pub(super) fn solver_choice(scene: &Scene, nodes: usize) -> SolverChoice {
+    let preconditioner = |solver: &Solver| match solver.preconditioner {
+        None | Some(crate::scene::Preconditioner::BlockJacobi) => Preconditioner::BlockJacobi,
+        Some(crate::scene::Preconditioner::IncompleteCholesky) => Preconditioner::IncompleteCholesky,
+        Some(crate::scene::Preconditioner::Multigrid) => Preconditioner::Multigrid,
+    };
+    let most_direct = if scene.time.integrator == Integrator::Static { DIRECT.1 } else { DIRECT.0 };
+    match &scene.solver {
+        Some(solver) => match solver.kind {
+            SolverKind::Cholesky => SolverChoice::Cholesky,
+            SolverKind::Lu => SolverChoice::Lu,
+            SolverKind::Cg => SolverChoice::Cg,
+            SolverKind::Pcg => SolverChoice::Pcg(preconditioner(solver)),
+        },
+        None if nodes <= most_direct => SolverChoice::Cholesky,
+        // Inertia keeps the iterations of the cheaper one few; equilibrium has none.
+        None if scene.time.integrator == Integrator::Static => SolverChoice::Pcg(Preconditioner::Multigrid),
+        None => SolverChoice::Pcg(Preconditioner::IncompleteCholesky),
+    }
+}
+
+impl<T: Real> Engine<T> {
+    /// Builds what the scene names, and nothing else.
+    pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
+        let Some(material) = Material::<T>::new(&scene.material) else {
+            return Err(scene.refuse("material", "lacks the moduli of its model; give young and poisson"));
+        };
+        if scene.time.integrator == Integrator::Static {
+            rigid::check(scene, &body)?;
+        }
+        let skinning = body.shape.display.as_ref().map(|display| Skinning::new(&body.shape.mesh, &display.vertices));
+        let choice = solver_choice(scene, body.shape.mesh.vertices.len());
+        let system = System::new(scene, body, material, crate::solvers::Solver::<T>::stored(choice));
+        let state = State::at_rest(system.nodes());
+        Ok(Self {
+            stepper: Stepper::new(scene, &system, scene.time.integrator, choice),
+            integrator: scene.time.integrator,
+            dt: scene.time.dt,
+            skinning,
+            drag_stiffness: scene.drag.as_ref().map_or(scene_stiffness(scene, system.length), |drag| drag.stiffness),
+            pull: None,
+            springs: Vec::new(),
+            counters: Default::default(),
+            skinned_rows: Default::default(),
+            seconds: Seconds::default(),
+            last_good: state.clone(),
+            state,
+            system,
+            scene: scene.clone(),
+        })
+    }
+}
+
+/// A pull that deforms the body visibly and does not tear it, N/m: a modulus times its length.
+fn scene_stiffness(scene: &Scene, length: f64) -> f64 {
+    let modulus = scene.material.c.or(scene.material.young.map(|young| young / 5.0)).unwrap_or(1e5);
+    modulus * length
+}

@@ -1,0 +1,102 @@
+//! Implicit Euler: M (v⁺ − v)/dt = f(u + dt v⁺), every force at the end of the step; first order, unconditionally stable.
+
+use super::follower::Loads;
+use super::momentum;
+use super::newton::Newton;
+use super::objective::{Motion, Objective};
+use crate::acting::Acting;
+use crate::number::Real;
+use crate::pulls::Spring;
+use crate::simulation::{Cause, Counters};
+use crate::state::State;
+use crate::system::System;
+
+/// Implicit Euler as the minimisation of an energy, by [`Newton`]'s method.
+pub struct ImplicitEuler<T: Real> {
+    /// The method that it is solved by.
+    pub newton: Newton<T>,
+    loads: Loads<T>,
+    inertial: Vec<[T; 3]>,
+    step: Vec<[T; 3]>,
+    /// Change of velocity in the last step, m/s: the next one starts as if it went on so.
+    last_change: Vec<[T; 3]>,
+}
+
+impl<T: Real> ImplicitEuler<T> {
+    /// For a body.
+    pub fn new(newton: Newton<T>, system: &System<T>) -> Self {
+        let zero = || vec![[T::default(); 3]; system.nodes()];
+        Self { newton, loads: Loads::new(system, false), inertial: zero(), step: zero(), last_change: zero() }
+    }
+
+    /// What is known from earlier steps is of no use any more.
+    pub fn forget(&mut self) {
+        self.newton.forget();
+        self.last_change.fill([T::default(); 3]);
+    }
+
+    /// One step. After an error the state is what it was. Says whether Newton's method has converged.
+    pub fn step(
+        &mut self,
+        system: &System<T>,
+        state: &mut State<T>,
+        springs: &[Spring<T>],
+        dt: f64,
+        counters: &mut Counters,
+    ) -> Result<bool, Cause> {
+        let Self { newton, loads, inertial, step, last_change } = self;
+        let dt_t = T::of(dt);
+        for (inertial, v) in inertial.iter_mut().zip(&state.v) {
+            *inertial = v.map(|v| dt_t * v);
+        }
+        let motion = Motion::new(system, inertial, dt);
+        let acting = Acting { pulls: springs, load: None };
+        let objective = Objective { system, acting, start: &state.u, motion: Some(motion) };
+        loads.gather(system, 1.0, &state.u, inertial);
+        let time = state.time + dt;
+        let lead = |step: &mut [[T; 3]]| system.held.lead(&system.rest, |motion| motion.fraction(time), &state.u, step);
+        let mut can_start = |step: &mut [[T; 3]]| {
+            lead(step);
+            newton.can_start(&loads.on(objective), step, counters)
+        };
+        start(step, inertial, last_change, dt_t);
+        let mut found = can_start(step);
+        if !found {
+            step.copy_from_slice(inertial);
+            found = can_start(step);
+        }
+        if !found {
+            // Where the body is, no element is inverted: a step has ended there.
+            step.fill([T::default(); 3]);
+            found = can_start(step);
+        }
+        if !found {
+            let (J, element) = system.elements.smallest_J(&state.u);
+            return Err(Cause::Inverted { element, J: J.as_f64() });
+        }
+        let converged = loads.minimize(newton, objective, 1.0, step, counters)?;
+        momentum::restore(&loads.on(objective), dt, step);
+        finish(step, dt, state, last_change);
+        Ok(converged)
+    }
+}
+
+/// Takes the step.
+fn finish<T: Real>(step: &[[T; 3]], dt: f64, state: &mut State<T>, last_change: &mut [[T; 3]]) {
+    let over_dt = T::of(1.0 / dt);
+    for node in 0..step.len() {
+        for i in 0..3 {
+            let v = step[node][i] * over_dt;
+            last_change[node][i] = v - state.v[node][i];
+            state.v[node][i] = v;
+            state.u[node][i] += step[node][i];
+        }
+    }
+}
+
+/// The step that is likely: velocities change as they did in the last one.
+fn start<T: Real>(step: &mut [[T; 3]], inertial: &[[T; 3]], last_change: &[[T; 3]], dt: T) {
+    for ((step, inertial), change) in step.iter_mut().zip(inertial).zip(last_change) {
+        *step = std::array::from_fn(|i| inertial[i] + dt * change[i]);
+    }
+}

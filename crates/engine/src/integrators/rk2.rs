@@ -1,0 +1,48 @@
+//! The explicit midpoint rule, Runge (1895): a half step of explicit Euler, and a whole one with the slopes found there. Second
+//! order; a motion without damping grows, though slowly.
+
+use super::accelerations::Accelerations;
+use super::mass_inverse::step;
+use crate::number::Real;
+use crate::pulls::Pulls;
+use crate::simulation::{Cause, Counters};
+use crate::state::State;
+use crate::system::System;
+
+/// The midpoint rule with its vectors.
+pub struct Rk2<T: Real> {
+    accelerations: Accelerations<T>,
+    a: Vec<[T; 3]>,
+    u: Vec<[T; 3]>,
+    v: Vec<[T; 3]>,
+}
+
+impl<T: Real> Rk2<T> {
+    /// For a body.
+    pub fn new(system: &System<T>) -> Self {
+        let zero = || vec![[T::default(); 3]; system.nodes()];
+        Self { accelerations: Accelerations::new(system), a: zero(), u: zero(), v: zero() }
+    }
+
+    /// One step. After an error the state is of no use.
+    pub fn step(
+        &mut self,
+        pulls: &Pulls<T>,
+        state: &mut State<T>,
+        dt: f64,
+        counters: &mut Counters,
+    ) -> Result<(), Cause> {
+        let Self { accelerations, a, u, v } = self;
+        let half = T::of(0.5 * dt);
+        accelerations.begin(pulls.system, state, dt);
+        accelerations.at(pulls, (&state.u, &state.v), state.time, a, counters)?;
+        u.copy_from_slice(&state.u);
+        v.copy_from_slice(&state.v);
+        step(half, &state.v, u);
+        step(half, a, v);
+        accelerations.at(pulls, (u, v), state.time + 0.5 * dt, a, counters)?;
+        step(T::of(dt), v, &mut state.u);
+        step(T::of(dt), a, &mut state.v);
+        Ok(())
+    }
+}

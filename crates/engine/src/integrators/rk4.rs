@@ -1,0 +1,57 @@
+//! The classical Runge–Kutta method, Kutta (1901): fourth order; stable for ω dt < 2√2 of the fastest vibration.
+
+use super::accelerations::Accelerations;
+use super::mass_inverse::step;
+use crate::number::Real;
+use crate::pulls::Pulls;
+use crate::simulation::{Cause, Counters};
+use crate::state::State;
+use crate::system::System;
+
+/// The classical method with its vectors.
+pub struct Rk4<T: Real> {
+    accelerations: Accelerations<T>,
+    a: Vec<[T; 3]>,
+    u: Vec<[T; 3]>,
+    v: Vec<[T; 3]>,
+    /// Displacements and velocities at the start.
+    start: [Vec<[T; 3]>; 2],
+}
+
+/// Part of the step after which a stage is evaluated, and its weight.
+const STAGES: [(f64, f64); 4] = [(0.0, 1.0 / 6.0), (0.5, 1.0 / 3.0), (0.5, 1.0 / 3.0), (1.0, 1.0 / 6.0)];
+
+impl<T: Real> Rk4<T> {
+    /// For a body.
+    pub fn new(system: &System<T>) -> Self {
+        let zero = || vec![[T::default(); 3]; system.nodes()];
+        Self { accelerations: Accelerations::new(system), a: zero(), u: zero(), v: zero(), start: [zero(), zero()] }
+    }
+
+    /// One step. After an error the state is of no use.
+    pub fn step(
+        &mut self,
+        pulls: &Pulls<T>,
+        state: &mut State<T>,
+        dt: f64,
+        counters: &mut Counters,
+    ) -> Result<(), Cause> {
+        let Self { accelerations, a, u, v, start: [u0, v0] } = self;
+        accelerations.begin(pulls.system, state, dt);
+        for (copy, of) in [(&mut *u, &state.u), (&mut *v, &state.v), (&mut *u0, &state.u), (&mut *v0, &state.v)] {
+            copy.copy_from_slice(of);
+        }
+        for (stage, (after, weight)) in STAGES.into_iter().enumerate() {
+            accelerations.at(pulls, (u, v), state.time + after * dt, a, counters)?;
+            step(T::of(weight * dt), v, &mut state.u);
+            step(T::of(weight * dt), a, &mut state.v);
+            // Where the next stage is.
+            let Some((after, _)) = STAGES.get(stage + 1) else { break };
+            u.copy_from_slice(u0);
+            step(T::of(after * dt), v, u);
+            v.copy_from_slice(v0);
+            step(T::of(after * dt), a, v);
+        }
+        Ok(())
+    }
+}

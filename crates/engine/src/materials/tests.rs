@@ -1,0 +1,155 @@
+//! What must hold for every law, and for one law alone.
+
+mod closed_forms;
+mod derivatives;
+mod lanes;
+mod material;
+mod near_rest;
+mod projected;
+mod singular;
+mod symmetries;
+
+use super::{Corotated, Law, Linear, NeoHookean, Projected, StVenantKirchhoff, StableNeoHookean};
+use crate::number::{Number, constant};
+use crate::tensor::{Tensor, Tensor4};
+
+/// Lamé's constants of all laws under test, Pa.
+const MU: f64 = 1.5;
+const LAMBDA: f64 = 4.0;
+
+fn linear<T: Number>() -> Linear<T> {
+    Linear { mu: constant(MU), lambda: constant(LAMBDA) }
+}
+
+fn corotated<T: Number>() -> Corotated<T> {
+    Corotated { mu: constant(MU), lambda: constant(LAMBDA) }
+}
+
+fn st_venant_kirchhoff<T: Number>() -> StVenantKirchhoff<T> {
+    StVenantKirchhoff { mu: constant(MU), lambda: constant(LAMBDA) }
+}
+
+/// Its bulk modulus λ + 2μ/3 is 2D.
+fn neo_hookean<T: Number>() -> NeoHookean<T> {
+    NeoHookean { C: constant(MU / 2.0), D: constant(LAMBDA / 2.0 + MU / 3.0) }
+}
+
+fn stable_neo_hookean<T: Number>() -> StableNeoHookean<T> {
+    StableNeoHookean { mu: constant(MU), lambda: constant(LAMBDA) }
+}
+
+/// Calls a generic function `f(name, law)` with every law.
+macro_rules! for_all_laws {
+    ($T:ty, $f:path) => {{
+        $f("linear", $crate::materials::tests::linear::<$T>());
+        for_all_objective_laws!($T, $f);
+    }};
+}
+
+/// With all but the linear one.
+macro_rules! for_all_objective_laws {
+    ($T:ty, $f:path) => {{
+        use $crate::materials::tests;
+        $f("corotated", tests::corotated::<$T>());
+        $f("St. Venant-Kirchhoff", tests::st_venant_kirchhoff::<$T>());
+        $f("neo-Hookean", tests::neo_hookean::<$T>());
+        $f("stable neo-Hookean", tests::stable_neo_hookean::<$T>());
+    }};
+}
+use {for_all_laws, for_all_objective_laws};
+
+/// Evenly spread numbers in [−1, 1], the same in every run: SplitMix64 by Steele, Lea and Flood (2014).
+struct Random(u64);
+
+impl Random {
+    fn number(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// Entries in [−size, size].
+    fn tensor(&mut self, size: f64) -> Tensor<f64> {
+        std::array::from_fn(|_| std::array::from_fn(|_| size * self.number()))
+    }
+
+    /// From a unit quaternion.
+    fn rotation(&mut self) -> Tensor<f64> {
+        let [w, x, y, z]: [f64; 4] = std::array::from_fn(|_| self.number());
+        let q = nalgebra::UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z));
+        let R = q.to_rotation_matrix();
+        std::array::from_fn(|i| std::array::from_fn(|j| R[(i, j)]))
+    }
+}
+
+fn minus_identity(F: &Tensor<f64>) -> Tensor<f64> {
+    let mut G = *F;
+    for i in 0..3 {
+        G[i][i] -= 1.0;
+    }
+    G
+}
+
+fn diagonal(values: [f64; 3]) -> Tensor<f64> {
+    std::array::from_fn(|i| std::array::from_fn(|j| if i == j { values[i] } else { 0.0 }))
+}
+
+/// Largest |a − b| over all entries.
+fn distance<const N: usize>(a: &[[f64; N]; N], b: &[[f64; N]; N]) -> f64 {
+    a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// Largest |entry|.
+fn largest<const N: usize>(a: &[[f64; N]; N]) -> f64 {
+    distance(a, &[[0.0; N]; N])
+}
+
+/// Ascending.
+fn eigenvalues(H: &Tensor4<f64>) -> Vec<f64> {
+    let matrix = nalgebra::SMatrix::<f64, 9, 9>::from_fn(|i, j| H[i][j]);
+    let mut values: Vec<_> = matrix.symmetric_eigenvalues().iter().copied().collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// Deformations with J > 0 between gentle and wild, and those of coinciding stretches.
+fn upright() -> Vec<Tensor<f64>> {
+    let mut random = Random(1);
+    let mut gradients: Vec<_> = (0..200).map(|n| random.tensor(0.01 * 1.03f64.powi(n))).collect();
+    gradients.retain(|G| 1.0 + crate::tensor::volume_change(G).0 > 0.05);
+    let stretches = [[1.0; 3], [2.0; 3], [0.3; 3], [1.0, 1.0, 0.2], [3.0, 1.0, 1.0], [1.5, 1.5, 0.7]];
+    for values in stretches {
+        let (U, V) = (random.rotation(), random.rotation());
+        let F = crate::tensor::product(&crate::tensor::product(&U, &diagonal(values)), &V);
+        gradients.extend([minus_identity(&F), minus_identity(&diagonal(values))]);
+    }
+    gradients
+}
+
+/// Those that need not be upright: wild, inside out, flattened to a plane, a line or a point, mirrored.
+fn any() -> Vec<Tensor<f64>> {
+    let mut random = Random(2);
+    let mut gradients: Vec<_> = (0..800).map(|n| random.tensor(if n % 2 == 0 { 1.5 } else { 6.0 })).collect();
+    let stretches = [
+        [0.0; 3],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [2.0, 0.5, 0.0],
+        [1.0, 1.0, -1.0],
+        [1.0, 0.5, -0.5],
+        [2.0, 2.0, -2.0],
+        [3.0, 1e-9, -1e-9],
+        [1e3, 1.0, -1e-3],
+        [1e-12, 1e-12, 1e-12],
+    ];
+    for values in stretches {
+        for _ in 0..20 {
+            let (U, V) = (random.rotation(), random.rotation());
+            gradients.push(minus_identity(&crate::tensor::product(&crate::tensor::product(&U, &diagonal(values)), &V)));
+        }
+        gradients.push(minus_identity(&diagonal(values)));
+    }
+    gradients
+}

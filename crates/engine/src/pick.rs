@@ -1,0 +1,43 @@
+//! What lies under a click.
+
+use nalgebra::{Point3, Vector3, Vector4};
+
+use crate::simulation::Click;
+
+/// Nodes near the first point of the boundary under a click, ascending; none where the click misses. Near is what no triangle's
+/// inside is farther from its corners than.
+pub fn nodes_under(click: &Click, x: &[Vector3<f64>], boundary: &[[usize; 3]]) -> Vec<usize> {
+    let Some((origin, direction)) = ray(click) else { return Vec::new() };
+    let hits = boundary.iter().filter_map(|face| hit(&origin, &direction, face.map(|node| x[node])));
+    let first = hits.fold(f64::INFINITY, f64::min);
+    if !first.is_finite() {
+        return Vec::new();
+    }
+    let point = origin + first * direction;
+    let edges = boundary.iter().flat_map(|&[a, b, c]| [x[a] - x[b], x[b] - x[c], x[c] - x[a]]);
+    let radius = edges.map(|edge| edge.norm()).fold(0.0, f64::max) / 3f64.sqrt();
+    (0..x.len()).filter(|&node| (x[node] - point).norm() <= radius).collect()
+}
+
+/// The line of sight through a pixel: where it begins, and where it leads to at the far plane.
+fn ray(click: &Click) -> Option<(Vector3<f64>, Vector3<f64>)> {
+    let from_clip = (click.proj.cast::<f64>() * click.view.cast::<f64>()).try_inverse()?;
+    let viewport = click.viewport.cast::<f64>();
+    let x = 2.0 * (click.win.x - viewport.x) / viewport.z - 1.0;
+    let y = 2.0 * (click.win.y - viewport.y) / viewport.w - 1.0;
+    let at = |depth: f64| Point3::from_homogeneous(from_clip * Vector4::new(x, y, depth, 1.0));
+    let (near, far) = (at(-1.0)?, at(1.0)?);
+    Some((near.coords, far - near))
+}
+
+/// Where a ray meets a triangle, in units of its direction: Möller and Trumbore, Fast, Minimum Storage Ray/Triangle
+/// Intersection (1997).
+fn hit(origin: &Vector3<f64>, direction: &Vector3<f64>, [a, b, c]: [Vector3<f64>; 3]) -> Option<f64> {
+    let (ab, ac, to_origin) = (b - a, c - a, origin - a);
+    let (p, q) = (direction.cross(&ac), to_origin.cross(&ab));
+    let determinant = ab.dot(&p);
+    let (u, v, t) = (to_origin.dot(&p) / determinant, direction.dot(&q) / determinant, ac.dot(&q) / determinant);
+    // Slack, so that no ray slips through between two triangles; NaN, of a ray in the triangle's plane, fails.
+    let slack = 1e-12;
+    (u >= -slack && v >= -slack && u + v <= 1.0 + slack && t >= 0.0 && t.is_finite()).then_some(t)
+}

@@ -1,0 +1,105 @@
+//! Matrices to test with: K + M/dt² of a clamped beam of linear elasticity, 4 m × 1 m × 1 m.
+
+use std::sync::Arc;
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::mesh::{TetrahedralMesh, box_mesh};
+use crate::number::Real;
+use crate::order::Order;
+use crate::sparse::{Pattern, Stored};
+
+/// Young's modulus in Pa, Poisson's ratio, density in kg/m³.
+const MATERIAL: (f64, f64, f64) = (6e5, 0.4, 1000.0);
+
+/// A beam's mesh in the engine's order.
+pub struct Beam {
+    pub pattern: Arc<Pattern>,
+    /// Of the free nodes.
+    pub rest: Vec<[f64; 3]>,
+    vertices: Vec<Vector3<f64>>,
+    elements: Vec<[u32; 4]>,
+}
+
+impl Beam {
+    /// Its face x = 0 is held.
+    pub fn new(cells_per_unit: usize, stored: Stored) -> Self {
+        Self::held_where(cells_per_unit, stored, |x| x.x == 0.0)
+    }
+
+    pub fn held_where(cells_per_unit: usize, stored: Stored, hold: impl Fn(&Vector3<f64>) -> bool) -> Self {
+        let mesh = box_mesh([4.0, 1.0, 1.0], cells_per_unit).unwrap();
+        let held: Vec<bool> = mesh.vertices.iter().map(hold).collect();
+        let order = Order::new(&mesh.vertices, &mesh.elements, &held);
+        Self::ordered(&mesh, &order, stored)
+    }
+
+    pub fn ordered(mesh: &TetrahedralMesh, order: &Order, stored: Stored) -> Self {
+        let elements = order.elements(&mesh.elements);
+        let vertices: Vec<Vector3<f64>> = order.mesh_node.iter().map(|&node| mesh.vertices[node as usize]).collect();
+        let rest = vertices[..order.free].iter().map(|x| [x.x, x.y, x.z]).collect();
+        Self { pattern: Arc::new(Pattern::new(order.free, &elements, stored)), rest, vertices, elements }
+    }
+
+    /// K + M/dt² for dt = 0.01 s.
+    pub fn values<T: Real>(&self) -> Vec<[[T; 3]; 3]> {
+        self.scaled(|_| 1.0, 1e4)
+    }
+
+    /// Σ factor(element) K + masses M.
+    pub fn scaled<T: Real>(&self, factor: impl Fn(usize) -> f64, masses: f64) -> Vec<[[T; 3]; 3]> {
+        let mut values = vec![[[0.0; 3]; 3]; self.pattern.blocks()];
+        for (number, element) in self.elements.iter().enumerate() {
+            let x = element.map(|node| self.vertices[node as usize]);
+            let (gradients, volume) = shape(&x);
+            for (a, &row) in element.iter().enumerate() {
+                for (b, &column) in element.iter().enumerate() {
+                    let stiffness = stiffness(&gradients[a], &gradients[b]) * (volume * factor(number));
+                    let mass = MATERIAL.2 * volume * masses * if a == b { 0.1 } else { 0.05 };
+                    self.add(&mut values, [row, column], &(stiffness + Matrix3::identity() * mass));
+                }
+            }
+        }
+        values.into_iter().map(|block: [[f64; 3]; 3]| block.map(|row| row.map(<T as Real>::of))).collect()
+    }
+
+    fn add(&self, values: &mut [[[f64; 3]; 3]], [row, column]: [u32; 2], entry: &Matrix3<f64>) {
+        let rows = self.pattern.rows() as u32;
+        if row >= rows || column >= rows {
+            return;
+        }
+        let Some(block) = self.pattern.find(row as usize, column as usize) else { return };
+        for i in 0..3 {
+            for j in 0..3 {
+                values[block][i][j] += entry[(i, j)];
+            }
+        }
+    }
+}
+
+/// Gradients of the four shape functions, and the volume.
+fn shape(x: &[Vector3<f64>; 4]) -> ([Vector3<f64>; 4], f64) {
+    let edges = Matrix3::from_columns(&[x[1] - x[0], x[2] - x[0], x[3] - x[0]]);
+    let inverse = edges.try_inverse().unwrap();
+    let rows = [0, 1, 2].map(|row| inverse.row(row).transpose());
+    ([-(rows[0] + rows[1] + rows[2]), rows[0], rows[1], rows[2]], edges.determinant() / 6.0)
+}
+
+/// λ a bᵀ + μ (b aᵀ + a·b 1): how a node's force depends on another's place, per volume.
+fn stiffness(a: &Vector3<f64>, b: &Vector3<f64>) -> Matrix3<f64> {
+    let (young, poisson, _) = MATERIAL;
+    let (lambda, mu) = (young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson)));
+    lambda * a * b.transpose() + mu * (b * a.transpose() + Matrix3::identity() * a.dot(b))
+}
+
+/// Numbers in −1..1 from a seed (Marsaglia's xorshift).
+pub fn random<T: Real>(nodes: usize, seed: u64) -> Vec<[T; 3]> {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut number = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        <T as Real>::of((state >> 11) as f64 / (1u64 << 52) as f64 - 1.0)
+    };
+    (0..nodes).map(|_| [number(), number(), number()]).collect()
+}

@@ -1,0 +1,161 @@
+//! Multigrid by smoothed aggregation with the six rigid motions: Vaněk, Mandel and Brezina, Algebraic Multigrid by Smoothed
+//! Aggregation for Second and Fourth Order Elliptic Problems (1996). In single precision: it only preconditions.
+
+mod aggregate;
+mod blocks;
+mod level;
+
+use blocks::Blocks;
+use level::Level;
+
+use super::supernodal::Supernodal;
+use super::{Breakdown, norm};
+use crate::number::Real;
+use crate::sparse::{Pattern, Stored};
+
+/// Coarse matrices of up to so many nodes are factorised.
+const DIRECT: usize = 150;
+
+/// One V cycle, symmetric.
+pub struct Multigrid {
+    fine: Level<3>,
+    coarser: Vec<Level<6>>,
+    coarsest: Blocks<6, 6>,
+    /// Right-hand side and solution on the coarsest level.
+    b: Vec<[f32; 6]>,
+    x: Vec<[f32; 6]>,
+    direct: Supernodal<f32>,
+    direct_values: Vec<[[f32; 3]; 3]>,
+    diagonal: Vec<u32>,
+    /// What the matrix is multiplied with, so that single precision holds it.
+    scale: f64,
+}
+
+impl Multigrid {
+    /// Finds all levels from the pattern, of which all blocks are stored, and the places of its nodes.
+    pub fn new(pattern: &Pattern, rest: &[[f64; 3]]) -> Self {
+        let places = in_units(rest);
+        let (fine, mut coarsest, mut places) =
+            Level::new(Blocks::zeros(pattern.starts.clone(), pattern.columns.clone()), &places);
+        let mut coarser = Vec::new();
+        while coarsest.rows() > DIRECT {
+            let before = coarsest.rows();
+            let (level, next, next_places) = Level::new(coarsest.clone(), &places);
+            if 2 * next.rows() > before {
+                break;
+            }
+            coarser.push(level);
+            (coarsest, places) = (next, next_places);
+        }
+        let halves = halves(&coarsest);
+        let vector = vec![[0.0; 6]; coarsest.rows()];
+        Self {
+            fine,
+            coarser,
+            direct: Supernodal::new(&halves),
+            direct_values: vec![Default::default(); halves.blocks()],
+            b: vector.clone(),
+            x: vector,
+            coarsest,
+            diagonal: pattern.diagonal().map(|block| block as u32).collect(),
+            scale: 1.0,
+        }
+    }
+
+    /// Computes all levels from a matrix.
+    pub fn prepare<T: Real>(&mut self, values: &[[[T; 3]; 3]]) -> Result<(), Breakdown> {
+        let entries =
+            self.diagonal.iter().flat_map(|&block| (0..3).map(move |i| values[block as usize][i][i].as_f64()));
+        let largest = entries.fold(0.0, f64::max);
+        if !(largest > 0.0 && largest.is_finite()) {
+            return Err(Breakdown::Singular);
+        }
+        self.scale = 1.0 / largest;
+        for (single, block) in self.fine.A.values.iter_mut().zip(values) {
+            *single = block.map(|row| row.map(|entry| (entry.as_f64() * self.scale) as f32));
+        }
+        let first = self.coarser.first_mut().map_or(&mut self.coarsest, |level| &mut level.A);
+        self.fine.prepare(first)?;
+        for number in 0..self.coarser.len() {
+            let (done, rest) = self.coarser.split_at_mut(number + 1);
+            let next = rest.first_mut().map_or(&mut self.coarsest, |level| &mut level.A);
+            done[number].prepare(next)?;
+        }
+        copy_halves(&self.coarsest, &mut self.direct_values);
+        self.direct.prepare(&self.direct_values)
+    }
+
+    /// z = P⁻¹ r: one cycle.
+    pub fn apply<T: Real>(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
+        let size = norm(r);
+        if !(size > 0.0 && size.is_finite()) {
+            z.copy_from_slice(r);
+            return;
+        }
+        for (b, r) in self.fine.b.iter_mut().zip(r) {
+            *b = r.map(|r| (r.as_f64() / size) as f32);
+        }
+        self.cycle();
+        let scale = size * self.scale;
+        for (z, x) in z.iter_mut().zip(&self.fine.x) {
+            *z = x.map(|x| T::of(f64::from(x) * scale));
+        }
+    }
+
+    fn cycle(&mut self) {
+        let coarsest = &mut self.b;
+        self.fine.descend(self.coarser.first_mut().map_or(coarsest, |level| &mut level.b));
+        for number in 0..self.coarser.len() {
+            let (done, rest) = self.coarser.split_at_mut(number + 1);
+            done[number].descend(rest.first_mut().map_or(&mut self.b, |level| &mut level.b));
+        }
+        let (b, _) = self.b.as_flattened().as_chunks::<3>();
+        let (x, _) = self.x.as_flattened_mut().as_chunks_mut::<3>();
+        self.direct.apply(b, x);
+        for number in (0..self.coarser.len()).rev() {
+            let (done, rest) = self.coarser.split_at_mut(number + 1);
+            done[number].ascend(rest.first().map_or(&self.x, |level| &level.x));
+        }
+        self.fine.ascend(self.coarser.first().map_or(&self.x, |level| &level.x));
+    }
+
+    /// Bytes that it holds.
+    pub fn bytes(&self) -> usize {
+        let levels: usize = self.coarser.iter().map(Level::bytes).sum();
+        let direct = self.direct.bytes() + size_of_val(self.direct_values.as_slice());
+        self.fine.bytes() + levels + self.coarsest.bytes() + direct + size_of_val(self.diagonal.as_slice())
+    }
+}
+
+/// Places in units of the largest coordinate, from the first node.
+fn in_units(rest: &[[f64; 3]]) -> Vec<[f32; 3]> {
+    let Some(&origin) = rest.first() else { return Vec::new() };
+    let relative = |x: &[f64; 3]| [x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]];
+    let largest = rest.iter().flat_map(relative).fold(0.0, |most: f64, x| most.max(x.abs()));
+    let unit = if largest > 0.0 { largest } else { 1.0 };
+    rest.iter().map(|x| relative(x).map(|x| (x / unit) as f32)).collect()
+}
+
+/// The lower half of a matrix of 6×6 blocks, as 3×3 blocks.
+fn halves(A: &Blocks<6, 6>) -> Pattern {
+    let (mut starts, mut columns) = (vec![0], Vec::new());
+    for row in 0..2 * A.rows() {
+        let all = A.row(row / 2).0.iter().flat_map(|&column| [2 * column, 2 * column + 1]);
+        columns.extend(all.filter(|&column| column as usize <= row));
+        starts.push(columns.len());
+    }
+    Pattern { stored: Stored::Lower, starts, columns }
+}
+
+fn copy_halves(A: &Blocks<6, 6>, values: &mut [[[f32; 3]; 3]]) {
+    let mut places = values.iter_mut();
+    for row in 0..2 * A.rows() {
+        let (columns, blocks) = A.row(row / 2);
+        for (&column, block) in columns.iter().zip(blocks) {
+            for half in (0..2).filter(|half| 2 * column as usize + half <= row) {
+                let Some(place) = places.next() else { return };
+                *place = std::array::from_fn(|i| std::array::from_fn(|j| block[3 * (row % 2) + i][3 * half + j]));
+            }
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! 3×3 matrices of kernel numbers, `a[i][j]` row i, column j, and the few operations that materials need.
+
+use crate::number::{Number, constant};
+
+/// A 3×3 matrix.
+pub type Tensor<T> = [[T; 3]; 3];
+
+/// The derivative of one 3×3 matrix by another, both flattened row by row.
+pub type Tensor4<T> = [[T; 9]; 9];
+
+/// All zero.
+#[inline(always)]
+pub fn zero<T: Number>() -> Tensor<T> {
+    [[T::zero(); 3]; 3]
+}
+
+/// Entry by entry.
+#[inline(always)]
+pub fn from_fn<T: Number>(mut entry: impl FnMut(usize, usize) -> T) -> Tensor<T> {
+    let mut a = zero();
+    for i in 0..3 {
+        for j in 0..3 {
+            a[i][j] = entry(i, j);
+        }
+    }
+    a
+}
+
+/// F = 1 + G.
+#[inline(always)]
+pub fn plus_identity<T: Number>(G: &Tensor<T>) -> Tensor<T> {
+    let mut F = *G;
+    for i in 0..3 {
+        F[i][i] += T::one();
+    }
+    F
+}
+
+/// Σ a_ij b_ij
+#[inline(always)]
+pub fn dot<T: Number>(a: &Tensor<T>, b: &Tensor<T>) -> T {
+    let mut sum = T::zero();
+    for i in 0..3 {
+        for j in 0..3 {
+            sum += a[i][j] * b[i][j];
+        }
+    }
+    sum
+}
+
+/// a_00 + a_11 + a_22
+#[inline(always)]
+pub fn trace<T: Number>(a: &Tensor<T>) -> T {
+    a[0][0] + a[1][1] + a[2][2]
+}
+
+/// Cofactors, det(a) a^(−T): the derivative of the determinant.
+#[inline(always)]
+pub fn cofactor<T: Number>(a: &Tensor<T>) -> Tensor<T> {
+    from_fn(
+        #[inline(always)]
+        |i, j| {
+            let (i1, i2, j1, j2) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
+            a[i1][j1] * a[i2][j2] - a[i1][j2] * a[i2][j1]
+        },
+    )
+}
+
+/// a b
+#[inline(always)]
+pub fn product<T: Number>(a: &Tensor<T>, b: &Tensor<T>) -> Tensor<T> {
+    from_fn(
+        #[inline(always)]
+        |i, j| a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j],
+    )
+}
+
+/// aᵀ
+#[inline(always)]
+pub fn transpose<T: Number>(a: &Tensor<T>) -> Tensor<T> {
+    from_fn(
+        #[inline(always)]
+        |i, j| a[j][i],
+    )
+}
+
+/// Adds b ∂cof(F)/∂F, the second derivative of the determinant: entries ±b F_ln.
+#[inline(always)]
+pub fn add_cofactor_derivative<T: Number>(H: &mut Tensor4<T>, b: T, F: &Tensor<T>) {
+    for i in 0..3 {
+        for step in 1..3 {
+            let (k, l) = ((i + step) % 3, (i + 3 - step) % 3);
+            for j in 0..3 {
+                let (next, last) = ((j + 1) % 3, (j + 2) % 3);
+                let (plus, minus) = if step == 1 { (next, last) } else { (last, next) };
+                H[3 * i + j][3 * k + plus] += b * F[l][minus];
+                H[3 * i + j][3 * k + minus] -= b * F[l][plus];
+            }
+        }
+    }
+}
+
+/// J − 1 = tr G + tr cof G + det G, without the cancellation of det(1 + G) − 1; and tr cof G + det G, what is of second order
+/// in it.
+#[inline(always)]
+pub fn volume_change<T: Number>(G: &Tensor<T>) -> (T, T) {
+    let c = cofactor(G);
+    let second_order = trace(&c) + (G[0][0] * c[0][0] + G[0][1] * c[0][1] + G[0][2] * c[0][2]);
+    (trace(G) + second_order, second_order)
+}
+
+/// Green's strain E = ½ (FᵀF − 1) = ½ (G + Gᵀ + GᵀG), which keeps its digits near rest.
+#[inline(always)]
+pub fn green_strain<T: Number>(G: &Tensor<T>) -> Tensor<T> {
+    from_fn(
+        #[inline(always)]
+        |i, j| half::<T>() * (G[i][j] + G[j][i] + (G[0][i] * G[0][j] + G[1][i] * G[1][j] + G[2][i] * G[2][j])),
+    )
+}
+
+/// The outer products' part of a derivative: s a⊗a + t (a⊗b + b⊗a) + r b⊗b.
+#[inline(always)]
+pub fn outer_products<T: Number>(s: T, t: T, r: T, a: &Tensor<T>, b: &Tensor<T>) -> Tensor4<T> {
+    let mut H = [[T::zero(); 9]; 9];
+    for i in 0..9 {
+        let (ai, bi) = (a[i / 3][i % 3], b[i / 3][i % 3]);
+        let (of_a, of_b) = (s * ai + t * bi, t * ai + r * bi);
+        for j in 0..9 {
+            H[i][j] = of_a * a[j / 3][j % 3] + of_b * b[j / 3][j % 3];
+        }
+    }
+    H
+}
+
+/// Adds s to the diagonal.
+#[inline(always)]
+pub fn add_diagonal<T: Number>(H: &mut Tensor4<T>, s: T) {
+    for i in 0..9 {
+        H[i][i] += s;
+    }
+}
+
+/// ½
+#[inline(always)]
+pub fn half<T: Number>() -> T {
+    constant(0.5)
+}

@@ -1,0 +1,89 @@
+//! Integrators: orders, conserved quantities, limits of stability, equilibrium, and the work that each does.
+
+#![allow(non_snake_case)] // C, D and E are the names that the mathematics uses
+
+mod conserved;
+mod orders;
+mod reactions;
+mod statics;
+mod vibrations;
+mod work;
+
+use std::path::Path;
+
+use fem_engine::scene::{Scene, SceneError, parse};
+use fem_engine::simulation::Simulation;
+
+/// The scene, in memory.
+fn scene(text: &str) -> Scene {
+    parse(text, Path::new("folder/name.toml")).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+fn try_build(text: &str) -> Result<Box<dyn Simulation>, SceneError> {
+    let scene = scene(text);
+    let body = fem_engine::scene::body(&scene, Path::new("no data"))?;
+    fem_engine::engine::build(&scene, body)
+}
+
+fn build(text: &str) -> Box<dyn Simulation> {
+    try_build(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// A small soft neo-Hookean box of 2 × 1 × 1 m; `rest` are further tables.
+fn soft(integrator: &str, dt: f64, rest: &str) -> String {
+    format!(
+        r#"pipeline = "engine"
+[mesh]
+box = {{ size = [2, 1, 1], cells_per_unit = 1 }}
+[material]
+model = "neo_hookean"
+C = 1e4
+D = 4e4
+density = 1000.0
+[time]
+dt = {dt:e}
+integrator = "{integrator}"
+{rest}"#
+    )
+}
+
+fn run(simulation: &mut dyn Simulation, steps: usize) {
+    for _ in 0..steps {
+        simulation.step().unwrap_or_else(|failure| panic!("{failure}"));
+    }
+}
+
+/// ‖a − b‖∞
+fn distance(a: &nalgebra::DVector<f64>, b: &nalgebra::DVector<f64>) -> f64 {
+    (a - b).amax()
+}
+
+/// `[[prescribed]]` of one coordinate of one side, at a distance.
+fn side(axis: &str, side: &str, distance: f64) -> String {
+    let displacement = ["x", "y", "z"].map(|other| if other == axis { distance } else { 0.0 });
+    format!(
+        "[[prescribed]]\non = {{ axis = \"{axis}\", side = \"{side}\", within = 1e-9 }}\n\
+         displacement = {displacement:?}\ncomponents = [\"{axis}\"]\n"
+    )
+}
+
+/// Planes of symmetry through the origin: `prescribed[0]` to `prescribed[2]`.
+fn symmetry() -> String {
+    ["x", "y", "z"].map(|axis| side(axis, "min", 0.0)).concat()
+}
+
+/// The methods that move.
+const DYNAMIC: [&str; 7] =
+    ["explicit_euler", "semi_implicit_euler", "rk2", "rk4", "verlet", "linearly_implicit_euler", "implicit_euler"];
+
+/// `[mass]` of each node when it is lumped, kg.
+fn node_masses(simulation: &dyn Simulation, density: f64) -> Vec<f64> {
+    let shape = simulation.shape();
+    let mut masses = vec![0.0; shape.mesh.vertices.len()];
+    for (element, volume) in shape.mesh.elements.iter().zip(fem_engine::mesh::volumes(&shape.mesh)) {
+        for &node in element {
+            masses[node] += density * volume / 4.0;
+        }
+    }
+    masses
+}

@@ -1,0 +1,53 @@
+//! Forces where a body is held.
+
+use crate::{DYNAMIC, build, node_masses, run, soft};
+
+const WEIGHT: &str = "[gravity]\nacceleration = [1, -3, 2]\n";
+const CLAMP: &str = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n";
+
+#[test]
+fn at_equilibrium_reactions_balance_the_loads() {
+    let traction = "[[traction]]\non = { axis = \"x\", side = \"max\", within = 1e-9 }\nforce_per_area = [0, 500, 0]\n";
+    let newton = "[newton]\ntolerance = 1e-14\n";
+    let mut simulation = build(&soft("static", 1.0, &format!("{WEIGHT}{CLAMP}{traction}{newton}")));
+    run(&mut *simulation, 1);
+    let reactions = simulation.reactions();
+    assert_eq!((reactions.len(), reactions[0].name.as_str()), (1, "fixed"));
+    for (force, expected) in reactions[0].force.iter().zip([-2000.0, 6000.0 - 500.0, -4000.0]) {
+        assert!((force - expected).abs() < 1e-10 * 6000.0, "{reactions:?}");
+    }
+}
+
+#[test]
+fn in_motion_reactions_and_loads_change_the_momentum() {
+    for integrator in ["implicit_euler", "linearly_implicit_euler", "verlet"] {
+        for rest in ["", "[mass]\nlumped = true\n", "[damping]\nbeta = 1e-2\n"] {
+            let mut simulation = build(&soft(integrator, 1e-4, &format!("{WEIGHT}{CLAMP}{rest}")));
+            let masses = node_masses(&*simulation, 1000.0);
+            run(&mut *simulation, 20);
+            let momentum = |v: nalgebra::DVector<f64>, i: usize| -> f64 {
+                masses.iter().enumerate().map(|(node, m)| m * v[3 * node + i]).sum()
+            };
+            let before = simulation.velocities();
+            run(&mut *simulation, 1);
+            let reaction = &simulation.reactions()[0];
+            for (i, gravity) in [1.0, -3.0, 2.0].into_iter().enumerate() {
+                let change = (momentum(simulation.velocities(), i) - momentum(before.clone(), i)) / 1e-4;
+                let error = (reaction.force[i] - (change - 2000.0 * gravity)).abs() / 6000.0;
+                // The other two methods have their forces at other moments than the end of the step.
+                let tolerance = if integrator == "implicit_euler" { 1e-8 } else { 2e-2 };
+                assert!(error < tolerance, "{integrator} {rest:?}: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_body_that_nothing_holds_has_no_reactions() {
+    for integrator in DYNAMIC {
+        let mut simulation = build(&soft(integrator, 1e-3, WEIGHT));
+        assert!(simulation.reactions().is_empty());
+        run(&mut *simulation, 1);
+        assert!(simulation.reactions().is_empty());
+    }
+}

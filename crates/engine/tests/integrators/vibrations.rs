@@ -1,0 +1,105 @@
+//! One node on one spring: limits of stability, damping.
+
+use crate::{build, node_masses};
+
+/// All nodes of the box but one are fixed, its material is too soft to matter, and a spring along x holds that node.
+fn oscillator(integrator: &str, dt: f64, damping: &str) -> String {
+    format!(
+        r#"pipeline = "engine"
+[mesh]
+box = {{ size = [2, 1, 1], cells_per_unit = 1 }}
+[material]
+model = "linear"
+young = 1e-9
+poisson = 0.0
+density = 1000.0
+[mass]
+lumped = true
+[gravity]
+acceleration = [1, 0, 0]
+[fixed]
+nodes = [0, 1, 2, 3, 4, 6, 7, 8, 9, 10, 11]
+[[springs]]
+nodes = [4, 5]
+stiffness = 1e6
+[time]
+dt = {dt:e}
+integrator = "{integrator}"
+{damping}"#
+    )
+}
+
+/// √(k/m), 1/s.
+fn frequency() -> f64 {
+    let masses = node_masses(&*build(&oscillator("verlet", 1.0, "")), 1000.0);
+    (1e6 / masses[5]).sqrt()
+}
+
+/// Largest distance from rest in the last of many steps, over that of the true motion.
+fn swing(integrator: &str, z: f64) -> f64 {
+    let omega = frequency();
+    let mut simulation = build(&oscillator(integrator, z / omega, ""));
+    let largest = 2.0 / (omega * omega);
+    let mut swing: f64 = 0.0;
+    for step in 0..4000 {
+        if simulation.step().is_err() {
+            return f64::INFINITY;
+        }
+        if step > 3900 {
+            swing = swing.max((simulation.positions()[15] - 2.0).abs() / largest);
+        }
+    }
+    swing
+}
+
+#[test]
+fn methods_are_stable_up_to_their_limit_and_not_beyond() {
+    let limit = 8f64.sqrt();
+    for (integrator, stable) in [("verlet", 2.0), ("semi_implicit_euler", 2.0), ("rk4", limit)] {
+        let (below, above) = (swing(integrator, 0.99 * stable), swing(integrator, 1.01 * stable));
+        assert!(below < 20.0 && above > 1e3, "{integrator}: {below} below, {above} above");
+    }
+    for integrator in ["rk2", "explicit_euler"] {
+        let at = swing(integrator, 0.5);
+        assert!(at > 1e3, "{integrator} does not grow: {at}");
+    }
+    for integrator in ["linearly_implicit_euler", "implicit_euler"] {
+        let at = swing(integrator, 50.0);
+        assert!(at < 1.0, "{integrator}: {at}");
+    }
+}
+
+/// Largest distance from x(t) = x∞ (1 − e^(−γt) (cos ω't + γ/ω' sin ω't)), over x∞.
+fn damping_error(integrator: &str, alpha: f64, beta: f64, steps_per_radian: f64) -> f64 {
+    let omega = frequency();
+    let dt = 1.0 / (omega * steps_per_radian);
+    let damping = format!("[damping]\nalpha = {:e}\nbeta = {:e}\n", alpha * omega, beta / omega);
+    let mut simulation = build(&oscillator(integrator, dt, &damping));
+    let gamma = 0.5 * (alpha + beta) * omega;
+    let damped = (omega * omega - gamma * gamma).sqrt();
+    let mut worst: f64 = 0.0;
+    for _ in 0..(20.0 * steps_per_radian) as usize {
+        simulation.step().unwrap();
+        let t = simulation.time();
+        let decay = (-gamma * t).exp() * ((damped * t).cos() + gamma / damped * (damped * t).sin());
+        worst = worst.max(((simulation.positions()[15] - 2.0) * omega * omega - (1.0 - decay)).abs());
+    }
+    worst
+}
+
+#[test]
+fn damping_decays_at_its_rate() {
+    for (alpha, beta) in [(0.1, 0.0), (0.0, 0.1), (0.05, 0.1)] {
+        for (integrator, steps, tolerance) in [
+            ("rk4", 40.0, 1e-6),
+            ("verlet", 200.0, 1e-4),
+            ("rk2", 200.0, 1e-4),
+            ("semi_implicit_euler", 400.0, 5e-3),
+            ("implicit_euler", 400.0, 2e-2),
+            ("linearly_implicit_euler", 400.0, 2e-2),
+        ] {
+            let error = damping_error(integrator, alpha, beta, steps);
+            assert!(error < tolerance, "{integrator}, {alpha} and {beta}: {error:e}");
+        }
+    }
+}
