@@ -95,6 +95,7 @@ pub enum SolverName {
     BlockJacobi,
     IncompleteCholesky,
     Multigrid,
+    Ssor,
 }
 
 impl SolverName {
@@ -105,6 +106,7 @@ impl SolverName {
             Self::BlockJacobi => (SolverKind::Pcg, Some(Preconditioner::BlockJacobi)),
             Self::IncompleteCholesky => (SolverKind::Pcg, Some(Preconditioner::IncompleteCholesky)),
             Self::Multigrid => (SolverKind::Pcg, Some(Preconditioner::Multigrid)),
+            Self::Ssor => (SolverKind::Pcg, Some(Preconditioner::Ssor)),
         };
         Solver { kind, tolerance: None, preconditioner }
     }
@@ -116,6 +118,7 @@ impl SolverName {
             Self::BlockJacobi => "block_jacobi",
             Self::IncompleteCholesky => "incomplete_cholesky",
             Self::Multigrid => "multigrid",
+            Self::Ssor => "ssor",
         }
     }
 }

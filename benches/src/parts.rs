@@ -23,7 +23,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), End> {
         return Err(End::unusable(scene.refuse("material", "lacks the moduli of its model")));
     };
     let name = arguments.solver.unwrap_or(SolverName::Cholesky);
-    let system = System::<f64>::new(&scene, body, material, Solver::<f64>::stored(choice(name)));
+    let system = System::<f64>::new(&scene, body, material, choice(name));
     let (nodes, free, elements) = (system.nodes(), system.free(), system.elements.count);
     println!("{}\n", Machine::this().line());
     println!("{}: {nodes} nodes, {free} free, {elements} elements, {} blocks\n", scene.name, system.pattern.blocks());
@@ -38,6 +38,7 @@ fn choice(name: SolverName) -> SolverChoice {
         SolverName::BlockJacobi => SolverChoice::Pcg(Preconditioner::BlockJacobi),
         SolverName::IncompleteCholesky => SolverChoice::Pcg(Preconditioner::IncompleteCholesky),
         SolverName::Multigrid => SolverChoice::Pcg(Preconditioner::Multigrid),
+        SolverName::Ssor => SolverChoice::Pcg(Preconditioner::Ssor),
     }
 }
 

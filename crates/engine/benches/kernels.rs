@@ -30,7 +30,7 @@ fn beam(law: &str, cells: usize) -> Scene {
 fn system<T: Real>(scene: &Scene, choice: SolverChoice) -> System<T> {
     let body = body(scene, Path::new("")).expect("a box needs no files");
     let material = Material::<T>::new(&scene.material).expect("moduli of every law");
-    System::new(scene, body, material, Solver::<T>::stored(choice))
+    System::new(scene, body, material, choice)
 }
 
 /// Displacements that bend and twist a little, m.

@@ -21,21 +21,28 @@ const SMALL: usize = 4000;
 /// Sets of nodes up to this size are left as they are.
 const LEAF: usize = 8;
 
+/// What the order is to be good for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Numbering {
+    /// A factor: it fills in little.
+    Dissected,
+    /// Sweeps over the rows, and their neighbours in memory: from one end of the body to the other.
+    Swept,
+}
+
 impl Order {
-    /// Nested dissection of the free nodes by coordinates, George, Nested Dissection of a Regular Finite Element Mesh (1973):
-    /// halves first, then the nodes between them; for small bodies minimum degree, where a factor is cheaper then. `held` says
-    /// which nodes never move on their own.
-    pub fn new<const N: usize>(vertices: &[Vector3<f64>], elements: &[[usize; N]], held: &[bool]) -> Self {
-        let neighbours = neighbours(vertices.len(), elements);
+    /// Numbers the free nodes for a purpose, then the others. `held` says which nodes never move on their own.
+    pub fn new<const N: usize>(
+        numbering: Numbering,
+        vertices: &[Vector3<f64>],
+        elements: &[[usize; N]],
+        held: &[bool],
+    ) -> Self {
         let mut nodes: Vec<u32> = (0..vertices.len() as u32).filter(|&node| !held[node as usize]).collect();
         let free = nodes.len();
-        let mut side = vec![Side::Away; vertices.len()];
-        dissect(&mut nodes, vertices, &neighbours, &mut side);
-        if free <= SMALL
-            && let Some(other) = minimum_degree(&nodes, &neighbours)
-            && work(&other, &neighbours) < work(&nodes, &neighbours)
-        {
-            nodes = other;
+        match numbering {
+            Numbering::Dissected => nodes = dissected(nodes, vertices, &neighbours(vertices.len(), elements)),
+            Numbering::Swept => sweep(&mut nodes, vertices),
         }
         nodes.extend((0..vertices.len() as u32).filter(|&node| held[node as usize]));
         Self::from_nodes(nodes, free)
@@ -59,6 +66,34 @@ impl Order {
     pub fn to_mesh<V: Copy>(&self, values: &[V]) -> Vec<V> {
         self.engine_node.iter().map(|&node| values[node as usize]).collect()
     }
+}
+
+/// Nested dissection of these nodes by coordinates, George, Nested Dissection of a Regular Finite Element Mesh (1973): halves
+/// first, then the nodes between them; for small bodies minimum degree, where a factor is cheaper then.
+fn dissected(mut nodes: Vec<u32>, vertices: &[Vector3<f64>], neighbours: &[Vec<u32>]) -> Vec<u32> {
+    dissect(&mut nodes, vertices, neighbours, &mut vec![Side::Away; vertices.len()]);
+    if nodes.len() <= SMALL
+        && let Some(other) = minimum_degree(&nodes, neighbours)
+        && work(&other, neighbours) < work(&nodes, neighbours)
+    {
+        return other;
+    }
+    nodes
+}
+
+/// Along the longest axis; where that leaves a tie along the next, and at last by number.
+fn sweep(nodes: &mut [u32], vertices: &[Vector3<f64>]) {
+    if nodes.is_empty() {
+        return;
+    }
+    let extent = extent(nodes, vertices);
+    let mut axes = [0, 1, 2];
+    axes.sort_by(|&a, &b| extent[b].total_cmp(&extent[a]));
+    nodes.sort_unstable_by(|&a, &b| {
+        let (x, y) = (&vertices[a as usize], &vertices[b as usize]);
+        let along = |axis: usize| x[axis].total_cmp(&y[axis]);
+        along(axes[0]).then(along(axes[1])).then(along(axes[2])).then(a.cmp(&b))
+    });
 }
 
 /// These nodes in the order of minimum degree.
@@ -160,23 +195,28 @@ fn dissect(nodes: &mut [u32], x: &[Vector3<f64>], neighbours: &[Vec<u32>], side:
 }
 
 fn longest_axis(nodes: &[u32], x: &[Vector3<f64>]) -> usize {
+    extent(nodes, x).imax()
+}
+
+/// Edges of the box around these nodes, of which there is at least one.
+fn extent(nodes: &[u32], x: &[Vector3<f64>]) -> Vector3<f64> {
     let first = x[nodes[0] as usize];
     let (least, most) = nodes
         .iter()
         .fold((first, first), |(least, most), &node| (least.inf(&x[node as usize]), most.sup(&x[node as usize])));
-    (most - least).imax()
+    most - least
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Order;
+    use super::{Numbering, Order};
     use crate::mesh::box_mesh;
 
     #[test]
     fn every_node_has_one_number_and_held_ones_come_last() {
         let mesh = box_mesh([2.0, 1.0, 1.0], 3).unwrap();
         let held: Vec<bool> = mesh.vertices.iter().map(|x| x.x == 0.0).collect();
-        let order = Order::new(&mesh.vertices, &mesh.elements, &held);
+        let order = Order::new(Numbering::Dissected, &mesh.vertices, &mesh.elements, &held);
         let mut all = order.mesh_node.clone();
         all.sort_unstable();
         assert!(all.iter().enumerate().all(|(i, &node)| i == node as usize));
@@ -187,9 +227,18 @@ mod tests {
     }
 
     #[test]
+    fn a_sweep_goes_along_the_longest_axis_first() {
+        let mesh = box_mesh([1.0, 3.0, 2.0], 2).unwrap();
+        let held = vec![false; mesh.vertices.len()];
+        let order = Order::new(Numbering::Swept, &mesh.vertices, &mesh.elements, &held);
+        let x = order.mesh_node.iter().map(|&node| mesh.vertices[node as usize]).collect::<Vec<_>>();
+        assert!(x.windows(2).all(|x| (x[0].y, x[0].z, x[0].x) < (x[1].y, x[1].z, x[1].x)));
+    }
+
+    #[test]
     fn nodes_at_one_place_do_not_hang_the_dissection() {
         let vertices = vec![nalgebra::Vector3::zeros(); 100];
         let elements: Vec<[usize; 4]> = (0..97).map(|i| [i, i + 1, i + 2, i + 3]).collect();
-        assert_eq!(Order::new(&vertices, &elements, &[false; 100]).mesh_node.len(), 100);
+        assert_eq!(Order::new(Numbering::Dissected, &vertices, &elements, &[false; 100]).mesh_node.len(), 100);
     }
 }

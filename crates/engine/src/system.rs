@@ -16,7 +16,8 @@ use crate::pressure::Pressure;
 use crate::pulls::Spring;
 use crate::scene::{Body, Damping, Drag, Scene};
 use crate::simulation::Shape;
-use crate::sparse::{Block, Pattern, Stored};
+use crate::solvers::SolverChoice;
+use crate::sparse::{Block, Pattern};
 use crate::springs::NodeSpring;
 
 /// A body in the engine's order of nodes: free ones first, those that are held wholly last.
@@ -82,15 +83,15 @@ impl std::ops::Add for Energy {
 }
 
 impl<T: Real> System<T> {
-    /// Builds what the scene names, and nothing else.
-    pub fn new(scene: &Scene, body: Body, material: Material<T>, stored: Stored) -> Self {
+    /// Builds what the scene names, and nothing else; rows and blocks as the solver wants them.
+    pub fn new(scene: &Scene, body: Body, material: Material<T>, choice: SolverChoice) -> Self {
         let mesh = &body.shape.mesh;
-        let order = Order::new(&mesh.vertices, &mesh.elements, &wholly_held(scene, &body));
+        let order = Order::new(choice.numbering(), &mesh.vertices, &mesh.elements, &wholly_held(scene, &body));
         let corners = order.elements(&mesh.elements);
         let rest: Vec<_> = order.mesh_node.iter().map(|&node| mesh.vertices[node as usize]).collect();
         let springs = node_springs(scene, &body, &order);
         let joined: Vec<[u32; 2]> = springs.iter().map(|spring| spring.nodes.map(|node| node as u32)).collect();
-        let pattern = Pattern::joined(order.free, &corners, &joined, stored);
+        let pattern = Pattern::joined(order.free, &corners, &joined, choice.stored());
         let volumes = crate::mesh::volumes(mesh);
         let mass = Mass::new(rest.len(), &corners, &volumes, scene.material.density, scene.mass.lumped);
         let dead_load = loads::dead(scene, &body, &order, &mass, &corners, &volumes);

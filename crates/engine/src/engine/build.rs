@@ -33,7 +33,7 @@ pub fn integrators(scene: &Scene) -> &'static [Integrator] {
 
 /// Nodes up to which a factor is cheaper than iterations, where the scene names no solver: in motion, where inertia keeps
 /// iterations few, and in equilibrium, where one factor does.
-const DIRECT: (usize, usize) = (8000, 20_000);
+const DIRECT: (usize, usize) = (2000, 20_000);
 
 /// The solver that the scene names, or the one that suits its size.
 pub(super) fn solver_choice(scene: &Scene, nodes: usize) -> SolverChoice {
@@ -41,6 +41,7 @@ pub(super) fn solver_choice(scene: &Scene, nodes: usize) -> SolverChoice {
         None | Some(crate::scene::Preconditioner::BlockJacobi) => Preconditioner::BlockJacobi,
         Some(crate::scene::Preconditioner::IncompleteCholesky) => Preconditioner::IncompleteCholesky,
         Some(crate::scene::Preconditioner::Multigrid) => Preconditioner::Multigrid,
+        Some(crate::scene::Preconditioner::Ssor) => Preconditioner::Ssor,
     };
     let most_direct = if scene.time.integrator == Integrator::Static { DIRECT.1 } else { DIRECT.0 };
     match &scene.solver {
@@ -51,9 +52,9 @@ pub(super) fn solver_choice(scene: &Scene, nodes: usize) -> SolverChoice {
             SolverKind::Pcg => SolverChoice::Pcg(preconditioner(solver)),
         },
         None if nodes <= most_direct => SolverChoice::Cholesky,
-        // Inertia keeps the iterations of the cheaper one few; equilibrium has none.
+        // Inertia keeps the iterations of the cheapest one few; equilibrium has none.
         None if scene.time.integrator == Integrator::Static => SolverChoice::Pcg(Preconditioner::Multigrid),
-        None => SolverChoice::Pcg(Preconditioner::IncompleteCholesky),
+        None => SolverChoice::Pcg(Preconditioner::Ssor),
     }
 }
 
@@ -68,7 +69,7 @@ impl<T: Real> Engine<T> {
         }
         let skinning = body.shape.display.as_ref().map(|display| Skinning::new(&body.shape.mesh, &display.vertices));
         let choice = solver_choice(scene, body.shape.mesh.vertices.len());
-        let system = System::new(scene, body, material, crate::solvers::Solver::<T>::stored(choice));
+        let system = System::new(scene, body, material, choice);
         let state = State::at_rest(system.nodes());
         Ok(Self {
             stepper: Stepper::new(scene, &system, scene.time.integrator, choice),

@@ -6,6 +6,7 @@
 //! energy; where differences of energies drown in round-off, in the slope.
 
 mod hessian;
+mod inexact;
 mod limits;
 
 pub use limits::Limits;
@@ -36,6 +37,8 @@ pub struct Newton<T: Real> {
     iterations_at_first: Option<usize>,
     /// Whether the next solve is the first with a new preconditioner.
     is_new: bool,
+    /// Whether an iterative solver's kept matrix has led on too slowly in this step to begin the next one with.
+    is_outworn: bool,
 }
 
 /// What the kept factor belongs to.
@@ -60,6 +63,8 @@ struct Iterate {
     rate: Option<f64>,
     /// Norm of the gradient, N, and of the one before it.
     norms: (f64, f64),
+    /// Relative residual that the last direction was solved to; 0 where it is exact.
+    forcing: f64,
 }
 
 /// Part of the energy's terms that is round-off.
@@ -92,6 +97,7 @@ impl<T: Real> Newton<T> {
             factor: Factor::Stale,
             iterations_at_first: None,
             is_new: false,
+            is_outworn: false,
         }
     }
 
@@ -135,9 +141,10 @@ impl<T: Real> Newton<T> {
         if self.factor != Factor::Stale {
             self.factor = Factor::Kept;
         }
+        self.is_outworn = false;
         let energy = objective.energy_and_gradient(w, &mut self.gradient, &mut self.scratch);
         let norm = norm(&self.gradient);
-        let mut at = Iterate { energy, size: f64::INFINITY, rate: None, norms: (norm, norm) };
+        let mut at = Iterate { energy, size: f64::INFINITY, rate: None, norms: (norm, norm), forcing: 0.0 };
         let tolerance = self.limits.tolerance * objective.system.length;
         for iteration in 0..self.limits.max_iterations {
             if at.norms.0 == 0.0 {
@@ -145,8 +152,8 @@ impl<T: Real> Newton<T> {
             }
             counters.newton_iterations += 1;
             let moved = self.advance(objective, w, &mut at, counters)?;
-            if !moved || at.size * at.rate.unwrap_or(1.0).min(1.0) <= tolerance {
-                if iteration as f64 > PRICE_OF_A_FACTOR {
+            if !moved || at.left() <= tolerance {
+                if iteration as f64 > PRICE_OF_A_FACTOR || self.is_outworn {
                     self.factor = Factor::Stale;
                 }
                 return Ok(true);
@@ -165,14 +172,11 @@ impl<T: Real> Newton<T> {
         at: &mut Iterate,
         counters: &mut Counters,
     ) -> Result<bool, Cause> {
-        if self.solver.is_iterative() {
-            self.factor = Factor::Stale;
-        }
         loop {
             if self.factor == Factor::Stale {
                 self.prepare(objective, w, false, counters)?;
             }
-            let slope = self.find_direction(at);
+            let slope = self.find_direction(at, self.limits.tolerance * objective.system.length);
             if slope < 0.0
                 && let Some(length) = self.search(objective, w, at, slope, counters)
             {
@@ -189,27 +193,13 @@ impl<T: Real> Newton<T> {
     }
 
     /// Solves for the direction, and returns the slope along it: not below zero where there is no way down.
-    fn find_direction(&mut self, at: &Iterate) -> f64 {
+    fn find_direction(&mut self, at: &mut Iterate, tolerance: f64) -> f64 {
         for (right, g) in self.right.iter_mut().zip(&self.gradient) {
             *right = g.map(|g| -g);
         }
         let solved = if self.solver.is_iterative() {
-            // Eisenstat and Walker, Choosing the Forcing Terms in an Inexact Newton Method (1996), choice 2: as exact as the
-            // next iteration can make use of.
-            let forcing = (0.9 * (at.norms.0 / at.norms.1).powi(2)).clamp(self.limits.solver_tolerance, 0.05);
-            self.direction.fill([T::default(); 3]);
-            match self.solver.solve(&self.values, &self.right, &mut self.direction, forcing) {
-                Ok(solved) => {
-                    self.wear(solved.iterations);
-                    true
-                }
-                // What was reached leads downhill too.
-                Err(Breakdown::NotConverged { .. }) => {
-                    self.iterations_at_first = None;
-                    true
-                }
-                Err(_) => false,
-            }
+            at.forcing = at.next_forcing(tolerance).max(self.limits.solver_tolerance);
+            self.solve(at.forcing)
         } else {
             let Self { solver, history, direction, right, .. } = self;
             direction.copy_from_slice(right);
@@ -270,6 +260,9 @@ impl<T: Real> Newton<T> {
 
     /// Decides whether the factor is worth keeping: not where more iterations are left than a new one costs.
     fn judge(&mut self, at: &Iterate, tolerance: f64) {
+        if self.solver.is_iterative() {
+            return self.judge_matrix(at, tolerance);
+        }
         let Some(rate) = at.rate else { return };
         let left = (tolerance / at.size).ln() / rate.ln();
         // A rate that is no progress makes it negative or NaN.

@@ -89,6 +89,8 @@ pub enum Preconditioner {
     IncompleteCholesky,
     /// A hierarchy of coarser matrices.
     Multigrid,
+    /// Symmetric sweeps of Gauss and Seidel, in single precision.
+    Ssor,
 }
 
 /// `[damping]`: Rayleigh's, a force −(α M + β K) v.

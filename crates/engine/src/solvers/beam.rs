@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::mesh::{TetrahedralMesh, box_mesh};
 use crate::number::Real;
-use crate::order::Order;
+use crate::order::{Numbering, Order};
 use crate::sparse::{Pattern, Stored};
 
 /// Young's modulus in Pa, Poisson's ratio, density in kg/m³.
@@ -30,7 +30,7 @@ impl Beam {
     pub fn held_where(cells_per_unit: usize, stored: Stored, hold: impl Fn(&Vector3<f64>) -> bool) -> Self {
         let mesh = box_mesh([4.0, 1.0, 1.0], cells_per_unit).unwrap();
         let held: Vec<bool> = mesh.vertices.iter().map(hold).collect();
-        let order = Order::new(&mesh.vertices, &mesh.elements, &held);
+        let order = Order::new(Numbering::Dissected, &mesh.vertices, &mesh.elements, &held);
         Self::ordered(&mesh, &order, stored)
     }
 

@@ -7,7 +7,7 @@ use crate::number::Real;
 
 /// Vectors that an iteration needs; kept from one solve to the next.
 pub(super) struct Work<T> {
-    r: Vec<[T; 3]>,
+    pub(super) r: Vec<[T; 3]>,
     z: Vec<[T; 3]>,
     p: Vec<[T; 3]>,
     q: Vec<[T; 3]>,

@@ -11,6 +11,8 @@ mod large;
 mod lu;
 mod multigrid;
 mod product;
+mod refine;
+mod ssor;
 mod supernodal;
 mod vector;
 
@@ -32,8 +34,11 @@ use cholesky::Cholesky;
 use incomplete_cholesky::IncompleteCholesky;
 use lu::Lu;
 use multigrid::Multigrid;
+use refine::refine;
+use ssor::Ssor;
 
 use crate::number::Real;
+use crate::order::Numbering;
 use crate::sparse::{Pattern, Stored};
 
 pub use crate::simulation::Breakdown;
@@ -58,6 +63,24 @@ pub enum SolverChoice {
     Pcg(Preconditioner),
 }
 
+impl SolverChoice {
+    /// Which blocks the patterns for it must store.
+    pub fn stored(self) -> Stored {
+        match self {
+            SolverChoice::Cholesky | SolverChoice::Pcg(Preconditioner::Ssor) => Stored::Lower,
+            SolverChoice::Lu | SolverChoice::Cg | SolverChoice::Pcg(_) => Stored::Full,
+        }
+    }
+
+    /// In which order the rows should be: a factor should fill in little, sweeps should pass from one end to the other.
+    pub fn numbering(self) -> Numbering {
+        match self {
+            SolverChoice::Cholesky | SolverChoice::Lu => Numbering::Dissected,
+            SolverChoice::Cg | SolverChoice::Pcg(_) => Numbering::Swept,
+        }
+    }
+}
+
 /// What conjugate gradients are preconditioned with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Preconditioner {
@@ -67,6 +90,8 @@ pub enum Preconditioner {
     IncompleteCholesky,
     /// Smoothed aggregation.
     Multigrid,
+    /// Symmetric sweeps of Gauss and Seidel; the iteration itself runs in single precision.
+    Ssor,
 }
 
 /// What a solver did so far.
@@ -97,10 +122,11 @@ enum Method<T> {
     BlockJacobi(BlockJacobi<T>),
     IncompleteCholesky(IncompleteCholesky<T>),
     Multigrid(Box<Multigrid>),
+    Ssor(Box<Ssor>),
 }
 
 impl<T: Real> Solver<T> {
-    /// Analyses a pattern, of which `stored(kind)` blocks are stored. `rest` holds the places of the rows' nodes at rest, in m.
+    /// Analyses a pattern, of which [`stored`](SolverChoice::stored) blocks are stored. `rest` holds the places of the rows' nodes at rest, in m.
     pub fn new(kind: SolverChoice, pattern: &Arc<Pattern>, rest: &[[f64; 3]]) -> Self {
         let method = match kind {
             SolverChoice::Cholesky => Method::Cholesky(Cholesky::new(pattern)),
@@ -108,20 +134,13 @@ impl<T: Real> Solver<T> {
             SolverChoice::Cg => Method::Cg,
             SolverChoice::Pcg(Preconditioner::BlockJacobi) => Method::BlockJacobi(BlockJacobi::new(pattern)),
             SolverChoice::Pcg(Preconditioner::Multigrid) => Method::Multigrid(Box::new(Multigrid::new(pattern, rest))),
+            SolverChoice::Pcg(Preconditioner::Ssor) => Method::Ssor(Box::new(Ssor::new(pattern))),
             SolverChoice::Pcg(Preconditioner::IncompleteCholesky) => {
                 Method::IncompleteCholesky(IncompleteCholesky::new(pattern))
             }
         };
         let counters = Counters { symbolic_factorizations: 1, ..Counters::default() };
         Self { pattern: Arc::clone(pattern), method, work: Work::new(pattern.rows()), counters }
-    }
-
-    /// Which blocks the patterns for this kind must store.
-    pub fn stored(kind: SolverChoice) -> Stored {
-        match kind {
-            SolverChoice::Cholesky => Stored::Lower,
-            SolverChoice::Lu | SolverChoice::Cg | SolverChoice::Pcg(_) => Stored::Full,
-        }
     }
 
     /// Computes the factor or the preconditioner of a matrix. After an error the preparation is of no use.
@@ -134,6 +153,7 @@ impl<T: Real> Solver<T> {
             Method::BlockJacobi(method) => method.prepare(values),
             Method::Multigrid(method) => method.prepare(values),
             Method::IncompleteCholesky(method) => method.prepare(values),
+            Method::Ssor(method) => method.prepare(values),
         }
     }
 
@@ -159,9 +179,20 @@ impl<T: Real> Solver<T> {
         // The largest entry of a positive definite matrix is on its diagonal.
         let entries = || pattern.diagonal().flat_map(|block| (0..3).map(move |i| values[block][i][i].as_f64().abs()));
         let size = || entries().fold(0.0, f64::max);
+        let mut corrections = 0;
+        if let Method::Ssor(method) = method {
+            let correct = |r: &[[T; 3]], x: &mut [[T; 3]], tolerance: f64| method.correct(r, x, tolerance);
+            let refined = refine(A, correct, b, x, tolerance, work)?;
+            corrections = refined.iterations;
+            if refined.done {
+                self.counters.iterations += corrections;
+                return Ok(Solved { iterations: corrections });
+            }
+        }
         let solved = conjugate_gradients(A, |r, z| method.apply(r, z), size, b, x, tolerance, work)?;
-        self.counters.iterations += solved.iterations;
-        Ok(solved)
+        let iterations = corrections + solved.iterations;
+        self.counters.iterations += iterations;
+        Ok(Solved { iterations })
     }
 
     /// z = P⁻¹ r, where P is what was prepared: the matrix itself as a factor, or the preconditioner.
@@ -173,6 +204,11 @@ impl<T: Real> Solver<T> {
     /// Whether a solve iterates, on the matrix that it is given, and the preparation is a preconditioner only.
     pub fn is_iterative(&self) -> bool {
         !matches!(self.method, Method::Cholesky(_) | Method::Lu(_))
+    }
+
+    /// Whether the preparation is a copy of the matrix: of no use for another one.
+    pub fn copies_matrix(&self) -> bool {
+        matches!(self.method, Method::Ssor(_))
     }
 
     /// What it did so far.
@@ -189,6 +225,7 @@ impl<T: Real> Solver<T> {
             Method::BlockJacobi(method) => method.bytes(),
             Method::Multigrid(method) => method.bytes(),
             Method::IncompleteCholesky(method) => method.bytes(),
+            Method::Ssor(method) => method.bytes(),
         };
         method + self.work.bytes()
     }
@@ -203,6 +240,7 @@ impl<T: Real> Method<T> {
             Method::BlockJacobi(method) => method.apply(r, z),
             Method::Multigrid(method) => method.apply(r, z),
             Method::IncompleteCholesky(method) => method.apply(r, z),
+            Method::Ssor(method) => method.apply(r, z),
         }
     }
 }

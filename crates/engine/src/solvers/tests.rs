@@ -4,17 +4,18 @@ use super::beam::{Beam, random};
 use super::{Breakdown, Preconditioner, Solver, SolverChoice, norm, product};
 use crate::number::Real;
 
-const KINDS: [SolverChoice; 6] = [
+const KINDS: [SolverChoice; 7] = [
     SolverChoice::Cholesky,
     SolverChoice::Lu,
     SolverChoice::Cg,
     SolverChoice::Pcg(Preconditioner::BlockJacobi),
     SolverChoice::Pcg(Preconditioner::IncompleteCholesky),
     SolverChoice::Pcg(Preconditioner::Multigrid),
+    SolverChoice::Pcg(Preconditioner::Ssor),
 ];
 
 fn beam<T: Real>(kind: SolverChoice, cells: usize) -> (Beam, Solver<T>) {
-    let beam = Beam::new(cells, Solver::<T>::stored(kind));
+    let beam = Beam::new(cells, kind.stored());
     let solver = Solver::new(kind, &beam.pattern, &beam.rest);
     (beam, solver)
 }
@@ -80,7 +81,7 @@ fn outcome(kind: SolverChoice, beam: &Beam, values: &[[[f64; 3]; 3]]) -> Result<
 }
 
 fn held(kind: SolverChoice) -> Beam {
-    Beam::new(3, Solver::<f64>::stored(kind))
+    Beam::new(3, kind.stored())
 }
 
 #[test]
@@ -128,7 +129,7 @@ fn a_bad_matrix_leaves_nothing_behind() {
 #[test]
 fn a_matrix_that_lets_a_body_float_is_told() {
     for kind in KINDS {
-        let beam = Beam::held_where(2, Solver::<f64>::stored(kind), |_| false);
+        let beam = Beam::held_where(2, kind.stored(), |_| false);
         let told = outcome(kind, &beam, &beam.scaled(|_| 1.0, 0.0));
         // rounding decides the sign of a pivot that should be 0
         assert!(told.is_err(), "{kind:?}: {told:?}");

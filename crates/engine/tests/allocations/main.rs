@@ -55,6 +55,7 @@ fn steps_of_all_solvers_allocate_nothing() {
         "kind = \"cg\"",
         "kind = \"pcg\"",
         "kind = \"pcg\"\npreconditioner = \"incomplete_cholesky\"",
+        "kind = \"pcg\"\npreconditioner = \"ssor\"",
     ] {
         assert_eq!(allocations("implicit_euler", &format!("[solver]\n{solver}\n")), 0, "{solver}");
     }

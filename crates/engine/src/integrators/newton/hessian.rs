@@ -61,21 +61,12 @@ impl<T: Real> Newton<T> {
 
     /// A factor of the values, or a preconditioner for them where the one that is kept is worn out. False where there is none.
     fn prepare_solver(&mut self, counters: &mut Counters) -> bool {
-        if self.solver.is_iterative() && self.iterations_at_first.is_some() {
+        if self.solver.is_iterative() && !self.solver.copies_matrix() && self.iterations_at_first.is_some() {
             return true;
         }
         counters.factorizations += 1;
         self.is_new = true;
         self.solver.prepare(&self.values).is_ok()
-    }
-
-    /// A preconditioner of an earlier matrix is as good until solves take half as many iterations again.
-    pub(super) fn wear(&mut self, iterations: usize) {
-        if self.is_new {
-            (self.is_new, self.iterations_at_first) = (false, Some(iterations));
-        } else if self.iterations_at_first.is_some_and(|first| iterations > 4 + first + first / 2) {
-            self.iterations_at_first = None;
-        }
     }
 
     /// Adds a growing multiple of the largest diagonal entry to the diagonal.
