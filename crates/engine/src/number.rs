@@ -29,6 +29,14 @@ pub trait Real: RealField + FaerReal + Packed + Default + std::iter::Sum {
     /// The same, to be written.
     fn each_mut(lanes: &mut Self::Lanes) -> &mut [Self];
 
+    /// Adds what the lanes of a block hold to the block `target(lane)`, unless that is out of range. By registers, not by numbers: a pass
+    /// over elements spends much of its time on getting numbers out of lanes.
+    fn add_by_lane<const D: usize>(
+        lanes: &[[Self::Lanes; D]; D],
+        blocks: &mut [[[Self; D]; D]],
+        target: impl Fn(usize) -> u32,
+    );
+
     /// The nearest number of this type.
     fn of(x: f64) -> Self;
 
@@ -64,6 +72,29 @@ impl Real for f64 {
     #[inline(always)]
     fn each_mut(lanes: &mut Self::Lanes) -> &mut [f64] {
         lanes.0.as_mut_array()
+    }
+
+    #[inline(always)]
+    fn add_by_lane<const D: usize>(
+        lanes: &[[Self::Lanes; D]; D],
+        blocks: &mut [[[f64; D]; D]],
+        target: impl Fn(usize) -> u32,
+    ) {
+        let (full, rest) = lanes.as_flattened().as_chunks::<4>();
+        let mut rows = [[wide::f64x4::ZERO; 4]; 2];
+        for (rows, lanes) in rows.iter_mut().zip(full) {
+            *rows = wide::f64x4::transpose(lanes.map(|lanes| lanes.0));
+        }
+        for lane in 0..4 {
+            let Some(block) = blocks.get_mut(target(lane) as usize) else { continue };
+            let (sums, last) = block.as_flattened_mut().as_chunks_mut::<4>();
+            for (sums, rows) in sums.iter_mut().zip(&rows) {
+                *sums = (wide::f64x4::new(*sums) + rows[lane]).to_array();
+            }
+            for (sum, lanes) in last.iter_mut().zip(rest) {
+                *sum += lanes.0.as_array()[lane];
+            }
+        }
     }
 
     #[inline(always)]
@@ -115,6 +146,29 @@ impl Real for f32 {
     #[inline(always)]
     fn each_mut(lanes: &mut Self::Lanes) -> &mut [f32] {
         lanes.0.as_mut_array()
+    }
+
+    #[inline(always)]
+    fn add_by_lane<const D: usize>(
+        lanes: &[[Self::Lanes; D]; D],
+        blocks: &mut [[[f32; D]; D]],
+        target: impl Fn(usize) -> u32,
+    ) {
+        let (full, rest) = lanes.as_flattened().as_chunks::<8>();
+        let mut rows = [[wide::f32x8::ZERO; 8]; 2];
+        for (rows, lanes) in rows.iter_mut().zip(full) {
+            *rows = wide::f32x8::transpose(lanes.map(|lanes| lanes.0));
+        }
+        for lane in 0..8 {
+            let Some(block) = blocks.get_mut(target(lane) as usize) else { continue };
+            let (sums, last) = block.as_flattened_mut().as_chunks_mut::<8>();
+            for (sums, rows) in sums.iter_mut().zip(&rows) {
+                *sums = (wide::f32x8::new(*sums) + rows[lane]).to_array();
+            }
+            for (sum, lanes) in last.iter_mut().zip(rest) {
+                *sum += lanes.0.as_array()[lane];
+            }
+        }
     }
 
     #[inline(always)]

@@ -13,7 +13,7 @@ use crate::sparse::Pattern;
 const CHUNK: usize = 4096;
 
 /// A place that is beyond all others.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     /// Elements with corners and positions in the order of the rows of `pattern`; nodes beyond its rows have forces but no
@@ -44,7 +44,7 @@ fn chunk<T: Real, const D: usize, const N: usize>(
     // Neighbours in memory are neighbours in space, as far as the numbers of nodes are.
     chosen.sort_by_key(|&element| elements[element as usize].iter().min().copied());
 
-    let mut corners: Vec<[u32; N]> = chosen.iter().map(|&element| elements[element as usize]).collect();
+    let mut corners: Vec<[u32; N]> = chosen.iter().map(|&element| ascending(elements[element as usize])).collect();
     let mut targets: Vec<_> = corners.iter().map(|corners| target(corners, &rows, blocks.start, pattern)).collect();
     let shapes: Vec<_> = corners.iter().map(|corners| shape(corners, positions)).collect();
     let owned: Vec<bool> = corners
@@ -82,7 +82,14 @@ fn shape<const D: usize, const N: usize>(
     let x = |corner: usize| positions[corners[corner] as usize];
     let edges = SMatrix::<f64, D, D>::from_fn(|i, e| x(e + 1)[i] - x(0)[i]);
     let (inverse, determinant) = inverse_and_determinant(&edges);
-    (inverse, determinant / (1..=D).product::<usize>() as f64)
+    (inverse, determinant.abs() / (1..=D).product::<usize>() as f64)
+}
+
+/// Corners in the order of their numbers, so that the same pairs of all elements lie in the lower half of a matrix: a branch that
+/// goes another way for every element costs more than what it saves. F and the volume's size do not depend on the order.
+fn ascending<const N: usize>(mut corners: [u32; N]) -> [u32; N] {
+    corners.sort_unstable();
+    corners
 }
 
 /// By cofactors in three dimensions and two. Meshes are checked before: the determinant is not zero.

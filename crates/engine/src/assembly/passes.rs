@@ -1,5 +1,6 @@
 //! The passes over all elements.
 
+use super::build::NONE;
 use super::kernel::{corner_gradients, displacement_gradient, element_hessian, energy};
 use super::split::over_chunks;
 use super::{Batch, Chunk, Elements};
@@ -116,18 +117,13 @@ fn add_hessian<T: Real, const D: usize, const N: usize>(
     scaled.volume *= factor;
     let hessian = element_hessian::<T, D, N>(&scaled, H);
     let targets = &chunk.targets[batch * T::WIDTH..(batch + 1) * T::WIDTH];
-    for lane in 0..T::WIDTH {
-        let targets = &targets[lane];
-        for a in 0..N {
-            for b in 0..N {
-                // A pair without a block, or whose row belongs to another chunk, is out of range.
-                let Some(block) = values.get_mut(targets[a][b] as usize) else { continue };
-                for i in 0..D {
-                    for k in 0..D {
-                        let entry = if b <= a { &hessian[a][b][i][k] } else { &hessian[b][a][k][i] };
-                        block[i][k] += T::each(entry)[lane];
-                    }
-                }
+    for a in 0..N {
+        for b in 0..=a {
+            // A pair without a block, or whose row belongs to another chunk, is out of range.
+            T::add_by_lane(&hessian[a][b], values, |lane| targets[lane][a][b]);
+            if a != b && targets.iter().any(|targets| targets[b][a] != NONE) {
+                let transposed = std::array::from_fn(|i| std::array::from_fn(|k| hessian[a][b][k][i]));
+                T::add_by_lane(&transposed, values, |lane| targets[lane][b][a]);
             }
         }
     }
