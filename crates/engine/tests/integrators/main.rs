@@ -1,7 +1,11 @@
-//! Integrators: orders, conserved quantities, limits of stability, equilibrium, and the work that each does.
+//! Integrators and bodies: orders, closed forms, conserved quantities, limits of stability, equilibrium, and the work that each
+//! method does.
 
 #![allow(non_snake_case)] // C, D and E are the names that the mathematics uses
 
+mod affine;
+mod bars;
+mod cantilever;
 mod conserved;
 mod orders;
 mod reactions;
@@ -71,6 +75,17 @@ fn side(axis: &str, side: &str, distance: f64) -> String {
 fn symmetry() -> String {
     ["x", "y", "z"].map(|axis| side(axis, "min", 0.0)).concat()
 }
+
+/// A box of 2 × 1 × 1 m of a law with E = 1e5 Pa and ν = 0.3, in equilibrium; `rest` are further tables.
+fn block(model: &str, rest: &str) -> String {
+    soft("static", 1.0, &format!("[newton]\ntolerance = 1e-14\n{rest}")).replace(
+        "model = \"neo_hookean\"\nC = 1e4\nD = 4e4",
+        &format!("model = \"{model}\"\nyoung = 1e5\npoisson = 0.3"),
+    )
+}
+
+/// All laws.
+const MODELS: [&str; 5] = ["linear", "corotated", "st_venant_kirchhoff", "neo_hookean", "stable_neo_hookean"];
 
 /// The methods that move.
 const DYNAMIC: [&str; 7] =
