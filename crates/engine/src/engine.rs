@@ -2,6 +2,7 @@
 
 mod build;
 mod parts;
+mod range;
 mod reactions;
 mod rigid;
 mod simulation;

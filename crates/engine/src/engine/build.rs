@@ -9,7 +9,7 @@ use crate::state::State;
 use crate::system::System;
 
 use super::stepper::Stepper;
-use super::{Engine, Seconds, rigid};
+use super::{Engine, Seconds, range, rigid};
 
 /// Methods that a running simulation can be switched to.
 pub fn integrators(scene: &Scene) -> &'static [Integrator] {
@@ -70,6 +70,7 @@ impl<T: Real> Engine<T> {
         let skinning = body.shape.display.as_ref().map(|display| Skinning::new(&body.shape.mesh, &display.vertices));
         let choice = solver_choice(scene, body.shape.mesh.vertices.len());
         let system = System::new(scene, body, material, choice);
+        range::check(scene, &system)?;
         let state = State::at_rest(system.nodes());
         Ok(Self {
             stepper: Stepper::new(scene, &system, scene.time.integrator, choice),

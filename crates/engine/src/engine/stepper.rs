@@ -16,6 +16,9 @@ use crate::system::System;
 /// Relative residuals that a linear solver always reaches, in roundings.
 const ROUNDINGS: f64 = 8.0;
 
+/// The coarsest solve that still makes a direction of Newton's method.
+const COARSEST: f64 = 0.05;
+
 /// An integrator with all that it keeps from step to step.
 pub(super) enum Stepper<T: Real> {
     ExplicitEuler(ExplicitEuler<T>),
@@ -113,6 +116,6 @@ fn limits(scene: &Scene, solver_tolerance: f64) -> Limits {
         max_iterations: newton.and_then(|newton| newton.max_iterations).unwrap_or(50),
         tolerance: newton.and_then(|newton| newton.tolerance).unwrap_or(1e-10),
         projection: newton.and_then(|newton| newton.projection).unwrap_or_default(),
-        solver_tolerance,
+        solver_tolerance: solver_tolerance.min(COARSEST),
     }
 }

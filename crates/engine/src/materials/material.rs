@@ -33,6 +33,17 @@ impl<T: Real> Material<T> {
             Model::NeoHookean => return None,
         })
     }
+
+    /// C and D, or μ and λ, Pa.
+    pub fn moduli(&self) -> [T; 2] {
+        match *self {
+            Self::NeoHookean(NeoHookean { C, D }) => [C, D],
+            Self::Linear(Linear { mu, lambda })
+            | Self::Corotated(Corotated { mu, lambda })
+            | Self::StVenantKirchhoff(StVenantKirchhoff { mu, lambda })
+            | Self::StableNeoHookean(StableNeoHookean { mu, lambda }) => [mu, lambda],
+        }
+    }
 }
 
 /// Whether the energy is finite for J ≤ 0 too; where it is not, a step must keep every element J > 0.

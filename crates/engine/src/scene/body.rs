@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::load::line_of;
 use super::{Scene, SceneError, nodes};
-use crate::mesh::{self, MeshError, SurfaceMesh, TetrahedralMesh};
+use crate::mesh::{self, MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 use crate::simulation::Shape;
 
 /// A scene's meshes, scaled, checked, and what the scene says of their nodes.
@@ -68,8 +68,17 @@ fn tetrahedra(scene: &Scene, data: &Path) -> Result<TetrahedralMesh, SceneError>
 }
 
 fn surface(scene: &Scene, data: &Path, file: &Path) -> Result<SurfaceMesh, SceneError> {
-    let surface = mesh::read_surface(&find(scene, data, file));
-    surface.map(|surface| scale(surface, scene.mesh.scale)).map_err(|error| mesh_error(scene, "mesh.display", error))
+    let path = find(scene, data, file);
+    let surface = mesh::read_surface(&path).map(|surface| scale(surface, scene.mesh.scale));
+    surface.and_then(|surface| finite(surface, &path)).map_err(|error| mesh_error(scene, "mesh.display", error))
+}
+
+/// A scale can make what was read infinite.
+fn finite(surface: SurfaceMesh, source: &Path) -> Result<SurfaceMesh, MeshError> {
+    match surface.vertices.iter().position(|x| !x.iter().all(|coordinate| coordinate.is_finite())) {
+        Some(vertex) => Err(MeshError::in_file(source, Problem::VertexNotFinite { vertex })),
+        None => Ok(surface),
+    }
 }
 
 fn scale<const N: usize>(mut mesh: mesh::Mesh<3, N>, factor: f64) -> mesh::Mesh<3, N> {

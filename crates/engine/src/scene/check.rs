@@ -28,36 +28,51 @@ fn problem<T>(field: &str, text: impl Into<String>) -> Result<T, Problem> {
     Err((field.to_owned(), text.into()))
 }
 
+/// Numbers beyond these could overflow where two or three of them are multiplied.
+const LARGEST: f64 = 1e60;
+
+/// And numbers nearer to zero than these.
+const SMALLEST: f64 = 1e-60;
+
 fn check_positive(field: &str, value: f64, unit: &str) -> Result<(), Problem> {
     // NaN fails the comparison.
-    if value > 0.0 && value.is_finite() {
-        return Ok(());
+    if !(value > 0.0 && value.is_finite()) {
+        return problem(field, format!("is {value}; give a positive number{unit}"));
     }
-    problem(field, format!("is {value}; give a positive number{unit}"))
+    if value < SMALLEST {
+        return problem(field, format!("is {value:e}, too small to compute with; give {SMALLEST:e} or more{unit}"));
+    }
+    check_size(field, value)
 }
 
 fn check_not_negative(field: &str, value: f64, unit: &str) -> Result<(), Problem> {
     // NaN fails the comparison.
-    if value >= 0.0 && value.is_finite() {
-        return Ok(());
+    if !(value >= 0.0 && value.is_finite()) {
+        return problem(field, format!("is {value}; give 0 {unit} or more"));
     }
-    problem(field, format!("is {value}; give 0 {unit} or more"))
+    check_size(field, value)
 }
 
 fn check_finite(field: &str, values: &[f64]) -> Result<(), Problem> {
     match values.iter().find(|value| !value.is_finite()) {
         Some(value) => problem(field, format!("is {value}; give finite numbers")),
-        None => Ok(()),
+        None => values.iter().try_for_each(|&value| check_size(field, value)),
     }
 }
 
-/// Finite, and so is its length.
-fn check_vector(field: &str, vector: &[f64; 3]) -> Result<(), Problem> {
-    check_finite(field, vector)?;
-    if vector.iter().map(|x| x * x).sum::<f64>().is_finite() {
+fn check_size(field: &str, value: f64) -> Result<(), Problem> {
+    if value.abs() <= LARGEST {
         return Ok(());
     }
-    problem(field, "is too long to compute with; give a shorter vector")
+    problem(field, format!("is {value:e}, too large to compute with; give at most {LARGEST:e}"))
+}
+
+/// Finite, and short enough for its length to be.
+fn check_vector(field: &str, vector: &[f64; 3]) -> Result<(), Problem> {
+    match vector.iter().any(|x| x.is_finite() && x.abs() > LARGEST) {
+        true => problem(field, format!("is too long to compute with; give a shorter vector, of at most {LARGEST:e}")),
+        false => check_finite(field, vector),
+    }
 }
 
 fn check_mesh(mesh: &MeshTable) -> Result<(), Problem> {
@@ -115,11 +130,17 @@ fn check_newton(newton: &Newton) -> Result<(), Problem> {
     if newton.max_iterations == Some(0) {
         return problem("newton.max_iterations", "is 0; give at least one iteration");
     }
-    newton.tolerance.map_or(Ok(()), |tolerance| check_positive("newton.tolerance", tolerance, ""))
+    newton.tolerance.map_or(Ok(()), |tolerance| check_tolerance("newton.tolerance", tolerance))
+}
+
+/// What may be left of a whole.
+fn check_tolerance(field: &str, tolerance: f64) -> Result<(), Problem> {
+    check_positive(field, tolerance, "")?;
+    if tolerance < 1.0 { Ok(()) } else { problem(field, format!("is {tolerance}; give a number below 1")) }
 }
 
 fn check_solver(solver: &Solver) -> Result<(), Problem> {
-    solver.tolerance.map_or(Ok(()), |tolerance| check_positive("solver.tolerance", tolerance, ""))?;
+    solver.tolerance.map_or(Ok(()), |tolerance| check_tolerance("solver.tolerance", tolerance))?;
     if solver.preconditioner.is_some() && solver.kind != SolverKind::Pcg {
         return problem("solver.preconditioner", "belongs to the kind \"pcg\"; write that kind or remove it");
     }

@@ -9,6 +9,7 @@ mod examples;
 mod lookup;
 mod moduli;
 mod motions;
+mod refusals;
 mod tables;
 
 use std::path::{Path, PathBuf};

@@ -33,10 +33,15 @@ fn check_traction(table: &str, traction: &Traction) -> Result<(), Problem> {
 }
 
 pub(super) fn check_side(field: &str, plane: &SidePlane) -> Result<(), Problem> {
-    if plane.within >= 0.0 && plane.within.is_finite() {
+    check_distance(field, "within", plane.within)
+}
+
+/// A distance inside an inline table, which errors name as a whole.
+pub(super) fn check_distance(field: &str, key: &str, distance: f64) -> Result<(), Problem> {
+    if distance >= 0.0 && distance.is_finite() {
         return Ok(());
     }
-    problem(field, format!("has within = {}; give a distance of 0 m or more", plane.within))
+    problem(field, format!("has {key} = {distance}; give a distance of 0 m or more"))
 }
 
 fn check_spring(table: &str, spring: &Spring) -> Result<(), Problem> {

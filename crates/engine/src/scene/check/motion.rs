@@ -1,8 +1,11 @@
 //! What `[fixed]` and `[[prescribed]]` must keep.
 
-use super::loads::check_side;
+use super::loads::{check_distance, check_side};
 use super::{Problem, check_finite, check_positive, check_vector, problem};
 use crate::scene::{Axis, Fixed, Prescribed, Rotation, Scene};
+
+/// An angle of that many turns still has ten digits.
+const MOST_TURNS: f64 = 1e6;
 
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     scene.fixed.as_ref().map_or(Ok(()), check_fixed)?;
@@ -12,10 +15,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
 
 fn check_fixed(fixed: &Fixed) -> Result<(), Problem> {
     match (&fixed.plane, &fixed.nodes) {
-        (Some(plane), None) if plane.below >= 0.0 && plane.below.is_finite() => Ok(()),
-        (Some(plane), None) => {
-            problem("fixed.plane", format!("has below = {}; give a distance of 0 m or more", plane.below))
-        }
+        (Some(plane), None) => check_distance("fixed.plane", "below", plane.below),
         (None, Some(_)) => Ok(()),
         _ => problem("fixed", "needs either plane or nodes; give one and only one"),
     }
@@ -38,7 +38,12 @@ fn check_prescribed(table: &str, motion: &Prescribed) -> Result<(), Problem> {
 
 fn check_rotation(table: &str, rotation: &Rotation) -> Result<(), Problem> {
     check_vector(&format!("{table}.rotation.center"), &rotation.center)?;
-    check_finite(&format!("{table}.rotation.turns"), &[rotation.turns])
+    let (field, turns) = (format!("{table}.rotation.turns"), rotation.turns);
+    check_finite(&field, &[turns])?;
+    if turns.abs() <= MOST_TURNS {
+        return Ok(());
+    }
+    problem(&field, format!("is {turns:e}; give at most {MOST_TURNS:e}, beyond which an angle has few digits left"))
 }
 
 fn check_components(table: &str, motion: &Prescribed, components: &[Axis]) -> Result<(), Problem> {
