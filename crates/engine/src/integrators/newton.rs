@@ -233,7 +233,9 @@ impl<T: Real> Newton<T> {
             let change = energy.value - at.energy.value;
             // Where the change drowns in round-off, the slope has to have become flatter. NaN fails both.
             let flatter = || product(&self.next_gradient, &self.direction).abs() <= 0.9 * slope.abs();
-            if change <= DECREASE * length * slope || (change.abs() <= round_off && flatter()) {
+            let is_lower = change <= DECREASE * length * slope || (change.abs() <= round_off && flatter());
+            // An infinite energy has infinite terms, and ∞ ≤ ∞ holds.
+            if energy.value.is_finite() && is_lower {
                 at.energy = energy;
                 return Some(length);
             }
