@@ -6,7 +6,7 @@ use fem_engine::cantilever;
 use fem_engine::mesh::write::Frame;
 use fem_engine::output::{self, EXPORTS, Stats};
 use fem_engine::simulate::{Run, quantile};
-use fem_engine::simulation::{Energies, Simulation};
+use fem_engine::simulation::{Energies, Reaction, Simulation};
 
 use nalgebra::Vector3;
 
@@ -104,6 +104,13 @@ fn print_summary(simulation: &dyn Simulation, run: &Run) {
         energies.potential,
         energies.total(),
     );
+    let unconverged = simulation.counters().unconverged_steps;
+    if unconverged > 0 {
+        say!("{unconverged} steps ended before Newton's method had converged");
+    }
+    for Reaction { name, force: [x, y, z] } in simulation.reactions() {
+        say!("{name} holds the body with ({x:.4e}, {y:.4e}, {z:.4e}) N");
+    }
 }
 
 /// A cantilever beside the theory.

@@ -6,7 +6,7 @@ use serde_json::Value;
 use crate::program::{Desk, course_scenes};
 use crate::scene_text::{CUBE, build, edit, shipped, without};
 
-const KEYS: [&str; 19] = [
+const KEYS: [&str; 21] = [
     "scene",
     "status",
     "nodes",
@@ -16,6 +16,7 @@ const KEYS: [&str; 19] = [
     "seconds_per_step_median",
     "seconds_per_step_p95",
     "newton_iterations",
+    "unconverged_steps",
     "factorizations",
     "symbolic_factorizations",
     "stiffness_assemblies",
@@ -25,6 +26,7 @@ const KEYS: [&str; 19] = [
     "skinning_rows",
     "peak_memory_bytes",
     "min_J",
+    "reactions",
     "parts",
 ];
 
@@ -139,4 +141,27 @@ fn nothing_is_skinned_unless_somebody_looks() {
         let animated = skinned("--export x.glb");
         assert!(animated >= rows && animated % rows == 0, "{name}: {animated} rows of {rows}");
     }
+}
+
+#[test]
+fn the_forces_at_the_constraints_of_an_engine_scene_are_told_and_stand_in_the_statistics() {
+    let desk = Desk::new();
+    let said = desk.run_well("bar --headless --stats s.json").stdout;
+    let stats = desk.json("s.json");
+    let names: Vec<_> = stats["reactions"].as_object().unwrap().keys().collect();
+    assert_eq!(names, ["prescribed[0]", "prescribed[1]", "prescribed[2]"]);
+    // The traction of the scene on 0.25 m², held at the other end.
+    let along = stats["reactions"]["prescribed[0]"][0].as_f64().unwrap();
+    assert!((along / -(0.25 * 3.842394e5) - 1.0).abs() < 1e-8, "{along} N");
+    assert!(said.contains("prescribed[0] holds the body with (-9.6060e4, "), "{said}");
+    assert_eq!(count(&stats, "unconverged_steps"), 0);
+}
+
+#[test]
+fn steps_that_have_not_converged_are_counted_and_told() {
+    let scene = std::fs::read_to_string(crate::program::data().join("scenes/beam.toml")).unwrap();
+    let desk = Desk::with("beam.toml", format!("{scene}[newton]\nmax_iterations = 1\n"));
+    let said = desk.run_well("beam.toml --headless --steps 3 --stats s.json").stdout;
+    assert_eq!(count(&desk.json("s.json"), "unconverged_steps"), 3);
+    assert!(said.contains("3 steps ended before Newton's method had converged"), "{said}");
 }

@@ -52,6 +52,8 @@ pub struct Stats {
     pub seconds_per_step_median: Option<f64>,
     pub seconds_per_step_p95: Option<f64>,
     pub newton_iterations: usize,
+    /// Steps that Newton's method left before it reached its tolerance.
+    pub unconverged_steps: usize,
     pub factorizations: usize,
     pub symbolic_factorizations: usize,
     pub stiffness_assemblies: usize,
@@ -63,6 +65,8 @@ pub struct Stats {
     pub peak_memory_bytes: Option<usize>,
     #[serde(rename = "min_J")]
     pub min_J: f64,
+    /// Force on the body of each table that holds nodes, N; empty where nothing does, or where the pipeline does not know it.
+    pub reactions: serde_json::Map<String, serde_json::Value>,
     pub parts: serde_json::Map<String, serde_json::Value>,
 }
 
@@ -71,6 +75,8 @@ impl Stats {
     pub fn of(simulation: &dyn Simulation, run: &Run, seconds_setup: f64) -> Self {
         let (shape, counters) = (simulation.shape(), simulation.counters());
         let built = simulation.parts().into_iter().filter(|part| part.built);
+        let reactions =
+            simulation.reactions().into_iter().map(|reaction| (reaction.name, reaction.force.to_vec().into()));
         let cost = |bytes: usize, seconds: f64| serde_json::json!({ "bytes": bytes, "seconds": seconds });
         Self {
             scene: simulation.name().to_owned(),
@@ -82,6 +88,7 @@ impl Stats {
             seconds_per_step_median: quantile(&run.step_seconds, 0.5),
             seconds_per_step_p95: quantile(&run.step_seconds, 0.95),
             newton_iterations: counters.newton_iterations,
+            unconverged_steps: counters.unconverged_steps,
             factorizations: counters.factorizations,
             symbolic_factorizations: counters.symbolic_factorizations,
             stiffness_assemblies: counters.stiffness_assemblies,
@@ -91,6 +98,7 @@ impl Stats {
             skinning_rows: counters.skinning_rows,
             peak_memory_bytes: peak_memory_bytes(),
             min_J: simulation.min_J().0,
+            reactions: reactions.collect(),
             parts: built.map(|part| (part.name.to_owned(), cost(part.bytes, part.seconds))).collect(),
         }
     }

@@ -1,5 +1,7 @@
 //! Pressure that follows the deformed surface.
 
+use std::collections::HashSet;
+
 use nalgebra::Vector3;
 
 use crate::number::Real;
@@ -12,6 +14,11 @@ pub struct Pressure<T> {
     /// Pa; positive pushes inward.
     pub pressure: T,
     faces: Vec<Face<T>>,
+    /// Undeformed corners of each triangle, from a point of the surface, m; `None` where the pressure has no potential.
+    ///
+    /// A pressure is p times the gradient of the volume behind its surface. Where the surface has an edge that moves, that volume
+    /// depends on where one closes it, and the work of the pressure on the way there and back need not be zero.
+    corners: Option<Vec<[Vector3<f64>; 3]>>,
 }
 
 /// A triangle, outward.
@@ -35,6 +42,7 @@ impl<T: Real> Pressure<T> {
         let tables = scene.traction.iter().zip(&body.loaded_faces);
         let pressure = |pressure, faces: &[[usize; 3]]| Self {
             pressure: T::of(pressure),
+            corners: edge_is_fixed(body, faces).then(|| corners(&body.shape.mesh.vertices, faces)),
             faces: faces.iter().map(face).collect(),
         };
         tables.filter_map(|(traction, faces)| Some(pressure(traction.pressure?, faces))).collect()
@@ -56,8 +64,38 @@ impl<T: Real> Pressure<T> {
         }
     }
 
+    /// Whether it has a potential: its surface is closed, or every node of its edge is fixed.
+    pub fn has_potential(&self) -> bool {
+        self.corners.is_some()
+    }
+
+    /// Its potential, zero at rest: p times what the volume behind the surface has grown by, J. `None` where it has none.
+    pub fn potential(&self, u: &[[T; 3]]) -> Option<f64> {
+        let at = |node: usize| Vector3::from(u[node].map(T::as_f64));
+        let growth = |(face, [A, B, C]): (&Face<T>, &[Vector3<f64>; 3])| {
+            let [a, b, c] = face.nodes.map(at);
+            // det(A + a, B + b, C + c) − det(A, B, C), without the difference.
+            a.dot(&B.cross(C)) + (A + a).dot(&b.cross(C)) + (A + a).dot(&(B + b).cross(&c))
+        };
+        let sixfold: f64 = self.faces.iter().zip(self.corners.as_ref()?).map(growth).sum();
+        Some(self.pressure.as_f64() * sixfold / 6.0)
+    }
+
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.faces[..])
+        size_of_val(&self.faces[..]) + self.corners.as_ref().map_or(0, |corners| size_of_val(&corners[..]))
     }
+}
+
+/// Corners from the first node, m: near the body, so that they keep their digits far from the origin.
+fn corners(vertices: &[Vector3<f64>], faces: &[[usize; 3]]) -> Vec<[Vector3<f64>; 3]> {
+    faces.iter().map(|face| face.map(|node| vertices[node] - vertices[faces[0][0]])).collect()
+}
+
+/// Whether `[fixed]` holds all edges that only one triangle has.
+fn edge_is_fixed(body: &Body, faces: &[[usize; 3]]) -> bool {
+    let fixed: HashSet<usize> = body.fixed.iter().flatten().copied().collect();
+    let edges: HashSet<[usize; 2]> = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+    // In two triangles that both look outward a common edge runs there and back.
+    edges.iter().all(|&[a, b]| edges.contains(&[b, a]) || (fixed.contains(&a) && fixed.contains(&b)))
 }

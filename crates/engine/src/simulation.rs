@@ -91,7 +91,8 @@ pub struct Shape {
 pub struct Energies {
     /// ½ vᵀ M v
     pub kinetic: f64,
-    /// Elastic energy, gravity and springs.
+    /// Elastic energy, gravity, dead loads and springs, and pressures that have a potential: those whose surface is closed or
+    /// has a fixed edge.
     pub potential: f64,
 }
 
@@ -210,6 +211,8 @@ pub enum Cause {
         /// Its J = det F ≤ 0.
         J: f64,
     },
+    /// Where a step starts, an energy or a force is too large for a number.
+    Overflow,
     /// A linear system was not solved.
     Solver(Breakdown),
     /// Newton's method found no velocity of lower energy, though forces are not in balance.
@@ -254,6 +257,7 @@ impl fmt::Display for Failure {
         match self.cause {
             Cause::NotFinite { node } => write!(f, "node {node} is no longer at a finite place")?,
             Cause::Inverted { element, J } => write!(f, "element {element} is inverted (J = {J:.3e})")?,
+            Cause::Overflow => write!(f, "an energy or a force is too large for a number")?,
             Cause::Solver(breakdown) => write!(f, "{breakdown}")?,
             Cause::Stuck { unbalanced } => write!(
                 f,

@@ -192,6 +192,11 @@ impl<T: Real> System<T> {
         }
     }
 
+    /// Potential of the pressures that have one, zero at rest, J.
+    pub fn pressure_potential(&self, u: &[[T; 3]]) -> f64 {
+        self.pressures.iter().filter_map(|pressure| pressure.potential(u)).sum()
+    }
+
     fn spring_energy(&self, u: &[[T; 3]]) -> f64 {
         self.springs.iter().map(|spring| spring.energy(u)).sum()
     }

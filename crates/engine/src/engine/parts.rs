@@ -4,6 +4,7 @@ use super::Engine;
 use crate::number::Real;
 use crate::scene::Integrator;
 use crate::simulation::Part;
+use crate::system::System;
 
 /// Every part that the engine can have.
 pub(super) fn parts<T: Real>(engine: &Engine<T>) -> Vec<Part> {
@@ -20,7 +21,7 @@ pub(super) fn parts<T: Real>(engine: &Engine<T>) -> Vec<Part> {
         optional("fixed", held > 0, 0, "[fixed] or [[prescribed]]: held nodes have no row"),
         optional("prescribed", system.held.leads(), system.held.bytes(), "[[prescribed]]"),
         optional("springs", !system.springs.is_empty(), size_of_val(&system.springs[..]), "[[springs]]"),
-        optional("pressure", !system.pressures.is_empty(), pressure, "[[traction]] with pressure"),
+        pressure_part(system, pressure),
         optional("damping", system.damping.is_some(), 0, "[damping]"),
         optional("drag", system.drag.is_some(), 0, "[drag]"),
     ];
@@ -38,6 +39,14 @@ pub(super) fn parts<T: Real>(engine: &Engine<T>) -> Vec<Part> {
     let searches = matches!(engine.integrator, Integrator::ImplicitEuler | Integrator::Static);
     parts.push(optional("line_search", searches, 0, "implicit_euler or static"));
     parts
+}
+
+fn pressure_part<T: Real>(system: &System<T>, bytes: usize) -> Part {
+    let part = optional("pressure", !system.pressures.is_empty(), bytes, "[[traction]] with pressure");
+    if system.pressures.iter().all(|pressure| pressure.has_potential()) {
+        return part;
+    }
+    Part { why: format!("{}; its surface has an edge that moves: its work is in no energy", part.why), ..part }
 }
 
 fn mass(lumped: bool) -> String {

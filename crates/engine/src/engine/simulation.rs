@@ -91,7 +91,8 @@ impl<T: Real> Simulation for Engine<T> {
         let own = system.potential(u, Acting { pulls: &springs, load: None }).value;
         let of_loads = Acting { pulls: &[], load: system.dead_load.as_deref() }.potential(u).value;
         let part = self.stepper.load_fraction(*steps);
-        Energies { kinetic: system.mass.kinetic_energy(v), potential: own + part * of_loads }
+        let potential = own + part * (of_loads + system.pressure_potential(u));
+        Energies { kinetic: system.mass.kinetic_energy(v), potential }
     }
 
     fn min_J(&self) -> (f64, usize) {

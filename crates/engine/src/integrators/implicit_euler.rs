@@ -4,6 +4,7 @@ use super::follower::Loads;
 use super::momentum;
 use super::newton::Newton;
 use super::objective::{Motion, Objective};
+use super::start::Start;
 use crate::acting::Acting;
 use crate::number::Real;
 use crate::pulls::Spring;
@@ -45,35 +46,15 @@ impl<T: Real> ImplicitEuler<T> {
         counters: &mut Counters,
     ) -> Result<bool, Cause> {
         let Self { newton, loads, inertial, step, last_change } = self;
-        let dt_t = T::of(dt);
         for (inertial, v) in inertial.iter_mut().zip(&state.v) {
-            *inertial = v.map(|v| dt_t * v);
+            *inertial = v.map(|v| T::of(dt) * v);
         }
         let motion = Motion::new(system, inertial, dt);
         let acting = Acting { pulls: springs, load: None };
         let objective = Objective { system, acting, start: &state.u, motion: Some(motion) };
         loads.gather(system, 1.0, &state.u, inertial);
-        let time = state.time + dt;
-        let lead = |step: &mut [[T; 3]]| system.held.lead(&system.rest, |motion| motion.fraction(time), &state.u, step);
-        let mut can_start = |step: &mut [[T; 3]]| {
-            lead(step);
-            newton.can_start(&loads.on(objective), step, counters)
-        };
-        start(step, inertial, last_change, dt_t);
-        let mut found = can_start(step);
-        if !found {
-            step.copy_from_slice(inertial);
-            found = can_start(step);
-        }
-        if !found {
-            // Where the body is, no element is inverted: a step has ended there.
-            step.fill([T::default(); 3]);
-            found = can_start(step);
-        }
-        if !found {
-            let (J, element) = system.elements.smallest_J(&state.u);
-            return Err(Cause::Inverted { element, J: J.as_f64() });
-        }
+        likely(step, inertial, last_change, T::of(dt));
+        Start { newton, loads, objective, motion, end: state.time + dt }.find(step, counters)?;
         let converged = loads.minimize(newton, objective, 1.0, step, counters)?;
         momentum::restore(&loads.on(objective), dt, step);
         finish(step, dt, state, last_change);
@@ -95,7 +76,7 @@ fn finish<T: Real>(step: &[[T; 3]], dt: f64, state: &mut State<T>, last_change: 
 }
 
 /// The step that is likely: velocities change as they did in the last one.
-fn start<T: Real>(step: &mut [[T; 3]], inertial: &[[T; 3]], last_change: &[[T; 3]], dt: T) {
+fn likely<T: Real>(step: &mut [[T; 3]], inertial: &[[T; 3]], last_change: &[[T; 3]], dt: T) {
     for ((step, inertial), change) in step.iter_mut().zip(inertial).zip(last_change) {
         *step = std::array::from_fn(|i| inertial[i] + dt * change[i]);
     }

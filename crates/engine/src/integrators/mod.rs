@@ -13,6 +13,7 @@ mod objective;
 mod rk2;
 mod rk4;
 mod semi_implicit_euler;
+mod start;
 mod statics;
 mod verlet;
 

@@ -3,6 +3,7 @@
 use super::follower::Loads;
 use super::newton::Newton;
 use super::objective::{Objective, Scratch};
+use super::start::no_start;
 use crate::acting::Acting;
 use crate::materials::Material;
 use crate::number::Real;
@@ -190,8 +191,7 @@ impl<T: Real> Work<'_, T> {
         if !newton.can_start(&loads.on(objective), step, counters) {
             step.copy_from_slice(led);
             if !newton.can_start(&loads.on(objective), step, counters) {
-                let (J, element) = system.elements.smallest_J(u);
-                return Err(Cause::Inverted { element, J: J.as_f64() });
+                return Err(no_start(system, u, led));
             }
         }
         loads.minimize(newton, objective, fraction, step, counters)

@@ -8,8 +8,10 @@ mod bars;
 mod cantilever;
 mod conserved;
 mod orders;
+mod pressures;
 mod reactions;
 mod statics;
+mod twists;
 mod vibrations;
 mod work;
 
