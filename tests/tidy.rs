@@ -5,6 +5,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use grader::submission::NAMES;
 
@@ -271,4 +272,25 @@ fn links_to_files_lead_somewhere() {
         }
     }
     assert_none(problems);
+}
+
+/// The crates that a build of a package is made of, as cargo tells.
+fn built_from(package: &str) -> BTreeSet<String> {
+    let arguments = ["tree", "--offline", "--edges", "normal,build", "--prefix", "none", "--package", package];
+    let output = Command::new(env!("CARGO")).args(arguments).current_dir(root()).output().expect("cargo starts");
+    assert!(output.status.success(), "cargo tree: {}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    text.lines().filter_map(|line| line.split(' ').next()).map(str::to_owned).collect()
+}
+
+#[test]
+fn neither_the_grader_nor_the_engine_is_built_with_a_window() {
+    let window = ["fem-viewer", "kiss3d", "wgpu", "winit", "egui", "image"];
+    let demo = built_from("finite-elements-3d");
+    assert!(window.iter().all(|name| demo.contains(*name)), "the demo has a window: {demo:?}");
+    for package in ["grader", "grader-child", "fem-engine"] {
+        let found: Vec<_> = built_from(package).into_iter().filter(|name| window.contains(&name.as_str())).collect();
+        assert!(found.is_empty(), "{package} is built with {found:?}; take the feature `viewer` from its dependencies");
+    }
+    assert!(!built_from("grader").contains("fem-engine"), "the grader knows nothing of the engine");
 }

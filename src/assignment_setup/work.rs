@@ -70,19 +70,20 @@ impl Work {
     }
 }
 
-/// Seconds of wall-clock time spent in one part.
+/// Uses of one part, and seconds of wall-clock time spent in it.
 #[derive(Default)]
-pub(super) struct Clock(Cell<f64>);
+pub(super) struct Clock(Cell<(usize, f64)>);
 
 impl Clock {
     pub(super) fn time<R>(&self, work: impl FnOnce() -> R) -> R {
         let start = Instant::now();
         let result = work();
-        self.0.set(self.0.get() + start.elapsed().as_secs_f64());
+        let (uses, seconds) = self.0.get();
+        self.0.set((uses + 1, seconds + start.elapsed().as_secs_f64()));
         result
     }
 
-    pub(super) fn seconds(&self) -> f64 {
+    pub(super) fn read(&self) -> (usize, f64) {
         self.0.get()
     }
 }

@@ -15,7 +15,7 @@ pub fn print(scene: &Scene, simulation: &dyn Simulation) {
         let word = if part.built { "builds" } else { "leaves out" };
         let size =
             if part.built && part.bytes > 0 { format!(" ({} KiB)", part.bytes.div_ceil(1024)) } else { String::new() };
-        say!("  {word:<10} {:<12} {}{size}", part.name, part.why);
+        say!("  {word:<10} {:<14} {}{size}", part.name, part.why);
     }
 }
 

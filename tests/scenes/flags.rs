@@ -86,6 +86,34 @@ fn explain_tells_what_a_scene_leaves_out() {
 }
 
 #[test]
+fn explain_tells_of_every_scene_of_the_engine_what_it_builds_and_leaves_out_and_why() {
+    let all = [
+        "mesh material state mass forces dead_load fixed prescribed springs pressure damping drag stiffness projection",
+        "solver preconditioner line_search skinning reactions",
+    ];
+    let all: Vec<_> = all.iter().flat_map(|line| line.split(' ')).collect();
+    for name in shipped_scenes().into_iter().filter(|name| !course_scenes().contains(name)) {
+        let text = Desk::new().run_well(&format!("{name} --explain")).stdout;
+        let parts = text.lines().filter_map(|line| {
+            let line = line.trim_start();
+            line.strip_prefix("builds ").or_else(|| line.strip_prefix("leaves out "))
+        });
+        let words: Vec<Vec<_>> = parts.map(|part| part.split_whitespace().collect()).collect();
+        assert_eq!(words.iter().map(|words| words[0]).collect::<Vec<_>>(), all, "{name}");
+        assert!(words.iter().all(|words| words.len() > 2), "a part without a reason:\n{text}");
+    }
+}
+
+#[test]
+fn explain_says_where_elements_lock() {
+    let scene = std::fs::read_to_string(data().join("scenes/cantilever.toml")).unwrap();
+    let desk = Desk::with("beam.toml", edit(&scene, "poisson = 0.3", "poisson = 0.4999"));
+    let text = desk.run_well("beam.toml --explain").stdout;
+    assert!(text.contains("linear tetrahedra lock so near to ½"), "{text}");
+    assert!(!desk.run_well("cantilever --explain").stdout.contains("lock"));
+}
+
+#[test]
 fn the_list_has_one_line_for_each_scene() {
     let text = Desk::new().run_well("list").stdout;
     let first_words: Vec<_> = text.lines().map(|line| line.split_whitespace().next().unwrap()).collect();

@@ -28,13 +28,17 @@ impl<T: Real> Acting<'_, T> {
         pulls.chain(loads).fold(Energy::default(), Add::add)
     }
 
-    /// Adds the gradient of [`potential`](Self::potential), N.
-    pub fn add_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
+    /// Adds what loads add to the gradient of [`potential`](Self::potential), N.
+    pub fn add_load_gradient(&self, gradient: &mut [[T; 3]]) {
         for (sum, load) in gradient.iter_mut().zip(self.load.into_iter().flatten()) {
             for i in 0..3 {
                 sum[i] -= load[i];
             }
         }
+    }
+
+    /// Adds what pulls add to it, N.
+    pub fn add_pull_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
         for spring in self.pulls {
             for i in 0..3 {
                 gradient[spring.node][i] += spring.stiffness * (u[spring.node][i] - spring.target[i]);

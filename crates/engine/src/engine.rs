@@ -13,8 +13,10 @@ use crate::pulls::Spring;
 use crate::scene::{Body, Integrator, Precision, Scene, SceneError};
 use crate::simulation::{Counters, Pull, Simulation};
 use crate::skinning::Skinning;
+use crate::solvers::SolverChoice;
 use crate::state::State;
 use crate::system::System;
+use crate::work::Meter;
 use stepper::Stepper;
 
 pub use build::integrators;
@@ -28,6 +30,7 @@ pub struct Engine<T: Real> {
     last_good: State<T>,
     stepper: Stepper<T>,
     integrator: Integrator,
+    choice: SolverChoice,
     dt: f64,
     skinning: Option<Skinning>,
     /// Stiffness of every pull, N/m.
@@ -38,13 +41,9 @@ pub struct Engine<T: Real> {
     counters: Counters,
     /// Display vertices that were computed; pictures are asked for through `&self`.
     skinned_rows: std::sync::atomic::AtomicUsize,
-    seconds: Seconds,
-}
-
-/// Wall-clock time spent in each part, s.
-#[derive(Clone, Copy, Debug, Default)]
-struct Seconds {
-    steps: f64,
+    /// Display surfaces and reactions that somebody has asked for.
+    skinned: Meter,
+    reacted: Meter,
 }
 
 /// Builds what the scene names, in the precision that it names.

@@ -67,6 +67,11 @@ impl Held {
         fixed.chain(led)
     }
 
+    /// Nodes of `[fixed]`; `None` where the scene has none.
+    pub fn fixed(&self) -> Option<&[usize]> {
+        self.fixed.as_deref()
+    }
+
     /// Whether some nodes are led.
     pub fn leads(&self) -> bool {
         !self.motions.is_empty()

@@ -37,3 +37,4 @@ pub mod springs;
 pub mod state;
 pub mod system;
 pub mod tensor;
+pub mod work;

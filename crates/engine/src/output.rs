@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::mesh::write::{Field, Frame, save, write_glb, write_surface, write_vtu};
 use crate::mesh::{MeshError, Problem, SurfaceMesh};
 use crate::simulate::{Run, quantile};
-use crate::simulation::{Energies, Simulation};
+use crate::simulation::{Energies, Part, Simulation};
 
 /// File extensions that [`export`] knows.
 pub const EXPORTS: [&str; 3] = ["obj", "vtu", "glb"];
@@ -77,7 +77,7 @@ impl Stats {
         let built = simulation.parts().into_iter().filter(|part| part.built);
         let reactions =
             simulation.reactions().into_iter().map(|reaction| (reaction.name, reaction.force.to_vec().into()));
-        let cost = |bytes: usize, seconds: f64| serde_json::json!({ "bytes": bytes, "seconds": seconds });
+        let cost = |part: &Part| serde_json::json!({ "bytes": part.bytes, "uses": part.uses, "seconds": part.seconds });
         Self {
             scene: simulation.name().to_owned(),
             status: run.failure.as_ref().map_or("done".to_owned(), |failure| format!("failed: {failure}")),
@@ -99,7 +99,7 @@ impl Stats {
             peak_memory_bytes: peak_memory_bytes(),
             min_J: simulation.min_J().0,
             reactions: reactions.collect(),
-            parts: built.map(|part| (part.name.to_owned(), cost(part.bytes, part.seconds))).collect(),
+            parts: built.map(|part| (part.name.to_owned(), cost(&part))).collect(),
         }
     }
 

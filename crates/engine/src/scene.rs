@@ -167,6 +167,19 @@ pub enum Model {
     StableNeoHookean,
 }
 
+impl Model {
+    /// The name as scene files spell it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Corotated => "corotated",
+            Self::StVenantKirchhoff => "st_venant_kirchhoff",
+            Self::NeoHookean => "neo_hookean",
+            Self::StableNeoHookean => "stable_neo_hookean",
+        }
+    }
+}
+
 /// `[mass]`
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]

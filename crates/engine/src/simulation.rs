@@ -179,6 +179,8 @@ pub struct Part {
     pub why: String,
     /// Memory that it holds, bytes.
     pub bytes: usize,
+    /// How often it has been used so far.
+    pub uses: usize,
     /// Wall-clock time spent in it so far, s.
     pub seconds: f64,
 }

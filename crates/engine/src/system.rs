@@ -14,11 +14,12 @@ use crate::number::Real;
 use crate::order::Order;
 use crate::pressure::Pressure;
 use crate::pulls::Spring;
-use crate::scene::{Body, Damping, Drag, Scene};
+use crate::scene::{Body, Damping, Drag, Prescribed, Scene};
 use crate::simulation::Shape;
 use crate::solvers::SolverChoice;
 use crate::sparse::{Block, Pattern};
 use crate::springs::NodeSpring;
+use crate::work::Work;
 
 /// A body in the engine's order of nodes: free ones first, those that are held wholly last.
 pub struct System<T: Real> {
@@ -56,6 +57,8 @@ pub struct System<T: Real> {
     pub drag: Option<(Drag, usize)>,
     /// Longest edge of the undeformed body's bounding box, m.
     pub length: f64,
+    /// What its parts have done so far.
+    pub work: Work,
 }
 
 /// An energy, and the size of what was added up to it, which says how exact it is; J.
@@ -116,6 +119,7 @@ impl<T: Real> System<T> {
             pressures,
             damping: scene.damping.clone().filter(|damping| damping.alpha > 0.0 || damping.beta > 0.0),
             drag,
+            work: Work::default(),
         }
     }
 
@@ -148,8 +152,9 @@ impl<T: Real> System<T> {
     /// Energy and gradient of [`potential`](Self::potential), the latter in `gradient`, N.
     pub fn potential_and_gradient(&self, u: &[[T; 3]], acting: Acting<T>, gradient: &mut [[T; 3]]) -> Energy {
         gradient.fill([T::default(); 3]);
-        let elastic =
-            with_law!(self.material, law: T::Lanes => self.elements.add_energy_and_gradient(law, u, gradient));
+        let elastic = self.work.energies.time(
+            || with_law!(self.material, law: T::Lanes => self.elements.add_energy_and_gradient(law, u, gradient)),
+        );
         self.add_outer_gradient(u, acting, gradient);
         Energy::of(elastic) + Energy::of(self.spring_energy(u)) + acting.potential(u)
     }
@@ -157,24 +162,26 @@ impl<T: Real> System<T> {
     /// Gradient of the potential energy, N: minus the force on each node.
     pub fn gradient(&self, u: &[[T; 3]], acting: Acting<T>, gradient: &mut [[T; 3]]) {
         gradient.fill([T::default(); 3]);
-        with_law!(self.material, law: T::Lanes => self.elements.add_gradient(law, u, gradient));
+        self.work
+            .forces
+            .time(|| with_law!(self.material, law: T::Lanes => self.elements.add_gradient(law, u, gradient)));
         self.add_outer_gradient(u, acting, gradient);
     }
 
     /// Adds `factor` K(u), the Hessian of the body's own energy, N/m.
     pub fn add_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
-        with_law!(self.material, law: T::Lanes => self.elements.add_stiffness(law, factor, u, values));
-        for spring in &self.springs {
-            spring.add_stiffness(factor, u, false, &self.pattern, values);
-        }
+        self.work
+            .stiffness
+            .time(|| with_law!(self.material, law: T::Lanes => self.elements.add_stiffness(law, factor, u, values)));
+        self.add_spring_stiffness(factor, u, false, values);
     }
 
     /// The same with each element and spring projected to positive semi-definite.
     pub fn add_projected_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
-        with_law!(self.material, law: T::Lanes => self.elements.add_stiffness(Definite(law), factor, u, values));
-        for spring in &self.springs {
-            spring.add_stiffness(factor, u, true, &self.pattern, values);
-        }
+        self.work.projection.time(
+            || with_law!(self.material, law: T::Lanes => self.elements.add_stiffness(Definite(law), factor, u, values)),
+        );
+        self.add_spring_stiffness(factor, u, true, values);
     }
 
     /// Adds `factor` K(u) d, without a matrix, N.
@@ -187,9 +194,23 @@ impl<T: Real> System<T> {
 
     /// Adds `factor` times the forces of pressures on the surface as it is, N.
     pub fn add_pressures(&self, factor: T, u: &[[T; 3]], force: &mut [[T; 3]]) {
-        for pressure in &self.pressures {
-            pressure.add_force(factor, u, force);
+        if self.pressures.is_empty() {
+            return;
         }
+        self.work.pressure.time(|| self.pressures.iter().for_each(|pressure| pressure.add_force(factor, u, force)));
+    }
+
+    /// Adds `factor` M x.
+    pub fn add_mass_times(&self, factor: T, x: &[[T; 3]], product: &mut [[T; 3]]) {
+        self.work.mass.time(|| self.mass.add_times(factor, x, product));
+    }
+
+    /// Writes the step that held directions make, and leaves the others: see [`Held::lead`].
+    pub fn lead(&self, fraction: impl Fn(&Prescribed) -> f64, start: &[[T; 3]], step: &mut [[T; 3]]) {
+        if !self.held.leads() {
+            return self.held.clear(step);
+        }
+        self.work.prescribed.time(|| self.held.lead(&self.rest, fraction, start, step));
     }
 
     /// Potential of the pressures that have one, zero at rest, J.
@@ -201,11 +222,26 @@ impl<T: Real> System<T> {
         self.springs.iter().map(|spring| spring.energy(u)).sum()
     }
 
-    fn add_outer_gradient(&self, u: &[[T; 3]], acting: Acting<T>, gradient: &mut [[T; 3]]) {
-        for spring in &self.springs {
-            spring.add_gradient(u, gradient);
+    fn add_spring_stiffness(&self, factor: T, u: &[[T; 3]], projected: bool, values: &mut [Block<T, 3>]) {
+        if self.springs.is_empty() {
+            return;
         }
-        acting.add_gradient(u, gradient);
+        let add = |spring: &NodeSpring<T>| spring.add_stiffness(factor, u, projected, &self.pattern, &mut *values);
+        self.work.springs.time(|| self.springs.iter().for_each(add));
+    }
+
+    fn add_outer_gradient(&self, u: &[[T; 3]], acting: Acting<T>, gradient: &mut [[T; 3]]) {
+        if !self.springs.is_empty() {
+            self.work.springs.time(|| self.springs.iter().for_each(|spring| spring.add_gradient(u, &mut *gradient)));
+        }
+        if acting.load.is_some() {
+            // Pressures without dead loads are gathered into loads all the same.
+            let meter = if self.dead_load.is_some() { &self.work.dead_load } else { &self.work.pressure };
+            meter.time(|| acting.add_load_gradient(gradient));
+        }
+        if !acting.pulls.is_empty() {
+            self.work.drag.time(|| acting.add_pull_gradient(u, gradient));
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use crate::state::State;
 use crate::system::System;
 
 use super::stepper::Stepper;
-use super::{Engine, Seconds, range, rigid};
+use super::{Engine, range, rigid};
 
 /// Methods that a running simulation can be switched to.
 pub fn integrators(scene: &Scene) -> &'static [Integrator] {
@@ -75,6 +75,7 @@ impl<T: Real> Engine<T> {
         Ok(Self {
             stepper: Stepper::new(scene, &system, scene.time.integrator, choice),
             integrator: scene.time.integrator,
+            choice,
             dt: scene.time.dt,
             skinning,
             drag_stiffness: scene.drag.as_ref().map_or(scene_stiffness(scene, system.length), |drag| drag.stiffness),
@@ -82,7 +83,8 @@ impl<T: Real> Engine<T> {
             springs: Vec::new(),
             counters: Default::default(),
             skinned_rows: Default::default(),
-            seconds: Seconds::default(),
+            skinned: Default::default(),
+            reacted: Default::default(),
             last_good: state.clone(),
             state,
             system,

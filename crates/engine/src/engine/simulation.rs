@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::time::Instant;
 
 use nalgebra::{DVector, Matrix3, Vector3};
 
@@ -46,7 +45,7 @@ impl<T: Real> Simulation for Engine<T> {
         match &self.skinning {
             Some(skinning) => {
                 self.skinned_rows.fetch_add(skinning.rows(), Ordering::Relaxed);
-                skinning.apply(&nodes)
+                self.skinned.time(|| skinning.apply(&nodes))
             }
             None => nodes,
         }
@@ -61,13 +60,11 @@ impl<T: Real> Simulation for Engine<T> {
     }
 
     fn step(&mut self) -> Result<(), Failure> {
-        let start = Instant::now();
         let Self { stepper, system, state, springs, dt, counters, last_good, pull, drag_stiffness, .. } = self;
         let pulls = Pulls { system, hand: pull.as_ref(), stiffness: *drag_stiffness };
         pulls.at(state.time + *dt, springs);
         last_good.copy_from(state);
         let outcome = stepper.step(&pulls, springs, state, *dt, counters).and_then(|()| self.check());
-        self.seconds.steps += start.elapsed().as_secs_f64();
         if let Err(cause) = outcome {
             self.state.copy_from(&self.last_good);
             self.stepper.forget();
@@ -164,7 +161,10 @@ impl<T: Real> Simulation for Engine<T> {
     }
 
     fn reactions(&self) -> Vec<Reaction> {
-        reactions::reactions(self)
+        if self.system.is_unheld() {
+            return Vec::new();
+        }
+        self.reacted.time(|| reactions::reactions(self))
     }
 
     fn counters(&self) -> Counters {

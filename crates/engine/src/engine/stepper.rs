@@ -93,6 +93,15 @@ impl<T: Real> Stepper<T> {
         }
     }
 
+    /// Whether it searches along directions, and so needs energies.
+    pub(super) fn searches(&self) -> bool {
+        match self {
+            Self::ImplicitEuler(_) => true,
+            Self::Static(method) => !method.is_linear(),
+            _ => false,
+        }
+    }
+
     /// Part of the loads that acts after so many steps.
     pub(super) fn load_fraction(&self, steps: usize) -> f64 {
         if let Self::Static(method) = self { method.fraction(steps) } else { 1.0 }

@@ -46,7 +46,7 @@ impl<T: Real> Accelerations<T> {
             return;
         }
         let (end, over_dt) = (state.time + dt, T::of(1.0 / dt));
-        system.held.lead(&system.rest, |motion| motion.fraction(end), &state.u, &mut self.velocity);
+        system.lead(|motion| motion.fraction(end), &state.u, &mut self.velocity);
         for node in 0..self.led.len() {
             for i in 0..3 {
                 self.velocity[node][i] *= over_dt;
@@ -76,14 +76,16 @@ impl<T: Real> Accelerations<T> {
         }
         system.add_pressures(T::of(1.0), u, force);
         if let Some(damping) = &system.damping {
-            system.mass.add_times(T::of(-damping.alpha), v, force);
-            if damping.beta > 0.0 {
-                system.add_stiffness_times(T::of(-damping.beta), u, v, force);
-            }
+            system.work.damping.time(|| {
+                system.mass.add_times(T::of(-damping.alpha), v, force);
+                if damping.beta > 0.0 {
+                    system.add_stiffness_times(T::of(-damping.beta), u, v, force);
+                }
+            });
         }
         if system.held.leads() {
-            system.mass.add_times(T::of(-1.0), &self.led, force);
+            system.work.prescribed.time(|| system.mass.add_times(T::of(-1.0), &self.led, force));
         }
-        self.mass.solve(system, force, a)
+        system.work.mass.time(|| self.mass.solve(system, force, a))
     }
 }

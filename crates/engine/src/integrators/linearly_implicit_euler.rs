@@ -65,7 +65,7 @@ impl<T: Real> LinearlyImplicitEuler<T> {
         }
         led.fill([T::default(); 3]);
         loads.gather(system, 1.0, &state.u, led);
-        system.held.lead(&system.rest, |motion| motion.fraction(state.time + dt), &state.u, led);
+        system.lead(|motion| motion.fraction(state.time + dt), &state.u, led);
         let (motion, acting) = (Some(Motion::new(system, inertial, dt)), Acting { pulls: springs, load: None });
         let objective = loads.on(Objective { system, acting, start: &state.u, motion });
         counters.force_assemblies += 1;

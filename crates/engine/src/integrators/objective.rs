@@ -85,13 +85,16 @@ impl<T: Real> Objective<'_, T> {
             *difference = std::array::from_fn(|i| w[i] - inertial[i]);
         }
         product.fill([T::default(); 3]);
-        self.system.mass.add_times(motion.over_dt2, difference, product);
+        self.system.add_mass_times(motion.over_dt2, difference, product);
         let mut energy = Energy::of(add_and_multiply(difference, product, gradient));
         if let Some((alpha, beta)) = motion.damping {
-            product.fill([T::default(); 3]);
-            self.system.mass.add_times(alpha, w, product);
-            self.system.add_stiffness_times(beta, self.start, w, product);
-            energy = energy + Energy::of(add_and_multiply(w, product, gradient));
+            let damp = || {
+                product.fill([T::default(); 3]);
+                self.system.mass.add_times(alpha, w, product);
+                self.system.add_stiffness_times(beta, self.start, w, product);
+                Energy::of(add_and_multiply(w, product, gradient))
+            };
+            energy = energy + self.system.work.damping.time(damp);
         }
         energy
     }
@@ -106,14 +109,14 @@ impl<T: Real> Objective<'_, T> {
             for (difference, (led, inertial)) in scratch.difference.iter_mut().zip(led.iter().zip(motion.inertial)) {
                 *difference = std::array::from_fn(|i| led[i] - inertial[i]);
             }
-            system.mass.add_times(motion.over_dt2, &scratch.difference, gradient);
+            system.add_mass_times(motion.over_dt2, &scratch.difference, gradient);
             if let Some((alpha, beta)) = motion.damping {
                 stiffness += beta;
-                system.mass.add_times(alpha, led, gradient);
+                system.work.damping.time(|| system.mass.add_times(alpha, led, gradient));
             }
         }
         if system.held.leads() {
-            system.add_stiffness_times(stiffness, self.start, led, gradient);
+            system.work.prescribed.time(|| system.add_stiffness_times(stiffness, self.start, led, gradient));
         }
         system.held.clear(gradient);
     }
@@ -138,9 +141,11 @@ impl<T: Real> Objective<'_, T> {
                 }
             }
         }
-        self.acting.add_stiffness(&system.pattern, values);
+        if !self.acting.pulls.is_empty() {
+            system.work.drag.time(|| self.acting.add_stiffness(&system.pattern, values));
+        }
         if self.motion.is_some() {
-            system.mass.add_to(mass, &system.pattern, values);
+            system.work.mass.time(|| system.mass.add_to(mass, &system.pattern, values));
         }
         system.held.take_out(&system.pattern, values);
     }

@@ -119,7 +119,7 @@ impl<T: Real> Start<'_, T> {
     /// Writes the step of held directions.
     fn lead(&self, step: &mut [[T; 3]]) {
         let Objective { system, start, .. } = self.objective;
-        system.held.lead(&system.rest, |motion| motion.fraction(self.end), start, step);
+        system.lead(|motion| motion.fraction(self.end), start, step);
     }
 
     fn can_start(&mut self, step: &[[T; 3]], counters: &mut Counters) -> bool {

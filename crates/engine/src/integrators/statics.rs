@@ -72,6 +72,11 @@ impl<T: Real> Statics<T> {
         }
     }
 
+    /// Whether one solve is the whole of it.
+    pub fn is_linear(&self) -> bool {
+        matches!(self.method, Method::Linear(_))
+    }
+
     /// Part of the loads that is applied after so many steps.
     pub fn fraction(&self, steps: usize) -> f64 {
         steps.min(self.load_steps) as f64 / self.load_steps as f64
@@ -123,7 +128,7 @@ impl<T: Real> Linear<T> {
         let Self { solver, tolerance, values, scratch, rest, right, free } = self;
         loads.gather(system, fraction, rest, rest);
         let objective = loads.on(Objective { system, acting, start: rest, motion: None });
-        system.held.lead(&system.rest, |_| fraction, rest, u);
+        system.lead(|_| fraction, rest, u);
         counters.force_assemblies += 1;
         objective.linear_slope(u, right, scratch);
         for right in right.as_flattened_mut() {
@@ -186,7 +191,7 @@ impl<T: Real> Work<'_, T> {
         step.fill([T::default(); 3]);
         loads.gather(system, fraction, u, step);
         let objective = Objective { system, acting: *acting, start: u, motion: None };
-        system.held.lead(&system.rest, |_| fraction, u, led);
+        system.lead(|_| fraction, u, led);
         newton.predict(&loads.on(objective), led, step, counters)?;
         if !newton.can_start(&loads.on(objective), step, counters) {
             step.copy_from_slice(led);

@@ -21,7 +21,9 @@ pub(crate) mod beam;
 #[cfg(test)]
 mod tests;
 
+use std::fmt;
 use std::sync::Arc;
+use std::time::Instant;
 
 pub use amd::amd_order;
 pub use product::product;
@@ -40,6 +42,7 @@ use ssor::Ssor;
 use crate::number::Real;
 use crate::order::Numbering;
 use crate::sparse::{Pattern, Stored};
+use crate::work::Meter;
 
 pub use crate::simulation::Breakdown;
 
@@ -94,6 +97,20 @@ pub enum Preconditioner {
     Ssor,
 }
 
+impl fmt::Display for SolverChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Cholesky => "Cholesky's factor, symbolic part once",
+            Self::Lu => "LU factor with row exchanges",
+            Self::Cg => "conjugate gradients",
+            Self::Pcg(Preconditioner::BlockJacobi) => "conjugate gradients with the blocks of the diagonal",
+            Self::Pcg(Preconditioner::IncompleteCholesky) => "conjugate gradients with an incomplete Cholesky factor",
+            Self::Pcg(Preconditioner::Multigrid) => "conjugate gradients with a multigrid cycle",
+            Self::Pcg(Preconditioner::Ssor) => "conjugate gradients with symmetric sweeps, in single precision",
+        })
+    }
+}
+
 /// What a solver did so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
@@ -113,6 +130,8 @@ pub struct Solver<T: Real> {
     method: Method<T>,
     work: Work<T>,
     counters: Counters,
+    preparing: Meter,
+    solving: Meter,
 }
 
 enum Method<T> {
@@ -140,13 +159,21 @@ impl<T: Real> Solver<T> {
             }
         };
         let counters = Counters { symbolic_factorizations: 1, ..Counters::default() };
-        Self { pattern: Arc::clone(pattern), method, work: Work::new(pattern.rows()), counters }
+        Self {
+            pattern: Arc::clone(pattern),
+            method,
+            work: Work::new(pattern.rows()),
+            counters,
+            preparing: Meter::default(),
+            solving: Meter::default(),
+        }
     }
 
     /// Computes the factor or the preconditioner of a matrix. After an error the preparation is of no use.
     pub fn prepare(&mut self, values: &[[[T; 3]; 3]]) -> Result<(), Breakdown> {
         self.counters.factorizations += 1;
-        match &mut self.method {
+        let Self { method, preparing, .. } = self;
+        preparing.time(|| match method {
             Method::Cholesky(method) => method.prepare(values),
             Method::Lu(method) => method.prepare(values),
             Method::Cg => Ok(()),
@@ -154,7 +181,7 @@ impl<T: Real> Solver<T> {
             Method::Multigrid(method) => method.prepare(values),
             Method::IncompleteCholesky(method) => method.prepare(values),
             Method::Ssor(method) => method.prepare(values),
-        }
+        })
     }
 
     /// Solves A x = b to ‖b − A x‖ ≤ `tolerance` ‖b‖, by the preparation of this matrix or of one that is close to it.
@@ -168,8 +195,19 @@ impl<T: Real> Solver<T> {
         x: &mut [[T; 3]],
         tolerance: f64,
     ) -> Result<Solved, Breakdown> {
-        let rows = self.pattern.rows();
-        let (b, x) = (&b[..rows], &mut x[..rows]);
+        let (rows, start) = (self.pattern.rows(), Instant::now());
+        let solved = self.refine(values, &b[..rows], &mut x[..rows], tolerance);
+        self.solving.add(start.elapsed());
+        solved
+    }
+
+    fn refine(
+        &mut self,
+        values: &[[[T; 3]; 3]],
+        b: &[[T; 3]],
+        x: &mut [[T; 3]],
+        tolerance: f64,
+    ) -> Result<Solved, Breakdown> {
         self.counters.solves += 1;
         if matches!(self.method, Method::Cholesky(_) | Method::Lu(_)) {
             self.method.apply(b, x);
@@ -198,7 +236,8 @@ impl<T: Real> Solver<T> {
     /// z = P⁻¹ r, where P is what was prepared: the matrix itself as a factor, or the preconditioner.
     pub fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
         let rows = self.pattern.rows();
-        self.method.apply(&r[..rows], &mut z[..rows]);
+        let Self { method, solving, .. } = self;
+        solving.time(|| method.apply(&r[..rows], &mut z[..rows]));
     }
 
     /// Whether a solve iterates, on the matrix that it is given, and the preparation is a preconditioner only.
@@ -214,6 +253,21 @@ impl<T: Real> Solver<T> {
     /// What it did so far.
     pub fn counters(&self) -> Counters {
         self.counters
+    }
+
+    /// How often it has prepared and solved, and for how long.
+    pub fn meters(&self) -> (&Meter, &Meter) {
+        (&self.preparing, &self.solving)
+    }
+
+    /// Whether a preconditioner is what it prepares.
+    pub fn has_preconditioner(&self) -> bool {
+        matches!(self.method, Method::BlockJacobi(_) | Method::IncompleteCholesky(_) | Method::Multigrid(_))
+    }
+
+    /// Bytes of what it prepares.
+    pub fn prepared_bytes(&self) -> usize {
+        self.bytes() - self.work.bytes()
     }
 
     /// Bytes that it holds, the pattern apart. Those of an LU factor are not counted: faer does not tell.

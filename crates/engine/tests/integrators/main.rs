@@ -8,6 +8,7 @@ mod bars;
 mod cantilever;
 mod conserved;
 mod orders;
+mod parts;
 mod pressures;
 mod reactions;
 mod statics;

@@ -33,7 +33,8 @@ fn drift(rest: &str) -> f64 {
 
 #[test]
 fn a_pressure_on_a_closed_surface_keeps_the_energy() {
-    assert!(drift(&closed(4e3)) < 1e-6, "{:e}", drift(&closed(4e3)));
+    let part = drift(&closed(4e3));
+    assert!(part < 1e-6, "{part:e}");
 }
 
 #[test]
