@@ -104,7 +104,9 @@ fn a_mesh_of_nothing_is_refused() {
 #[test]
 fn a_scale_that_leaves_no_volume_or_too_much_of_it_is_refused() {
     let scaled = |scale: &str| desk(&format!("file = \"m.node\"\nscale = {scale}"), NODES, ELEMENTS);
-    assert_refused(&scaled("1e-200"), 3, &["element 0", "no volume"]);
-    assert_refused(&scaled("1e200"), 3, &["element 0", "too large", "scale the mesh to metres"]);
+    assert_refused(&scaled("1e-200"), 5, &["mesh.scale is 1e-200", "too small", "give 1e-60 or more"]);
+    assert_refused(&scaled("1e200"), 5, &["mesh.scale is 1e200", "too large", "give at most 1e60"]);
+    let far = |size: &str| desk("file = \"m.node\"", &NODES.replace("1 1 1\n", &format!("{size} 1 1\n")), ELEMENTS);
+    assert_refused(&far("1e200"), 3, &["element 1", "too large", "scale the mesh to metres"]);
     scaled("1e-6").run_well("bad.toml --headless --steps 1");
 }
