@@ -29,9 +29,11 @@ fn body<T: Real>(engine: &Engine<T>) -> Vec<Part> {
     let Engine { scene, system, .. } = engine;
     let (nodes, elements, work) = (system.nodes(), system.elements.count, &system.work);
     let state = engine.state.bytes() + engine.last_good.bytes();
+    let mesh = system.elements.bytes() + system.pattern.bytes();
     let mass = if scene.mass.lumped { "lumped: [mass]" } else { "consistent: every element joins its nodes" };
     vec![
-        built("mesh", format!("[mesh]: {nodes} nodes, {elements} tetrahedra"), (system.elements.bytes(), NO_WORK)),
+        // Which nodes are neighbours is learnt with the mesh, whether or not a matrix is made of it.
+        built("mesh", format!("[mesh]: {nodes} nodes, {elements} tetrahedra"), (mesh, NO_WORK)),
         built("material", material(&scene.material), (0, NO_WORK)),
         built("state", format!("displacements and velocities in {}", std::any::type_name::<T>()), (state, NO_WORK)),
         built("mass", mass.to_owned(), (system.mass.bytes(), work.mass.read())),
@@ -90,7 +92,7 @@ fn acting<T: Real>(system: &System<T>) -> Vec<Part> {
 fn methods<T: Real>(engine: &Engine<T>) -> Vec<Part> {
     let Engine { scene, system, integrator, counters, .. } = engine;
     let (name, work, solver) = (integrator.name(), &system.work, engine.stepper.solver());
-    let matrix = system.pattern.bytes() + 9 * size_of::<T>() * system.pattern.blocks();
+    let matrix = 9 * size_of::<T>() * system.pattern.blocks();
     let searches = engine.stepper.searches();
     let never = scene.newton.as_ref().is_some_and(|newton| newton.projection == Some(Projection::Never));
     let no_matrix = || format!("{name} needs no matrix");

@@ -1,7 +1,8 @@
-//! A step allocates nothing once the first ones have made room.
+//! A step allocates nothing once the first ones have made room, and a part that is left out takes no memory.
 
 use std::path::Path;
 
+use fem_engine::simulation::Simulation;
 use fem_engine::{engine, scene};
 
 const SCENE: &str = r#"
@@ -59,4 +60,55 @@ fn steps_of_all_solvers_allocate_nothing() {
     ] {
         assert_eq!(allocations("implicit_euler", &format!("[solver]\n{solver}\n")), 0, "{solver}");
     }
+}
+
+/// A simulation, and the bytes that it has taken and kept.
+fn built(text: &str) -> (Box<dyn Simulation>, i64) {
+    let mut simulation = None;
+    let info = allocation_counter::measure(|| {
+        let scene = scene::parse(text, Path::new("allocations.toml")).unwrap();
+        let body = scene::body(&scene, Path::new("no data")).unwrap();
+        simulation = Some(engine::build(&scene, body).unwrap());
+    });
+    (simulation.unwrap(), info.bytes_current)
+}
+
+/// Bytes of these parts.
+fn bytes(simulation: &dyn Simulation, names: &[&str]) -> i64 {
+    let parts = simulation.parts().into_iter().filter(|part| names.contains(&part.name));
+    parts.map(|part| part.bytes as i64).sum()
+}
+
+#[test]
+fn leaving_a_part_out_saves_the_memory_that_it_is_said_to_take() {
+    let scene = SCENE.replace("INTEGRATOR", "verlet");
+    let without = |table: &str| {
+        let start = scene.find(&format!("[{table}]")).unwrap();
+        let end = scene[start + 1..].find("\n[").map_or(scene.len(), |end| start + 1 + end + 1);
+        format!("{}{}", &scene[..start], &scene[end..])
+    };
+    let surface = "on = { axis = \"z\", side = \"max\", within = 1e-9 }\n";
+    let cases = [
+        ("dead_load", scene.clone(), without("gravity")),
+        ("drag", scene.clone(), without("drag")),
+        ("damping", format!("{scene}[damping]\nalpha = 1\n"), scene.clone()),
+        ("springs", format!("{scene}[[springs]]\nnodes = [1, 20]\nstiffness = 1\n"), scene.clone()),
+        ("pressure", format!("{scene}[[traction]]\n{surface}pressure = 1\n"), scene.clone()),
+    ];
+    for (name, with, without) in cases {
+        let ((with, most), (without, least)) = (built(&with), built(&without));
+        let told = bytes(&*with, &[name]);
+        assert_eq!(bytes(&*without, &[name]), 0, "{name}");
+        assert!(most - least >= told, "{name}: {told} bytes told, {most} with it and {least} without");
+    }
+}
+
+#[test]
+fn an_explicit_scene_has_no_memory_for_matrix_and_factor() {
+    let ((explicit, least), (implicit, most)) =
+        (built(&SCENE.replace("INTEGRATOR", "verlet")), built(&SCENE.replace("INTEGRATOR", "implicit_euler")));
+    let of_matrices = ["stiffness", "solver"];
+    let told = bytes(&*implicit, &of_matrices);
+    assert_eq!(bytes(&*explicit, &of_matrices), 0);
+    assert!(told > 50_000 && most - least >= told, "{told} bytes told, {most} with them and {least} without");
 }
