@@ -35,6 +35,7 @@ pub mod solvers;
 pub mod sparse;
 pub mod springs;
 pub mod state;
+pub mod study;
 pub mod system;
 pub mod tensor;
 pub mod work;
