@@ -1,0 +1,97 @@
+//! The order of convergence that errors show: the slope of log error over log step, by least squares, with its confidence.
+
+/// A fitted order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Order {
+    /// p of error ∝ step^p.
+    pub value: f64,
+    /// Half the width of its 95 % confidence interval (Student's t); `None` for two points, which leave nothing to judge by.
+    pub half_width: Option<f64>,
+    /// Points that it was fitted to.
+    pub points: usize,
+}
+
+/// 97.5 % quantiles of Student's t with 1, 2, … degrees of freedom.
+const STUDENT: [f64; 8] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306];
+
+/// Fits pairs of step and error; `None` where fewer than two of them have a logarithm, or all steps are the same.
+pub fn fit(pairs: &[(f64, f64)]) -> Option<Order> {
+    let usable = |&&(step, error): &&(f64, f64)| step > 0.0 && error > 0.0 && step.is_finite() && error.is_finite();
+    let logs: Vec<(f64, f64)> = pairs.iter().filter(usable).map(|&(step, error)| (step.ln(), error.ln())).collect();
+    let n = logs.len() as f64;
+    let mean = |of: fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / n;
+    let (x, y) = (mean(|pair| pair.0), mean(|pair| pair.1));
+    let sxx: f64 = logs.iter().map(|pair| (pair.0 - x).powi(2)).sum();
+    if logs.len() < 2 || !(sxx > 0.0) {
+        return None;
+    }
+    let value = logs.iter().map(|pair| (pair.0 - x) * (pair.1 - y)).sum::<f64>() / sxx;
+    let half_width = logs.len().checked_sub(3).map(|more| {
+        let left: f64 = logs.iter().map(|pair| (pair.1 - y - value * (pair.0 - x)).powi(2)).sum();
+        STUDENT[more.min(STUDENT.len() - 1)] * (left / (n - 2.0) / sxx).sqrt()
+    });
+    Some(Order { value, half_width, points: logs.len() })
+}
+
+/// The order of the finest steps, at most `most` of them: those whose errors are above `floor`, where round-off or the reference
+/// itself begin.
+pub fn asymptotic(pairs: &[(f64, f64)], most: usize, floor: f64) -> Option<Order> {
+    let mut usable: Vec<_> = pairs.iter().copied().filter(|(_, error)| *error > floor && error.is_finite()).collect();
+    usable.sort_by(|a, b| a.0.total_cmp(&b.0));
+    usable.truncate(most);
+    fit(&usable)
+}
+
+impl Order {
+    /// `2.00 ± 0.01`
+    pub fn text(&self) -> String {
+        match self.half_width {
+            Some(width) => format!("{:.2} ± {:.2}", self.value, width),
+            None => format!("{:.2}", self.value),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn powers(p: f64, noise: &[f64]) -> Vec<(f64, f64)> {
+        let pair = |(i, noise): (usize, &f64)| {
+            let step = 0.5f64.powi(i as i32);
+            (step, 3.0 * step.powf(p) * noise)
+        };
+        noise.iter().enumerate().map(pair).collect()
+    }
+
+    #[test]
+    fn a_power_is_found_exactly_and_with_certainty() {
+        let order = fit(&powers(2.0, &[1.0; 4])).unwrap();
+        assert!((order.value - 2.0).abs() < 1e-12 && order.half_width.unwrap() < 1e-10, "{order:?}");
+    }
+
+    #[test]
+    fn scatter_widens_the_confidence_as_the_hand_computes() {
+        // Logs are 0 and ±1 along, e^{0, 0.3, 0} up: slope 0, residuals −0.1, 0.2, −0.1; t(1) √(0.06/1/2).
+        let e = std::f64::consts::E;
+        let order = fit(&[(1.0 / e, 1.0), (1.0, 0.3f64.exp()), (e, 1.0)]).unwrap();
+        assert!(order.value.abs() < 1e-12);
+        assert!((order.half_width.unwrap() - 12.706 * 0.03f64.sqrt()).abs() < 1e-9, "{order:?}");
+    }
+
+    #[test]
+    fn points_at_the_floor_and_failed_ones_do_not_count() {
+        let mut pairs = powers(4.0, &[1.0; 5]);
+        pairs.push((1e-3, 1e-13));
+        pairs.push((2.0, f64::NAN));
+        let order = asymptotic(&pairs, 3, 1e-12).unwrap();
+        assert!((order.value - 4.0).abs() < 1e-12 && order.points == 3, "{order:?}");
+    }
+
+    #[test]
+    fn one_point_has_no_order() {
+        assert_eq!(fit(&[(1.0, 1.0)]), None);
+        assert_eq!(fit(&[(1.0, 1.0), (1.0, 2.0)]), None);
+        assert_eq!(fit(&[(1.0, 1.0), (0.5, 0.0)]), None);
+    }
+}
