@@ -19,6 +19,7 @@ pub mod pareto;
 pub mod plan;
 pub mod quadrature;
 pub mod reference;
+pub mod report;
 pub mod row;
 pub mod scene;
 pub mod space;
