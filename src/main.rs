@@ -34,6 +34,7 @@ fn main() -> ExitCode {
     let result = match &arguments.command {
         Some(Command::List) => demo::list::print_scenes(),
         Some(Command::Mesh { action }) => demo::mesh::run(action),
+        Some(Command::Study(study)) => study.run(),
         None => demo::missing::caught(|| demo::run::run(&arguments.run)),
     };
     match result {

@@ -1,9 +1,21 @@
 //! Scenes that the fast engine runs: it is not in this repository, since it holds what you are to write.
 
+use clap::Subcommand;
 use fem_engine::scene::{Body, Scene};
 use fem_engine::simulation::Simulation;
 
 use super::end::End;
+
+/// Studies of the engine: none here.
+#[derive(Debug, Subcommand)]
+pub enum Study {}
+
+impl Study {
+    /// There is nothing to run.
+    pub fn run(&self) -> Result<(), End> {
+        match *self {}
+    }
+}
 
 /// Refuses: your own functions run the course's scenes.
 pub fn build(scene: &Scene, _: Body) -> Result<Box<dyn Simulation>, End> {

@@ -6,6 +6,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 use fem_engine::scene::Integrator;
 
+use super::engine::Study;
+
 /// Deformable solids by the finite element method: shows a scene in a window, or runs it without one.
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true, after_help = EXIT_CODES)]
@@ -30,6 +32,8 @@ pub enum Command {
         #[command(subcommand)]
         action: MeshAction,
     },
+    #[command(flatten)]
+    Study(Study),
 }
 
 #[derive(Debug, Subcommand)]

@@ -1,0 +1,69 @@
+//! `report`: error against run time.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use fem_engine::scene::{self, Scene};
+use fem_engine::simulation::Simulation;
+use fem_engine::study::report::{Report, first_files, report};
+use fem_engine::study::scene::Setting;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::demo::end::End;
+use crate::demo::{data, run as demo};
+
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Scenes to study, by name or by path
+    #[arg(value_name = "SCENE", default_values = ["arma", "beam"])]
+    pub scenes: Vec<String>,
+    /// Folder for report.html, runs.csv, runs.json, states and pictures
+    #[arg(long, value_name = "DIR", default_value = "report")]
+    pub out: PathBuf,
+    /// Small meshes and few steps: under a minute
+    #[arg(long)]
+    pub quick: bool,
+}
+
+/// Studies the scenes, writes the folder, and prints which method is for which error.
+pub fn run(arguments: &Arguments) -> Result<(), End> {
+    let (folder, data) = (&arguments.out, data::folder());
+    if folder.exists() && !folder.is_dir() {
+        return Err(End::unusable(format!("--out {}: is a file; give the name of a folder", folder.display())));
+    }
+    let scenes = arguments.scenes.iter().map(|name| scene::load(name, &data).map_err(End::unusable));
+    let scenes: Vec<Scene> = scenes.collect::<Result<_, _>>()?;
+    let bar = progress_bar();
+    let tell = |done: usize, all: usize, what: &str| {
+        bar.set_length(all as u64);
+        bar.set_position(done as u64);
+        bar.set_message(what.to_owned());
+    };
+    let factory = |scene: &Scene| -> Result<Box<dyn Simulation>, String> {
+        demo::build(scene).map(|ready| ready.simulation).map_err(|end| end.message())
+    };
+    let setting = Setting { data, out: folder.clone(), is_quick: arguments.quick, factory: &factory, tell: &tell };
+    let found = report(&setting, &scenes).map_err(End::Stopped)?;
+    bar.finish_and_clear();
+    print(&found);
+    for file in first_files(folder) {
+        say!("{}", file.display());
+    }
+    Ok(())
+}
+
+fn print(found: &Report) {
+    for (study, answer) in found.scenes.iter().zip(found.answers()) {
+        say!("{}: {answer}", study.name);
+    }
+    let rows = found.rows();
+    let done = rows.iter().filter(|row| row.is_done()).count();
+    say!("{} runs, {} of them failed or exploded, as the tables tell", rows.len(), rows.len() - done);
+}
+
+/// Not drawn where stderr is no terminal.
+fn progress_bar() -> ProgressBar {
+    let style =
+        ProgressStyle::with_template("{bar:30} {pos:>4} of {len}  {elapsed}  {wide_msg}").expect("a valid template");
+    ProgressBar::new(1).with_style(style)
+}
