@@ -69,19 +69,24 @@ fn median(mut work: impl FnMut()) -> f64 {
 /// Cholesky, other precision, the course.
 pub fn shares(costs: &Costs, row: &Row) -> Option<[f64; 5]> {
     let case = &row.case;
-    if case.pipeline != "engine" || case.precision != "f64" || !["automatic", "cholesky"].contains(&&*case.solver) {
+    let is_known = ["automatic", "cholesky", "none"].contains(&&*case.solver);
+    if case.pipeline != "engine" || case.precision != "f64" || !is_known {
         return None;
     }
     let (counters, steps) = (&row.counters, row.counters.steps.max(1) as f64);
     let per_step = |count: usize, seconds: f64| 1e3 * count as f64 * seconds / steps;
     let pass = if counters.energy_evaluations > 0 { costs.pass } else { costs.force };
-    let known = [
+    let mut known = [
         per_step(counters.force_assemblies, pass),
         per_step(counters.stiffness_assemblies, costs.stiffness),
         per_step(counters.factorizations, costs.factor),
         per_step(row.linear_solves(), costs.substitution),
     ];
-    let whole = 1e3 * row.seconds()? / steps;
+    // The median step: a busy machine lengthens some steps, and not the parts that were timed by themselves.
+    let whole = row.times.step_ms[0]?;
     let rest = (whole - known.iter().sum::<f64>()).max(0.0);
+    // Steps differ: those with a new factor take longer than the median.
+    let fitting = (whole / known.iter().sum::<f64>()).min(1.0);
+    known.iter_mut().for_each(|part| *part *= fitting);
     Some([known[0], known[1], known[2], known[3], rest])
 }

@@ -1,5 +1,6 @@
 //! What the times were measured on, and when.
 
+use std::path::Path;
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -23,8 +24,8 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// This one, now.
-    pub fn this() -> Self {
+    /// This one, now; the commit is that of the checkout around this folder.
+    pub fn this(folder: &Path) -> Self {
         let unknown = || "unknown".to_owned();
         let profile = if cfg!(debug_assertions) { "debug" } else { "release" };
         let flags = option_env!("RUSTFLAGS").filter(|flags| !flags.is_empty()).unwrap_or("no flags");
@@ -32,7 +33,7 @@ impl Machine {
             cpu: cpu().unwrap_or_else(unknown),
             threads: rayon::current_num_threads(),
             flags: format!("{profile}, {flags}"),
-            commit: commit().unwrap_or_else(unknown),
+            commit: commit(folder).unwrap_or_else(unknown),
             date: date(SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs())),
             load: load().unwrap_or_else(unknown),
         }
@@ -56,8 +57,13 @@ fn load() -> Option<String> {
     text.split(' ').next().map(str::to_owned)
 }
 
-fn commit() -> Option<String> {
-    let git = Command::new("git").args(["describe", "--always", "--dirty", "--exclude", "*"]).output().ok()?;
+fn commit(folder: &Path) -> Option<String> {
+    let git = Command::new("git")
+        .arg("-C")
+        .arg(folder)
+        .args(["describe", "--always", "--dirty", "--exclude", "*"])
+        .output()
+        .ok()?;
     let text = String::from_utf8(git.stdout).ok().filter(|_| git.status.success())?;
     Some(text.lines().next()?.to_owned())
 }

@@ -80,7 +80,7 @@ frequency = 2.0
 /// the scene.
 pub fn report(setting: &Setting, scenes: &[Scene]) -> Result<Report, String> {
     scene::make_folders(&setting.out)?;
-    let machine = Machine::this();
+    let machine = Machine::this(&setting.data);
     let small = parse(ORDERS, Path::new("orders.toml")).map_err(|error| error.to_string())?;
     let orders = scene::study(setting, &small, Question::Order)?;
     let space = space::study(setting)?;
@@ -122,6 +122,9 @@ impl Report {
 /// Finest runs of a ladder that an order is taken from.
 const FINEST: usize = 4;
 
+/// Errors below this may be those of the reference.
+const FLOOR: f64 = 1e-11;
+
 /// Order in dt of each method that has a ladder.
 pub fn orders_in_time(study: &SceneStudy) -> Vec<Observed> {
     let mut methods: Vec<&str> = Vec::new();
@@ -130,8 +133,6 @@ pub fn orders_in_time(study: &SceneStudy) -> Vec<Observed> {
             methods.push(&row.case.method);
         }
     }
-    // The reference itself, and what Newton's method leaves.
-    let floor = 1e-9;
     let observe = |method: &str| {
         let rows = study.rows.iter().filter(|row| row.case.method == method && row.is_done());
         let pairs: Vec<_> = rows.filter_map(|row| Some((row.case.dt, row.errors.time_l2?))).collect();
@@ -141,7 +142,7 @@ pub fn orders_in_time(study: &SceneStudy) -> Vec<Observed> {
             "static" => return None,
             _ => 1.0,
         };
-        let order = asymptotic(&pairs, FINEST, floor).filter(|order| order.points > 2);
+        let order = asymptotic(&pairs, FINEST, FLOOR).filter(|order| order.points > 2);
         Some(Observed { scene: study.name.clone(), method: method.to_owned(), of: "dt", order, expected })
     };
     methods.into_iter().filter_map(observe).collect()

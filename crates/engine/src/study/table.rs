@@ -101,7 +101,7 @@ mod tests {
 
     #[test]
     fn every_line_has_every_column_and_what_is_missing_is_empty() {
-        let machine = Machine::this();
+        let machine = Machine::this(std::path::Path::new("."));
         let text = csv(&[Row::default()], &machine);
         let lines: Vec<Vec<String>> = text.lines().map(split).collect();
         assert_eq!(lines[0].len(), lines[1].len());

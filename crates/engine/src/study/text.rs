@@ -24,9 +24,27 @@ pub fn seconds(value: Option<f64>) -> String {
     }
 }
 
+/// [`number`] without zeros at its end.
+pub fn trimmed(value: f64) -> String {
+    let text = number(Some(value));
+    if text.contains('.') && !text.contains('e') {
+        return text.trim_end_matches('0').trim_end_matches('.').to_owned();
+    }
+    text
+}
+
+/// A time step: `20 ms`.
+pub fn step(seconds: f64) -> String {
+    match seconds {
+        seconds if seconds < 1e-3 => format!("{} µs", trimmed(1e6 * seconds)),
+        seconds if seconds < 1.0 => format!("{} ms", trimmed(1e3 * seconds)),
+        seconds => format!("{} s", trimmed(seconds)),
+    }
+}
+
 /// A part as a percentage: `0.1 %`.
 pub fn percent(value: f64) -> String {
-    format!("{} %", number(Some(100.0 * value)).trim_end_matches('0').trim_end_matches('.'))
+    format!("{} %", trimmed(100.0 * value))
 }
 
 #[cfg(test)]
@@ -47,6 +65,7 @@ mod tests {
         assert_eq!(seconds(Some(0.0123)), "12.3 ms");
         assert_eq!(seconds(Some(4.5e-5)), "45.0 µs");
         assert_eq!(seconds(Some(2.0)), "2.00 s");
+        assert_eq!([step(0.02), step(1.25e-4), step(1.0)], ["20 ms", "125 µs", "1 s"]);
     }
 
     #[test]
@@ -54,5 +73,6 @@ mod tests {
         assert_eq!(percent(0.01), "1 %");
         assert_eq!(percent(0.001), "0.1 %");
         assert_eq!(percent(1e-4), "0.01 %");
+        assert_eq!(percent(1.0), "100 %");
     }
 }

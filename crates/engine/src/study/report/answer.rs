@@ -4,7 +4,7 @@ use super::Report;
 use crate::study::row::Row;
 use crate::study::scene::{SceneStudy, competing_error};
 use crate::study::svg::escape;
-use crate::study::text::{number, percent, seconds};
+use crate::study::text::{number, percent, seconds, step, trimmed};
 
 /// Errors that people ask for, as parts of the body's length.
 pub const BUDGETS: [f64; 3] = [1e-2, 1e-3, 1e-4];
@@ -39,7 +39,7 @@ pub fn sentence(study: &SceneStudy) -> String {
                 "{} of its length, {} at dt = {} ({}, {})",
                 percent(budget),
                 row.case.method,
-                seconds(Some(row.case.dt)),
+                step(row.case.dt),
                 seconds(row.seconds()),
                 real_time(row, study.horizon)
             ),
@@ -47,10 +47,11 @@ pub fn sentence(study: &SceneStudy) -> String {
         };
         parts.push(part);
     }
-    let mesh = study.nested.as_ref().and_then(|nested| nested.errors.get(1)).map_or(String::new(), |level| {
-        format!(" – mind that its mesh alone is {} % off", number(Some(100.0 * level.1)))
-    });
-    format!("for {} s of motion with an error in time of {}{mesh}.", number(Some(study.horizon)), parts.join("; of "))
+    let mesh =
+        study.nested.as_ref().and_then(|nested| nested.errors.get(1)).map_or(String::new(), |level| {
+            format!(" – mind that its mesh alone is {} % off", trimmed(100.0 * level.1))
+        });
+    format!("for {} s of motion with an error in time of {}{mesh}.", trimmed(study.horizon), parts.join("; of "))
 }
 
 /// How a run compares with the clock on the wall.

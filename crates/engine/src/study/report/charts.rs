@@ -7,7 +7,7 @@ use crate::study::row::Row;
 use crate::study::scene::{SceneStudy, competing_error};
 use crate::study::space::{self, Space};
 use crate::study::svg::{Axis, Bar, Chart, Dot, Guide, Picture, Series, bars};
-use crate::study::text::{number, seconds};
+use crate::study::text::{number, seconds, step};
 
 /// Pictures that become files of their own.
 pub fn files(report: &Report) -> Vec<(String, Picture)> {
@@ -37,7 +37,7 @@ pub fn title(row: &Row) -> String {
         "{}\n{} steps of {}\nerror {} (largest {})\n{} in all, {} a step\nsteps {}, forces {}, Newton {}, factors {}\n{}",
         case.method,
         case.steps,
-        seconds(Some(case.dt)),
+        step(case.dt),
         number(competing_error(row)),
         number(row.errors.time_linf),
         seconds(row.seconds()),
@@ -89,7 +89,7 @@ pub fn error_against_time(study: &SceneStudy) -> Picture {
         if is_moving { "error in time, part of the body's length" } else { "error against the closed form" };
     let label = format!("{}: error against run time", study.name);
     let mut chart = Chart::new(label, Axis::log(name), Axis::log(error_name));
-    chart.size = (720.0, 470.0);
+    chart.size = (660.0, 450.0);
     let own = |row: &&Row| row.is_done() && (row.case.nodes == study.size.0 || !is_moving);
     let dot = |row: &Row| {
         let [low, median, high] = row.times.total_s;
@@ -100,8 +100,9 @@ pub fn error_against_time(study: &SceneStudy) -> Picture {
     let rows = |method: &str| study.rows.iter().filter(own).filter(|row| row.case.method == method).collect::<Vec<_>>();
     for method in methods(study) {
         let (colour, shape) = look(&method);
-        let dots = rows(&method).into_iter().filter_map(dot).collect();
-        chart.series.push(Series { name: method, colour, shape, is_joined: true, has_dots: true, dots });
+        let dots: Vec<Dot> = rows(&method).into_iter().filter_map(dot).collect();
+        let name = if dots.is_empty() { format!("{method} (every run failed)") } else { method };
+        chart.series.push(Series { name, colour, shape, is_joined: true, has_dots: true, dots });
     }
     let others = study.rows.iter().filter(own).filter(|row| row.case.group != "method");
     let dots: Vec<Dot> = others.filter_map(dot).collect();
@@ -125,7 +126,7 @@ fn slopes(chart: &Chart) -> Vec<Guide> {
     let of = |(method, order): (&str, f64)| {
         let series = chart.series.iter().find(|series| series.name == method)?;
         let dot = series.dots.get(series.dots.len().checked_sub(2)?)?;
-        let through = (dot.x, dot.y / 2.2);
+        let through = (dot.x, dot.y / 2.5);
         Some(Guide::Slope { through, slope: -order, name: format!("order {order}") })
     };
     [("linearly implicit Euler", 1.0), ("Verlet", 2.0), ("RK4", 4.0)].into_iter().filter_map(of).collect()
@@ -141,7 +142,7 @@ pub fn convergence(study: &SceneStudy) -> Picture {
         let dot = |row: &Row| Some(Dot { x: row.case.dt, y: row.errors.time_l2?, title: title(row), ..Dot::default() });
         let dots: Vec<Dot> = rows.filter_map(dot).collect();
         let pairs: Vec<_> = dots.iter().map(|dot| (dot.x, dot.y)).collect();
-        let order = asymptotic(&pairs, super::FINEST, 1e-9).filter(|order| order.points > 2);
+        let order = asymptotic(&pairs, super::FINEST, super::FLOOR).filter(|order| order.points > 2);
         let name = order.map_or(method.clone(), |order| format!("{method}: {:.2}", order.value));
         let (colour, shape) = look(&method);
         chart.series.push(Series { name, colour, shape, is_joined: true, has_dots: true, dots });
@@ -164,7 +165,7 @@ pub fn drift(study: &SceneStudy) -> Option<Picture> {
         let dots =
             study.histories[place].iter().map(|(time, energy)| Dot { x: *time, y: energy / scale, ..Dot::default() });
         let (colour, _) = look(method);
-        let name = format!("{method}, dt = {}", seconds(Some(study.rows[place].case.dt)));
+        let name = format!("{method}, dt = {}", step(study.rows[place].case.dt));
         let dots = dots.collect();
         chart.series.push(Series { name, colour, shape: 0, is_joined: true, has_dots: false, dots });
     }
@@ -179,7 +180,7 @@ pub fn where_time_goes(study: &SceneStudy) -> Option<Picture> {
         let row = rows.get(rows.len() / 2)?;
         let shares = costs::shares(costs, row)?;
         let whole: f64 = shares.iter().sum();
-        let figure = format!("{} at {}", seconds(Some(whole / 1e3)), seconds(Some(row.case.dt)));
+        let figure = format!("{} at {}", seconds(Some(whole / 1e3)), step(row.case.dt));
         Some(Bar { name: method, shares: shares.to_vec(), figure })
     };
     let all: Vec<Bar> = methods(study).into_iter().filter_map(bar).collect();

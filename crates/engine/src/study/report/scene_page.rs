@@ -5,7 +5,7 @@ use crate::study::page::{details, figure, table};
 use crate::study::row::Row;
 use crate::study::scene::{SceneStudy, competing_error};
 use crate::study::svg::escape;
-use crate::study::text::{number, percent, seconds};
+use crate::study::text::{number, percent, seconds, step, trimmed};
 
 /// A scene's part of the page.
 pub fn html(study: &SceneStudy) -> String {
@@ -49,33 +49,22 @@ pub fn html(study: &SceneStudy) -> String {
 fn intro(study: &SceneStudy) -> String {
     let (nodes, elements) = study.size;
     let motion = if study.horizon > 0.0 {
-        format!("; {} s of motion, fastest vibration {} 1/s", number(Some(study.horizon)), number(Some(study.fastest)))
+        format!("; {} s of motion, fastest vibration {} 1/s", trimmed(study.horizon), number(Some(study.fastest)))
     } else {
         "; equilibrium".to_owned()
     };
     format!("{}: {nodes} nodes, {elements} tetrahedra{motion}.", study.about)
 }
 
-const HEAD: [&str; 10] = [
-    "run",
-    ">time step",
-    ">error",
-    ">largest",
-    ">total",
-    ">quartiles",
-    ">a step",
-    ">force evaluations",
-    ">Newton",
-    ">factors",
-];
+const HEAD: [&str; 9] =
+    ["run", ">time step", ">error", ">total", ">quartiles", ">a step", ">force evaluations", ">Newton", ">factors"];
 
 fn line(row: &Row) -> Vec<String> {
     let [low, _, high] = row.times.total_s;
     vec![
         row.case.method.clone(),
-        seconds(Some(row.case.dt)),
+        step(row.case.dt),
         number(competing_error(row)),
-        number(row.errors.time_linf),
         seconds(row.seconds()),
         format!("{} – {}", seconds(low), seconds(high)),
         seconds(row.times.step_ms[0].map(|ms| ms / 1e3)),
@@ -113,7 +102,7 @@ fn orders(study: &SceneStudy) -> String {
             observed.order.map_or("–".to_owned(), |order| order.text()),
             observed.expected.to_string(),
             failed.to_string(),
-            finest.map_or("–".to_owned(), |row| seconds(Some(row.case.dt))),
+            finest.map_or("–".to_owned(), |row| step(row.case.dt)),
             kept(|row| row.errors.energy),
             kept(|row| row.errors.momentum),
             kept(|row| row.errors.angular),
@@ -139,8 +128,11 @@ fn mesh(study: &SceneStudy) -> String {
     let rows: Vec<_> =
         nested.errors.iter().map(|(cells, l2, h1)| vec![cells.to_string(), percent(*l2), percent(*h1)]).collect();
     let head = [">cells per metre", ">displacement, of the body's length", ">its gradient, relative"];
+    let is_seen = nested.orders.0 > 0.5 && nested.orders.1 > 0.5;
+    let caution =
+        if is_seen { "" } else { " These meshes are too coarse to show an order, so take the figures as rough." };
     format!(
-        "<h3>The mesh's own error</h3>\n<p>Three nested meshes and Richardson's extrapolation: order {} in L2, {} in H1.</p>\n{}",
+        "<h3>The mesh's own error</h3>\n<p>Three nested meshes and Richardson's extrapolation: order {} in L2, {} in H1.{caution}</p>\n{}",
         number(Some(nested.orders.0)),
         number(Some(nested.orders.1)),
         table(&head, &rows)

@@ -18,7 +18,7 @@ const ROW: f64 = 26.0;
 
 /// Bars of these kinds of shares. The longest bar fills the width.
 pub fn bars(label: impl Into<String>, kinds: &[&str], bars: &[Bar]) -> Picture {
-    let (left, length) = (190.0, 310.0);
+    let (left, length) = (170.0, 270.0);
     let size = |bar: &Bar| bar.shares.iter().filter(|share| share.is_finite()).sum::<f64>();
     let longest = bars.iter().map(size).fold(0.0, f64::max);
     let mut inner = line("axis", (left, 0.0), (left, ROW * bars.len() as f64));

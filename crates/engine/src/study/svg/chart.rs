@@ -144,10 +144,10 @@ impl Chart {
             }
             Guide::Slope { through: (px, py), slope, name } if self.x.shows(*px) && self.y.shows(*py) => {
                 let at = |x: f64| py * (x / px).powf(*slope);
-                // Half a decade each way is enough to compare with.
-                let (a, b) = (px / 10f64.sqrt(), px * 10f64.sqrt());
+                // A quarter of a decade each way is enough to compare with.
+                let (a, b) = (px / 10f64.powf(0.25), px * 10f64.powf(0.25));
                 let (from, to) = ((x.at(a), y.at(at(a))), (x.at(b), y.at(at(b))));
-                line("slope", from, to) + &text("note", "start", (to.0 + 4.0, to.1 + 4.0), name)
+                line("slope", from, to) + &text("note", "end", (from.0 - 4.0, from.1 + 4.0), name)
             }
             _ => String::new(),
         }

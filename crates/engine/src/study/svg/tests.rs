@@ -75,5 +75,5 @@ fn the_longest_bar_fills_the_width() {
     let bar = |shares: &[f64]| Bar { name: "b".to_owned(), shares: shares.to_vec(), figure: String::new() };
     let picture = bars("some bars", &["x", "y"], &[bar(&[1.0, 3.0]), bar(&[2.0, f64::NAN])]);
     assert_finite(&picture.inner);
-    assert!(picture.inner.contains("width=\"232.5\""), "{}", picture.inner);
+    assert!(picture.inner.contains("width=\"202.5\""), "{}", picture.inner);
 }
