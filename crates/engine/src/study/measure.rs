@@ -48,6 +48,8 @@ pub struct Timing {
     pub setup: f64,
     /// Each step, s.
     pub steps: Vec<f64>,
+    /// Processor time of all steps in all threads, s; none where it is not told, or where something else was done between them.
+    pub processor: Option<f64>,
 }
 
 impl Timing {
@@ -95,7 +97,9 @@ pub fn again(factory: &Factory, run: &Run) -> Result<Timing, String> {
     let start = Instant::now();
     let mut simulation = factory(&run.scene)?;
     let mut timing = Timing { setup: start.elapsed().as_secs_f64(), ..Timing::default() };
+    let before = machine::processor_seconds();
     steps(&mut *simulation, run.steps, &mut timing, |_, _| ());
+    timing.processor = machine::processor_seconds().zip(before).map(|(after, before)| after - before);
     Ok(timing)
 }
 
@@ -165,4 +169,55 @@ impl Patience {
 /// Lower quartile, median and upper quartile.
 pub fn quartiles(values: &[f64]) -> [Option<f64>; 3] {
     [0.25, 0.5, 0.75].map(|part| quantile(values, part))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::scene::{body, parse};
+
+    fn build(scene: &Scene) -> Result<Box<dyn Simulation>, String> {
+        let body = body(scene, Path::new("no data")).map_err(|error| error.to_string())?;
+        crate::engine::build(scene, body).map_err(|error| error.to_string())
+    }
+
+    fn run(dt: f64, steps: usize) -> Run {
+        let text = format!(
+            "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 1 }}\n[material]\n\
+             model = \"neo_hookean\"\nC = 1e4\nD = 4e4\ndensity = 1000.0\n[gravity]\nacceleration = [0, -9.81, 0]\n\
+             [fixed]\nplane = {{ axis = \"x\", below = 1e-9 }}\n[time]\ndt = {dt:e}\nintegrator = \"explicit_euler\"\n"
+        );
+        let scene = parse(&text, Path::new("box.toml")).unwrap();
+        Run { group: "method", method: "explicit Euler".to_owned(), scene, steps }
+    }
+
+    #[test]
+    fn a_run_is_looked_at_from_its_start_to_its_end() {
+        let outcome = first(&build, &run(1e-3, 300)).unwrap();
+        assert_eq!(outcome.failure, None);
+        assert_eq!((outcome.counters.steps, outcome.timing.steps.len()), (300, 300));
+        let times: Vec<f64> = outcome.history.iter().map(|(time, _)| *time).collect();
+        assert_eq!(times[0], 0.0);
+        assert!((times[times.len() - 1] - 0.3).abs() < 1e-9 && times.len() <= LOOKS + 2, "{}", times.len());
+    }
+
+    #[test]
+    fn a_run_that_explodes_says_so() {
+        let outcome = first(&build, &run(1.0, 20)).unwrap();
+        assert!(outcome.failure.is_some_and(|failure| failure.contains("failed in step")));
+    }
+
+    #[test]
+    fn all_runs_are_timed_at_least_so_often() {
+        let runs = [run(1e-3, 5), run(1e-3, 10)];
+        let clock = Timing::default();
+        let patience = Patience { repetitions: (2, 4), seconds: 0.0, long: 1.0 };
+        let mut told = 0;
+        let clocks = patience.time(&build, &[(&runs[0], &clock), (&runs[1], &clock)], || told += 1);
+        assert_eq!(clocks.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
+        assert_eq!(clocks[1][0].steps.len(), 10);
+        assert_eq!(told, patience.calls(2));
+    }
 }

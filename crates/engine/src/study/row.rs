@@ -37,6 +37,8 @@ pub struct Times {
     pub step_ms: [Option<f64>; 3],
     /// Lower quartile, median and upper quartile over the repetitions of the time of all steps, s.
     pub total_s: [Option<f64>; 3],
+    /// Median over the repetitions of the processor time of all steps in all threads, s.
+    pub processor_s: Option<f64>,
     /// How often the whole run was timed.
     pub repetitions: usize,
 }
@@ -148,6 +150,7 @@ impl Row {
             ("total_s", number(times.total_s[1])),
             ("total_s_q1", number(times.total_s[0])),
             ("total_s_q3", number(times.total_s[2])),
+            ("processor_s", number(times.processor_s)),
             ("repetitions", count(times.repetitions)),
             ("err_time_L2", number(errors.time_l2)),
             ("err_space_L2", number(errors.space_l2)),

@@ -163,6 +163,7 @@ fn times(clocks: &[Timing]) -> Times {
         setup_ms: quantile(&setups, 0.5),
         step_ms: [0.5, 0.95, 0.99].map(|part| quantile(&steps, part)),
         total_s: quartiles(&totals),
+        processor_s: quantile(&clocks.iter().filter_map(|clock| clock.processor).collect::<Vec<_>>(), 0.5),
         repetitions: clocks.len(),
     }
 }

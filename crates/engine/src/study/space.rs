@@ -95,7 +95,12 @@ fn solved(setting: &Setting, model: Model, cells: usize, number: usize) -> Resul
             max_iterations: Some(50),
             precision: "f64",
         },
-        times: Times { step_ms: [seconds.map(|s| 1e3 * s); 3], total_s: [seconds; 3], repetitions: 1, setup_ms: None },
+        times: Times {
+            step_ms: [seconds.map(|s| 1e3 * s); 3],
+            total_s: [seconds; 3],
+            repetitions: 1,
+            ..Times::default()
+        },
         errors: Errors { space_l2: Some(solved.l2), space_h1: Some(solved.h1), ..Errors::default() },
         counters: solved.counters,
         status: "done".to_owned(),

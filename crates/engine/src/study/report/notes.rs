@@ -34,7 +34,7 @@ limit of stability, so that the failure is seen. Tolerance, solver, projection, 
 Euler at a quarter of the scene's step. <b>course</b> is the pipeline of the 22 functions, the rest is the engine.</p>\n\
 <p><b>Times</b> are wall clock, of the steps alone; set-up is told apart in runs.csv. The first run of each is looked at and warms up; then all runs \
 are timed in turn, round after round, three to nine times each (at least 30 steps; a run of more than 2 s warms up by its own first steps). \
-Told are the median and the quartiles.</p>\n";
+Told are the median and the quartiles, and the processor time of all threads, which other work on the machine lengthens less.</p>\n";
 
 const DEFINITIONS: &str = "<h3>What the columns of runs.csv mean</h3>\n<ul>\n\
 <li><code>err_time_L2</code> √(Σ wᵢ |xᵢ − x*ᵢ|² / Σ wᵢ) / length at the end, x* the reference on the same mesh; weights and length are in the file \
@@ -74,5 +74,6 @@ Errors in space of boxes: three meshes of which each halves the cells of the one
   p = log2(|u1 - u2| / |u2 - u3|),  u* = u3 + (u3 - u2) / (2^p - 1),  err_space_L2 = |u - u*| / length    (p held between 0.5 and 3)
   err_space_H1 of mesh l = |grad(u_(l+1) - u_l)| / sqrt(1 - 4^-p') / |grad u3|,  p' = log2 of the ratio of the two differences
 where u1 and u2 are those of the references and u3 that of the finest mesh.
-Times are seconds or milliseconds as the column says; total_s is the median, total_s_q1 and total_s_q3 are the quartiles.
+Times are seconds or milliseconds as the column says; total_s is the median, total_s_q1 and total_s_q3 are the quartiles;
+processor_s is the processor time of all threads.
 ";

@@ -56,8 +56,18 @@ fn intro(study: &SceneStudy) -> String {
     format!("{}: {nodes} nodes, {elements} tetrahedra{motion}.", study.about)
 }
 
-const HEAD: [&str; 9] =
-    ["run", ">time step", ">error", ">total", ">quartiles", ">a step", ">force evaluations", ">Newton", ">factors"];
+const HEAD: [&str; 10] = [
+    "run",
+    ">time step",
+    ">error",
+    ">total",
+    ">quartiles",
+    ">processor",
+    ">a step",
+    ">force evaluations",
+    ">Newton",
+    ">factors",
+];
 
 fn line(row: &Row) -> Vec<String> {
     let [low, _, high] = row.times.total_s;
@@ -67,6 +77,7 @@ fn line(row: &Row) -> Vec<String> {
         number(competing_error(row)),
         seconds(row.seconds()),
         format!("{} – {}", seconds(low), seconds(high)),
+        seconds(row.times.processor_s),
         seconds(row.times.step_ms[0].map(|ms| ms / 1e3)),
         row.counters.force_assemblies.to_string(),
         row.counters.newton_iterations.to_string(),
