@@ -20,6 +20,8 @@ pub struct Equations {
     /// Factors of the mass of nodes that are free in some direction, and the directions that each is for.
     masses: Vec<(Vec<usize>, Ldl, [bool; 3])>,
     drag_stiffness: f64,
+    /// Whether nodes are led along a motion, which [`accelerations`](Self::accelerations) do not follow.
+    pub is_led: bool,
 }
 
 /// What evaluations write to.
@@ -31,19 +33,17 @@ pub struct Scratch {
 }
 
 impl Equations {
-    /// Of a scene; says why, where a reference cannot be computed.
+    /// Of a scene; says why, where there are none.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, String> {
-        let moves = |motion: &crate::scene::Prescribed| {
-            motion.rotation.is_some() || motion.displacement.is_some_and(|displacement| displacement != [0.0; 3])
-        };
-        if scene.prescribed.iter().any(moves) {
-            return Err("nodes are led along by [[prescribed]], which the reference does not follow".to_owned());
-        }
         let material = Material::<f64>::new(&scene.material).ok_or("the material lacks its moduli")?;
         let system = System::new(scene, body, material, Stored::Lower);
         let masses = masses(scene, &system)?;
         let drag_stiffness = scene.drag.as_ref().map_or(0.0, |drag| drag.stiffness);
-        Ok(Self { system, masses, drag_stiffness })
+        let moves = |motion: &crate::scene::Prescribed| {
+            motion.rotation.is_some() || motion.displacement.is_some_and(|displacement| displacement != [0.0; 3])
+        };
+        let is_led = scene.prescribed.iter().any(moves);
+        Ok(Self { system, masses, drag_stiffness, is_led })
     }
 
     /// Number of nodes.
@@ -82,7 +82,8 @@ impl Equations {
         }
     }
 
-    /// The fastest vibration about rest, 1/s, by the power method on M⁻¹ K: a little too small.
+    /// The fastest rate about rest, 1/s: that of the fastest vibration, by the power method on M⁻¹ K, a little too small; or, where
+    /// that is faster, that of its decay, α + β ω².
     pub fn fastest(&self) -> f64 {
         let (n, mut scratch) = (self.nodes(), Scratch::default());
         let rest = vec![[0.0; 3]; n];
@@ -107,7 +108,8 @@ impl Equations {
             let over = 1.0 / size(&next).max(f64::MIN_POSITIVE);
             d = next.into_iter().map(|x| x.map(|x| over * x)).collect();
         }
-        square.sqrt()
+        let decay = self.system.damping.as_ref().map_or(0.0, |damping| damping.alpha + damping.beta * square);
+        square.sqrt().max(decay)
     }
 
     /// Kinetic and potential energy, J.

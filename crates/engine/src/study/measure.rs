@@ -62,11 +62,20 @@ impl Timing {
 /// Moments of a run that are looked at.
 const LOOKS: usize = 120;
 
-/// Runs and looks. An error says why the scene cannot be built.
-pub fn first(factory: &Factory, run: &Run) -> Result<Outcome, String> {
+/// Why there is no outcome.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refusal {
+    /// In words.
+    pub reason: String,
+    /// Seconds that were spent, and steps that were done in them.
+    pub spent: Option<(f64, usize)>,
+}
+
+/// Runs and looks; gives up after `most_seconds`.
+pub fn first(factory: &Factory, run: &Run, most_seconds: f64) -> Result<Outcome, Refusal> {
     machine::forget_peak();
     let start = Instant::now();
-    let mut simulation = factory(&run.scene)?;
+    let mut simulation = factory(&run.scene).map_err(|reason| Refusal { reason, spent: None })?;
     let mut timing = Timing { setup: start.elapsed().as_secs_f64(), ..Timing::default() };
     let every = run.steps.div_ceil(LOOKS);
     let (mut history, mut min_j) = (vec![(0.0, simulation.energies().total())], simulation.min_J().0);
@@ -75,7 +84,13 @@ pub fn first(factory: &Factory, run: &Run) -> Result<Outcome, String> {
             history.push((simulation.time(), simulation.energies().total()));
             min_j = min_j.min(simulation.min_J().0);
         }
+        start.elapsed().as_secs_f64() < most_seconds
     });
+    let count = timing.steps.len();
+    if failure.is_none() && count < run.steps {
+        let reason = format!("given up in step {count} of {}, after {most_seconds:.0} s", run.steps);
+        return Err(Refusal { reason, spent: Some((timing.total(), count)) });
+    }
     let energies = simulation.energies();
     Ok(Outcome {
         time: simulation.time(),
@@ -98,17 +113,17 @@ pub fn again(factory: &Factory, run: &Run) -> Result<Timing, String> {
     let mut simulation = factory(&run.scene)?;
     let mut timing = Timing { setup: start.elapsed().as_secs_f64(), ..Timing::default() };
     let before = machine::processor_seconds();
-    steps(&mut *simulation, run.steps, &mut timing, |_, _| ());
+    steps(&mut *simulation, run.steps, &mut timing, |_, _| true);
     timing.processor = machine::processor_seconds().zip(before).map(|(after, before)| after - before);
     Ok(timing)
 }
 
-/// Steps; the clock runs in the steps alone.
+/// Steps as long as `look` says so; the clock runs in the steps alone.
 fn steps(
     simulation: &mut dyn Simulation,
     count: usize,
     timing: &mut Timing,
-    mut look: impl FnMut(&dyn Simulation, usize),
+    mut look: impl FnMut(&dyn Simulation, usize) -> bool,
 ) -> Option<String> {
     timing.steps.reserve(count);
     for step in 1..=count {
@@ -118,7 +133,9 @@ fn steps(
         if let Err(failure) = outcome {
             return Some(failure.to_string());
         }
-        look(simulation, step);
+        if !look(simulation, step) {
+            break;
+        }
     }
     None
 }
@@ -195,7 +212,7 @@ mod tests {
 
     #[test]
     fn a_run_is_looked_at_from_its_start_to_its_end() {
-        let outcome = first(&build, &run(1e-3, 300)).unwrap();
+        let outcome = first(&build, &run(1e-3, 300), 60.0).unwrap();
         assert_eq!(outcome.failure, None);
         assert_eq!((outcome.counters.steps, outcome.timing.steps.len()), (300, 300));
         let times: Vec<f64> = outcome.history.iter().map(|(time, _)| *time).collect();
@@ -205,8 +222,14 @@ mod tests {
 
     #[test]
     fn a_run_that_explodes_says_so() {
-        let outcome = first(&build, &run(1.0, 20)).unwrap();
+        let outcome = first(&build, &run(1.0, 20), 60.0).unwrap();
         assert!(outcome.failure.is_some_and(|failure| failure.contains("failed in step")));
+    }
+
+    #[test]
+    fn a_run_that_takes_too_long_is_given_up() {
+        let refusal = first(&build, &run(1e-3, 300), 0.0).unwrap_err();
+        assert!(refusal.reason.contains("step 1 of 300") && refusal.spent.is_some(), "{refusal:?}");
     }
 
     #[test]

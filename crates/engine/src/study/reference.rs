@@ -43,10 +43,18 @@ pub struct Reference {
 /// Displacements and velocities.
 type Phase = [Vec<[f64; 3]>; 2];
 
-/// The state at a time, s, from rest. Says why where there is none.
-pub fn reference(equations: &Equations, horizon: f64) -> Result<Reference, String> {
+/// The state at a time, s, from rest. Says why where there is none, or where it would take longer than `most_seconds`.
+pub fn reference(equations: &Equations, horizon: f64, most_seconds: f64) -> Result<Reference, String> {
+    if equations.is_led {
+        return Err("nodes are led along by [[prescribed]], which the reference does not follow".to_owned());
+    }
     let fastest = equations.fastest();
     let mut steps = (horizon * fastest / FIRST).ceil().max(4.0) as usize;
+    // The first solution and the one with half the step.
+    let seconds = 3.0 * (steps * COLUMNS * (COLUMNS + 1)) as f64 * seconds_of_one(equations);
+    if seconds > most_seconds {
+        return Err(format!("the reference in time would take {seconds:.0} s"));
+    }
     let mut coarse = solve(equations, horizon, steps);
     for _ in 0..MOST_HALVINGS {
         steps *= 2;
@@ -59,6 +67,18 @@ pub fn reference(equations: &Equations, horizon: f64) -> Result<Reference, Strin
         coarse = fine;
     }
     Err(format!("the reference in time does not settle within {steps} steps"))
+}
+
+/// Seconds of one evaluation of the accelerations.
+fn seconds_of_one(equations: &Equations) -> f64 {
+    let zero = vec![[0.0; 3]; equations.nodes()];
+    let (mut a, mut scratch) = (zero.clone(), Scratch::default());
+    let time = |_| {
+        let start = std::time::Instant::now();
+        equations.accelerations(&zero, &zero, 0.0, &mut a, &mut scratch);
+        start.elapsed().as_secs_f64()
+    };
+    (0..5).map(time).fold(f64::INFINITY, f64::min)
 }
 
 fn finished(equations: &Equations, time: f64, [u, v]: Phase, check: f64, steps: usize) -> Reference {
@@ -171,7 +191,7 @@ mod tests {
         let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [1, 1, 1], cells_per_unit = 1 }\n[material]\n\
             model = \"neo_hookean\"\nC = 1e4\nD = 4e4\ndensity = 1000.0\n[gravity]\nacceleration = [0, -9.81, 0]\n\
             [time]\ndt = 0.01\nintegrator = \"verlet\"\n";
-        let reference = reference(&equations(text), 0.5).unwrap();
+        let reference = reference(&equations(text), 0.5, 60.0).unwrap();
         assert!(reference.check <= SELF_CHECK);
         for (i, v) in reference.qdot.iter().enumerate() {
             let expected = if i % 3 == 1 { -9.81 * 0.5 } else { 0.0 };
@@ -188,7 +208,7 @@ mod tests {
             stiffness = 1e4\n[time]\ndt = 0.01\nintegrator = \"verlet\"\n";
         let equations = equations(text);
         let fastest = equations.fastest();
-        let found = reference(&equations, 3.0).unwrap();
+        let found = reference(&equations, 3.0, 60.0).unwrap();
         let expected = (1.0 - (fastest * 3.0).cos()) / (fastest * fastest);
         let moved = found.q[15] - 2.0;
         // The force along the spring is not quite linear in the displacement across it; along it, it is.
@@ -200,7 +220,7 @@ mod tests {
         let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 1 }\n[material]\n\
             model = \"neo_hookean\"\nC = 1e4\nD = 4e4\ndensity = 1000.0\n[gravity]\nacceleration = [0, -9.81, 0]\n\
             [fixed]\nplane = { axis = \"x\", below = 1e-9 }\n[time]\ndt = 0.01\nintegrator = \"verlet\"\n";
-        let found = reference(&equations(text), 0.3).unwrap();
+        let found = reference(&equations(text), 0.3, 60.0).unwrap();
         assert!((found.kinetic + found.potential).abs() < 1e-9 * found.kinetic, "{found:?}");
     }
 }

@@ -142,13 +142,16 @@ fn first_runs(
                 study.left_out.push((what, format!("would take {expected:.0} s")));
                 continue;
             }
-            match first(setting.factory, &run) {
+            match first(setting.factory, &run, 3.0 * most_seconds(setting.is_quick)) {
                 Ok(outcome) => {
                     before = Some((outcome.timing.total(), outcome.timing.steps.len()));
                     bodies.add_row(&run, &outcome, study)?;
                     done.push((run, outcome));
                 }
-                Err(reason) => study.left_out.push((what, reason)),
+                Err(refusal) => {
+                    before = refusal.spent.or(before);
+                    study.left_out.push((what, refusal.reason));
+                }
             }
         }
     }

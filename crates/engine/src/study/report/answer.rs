@@ -32,6 +32,10 @@ pub fn sentence(study: &SceneStudy) -> String {
     if study.horizon == 0.0 {
         return equilibrium(study);
     }
+    if study.references.is_empty() {
+        let why = study.left_out.iter().find(|(what, _)| what == "errors in time").map_or("", |(_, why)| why);
+        return format!("nothing can be said of errors in time: {why}. Times and counts are below.");
+    }
     let mut parts: Vec<String> = Vec::new();
     for budget in BUDGETS {
         let part = match fastest(study, budget) {

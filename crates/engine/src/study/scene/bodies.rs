@@ -18,6 +18,17 @@ use crate::study::row::{Errors, Row};
 use crate::study::states::{Snapshot, write_reference, write_state};
 use crate::study::{closed_forms, norms};
 
+/// Time that a reference may take, and that the finest of three meshes may, s.
+fn most_reference_seconds(is_quick: bool) -> f64 {
+    if is_quick { 20.0 } else { 240.0 }
+}
+
+/// Fastest vibration times a step of Verlet that is safely stable.
+const EXPLICIT: f64 = 1.2;
+
+/// Time of an explicit step for each element, s; about.
+const SECONDS_OF_AN_ELEMENT: f64 = 2e-7;
+
 /// A mesh of the study, with its reference.
 pub(super) struct Body {
     pub mesh: TetrahedralMesh,
@@ -54,7 +65,7 @@ impl Bodies<'_> {
                         study.fastest = equations.fastest();
                         study.costs = Some(costs::measure(&equations));
                     }
-                    match reference(&equations, horizon) {
+                    match reference(&equations, horizon, most_reference_seconds(self.setting.is_quick)) {
                         Ok(reference) => found = Some(reference),
                         Err(reason) => study.left_out.push(("errors in time".to_owned(), reason)),
                     }
@@ -81,6 +92,11 @@ impl Bodies<'_> {
         if closed_forms::uniaxial(base).is_some() || (!is_static && study.fastest == 0.0) {
             return Ok(None);
         }
+        let finest = 2.0 * study.fastest * study.horizon / EXPLICIT * 8.0 * study.size.1 as f64 * SECONDS_OF_AN_ELEMENT;
+        if !is_static && finest > most_reference_seconds(self.setting.is_quick) {
+            study.left_out.push(("errors in space".to_owned(), format!("the finest mesh would take {finest:.0} s")));
+            return Ok(None);
+        }
         let mut levels = Vec::new();
         for (number, cells) in all.into_iter().enumerate() {
             (self.setting.tell)(number, 3, &format!("{}: mesh of {cells} cells per metre", study.name));
@@ -95,7 +111,16 @@ impl Bodies<'_> {
             let body = &self.known[&cells];
             let q = match &body.reference {
                 Some(reference) => reference.q.clone(),
-                None => self.settled(scene, is_static, study.horizon, (2 << number) as f64 * study.fastest / 2.0)?,
+                None => {
+                    let fastest = (1 << number) as f64 * study.fastest / 2.0;
+                    match self.settled(scene, is_static, study.horizon, fastest) {
+                        Ok(q) => q,
+                        Err(reason) => {
+                            study.left_out.push(("errors in space".to_owned(), reason));
+                            return Ok(None);
+                        }
+                    }
+                }
             };
             levels.push(Level { cells, mesh: body.mesh.clone(), q });
         }
@@ -109,7 +134,7 @@ impl Bodies<'_> {
             scene.statics.as_ref().map_or(1, |statics| statics.load_steps)
         } else {
             scene.time.integrator = Integrator::Verlet;
-            (horizon * fastest / 1.2).ceil().max(1.0) as usize
+            (horizon * fastest / EXPLICIT).ceil().max(1.0) as usize
         };
         if !is_static {
             scene.time.dt = horizon / steps as f64;
