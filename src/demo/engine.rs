@@ -1,6 +1,7 @@
 //! What only the fast engine does: its scenes, and studies of it.
 
 pub mod report;
+pub mod stability;
 
 use clap::Subcommand;
 use fem_engine::scene::{Body, Scene};
@@ -13,6 +14,8 @@ use super::end::End;
 pub enum Study {
     /// Error against run time: which method for which error, with tables, pictures and a page
     Report(report::Arguments),
+    /// Stiff and extreme cases: what each integrator does with them, beside what it must
+    Stability(stability::Arguments),
 }
 
 impl Study {
@@ -20,6 +23,7 @@ impl Study {
     pub fn run(&self) -> Result<(), End> {
         match self {
             Self::Report(arguments) => report::run(arguments),
+            Self::Stability(arguments) => stability::run(arguments),
         }
     }
 }

@@ -46,6 +46,27 @@ pub struct Engine<T: Real> {
     reacted: Meter,
 }
 
+impl<T: Real> Engine<T> {
+    /// What never changes.
+    pub fn system(&self) -> &System<T> {
+        &self.system
+    }
+
+    /// Where the body is, in the engine's order of nodes.
+    pub fn state(&self) -> &State<T> {
+        &self.state
+    }
+
+    /// Puts the nodes anywhere: displacements from rest (m) and velocities (m/s), in the mesh's order. Time goes on as it is.
+    pub fn place(&mut self, displacements: &[[f64; 3]], velocities: &[[f64; 3]]) {
+        for (node, &mesh_node) in self.system.order.mesh_node.iter().enumerate() {
+            self.state.u[node] = displacements[mesh_node as usize].map(T::of);
+            self.state.v[node] = velocities[mesh_node as usize].map(T::of);
+        }
+        self.stepper.forget();
+    }
+}
+
 /// Builds what the scene names, in the precision that it names.
 pub fn build(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, SceneError> {
     Ok(match scene.time.precision {

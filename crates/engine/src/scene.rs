@@ -13,7 +13,7 @@ mod methods;
 mod motion;
 mod nodes;
 
-pub use body::{Body, body};
+pub use body::{Body, body, body_of};
 pub use error::SceneError;
 pub use integrator::Integrator;
 pub use load::{load, names, parse};

@@ -37,6 +37,8 @@ pub struct System<T: Real> {
     pub pattern: Arc<Pattern>,
     /// Constitutive law.
     pub material: Material<T>,
+    /// Factor of its moduli in each of the mesh's elements; empty for none.
+    pub stiffer: Vec<f64>,
     /// Mass of all nodes.
     pub mass: Mass<T>,
     /// Mass of each node with its share of its neighbours, kg; empty where something is held.
@@ -96,16 +98,20 @@ impl<T: Real> System<T> {
         let joined: Vec<[u32; 2]> = springs.iter().map(|spring| spring.nodes.map(|node| node as u32)).collect();
         let pattern = Pattern::joined(order.free, &corners, &joined, choice.stored());
         let volumes = crate::mesh::volumes(mesh);
-        let mass = Mass::new(rest.len(), &corners, &volumes, scene.material.density, scene.mass.lumped);
+        // Of the scene's density.
+        let denser = |element: usize| body.denser.get(element).copied().unwrap_or(1.0);
+        let filled: Vec<f64> = volumes.iter().enumerate().map(|(element, volume)| denser(element) * volume).collect();
+        let mass = Mass::new(rest.len(), &corners, &filled, scene.material.density, scene.mass.lumped);
         let dead_load = loads::dead(scene, &body, &order, &mass, &corners, &volumes);
         let pressures = Pressure::all(scene, &body, &order);
         let held = Held::new(scene, &body, &order);
         let drag = scene.drag.clone().zip(body.dragged.map(|node| order.engine_node[node] as usize));
         Self {
             name: scene.name.clone(),
-            elements: Elements::new(&rest, &corners, &pattern),
+            elements: Elements::stiffened(&rest, &corners, &body.stiffer, &pattern),
             length: length(&rest),
-            total_mass: scene.material.density * volumes.iter().sum::<f64>(),
+            total_mass: scene.material.density * filled.iter().sum::<f64>(),
+            stiffer: body.stiffer,
             node_masses: if held.is_nothing(rest.len()) { mass.lumped() } else { Vec::new() },
             held,
             shape: Arc::new(body.shape),
@@ -147,6 +153,12 @@ impl<T: Real> System<T> {
     pub fn potential(&self, u: &[[T; 3]], acting: Acting<T>) -> Energy {
         let elastic = with_law!(self.material, law: T::Lanes => self.elements.energy(law, u));
         Energy::of(elastic) + Energy::of(self.spring_energy(u)) + acting.potential(u)
+    }
+
+    /// Size of what cancels in the elastic energy where the body has turned, J. A turn alone has no energy, but that of its
+    /// rounding.
+    pub fn cancelled(&self, u: &[[T; 3]]) -> f64 {
+        self.material.size() * self.elements.squares(u)
     }
 
     /// Energy and gradient of [`potential`](Self::potential), the latter in `gradient`, N.

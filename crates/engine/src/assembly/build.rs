@@ -19,8 +19,14 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     /// Elements with corners and positions in the order of the rows of `pattern`; nodes beyond its rows have forces but no
     /// stiffness.
     pub fn new(positions: &[SVector<f64, D>], elements: &[[u32; N]], pattern: &Pattern) -> Self {
+        Self::stiffened(positions, elements, &[], pattern)
+    }
+
+    /// The same with a factor for the energy of each element, or with none for any.
+    pub fn stiffened(positions: &[SVector<f64, D>], elements: &[[u32; N]], factors: &[f64], pattern: &Pattern) -> Self {
         assert_eq!(N, D + 1, "a simplex in {D} dimensions has {} corners", D + 1);
-        let chunks = chunk_ranges(positions.len()).map(|nodes| chunk(nodes, positions, elements, pattern)).collect();
+        let chunk = |nodes| chunk(nodes, positions, elements, factors, pattern);
+        let chunks = chunk_ranges(positions.len()).map(chunk).collect();
         Self { chunks, count: elements.len() }
     }
 }
@@ -34,6 +40,7 @@ fn chunk<T: Real, const D: usize, const N: usize>(
     nodes: Range<usize>,
     positions: &[SVector<f64, D>],
     elements: &[[u32; N]],
+    factors: &[f64],
     pattern: &Pattern,
 ) -> Chunk<T, D, N> {
     let rows = nodes.start.min(pattern.rows())..nodes.end.min(pattern.rows());
@@ -46,7 +53,9 @@ fn chunk<T: Real, const D: usize, const N: usize>(
 
     let mut corners: Vec<[u32; N]> = chosen.iter().map(|&element| ascending(elements[element as usize])).collect();
     let mut targets: Vec<_> = corners.iter().map(|corners| target(corners, &rows, blocks.start, pattern)).collect();
-    let shapes: Vec<_> = corners.iter().map(|corners| shape(corners, positions)).collect();
+    let factor = |&element: &u32| factors.get(element as usize).copied().unwrap_or(1.0);
+    let shape = |(corners, element)| shape(corners, positions, factor(element));
+    let shapes: Vec<_> = corners.iter().zip(&chosen).map(shape).collect();
     let owned: Vec<bool> = corners
         .iter()
         .map(|corners| corners.iter().min().is_some_and(|&least| nodes.contains(&(least as usize))))
@@ -74,15 +83,16 @@ fn target<const N: usize>(
     })
 }
 
-/// Inverse of the edge matrix, and volume.
+/// Inverse of the edge matrix, and volume times a factor: energies, forces and stiffnesses are proportional to it.
 fn shape<const D: usize, const N: usize>(
     corners: &[u32; N],
     positions: &[SVector<f64, D>],
+    factor: f64,
 ) -> (SMatrix<f64, D, D>, f64) {
     let x = |corner: usize| positions[corners[corner] as usize];
     let edges = SMatrix::<f64, D, D>::from_fn(|i, e| x(e + 1)[i] - x(0)[i]);
     let (inverse, determinant) = inverse_and_determinant(&edges);
-    (inverse, determinant.abs() / (1..=D).product::<usize>() as f64)
+    (inverse, factor * determinant.abs() / (1..=D).product::<usize>() as f64)
 }
 
 /// Corners in the order of their numbers, so that the same pairs of all elements lie in the lower half of a matrix: a branch that

@@ -5,7 +5,7 @@ use simba::simd::{SimdPartialOrd, SimdValue};
 use super::Batch;
 use crate::materials::Law;
 use crate::number::Real;
-use crate::tensor::{Tensor, Tensor4, zero};
+use crate::tensor::{Tensor, Tensor4, dot, zero};
 
 /// A D×D block for each lane.
 pub(super) type LaneBlock<T, const D: usize> = [[<T as Real>::Lanes; D]; D];
@@ -139,4 +139,11 @@ pub(super) fn energy<T: Real, const D: usize, L: Law<T::Lanes>>(
     let none = T::Lanes::splat(T::default());
     let energy = (law.energy(G) * batch.counted).select(batch.counted.simd_gt(none), none);
     T::each(&energy).iter().map(|energy| energy.as_f64()).sum()
+}
+
+/// Σ V G:G of a batch, m³.
+#[inline(always)]
+pub(super) fn squares<T: Real, const D: usize>(batch: &Batch<T, D>, G: &Tensor<T::Lanes>) -> f64 {
+    let squares = dot(G, G) * batch.counted;
+    T::each(&squares).iter().map(|squares| squares.as_f64()).sum()
 }

@@ -1,7 +1,7 @@
 //! The passes over all elements.
 
 use super::build::NONE;
-use super::kernel::{corner_gradients, displacement_gradient, element_hessian, energy};
+use super::kernel::{corner_gradients, displacement_gradient, element_hessian, energy, squares};
 use super::split::over_chunks;
 use super::{Batch, Chunk, Elements};
 use crate::materials::Law;
@@ -15,6 +15,13 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     /// Elastic energy at displacements `u` of all nodes, J; not finite where the law does not allow an element.
     pub fn energy<L: Law<T::Lanes>>(&self, law: L, u: &[[T; D]]) -> f64 {
         let of_chunk = |chunk: &Chunk<T, D, N>, _: &mut [()]| energy_of(chunk, law, u);
+        over_chunks(&self.chunks, &mut [], |_| 0, of_chunk)
+    }
+
+    /// Σ V G:G, m³: what rounding in the energies of elements that have turned is measured by. It grows with the turn, where
+    /// their energies do not.
+    pub fn squares(&self, u: &[[T; D]]) -> f64 {
+        let of_chunk = |chunk: &Chunk<T, D, N>, _: &mut [()]| squares_of(chunk, u);
         over_chunks(&self.chunks, &mut [], |_| 0, of_chunk)
     }
 
@@ -143,6 +150,11 @@ fn energy_of<T: Real, L: Law<T::Lanes>, const D: usize, const N: usize>(
     u: &[[T; D]],
 ) -> f64 {
     let of_batch = |(batch, corners)| energy(batch, law, &displacement_gradient(batch, corners, u));
+    batches(chunk).map(of_batch).sum()
+}
+
+fn squares_of<T: Real, const D: usize, const N: usize>(chunk: &Chunk<T, D, N>, u: &[[T; D]]) -> f64 {
+    let of_batch = |(batch, corners)| squares(batch, &displacement_gradient(batch, corners, u));
     batches(chunk).map(of_batch).sum()
 }
 

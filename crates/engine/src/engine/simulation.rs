@@ -100,7 +100,7 @@ impl<T: Real> Simulation for Engine<T> {
     fn stresses(&self) -> Vec<Matrix3<f64>> {
         let (mesh, x) = (&self.system.shape.mesh, self.nodes_now());
         let Some(material) = Material::<f64>::new(&self.scene.material) else { return Vec::new() };
-        let stress = |element: &[usize; 4]| {
+        let stress = |(number, element): (usize, &[usize; 4])| {
             let edges = |of: &[Vector3<f64>]| {
                 let [a, b, c, d] = element.map(|node| of[node]);
                 Matrix3::from_columns(&[b - a, c - a, d - a])
@@ -108,9 +108,10 @@ impl<T: Real> Simulation for Engine<T> {
             let (rest, now) = (edges(&mesh.vertices), edges(&x));
             let G = (now - rest) * rest.try_inverse().unwrap_or_default();
             let stress = cauchy_stress(&material, &from_fn(|i, j| G[(i, j)]));
-            Matrix3::from_fn(|i, j| stress[i][j])
+            let factor = self.system.stiffer.get(number).copied().unwrap_or(1.0);
+            Matrix3::from_fn(|i, j| factor * stress[i][j])
         };
-        mesh.elements.iter().map(stress).collect()
+        mesh.elements.iter().enumerate().map(stress).collect()
     }
 
     fn integrator(&self) -> &'static str {

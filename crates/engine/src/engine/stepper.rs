@@ -41,7 +41,8 @@ impl<T: Real> Stepper<T> {
         let tolerance = scene.solver.as_ref().and_then(|solver| solver.tolerance).unwrap_or(1e-12);
         // No residual is below round-off, whatever the scene asks for.
         let tolerance = tolerance.max(ROUNDINGS * T::EPSILON.as_f64());
-        let newton = || Newton::new(limits(scene, tolerance), solver(), system.nodes(), system.pattern.blocks());
+        let newton =
+            || Newton::new(limits(scene, integrator, tolerance), solver(), system.nodes(), system.pattern.blocks());
         match integrator {
             Integrator::ExplicitEuler => Self::ExplicitEuler(ExplicitEuler::new(system)),
             Integrator::SemiImplicitEuler => Self::SemiImplicitEuler(SemiImplicitEuler::new(system)),
@@ -118,11 +119,15 @@ impl<T: Real> Stepper<T> {
     }
 }
 
+/// Iterations that a step in time may take, and a search for equilibrium: one that has lost its balance goes a long way downhill.
+const MOST_ITERATIONS: (usize, usize) = (50, 2000);
+
 /// The scene's, or those that suit most.
-fn limits(scene: &Scene, solver_tolerance: f64) -> Limits {
+fn limits(scene: &Scene, integrator: Integrator, solver_tolerance: f64) -> Limits {
     let newton = scene.newton.as_ref();
+    let most = if integrator == Integrator::Static { MOST_ITERATIONS.1 } else { MOST_ITERATIONS.0 };
     Limits {
-        max_iterations: newton.and_then(|newton| newton.max_iterations).unwrap_or(50),
+        max_iterations: newton.and_then(|newton| newton.max_iterations).unwrap_or(most),
         tolerance: newton.and_then(|newton| newton.tolerance).unwrap_or(1e-10),
         projection: newton.and_then(|newton| newton.projection).unwrap_or_default(),
         solver_tolerance: solver_tolerance.min(COARSEST),

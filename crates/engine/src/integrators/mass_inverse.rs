@@ -49,6 +49,12 @@ impl<T: Real> MassInverse<T> {
 
     /// Hestenes and Stiefel (1952), from a first guess.
     fn iterate(&mut self, system: &System<T>, f: &[[T; 3]], a: &mut [[T; 3]]) -> Result<(), Breakdown> {
+        let size = norm(f);
+        if !size.is_finite() {
+            // The iteration would take its guess for the answer. An acceleration that is not finite ends the run.
+            a.as_flattened_mut().fill(T::of(f64::NAN));
+            return Ok(());
+        }
         let [mut r, mut z, mut p, mut q] = std::mem::take(&mut self.work);
         let times = |x: &[[T; 3]], y: &mut [[T; 3]]| {
             y.fill([T::default(); 3]);
@@ -61,9 +67,8 @@ impl<T: Real> MassInverse<T> {
         }
         self.divide(&r, &mut z);
         p.copy_from_slice(&z);
-        let target = TOLERANCE.0.max(TOLERANCE.1 * T::EPSILON.as_f64()) * norm(f);
+        let target = TOLERANCE.0.max(TOLERANCE.1 * T::EPSILON.as_f64()) * size;
         let (mut rz, mut residual, mut left) = (dot(&r, &z), norm(&r), MOST);
-        // A force that is not finite leaves an acceleration that is not either, which ends the run.
         while residual > target && left > 0 {
             times(&p, &mut q);
             let length = T::of(rz / dot(&p, &q));
@@ -78,7 +83,7 @@ impl<T: Real> MassInverse<T> {
             (rz, residual, left) = (next, norm(&r), left - 1);
         }
         self.work = [r, z, p, q];
-        if residual > target { Err(Breakdown::NotConverged { residual: residual / norm(f) }) } else { Ok(()) }
+        if residual > target { Err(Breakdown::NotConverged { residual: residual / size }) } else { Ok(()) }
     }
 }
 

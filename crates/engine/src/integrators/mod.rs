@@ -20,6 +20,7 @@ mod verlet;
 pub use explicit_euler::ExplicitEuler;
 pub use implicit_euler::ImplicitEuler;
 pub use linearly_implicit_euler::LinearlyImplicitEuler;
+pub use mass_inverse::MassInverse;
 pub use newton::{Limits, Newton};
 pub use rk2::Rk2;
 pub use rk4::Rk4;

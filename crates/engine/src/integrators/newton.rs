@@ -8,10 +8,11 @@
 mod hessian;
 mod inexact;
 mod limits;
+mod search;
 
 pub use limits::Limits;
 
-use crate::integrators::history::{History, add};
+use crate::integrators::history::History;
 use crate::integrators::objective::{Objective, Scratch};
 use crate::number::Real;
 use crate::simulation::{Cause, Counters};
@@ -66,15 +67,6 @@ struct Iterate {
     /// Relative residual that the last direction was solved to; 0 where it is exact.
     forcing: f64,
 }
-
-/// Part of the energy's terms that is round-off.
-const ROUND_OFF: f64 = 32.0;
-
-/// Sufficient decrease, Armijo (1966).
-const DECREASE: f64 = 1e-4;
-
-/// Smallest part of a direction that is tried.
-const SHORTEST: f64 = 1e-8;
 
 /// Iterations with a kept factor that cost as much as a new Hessian and its factor.
 const PRICE_OF_A_FACTOR: f64 = 7.0;
@@ -213,38 +205,6 @@ impl<T: Real> Newton<T> {
         if solved { product(&self.gradient, &self.direction) } else { f64::NAN }
     }
 
-    /// The largest of 1, ½, ¼ … of the direction that goes downhill; what it leads to is in `next` and `next_gradient`.
-    fn search(
-        &mut self,
-        objective: &Objective<T>,
-        w: &[[T; 3]],
-        at: &mut Iterate,
-        slope: f64,
-        counters: &mut Counters,
-    ) -> Option<f64> {
-        let mut length = 1.0;
-        while length >= SHORTEST {
-            self.next.copy_from_slice(w);
-            add(length, &self.direction, &mut self.next);
-            counters.energy_evaluations += 1;
-            counters.force_assemblies += 1;
-            let energy = objective.energy_and_gradient(&self.next, &mut self.next_gradient, &mut self.scratch);
-            let round_off = ROUND_OFF * T::EPSILON.as_f64() * (at.energy.terms + energy.terms);
-            let change = energy.value - at.energy.value;
-            // Where the change drowns in round-off, the slope has to have become flatter. NaN fails both.
-            let flatter = || product(&self.next_gradient, &self.direction).abs() <= 0.9 * slope.abs();
-            let is_lower = change <= DECREASE * length * slope || (change.abs() <= round_off && flatter());
-            // An infinite energy has infinite terms, and ∞ ≤ ∞ holds.
-            if energy.value.is_finite() && is_lower {
-                at.energy = energy;
-                return Some(length);
-            }
-            counters.line_search_backtracks += 1;
-            length *= 0.5;
-        }
-        None
-    }
-
     fn accept(&mut self, w: &mut [[T; 3]], at: &mut Iterate, length: f64) {
         w.copy_from_slice(&self.next);
         if !self.solver.is_iterative() {
@@ -275,6 +235,10 @@ impl<T: Real> Newton<T> {
 
     /// No direction leads down any more: either that is the minimum, as far as numbers go, or something is wrong.
     fn end_of_the_way(&self, objective: &Objective<T>, at: &Iterate) -> Result<bool, Cause> {
+        // What is left to move is less than what is asked for.
+        if largest_entry(&self.direction) <= self.limits.tolerance * objective.system.length {
+            return Ok(false);
+        }
         let unbalanced = largest_entry(&self.gradient);
         let round_off = T::EPSILON.as_f64() * at.energy.terms / objective.system.length;
         if unbalanced <= 1e6 * round_off {

@@ -72,6 +72,18 @@ impl<T: Real> Objective<'_, T> {
         potential + moving
     }
 
+    /// Smallest J of all elements.
+    pub fn smallest_J(&self, w: &[[T; 3]], scratch: &mut Scratch<T>) -> f64 {
+        scratch.set_u(self.start, w);
+        self.system.elements.smallest_J(&scratch.u).0.as_f64()
+    }
+
+    /// Size of what cancels in E(w) without being among its terms, J.
+    pub fn cancelled(&self, w: &[[T; 3]], scratch: &mut Scratch<T>) -> f64 {
+        scratch.set_u(self.start, w);
+        self.system.cancelled(&scratch.u)
+    }
+
     /// Adds the gradient of inertia and damping, and returns their energy.
     fn add_motion(
         &self,

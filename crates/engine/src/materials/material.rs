@@ -46,6 +46,20 @@ impl<T: Real> Material<T> {
     }
 }
 
+impl<T: Real> Material<T> {
+    /// The sum of its moduli, Pa: the size of its stress where strain is 1.
+    pub fn size(&self) -> f64 {
+        let sum = |a: T, b: T| a.as_f64().abs() + b.as_f64().abs();
+        match *self {
+            Self::Linear(Linear { mu, lambda })
+            | Self::Corotated(Corotated { mu, lambda })
+            | Self::StVenantKirchhoff(StVenantKirchhoff { mu, lambda })
+            | Self::StableNeoHookean(StableNeoHookean { mu, lambda }) => sum(mu, lambda),
+            Self::NeoHookean(NeoHookean { C, D }) => 2.0 * sum(C, D),
+        }
+    }
+}
+
 /// Whether the energy is finite for J ≤ 0 too; where it is not, a step must keep every element J > 0.
 pub fn allows_inversion(model: Model) -> bool {
     model != Model::NeoHookean

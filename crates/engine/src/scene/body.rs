@@ -22,11 +22,20 @@ pub struct Body {
     pub rest_lengths: Vec<f64>,
     /// The node that the scripted drag pulls.
     pub dragged: Option<usize>,
+    /// Factor of the moduli of each element; empty where the scene's are those of all. No scene file has it.
+    pub stiffer: Vec<f64>,
+    /// The same of the density.
+    pub denser: Vec<f64>,
 }
 
 /// Reads and checks the meshes of a scene. Files are looked for beside the scene and then in `data`.
 pub fn body(scene: &Scene, data: &Path) -> Result<Body, SceneError> {
-    let mesh = checked_mesh(scene, data)?;
+    body_of(scene, tetrahedra(scene, data)?, data)
+}
+
+/// The same with tetrahedra that are in memory already, in place of those that the scene names.
+pub fn body_of(scene: &Scene, mesh: TetrahedralMesh, data: &Path) -> Result<Body, SceneError> {
+    let mesh = checked(scene, mesh)?;
     let display = scene.mesh.display.as_ref().map(|file| surface(scene, data, file)).transpose()?;
     let boundary = mesh::boundary(&mesh);
     let fixed = scene.fixed.as_ref().map(|fixed| nodes::fixed(scene, fixed, &mesh)).transpose()?;
@@ -35,14 +44,16 @@ pub fn body(scene: &Scene, data: &Path) -> Result<Body, SceneError> {
         loaded_faces: nodes::loaded_faces(scene, &mesh, &boundary)?,
         rest_lengths: nodes::rest_lengths(scene, &mesh)?,
         dragged: scene.drag.as_ref().map(|drag| nodes::dragged(scene, drag, &mesh)).transpose()?,
+        stiffer: Vec::new(),
+        denser: Vec::new(),
         fixed,
         shape: Shape { mesh, boundary, display },
     })
 }
 
 /// Scaled, checked and refined.
-fn checked_mesh(scene: &Scene, data: &Path) -> Result<TetrahedralMesh, SceneError> {
-    let mesh = scale(tetrahedra(scene, data)?, scene.mesh.scale);
+fn checked(scene: &Scene, mesh: TetrahedralMesh) -> Result<TetrahedralMesh, SceneError> {
+    let mesh = scale(mesh, scene.mesh.scale);
     let source = scene.mesh.file.clone().unwrap_or_else(|| PathBuf::from("box"));
     mesh::check(&mesh, &source).map_err(|error| mesh_error(scene, "mesh", error))?;
     if scene.mesh.refine == 0 {

@@ -7,7 +7,7 @@ use crate::acting::Acting;
 use crate::mesh::volumes;
 use crate::pulls::{Pulls, Spring};
 use crate::scene::{Body, Scene};
-use crate::sparse::Stored;
+use crate::solvers::SolverChoice;
 use crate::system::System;
 
 use super::ldl::Ldl;
@@ -36,7 +36,7 @@ impl Equations {
     /// Of a scene; says why, where there are none.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, String> {
         let material = Material::<f64>::new(&scene.material).ok_or("the material lacks its moduli")?;
-        let system = System::new(scene, body, material, Stored::Lower);
+        let system = System::new(scene, body, material, SolverChoice::Cholesky);
         let masses = masses(scene, &system)?;
         let drag_stiffness = scene.drag.as_ref().map_or(0.0, |drag| drag.stiffness);
         let moves = |motion: &crate::scene::Prescribed| {

@@ -15,7 +15,6 @@ use crate::mesh::{TetrahedralMesh, volumes};
 use crate::scene::{Body, Fixed, Model, Projection, Scene, body, parse};
 use crate::simulation::Counters;
 use crate::solvers::{Solver, SolverChoice};
-use crate::sparse::Stored;
 use crate::state::State;
 use crate::system::System;
 use crate::tensor::{Tensor, from_fn};
@@ -92,7 +91,7 @@ pub fn solve(model: Model, cells: usize) -> Result<Solved, String> {
     let mesh = body.shape.mesh.clone();
     let material = Material::<f64>::new(&scene.material).ok_or("the material lacks its moduli")?;
     let load = nodal_load(&material, &mesh);
-    let mut system = System::new(&scene, body, material, Stored::Lower);
+    let mut system = System::new(&scene, body, material, SolverChoice::Cholesky);
     system.dead_load = Some(system.order.mesh_node.iter().map(|&node| load[node as usize]).collect());
     let mut counters = Counters::default();
     let mut state = State::at_rest(system.nodes());

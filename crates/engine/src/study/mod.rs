@@ -1,4 +1,5 @@
-//! Studies of the engine itself: how large an error is for how much time, and what the pages show that tell of it.
+//! Studies of the engine itself: how large an error is for how much time, what it does with stiff and extreme cases, and what
+//! the pages show that tell of it.
 //!
 //! Charts ([`svg`]) and pages ([`page`]) know nothing of what they show. References in time ([`reference`]) and in space
 //! ([`manufactured`], [`nested`], [`closed_forms`]) are computed by none of the methods that are studied.
@@ -23,6 +24,7 @@ pub mod report;
 pub mod row;
 pub mod scene;
 pub mod space;
+pub mod stability;
 pub mod states;
 pub mod svg;
 pub mod table;

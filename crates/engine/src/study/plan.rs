@@ -142,13 +142,14 @@ pub fn levels(scene: &Scene) -> Option<[usize; 3]> {
 }
 
 /// Solvers, and preconditioners of those that have one.
-const SOLVERS: [(SolverKind, Option<Preconditioner>); 6] = [
+const SOLVERS: [(SolverKind, Option<Preconditioner>); 7] = [
     (SolverKind::Cholesky, None),
     (SolverKind::Lu, None),
     (SolverKind::Cg, None),
     (SolverKind::Pcg, Some(Preconditioner::BlockJacobi)),
     (SolverKind::Pcg, Some(Preconditioner::IncompleteCholesky)),
     (SolverKind::Pcg, Some(Preconditioner::Multigrid)),
+    (SolverKind::Pcg, Some(Preconditioner::Ssor)),
 ];
 
 /// Steps at which each method's order shows, from the scene's horizon cut into so many; four halvings.
@@ -255,6 +256,7 @@ pub fn solver_name(scene: &Scene) -> String {
         Some(Preconditioner::BlockJacobi) => " block_jacobi",
         Some(Preconditioner::IncompleteCholesky) => " incomplete_cholesky",
         Some(Preconditioner::Multigrid) => " multigrid",
+        Some(Preconditioner::Ssor) => " ssor",
         None => "",
     };
     format!("{kind}{preconditioner}")

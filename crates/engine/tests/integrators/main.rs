@@ -7,6 +7,7 @@ mod affine;
 mod bars;
 mod cantilever;
 mod conserved;
+mod extreme;
 mod orders;
 mod parts;
 mod pressures;

@@ -1,0 +1,122 @@
+//! The rows as files: a table for programs that read columns, one for those that read JSON, and a page for people.
+
+use std::collections::BTreeSet;
+use std::io;
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::case::Row;
+use super::map::Map;
+use super::page;
+
+/// All that a study has found.
+#[derive(Clone, Debug, Serialize)]
+pub struct Table {
+    /// Whether it is the reduced one.
+    pub quick: bool,
+    /// Wall-clock time of all of it, s.
+    pub seconds: f64,
+    /// Numbers of rows.
+    pub counts: Counts,
+    /// In the order of the chapters.
+    pub rows: Vec<Row>,
+    /// One for each method that moves.
+    pub maps: Vec<Map>,
+}
+
+/// How many there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Counts {
+    /// Rows.
+    pub rows: usize,
+    /// Rows that are as expected.
+    pub pass: usize,
+    /// Rows that start from random numbers.
+    pub seeded_rows: usize,
+    /// Different seeds among them.
+    pub seeds: usize,
+    /// Pairs of all maps.
+    pub map_cells: usize,
+}
+
+impl Table {
+    /// Of these rows and maps.
+    pub fn new(quick: bool, seconds: f64, rows: Vec<Row>, maps: Vec<Map>) -> Self {
+        let seeds: Vec<u64> = rows.iter().filter_map(|row| row.seed).collect();
+        let counts = Counts {
+            rows: rows.len(),
+            pass: rows.iter().filter(|row| row.pass).count(),
+            seeded_rows: seeds.len(),
+            seeds: seeds.iter().collect::<BTreeSet<_>>().len(),
+            map_cells: maps.iter().map(|map| map.cells.len()).sum(),
+        };
+        Self { quick, seconds, counts, rows, maps }
+    }
+
+    /// Whether every row is as expected.
+    pub fn passes(&self) -> bool {
+        self.counts.pass == self.counts.rows
+    }
+
+    /// A line for each row, with a head.
+    pub fn csv(&self) -> String {
+        let mut text =
+            "family,case,parameters,integrator,material,seed,expected,outcome,margin,pass,margin_is,note\n".to_owned();
+        for row in &self.rows {
+            let seed = row.seed.map_or(String::new(), |seed| seed.to_string());
+            // Four digits say all that another machine will say too.
+            let margin = row.margin.map_or(String::new(), |margin| format!("{margin:.3e}"));
+            let fields = [
+                row.family,
+                &row.case,
+                &row.parameters,
+                &row.integrator,
+                &row.material,
+                &seed,
+                row.expected.name(),
+                row.outcome.name(),
+                &margin,
+                if row.pass { "true" } else { "false" },
+                row.margin_is,
+                &row.note,
+            ];
+            let line: Vec<String> = fields.iter().map(|field| quoted(field)).collect();
+            text.push_str(&line.join(","));
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// A field of RFC 4180.
+fn quoted(field: &str) -> String {
+    if field.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", field.replace('"', "\"\""))
+    } else {
+        field.to_owned()
+    }
+}
+
+/// Writes `stability.csv`, `stability.json` and `stability.html` into a folder, and a picture of each map.
+pub fn write(table: &Table, folder: &Path) -> io::Result<()> {
+    std::fs::create_dir_all(folder)?;
+    std::fs::write(folder.join("stability.csv"), table.csv())?;
+    std::fs::write(folder.join("stability.json"), serde_json::to_string_pretty(table)? + "\n")?;
+    for map in &table.maps {
+        let picture = page::picture(map).standalone();
+        std::fs::write(folder.join(format!("stability-{}.svg", map.integrator)), picture)?;
+    }
+    std::fs::write(folder.join("stability.html"), page::page(table))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn commas_and_quotes_stay_inside_their_field() {
+        assert_eq!(quoted("a, \"b\""), "\"a, \"\"b\"\"\"");
+        assert_eq!(quoted("plain"), "plain");
+    }
+}

@@ -1,0 +1,188 @@
+//! The page: the answer first, then the maps, then every row.
+
+use super::case::{Outcome, Row};
+use super::map::{EXPONENTS_OF_YOUNG, Map, PARTS_OF_DT, TIME_STEPS};
+use super::output::Table;
+use crate::study::page;
+use crate::study::svg::{Cell, HeatMap, Picture, Shade, escape};
+
+/// The whole page.
+pub fn page(table: &Table) -> String {
+    let mut body = head(table);
+    body.push_str(&failures(table));
+    body.push_str(&maps(table));
+    body.push_str(&locking(table));
+    body.push_str("<h2>Every case</h2>\n");
+    let mut families: Vec<&str> = table.rows.iter().map(|row| row.family).collect();
+    families.dedup();
+    for family in families {
+        let rows: Vec<&Row> = table.rows.iter().filter(|row| row.family == family).collect();
+        body.push_str(&chapter(family, &rows));
+    }
+    page::page("Stiff and extreme cases", &body)
+}
+
+fn head(table: &Table) -> String {
+    let counts = table.counts;
+    let failed = counts.rows - counts.pass;
+    let answer = if failed == 0 {
+        format!("All <b>{}</b> cases end as they must.", counts.rows)
+    } else {
+        format!("<b>{failed}</b> of {} cases do not end as they must.", counts.rows)
+    };
+    let of = |outcome: Outcome| table.rows.iter().filter(|row| row.outcome == outcome).count();
+    let ends = [Outcome::Survives, Outcome::Recovers, Outcome::Explodes, Outcome::Refused, Outcome::Locks];
+    let ends = ends.map(|outcome| format!("{} {outcome}", of(outcome))).join(", ");
+    format!(
+        "<h1>Stiff and extreme cases</h1>\n<p class=\"soft\">What the engine does with bodies and steps that an adversary would \
+         choose.</p>\n<div class=\"answer\">{answer} {ends}; {} panics, {} hangs, {} handed on a NaN. For stiff bodies and long \
+         steps take <b>implicit Euler</b>, which survives all of its maps; explicit methods end with an error that names the \
+         step as soon as dt passes the line that theory draws.</div>\n<p class=\"soft\">{} rows start from random numbers, {} \
+         seeds; the maps hold {} more runs. {}Wall-clock time: {:.0} s.</p>\n",
+        of(Outcome::Panics),
+        of(Outcome::Hangs),
+        of(Outcome::NotFinite),
+        counts.seeded_rows,
+        counts.seeds,
+        counts.map_cells,
+        if table.quick { "This is the reduced study. " } else { "" },
+        table.seconds,
+    )
+}
+
+fn failures(table: &Table) -> String {
+    let failed: Vec<&Row> = table.rows.iter().filter(|row| !row.pass).collect();
+    if failed.is_empty() {
+        return String::new();
+    }
+    format!("<h2>Not as expected</h2>\n{}", rows(&failed))
+}
+
+fn maps(table: &Table) -> String {
+    if table.maps.is_empty() {
+        return String::new();
+    }
+    let mut text = "<h2>Stiffness and time step</h2>\n<p>A clamped neo-Hookean box of 2 × 1 × 1 m in cells of 1 m, ρ = 1000 kg/m³, \
+        starts in the shape of its fastest vibration, 0.1 mm large. The line is the largest stable step, \
+        dt = limit / ω<sub>max</sub>, with ω<sub>max</sub> of M⁻¹K at rest by power iteration. Explicit Euler and RK2 have no \
+        stable step for what vibrates without damping: where they survive, the run is too short for the growth to show.</p>\n\
+        <div class=\"charts\">\n"
+        .to_owned();
+    for map in &table.maps {
+        let exploded = map.cells.iter().filter(|cell| cell.outcome == Outcome::Explodes).count();
+        let wrong = map.cells.iter().filter(|cell| cell.outcome != cell.expected).count();
+        let caption = format!(
+            "<b>{}</b>: {exploded} of {} pairs explode, {wrong} against the forecast.",
+            escape(&words(map.integrator)),
+            map.cells.len()
+        );
+        text.push_str(&page::figure(&picture(map), &caption));
+    }
+    text + "</div>\n"
+}
+
+fn words(name: &str) -> String {
+    name.replace('_', " ")
+}
+
+/// The map of a method.
+pub fn picture(map: &Map) -> Picture {
+    let cell = |(i, cell): (usize, &super::map::Cell)| {
+        let shade = match cell.outcome {
+            outcome if outcome != cell.expected => Shade::Fair,
+            Outcome::Survives => Shade::Good,
+            _ => Shade::Bad,
+        };
+        let title = format!(
+            "E = {:e} Pa, dt = {:.2e} s, dt ω_max = {:.3e}\n{} (expected: {})\n{}",
+            cell.young, cell.dt, cell.z, cell.outcome, cell.expected, cell.note
+        );
+        Cell { column: i % TIME_STEPS, row: i / TIME_STEPS, shade, text: String::new(), title }
+    };
+    let dt = |column: usize| match column as i32 % PARTS_OF_DT {
+        0 => format!("1e{}", column as i32 / PARTS_OF_DT - 5),
+        _ => String::new(),
+    };
+    let curves = map.limit.map(|limit| ("dt = limit / ω_max".to_owned(), line(limit))).into_iter().collect();
+    HeatMap {
+        label: format!("{}: what survives (green) and what explodes (red)", words(map.integrator)),
+        columns: ("time step dt (s)".to_owned(), (0..TIME_STEPS).map(dt).collect()),
+        rows: (
+            "Young's modulus E (Pa)".to_owned(),
+            EXPONENTS_OF_YOUNG.map(|exponent| format!("1e{exponent}")).collect(),
+        ),
+        cells: map.cells.iter().enumerate().map(cell).collect(),
+        curves,
+        cell: (46.0, 26.0),
+    }
+    .draw()
+}
+
+/// E dt² = limit, from the bottom of the map to its top, in columns and rows.
+fn line(limit: f64) -> Vec<(f64, f64)> {
+    let place = |exponent: f64| {
+        let dt = (limit / 10f64.powf(exponent)).sqrt();
+        let (first, _) = (f64::from(*EXPONENTS_OF_YOUNG.start()), ());
+        ((dt.log10() + 5.0) * f64::from(PARTS_OF_DT), exponent - first)
+    };
+    let (low, high) = (f64::from(*EXPONENTS_OF_YOUNG.start()) - 0.5, f64::from(*EXPONENTS_OF_YOUNG.end()) + 0.5);
+    vec![place(low), place(high)]
+}
+
+/// What is known to be wrong, with its figures.
+fn locking(table: &Table) -> String {
+    let beams: Vec<&Row> = table.rows.iter().filter(|row| row.case.contains("Timoshenko")).collect();
+    if beams.is_empty() {
+        return String::new();
+    }
+    let line = |row: &&Row| {
+        vec![row.parameters.clone(), row.margin.map_or(String::new(), |m| format!("{m:.3}")), row.outcome.to_string()]
+    };
+    let lines: Vec<Vec<String>> = beams.iter().map(line).collect();
+    format!(
+        "<h2>Locking</h2>\n<p>Linear tetrahedra bend too little, and near ν = ½ hardly at all: every element keeps its own volume, \
+         and the mesh has more elements than directions to move in. A finer mesh helps little there. Nothing in the engine mends \
+         this yet; trust no bending of nearly incompressible bodies. The tip of a cantilever moves by these parts of what \
+         Timoshenko's theory says:</p>\n{}",
+        page::table(&["cantilever", ">part of theory", "outcome"], &lines)
+    )
+}
+
+fn chapter(family: &str, all: &[&Row]) -> String {
+    let pass = all.iter().filter(|row| row.pass).count();
+    page::details(&format!("{family}: {pass} of {} as expected", all.len()), &rows(all))
+}
+
+fn rows(all: &[&Row]) -> String {
+    let wide = |text: &str| format!("<span class=\"wide\">{}</span>", escape(text));
+    let line = |row: &&Row| {
+        vec![
+            row.case.clone(),
+            row.parameters.clone(),
+            row.integrator.clone(),
+            row.material.clone(),
+            row.seed.map_or(String::new(), |seed| seed.to_string()),
+            row.expected.to_string(),
+            row.outcome.to_string(),
+            row.margin.map_or(String::new(), |margin| format!("{margin:.3e}")),
+            if row.pass { "yes".to_owned() } else { "<b>no</b>".to_owned() },
+            wide(row.margin_is),
+            wide(&row.note),
+        ]
+    };
+    let lines: Vec<Vec<String>> = all.iter().map(line).collect();
+    let head = [
+        "case",
+        "parameters",
+        "integrator",
+        "material",
+        ">seed",
+        "expected",
+        "outcome",
+        ">margin",
+        "pass",
+        "margin is",
+        "note",
+    ];
+    page::table(&head, &lines)
+}
