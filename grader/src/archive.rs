@@ -116,6 +116,10 @@ fn inner_path(path: &str) -> Result<String, Unreadable> {
 
 fn zip_entries(file: File) -> Result<Vec<Entry>, Unreadable> {
     let mut archive = zip::ZipArchive::new(io::BufReader::new(file)).map_err(broken)?;
+    if archive.has_duplicate_names() {
+        // The library shows the last one of each alone; others would show the first.
+        return Err(unreadable("the archive holds a file twice under one path; pack it again from the folder itself"));
+    }
     let mut unpacked = Unpacked::new();
     for index in 0..archive.len() {
         let raw = archive.by_index_raw(index).map_err(broken)?;

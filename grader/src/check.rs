@@ -13,7 +13,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use thiserror::Error;
 
 use crate::compile::prebuilt::{PrebuildError, Prebuilt};
-use crate::compile::{Plan, build};
+use crate::compile::{BuildError, Plan, build};
 use crate::implementation::Trouble;
 use crate::implementation::sandboxed::Sandboxed;
 use crate::properties::outcome::{Mistake, told};
@@ -50,6 +50,9 @@ pub enum CheckError {
     /// No file can be written, no program started.
     #[error("{0}; the checks need a folder to work in and a compiler to start")]
     Io(#[from] io::Error),
+    /// The compiler breaks down.
+    #[error(transparent)]
+    Build(#[from] BuildError),
     /// A name that is none.
     #[error("`{0}` is no function of the course; the README lists their names")]
     Unknown(String),

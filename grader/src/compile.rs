@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use std::{env, fs, io};
 
+use thiserror::Error;
+
 use crate::sandbox::{Confined, Limits, Profile, Sandbox};
 use diagnostics::faults;
 use prebuilt::Prebuilt;
@@ -42,26 +44,56 @@ pub struct Built {
     pub faults: BTreeMap<&'static str, String>,
 }
 
+/// What one call of rustc came to.
+pub enum Attempt {
+    /// A program.
+    Built(PathBuf),
+    /// For each function that is to blame, what to tell its author; empty where the compiler blames none.
+    Failed(BTreeMap<&'static str, String>),
+    /// The compiler itself ended badly; how.
+    GaveUp(String),
+}
+
+/// Why nothing was built: trouble of the grader or its machine, never a verdict on a file.
+#[derive(Debug, Error)]
+pub enum BuildError {
+    /// Files cannot be written, or rustc cannot be started.
+    #[error(transparent)]
+    Io(#[from] io::Error),
+    /// The compiler breaks down over files together that it takes apart.
+    #[error(
+        "{0}; it took the files apart, so give it more time (compile_seconds in the rubric) or the machine more memory"
+    )]
+    GaveUp(String),
+    /// Without any file of a submission there is no program either.
+    #[error("not even a program without a function can be built; do rustc and its linker work on this machine?")]
+    Nothing,
+}
+
 /// Builds a program in `folder`. Files that do not compile are left out, and their functions panic when they are called.
 ///
 /// # Errors
-/// Where files cannot be written or rustc cannot be started: the machine's trouble, not the submission's.
-pub fn build(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path) -> io::Result<Built> {
+/// Where the machine or the compiler fails.
+pub fn build(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path) -> Result<Built, BuildError> {
     let mut plan = plan.clone();
     let mut all_faults = BTreeMap::new();
     loop {
-        let attempt = compile(prebuilt, sandbox, &plan, folder)?;
-        let mut found = match attempt {
+        let (mut found, gave_up) = match attempt(prebuilt, sandbox, &plan, folder)? {
             Attempt::Built(program) => return Ok(Built { program: Some(program), faults: all_faults }),
-            Attempt::Failed(messages) => faults(&messages),
-            Attempt::GaveUp(_) => BTreeMap::new(),
+            Attempt::Failed(faults) => (faults, None),
+            Attempt::GaveUp(why) => (BTreeMap::new(), Some(why)),
         };
-        found.retain(|name, _| plan.own.contains_key(name));
+        if plan.own.is_empty() {
+            return Err(BuildError::Nothing);
+        }
         if found.is_empty() {
             found = one_by_one(prebuilt, sandbox, &plan, folder)?;
         }
         if found.is_empty() {
-            // No file is to blame alone, so all of them are.
+            if let Some(why) = gave_up {
+                return Err(BuildError::GaveUp(why));
+            }
+            // The compiler says no, and no file is to blame alone, so all of them are.
             let sentence = "the files compile one by one, but not together";
             found = plan.own.keys().map(|name| (*name, sentence.to_owned())).collect();
         }
@@ -80,9 +112,9 @@ fn one_by_one(
     let mut found = BTreeMap::new();
     for (name, text) in &plan.own {
         let alone = Plan { own: BTreeMap::from([(*name, text.clone())]), ..plan.clone() };
-        let fault = match compile(prebuilt, sandbox, &alone, folder)? {
+        let fault = match attempt(prebuilt, sandbox, &alone, folder)? {
             Attempt::Built(_) => continue,
-            Attempt::Failed(messages) => faults(&messages).remove(name),
+            Attempt::Failed(mut faults) => faults.remove(name),
             Attempt::GaveUp(why) => Some(why),
         };
         found.insert(*name, fault.unwrap_or_else(|| "the file does not compile".to_owned()));
@@ -90,15 +122,11 @@ fn one_by_one(
     Ok(found)
 }
 
-enum Attempt {
-    Built(PathBuf),
-    /// What the compiler says, one JSON object a line.
-    Failed(String),
-    /// The compiler itself ended badly.
-    GaveUp(String),
-}
-
-fn compile(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path) -> io::Result<Attempt> {
+/// Calls rustc once, for all files of a plan.
+///
+/// # Errors
+/// Where files cannot be written or rustc cannot be started.
+pub fn attempt(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path) -> io::Result<Attempt> {
     sources::write(plan, &folder.join("src"))?;
     let file = format!("program{}", env::consts::EXE_SUFFIX);
     let program = folder.join(&file);
@@ -140,11 +168,57 @@ fn compile(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path) -
     } else if ended.timed_out || (ended.signal.is_some() && ended.seconds >= ALMOST * plan.limit.as_secs_f64()) {
         Attempt::GaveUp(format!("the compiler did not finish within {} s", plan.limit.as_secs_f64()))
     } else if ended.stderr.starts_with(b"{") {
-        Attempt::Failed(String::from_utf8_lossy(&ended.stderr).into_owned())
+        let mut found = faults(&String::from_utf8_lossy(&ended.stderr));
+        found.retain(|name, _| plan.own.contains_key(name));
+        Attempt::Failed(found)
     } else {
         let how =
             ended.signal.map_or_else(|| format!("exit code {:?}", ended.code), |signal| format!("signal {signal}"));
         let most = plan.limit.as_secs_f64();
         Attempt::GaveUp(format!("the compiler ended with {how}; it may compute for {most} s and take 4 GiB"))
     })
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::PermissionsExt;
+
+    /// What becomes of two files when this script, started beside `src`, is the compiler.
+    fn built_by(script: &str) -> Result<Built, BuildError> {
+        let folder = tempfile::tempdir().unwrap();
+        let rustc = folder.path().join("rustc");
+        fs::write(&rustc, format!("#!/bin/sh\n{script}\n")).unwrap();
+        fs::set_permissions(&rustc, fs::Permissions::from_mode(0o755)).unwrap();
+        let place = folder.path().to_owned();
+        let prebuilt = Prebuilt { folder: place.clone(), rustc, sysroot: place.clone(), toolchain: String::new() };
+        let own = ["psi_neo_hookean", "newtons_method"].map(|name| (name, String::new())).into();
+        let plan = Plan { own, reference: None, helpers: BTreeMap::new(), limit: Duration::from_secs(20) };
+        build(&prebuilt, &Sandbox::none(), &plan, &place)
+    }
+
+    /// Ends a script here where there are not two files.
+    const FEW: &str = "[ $(ls src/calls | wc -l) != 2 ] && touch program && exit 0";
+
+    #[test]
+    fn a_compiler_that_breaks_down_over_files_that_it_takes_one_by_one_is_no_fault_of_theirs() {
+        let broken = built_by(&format!("{FEW}\nexit 101"));
+        assert!(matches!(&broken, Err(BuildError::GaveUp(why)) if why.contains("101")), "{:?}", broken.err());
+    }
+
+    #[test]
+    fn a_compiler_that_does_not_work_is_no_fault_of_any_file() {
+        for script in ["exit 101", "echo '{\"level\":\"error\"}' >&2\nexit 1"] {
+            assert!(matches!(built_by(script), Err(BuildError::Nothing)), "{script}");
+        }
+    }
+
+    #[test]
+    fn a_compiler_that_refuses_them_together_or_breaks_down_over_each_blames_them() {
+        let together = built_by(&format!("{FEW}\necho '{{\"level\":\"error\"}}' >&2\nexit 1")).unwrap();
+        assert_eq!(together.faults.len(), 2);
+        assert!(together.faults["newtons_method"].contains("not together"));
+        let each = built_by("[ $(ls src/calls | wc -l) = 0 ] && touch program && exit 0\nexit 101").unwrap();
+        assert!(each.program.is_some() && each.faults.len() == 2);
+    }
 }

@@ -7,12 +7,14 @@ mod level;
 mod load;
 mod programs;
 mod whole;
+mod work;
 
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use grader::compile::BuildError;
 use grader::compile::prebuilt::{PrebuildError, Prebuilt};
 use grader::implementation::sandboxed::Sandboxed;
 use grader::sandbox::Sandbox;
@@ -24,12 +26,15 @@ use crate::grade::{FORMAT_VERSION, FunctionGrade, Grade};
 use crate::rubric::{Function, Rubric};
 use clock::Clock;
 use programs::Programs;
+use work::Work;
 
 /// Trouble of the grader or its machine; never a grade.
 #[derive(Debug, Error)]
 pub enum GradingError {
     #[error(transparent)]
     Prebuild(#[from] PrebuildError),
+    #[error(transparent)]
+    Build(#[from] BuildError),
     #[error("{0}; the grader needs a folder to work in and a compiler to start")]
     Io(#[from] io::Error),
     #[error("the reference itself gives no answer ({0}); something is wrong with this machine or with the sandbox")]
@@ -45,6 +50,7 @@ pub struct Grading {
     /// All functions of the reference, to take their times.
     reference: Sandboxed,
     seed: u64,
+    work: Work,
 }
 
 impl Grading {
@@ -57,7 +63,7 @@ impl Grading {
         let programs = Programs::new(root, &rubric, &prebuilt)?;
         let limit = Duration::from_secs_f64(rubric.seconds);
         let reference = Sandboxed::new(programs.start_reference(&sandbox), limit);
-        Ok(Self { rubric, prebuilt, sandbox, programs, reference, seed })
+        Ok(Self { rubric, prebuilt, sandbox, programs, reference, seed, work: Work::new()? })
     }
 
     /// Grades a submission.
@@ -72,10 +78,17 @@ impl Grading {
                 graded.insert(function.name.get_ref().clone(), grade);
             }
         }
-        for level in self.rubric.levels() {
-            self.grade_level(level, submission, &mut graded)?;
+        // From the top: the lowest level, which calls nothing, is judged in the program of the whole simulation, and that is
+        // worth building only where everything above compiles.
+        let levels = self.rubric.levels();
+        for level in levels.iter().skip(1).rev() {
+            self.grade_level(*level, submission, None, &mut graded)?;
         }
-        let simulation = self.grade_simulation(submission, &graded)?;
+        let whole = self.whole(submission, &graded)?;
+        if let Some(level) = levels.first() {
+            self.grade_level(*level, submission, whole.as_ref(), &mut graded)?;
+        }
+        let simulation = self.grade_simulation(whole, &graded)?;
         let functions: Vec<FunctionGrade> =
             self.rubric.functions.iter().filter_map(|function| graded.remove(function.name.get_ref())).collect();
         let parts = || functions.iter().chain([&simulation]);
@@ -132,11 +145,6 @@ fn finished(function: &Function, status: Status, message: Option<String>) -> Fun
         reference_seconds: None,
         checks: Vec::new(),
     }
-}
-
-/// A folder for one program, removed in the end.
-fn work_folder() -> io::Result<tempfile::TempDir> {
-    tempfile::Builder::new().prefix("grader-").tempdir()
 }
 
 /// The repository that this program was built from.

@@ -13,6 +13,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::place::{self, PlaceError};
 pub use leak::{Leak, leaks};
 pub use stub::stub;
 
@@ -24,8 +25,8 @@ pub type Files = BTreeMap<PathBuf, Vec<u8>>;
 pub enum HandoutError {
     #[error("{}: {error}", .path.display())]
     Io { path: PathBuf, error: io::Error },
-    #[error("{}: the folder is not empty; name a new one", .0.display())]
-    NotEmpty(PathBuf),
+    #[error(transparent)]
+    Place(#[from] PlaceError),
     #[error("{}: lies inside this repository, where it would be built as a part of it; name a folder outside", .0.display())]
     Inside(PathBuf),
     #[error("{}: {problem}", .path.display())]
@@ -52,23 +53,20 @@ pub fn write(root: &Path, to: &Path) -> Result<(), HandoutError> {
     if !found.is_empty() {
         return Err(HandoutError::Leaks(found));
     }
-    for (path, bytes) in &files {
-        let path = to.join(path);
-        let folder = path.parent().unwrap_or(to);
-        fs::create_dir_all(folder).map_err(HandoutError::io(folder))?;
-        fs::write(&path, bytes).map_err(HandoutError::io(&path))?;
-    }
-    lock::settle(to)
+    place::filled(to, |to| {
+        for (path, bytes) in &files {
+            let path = to.join(path);
+            let folder = path.parent().unwrap_or(to);
+            fs::create_dir_all(folder).map_err(HandoutError::io(folder))?;
+            fs::write(&path, bytes).map_err(HandoutError::io(&path))?;
+        }
+        lock::settle(to)
+    })
 }
 
 /// Refuses folders that hold something, and such in the repository other than in its build products.
 fn check_place(root: &Path, to: &Path) -> Result<(), HandoutError> {
-    match fs::read_dir(to).map(|mut entries| entries.next().is_none()) {
-        Ok(true) => {}
-        Ok(false) => return Err(HandoutError::NotEmpty(to.to_owned())),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-        Err(error) => return Err(HandoutError::Io { path: to.to_owned(), error }),
-    }
+    place::free(to)?;
     let root = root.canonicalize().map_err(HandoutError::io(root))?;
     let absolute = std::path::absolute(to).map_err(HandoutError::io(to))?;
     let there = absolute.ancestors().find_map(|folder| folder.canonicalize().ok());

@@ -11,6 +11,7 @@ mod grade;
 mod grading;
 mod handout;
 mod pack;
+mod place;
 mod reference;
 mod reports;
 mod rubric;

@@ -11,6 +11,8 @@ use std::process::Command;
 
 use clap::ValueEnum;
 
+use crate::place::{self, PlaceError};
+
 /// An engine that grades classes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Engine {
@@ -37,8 +39,8 @@ pub struct PackOptions {
 pub enum PackError {
     #[error("{path}: {source}", path = .path.display())]
     File { path: PathBuf, source: io::Error },
-    #[error("{path}: is not empty; name a new folder", path = .0.display())]
-    NotEmpty(PathBuf),
+    #[error(transparent)]
+    Place(#[from] PlaceError),
     #[error("{path}: is not the repository; Cargo.toml, Cargo.lock, src and grader belong there", path = .0.display())]
     NotTheRepository(PathBuf),
     #[error("{path}: {message}", path = .path.display())]
@@ -77,16 +79,11 @@ fn at(path: &Path) -> impl FnOnce(io::Error) -> PackError {
 
 /// Writes the package into `options.out`.
 pub fn pack(options: &PackOptions) -> Result<(), PackError> {
-    let out = &options.out;
-    fs::create_dir_all(out).map_err(at(out))?;
-    if fs::read_dir(out).map_err(at(out))?.next().is_some() {
-        return Err(PackError::NotEmpty(out.clone()));
-    }
-    match options.engine {
-        Engine::Gradescope => gradescope(options),
+    place::filled(&options.out, |out| match options.engine {
+        Engine::Gradescope => gradescope(options, out),
         Engine::Classroom50 => write(out, &CLASSROOM50, &fields(options)?),
         Engine::Slurm => write(out, &SLURM, &fields(options)?),
-    }
+    })
 }
 
 /// What stands for the marks of the templates.
@@ -139,29 +136,27 @@ fn make_program(_path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-fn gradescope(options: &PackOptions) -> Result<(), PackError> {
+fn gradescope(options: &PackOptions, out: &Path) -> Result<(), PackError> {
     let root = &options.repository;
     if !["Cargo.toml", "Cargo.lock", "src", "grader"].iter().all(|name| root.join(name).exists()) {
         return Err(PackError::NotTheRepository(root.clone()));
     }
-    let files = options.out.join("autograder");
+    let files = out.join("autograder");
     fs::create_dir(&files).map_err(at(&files))?;
     sources::copy(root, &files)?;
     if options.vendor {
         sources::vendor(&files)?;
     }
     write(&files, &GRADESCOPE, &fields(options)?)?;
-    archive(&files, &options.out.join("autograder.zip"))
+    archive(&files, &out.join("autograder.zip"))
 }
 
 /// Packs the content of a folder, not the folder: Gradescope looks for its scripts at the top.
 fn archive(files: &Path, path: &Path) -> Result<(), PackError> {
-    let partial = path.with_extension("zip.partial");
-    let mut zip = zip::ZipWriter::new(File::create(&partial).map_err(at(&partial))?);
+    let mut zip = zip::ZipWriter::new(File::create(path).map_err(at(path))?);
     add(&mut zip, files, "")?;
     let mut file = zip.finish()?;
-    file.flush().map_err(at(&partial))?;
-    fs::rename(&partial, path).map_err(at(path))
+    file.flush().map_err(at(path))
 }
 
 fn add(zip: &mut zip::ZipWriter<File>, folder: &Path, prefix: &str) -> Result<(), PackError> {

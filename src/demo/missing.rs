@@ -7,6 +7,9 @@ use std::path::Path;
 
 use super::end::End;
 
+/// The course's first page, whose table lists the functions in teaching order.
+const COURSE: &str = include_str!("../../include-docs/course.md");
+
 /// How the message of the handout's functions begins.
 const NOT_WRITTEN: &str = "not yet implemented";
 
@@ -44,7 +47,7 @@ fn explained(message: &str) -> End {
     ))
 }
 
-/// Exercises whose file still holds the handout's line.
+/// Exercises whose file still holds the handout's line, in teaching order.
 fn unwritten(src: &Path) -> Vec<String> {
     let stub = |path: &Path| {
         let text = fs::read_to_string(path).unwrap_or_default();
@@ -55,6 +58,29 @@ fn unwritten(src: &Path) -> Vec<String> {
         .filter(|path| path.extension().is_some_and(|extension| extension == "rs") && stub(path))
         .filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned()))
         .collect();
-    names.sort();
+    names.sort_by_key(|name| place(name));
     names
+}
+
+/// Where the course's table has a function; what it does not list comes last.
+fn place(name: &str) -> usize {
+    COURSE.find(&format!("[{name}](")).unwrap_or(usize::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_is_listed_in_teaching_order() {
+        let src = tempfile::tempdir().unwrap();
+        for name in ["assemble_forces", "newtons_method", "phi_linear_tetrahedron", "psi_neo_hookean"] {
+            fs::write(src.path().join(format!("{name}.rs")), "    todo!(\"read the page\")\n").unwrap();
+        }
+        fs::write(src.path().join("dpsi_neo_hookean_dF.rs"), "fn solved() {}\n").unwrap();
+        assert_eq!(
+            unwritten(src.path()),
+            ["phi_linear_tetrahedron", "psi_neo_hookean", "assemble_forces", "newtons_method"]
+        );
+    }
 }

@@ -93,6 +93,21 @@ fn a_path_that_leads_out_is_refused() {
 }
 
 #[test]
+fn two_files_of_one_path_are_refused() {
+    let (first, second) = ("src/psi_neo_hookean.rs", "src/psi_neo_hookeaN.rs");
+    // The writer refuses such a path, so it is made of another one.
+    let mut zip = zip_of(&[(first, BODY.as_bytes()), (second, BODY.as_bytes())]);
+    let wrong = second.as_bytes();
+    while let Some(at) = zip.windows(wrong.len()).position(|bytes| bytes == wrong) {
+        zip[at..at + wrong.len()].copy_from_slice(first.as_bytes());
+    }
+    assert!(read("a.zip", &zip).is_err_and(|error| error.to_string().contains("twice")));
+    let tar = read("a.tar", &tar_of(&[(first, BODY.as_bytes()), (first, BODY.as_bytes())])).unwrap();
+    let refused = &tar.functions["psi_neo_hookean"];
+    assert!(matches!(refused, Source::Refused { reason, .. } if reason.contains("twice")), "{refused:?}");
+}
+
+#[test]
 fn links_are_refused() {
     let mut tar = tar::Builder::new(Vec::new());
     let mut header = tar::Header::new_gnu();

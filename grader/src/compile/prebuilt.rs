@@ -76,6 +76,8 @@ impl Prebuilt {
             format!("--sysroot={}", self.sysroot.display()),
             "-Copt-level=2".to_owned(),
             "-Ccodegen-units=1".to_owned(),
+            // Nobody optimises a program again once it is linked.
+            "-Cembed-bitcode=no".to_owned(),
             // What std brings along for debuggers takes the linker longer than the rest of its work.
             "-Cstrip=debuginfo".to_owned(),
             // The linker that comes with Rust wants /proc. Elsewhere rustc takes the system's, and knows no such option.

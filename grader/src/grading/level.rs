@@ -4,23 +4,26 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use grader::compile::{Built, Plan, build, names};
+use grader::compile::{Plan, build, names};
 use grader::implementation::sandboxed::Sandboxed;
 use grader::status::Status;
 use grader::submission::{Source, Submission, mentions};
 
 use super::groups::{Calls, Group, Names, groups};
 use super::programs::start;
-use super::{Grading, GradingError, finished, work_folder};
+use super::whole::Whole;
+use super::{Grading, GradingError, finished};
 use crate::grade::FunctionGrade;
 use crate::rubric::Function;
 
 impl Grading {
-    /// Grades the functions of a level that are not yet `graded`.
+    /// Grades the functions of a level that are not yet `graded`; in the program of the `whole`, if there is one, those that call
+    /// nothing.
     pub(super) fn grade_level(
         &self,
         level: u32,
         submission: &Submission,
+        whole: Option<&Whole>,
         graded: &mut BTreeMap<String, FunctionGrade>,
     ) -> Result<(), GradingError> {
         let is_due = |name: &&str| self.rubric.level(name) == level && !graded.contains_key(*name);
@@ -28,8 +31,15 @@ impl Grading {
         let below: Names = names().filter(|name| self.rubric.level(name) < level).collect();
         let own = calls_of(submission);
         for group in groups(&judged, &below, &own, &self.programs.calls) {
+            if let Some((program, folder)) = whole.filter(|_| group.reference.is_empty()).and_then(Whole::program) {
+                let subject = self.subject(Some(program), folder);
+                for (function, name) in self.judged(&group) {
+                    graded.insert(name.to_owned(), self.judge(function, &subject)?);
+                }
+                continue;
+            }
             // Not one folder: the student's program may read its own, and no reference lies there.
-            let (folder, beside) = (work_folder()?, work_folder()?);
+            let (folder, beside) = (self.work.folder()?, self.work.folder()?);
             let library = if group.reference == below {
                 self.programs.below(level)
             } else {
@@ -55,11 +65,8 @@ impl Grading {
         graded: &mut BTreeMap<String, FunctionGrade>,
     ) -> Result<(), GradingError> {
         let built = build(&self.prebuilt, &self.sandbox, plan, folder)?;
-        let subject = self.subject(&built, folder);
-        for function in &self.rubric.functions {
-            let Some(name) = group.judged.iter().copied().find(|name| name == function.name.get_ref()) else {
-                continue;
-            };
+        let subject = self.subject(built.program.as_deref(), folder);
+        for (function, name) in self.judged(group) {
             let grade = match built.faults.get(name) {
                 None => self.judge(function, &subject)?,
                 Some(fault) => self.judge_with_helpers(function, name, fault, plan, submission)?,
@@ -83,18 +90,26 @@ impl Grading {
             plan.own.get_key_value(name).map(|(name, text)| (*name, text.clone())).into_iter().collect();
         let helpers = helpers(name, plan, submission);
         if !helpers.is_empty() {
-            let folder = work_folder()?;
+            let folder = self.work.folder()?;
             let alone = Plan { own, helpers, ..plan.clone() };
             let built = build(&self.prebuilt, &self.sandbox, &alone, folder.path())?;
             if built.faults.is_empty() {
-                return self.judge(function, &self.subject(&built, folder.path()));
+                return self.judge(function, &self.subject(built.program.as_deref(), folder.path()));
             }
         }
         Ok(finished(function, Status::DidNotCompile, Some(format!("the file does not compile:\n{fault}"))))
     }
 
-    fn subject(&self, built: &Built, folder: &Path) -> Sandboxed {
-        Sandboxed::new(start(&self.sandbox, built.program.clone(), folder), self.limit())
+    /// The functions of a group, in the order of the rubric.
+    fn judged(&self, group: &Group) -> impl Iterator<Item = (&Function, &'static str)> {
+        self.rubric.functions.iter().filter_map(|function| {
+            let name = group.judged.iter().find(|name| *name == function.name.get_ref())?;
+            Some((function, *name))
+        })
+    }
+
+    fn subject(&self, program: Option<&Path>, folder: &Path) -> Sandboxed {
+        Sandboxed::new(start(&self.sandbox, program.map(Path::to_owned), folder), self.limit())
     }
 }
 

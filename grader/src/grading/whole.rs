@@ -1,19 +1,21 @@
 //! The whole simulation with a submission's functions alone: the student's own code from the mass matrix to the last step.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::time::Duration;
 
-use grader::compile::{Plan, build, names};
+use grader::compile::{Attempt, BuildError, Plan, attempt, names};
 use grader::implementation::Trouble;
 use grader::implementation::sandboxed::Sandboxed;
 use grader::status::Status;
 use grader::submission::{Source, Submission};
 use grader_child::simulation::Scene;
 use nalgebra::{DVector, Vector3};
+use tempfile::TempDir;
 
 use super::load::cube;
 use super::programs::start;
-use super::{Grading, GradingError, work_folder};
+use super::{Grading, GradingError};
 use crate::grade::FunctionGrade;
 
 /// Longest time for the simulation, s; the reference needs a fraction of a second.
@@ -22,11 +24,47 @@ const LIMIT: Duration = Duration::from_secs(30);
 /// Largest distance from the reference's positions, in lengths of the body. Newton's method may end a little earlier or later.
 const TOLERANCE: f64 = 1e-6;
 
+/// All of a submission's functions in one program, or why there is none.
+pub(super) struct Whole {
+    attempt: Attempt,
+    folder: TempDir,
+}
+
+impl Whole {
+    /// The program, and the folder that it may see.
+    pub(super) fn program(&self) -> Option<(&Path, &Path)> {
+        match &self.attempt {
+            Attempt::Built(program) => Some((program, self.folder.path())),
+            Attempt::Failed(_) | Attempt::GaveUp(_) => None,
+        }
+    }
+}
+
 impl Grading {
+    /// Builds the program, unless it is known already of a function that it cannot be in it.
+    pub(super) fn whole(
+        &self,
+        submission: &Submission,
+        graded: &BTreeMap<String, FunctionGrade>,
+    ) -> Result<Option<Whole>, GradingError> {
+        if !absent(graded).is_empty() {
+            return Ok(None);
+        }
+        let own = names().filter_map(|name| match submission.functions.get(name) {
+            Some(Source::Written(text)) => Some((name, text.clone())),
+            _ => None,
+        });
+        let folder = self.work.folder()?;
+        let limit = self.compile_limit();
+        let plan = Plan { own: own.collect(), reference: None, helpers: BTreeMap::new(), limit };
+        let attempt = attempt(&self.prebuilt, &self.sandbox, &plan, folder.path())?;
+        Ok(Some(Whole { attempt, folder }))
+    }
+
     /// Grades the simulation; where a function is missing it cannot run, which costs nothing more by itself.
     pub(super) fn grade_simulation(
         &self,
-        submission: &Submission,
+        whole: Option<Whole>,
         functions: &BTreeMap<String, FunctionGrade>,
     ) -> Result<FunctionGrade, GradingError> {
         let mut grade = FunctionGrade {
@@ -42,26 +80,24 @@ impl Grading {
             reference_seconds: None,
             checks: Vec::new(),
         };
-        let absent = functions.values().filter(|function| function.status > Status::TimedOut);
-        let absent: Vec<&str> = absent.map(|function| function.name.as_str()).collect();
-        if !absent.is_empty() {
+        let absent = absent(functions);
+        let Some(Whole { attempt, folder }) = whole.filter(|_| absent.is_empty()) else {
             grade.message = Some(format!("the whole simulation needs {}", absent.join(", ")));
             return Ok(grade);
-        }
-        let own = names().filter_map(|name| match submission.functions.get(name) {
-            Some(Source::Written(text)) => Some((name, text.clone())),
-            _ => None,
-        });
-        let folder = work_folder()?;
-        let limit = self.compile_limit();
-        let plan = Plan { own: own.collect(), reference: None, helpers: BTreeMap::new(), limit };
-        let built = build(&self.prebuilt, &self.sandbox, &plan, folder.path())?;
-        if let Some((name, fault)) = built.faults.into_iter().next() {
-            grade.status = Status::DidNotCompile;
-            grade.message = Some(format!("{name} does not compile with the student's other files:\n{fault}"));
-            return Ok(grade);
-        }
-        let subject = Sandboxed::new(start(&self.sandbox, built.program, folder.path()), LIMIT);
+        };
+        let program = match attempt {
+            Attempt::Built(program) => program,
+            Attempt::GaveUp(why) => return Err(BuildError::GaveUp(why).into()),
+            Attempt::Failed(faults) => {
+                grade.status = Status::DidNotCompile;
+                grade.message = Some(match faults.into_iter().next() {
+                    Some((name, fault)) => format!("{name} does not compile with the student's other files:\n{fault}"),
+                    None => "the files compile one by one, but not together".to_owned(),
+                });
+                return Ok(grade);
+            }
+        };
+        let subject = Sandboxed::new(start(&self.sandbox, Some(program), folder.path()), LIMIT);
         self.compare_simulations(grade, &subject)
     }
 
@@ -100,6 +136,12 @@ impl Grading {
         }
         Ok(grade)
     }
+}
+
+/// The functions that are not there, or not in a form that can be run.
+fn absent(functions: &BTreeMap<String, FunctionGrade>) -> Vec<&str> {
+    let absent = functions.values().filter(|function| function.status > Status::TimedOut);
+    absent.map(|function| function.name.as_str()).collect()
 }
 
 /// Largest distance between two simulations; ∞ where they cannot be compared.

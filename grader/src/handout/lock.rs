@@ -9,14 +9,14 @@ use super::HandoutError;
 /// Lets cargo drop from `Cargo.lock` in `folder` what the manifests there do not ask for. Cargo alone knows which features are
 /// left, and so which optional dependencies; a lock file that it would change breaks `--locked` and needs the registry.
 pub fn settle(folder: &Path) -> Result<(), HandoutError> {
-    let failed = |problem: String| HandoutError::unusable(folder.join("Cargo.lock"), problem);
+    let failed = |problem: String| HandoutError::unusable("Cargo.lock", problem);
     let update = |more: &[&str]| {
         let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.args(["update", "--workspace", "--quiet"]).args(more).current_dir(folder);
         match cargo.output() {
             Ok(output) if output.status.success() => Ok(()),
             Ok(output) => Err(failed(format!(
-                "cargo cannot settle it; remove the folder and try again where cargo reaches its registry\n{}",
+                "cargo cannot settle it; try again where cargo reaches its registry\n{}",
                 String::from_utf8_lossy(&output.stderr).trim_end()
             ))),
             Err(error) => Err(failed(format!("cargo does not start: {error}"))),

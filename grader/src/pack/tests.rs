@@ -218,7 +218,7 @@ fn no_mark_is_left_in_a_package_and_a_full_folder_is_refused() {
         let repository = folder.path().join("repository");
         let mut out = repository.join("out");
         let again = PackOptions { engine, out: out.clone(), repository, seed: 1, vendor: false };
-        assert!(matches!(pack(&again), Err(PackError::NotEmpty(_))));
+        assert!(matches!(pack(&again), Err(PackError::Place(PlaceError::NotEmpty(_)))));
         if engine == Engine::Gradescope {
             out.push("autograder");
         }

@@ -61,10 +61,12 @@ fn a_spring_of_no_length_has_no_gradient(course: &Course) -> Outcome {
 
 fn a_very_short_spring_still_pushes(course: &Course) -> Outcome {
     for_all(course.seed, (vector(0.3..2.0), -100.0..0.0, 0.1..2.0f64), |(d, power, l0)| {
-        let (direction, d) = (d.normalize(), d * 10f64.powf(power));
-        let push: Vector3<f64> = direction * (3.0 * (d.norm() - l0));
-        let expected = SVector::<f64, 6>::from_fn(|row, _| if row < 3 { -push[row] } else { push[row - 3] });
-        let found = course.subject.dV_spring_particle_particle_dq(&Vector3::zeros(), &d, l0, 3.0)?;
+        let (direction, length) = (d.normalize(), 10f64.powf(power));
+        let gradient = |length: f64, l0: f64| {
+            course.subject.dV_spring_particle_particle_dq(&Vector3::zeros(), &(direction * length), l0, 3.0)
+        };
+        // A spring of ordinary length that is as far from its rest length.
+        let (found, expected) = (gradient(length, l0)?, gradient(1.0, l0 + (1.0 - length))?);
         near("only a length of exactly zero has no direction", &found, &expected, 1e-14 * (1.0 + l0) * 10.0)
     })
 }

@@ -1,11 +1,12 @@
 //! To do: the mass matrix of the whole mesh. Read include-docs/mass_matrix_mesh.md.
 
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, SMatrix, Vector3};
 
 use super::meshes::{Mesh, stacked};
 use super::outcome::{Mistake, Outcome, dense_of, holds, near, near_number, waits};
 use super::random::{for_some, vector};
 use super::{Check, Course};
+use crate::implementation::Answer;
 
 /// What must hold for the function.
 pub const CHECKS: &[Check] = checks![
@@ -23,25 +24,42 @@ fn dense(course: &Course, q_size: usize, T: &[[usize; 4]], v0: &[f64]) -> Result
     dense_of((q_size, q_size), &course.subject.mass_matrix_mesh(q_size, T, DENSITY, v0)?)
 }
 
-/// Every entry of every element, added where its vertices say.
-fn by_definition(course: &Course, q_size: usize, T: &[[usize; 4]], v0: &[f64]) -> Result<DMatrix<f64>, Mistake> {
-    let needs = waits("mass_matrix_linear_tetrahedron");
-    let mut M = DMatrix::zeros(q_size, q_size);
-    for (element, &volume) in T.iter().zip(v0) {
-        let of_element = course.trusted.mass_matrix_linear_tetrahedron(DENSITY, volume).map_err(&needs)?;
-        for (row, column) in (0..12).flat_map(|row| (0..12).map(move |column| (row, column))) {
-            let (i, j) = (3 * element[row / 3] + row % 3, 3 * element[column / 3] + column % 3);
-            M[(i, j)] += of_element[(row, column)];
-        }
-    }
-    Ok(M)
+type OfElement = SMatrix<f64, 12, 12>;
+
+/// uᵀ M v as the elements have it, each of which knows what its four vertices do.
+fn of_all(elements: &[OfElement], mesh: &Mesh, u: &[Vector3<f64>], v: &[Vector3<f64>]) -> f64 {
+    let felt = elements.iter().zip(&mesh.T).map(|(of_element, element)| {
+        let [u, v] = [u, v].map(|all| stacked(&element.map(|vertex| all[vertex])));
+        u.dot(&(of_element * v))
+    });
+    felt.sum()
 }
 
 fn elements_add_up_where_they_share_vertices(course: &Course) -> Outcome {
     let mesh = Mesh::uneven_box([2, 1, 1], 0.3);
-    let q_size = 3 * mesh.V.len();
-    let expected = by_definition(course, q_size, &mesh.T, &mesh.v0)?;
-    near("M, summed over the elements", &dense(course, q_size, &mesh.T, &mesh.v0)?, &expected, 1e-13 * expected.amax())
+    let M = dense(course, 3 * mesh.V.len(), &mesh.T, &mesh.v0)?;
+    let of_volume = |&volume: &f64| course.trusted.mass_matrix_linear_tetrahedron(DENSITY, volume);
+    let elements = mesh.v0.iter().map(of_volume).collect::<Answer<Vec<OfElement>>>();
+    let elements = elements.map_err(waits("mass_matrix_linear_tetrahedron"))?;
+    let positive = || proptest::collection::vec(vector(0.5..1.5), mesh.V.len());
+    for_some(course.seed, (positive(), positive()), |(u, v)| {
+        let expected = of_all(&elements, &mesh, &u, &v);
+        let found = stacked(&u).dot(&(&M * stacked(&v)));
+        near_number("uᵀ M v, summed over the elements", found, expected, 1e-13 * expected)
+    })?;
+    // One wrong entry among many would hide in such sums; between two vertices alone it cannot.
+    let at = |vertex: usize, axis: Vector3<f64>| {
+        let mut all = vec![Vector3::zeros(); mesh.V.len()];
+        all[vertex] = axis;
+        all
+    };
+    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+    for (row, column) in (0..M.nrows()).flat_map(|row| (0..M.ncols()).map(move |column| (row, column))) {
+        let (u, v) = (at(row / 3, axes[row % 3]), at(column / 3, axes[column % 3]));
+        let expected = of_all(&elements, &mesh, &u, &v);
+        near_number("what one vertex feels of another", M[(row, column)], expected, 1e-13 * M.amax())?;
+    }
+    Ok(())
 }
 
 fn each_element_has_its_own_volume(course: &Course) -> Outcome {
@@ -91,7 +109,11 @@ fn the_total_mass_is_density_times_volume(course: &Course) -> Outcome {
 
 fn vertices_without_elements_have_no_mass_and_the_matrix_keeps_its_size(course: &Course) -> Outcome {
     let M = dense(course, 24, &[[6, 2, 5, 1]], &[2.0])?;
-    near("vertices without elements have no mass", &M, &by_definition(course, 24, &[[6, 2, 5, 1]], &[2.0])?, 1e-10)?;
+    for vertex in [0, 3, 4, 7] {
+        let row = M.rows(3 * vertex, 3);
+        near("vertices without elements have no mass", &row, &DMatrix::zeros(3, 24), 0.0)?;
+    }
+    near_number("those of the one element have all of it, along each axis", M.sum(), 3.0 * DENSITY * 2.0, 1e-10)?;
     near("no element at all", &dense(course, 6, &[], &[])?, &DMatrix::zeros(6, 6), 0.0)
 }
 

@@ -15,6 +15,8 @@ pub const CHECKS: &[Check] = checks![
     simple_shear_costs_c_alone,
     the_table_of_the_page_holds,
     only_the_principal_stretches_count,
+    known_stretches_cost_what_was_computed_by_hand,
+    one_term_knows_only_the_shape_and_the_other_only_the_volume,
     the_energy_is_the_same_in_every_rotated_frame,
     the_energy_is_never_negative,
     flat_and_inverted_states_cost_infinitely_much,
@@ -65,13 +67,47 @@ fn the_table_of_the_page_holds(course: &Course) -> Outcome {
 
 fn only_the_principal_stretches_count(course: &Course) -> Outcome {
     for_all(course.seed, (rotation(), stretches(), rotation(), constants()), |(U, sigma, W, (C, D))| {
-        let F = U * Matrix3::from_diagonal(&sigma) * W.transpose();
-        let J = sigma.product();
+        let along_the_axes = Matrix3::from_diagonal(&sigma);
+        let F = U * along_the_axes * W.transpose();
         for (C, D, rule) in [(C, 0.0, "the first term alone"), (0.0, D, "the second term alone"), (C, D, "psi")] {
-            let expected = C * (sigma.norm_squared() / (J * J).cbrt() - 3.0) + D * (J - 1.0).powi(2);
-            near_number(rule, course.subject.psi_neo_hookean(&F, C, D)?, expected, 1e-12 * energy_terms(&F, C, D))?;
+            let expected = course.subject.psi_neo_hookean(&along_the_axes, C, D)?;
+            near_number(rule, course.subject.psi_neo_hookean(&F, C, D)?, expected, 2e-12 * energy_terms(&F, C, D))?;
         }
         Ok(())
+    })
+}
+
+fn known_stretches_cost_what_was_computed_by_hand(course: &Course) -> Outcome {
+    // Stretches whose product is the cube of a number, and what they cost with C = 1, D = 0 and with C = 0, D = 1.
+    let known = [
+        ([8.0, 1.0, 1.0], 13.5, 49.0),
+        ([2.0, 1.0, 4.0], 2.25, 49.0),
+        ([1.0, 1.0, 0.125], 5.0625, 0.765625),
+        ([3.0, 0.5, 18.0], 34.02777777777778, 676.0),
+        ([0.25, 2.0, 0.25], 13.5, 0.765625),
+        ([2.0, 3.0, 1.0 / 6.0], 10.027777777777779, 0.0),
+    ];
+    for_all(course.seed, (0..known.len(), rotation(), rotation(), constants()), |(row, U, W, (C, D))| {
+        let (sigma, shape, volume) = known[row];
+        let F = U * Matrix3::from_diagonal(&sigma.into()) * W;
+        let found = course.subject.psi_neo_hookean(&F, C, D)?;
+        let rule = "psi of stretches that were computed by hand";
+        near_number(rule, found, C * shape + D * volume, 1e-12 * energy_terms(&F, C, D))
+    })
+}
+
+fn one_term_knows_only_the_shape_and_the_other_only_the_volume(course: &Course) -> Outcome {
+    for_all(course.seed, (deformation(), -1.0..1.0, constants()), |(F, power, (C, D))| {
+        let blown_up = F * f64::exp(power);
+        let (found, expected) =
+            (course.subject.psi_neo_hookean(&blown_up, C, 0.0)?, course.subject.psi_neo_hookean(&F, C, 0.0)?);
+        let rule = "blowing a body up evenly does not change what its shape costs";
+        near_number(rule, found, expected, 2e-12 * energy_terms(&F, C, 0.0))?;
+        let as_even = Matrix3::identity() * F.determinant().cbrt();
+        let (found, expected) =
+            (course.subject.psi_neo_hookean(&F, 0.0, D)?, course.subject.psi_neo_hookean(&as_even, 0.0, D)?);
+        let rule = "the same volume costs the same in every shape";
+        near_number(rule, found, expected, 2e-12 * energy_terms(&F, 0.0, D))
     })
 }
 
