@@ -82,6 +82,9 @@ pub struct GradeOptions {
     /// Points, levels and tolerances, instead of the grader's own.
     #[arg(long, value_name = "FILE")]
     pub rubric: Option<PathBuf>,
+    /// Draw errors and run times beside the reference's: each function's, and the whole simulation's at several time steps.
+    #[arg(long)]
+    pub report: bool,
     /// Grade even where this machine has no sandbox at all: a submission may then do what you may.
     #[arg(long)]
     pub without_sandbox: bool,

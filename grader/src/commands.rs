@@ -71,6 +71,7 @@ pub fn grade(submission: &Path, options: &GradeOptions, ends_with: Option<u32>) 
     let reports = Options { show_diagnosis: rubric.students.diagnosis, origin };
     let show_hints = rubric.students.hints;
     let grading = Grading::new(&repository(), rubric, sandbox(options)?, options.seed).map_err(failed)?;
+    let grading = if options.report { grading.with_study() } else { grading };
     let mut grade = grading.grade(&read(submission)).map_err(failed)?;
     if !show_hints {
         grade.functions.iter_mut().for_each(|function| function.hint = None);
@@ -117,7 +118,8 @@ pub fn class(folder: &Path, options: &GradeOptions, jobs: Option<usize>, shard: 
     writable(&options.out)?;
     // What all submissions share is built before the first one, and the sandbox is looked at once.
     let _ = Grading::new(&repository(), rubric, sandbox(options)?, options.seed).map_err(failed)?;
-    let extra = options.without_sandbox.then(|| "--without-sandbox".to_owned()).into_iter().collect();
+    let flags = [(options.without_sandbox, "--without-sandbox"), (options.report, "--report")];
+    let extra = flags.iter().filter(|(is_given, _)| *is_given).map(|(_, flag)| (*flag).to_owned()).collect();
     let cores = thread::available_parallelism().map_or(1, Into::into);
     let summary = class::run(&class::ClassOptions {
         folder: folder.to_owned(),

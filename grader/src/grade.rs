@@ -29,7 +29,40 @@ pub struct Grade {
     pub functions: Vec<FunctionGrade>,
     /// The whole simulation with the submission's functions alone.
     pub simulation: FunctionGrade,
+    /// The whole simulation at several time steps, where that was asked for; says nothing about points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub study: Option<Study>,
     /// Processor time of this grading with all its processes, s; on a system that does not tell it, the time that passed.
+    pub seconds: f64,
+}
+
+/// Error against run time of the whole simulation, the submission beside the reference.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Study {
+    /// By integrator and time step, the submission's and the reference's runs in pairs.
+    pub runs: Vec<Run>,
+    /// How exactly the motion is known that errors are counted from, m.
+    pub uncertainty: f64,
+}
+
+/// The whole simulation with one integrator and one time step.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Run {
+    /// The course's name of it.
+    pub integrator: String,
+    /// Time step, s.
+    pub dt: f64,
+    /// `None` where the submission gave no answer.
+    pub submission: Option<Outcome>,
+    pub reference: Outcome,
+}
+
+/// What a run came to.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct Outcome {
+    /// Largest distance of a vertex from where it should be at the end, m; the body is 1 m long.
+    pub error: f64,
+    /// Time by the clock on the wall, s: the fastest of a few.
     pub seconds: f64,
 }
 

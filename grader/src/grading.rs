@@ -6,6 +6,8 @@ mod judge;
 mod level;
 mod load;
 mod programs;
+mod study;
+mod truth;
 mod whole;
 mod work;
 
@@ -51,6 +53,8 @@ pub struct Grading {
     reference: Sandboxed,
     seed: u64,
     work: Work,
+    /// Whether to run the simulation at several time steps.
+    studies: bool,
 }
 
 impl Grading {
@@ -63,7 +67,12 @@ impl Grading {
         let programs = Programs::new(root, &rubric, &prebuilt)?;
         let limit = Duration::from_secs_f64(rubric.seconds);
         let reference = Sandboxed::new(programs.start_reference(&sandbox), limit);
-        Ok(Self { rubric, prebuilt, sandbox, programs, reference, seed, work: Work::new()? })
+        Ok(Self { rubric, prebuilt, sandbox, programs, reference, seed, work: Work::new()?, studies: false })
+    }
+
+    /// The same, and each grade holds a study of error against run time.
+    pub fn with_study(self) -> Self {
+        Self { studies: true, ..self }
     }
 
     /// Grades a submission.
@@ -88,7 +97,8 @@ impl Grading {
         if let Some(level) = levels.first() {
             self.grade_level(*level, submission, whole.as_ref(), &mut graded)?;
         }
-        let simulation = self.grade_simulation(whole, &graded)?;
+        let simulation = self.grade_simulation(whole.as_ref(), &graded)?;
+        let study = self.studies.then(|| self.study(whole.as_ref(), &simulation)).transpose()?;
         let functions: Vec<FunctionGrade> =
             self.rubric.functions.iter().filter_map(|function| graded.remove(function.name.get_ref())).collect();
         let parts = || functions.iter().chain([&simulation]);
@@ -104,6 +114,7 @@ impl Grading {
             remarks: submission.remarks.clone(),
             functions,
             simulation,
+            study,
             seconds: clock.seconds(),
         })
     }

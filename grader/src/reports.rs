@@ -15,6 +15,7 @@ mod junit;
 mod markdown;
 mod page;
 mod rows;
+mod study;
 pub mod terminal;
 mod view;
 

@@ -139,11 +139,11 @@ mod grades {
     use serde_json::Value;
 
     /// What a submission is graded as, by the program itself.
-    fn graded(submission: &Path, seed: u64) -> Value {
+    fn graded(submission: &Path, seed: u64, more: &[&str]) -> Value {
         LazyLock::force(&LIBRARIES);
         let out = TempDir::new().expect("a folder");
         let mut grader = Command::new(env!("CARGO_BIN_EXE_grader"));
-        grader.arg("grade").arg(submission).arg("--out").arg(out.path()).args(["--seed", &seed.to_string()]);
+        grader.arg("grade").arg(submission).arg("--out").arg(out.path()).args(["--seed", &seed.to_string()]).args(more);
         let output = grader.output().expect("the grader starts");
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
         let grade = fs::read(out.path().join("grade.json")).expect("a grade");
@@ -162,8 +162,23 @@ mod grades {
     #[test]
     fn right_work_has_full_marks_with_any_seed_and_in_any_style() {
         for seed in [1, 2, 20_260_101] {
-            has_full_marks(&graded(&repository(), seed));
+            has_full_marks(&graded(&repository(), seed, &[]));
         }
-        has_full_marks(&graded(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/other_style"), 3));
+        let grade = graded(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/other_style"), 3, &["--report"]);
+        has_full_marks(&grade);
+        errs_like_the_reference(&grade["study"]);
+    }
+
+    fn errs_like_the_reference(study: &Value) {
+        let runs = study["runs"].as_array().expect("runs");
+        assert_eq!(runs.len(), 8);
+        let error = |run: &Value, whose: &str| run[whose]["error"].as_f64().expect("an error");
+        for run in runs {
+            let (own, reference) = (error(run, "submission"), error(run, "reference"));
+            assert!((own - reference).abs() < 1e-3 * reference, "{run}");
+        }
+        for pair in runs.windows(2).filter(|pair| pair[0]["integrator"] == pair[1]["integrator"]) {
+            assert!(error(&pair[1], "reference") < 0.7 * error(&pair[0], "reference"), "{pair:?}");
+        }
     }
 }

@@ -19,7 +19,13 @@ use super::{Grading, GradingError};
 use crate::grade::FunctionGrade;
 
 /// Longest time for the simulation, s; the reference needs a fraction of a second.
-const LIMIT: Duration = Duration::from_secs(30);
+pub(super) const LIMIT: Duration = Duration::from_secs(30);
+
+/// The time step whose answers are compared, s.
+const TIME_STEP: f64 = 0.01;
+
+/// How long the body moves, s.
+const DURATION: f64 = 0.2;
 
 /// Largest distance from the reference's positions, in lengths of the body. Newton's method may end a little earlier or later.
 const TOLERANCE: f64 = 1e-6;
@@ -64,7 +70,7 @@ impl Grading {
     /// Grades the simulation; where a function is missing it cannot run, which costs nothing more by itself.
     pub(super) fn grade_simulation(
         &self,
-        whole: Option<Whole>,
+        whole: Option<&Whole>,
         functions: &BTreeMap<String, FunctionGrade>,
     ) -> Result<FunctionGrade, GradingError> {
         let mut grade = FunctionGrade {
@@ -87,17 +93,17 @@ impl Grading {
         };
         let program = match attempt {
             Attempt::Built(program) => program,
-            Attempt::GaveUp(why) => return Err(BuildError::GaveUp(why).into()),
+            Attempt::GaveUp(why) => return Err(BuildError::GaveUp(why.clone()).into()),
             Attempt::Failed(faults) => {
                 grade.status = Status::DidNotCompile;
-                grade.message = Some(match faults.into_iter().next() {
+                grade.message = Some(match faults.first_key_value() {
                     Some((name, fault)) => format!("{name} does not compile with the student's other files:\n{fault}"),
                     None => "the files compile one by one, but not together".to_owned(),
                 });
                 return Ok(grade);
             }
         };
-        let subject = Sandboxed::new(start(&self.sandbox, Some(program), folder.path()), LIMIT);
+        let subject = Sandboxed::new(start(&self.sandbox, Some(program.clone()), folder.path()), LIMIT);
         self.compare_simulations(grade, &subject)
     }
 
@@ -109,7 +115,7 @@ impl Grading {
         let reference = Sandboxed::new(self.programs.start_reference(&self.sandbox), LIMIT);
         let mut worst = 0.0_f64;
         for integrator in [0, 1] {
-            let scene = scene(integrator);
+            let scene = scene(integrator, TIME_STEP);
             let failed = |trouble: Trouble| GradingError::Reference(trouble.to_string());
             let (expected, reference_seconds) = reference.simulate(&scene, LIMIT).map_err(failed)?;
             match subject.simulate(&scene, LIMIT) {
@@ -155,7 +161,7 @@ fn distance(positions: &[DVector<f64>], expected: &[DVector<f64>]) -> f64 {
 }
 
 /// A rubber cube of 1 m that stands on its lowest vertices, sags, and is pulled at a corner.
-fn scene(integrator: usize) -> Scene {
+pub(super) fn scene(integrator: usize, dt: f64) -> Scene {
     let (V, T, v0) = cube(3);
     let fixed = (0..V.len()).filter(|&vertex| V[vertex].z == 0.0).collect();
     let pulled = V.len() - 1;
@@ -163,5 +169,6 @@ fn scene(integrator: usize) -> Scene {
     let V_skin = V.iter().map(|X| X * 0.98 + Vector3::repeat(0.01)).collect();
     let (C, D, density, pull) = (2e4, 5e4, 1000.0, 2e3);
     let gravity = Vector3::new(0.0, 0.0, -9.81);
-    Scene { V, T, v0, fixed, pulled, target, pull, C, D, density, gravity, dt: 0.01, steps: 20, integrator, V_skin }
+    let steps = (DURATION / dt).round() as usize;
+    Scene { V, T, v0, fixed, pulled, target, pull, C, D, density, gravity, dt, steps, integrator, V_skin }
 }

@@ -3,7 +3,7 @@
 use grader::status::Status;
 
 use super::page::{figure, page};
-use super::{escape, view};
+use super::{escape, study, view};
 use crate::grade::{CheckGrade, FunctionGrade, Grade};
 
 /// The text of `report.html`.
@@ -17,6 +17,9 @@ pub fn render(grade: &Grade, show_diagnosis: bool) -> String {
     }
     body.push_str("<p class=\"soft\">Error: worst relative difference from the reference. ");
     body.push_str("Time: one call on a standard load.</p>\n");
+    if let Some(found) = &grade.study {
+        body.push_str(&study::render(grade, found));
+    }
     page(&grade.submission, &body)
 }
 

@@ -7,7 +7,7 @@ use grader::status::Status;
 use grader::submission::NAMES;
 
 use crate::class::{Entry, Identity, Outcome, Summary};
-use crate::grade::{CheckGrade, FORMAT_VERSION, FunctionGrade, Grade};
+use crate::grade::{CheckGrade, FORMAT_VERSION, FunctionGrade, Grade, Outcome as Ended, Run, Study};
 
 /// What only the instructor may read; no student's file may hold it.
 pub const SECRET: &str = "SECRET-INPUT-0.4711";
@@ -32,6 +32,7 @@ pub fn grade(variant: usize) -> Grade {
         remarks: if variant % 5 == 1 { vec!["README.txt was left aside".to_owned()] } else { Vec::new() },
         functions,
         simulation: FunctionGrade { name: "simulation".to_owned(), max_score: 12.0, score: 0.0, ..function(3, 0) },
+        study: None,
         seconds: 12.345678,
     }
 }
@@ -97,6 +98,17 @@ fn checks(status: Status) -> Vec<CheckGrade> {
         check("does_not_change_under_rotation", Status::Passed, ""),
         check("equals_the_reference", status, "the answer differs from the energy's finite difference"),
     ]
+}
+
+/// A study in which the submission errs like the reference, is slower, and stops answering.
+pub fn study() -> Study {
+    let run = |integrator: &str, k: i32, answers: bool| {
+        let outcome = |slower: f64| Ended { error: 0.1 * 0.5_f64.powi(k), seconds: 0.01 * slower * 2_f64.powi(k) };
+        let submission = answers.then(|| outcome(3.0));
+        Run { integrator: integrator.to_owned(), dt: 0.02 * 0.5_f64.powi(k), submission, reference: outcome(1.0) }
+    };
+    let runs = (0..8).map(|i| run(["linearly_implicit_euler", "implicit_euler"][i / 4], i as i32 % 4, i < 6));
+    Study { runs: runs.collect(), uncertainty: 3e-9 }
 }
 
 /// A submission whose every text is [`HOSTILE`] and whose figures are no numbers.

@@ -1,6 +1,7 @@
 //! Each format keeps its shape, whatever a submission's texts and figures are.
 
 mod formats;
+mod study;
 
 use std::fs;
 

@@ -1,0 +1,100 @@
+//! Error against run time of the whole simulation, at several time steps, beside the reference: nothing that points depend on.
+
+use std::time::Duration;
+
+use grader::implementation::sandboxed::Sandboxed;
+use grader::status::Status;
+use grader_child::simulation::Scene;
+use nalgebra::DVector;
+
+use super::programs::start;
+use super::truth::{Truth, truth};
+use super::whole::{LIMIT, Whole, scene};
+use super::{Grading, GradingError};
+use crate::grade::{FunctionGrade, Outcome, Run, Study};
+
+/// The integrators, by their number in a scene.
+const INTEGRATORS: [&str; 2] = ["linearly_implicit_euler", "implicit_euler"];
+
+/// Time steps, s.
+const TIME_STEPS: [f64; 4] = [0.02, 0.01, 0.005, 0.0025];
+
+/// Runs, the fastest of which counts.
+const REPEATS: usize = 3;
+
+/// A run that takes longer than this is not repeated: it is long enough to be timed once.
+const LONG: Duration = Duration::from_secs(1);
+
+impl Grading {
+    /// Runs the simulations. Where the submission has no program, or one that does not come to an end, there are none.
+    pub(super) fn study(&self, whole: Option<&Whole>, simulation: &FunctionGrade) -> Result<Study, GradingError> {
+        let truth = truth(&scene(0, TIME_STEPS[0])).map_err(GradingError::Reference)?;
+        let mut study = Study { runs: Vec::new(), uncertainty: truth.uncertainty };
+        let runs_to_the_end = matches!(simulation.status, Status::Passed | Status::Failed);
+        let Some((program, folder)) = whole.and_then(Whole::program).filter(|_| runs_to_the_end) else {
+            return Ok(study);
+        };
+        let subject = Sandboxed::new(start(&self.sandbox, Some(program.to_owned()), folder), LIMIT);
+        let reference = Sandboxed::new(self.programs.start_reference(&self.sandbox), LIMIT);
+        let mut answers = true;
+        for (number, integrator) in INTEGRATORS.into_iter().enumerate() {
+            for dt in TIME_STEPS {
+                let scene = scene(number, dt);
+                let expected = outcome(&reference, &scene, &truth);
+                let silent = || GradingError::Reference(format!("{integrator} with a time step of {dt} s"));
+                // One time-out is waited for, and no second one.
+                let found = if answers { outcome(&subject, &scene, &truth) } else { None };
+                answers = found.is_some();
+                study.runs.push(Run {
+                    integrator: integrator.to_owned(),
+                    dt,
+                    submission: found,
+                    reference: expected.ok_or_else(silent)?,
+                });
+            }
+        }
+        Ok(study)
+    }
+}
+
+/// Runs a scene a few times; `None` where an answer is missing or makes no sense.
+fn outcome(program: &Sandboxed, scene: &Scene, truth: &Truth) -> Option<Outcome> {
+    let mut best: Option<Outcome> = None;
+    for _ in 0..REPEATS {
+        // In a process of its own, whose time is not yet used up.
+        program.next_function();
+        let (positions, seconds) = program.simulate(scene, LIMIT).ok()?;
+        let error = error(&positions, scene, truth)?;
+        best = best.filter(|best| best.seconds <= seconds).or(Some(Outcome { error, seconds }));
+        if seconds > LONG.as_secs_f64() {
+            break;
+        }
+    }
+    best
+}
+
+/// Distance from the truth after the last step, m. One more vector follows it: that of the display surface.
+fn error(positions: &[DVector<f64>], scene: &Scene, truth: &Truth) -> Option<f64> {
+    let last = positions.get(scene.steps.checked_sub(1)?)?;
+    let error = (last.len() == truth.positions.len()).then(|| (last - &truth.positions).amax())?;
+    // The largest of entries one of which is no number may be any.
+    last.iter().all(|x| x.is_finite()).then_some(error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_answer_that_is_short_or_no_number_has_no_error() {
+        let scene = scene(0, 0.1);
+        let truth = Truth { positions: DVector::zeros(3), uncertainty: 0.0 };
+        let ends_at = |last: Vec<f64>| [DVector::zeros(3), DVector::from_vec(last), DVector::zeros(1)];
+        assert_eq!(scene.steps, 2);
+        assert_eq!(error(&ends_at(vec![0.0, -2.0, 1.0]), &scene, &truth), Some(2.0));
+        for wrong in [vec![0.0, f64::NAN, 1.0], vec![f64::INFINITY, 0.0, 0.0], vec![1.0]] {
+            assert_eq!(error(&ends_at(wrong), &scene, &truth), None);
+        }
+        assert_eq!(error(&ends_at(vec![0.0; 3])[..1], &scene, &truth), None);
+    }
+}

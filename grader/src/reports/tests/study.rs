@@ -1,0 +1,50 @@
+//! The pictures of `grade --report`.
+
+use super::*;
+use crate::grade::Study;
+
+fn drawn(mut grade: Grade) -> String {
+    grade.study = Some(sample::study());
+    html::render(&grade, true)
+}
+
+#[test]
+fn each_function_and_each_run_is_drawn_beside_the_reference() {
+    let (grade, page) = (sample::grade(0), drawn(sample::grade(0)));
+    let with =
+        |wanted: fn(&crate::grade::FunctionGrade) -> bool| view::parts(&grade).filter(|part| wanted(part)).count();
+    let (errors, times) = (with(|part| part.error.is_some()), with(|part| part.seconds.is_some()));
+    let circles = |class: &str| page.matches(&format!("<circle class=\"{class}\"")).count();
+    assert!(errors > 10 && errors < 23, "some functions of the sample have no answer");
+    // Of the eight runs, four are hollow; of the last two there is no answer.
+    assert_eq!((circles("dot"), circles("reference")), (errors + times + 2, times + 4));
+    assert_eq!((circles("dot part"), circles("reference part")), (4, 4));
+    assert!(page.contains("submission, linearly implicit euler, time step 0.01 s: 5.0e-2 m, 60.0 ms"));
+    assert!(page.contains("<td>implicit euler</td><td class=\"right\">2.5 ms</td><td class=\"right\">–</td>"));
+}
+
+#[test]
+fn without_being_asked_for_nothing_is_drawn_and_without_a_run_it_is_said() {
+    assert!(!html::render(&sample::grade(0), true).contains("<svg"));
+    let mut grade = sample::grade(0);
+    grade.study = Some(Study { runs: Vec::new(), ..sample::study() });
+    let page = html::render(&grade, true);
+    assert!(page.contains("needs every function") && page.contains("Run time"));
+}
+
+#[test]
+fn the_pictures_show_students_no_more_than_the_table_and_run_no_text() {
+    for page in [drawn(sample::grade(2)), drawn(sample::hostile())] {
+        assert!(!page.contains(sample::SECRET) && !page.contains("<script") && !page.contains("NaN"));
+        assert!(!page.contains("inf") && !page.contains("src=") && !page.contains("url("));
+    }
+}
+
+#[test]
+fn a_grade_keeps_its_study_and_one_without_says_nothing_of_it() {
+    let grade = Grade { study: Some(sample::study()), ..sample::grade(0) };
+    let back: Grade = serde_json::from_str(&json::render(&grade).unwrap()).unwrap();
+    let runs = back.study.unwrap().runs;
+    assert_eq!((runs.len(), runs[7].submission.is_some(), runs[0].reference.error), (8, false, 0.1));
+    assert!(!json::render(&sample::grade(0)).unwrap().contains("study"));
+}
