@@ -74,7 +74,7 @@ pub fn bars(bars: &[Bar]) -> String {
 
 /// Points on one logarithmic axis, a row for each name. Coordinates must be positive.
 pub fn rows(rows: &[Row], label: &str, x_name: &str) -> String {
-    let (left, right, height) = (205.0, WIDTH - 50.0, 19.0);
+    let (left, right, height) = (205.0, WIDTH - 62.0, 19.0);
     let bottom = height * rows.len() as f64 + 4.0;
     let range = decades(rows.iter().flat_map(|row| &row.points).map(|point| point.x));
     let x = |value: f64| left + (right - left) * along(range, value);

@@ -19,6 +19,7 @@ fn each_function_and_each_run_is_drawn_beside_the_reference() {
     // Of the eight runs, four are hollow; of the last two there is no answer.
     assert_eq!((circles("dot"), circles("reference")), (errors + times + 2, times + 4));
     assert_eq!((circles("dot part"), circles("reference part")), (4, 4));
+    assert!(page.contains("2 of 8 runs of the submission gave no positions"));
     assert!(page.contains("submission, linearly implicit euler, time step 0.01 s: 5.0e-2 m, 60.0 ms"));
     assert!(page.contains("<td>implicit euler</td><td class=\"right\">2.5 ms</td><td class=\"right\">–</td>"));
 }
