@@ -57,14 +57,15 @@ fn times(grade: &Grade) -> String {
 fn whole_simulation(study: &Study) -> String {
     let mut figure = String::from("<figure>\n<h2>The whole simulation: error against run time</h2>\n");
     if study.runs.is_empty() {
-        return figure
-            + "<p class=\"soft\">There is none: it needs every function, and an end.</p>\n</figure>\n";
+        return figure + "<p class=\"soft\">There is none: it needs every function, and an end.</p>\n</figure>\n";
     }
     let curves: Vec<Vec<Point>> = curves(&study.runs);
     let silent = study.runs.iter().filter(|run| run.submission.is_none()).count();
     if silent > 0 {
         let all = study.runs.len();
-        figure.push_str(&format!("<p>{silent} of {all} runs of the submission gave no positions that are numbers.</p>\n"));
+        figure.push_str(&format!(
+            "<p>{silent} of {all} runs of the submission gave no positions that are numbers.</p>\n"
+        ));
     }
     figure.push_str(&charts::curves(&curves, "run time (s)", "error (m)"));
     figure.push_str("<figcaption>A cube of 1 m for 0.2 s; each curve has one point for each time step. Filled: ");
