@@ -26,10 +26,9 @@ pub fn dead<T: Real>(
     if scene.gravity.is_none() && scene.body_force.is_none() && tractions.is_empty() {
         return None;
     }
-    let nodes = order.mesh_node.len();
-    let mut load = vec![[T::default(); 3]; nodes];
+    let mut load = vec![[T::default(); 3]; order.mesh_node.len()];
     if let Some(gravity) = &scene.gravity {
-        let acceleration = vec![gravity.acceleration.map(T::of); nodes];
+        let acceleration = vec![gravity.acceleration.map(T::of); load.len()];
         mass.add_times(T::of(1.0), &acceleration, &mut load);
     }
     if let Some(force) = &scene.body_force {

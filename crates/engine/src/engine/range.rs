@@ -14,14 +14,14 @@ pub(super) fn check<T: Real>(scene: &Scene, system: &System<T>) -> Result<(), Sc
     let has_range = |volume: &f64| is_positive(T::of(*volume)) && is_positive(T::of(1.0 / volume));
     let forces = system.dead_load.iter().flatten().flatten();
     let derived = [
-        ("mesh", "the volume of an element", volumes.iter().all(has_range)),
-        ("material", "its moduli", is_positive(first) && second.as_f64().is_finite()),
-        ("material.density", "the mass of a node", mass.iter().all(|&mass| is_positive(mass))),
-        ("time.dt", "mass over time step squared", mass.iter().all(|&mass| is_positive(mass * rate))),
-        ("material", "a modulus times an element's size", volumes.iter().all(|volume| is_stiff(first, *volume))),
-        ("gravity", "the force on a node", forces.clone().all(|force| force.as_f64().is_finite())),
-        ("drag.stiffness", "it", system.drag.iter().all(|(drag, _)| is_positive(T::of(drag.stiffness)))),
-        ("springs", "the stiffness of one", system.springs.iter().all(|spring| is_positive(spring.stiffness))),
+        ("mesh", "a volume of an element", volumes.iter().all(has_range)),
+        ("material", "moduli", is_positive(first) && second.as_f64().is_finite()),
+        ("material.density", "a mass of a node", mass.iter().all(|&mass| is_positive(mass))),
+        ("time.dt", "a mass over the time step squared", mass.iter().all(|&mass| is_positive(mass * rate))),
+        ("material", "a stiffness of an element", volumes.iter().all(|volume| is_stiff(first, *volume))),
+        ("gravity", "a force on a node", forces.clone().all(|force| force.as_f64().is_finite())),
+        ("drag", "a stiffness", system.drag.iter().all(|(drag, _)| is_positive(T::of(drag.stiffness)))),
+        ("springs", "a stiffness", system.springs.iter().all(|spring| is_positive(spring.stiffness))),
         ("traction", "a pressure", system.pressures.iter().all(|pressure| pressure.pressure.as_f64().is_finite())),
     ];
     match derived.iter().find(|(_, _, fits)| !fits) {
@@ -48,5 +48,5 @@ fn problem(scene: &Scene, what: &str) -> String {
         Precision::F32 => ("single", ", or remove time.precision"),
         Precision::F64 => ("double", ""),
     };
-    format!("is such that {what} is out of the range of {name} precision; give a more ordinary number{remedy}")
+    format!("leads to {what} out of the range of {name} precision; give a more ordinary number{remedy}")
 }

@@ -176,58 +176,52 @@ fn an_unknown_key_is_refused_in_every_table_and_in_every_table_within_one() {
     }
 }
 
+/// A passage, what it is replaced with, and how the message begins.
+const CASES: &[(&str, &str, &str)] = &[
+    ("scale = 0.5", "scale = 0", "mesh.scale is 0; give a positive number"),
+    ("refine = 1", "refine = 5", "mesh.refine is 5; cut every tetrahedron at most 4 times"),
+    ("young = 1e5", "young = -1e5", "material.young is -100000; give a positive number of Pa"),
+    ("young = 1e5", "young = 1e61", "material.young is 1e61, too large to compute with; give at most 1e60"),
+    ("poisson = 0.3", "poisson = 0.5", "material.poisson is 0.5; Poisson's ratio lies above -1 and below 0.5"),
+    ("poisson = 0.3", "poisson = -1", "material.poisson is -1; Poisson's ratio lies above -1 and below 0.5"),
+    ("density = 1000.0", "density = 0", "material.density is 0; give a positive number of kg/m³"),
+    ("density = 1000.0", "density = 1e-61", "material.density is 1e-61, too small to compute with; give 1e-60 or more"),
+    ("below = 1e-9", "below = -1", "fixed.plane has below = -1; give a distance of 0 m or more"),
+    ("turns = 0.01", "turns = 1e7", "prescribed[0].rotation.turns is 1e7; give at most 1e6"),
+    ("over = 2.0", "over = 0", "prescribed[0].over is 0; give a positive number of seconds"),
+    ("dt = 1e-3", "dt = 0", "time.dt is 0; give a positive number of seconds"),
+    ("steps = 3", "steps = 0", "time.steps is 0; give at least one step"),
+    ("load_steps = 2", "load_steps = 0", "static.load_steps is 0; give at least one load step"),
+    ("alpha = 0.1", "alpha = -0.1", "damping.alpha is -0.1; give 0 1/s or more"),
+    ("max_iterations = 9", "max_iterations = 0", "newton.max_iterations is 0; give at least one iteration"),
+    ("tolerance = 1e-9", "tolerance = 0", "newton.tolerance is 0; give a positive number"),
+    ("tolerance = 1e-10", "tolerance = -1", "solver.tolerance is -1; give a positive number"),
+    ("tolerance = 1e-10", "tolerance = 1.0", "solver.tolerance is 1; give a number below 1"),
+    ("tolerance = 1e-9", "tolerance = 2", "newton.tolerance is 2; give a number below 1"),
+    ("stiffness = 100.0", "stiffness = -1", "springs[0].stiffness is -1; give a positive number of N/m"),
+    ("rest_length = 0.5", "rest_length = -0.5", "springs[0].rest_length is -0.5; give 0 m or more"),
+    ("stiffness = 1e3", "stiffness = 0", "drag.stiffness is 0; give a positive number of N/m"),
+    ("direction = [1.0, 0.5, 0.25]", "direction = [0, 0, 0]", "drag.direction is zero; give the direction of the pull"),
+    ("frequency = 1.5", "frequency = -1", "drag.frequency is -1; give 0 Hz or more"),
+    ("pressure = 50.0", "pressure = 1e70", "traction[1].pressure is 1e70, too large to compute with; give at most"),
+    (
+        "[0.01, 0.02, 0.03]",
+        "[0.01, 1e70, 0.03]",
+        "prescribed[0].displacement is too long to compute with; give a shorter",
+    ),
+    ("nodes = [4]", "nodes = [1000]", "prescribed[1].nodes names node 1000; the mesh has nodes 0 to 44"),
+    ("nodes = [4]", "nodes = [8]", "prescribed[1] moves y of node 8, and so does prescribed[0]; name each"),
+    ("vertex = 7", "vertex = 45", "drag.vertex names node 45; the mesh has nodes 0 to 44"),
+    (
+        "faces = [[0, 12, 14]]",
+        "faces = [[0, 1, 44]]",
+        "traction[1].faces names [0, 1, 44], which is no triangle of the boundary; ",
+    ),
+];
+
 #[test]
 fn numbers_out_of_range_are_refused_with_field_and_remedy() {
-    let cases = [
-        ("scale = 0.5", "scale = 0", "mesh.scale is 0; give a positive number"),
-        ("refine = 1", "refine = 5", "mesh.refine is 5; cut every tetrahedron at most 4 times"),
-        ("young = 1e5", "young = -1e5", "material.young is -100000; give a positive number of Pa"),
-        ("young = 1e5", "young = 1e61", "material.young is 1e61, too large to compute with; give at most 1e60"),
-        ("poisson = 0.3", "poisson = 0.5", "material.poisson is 0.5; Poisson's ratio lies above -1 and below 0.5"),
-        ("poisson = 0.3", "poisson = -1", "material.poisson is -1; Poisson's ratio lies above -1 and below 0.5"),
-        ("density = 1000.0", "density = 0", "material.density is 0; give a positive number of kg/m³"),
-        (
-            "density = 1000.0",
-            "density = 1e-61",
-            "material.density is 1e-61, too small to compute with; give 1e-60 or more",
-        ),
-        ("below = 1e-9", "below = -1", "fixed.plane has below = -1; give a distance of 0 m or more"),
-        ("turns = 0.01", "turns = 1e7", "prescribed[0].rotation.turns is 1e7; give at most 1e6"),
-        ("over = 2.0", "over = 0", "prescribed[0].over is 0; give a positive number of seconds"),
-        ("dt = 1e-3", "dt = 0", "time.dt is 0; give a positive number of seconds"),
-        ("steps = 3", "steps = 0", "time.steps is 0; give at least one step"),
-        ("load_steps = 2", "load_steps = 0", "static.load_steps is 0; give at least one load step"),
-        ("alpha = 0.1", "alpha = -0.1", "damping.alpha is -0.1; give 0 1/s or more"),
-        ("max_iterations = 9", "max_iterations = 0", "newton.max_iterations is 0; give at least one iteration"),
-        ("tolerance = 1e-9", "tolerance = 0", "newton.tolerance is 0; give a positive number"),
-        ("tolerance = 1e-10", "tolerance = -1", "solver.tolerance is -1; give a positive number"),
-        ("tolerance = 1e-10", "tolerance = 1.0", "solver.tolerance is 1; give a number below 1"),
-        ("tolerance = 1e-9", "tolerance = 2", "newton.tolerance is 2; give a number below 1"),
-        ("stiffness = 100.0", "stiffness = -1", "springs[0].stiffness is -1; give a positive number of N/m"),
-        ("rest_length = 0.5", "rest_length = -0.5", "springs[0].rest_length is -0.5; give 0 m or more"),
-        ("stiffness = 1e3", "stiffness = 0", "drag.stiffness is 0; give a positive number of N/m"),
-        (
-            "direction = [1.0, 0.5, 0.25]",
-            "direction = [0, 0, 0]",
-            "drag.direction is zero; give the direction of the pull",
-        ),
-        ("frequency = 1.5", "frequency = -1", "drag.frequency is -1; give 0 Hz or more"),
-        ("pressure = 50.0", "pressure = 1e70", "traction[1].pressure is 1e70, too large to compute with; give at most"),
-        (
-            "[0.01, 0.02, 0.03]",
-            "[0.01, 1e70, 0.03]",
-            "prescribed[0].displacement is too long to compute with; give a shorter",
-        ),
-        ("nodes = [4]", "nodes = [1000]", "prescribed[1].nodes names node 1000; the mesh has nodes 0 to 44"),
-        ("nodes = [4]", "nodes = [8]", "prescribed[1] moves y of node 8, and so does prescribed[0]; name each"),
-        ("vertex = 7", "vertex = 45", "drag.vertex names node 45; the mesh has nodes 0 to 44"),
-        (
-            "faces = [[0, 12, 14]]",
-            "faces = [[0, 1, 44]]",
-            "traction[1].faces names [0, 1, 44], which is no triangle of the boundary; ",
-        ),
-    ];
-    for (from, to, beginning) in cases {
+    for &(from, to, beginning) in CASES {
         let text = edit(ALL, from, to);
         let error = try_all(&text).err().unwrap_or_else(|| panic!("taken: {to}")).to_string();
         // What needs the mesh looks for its line in the file, which is not there; the first stands in for it.
@@ -245,13 +239,13 @@ fn what_is_out_of_the_range_of_single_precision_is_refused_with_that_remedy() {
     let single = edit(ALL, "\"f64\"", "\"f32\"").replace("1e-9 }", "0 }");
     try_all(&single).unwrap();
     for (from, to, field) in [
-        ("young = 1e5", "young = 1e39", "material is such that its moduli is out of the range of single precision"),
-        ("density = 1000.0", "density = 1e-44", "material.density is such that the mass of a node"),
-        ("dt = 1e-3", "dt = 1e-25", "time.dt is such that mass over time step squared"),
-        ("scale = 0.5", "scale = 1e-14", "mesh is such that the volume of an element"),
-        ("-9.81", "-1e38", "gravity is such that the force on a node"),
-        ("stiffness = 100.0", "stiffness = 1e40", "springs is such that the stiffness of one"),
-        ("pressure = 50.0", "pressure = 1e40", "traction is such that a pressure"),
+        ("young = 1e5", "young = 1e39", "material leads to moduli out of the range of single precision"),
+        ("density = 1000.0", "density = 1e-44", "material.density leads to a mass of a node out"),
+        ("dt = 1e-3", "dt = 1e-25", "time.dt leads to a mass over the time step squared"),
+        ("scale = 0.5", "scale = 1e-14", "mesh leads to a volume of an element"),
+        ("-9.81", "-1e38", "gravity leads to a force on a node"),
+        ("stiffness = 100.0", "stiffness = 1e40", "springs leads to a stiffness out"),
+        ("pressure = 50.0", "pressure = 1e40", "traction leads to a pressure out"),
     ] {
         let text = edit(&single, from, to);
         let error = try_all(&text).err().unwrap_or_else(|| panic!("taken: {to}")).to_string();
