@@ -155,7 +155,7 @@ impl Patience {
     /// For a study of minutes, or for a look.
     pub fn new(is_quick: bool) -> Self {
         let repetitions = if is_quick { (2, 3) } else { (3, 9) };
-        Self { repetitions, seconds: if is_quick { 0.02 } else { 1.0 }, long: if is_quick { 0.3 } else { 2.0 } }
+        Self { repetitions, seconds: if is_quick { 0.02 } else { 0.6 }, long: if is_quick { 0.3 } else { 2.0 } }
     }
 
     /// The clocks of all runs: round after round over all of them. `tell` is called after each.

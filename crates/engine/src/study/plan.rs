@@ -108,8 +108,8 @@ fn variants(scene: &Scene, extent: Extent) -> Vec<Ladder> {
         (Integrator::LinearlyImplicitEuler, scaled(extent.steps, 2)),
         (Integrator::Verlet, 4 * explicit),
     ] {
-        let mut scene = scene.clone();
-        (scene.time.integrator, scene.time.precision) = (integrator, Precision::F32);
+        let mut scene = single(scene);
+        scene.time.integrator = integrator;
         ladders.push(ladder("precision", &format!("{} in f32", name(integrator)), &scene, &[steps], extent));
     }
     ladders.extend(meshes(scene).into_iter().map(|scene| {
@@ -190,15 +190,21 @@ pub fn equilibrium(scene: &Scene, load_steps: usize) -> Vec<Ladder> {
         scene.solver = Some(Solver { kind, tolerance: None, preconditioner });
         ladders.push(run("solver", format!("static by {}", solver_name(&scene)), &scene));
     }
-    let mut single = scene.clone();
-    single.time.precision = Precision::F32;
-    ladders.push(run("precision", "static in f32".to_owned(), &single));
+    ladders.push(run("precision", "static in f32".to_owned(), &single(scene)));
     for scene in meshes(scene) {
         let scene = Scene { time: crate::scene::Time { integrator: Integrator::Static, ..scene.time }, ..scene };
         let cells = scene.mesh.cuboid.as_ref().map_or(0, |cuboid| cuboid.cells_per_unit);
         ladders.push(run("mesh", format!("static, {cells} cells per metre"), &scene));
     }
     ladders
+}
+
+/// The scene in single precision, with a tolerance that it can reach.
+fn single(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    scene.time.precision = Precision::F32;
+    scene.newton = Some(Newton { tolerance: Some(1e-6), ..newton(&scene) });
+    scene
 }
 
 /// A scene without what is only looked at, run by the engine; small where minutes are too long.

@@ -215,7 +215,7 @@ fn as_json(report: &Report) -> Value {
         json!({
             "name": study.name, "horizon_s": study.horizon, "fastest_vibration_1_s": study.fastest,
             "references": study.references.iter().map(|(file, check, evaluations)| json!({
-                "file": file, "self_check": check, "force_evaluations": evaluations })).collect::<Vec<_>>(),
+                "file": file, "self_check": check.0, "self_check_velocities": check.1, "force_evaluations": evaluations })).collect::<Vec<_>>(),
             "nested_meshes": study.nested.as_ref().map(|nested| json!({
                 "order_L2": nested.orders.0, "order_H1": nested.orders.1,
                 "levels": nested.errors.iter().map(|(cells, l2, h1)| json!({

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod case;
+mod levels;
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -47,8 +48,8 @@ pub struct SceneStudy {
     pub rows: Vec<Row>,
     /// Total energy over time of each row, less that at the start: s and J.
     pub histories: Vec<Vec<(f64, f64)>>,
-    /// Each reference: its file, its own check, force evaluations.
-    pub references: Vec<(String, f64, usize)>,
+    /// Each reference: its file, its own checks (displacements, velocities), force evaluations.
+    pub references: Vec<(String, (f64, f64), usize)>,
     /// Largest energy that moves between kinetic and potential, J.
     pub energy_scale: f64,
     /// Three meshes.
@@ -61,7 +62,7 @@ pub struct SceneStudy {
 
 /// Time that a single run may take, s.
 fn most_seconds(is_quick: bool) -> f64 {
-    if is_quick { 2.0 } else { 10.0 }
+    if is_quick { 2.0 } else { 6.0 }
 }
 
 /// Which runs.

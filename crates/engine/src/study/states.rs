@@ -40,7 +40,9 @@ pub fn write_reference(
     let state = reference.map_or(String::new(), |reference| {
         let Reference { time, q, qdot, kinetic, potential, check, evaluations } = reference;
         let snapshot = Snapshot { time: *time, q, qdot, energies: (*kinetic, *potential) };
-        format!("{},\n\"self_check\": {check:e},\n\"force_evaluations\": {evaluations},\n", fields(&snapshot))
+        let (u, v) = check;
+        let check = format!("\"self_check\": {u:e},\n\"self_check_velocities\": {v:e}");
+        format!("{},\n{check},\n\"force_evaluations\": {evaluations},\n", fields(&snapshot))
     });
     let text = format!(
         "{{\n{state}\"length\": {:e},\n\"density\": {density:e},\n\"weights\": [{}],\n\"rest\": [{}],\n\"elements\": [{}]\n}}",

@@ -2,32 +2,23 @@
 
 use std::collections::HashMap;
 
-use nalgebra::DVector;
-
 use super::case::{case, errors, status};
 use super::{SceneStudy, Setting};
 use crate::mesh::TetrahedralMesh;
-use crate::scene::{self, Integrator, Scene};
+use crate::scene::{self, Scene};
 use crate::study::costs;
 use crate::study::equations::Equations;
 use crate::study::measure::Outcome;
-use crate::study::nested::{self, Level, Nested};
-use crate::study::plan::{self, Run};
+use crate::study::norms;
+use crate::study::plan::Run;
 use crate::study::reference::{Reference, reference};
 use crate::study::row::{Errors, Row};
 use crate::study::states::{Snapshot, write_reference, write_state};
-use crate::study::{closed_forms, norms};
 
 /// Time that a reference may take, and that the finest of three meshes may, s.
-fn most_reference_seconds(is_quick: bool) -> f64 {
+pub(super) fn most_reference_seconds(is_quick: bool) -> f64 {
     if is_quick { 20.0 } else { 240.0 }
 }
-
-/// Fastest vibration times a step of Verlet that is safely stable.
-const EXPLICIT: f64 = 1.2;
-
-/// Time of an explicit step for each element, s; about.
-const SECONDS_OF_AN_ELEMENT: f64 = 2e-7;
 
 /// A mesh of the study, with its reference.
 pub(super) struct Body {
@@ -83,67 +74,6 @@ impl Bodies<'_> {
         let hash = norms::mesh_hash(&mesh);
         self.known.insert(cells(scene), Body { mesh, weights, hash, file, reference: found });
         Ok(())
-    }
-
-    /// Three meshes of a box, and what they tell.
-    pub fn nested(&mut self, base: &Scene, study: &mut SceneStudy) -> Result<Option<Nested>, String> {
-        let Some(all) = plan::levels(base) else { return Ok(None) };
-        let is_static = base.time.integrator == Integrator::Static;
-        if closed_forms::uniaxial(base).is_some() || (!is_static && study.fastest == 0.0) {
-            return Ok(None);
-        }
-        let finest = 2.0 * study.fastest * study.horizon / EXPLICIT * 8.0 * study.size.1 as f64 * SECONDS_OF_AN_ELEMENT;
-        if !is_static && finest > most_reference_seconds(self.setting.is_quick) {
-            study.left_out.push(("errors in space".to_owned(), format!("the finest mesh would take {finest:.0} s")));
-            return Ok(None);
-        }
-        let mut levels = Vec::new();
-        for (number, cells) in all.into_iter().enumerate() {
-            (self.setting.tell)(number, 3, &format!("{}: mesh of {cells} cells per metre", study.name));
-            let mut scene = base.clone();
-            if let Some(cuboid) = &mut scene.mesh.cuboid {
-                cuboid.cells_per_unit = cells;
-            }
-            if !self.known.contains_key(&cells) {
-                let horizon = (!is_static && number < 2).then_some(study.horizon);
-                self.add(&scene, horizon, study)?;
-            }
-            let body = &self.known[&cells];
-            let q = match &body.reference {
-                Some(reference) => reference.q.clone(),
-                None => {
-                    let fastest = (1 << number) as f64 * study.fastest / 2.0;
-                    match self.settled(scene, is_static, study.horizon, fastest) {
-                        Ok(q) => q,
-                        Err(reason) => {
-                            study.left_out.push(("errors in space".to_owned(), reason));
-                            return Ok(None);
-                        }
-                    }
-                }
-            };
-            levels.push(Level { cells, mesh: body.mesh.clone(), q });
-        }
-        let levels: [Level; 3] = levels.try_into().map_err(|_| "three levels are three".to_owned())?;
-        Ok(nested::compare(&levels).filter(|nested| nested.orders.0.is_finite()))
-    }
-
-    /// A state whose error in time is far below that of the mesh: the equilibrium, or Verlet at small steps.
-    fn settled(&self, mut scene: Scene, is_static: bool, horizon: f64, fastest: f64) -> Result<DVector<f64>, String> {
-        let steps = if is_static {
-            scene.statics.as_ref().map_or(1, |statics| statics.load_steps)
-        } else {
-            scene.time.integrator = Integrator::Verlet;
-            (horizon * fastest / EXPLICIT).ceil().max(1.0) as usize
-        };
-        if !is_static {
-            scene.time.dt = horizon / steps as f64;
-        }
-        let mut simulation = (self.setting.factory)(&scene)?;
-        for _ in 0..steps {
-            simulation.step().map_err(|failure| failure.to_string())?;
-        }
-        Ok(simulation.positions())
     }
 
     /// Writes a run's state and adds its row.
