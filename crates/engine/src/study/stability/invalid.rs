@@ -14,7 +14,7 @@ const FAMILY: &str = "refusals";
 /// Adds the chapter.
 pub fn add(cases: &mut Vec<Case>) {
     for (name, from, to, names) in FIELDS {
-        cases.push(case(name, format!("`{to}`"), names, move || {
+        cases.push(case(name, format!("`{}`", to.replace('\n', "; ")), names, move || {
             let text = Text::small("implicit_euler", "neo_hookean").with(CLAMPED).text().replace(from, to);
             match parse(&text, Path::new("case.toml")) {
                 Ok(scene) => crate::scene::body(&scene, Path::new("")).map(|_| ()).map_err(|error| error.to_string()),

@@ -23,8 +23,11 @@ pub const TIME_STEPS: usize = 11;
 pub struct Map {
     /// Its name.
     pub integrator: &'static str,
-    /// E dt² at which ω_max dt reaches the method's limit, Pa s²; none where it has no limit.
+    /// E dt² beyond which it must explode, Pa s²: where ω_max dt reaches its limit; for methods without a stable step where the
+    /// fastest vibration grows enough within the run. None where it never must.
     pub limit: Option<f64>,
+    /// Steps of the longest run.
+    pub most_steps: usize,
     /// Row by row, from the softest up.
     pub cells: Vec<Cell>,
 }
@@ -90,8 +93,19 @@ fn map(integrator: &'static str, omega: f64, most: usize, clock: Clock) -> Map {
             cells.push(Cell { young, dt, z, steps, expected, outcome: found.outcome, note: found.note });
         }
     }
-    let limit = theory::limit(integrator).filter(|limit| *limit > 0.0).map(|limit| (limit / omega).powi(2));
-    Map { integrator, limit, cells }
+    let limit = largest(integrator, most).map(|z| (z / omega).powi(2));
+    Map { integrator, limit, most_steps: most, cells }
+}
+
+/// ω_max dt below which a run of so many steps survives.
+fn largest(integrator: &str, most: usize) -> Option<f64> {
+    let limit = theory::limit(integrator)?;
+    if limit > 0.0 {
+        return Some(limit);
+    }
+    // Growth rises with z.
+    let explodes = |z: &f64| forecast(integrator, "neo_hookean", *z, most).expected == Outcome::Explodes;
+    (0..4000).map(|i| 10f64.powf(f64::from(i) / 1000.0 - 3.0)).find(explodes)
 }
 
 fn judged(map: &Map) -> Finding {

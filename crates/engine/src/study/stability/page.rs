@@ -11,6 +11,7 @@ pub fn page(table: &Table) -> String {
     let mut body = head(table);
     body.push_str(&failures(table));
     body.push_str(&maps(table));
+    body.push_str(&recovery(table));
     body.push_str(&locking(table));
     body.push_str("<h2>Every case</h2>\n");
     let mut families: Vec<&str> = table.rows.iter().map(|row| row.family).collect();
@@ -31,14 +32,23 @@ fn head(table: &Table) -> String {
         format!("<b>{failed}</b> of {} cases do not end as they must.", counts.rows)
     };
     let of = |outcome: Outcome| table.rows.iter().filter(|row| row.outcome == outcome).count();
-    let ends = [Outcome::Survives, Outcome::Recovers, Outcome::Explodes, Outcome::Refused, Outcome::Locks];
-    let ends = ends.map(|outcome| format!("{} {outcome}", of(outcome))).join(", ");
+    let ends = [
+        (Outcome::Survives, "survive"),
+        (Outcome::Recovers, "return to the shape of rest"),
+        (Outcome::Untangles, "untangle into another balance"),
+        (Outcome::Explodes, "explode with an error that names the step"),
+        (Outcome::Refused, "are refused with an error that names the element or field"),
+        (Outcome::Inverts, "fold where their law allows it"),
+        (Outcome::Locks, "lock"),
+    ];
+    let ends: Vec<String> = ends.iter().map(|(outcome, words)| format!("{} {words}", of(*outcome))).collect();
     format!(
         "<h1>Stiff and extreme cases</h1>\n<p class=\"soft\">What the engine does with bodies and steps that an adversary would \
-         choose.</p>\n<div class=\"answer\">{answer} {ends}; {} panics, {} hangs, {} handed on a NaN. For stiff bodies and long \
-         steps take <b>implicit Euler</b>, which survives all of its maps; explicit methods end with an error that names the \
+         choose.</p>\n<div class=\"answer\">{answer} {}; {} panics, {} hangs, {} NaN handed on. For stiff bodies and long \
+         steps take <b>implicit Euler</b>, which survives all of its map; explicit methods end with an error that names the \
          step as soon as dt passes the line that theory draws.</div>\n<p class=\"soft\">{} rows start from random numbers, {} \
          seeds; the maps hold {} more runs. {}Wall-clock time: {:.0} s.</p>\n",
+        ends.join(", "),
         of(Outcome::Panics),
         of(Outcome::Hangs),
         of(Outcome::NotFinite),
@@ -65,24 +75,35 @@ fn maps(table: &Table) -> String {
     let mut text = "<h2>Stiffness and time step</h2>\n<p>A clamped neo-Hookean box of 2 × 1 × 1 m in cells of 1 m, ρ = 1000 kg/m³, \
         starts in the shape of its fastest vibration, 0.1 mm large. The line is the largest stable step, \
         dt = limit / ω<sub>max</sub>, with ω<sub>max</sub> of M⁻¹K at rest by power iteration. Explicit Euler and RK2 have no \
-        stable step for what vibrates without damping: where they survive, the run is too short for the growth to show.</p>\n\
+        stable step for what vibrates without damping: their line is where the growth shows within the run. × explodes.</p>\n\
         <div class=\"charts\">\n"
         .to_owned();
     for map in &table.maps {
         let exploded = map.cells.iter().filter(|cell| cell.outcome == Outcome::Explodes).count();
         let wrong = map.cells.iter().filter(|cell| cell.outcome != cell.expected).count();
         let caption = format!(
-            "<b>{}</b>: {exploded} of {} pairs explode, {wrong} against the forecast.",
-            escape(&words(map.integrator)),
-            map.cells.len()
+            "<b>{}</b>: {exploded} of {} pairs explode, {wrong} against the forecast; up to {} steps.",
+            words(map.integrator),
+            map.cells.len(),
+            map.most_steps
         );
         text.push_str(&page::figure(&picture(map), &caption));
     }
     text + "</div>\n"
 }
 
-fn words(name: &str) -> String {
-    name.replace('_', " ")
+/// The name of a method for people.
+fn words(name: &str) -> &str {
+    match name {
+        "explicit_euler" => "Explicit Euler",
+        "semi_implicit_euler" => "Semi-implicit Euler",
+        "rk2" => "RK2",
+        "rk4" => "RK4",
+        "verlet" => "Velocity Verlet",
+        "linearly_implicit_euler" => "Linearly implicit Euler",
+        "implicit_euler" => "Implicit Euler",
+        other => other,
+    }
 }
 
 /// The map of a method.
@@ -97,15 +118,16 @@ pub fn picture(map: &Map) -> Picture {
             "E = {:e} Pa, dt = {:.2e} s, dt ω_max = {:.3e}\n{} (expected: {})\n{}",
             cell.young, cell.dt, cell.z, cell.outcome, cell.expected, cell.note
         );
-        Cell { column: i % TIME_STEPS, row: i / TIME_STEPS, shade, text: String::new(), title }
+        let text = if cell.outcome == Outcome::Explodes { "×".to_owned() } else { String::new() };
+        Cell { column: i % TIME_STEPS, row: i / TIME_STEPS, shade, text, title }
     };
     let dt = |column: usize| match column as i32 % PARTS_OF_DT {
         0 => format!("1e{}", column as i32 / PARTS_OF_DT - 5),
         _ => String::new(),
     };
-    let curves = map.limit.map(|limit| ("dt = limit / ω_max".to_owned(), line(limit))).into_iter().collect();
+    let curves = map.limit.map(|limit| (limit_is(map), line(limit))).into_iter().collect();
     HeatMap {
-        label: format!("{}: what survives (green) and what explodes (red)", words(map.integrator)),
+        label: format!("{}: what survives, and what explodes (×)", words(map.integrator)),
         columns: ("time step dt (s)".to_owned(), (0..TIME_STEPS).map(dt).collect()),
         rows: (
             "Young's modulus E (Pa)".to_owned(),
@@ -118,15 +140,49 @@ pub fn picture(map: &Map) -> Picture {
     .draw()
 }
 
+/// What the line of a map is.
+fn limit_is(map: &Map) -> String {
+    match map.integrator {
+        "explicit_euler" | "rk2" => format!("growth by e¹⁸ in {} steps", map.most_steps),
+        _ => "dt = limit / ω max".to_owned(),
+    }
+}
+
 /// E dt² = limit, from the bottom of the map to its top, in columns and rows.
 fn line(limit: f64) -> Vec<(f64, f64)> {
+    let (first, last) = (f64::from(*EXPONENTS_OF_YOUNG.start()), f64::from(*EXPONENTS_OF_YOUNG.end()));
     let place = |exponent: f64| {
         let dt = (limit / 10f64.powf(exponent)).sqrt();
-        let (first, _) = (f64::from(*EXPONENTS_OF_YOUNG.start()), ());
         ((dt.log10() + 5.0) * f64::from(PARTS_OF_DT), exponent - first)
     };
-    let (low, high) = (f64::from(*EXPONENTS_OF_YOUNG.start()) - 0.5, f64::from(*EXPONENTS_OF_YOUNG.end()) + 0.5);
-    vec![place(low), place(high)]
+    vec![place(first - 0.5), place(last + 0.5)]
+}
+
+/// How many of each tangle come back, and how far.
+fn recovery(table: &Table) -> String {
+    let rows: Vec<&Row> = table.rows.iter().filter(|row| row.family == "recovery").collect();
+    let mut kinds: Vec<&str> = Vec::new();
+    for row in &rows {
+        if !kinds.contains(&row.case.as_str()) {
+            kinds.push(&row.case);
+        }
+    }
+    let line = |kind: &&str| {
+        let of = |outcome: Option<Outcome>| {
+            let same =
+                rows.iter().filter(|row| row.case == *kind && outcome.is_none_or(|outcome| row.outcome == outcome));
+            same.count().to_string()
+        };
+        vec![(*kind).to_owned(), of(None), of(Some(Outcome::Recovers)), of(Some(Outcome::Untangles))]
+    };
+    let lines: Vec<Vec<String>> = kinds.iter().map(line).collect();
+    format!(
+        "<h2>Recovery</h2>\n<p>A stable neo-Hookean box of 2 × 1 × 1 m, ν = 0.4, starts from a tangle and moves by implicit Euler, \
+         lightly damped. Mirrored and flattened to a plane it must return to the shape of rest. Where nodes have passed through \
+         each other it must end upright and in balance: elements may then surround an inner edge twice, which no energy of \
+         single elements can tell from rest.</p>\n{}",
+        page::table(&["from", ">seeds", ">in the shape of rest", ">upright, in another balance"], &lines)
+    )
 }
 
 /// What is known to be wrong, with its figures.
