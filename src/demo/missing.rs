@@ -37,13 +37,12 @@ fn text(payload: &(dyn Any + Send)) -> &str {
 /// The list of missing functions where the sources are at hand, else what the one that was called said.
 fn explained(message: &str) -> End {
     let names = unwritten(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"));
-    if names.is_empty() {
-        return End::Stopped(message.to_owned());
-    }
+    let Some(first) = names.first() else { return End::Stopped(message.to_owned()) };
     let width = names.iter().map(String::len).max().unwrap_or_default();
     let lines: String = names.iter().map(|name| format!("\n  {name:width$}  include-docs/{name}.md")).collect();
     End::Stopped(format!(
-        "the scene needs a function that is not written yet; these are left, each with its page:{lines}"
+        "the scene needs a function that is not written yet; these are left, each with its page:{lines}\n\
+         begin with src/{first}.rs; `cargo run -p grader -- check --only {first}` tells when it is right"
     ))
 }
 
