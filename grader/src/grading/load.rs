@@ -4,9 +4,6 @@ use grader::implementation::sandboxed::number;
 use grader_child::wire::Argument;
 use nalgebra::{DVector, Matrix3, Matrix4, Vector3, Vector4};
 
-/// Series of calls, the fastest of which counts.
-pub const SERIES: usize = 3;
-
 const C: f64 = 1e5;
 const D: f64 = 2e5;
 const DENSITY: f64 = 1000.0;

@@ -57,7 +57,8 @@ fn times(grade: &Grade) -> String {
 fn whole_simulation(study: &Study) -> String {
     let mut figure = String::from("<figure>\n<h2>The whole simulation: error against run time</h2>\n");
     if study.runs.is_empty() {
-        return figure + "<p class=\"soft\">There is none: it needs every function, and an end.</p>\n</figure>\n";
+        return figure
+            + "<p class=\"soft\">There is none: it needs functions with which it comes to its end.</p>\n</figure>\n";
     }
     let curves: Vec<Vec<Point>> = curves(&study.runs);
     let silent = study.runs.iter().filter(|run| run.submission.is_none()).count();
