@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use fem_engine::study::stability::study;
+use fem_engine::study::table::split;
 
 /// Largest change of a margin, in parts of its bound or of itself, whichever is more.
 const SAME: f64 = 0.01;
@@ -40,12 +41,12 @@ struct Row {
 /// Every case by its name.
 fn rows(csv: &str) -> BTreeMap<String, Row> {
     let mut lines = csv.lines();
-    let head = fields(lines.next().unwrap_or_default());
+    let head = split(lines.next().unwrap_or_default());
     let column = |name: &str| head.iter().position(|found| found == name).unwrap_or_else(|| panic!("no column {name}"));
     let names = ["family", "case", "parameters", "integrator", "material", "seed"].map(column);
     let [expected, outcome, margin, margin_is] = ["expected", "outcome", "margin", "margin_is"].map(column);
     let row = |line: &str| {
-        let fields = fields(line);
+        let fields = split(line);
         // A tangle may unwind into one balance or another, by its last digits.
         let is_steady = !fields[margin_is].contains("round-off") && fields[expected] != "untangles";
         let row = Row {
@@ -59,22 +60,6 @@ fn rows(csv: &str) -> BTreeMap<String, Row> {
     lines.map(row).collect()
 }
 
-/// The fields of a line; inside quotes a comma is one, and two quotes are one.
-fn fields(line: &str) -> Vec<String> {
-    let mut fields = vec![String::new()];
-    let mut is_quoted = false;
-    let mut characters = line.chars().peekable();
-    while let Some(character) = characters.next() {
-        match character {
-            '"' if is_quoted && characters.next_if_eq(&'"').is_some() => fields.last_mut().unwrap().push('"'),
-            '"' => is_quoted = !is_quoted,
-            ',' if !is_quoted => fields.push(String::new()),
-            other => fields.last_mut().unwrap().push(other),
-        }
-    }
-    fields
-}
-
 fn change(stored: &Row, found: &Row) -> Option<String> {
     let same_end = (&stored.expected, &stored.outcome) == (&found.expected, &found.outcome);
     let same_margin = match (stored.margin, found.margin) {
@@ -83,11 +68,6 @@ fn change(stored: &Row, found: &Row) -> Option<String> {
     };
     let is_same = same_end && (same_margin || !found.is_steady);
     (!is_same).then(|| format!("{stored:?} has become {found:?}"))
-}
-
-#[test]
-fn quoted_commas_are_no_ends_of_fields() {
-    assert_eq!(fields("a,\"b, \"\"c\"\"\",,d"), ["a", "b, \"c\"", "", "d"]);
 }
 
 #[test]

@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::case::Row;
 use super::map::Map;
 use super::page;
+use crate::study::table::csv_of;
 
 /// All that a study has found.
 #[derive(Clone, Debug, Serialize)]
@@ -61,41 +62,47 @@ impl Table {
 
     /// A line for each row, with a head.
     pub fn csv(&self) -> String {
-        let mut text =
-            "family,case,parameters,integrator,material,seed,expected,outcome,margin,pass,margin_is,note\n".to_owned();
-        for row in &self.rows {
-            let seed = row.seed.map_or(String::new(), |seed| seed.to_string());
-            // Four digits say all that another machine will say too.
-            let margin = row.margin.map_or(String::new(), |margin| format!("{margin:.3e}"));
-            let fields = [
-                row.family,
-                &row.case,
-                &row.parameters,
-                &row.integrator,
-                &row.material,
-                &seed,
-                row.expected.name(),
-                row.outcome.name(),
-                &margin,
-                if row.pass { "true" } else { "false" },
-                row.margin_is,
-                &row.note,
-            ];
-            let line: Vec<String> = fields.iter().map(|field| quoted(field)).collect();
-            text.push_str(&line.join(","));
-            text.push('\n');
-        }
-        text
+        let rows: Vec<Vec<String>> = self.rows.iter().map(cells).collect();
+        csv_of(&COLUMNS, &rows)
     }
 }
 
-/// A field of RFC 4180.
-fn quoted(field: &str) -> String {
-    if field.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", field.replace('"', "\"\""))
-    } else {
-        field.to_owned()
-    }
+const COLUMNS: [&str; 12] = [
+    "family",
+    "case",
+    "parameters",
+    "integrator",
+    "material",
+    "seed",
+    "expected",
+    "outcome",
+    "margin",
+    "pass",
+    "margin_is",
+    "note",
+];
+
+fn cells(row: &Row) -> Vec<String> {
+    let seed = row.seed.map_or(String::new(), |seed| seed.to_string());
+    // Four digits say all that another machine will say too.
+    let margin = row.margin.map_or(String::new(), |margin| format!("{margin:.3e}"));
+    // A message of several lines becomes one, so that a row is a line.
+    let note = row.note.lines().map(str::trim).collect::<Vec<_>>().join(" ");
+    let cells = [
+        row.family,
+        &row.case,
+        &row.parameters,
+        &row.integrator,
+        &row.material,
+        &seed,
+        row.expected.name(),
+        row.outcome.name(),
+        &margin,
+        if row.pass { "true" } else { "false" },
+        row.margin_is,
+        &note,
+    ];
+    cells.map(str::to_owned).to_vec()
 }
 
 /// Writes `stability.csv`, `stability.json` and `stability.html` into a folder, and a picture of each map.
@@ -108,15 +115,4 @@ pub fn write(table: &Table, folder: &Path) -> io::Result<()> {
         std::fs::write(folder.join(format!("stability-{}.svg", map.integrator)), picture)?;
     }
     std::fs::write(folder.join("stability.html"), page::page(table))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::quoted;
-
-    #[test]
-    fn commas_and_quotes_stay_inside_their_field() {
-        assert_eq!(quoted("a, \"b\""), "\"a, \"\"b\"\"\"");
-        assert_eq!(quoted("plain"), "plain");
-    }
 }
