@@ -159,7 +159,7 @@ fn midpoint(equations: &Equations, now: &Phase, time: f64, step: f64, substeps: 
     let mut at = now.clone();
     for m in 0..substeps {
         equations.accelerations(&at[0], &at[1], time + m as f64 * h, a, scratch);
-        let (from, length) = if m == 0 { (&*now, h) } else { (&*previous, 2.0 * h) };
+        let (from, length) = if m == 0 { (now, h) } else { (&*previous, 2.0 * h) };
         for ((next, from), v) in next[0].iter_mut().zip(&from[0]).zip(&at[1]) {
             *next = std::array::from_fn(|i| from[i] + length * v[i]);
         }

@@ -107,11 +107,8 @@ impl HeatMap {
     }
 
     fn legend(&self) -> Vec<(String, String)> {
-        let entry = |(i, (name, _)): (usize, &(String, Vec<(f64, f64)>))| {
-            let curve = format!("<polyline class=\"limit k{}\" points=\"-8,0 8,0\"/>", i % COLOURS);
-            (name.clone(), curve)
-        };
-        self.curves.iter().enumerate().map(entry).collect()
+        let curve = |i: usize| format!("<polyline class=\"limit k{}\" points=\"-8,0 8,0\"/>", i % COLOURS);
+        self.curves.iter().enumerate().map(|(i, (name, _))| (name.clone(), curve(i))).collect()
     }
 }
 
