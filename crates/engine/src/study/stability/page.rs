@@ -3,6 +3,7 @@
 use super::case::{Outcome, Row};
 use super::map::{EXPONENTS_OF_YOUNG, Map, PARTS_OF_DT, TIME_STEPS};
 use super::output::Table;
+use super::poisson::CANTILEVER;
 use crate::study::page;
 use crate::study::svg::{Cell, HeatMap, Picture, Shade, escape};
 
@@ -85,7 +86,7 @@ fn maps(table: &Table) -> String {
             "<b>{}</b>: {exploded} of {} pairs explode, {wrong} against the forecast; up to {} steps.",
             words(map.integrator),
             map.cells.len(),
-            map.most_steps
+            map.cells.iter().map(|cell| cell.steps).max().unwrap_or_default()
         );
         text.push_str(&page::figure(&picture(map), &caption));
     }
@@ -187,20 +188,38 @@ fn recovery(table: &Table) -> String {
 
 /// What is known to be wrong, with its figures.
 fn locking(table: &Table) -> String {
-    let beams: Vec<&Row> = table.rows.iter().filter(|row| row.case.contains("Timoshenko")).collect();
-    if beams.is_empty() {
-        return String::new();
-    }
-    let line = |row: &&Row| {
-        vec![row.parameters.clone(), row.margin.map_or(String::new(), |m| format!("{m:.3}")), row.outcome.to_string()]
+    let beams: Vec<&Row> = table.rows.iter().filter(|row| row.case == CANTILEVER).collect();
+    // Poisson's ratio and cells, as the rows write them.
+    let parts = |row: &Row| -> [String; 2] {
+        let mut parts = row.parameters.split(", ").map(str::to_owned);
+        [parts.next().unwrap_or_default(), parts.last().unwrap_or_default()]
     };
-    let lines: Vec<Vec<String>> = beams.iter().map(line).collect();
+    let mut sides: [Vec<String>; 2] = [Vec::new(), Vec::new()];
+    for row in &beams {
+        for (side, part) in sides.iter_mut().zip(parts(row)) {
+            if !side.contains(&part) {
+                side.push(part);
+            }
+        }
+    }
+    let [ratios, meshes] = sides;
+    let cell = |ratio: &String, mesh: &String| {
+        let row = beams.iter().find(|row| parts(row) == [ratio.clone(), mesh.clone()]);
+        let margin = row.and_then(|row| row.margin).map_or(String::new(), |margin| format!("{margin:.3}"));
+        if row.is_some_and(|row| row.outcome == Outcome::Locks) { format!("<b>{margin}</b>") } else { margin }
+    };
+    let line =
+        |ratio: &String| [ratio.clone()].into_iter().chain(meshes.iter().map(|mesh| cell(ratio, mesh))).collect();
+    let lines: Vec<Vec<String>> = ratios.iter().map(line).collect();
+    let head: Vec<String> =
+        ["Poisson's ratio".to_owned()].into_iter().chain(meshes.iter().map(|mesh| format!(">{mesh}"))).collect();
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
     format!(
         "<h2>Locking</h2>\n<p>Linear tetrahedra bend too little, and near ν = ½ hardly at all: every element keeps its own volume, \
          and the mesh has more elements than directions to move in. A finer mesh helps little there. Nothing in the engine mends \
-         this yet; trust no bending of nearly incompressible bodies. The tip of a cantilever moves by these parts of what \
-         Timoshenko's theory says:</p>\n{}",
-        page::table(&["cantilever", ">part of theory", "outcome"], &lines)
+         this yet; trust no bending of nearly incompressible bodies. The tip of a cantilever of 8 × 1 × 1 m moves by these parts \
+         of what Timoshenko's theory says; what is locked, below one half, is bold:</p>\n{}",
+        page::table(&head, &lines)
     )
 }
 

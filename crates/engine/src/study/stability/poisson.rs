@@ -10,6 +10,9 @@ const FAMILY: &str = "Poisson's ratio";
 
 const POISSON: [f64; 6] = [0.0, 0.3, 0.45, 0.49, 0.499, 0.4999];
 
+/// The case that tells of locking.
+pub const CANTILEVER: &str = "slender cantilever beside Timoshenko's";
+
 /// A tip that moves by less than this part of what theory says is locked.
 const LOCKED: f64 = 0.5;
 
@@ -55,7 +58,7 @@ fn cantilever(poisson: f64, cells: usize) -> Case {
     let text = Text { mesh, poisson, young: 1e6, dt: 1.0, ..Text::small("static", "linear") }.with(CLAMPED).with(end);
     Case {
         family: FAMILY,
-        case: "slender cantilever beside Timoshenko's".to_owned(),
+        case: CANTILEVER.to_owned(),
         parameters: format!("nu = {poisson}, 8 x 1 x 1 m, {cells} cells a metre"),
         integrator: "static".to_owned(),
         material: "linear".to_owned(),

@@ -107,8 +107,8 @@ impl HeatMap {
     }
 
     fn legend(&self) -> Vec<(String, String)> {
-        let curve = |i: usize| format!("<polyline class=\"limit k{}\" points=\"-8,0 8,0\"/>", i % COLOURS);
-        self.curves.iter().enumerate().map(|(i, (name, _))| (name.clone(), curve(i))).collect()
+        let mark = |i: usize| format!("<polyline class=\"limit k{}\" points=\"-8,0 8,0\"/>", i % COLOURS);
+        self.curves.iter().enumerate().map(|(i, (name, _))| (name.clone(), mark(i))).collect()
     }
 }
 
