@@ -20,8 +20,9 @@ pub use sources::names;
 /// By the clock on the wall, rustc may take so many times its limit: a busy machine is no fault of a submission.
 const PATIENCE: u32 = 6;
 
-/// Part of its limit after which a compiler that was killed is one that did not finish: processor time is counted coarsely.
-const ALMOST: f64 = 0.95;
+/// Part of its limit after which a compiler that was killed is one that did not finish: the kernel counts processor time in two ways,
+/// which differ on a busy machine.
+const ALMOST: f64 = 0.7;
 
 /// What goes into a program.
 #[derive(Clone)]
@@ -167,7 +168,7 @@ pub fn attempt(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Pat
         Attempt::Built(program)
     } else if ended.timed_out || (ended.signal.is_some() && ended.seconds >= ALMOST * plan.limit.as_secs_f64()) {
         Attempt::GaveUp(format!("the compiler did not finish within {} s", plan.limit.as_secs_f64()))
-    } else if ended.stderr.starts_with(b"{") {
+    } else if ended.signal.is_none() && ended.stderr.starts_with(b"{") {
         let mut found = faults(&String::from_utf8_lossy(&ended.stderr));
         found.retain(|name, _| plan.own.contains_key(name));
         Attempt::Failed(found)
