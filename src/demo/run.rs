@@ -20,7 +20,7 @@ pub struct Ready {
     pub simulation: Box<dyn Simulation>,
     pub seconds_setup: f64,
     pub steps: usize,
-    /// The direction that is up in a picture: against gravity, y where there is none.
+    /// The direction that is up in a picture: against gravity, or against a cantilever's load; y where there is neither.
     pub up: Vector3<f64>,
     /// Timoshenko's displacement of the tip, m, where the scene is a cantilever.
     pub expected_tip: Option<Vector3<f64>>,
@@ -65,14 +65,11 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
     };
     let seconds_setup = start.elapsed().as_secs_f64();
     let down = scene.gravity.as_ref().and_then(|gravity| Vector3::from(gravity.acceleration).try_normalize(0.0));
+    let expected_tip = cantilever::expected_tip_displacement(scene);
+    // Without gravity a cantilever bends downwards.
+    let down = down.or_else(|| expected_tip.and_then(|tip| tip.try_normalize(0.0)));
     let up = down.map_or(Vector3::y(), |down| -down);
-    Ok(Ready {
-        simulation,
-        seconds_setup,
-        steps: steps(scene),
-        up,
-        expected_tip: cantilever::expected_tip_displacement(scene),
-    })
+    Ok(Ready { simulation, seconds_setup, steps: steps(scene), up, expected_tip })
 }
 
 /// Those that the scene says; else its load steps where it is static.

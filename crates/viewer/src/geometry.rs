@@ -25,6 +25,11 @@ impl Bounds {
         finite.fold(Bounds { low: first, high: first }, grow)
     }
 
+    /// The box around both.
+    pub fn joined(&self, other: &Self) -> Self {
+        Bounds { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
     /// The middle of the box, m.
     pub fn center(&self) -> Vec3 {
         (self.low + self.high) / 2.0

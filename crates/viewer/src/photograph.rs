@@ -13,7 +13,7 @@ use thiserror::Error;
 
 use crate::camera::OrbitCamera;
 use crate::display::{adapter_available, without_panic};
-use crate::geometry::{points, single};
+use crate::geometry::{Bounds, points, single};
 use crate::pictures::Photograph;
 use crate::stage::{Shown, Stage, prepare};
 
@@ -111,7 +111,8 @@ fn serve(width: u32, height: u32, orders: &Receiver<Order>, answer: &Sender<Resu
 /// Where pictures are taken.
 struct Room {
     // What lies on the graphics card is dropped before the card: fields are dropped from the first to the last.
-    stage: Option<(Arc<Shape>, Vec3, Stage)>,
+    /// The body, which way is up, what is drawn, and the box of all places where it has been.
+    stage: Option<(Arc<Shape>, Vec3, Stage, Bounds)>,
     surface: OffscreenSurface,
 }
 
@@ -125,17 +126,19 @@ impl Room {
 
     fn draw(&mut self, order: Order) -> Photograph {
         let Order { shape, positions, display, shown, up } = order;
-        let (_, _, stage) = match self.stage.take() {
+        let (_, _, stage, framed) = match self.stage.take() {
             Some(stage) if Arc::ptr_eq(&stage.0, &shape) && stage.1 == up => self.stage.insert(stage),
             _ => {
                 let stage = Stage::new(&shape, up);
-                self.stage.insert((shape, up, stage))
+                let framed = *stage.bounds();
+                self.stage.insert((shape, up, stage, framed))
             }
         };
         stage.show(shown);
-        stage.place(&positions, &display);
+        // A body that has left its place is not cut off: the camera steps back, and stays there.
+        *framed = framed.joined(&stage.place(&positions, &display));
         let size = Vec2::new(self.surface.width() as f32, self.surface.height() as f32);
-        let mut camera = OrbitCamera::framing(stage.bounds(), up, size, 0.0);
+        let mut camera = OrbitCamera::framing(framed, up, size, 0.0);
         stage.draw_edges(self.surface.window_mut(), &positions, camera.eye());
         pollster::block_on(self.surface.render_3d(&mut stage.root, &mut camera));
         Photograph::new(self.surface.snap_image())

@@ -84,19 +84,20 @@ impl Stage {
         self.mesh.set_visible(self.shown == Shown::SimulationMesh);
     }
 
-    /// Moves the shown surface to where the body is now.
-    pub fn place(&mut self, positions: &[Vec3], display: &[Vec3]) {
+    /// Moves the shown surface to where the body is now, and gives the box around it.
+    pub fn place(&mut self, positions: &[Vec3], display: &[Vec3]) -> Bounds {
         let shown = match (&mut self.skin, self.shown) {
             (Some(skin), Shown::Skinned) => skin.place(display),
             _ => self.mesh.place(positions),
         };
-        self.lower_floor(shown);
+        self.lower_floor(&shown);
+        shown
     }
 
     /// The floor makes room for a body that comes lower than it, and stays there.
-    fn lower_floor(&mut self, body: Bounds) {
+    fn lower_floor(&mut self, body: &Bounds) {
         let mut surroundings = self.surroundings.borrow_mut();
-        let lowest = floor_under(&body, surroundings.up, surroundings.radius);
+        let lowest = floor_under(body, surroundings.up, surroundings.radius);
         if lowest < surroundings.floor {
             let up = surroundings.up;
             self.floor.modify_vertices(&mut |corners| {
