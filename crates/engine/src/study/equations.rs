@@ -17,12 +17,15 @@ use crate::materials::Material;
 pub struct Equations {
     /// The body.
     pub system: System<f64>,
-    /// Factors of the mass of nodes that are free in some direction, and the directions that each is for.
-    masses: Vec<Shared>,
+    /// Of the nodes that are free in some direction.
+    masses: Vec<MassFactor>,
     drag_stiffness: f64,
     /// Whether nodes are led along a motion, which [`accelerations`](Self::accelerations) do not follow.
     pub is_led: bool,
 }
+
+/// Nodes, the factor of their mass, and the directions that it is for.
+type MassFactor = (Vec<usize>, Ldl, [bool; 3]);
 
 /// What evaluations write to.
 #[derive(Clone, Debug, Default)]
@@ -121,19 +124,16 @@ impl Equations {
     }
 }
 
-/// Free nodes, the factor of their mass, and the directions in which just these are free.
-type Shared = (Vec<usize>, Ldl, [bool; 3]);
-
 /// Multiplications of the power method.
 const POWERS: usize = 60;
 
 /// Directions that are free at the same nodes share a factor.
-fn masses(scene: &Scene, system: &System<f64>) -> Result<Vec<Shared>, String> {
+fn masses(scene: &Scene, system: &System<f64>) -> Result<Vec<MassFactor>, String> {
     let mut is_free = vec![[1.0; 3]; system.nodes()];
     system.held.clear(&mut is_free);
     let free = |axis: usize| (0..system.nodes()).filter(|&node| is_free[node][axis] > 0.0).collect::<Vec<_>>();
     let lists = [free(0), free(1), free(2)];
-    let mut masses: Vec<Shared> = Vec::new();
+    let mut masses: Vec<MassFactor> = Vec::new();
     for (axis, nodes) in lists.into_iter().enumerate() {
         if let Some((_, _, directions)) = masses.iter_mut().find(|(known, ..)| *known == nodes) {
             directions[axis] = true;

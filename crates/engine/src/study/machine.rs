@@ -39,6 +39,11 @@ impl Machine {
         }
     }
 
+    /// Whether more wanted to run than can: times are longer then than they need to be.
+    pub fn is_busy(&self) -> bool {
+        self.load.parse::<f64>().is_ok_and(|load| load > self.threads as f64)
+    }
+
     /// One line for people.
     pub fn line(&self) -> String {
         let Self { cpu, threads, flags, commit, date, load } = self;

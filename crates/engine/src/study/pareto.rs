@@ -31,10 +31,13 @@ impl Standing {
     }
 }
 
+/// Errors that differ by less than this factor are as good as the same.
+pub const AS_EXACT: f64 = 1.02;
+
 /// The standing of each. Errors and times must be finite.
 pub fn standings(runs: &[Contender]) -> Vec<Standing> {
     let of = |(i, run): (usize, &Contender)| {
-        let rivals = runs.iter().enumerate().filter(|(j, rival)| *j != i && rival.error <= run.error);
+        let rivals = runs.iter().enumerate().filter(|(j, rival)| *j != i && rival.error <= AS_EXACT * run.error);
         let rivals: Vec<_> = rivals.map(|(_, rival)| rival).collect();
         if rivals.iter().any(|rival| rival.time.1 < run.time.0) {
             Standing::Dominated
@@ -65,6 +68,12 @@ mod tests {
     fn within_the_spread_nobody_wins() {
         let runs = [run(1e-2, 1.0, 1.2), run(1e-2, 1.1, 1.3)];
         assert_eq!(standings(&runs), [Standing::Tie, Standing::Tie]);
+    }
+
+    #[test]
+    fn a_hundredth_of_an_error_is_no_advantage() {
+        let runs = [run(1.0e-3, 1.0, 1.1), run(1.01e-3, 0.5, 0.6)];
+        assert_eq!(standings(&runs), [Standing::Dominated, Standing::Front]);
     }
 
     #[test]

@@ -60,10 +60,13 @@ pub struct SceneStudy {
     pub left_out: Vec<(String, String)>,
 }
 
-/// Time that a single run may take, s.
+/// Processor time that a single run may take, s.
 fn most_seconds(is_quick: bool) -> f64 {
-    if is_quick { 2.0 } else { 6.0 }
+    if is_quick { 2.0 } else { 4.0 }
 }
+
+/// Times that by which a run may be longer by the clock, before it is given up.
+const GIVEN_UP: f64 = 8.0;
 
 /// Which runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -143,9 +146,9 @@ fn first_runs(
                 study.left_out.push((what, format!("would take {expected:.0} s")));
                 continue;
             }
-            match first(setting.factory, &run, 3.0 * most_seconds(setting.is_quick)) {
+            match first(setting.factory, &run, GIVEN_UP * most_seconds(setting.is_quick)) {
                 Ok(outcome) => {
-                    before = Some((outcome.timing.total(), outcome.timing.steps.len()));
+                    before = Some((outcome.spent, outcome.timing.steps.len()));
                     bodies.add_row(&run, &outcome, study)?;
                     done.push((run, outcome));
                 }

@@ -9,7 +9,12 @@ use crate::study::text::number;
 pub fn head(report: &Report) -> String {
     let quick =
         if report.is_quick { " This is the short version: small meshes, few steps; times mean little." } else { "" };
-    format!("<h1>Error against run time</h1>\n<p class=\"soft\">{}.{quick}</p>\n", escape(&report.machine.line()))
+    let busy = if report.machine.is_busy() {
+        " Other work kept this machine busy: times by the clock are longer than they need to be, and processor times tell more."
+    } else {
+        ""
+    };
+    format!("<h1>Error against run time</h1>\n<p class=\"soft\">{}.{quick}{busy}</p>\n", escape(&report.machine.line()))
 }
 
 /// The end of the page.

@@ -11,7 +11,7 @@ use crate::study::text::{number, percent, seconds, step, trimmed};
 pub fn html(study: &SceneStudy) -> String {
     let name = escape(&study.name);
     let mut html = format!("<h2 id=\"{name}\">{name}</h2>\n<p class=\"soft\">{}</p>\n", escape(&intro(study)));
-    let caption = "Each dot is a run; rest on it, or touch it, to see which. Rings mark the Pareto front: whatever is as exact is \
+    let caption = "Each dot is a run; rest on it, or touch it, to see which. Rings mark the Pareto front: whatever is as exact, to 2 %, is \
         slower, beyond the quartiles of both (the short lines). Dotted: 4 and 16 ms for each 1/60 s of motion.";
     html.push_str(&figure(&charts::error_against_time(study), caption));
     html.push_str("<h3>Runs that no other beats</h3>\n");

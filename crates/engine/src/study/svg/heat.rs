@@ -32,6 +32,9 @@ pub struct Cell {
     pub title: String,
 }
 
+/// A line over a map: its name, and its places.
+pub type Curve = (String, Vec<(f64, f64)>);
+
 /// Two parameters, a cell for each pair of their values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
@@ -44,7 +47,7 @@ pub struct HeatMap {
     /// In any order; a pair without one stays empty.
     pub cells: Vec<Cell>,
     /// Lines over it, with their names; places are columns and rows, where a cell's middle is a whole number.
-    pub curves: Vec<(String, Vec<(f64, f64)>)>,
+    pub curves: Vec<Curve>,
     /// Pixels of a cell.
     pub cell: (f64, f64),
 }

@@ -11,7 +11,7 @@ mod heat;
 pub use axis::{Axis, Scale};
 pub use bars::{Bar, bars};
 pub use chart::{Chart, Dot, Guide, Series};
-pub use heat::{Cell, HeatMap, Shade};
+pub use heat::{Cell, Curve, HeatMap, Shade};
 
 /// Colours of all pictures, light and dark.
 pub const STYLE: &str = include_str!("../picture.css");
