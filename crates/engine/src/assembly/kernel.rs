@@ -3,7 +3,7 @@
 use simba::simd::{SimdPartialOrd, SimdValue};
 
 use super::Batch;
-use crate::materials::Law;
+use crate::materials::{Law, OfInvariants};
 use crate::number::Real;
 use crate::tensor::{Tensor, Tensor4, dot, zero};
 
@@ -98,15 +98,66 @@ pub(super) fn corner_blocks<T: Real, const D: usize>(
     blocks
 }
 
-/// All blocks with row ≥ column of an element's Hessian: a translation costs nothing, so the first corner's are what makes
-/// each row of blocks sum up to zero.
+/// The same blocks for a law of invariants, without the 81 entries of H. With f_a = F ∇φ_a and c_a = cof ∇φ_a they are
+/// V (a ∇φ_a·∇φ_b 1 + s f_a⊗f_b + t (f_a⊗c_b + c_a⊗f_b) + r c_a⊗c_b + b [F (∇φ_a × ∇φ_b)]), where [w]_ik = ε_ikm w_m.
+#[inline(always)]
+pub(super) fn invariant_blocks<T: Real, const D: usize>(
+    batch: &Batch<T, D>,
+    terms: &OfInvariants<T::Lanes>,
+) -> [[LaneBlock<T, D>; D]; D] {
+    let zero = T::Lanes::splat(T::default());
+    let OfInvariants { F, cof, a, b, s, t, r } = *terms;
+    let (a, b) = (a * batch.volume, b * batch.volume);
+    let mut blocks = [[[[zero; D]; D]; D]; D];
+    let (mut g, mut f, mut c) = ([[zero; 3]; D], [[zero; D]; D], [[zero; D]; D]);
+    for e in 0..D {
+        g[e][..D].copy_from_slice(&batch.inverse[e]);
+        for i in 0..D {
+            f[e][i] = F[i][0] * g[e][0] + F[i][1] * g[e][1] + F[i][2] * g[e][2];
+            c[e][i] = cof[i][0] * g[e][0] + cof[i][1] * g[e][1] + cof[i][2] * g[e][2];
+        }
+    }
+    for column in 0..D {
+        let (mut of_f, mut of_c) = ([zero; D], [zero; D]);
+        for k in 0..D {
+            of_f[k] = (s * f[column][k] + t * c[column][k]) * batch.volume;
+            of_c[k] = (t * f[column][k] + r * c[column][k]) * batch.volume;
+        }
+        for row in column..D {
+            let (x, y) = (&g[row], &g[column]);
+            let along = a * (x[0] * y[0] + x[1] * y[1] + x[2] * y[2]);
+            let block = &mut blocks[row][column];
+            for i in 0..D {
+                for k in 0..D {
+                    block[i][k] = f[row][i] * of_f[k] + c[row][i] * of_c[k];
+                }
+                block[i][i] += along;
+            }
+            if row == column {
+                continue;
+            }
+            let cross = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
+            for i in 0..D {
+                let k = (i + 1) % 3;
+                if k < D {
+                    let m = 3 - i - k;
+                    let w = b * (F[m][0] * cross[0] + F[m][1] * cross[1] + F[m][2] * cross[2]);
+                    block[i][k] += w;
+                    block[k][i] -= w;
+                }
+            }
+        }
+    }
+    blocks
+}
+
+/// All blocks with row ≥ column of an element's Hessian, from those of all corners but the first: a translation costs nothing, so
+/// the first corner's are what makes each row of blocks sum up to zero.
 #[inline(always)]
 pub(super) fn element_hessian<T: Real, const D: usize, const N: usize>(
-    batch: &Batch<T, D>,
-    H: &Tensor4<T::Lanes>,
+    inner: &[[LaneBlock<T, D>; D]; D],
 ) -> [[LaneBlock<T, D>; N]; N] {
     let zero = T::Lanes::splat(T::default());
-    let inner = corner_blocks(batch, H);
     let mut all = [[[[zero; D]; D]; N]; N];
     for a in 0..D {
         for b in 0..=a {

@@ -1,7 +1,10 @@
 //! The passes over all elements.
 
 use super::build::NONE;
-use super::kernel::{corner_gradients, displacement_gradient, element_hessian, energy, squares};
+use super::kernel::{
+    LaneBlock, corner_blocks, corner_gradients, displacement_gradient, element_hessian, energy, invariant_blocks,
+    squares,
+};
 use super::split::over_chunks;
 use super::{Batch, Chunk, Elements};
 use crate::materials::Law;
@@ -9,7 +12,7 @@ use simba::simd::SimdValue;
 
 use crate::number::{Real, constant};
 use crate::sparse::Block;
-use crate::tensor::{Tensor4, from_fn, volume_change};
+use crate::tensor::{from_fn, volume_change};
 
 impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     /// Elastic energy at displacements `u` of all nodes, J; not finite where the law does not allow an element.
@@ -111,18 +114,15 @@ fn scatter<T: Real, const D: usize, const N: usize>(
     }
 }
 
-/// Adds `factor` times the Hessian of a batch to the rows of its chunk.
+/// Adds the Hessian of a batch, of which the blocks of all corners but the first are given, to the rows of its chunk.
 #[inline(always)]
 fn add_hessian<T: Real, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
     batch: usize,
-    H: &Tensor4<T::Lanes>,
-    factor: T::Lanes,
+    inner: &[[LaneBlock<T, D>; D]; D],
     values: &mut [Block<T, D>],
 ) {
-    let mut scaled = chunk.batches[batch];
-    scaled.volume *= factor;
-    let hessian = element_hessian::<T, D, N>(&scaled, H);
+    let hessian = element_hessian::<T, D, N>(inner);
     let targets = &chunk.targets[batch * T::WIDTH..(batch + 1) * T::WIDTH];
     for a in 0..N {
         for b in 0..=a {
@@ -195,7 +195,13 @@ fn add_stiffness_of<T: Real, L: Law<T::Lanes>, const D: usize, const N: usize>(
     let factor = T::Lanes::splat(factor);
     for (i, (batch, corners)) in batches(chunk).enumerate() {
         let G = displacement_gradient(batch, corners, u);
-        add_hessian(chunk, i, &law.derivative(&G), factor, values);
+        let mut scaled = *batch;
+        scaled.volume *= factor;
+        let inner = match law.of_invariants(&G) {
+            Some(terms) => invariant_blocks(&scaled, &terms),
+            None => corner_blocks(&scaled, &law.derivative(&G)),
+        };
+        add_hessian(chunk, i, &inner, values);
     }
 }
 

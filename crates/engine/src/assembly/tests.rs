@@ -1,10 +1,11 @@
 use nalgebra::{SVector, Vector3};
 
 use super::Elements;
-use crate::materials::NeoHookean;
+use crate::materials::{Law, NeoHookean, StableNeoHookean};
 use crate::mesh::box_mesh;
-use crate::number::Real;
+use crate::number::{Number, Real};
 use crate::sparse::{Pattern, Stored, multiply};
+use crate::tensor::{Tensor, Tensor4};
 
 const C: f64 = 2e5;
 const D: f64 = 1e6;
@@ -181,4 +182,47 @@ fn rows_beyond_the_pattern_have_forces_but_no_stiffness() {
     let u = vec![[0.0; 3]; 8];
     few.add_stiffness(law::<f64>(), 1.0, &u, &mut values);
     assert!(values.iter().all(|block| block.as_flattened().iter().any(|&x| x != 0.0)));
+}
+
+/// A law that gives the entries of its derivative only.
+#[derive(Clone, Copy)]
+struct Entries<L>(L);
+
+impl<T: Number, L: Law<T>> Law<T> for Entries<L> {
+    fn energy(&self, G: &Tensor<T>) -> T {
+        self.0.energy(G)
+    }
+
+    fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
+        self.0.stress(G)
+    }
+
+    fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
+        self.0.derivative(G)
+    }
+}
+
+fn blocks_of_both_kinds_are_alike<const D: usize, const N: usize>(
+    case: &Case<D, N>,
+    law: impl Law<<f64 as Real>::Lanes>,
+) {
+    let mut values = [vec![[[0.0; D]; D]; case.pattern.blocks()], vec![[[0.0; D]; D]; case.pattern.blocks()]];
+    case.elements.add_stiffness(law, 2.0, &case.u, &mut values[0]);
+    case.elements.add_stiffness(Entries(law), 2.0, &case.u, &mut values[1]);
+    let [short, long] = values.map(|values| values.as_flattened().as_flattened().to_vec());
+    let size = long.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    for (short, long) in short.iter().zip(&long) {
+        assert!((short - long).abs() <= 1e-13 * size, "{short} {long}");
+    }
+}
+
+#[test]
+fn blocks_from_invariants_are_those_from_all_entries_of_the_derivative() {
+    use simba::simd::SimdValue;
+    let lanes = <f64 as Real>::Lanes::splat;
+    let stable = StableNeoHookean { mu: lanes(C), lambda: lanes(D) };
+    blocks_of_both_kinds_are_alike(&tetrahedra(2), law::<f64>());
+    blocks_of_both_kinds_are_alike(&tetrahedra(2), stable);
+    blocks_of_both_kinds_are_alike(&triangles(), law::<f64>());
+    blocks_of_both_kinds_are_alike(&triangles(), stable);
 }

@@ -6,6 +6,7 @@
 
 mod cauchy;
 mod corotated;
+mod invariants;
 mod isotropic;
 mod linear;
 mod material;
@@ -18,6 +19,7 @@ mod tests;
 
 pub use cauchy::{cauchy_stress, von_mises};
 pub use corotated::Corotated;
+pub use invariants::OfInvariants;
 pub use linear::Linear;
 pub(crate) use material::with_law;
 pub use material::{Material, allows_inversion};
@@ -39,6 +41,12 @@ pub trait Law<T: Number>: Copy + Send + Sync {
 
     /// `∂P/∂F`, Pa, exact and symmetric.
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T>;
+
+    /// What the derivative is made of, where it is that of a law of invariants: much less than its 81 entries.
+    #[inline(always)]
+    fn of_invariants(&self, _G: &Tensor<T>) -> Option<OfInvariants<T>> {
+        None
+    }
 }
 
 /// A law whose derivative can be made positive semi-definite, element by element.

@@ -4,13 +4,9 @@
 //! P = a F + b cof, a = 2Cg, b = C I g' + 2D (J − 1), and
 //! ∂P/∂F = a 1 + 2Cg' (F⊗cof + cof⊗F) + (C I g'' + 2D) cof⊗cof + b ∂cof/∂F.
 
-use super::isotropic::{derivative_from, from_invariants, projected};
-use super::{Law, Projected, singular};
+use super::{Law, OfInvariants, Projected};
 use crate::number::{Number, constant, inverse_cube_root};
-use crate::tensor::{
-    Tensor, Tensor4, add_cofactor_derivative, add_diagonal, cofactor, dot, from_fn, outer_products, plus_identity,
-    trace, volume_change,
-};
+use crate::tensor::{Tensor, Tensor4, cofactor, dot, from_fn, plus_identity, trace, volume_change};
 
 /// Moduli, Pa. Small strain: μ = 2C, bulk modulus 2D.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,21 +17,9 @@ pub struct NeoHookean<T> {
     pub D: T,
 }
 
-/// Powers of J that stress and derivative share.
-struct Terms<T> {
-    F: Tensor<T>,
-    cof: Tensor<T>,
-    a: T,
-    b: T,
-    /// C g'
-    c1: T,
-    /// C I g'' + 2D
-    c2: T,
-}
-
 impl<T: Number> NeoHookean<T> {
     #[inline(always)]
-    fn terms(&self, G: &Tensor<T>) -> Terms<T> {
+    fn terms(&self, G: &Tensor<T>) -> OfInvariants<T> {
         let (j, _) = volume_change(G);
         let J = T::one() + j;
         let y = inverse_cube_root(J);
@@ -45,13 +29,14 @@ impl<T: Number> NeoHookean<T> {
         let g1 = constant::<T>(-2.0 / 3.0) * g * over_J;
         let g2 = constant::<T>(-5.0 / 3.0) * g1 * over_J;
         let two = constant::<T>(2.0);
-        Terms {
+        OfInvariants {
             cof: cofactor(&F),
             F,
             a: two * self.C * g,
             b: CI * g1 + two * self.D * j,
-            c1: self.C * g1,
-            c2: CI * g2 + two * self.D,
+            s: T::zero(),
+            t: two * self.C * g1,
+            r: CI * g2 + two * self.D,
         }
     }
 }
@@ -108,11 +93,12 @@ impl<T: Number> Law<T> for NeoHookean<T> {
 
     #[inline(always)]
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        let terms = self.terms(G);
-        let mut H = outer_products(T::zero(), constant::<T>(2.0) * terms.c1, terms.c2, &terms.F, &terms.cof);
-        add_diagonal(&mut H, terms.a);
-        add_cofactor_derivative(&mut H, terms.b, &terms.F);
-        H
+        self.terms(G).derivative()
+    }
+
+    #[inline(always)]
+    fn of_invariants(&self, G: &Tensor<T>) -> Option<OfInvariants<T>> {
+        Some(self.terms(G))
     }
 }
 
@@ -120,10 +106,6 @@ impl<T: Number> Projected<T> for NeoHookean<T> {
     /// For J > 0.
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        let terms = self.terms(G);
-        let F = singular(&terms.F);
-        let of_both = constant::<T>(2.0) * terms.c1;
-        let principal = from_invariants(&F.sigma, terms.a, terms.b, [T::zero(), of_both, terms.c2]);
-        derivative_from(&F, &projected(&principal))
+        self.terms(G).projected()
     }
 }

@@ -7,13 +7,9 @@
 //! With i = I − 3 and j = J − 1, P = a F + b cof, a = μ' I/(I + 1), b = λ' j − μ, and
 //! ∂P/∂F = a 1 + 2μ'/(I + 1)² F⊗F + λ' cof⊗cof + b ∂cof/∂F.
 
-use super::isotropic::{derivative_from, from_invariants, projected};
-use super::{Law, Projected, singular};
+use super::{Law, OfInvariants, Projected};
 use crate::number::{Number, constant, minus_ln_1p};
-use crate::tensor::{
-    Tensor, Tensor4, add_cofactor_derivative, add_diagonal, cofactor, dot, from_fn, half, outer_products,
-    plus_identity, trace, volume_change,
-};
+use crate::tensor::{Tensor, Tensor4, cofactor, dot, from_fn, half, plus_identity, trace, volume_change};
 
 /// Lamé's constants of small strain, Pa: μ and λ of the formulas above, not μ' and λ'.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,16 +20,6 @@ pub struct StableNeoHookean<T> {
     pub lambda: T,
 }
 
-/// Factors in the derivative.
-struct Terms<T> {
-    a: T,
-    b: T,
-    /// 2μ'/(I + 1)²
-    of_F: T,
-    /// λ'
-    of_cof: T,
-}
-
 impl<T: Number> StableNeoHookean<T> {
     /// λ'
     #[inline(always)]
@@ -42,18 +28,21 @@ impl<T: Number> StableNeoHookean<T> {
     }
 
     #[inline(always)]
-    fn terms(&self, G: &Tensor<T>) -> Terms<T> {
+    fn terms(&self, G: &Tensor<T>) -> OfInvariants<T> {
         let (j, _) = volume_change(G);
         let F = plus_identity(G);
         let I = dot(&F, &F);
         let mu_prime = constant::<T>(4.0 / 3.0) * self.mu;
         let inverse = T::one() / (I + T::one());
-        let of_cof = self.lambda_prime();
-        Terms {
+        let lambda_prime = self.lambda_prime();
+        OfInvariants {
+            cof: cofactor(&F),
+            F,
             a: mu_prime * I * inverse,
-            b: of_cof * j - self.mu,
-            of_F: constant::<T>(2.0) * mu_prime * inverse * inverse,
-            of_cof,
+            b: lambda_prime * j - self.mu,
+            s: constant::<T>(2.0) * mu_prime * inverse * inverse,
+            t: T::zero(),
+            r: lambda_prime,
         }
     }
 }
@@ -91,19 +80,18 @@ impl<T: Number> Law<T> for StableNeoHookean<T> {
 
     #[inline(always)]
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        let (terms, F) = (self.terms(G), plus_identity(G));
-        let mut H = outer_products(terms.of_F, T::zero(), terms.of_cof, &F, &cofactor(&F));
-        add_diagonal(&mut H, terms.a);
-        add_cofactor_derivative(&mut H, terms.b, &F);
-        H
+        self.terms(G).derivative()
+    }
+
+    #[inline(always)]
+    fn of_invariants(&self, G: &Tensor<T>) -> Option<OfInvariants<T>> {
+        Some(self.terms(G))
     }
 }
 
 impl<T: Number> Projected<T> for StableNeoHookean<T> {
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        let (terms, F) = (self.terms(G), singular(&plus_identity(G)));
-        let principal = from_invariants(&F.sigma, terms.a, terms.b, [terms.of_F, T::zero(), terms.of_cof]);
-        derivative_from(&F, &projected(&principal))
+        self.terms(G).projected()
     }
 }
