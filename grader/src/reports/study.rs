@@ -49,7 +49,7 @@ fn times(grade: &Grade) -> String {
     let rows: Vec<Row> = view::parts(grade).map(row).collect();
     format!(
         "<figure>\n<h2>Run time</h2>\n{}<figcaption>One call on a standard load, and the whole simulation. Red: the reference on \
-         the same machine. On the right: how many times as long as the reference.</figcaption>\n</figure>\n",
+         the same machine. On the right: how many times as long as the reference. On a busy machine short times are uncertain.</figcaption>\n</figure>\n",
         charts::rows(&rows, "Run time of each function", "run time (s)")
     )
 }
