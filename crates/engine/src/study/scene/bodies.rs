@@ -17,7 +17,7 @@ use crate::study::states::{Snapshot, write_reference, write_state};
 
 /// Time that a reference may take, and that the finest of three meshes may, s.
 pub(super) fn most_reference_seconds(is_quick: bool) -> f64 {
-    if is_quick { 20.0 } else { 240.0 }
+    if is_quick { 60.0 } else { 240.0 }
 }
 
 /// A mesh of the study, with its reference.
