@@ -6,6 +6,7 @@ use clap::Args;
 use fem_engine::study::stability::{Row, study, write};
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::demo::data;
 use crate::demo::end::End;
 
 #[derive(Debug, Args)]
@@ -36,7 +37,7 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
             bar.suspend(|| eprintln!("{told}"));
         }
     };
-    let table = study(arguments.quick, &progress);
+    let table = study(arguments.quick, &data::folder(), &progress);
     bar.finish_and_clear();
     let unwritable =
         |error: std::io::Error| End::unusable(format!("--out {}: cannot be written: {error}", folder.display()));

@@ -14,7 +14,7 @@ const SAME: f64 = 0.01;
 
 #[test]
 fn every_case_ends_as_it_must_and_as_it_did() {
-    let table = study(true, &|_, _| {});
+    let table = study(true, Path::new("."), &|_, _| {});
     let wrong: Vec<_> = table.rows.iter().filter(|row| !row.pass).collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
 

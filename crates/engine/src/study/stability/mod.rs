@@ -29,16 +29,20 @@ pub use map::{Cell, Map};
 pub use output::{Counts, Table, write};
 pub use run::Progress;
 
+use std::path::Path;
 use std::time::Instant;
 
-/// Tries everything that an adversary would; `quick` one or a few of each kind. `progress` hears of every row.
-pub fn study(quick: bool, progress: Progress) -> Table {
-    let start = Instant::now();
+use crate::study::machine::Machine;
+
+/// Tries everything that an adversary would; `quick` one or a few of each kind. `progress` hears of every row; `sources` is a
+/// folder of the checkout whose commit the table names.
+pub fn study(quick: bool, sources: &Path, progress: Progress) -> Table {
+    let (start, machine) = (Instant::now(), Machine::this(sources));
     let maps = map::Found::default();
     let rows = run::rows(cases(quick, &maps), progress);
     let mut maps = maps.lock().map(|maps| maps.clone()).unwrap_or_default();
     maps.sort_by_key(|map| scene_text::DYNAMIC.iter().position(|name| *name == map.integrator));
-    Table::new(quick, start.elapsed().as_secs_f64(), rows, maps)
+    Table::new(quick, machine, start.elapsed().as_secs_f64(), rows, maps)
 }
 
 fn cases(quick: bool, maps: &map::Found) -> Vec<Case> {

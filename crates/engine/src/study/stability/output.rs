@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::case::Row;
 use super::map::Map;
 use super::page;
+use crate::study::machine::Machine;
 use crate::study::table::csv_of;
 
 /// All that a study has found.
@@ -16,6 +17,8 @@ use crate::study::table::csv_of;
 pub struct Table {
     /// Whether it is the reduced one.
     pub quick: bool,
+    /// What it ran on, and when.
+    pub machine: Machine,
     /// Wall-clock time of all of it, s.
     pub seconds: f64,
     /// Numbers of rows.
@@ -43,7 +46,7 @@ pub struct Counts {
 
 impl Table {
     /// Of these rows and maps.
-    pub fn new(quick: bool, seconds: f64, rows: Vec<Row>, maps: Vec<Map>) -> Self {
+    pub fn new(quick: bool, machine: Machine, seconds: f64, rows: Vec<Row>, maps: Vec<Map>) -> Self {
         let seeds: Vec<u64> = rows.iter().filter_map(|row| row.seed).collect();
         let counts = Counts {
             rows: rows.len(),
@@ -52,7 +55,7 @@ impl Table {
             seeds: seeds.iter().collect::<BTreeSet<_>>().len(),
             map_cells: maps.iter().map(|map| map.cells.len()).sum(),
         };
-        Self { quick, seconds, counts, rows, maps }
+        Self { quick, machine, seconds, counts, rows, maps }
     }
 
     /// Whether every row is as expected.

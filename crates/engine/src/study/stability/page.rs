@@ -48,7 +48,7 @@ fn head(table: &Table) -> String {
          choose.</p>\n<div class=\"answer\">{answer} {}; {} panics, {} hangs, {} NaN handed on. For stiff bodies and long \
          steps take <b>implicit Euler</b>, which survives all of its map; explicit methods end with an error that names the \
          step as soon as dt passes the line that theory draws.</div>\n<p class=\"soft\">{} rows start from random numbers, {} \
-         seeds; the maps hold {} more runs. {}Wall-clock time: {:.0} s.</p>\n",
+         seeds; the maps hold {} more runs. {}{:.0} s on the clock. {}.</p>\n",
         ends.join(", "),
         of(Outcome::Panics),
         of(Outcome::Hangs),
@@ -58,6 +58,7 @@ fn head(table: &Table) -> String {
         counts.map_cells,
         if table.quick { "This is the reduced study. " } else { "" },
         table.seconds,
+        escape(&table.machine.line()),
     )
 }
 
