@@ -230,35 +230,26 @@ fn chapter(family: &str, all: &[&Row]) -> String {
 }
 
 fn rows(all: &[&Row]) -> String {
-    let wide = |text: &str| format!("<span class=\"wide\">{}</span>", escape(text));
     let line = |row: &&Row| {
+        let margin = row.margin.map_or(String::new(), |margin| format!("{margin:.3e}"));
+        let of = if margin.is_empty() { "" } else { row.margin_is };
+        let seed = row.seed.map_or(String::new(), |seed| format!(", seed {seed}"));
+        let must = if row.pass { String::new() } else { format!("must: {}", row.expected) };
         vec![
-            row.case.clone(),
-            row.parameters.clone(),
-            row.integrator.clone(),
-            row.material.clone(),
-            row.seed.map_or(String::new(), |seed| seed.to_string()),
-            row.expected.to_string(),
-            row.outcome.to_string(),
-            row.margin.map_or(String::new(), |margin| format!("{margin:.3e}")),
-            if row.pass { "yes".to_owned() } else { "<b>no</b>".to_owned() },
-            wide(row.margin_is),
-            wide(&row.note),
+            stacked("", row.outcome.name(), &must),
+            stacked("wide", &row.case, &row.parameters),
+            stacked("", &row.integrator, &format!("{}{seed}", row.material)),
+            stacked("wide", &margin, of),
+            stacked("wide", "", &row.note),
         ]
     };
     let lines: Vec<Vec<String>> = all.iter().map(line).collect();
-    let head = [
-        "case",
-        "parameters",
-        "integrator",
-        "material",
-        ">seed",
-        "expected",
-        "outcome",
-        ">margin",
-        "pass",
-        "margin is",
-        "note",
-    ];
-    page::table(&head, &lines)
+    page::table(&["outcome", "case and parameters", "integrator and material", "margin", "note"], &lines)
+}
+
+/// A cell of two texts, one below the other.
+fn stacked(class: &str, above: &str, below: &str) -> String {
+    let (above, below) = (escape(above), escape(below));
+    let line = if above.is_empty() || below.is_empty() { "" } else { "<br>" };
+    format!("<div class=\"{class}\">{above}{line}<span class=\"soft\">{below}</span></div>")
 }
