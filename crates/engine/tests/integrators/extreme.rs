@@ -51,11 +51,11 @@ fn a_free_body_that_has_turned_converges() {
 
 #[test]
 fn forces_beyond_all_numbers_end_an_explicit_run() {
-    let text = soft("verlet", 1.0, "").replace("model = \"neo_hookean\"\nC = 1e4\nD = 4e4", LINEAR);
+    // It grows by less than a half in a step, and its squares are beyond all numbers long before it is.
+    let text = soft("explicit_euler", 0.014, "").replace("model = \"neo_hookean\"\nC = 1e4\nD = 4e4", LINEAR);
     let mut simulation = engine(&text);
     place(&mut simulation, |X| 1.01 * X);
-    let failed = (0..1000).find_map(|_| simulation.step().err()).expect("an unstable run ends");
-    assert!(failed.step < 300, "{failed}");
+    assert!((0..2000).any(|_| simulation.step().is_err()), "an unstable run goes on for ever");
 }
 
 const LINEAR: &str = "model = \"linear\"\nyoung = 1e5\npoisson = 0.3";
@@ -71,13 +71,13 @@ fn a_squashed_body_does_not_leap_into_a_point() {
 #[test]
 fn a_rod_that_snaps_into_a_loop_finds_its_equilibrium() {
     let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [5, 0.25, 0.25], cells_per_unit = 4 }\n[material]\n\
-        model = \"stable_neo_hookean\"\nyoung = 1e5\npoisson = 0.4\ndensity = 1000\n[time]\ndt = 1.0\nintegrator = \"static\"\n\
+        model = \"neo_hookean\"\nyoung = 1e5\npoisson = 0.4\ndensity = 1000\n[time]\ndt = 1.0\nintegrator = \"static\"\n\
         [static]\nload_steps = 100\n[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n[[prescribed]]\n\
-        on = { axis = \"x\", side = \"max\", within = 1e-9 }\nrotation = { axis = \"x\", center = [5, 0.125, 0.125], turns = 5 }\n";
+        on = { axis = \"x\", side = \"max\", within = 1e-9 }\nrotation = { axis = \"x\", center = [5, 0.125, 0.125], turns = 8 }\n";
     let mut simulation = build(text);
     run(&mut *simulation, 100);
     assert_eq!(simulation.counters().unconverged_steps, 0);
-    assert!(simulation.counters().newton_iterations < 20_000, "{}", simulation.counters().newton_iterations);
+    assert!(simulation.counters().newton_iterations < 3000, "{}", simulation.counters().newton_iterations);
 }
 
 #[test]
