@@ -101,7 +101,7 @@ pub fn error_against_time(study: &SceneStudy) -> Picture {
     for method in methods(study) {
         let (colour, shape) = look(&method);
         let dots: Vec<Dot> = rows(&method).into_iter().filter_map(dot).collect();
-        let name = if dots.is_empty() { format!("{method} (no run came to its end)") } else { method };
+        let name = if dots.is_empty() { format!("{method} (none ended)") } else { method };
         chart.series.push(Series { name, colour, shape, is_joined: true, has_dots: true, dots });
     }
     let others = study.rows.iter().filter(own).filter(|row| row.case.group != "method");
