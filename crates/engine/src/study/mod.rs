@@ -1,7 +1,7 @@
 //! Studies of the engine itself: how large an error is for how much time, what it does with stiff and extreme cases, and what
 //! the pages show that tell of it.
 //!
-//! Charts ([`svg`]) and pages ([`page`]) know nothing of what they show. References in time ([`reference`]) and in space
+//! Charts ([`svg`]) and pages ([`page`]) know nothing of what they show. References in time ([`mod@reference`]) and in space
 //! ([`manufactured`], [`nested`], [`closed_forms`]) are computed by none of the methods that are studied.
 
 pub mod closed_forms;
