@@ -93,7 +93,7 @@ pub enum Preconditioner {
     IncompleteCholesky,
     /// Smoothed aggregation.
     Multigrid,
-    /// Symmetric sweeps of Gauss and Seidel; the iteration itself runs in single precision.
+    /// Symmetric sweeps of Gauss and Seidel, and a coarse grid; the iteration itself runs in single precision.
     Ssor,
 }
 
@@ -106,7 +106,9 @@ impl fmt::Display for SolverChoice {
             Self::Pcg(Preconditioner::BlockJacobi) => "conjugate gradients with the blocks of the diagonal",
             Self::Pcg(Preconditioner::IncompleteCholesky) => "conjugate gradients with an incomplete Cholesky factor",
             Self::Pcg(Preconditioner::Multigrid) => "conjugate gradients with a multigrid cycle",
-            Self::Pcg(Preconditioner::Ssor) => "conjugate gradients with symmetric sweeps, in single precision",
+            Self::Pcg(Preconditioner::Ssor) => {
+                "conjugate gradients with symmetric sweeps and a coarse grid, in single precision"
+            }
         })
     }
 }
@@ -153,7 +155,7 @@ impl<T: Real> Solver<T> {
             SolverChoice::Cg => Method::Cg,
             SolverChoice::Pcg(Preconditioner::BlockJacobi) => Method::BlockJacobi(BlockJacobi::new(pattern)),
             SolverChoice::Pcg(Preconditioner::Multigrid) => Method::Multigrid(Box::new(Multigrid::new(pattern, rest))),
-            SolverChoice::Pcg(Preconditioner::Ssor) => Method::Ssor(Box::new(Ssor::new(pattern))),
+            SolverChoice::Pcg(Preconditioner::Ssor) => Method::Ssor(Box::new(Ssor::new(pattern, rest))),
             SolverChoice::Pcg(Preconditioner::IncompleteCholesky) => {
                 Method::IncompleteCholesky(IncompleteCholesky::new(pattern))
             }

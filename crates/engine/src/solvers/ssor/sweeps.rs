@@ -1,15 +1,25 @@
-//! The two sweeps of an iteration.
+//! The two sweeps of an iteration. Each reads a block once and applies it to two vectors side by side.
+
+use std::array::from_fn;
 
 use pulp::{Simd, WithSimd};
+use simba::simd::WideF32x8;
 
-use super::{Places, ROWS_AT_ONCE, Row};
+use super::coarse::Coarse;
+use super::scaled::Scaled;
+use super::{Pair, ROWS_AT_ONCE, Row};
 
-/// t = (1 + L̃ᵀ)⁻¹ p
+/// The next direction, p = r + (1 + L̃ᵀ) c + β p and t = (1 + L̃ᵀ)⁻¹ p, where c is the coarse correction.
 pub struct Backward<'a> {
-    pub places: &'a Places,
-    pub L: &'a [[Row; 3]],
-    pub p: &'a [Row],
-    pub t: &'a mut [Row],
+    pub matrix: &'a Scaled,
+    pub coarse: &'a Coarse,
+    pub beta: f32,
+    pub r: &'a [Row],
+    pub p: &'a mut [Row],
+    /// s is left alone, t is written.
+    pub st: &'a mut [Pair],
+    /// Where sums are kept.
+    pub sums: &'a mut [Pair],
 }
 
 impl WithSimd for Backward<'_> {
@@ -17,29 +27,63 @@ impl WithSimd for Backward<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) {
-        let Self { places, L, p, t } = self;
-        t.copy_from_slice(p);
-        for row in (0..t.len()).rev() {
-            let known = t[row];
-            let blocks = places.starts[row] as usize..places.starts[row + 1] as usize;
-            for (L, &column) in L[blocks.clone()].iter().zip(&places.columns[blocks]) {
-                let above = &mut t[column as usize];
-                for k in 0..4 {
-                    above[k] -= L[0][k] * known[0] + L[1][k] * known[1] + L[2][k] * known[2];
-                }
+        let Self { matrix: Scaled { places, L, G, .. }, coarse, beta, r, p, st, sums } = self;
+        sums.fill([[0.0; 4]; 2]);
+        for row in (0..r.len()).rev() {
+            let inside = &coarse.grid.inside[row];
+            let mut e = [0.0; 4];
+            for (&corner, weight) in coarse.grid.cells[inside.cell as usize].iter().zip(inside.weights()) {
+                e = plus_products(e, coarse.correction[corner as usize], [weight; 4]);
+            }
+            let (G, sum) = (&G[row], sums[row]);
+            let c: Row = from_fn(|k| G[0][k] * e[0] + G[1][k] * e[1] + G[2][k] * e[2]);
+            let w: Row = from_fn(|k| if k < 3 { r[row][k] - sum[0][k] } else { 0.0 });
+            for k in 0..3 {
+                p[row][k] = r[row][k] + (c[k] + sum[1][k]) + beta * p[row][k];
+                st[row][1][k] = w[k] + c[k] + beta * st[row][1][k];
+            }
+            let blocks = places.row(row);
+            // from the last to the first, so that memory is read in one direction
+            for block in blocks.rev() {
+                let (L, above) = (rows(L, block), &mut sums[places.columns[block] as usize]);
+                let [of_w, of_c] = *above;
+                *above = [plus_product(of_w, &L, &w), plus_product(of_c, &L, &c)];
             }
         }
     }
 }
 
-/// s = (L̃ + 1)⁻¹ (p + K t); returns p·(t + s).
+/// The rows of a block, each followed by a number that means nothing.
+#[inline(always)]
+fn rows(L: &[f32], block: usize) -> [Row; 3] {
+    let L = &L[9 * block..9 * block + 10];
+    [[L[0], L[1], L[2], L[3]], [L[3], L[4], L[5], L[6]], [L[6], L[7], L[8], L[9]]]
+}
+
+/// sum + Lᵀ x; a copy of the sum tells the compiler that nothing else changes it.
+#[inline(always)]
+fn plus_product(sum: Row, L: &[Row; 3], x: &Row) -> Row {
+    from_fn(|k| sum[k] + (L[0][k] * x[0] + L[1][k] * x[1] + L[2][k] * x[2]))
+}
+
+/// Two rows in one register.
+#[inline(always)]
+fn wide(a: Row, b: Row) -> WideF32x8 {
+    WideF32x8::from([a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]])
+}
+
+/// sum + a b, entry by entry.
+#[inline(always)]
+fn plus_products(sum: Row, a: Row, b: Row) -> Row {
+    from_fn(|k| sum[k] + a[k] * b[k])
+}
+
+/// s = (L̃ + 1)⁻¹ (p + K t), and what the direction takes from the coarse residual; returns p·(t + s).
 pub struct Forward<'a> {
-    pub places: &'a Places,
-    pub L: &'a [[Row; 3]],
-    pub K: &'a [[Row; 3]],
+    pub matrix: &'a Scaled,
+    pub coarse: &'a mut Coarse,
     pub p: &'a [Row],
-    pub t: &'a [Row],
-    pub s: &'a mut [Row],
+    pub st: &'a mut [Pair],
 }
 
 impl WithSimd for Forward<'_> {
@@ -47,28 +91,39 @@ impl WithSimd for Forward<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) -> f64 {
-        let Self { places, L, K, p, t, s } = self;
+        let Self { matrix: Scaled { places, L, K, G, .. }, coarse, p, st } = self;
         let (mut total, mut sum) = (0.0, 0.0);
-        for row in 0..t.len() {
-            let blocks = places.starts[row] as usize..places.starts[row + 1] as usize;
-            // each entry of a block has a sum of its own, so that no addition waits for another
-            let mut sums = [[0.0; 4]; 3];
-            for i in 0..3 {
-                for k in 0..4 {
-                    sums[i][k] = -K[row][i][k] * t[row][k];
+        coarse.change.fill([0.0; 4]);
+        for row in 0..p.len() {
+            // each entry of a block has sums of its own, so that no addition waits for another
+            let mut sums = [wide([0.0; 4], [0.0; 4]); 3];
+            let blocks = places.row(row);
+            for block in blocks {
+                let (L, [s, t]) = (rows(L, block), st[places.columns[block] as usize]);
+                for (sums, L) in sums.iter_mut().zip(L) {
+                    *sums += wide(L, L) * wide(s, t);
                 }
             }
-            for (L, &column) in L[blocks.clone()].iter().zip(&places.columns[blocks]) {
-                let known = &s[column as usize];
-                for i in 0..3 {
-                    for k in 0..4 {
-                        sums[i][k] += L[i][k] * known[k];
-                    }
-                }
-            }
+            let ([s, t], mut y) = (&mut st[row], [0.0; 3]);
             for i in 0..3 {
-                s[row][i] = p[row][i] - ((sums[i][0] + sums[i][2]) + (sums[i][1] + sums[i][3]));
-                sum += p[row][i] * (t[row][i] + s[row][i]);
+                let Kt = K[row][i][0] * t[0] + K[row][i][1] * t[1] + K[row][i][2] * t[2];
+                let sums: [f32; 8] = sums[i].0.to_array();
+                let (Ls, Lt) = (sums[0] + sums[1] + sums[2], sums[4] + sums[5] + sums[6]);
+                s[i] = p[row][i] + Kt - Ls;
+                y[i] = t[i] + p[row][i] + Kt + Lt;
+                sum += p[row][i] * (t[i] + s[i]);
+            }
+            let G = &G[row];
+            let change: Row = [
+                G[0][0] * y[0],
+                G[1][0] * y[0] + G[1][1] * y[1],
+                G[2][0] * y[0] + G[2][1] * y[1] + G[2][2] * y[2],
+                0.0,
+            ];
+            let inside = &coarse.grid.inside[row];
+            for (&corner, weight) in coarse.grid.cells[inside.cell as usize].iter().zip(inside.weights()) {
+                let taken = &mut coarse.change[corner as usize];
+                *taken = plus_products(*taken, change, [weight; 4]);
             }
             if row % ROWS_AT_ONCE == 0 {
                 total += f64::from(sum);
