@@ -20,7 +20,7 @@ pub enum Command {
     /// What each part of a step costs
     Parts(RunArguments),
     /// The beam from 1 000 to 60 000 nodes: time per step, its exponent, memory
-    Scaling(SizesArguments),
+    Scaling(ScalingArguments),
     /// The beam with each linear solver
     Solvers(SizesArguments),
     /// Runs a scene once and prints its times as JSON
@@ -66,6 +66,15 @@ pub struct SizesArguments {
     /// Folder of meshes and scenes
     #[arg(long, value_name = "DIR", default_value = "data")]
     pub data: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub struct ScalingArguments {
+    #[command(flatten)]
+    pub sizes: SizesArguments,
+    /// Linear solver instead of the scene's
+    #[arg(long, value_name = "NAME")]
+    pub solver: Option<SolverName>,
 }
 
 /// A scene and what is different in this run.

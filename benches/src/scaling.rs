@@ -1,6 +1,6 @@
 //! How time and memory grow with the body.
 
-use crate::cli::{RunArguments, SizesArguments};
+use crate::cli::{RunArguments, ScalingArguments};
 use crate::end::End;
 use crate::machine::{self, Machine};
 use crate::race::{Contestant, Time, race};
@@ -9,53 +9,58 @@ use crate::run::{self, Run};
 /// Cells per metre of beams of 1 225 to 60 625 nodes.
 const CELLS: [usize; 7] = [6, 8, 10, 13, 16, 20, 24];
 
-/// Times beams of growing size and prints a table and the exponents that fit it.
-pub fn run(arguments: &SizesArguments) -> Result<(), End> {
-    let cells = if arguments.cells.is_empty() { CELLS.to_vec() } else { arguments.cells.clone() };
+/// Times beams of growing size, all in turn, and prints a table and the exponents that fit it.
+pub fn run(arguments: &ScalingArguments) -> Result<(), End> {
+    let sizes = &arguments.sizes;
+    let cells = if sizes.cells.is_empty() { CELLS.to_vec() } else { sizes.cells.clone() };
+    let beams: Vec<RunArguments> = cells.iter().map(|&cells| beam(arguments, cells)).collect();
+    let runs = beams.iter().map(|beam| run::apart(beam, machine::threads())).collect::<Result<Vec<Run>, End>>()?;
+    let timed = |beam, threads| -> Contestant {
+        Box::new(move || run::apart(beam, threads).map(|run| Time { wall: run.wall_per_step, cpu: run.cpu_per_step }))
+    };
+    let contestants: Vec<Contestant> =
+        beams.iter().flat_map(|beam| [timed(beam, 1), timed(beam, machine::threads())]).collect();
+    let times = race(sizes.rounds, &contestants)?;
+    print(&cells, &runs, &times);
+    Ok(())
+}
+
+fn beam(arguments: &ScalingArguments, cells: usize) -> RunArguments {
+    RunArguments {
+        scene: "beam".to_owned(),
+        steps: Some(arguments.sizes.steps),
+        cells: Some(cells),
+        solver: arguments.solver,
+        data: arguments.sizes.data.clone(),
+    }
+}
+
+/// `times` holds two of each run: by one thread, and by all.
+fn print(cells: &[usize], runs: &[Run], times: &[Time]) {
     println!("{}\n", Machine::this().line());
     println!(
         "| cells per metre | nodes | one thread, ms per step (processor) | all threads, ms per step | Newton iterations per step | peak memory, MiB |"
     );
     println!("|---:|---:|---:|---:|---:|---:|");
     let mut rows = Vec::new();
-    for cells in cells {
-        let (run, one, all) = size(arguments, cells)?;
+    for ((cells, run), times) in cells.iter().zip(runs).zip(times.chunks(2)) {
         let memory =
             run.peak_memory_bytes.map_or("unknown".to_owned(), |bytes| format!("{:.0}", bytes as f64 / 1048576.0));
+        let (one, all) = (times[0].cpu, times[1].wall);
         println!(
             "| {cells} | {} | {:.2} | {:.2} | {:.2} | {memory} |",
             run.nodes,
-            1e3 * one.cpu,
-            1e3 * all.wall,
+            1e3 * one,
+            1e3 * all,
             run.newton_per_step
         );
-        rows.push((run.nodes as f64, one.cpu, all.wall));
+        rows.push((run.nodes as f64, one, all));
     }
     let exponent = |time: fn(&(f64, f64, f64)) -> f64| {
         let points: Vec<(f64, f64)> = rows.iter().map(|row| (row.0, time(row))).collect();
         exponent(&points).map_or("unknown: give two sizes".to_owned(), |exponent| format!("{exponent:.3}"))
     };
     println!("\nExponent, one thread: {}; all threads: {}.", exponent(|row| row.1), exponent(|row| row.2));
-    Ok(())
-}
-
-/// One run, and its times by one thread and by all.
-fn size(arguments: &SizesArguments, cells: usize) -> Result<(Run, Time, Time), End> {
-    let beam = RunArguments {
-        scene: "beam".to_owned(),
-        steps: Some(arguments.steps),
-        cells: Some(cells),
-        solver: None,
-        data: arguments.data.clone(),
-    };
-    let timed = |threads| -> Contestant {
-        let beam = &beam;
-        Box::new(move || run::apart(beam, threads).map(|run| Time { wall: run.wall_per_step, cpu: run.cpu_per_step }))
-    };
-    let all = machine::threads();
-    let run = run::apart(&beam, all)?;
-    let times = race(arguments.rounds, &[timed(1), timed(all)])?;
-    Ok((run, times[0], times[1]))
 }
 
 /// Slope of the line through (log x, log y) by least squares; `None` for fewer than two sizes.

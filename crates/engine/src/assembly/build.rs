@@ -9,8 +9,9 @@ use super::{Batch, Chunk, Elements};
 use crate::number::Real;
 use crate::sparse::Pattern;
 
-/// Nodes of a chunk: enough that few elements lie between chunks.
-const CHUNK: usize = 4096;
+/// Nodes of a chunk: enough that few elements lie between chunks. From eight chunks on they become larger, not more, up to the
+/// second number: the ends of a body that is cut across would lie closer and closer together.
+const CHUNK: (usize, usize) = (4096, 16_384);
 
 /// A place that is beyond all others.
 pub(super) const NONE: u32 = u32::MAX;
@@ -32,7 +33,7 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
 }
 
 fn chunk_ranges(nodes: usize) -> impl Iterator<Item = Range<usize>> {
-    let chunks = (nodes / CHUNK).max(1);
+    let chunks = (nodes / CHUNK.0).clamp(1, 8).max(nodes / CHUNK.1);
     (0..chunks).map(move |i| nodes * i / chunks..nodes * (i + 1) / chunks)
 }
 

@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use super::Row;
 use crate::number::Real;
 use crate::solvers::Breakdown;
 use crate::solvers::block_jacobi::{factor, invert_lower};
@@ -15,16 +14,23 @@ const PARTS: [f32; 2] = [0.5, 0.0];
 /// Part of the diagonal that it must leave.
 const LEAST: f32 = 0.02;
 
+/// The lower half of a 3×3 block, row by row.
+pub type Half = [f32; 6];
+
+/// Row and column of its entries.
+const LOWER: [(usize, usize); 6] = [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)];
+
 /// A scaled matrix.
 pub struct Scaled {
     pub places: Places,
     /// L̃, row by row, and one number more, so that four can be read where a block's last three are.
     pub L: Vec<f32>,
-    pub K: Vec<[Row; 3]>,
+    /// K, of which only the lower half is stored.
+    pub K: Vec<Half>,
     /// G⁻¹.
     pub inverses: Vec<[[f32; 3]; 3]>,
     /// G, with zeros for held directions.
-    pub G: Vec<[Row; 3]>,
+    pub G: Vec<Half>,
     /// What the matrix is multiplied with, so that single precision holds it.
     pub scale: f64,
 }
@@ -61,9 +67,9 @@ impl Scaled {
         let rows = pattern.rows();
         Self {
             L: vec![0.0; 9 * columns.len() + 1],
-            K: vec![[[0.0; 4]; 3]; rows],
+            K: vec![[0.0; 6]; rows],
             inverses: vec![[[0.0; 3]; 3]; rows],
-            G: vec![[[0.0; 4]; 3]; rows],
+            G: vec![[0.0; 6]; rows],
             places: Places { starts, columns, sources, diagonal },
             scale: 1.0,
         }
@@ -114,18 +120,14 @@ impl Scaled {
             }
             let root = factor(&W)?;
             let inverse = invert_lower(&root);
-            for i in 0..3 {
-                (0..3).for_each(|j| G[row][i][j] = moves[row][i] * root[i][j]);
-            }
+            G[row] = LOWER.map(|(i, j)| moves[row][i] * root[i][j]);
             for block in blocks {
                 let half: [[f32; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| L[9 * block + 3 * i + j]));
                 let whole = times(&inverse, &half);
                 L[9 * block..9 * block + 9].copy_from_slice(whole.as_flattened());
             }
             let scaled = times_transpose(&times(&inverse, &diagonal), &inverse);
-            for i in 0..3 {
-                (0..3).for_each(|j| K[row][i][j] = scaled[i][j] - if i == j { 2.0 } else { 0.0 });
-            }
+            K[row] = LOWER.map(|(i, j)| scaled[i][j] - if i == j { 2.0 } else { 0.0 });
             inverses[row] = inverse;
         }
         Ok(())

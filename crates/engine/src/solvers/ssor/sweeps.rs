@@ -6,7 +6,7 @@ use pulp::{Simd, WithSimd};
 use simba::simd::WideF32x8;
 
 use super::coarse::Coarse;
-use super::scaled::Scaled;
+use super::scaled::{Half, Scaled};
 use super::{Pair, ROWS_AT_ONCE, Row};
 
 /// The next direction, p = r + (1 + L̃ᵀ) c + β p and t = (1 + L̃ᵀ)⁻¹ p, where c is the coarse correction.
@@ -28,15 +28,15 @@ impl WithSimd for Backward<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) {
         let Self { matrix: Scaled { places, L, G, .. }, coarse, beta, r, p, st, sums } = self;
-        sums.fill([[0.0; 4]; 2]);
         for row in (0..r.len()).rev() {
             let inside = &coarse.grid.inside[row];
             let mut e = [0.0; 4];
             for (&corner, weight) in coarse.grid.cells[inside.cell as usize].iter().zip(inside.weights()) {
                 e = plus_products(e, coarse.correction[corner as usize], [weight; 4]);
             }
-            let (G, sum) = (&G[row], sums[row]);
-            let c: Row = from_fn(|k| G[0][k] * e[0] + G[1][k] * e[1] + G[2][k] * e[2]);
+            // left empty for the next direction
+            let sum = std::mem::take(&mut sums[row]);
+            let c = transposed_times(&G[row], &e);
             let w: Row = from_fn(|k| if k < 3 { r[row][k] - sum[0][k] } else { 0.0 });
             for k in 0..3 {
                 p[row][k] = r[row][k] + (c[k] + sum[1][k]) + beta * p[row][k];
@@ -51,6 +51,28 @@ impl WithSimd for Backward<'_> {
             }
         }
     }
+}
+
+/// Gᵀ x for a lower triangle G.
+#[inline(always)]
+fn transposed_times(G: &Half, x: &Row) -> Row {
+    [G[0] * x[0] + G[1] * x[1] + G[3] * x[2], G[2] * x[1] + G[4] * x[2], G[5] * x[2], 0.0]
+}
+
+/// G x for a lower triangle G.
+#[inline(always)]
+fn lower_times(G: &Half, x: &[f32; 3]) -> Row {
+    [G[0] * x[0], G[1] * x[0] + G[2] * x[1], G[3] * x[0] + G[4] * x[1] + G[5] * x[2], 0.0]
+}
+
+/// K x for a symmetric K.
+#[inline(always)]
+fn symmetric_times(K: &Half, x: &Row) -> [f32; 3] {
+    [
+        K[0] * x[0] + K[1] * x[1] + K[3] * x[2],
+        K[1] * x[0] + K[2] * x[1] + K[4] * x[2],
+        K[3] * x[0] + K[4] * x[1] + K[5] * x[2],
+    ]
 }
 
 /// The rows of a block, each followed by a number that means nothing.
@@ -105,21 +127,15 @@ impl WithSimd for Forward<'_> {
                 }
             }
             let ([s, t], mut y) = (&mut st[row], [0.0; 3]);
+            let Kt = symmetric_times(&K[row], t);
             for i in 0..3 {
-                let Kt = K[row][i][0] * t[0] + K[row][i][1] * t[1] + K[row][i][2] * t[2];
                 let sums: [f32; 8] = sums[i].0.to_array();
                 let (Ls, Lt) = (sums[0] + sums[1] + sums[2], sums[4] + sums[5] + sums[6]);
-                s[i] = p[row][i] + Kt - Ls;
-                y[i] = t[i] + p[row][i] + Kt + Lt;
+                s[i] = p[row][i] + Kt[i] - Ls;
+                y[i] = t[i] + p[row][i] + Kt[i] + Lt;
                 sum += p[row][i] * (t[i] + s[i]);
             }
-            let G = &G[row];
-            let change: Row = [
-                G[0][0] * y[0],
-                G[1][0] * y[0] + G[1][1] * y[1],
-                G[2][0] * y[0] + G[2][1] * y[1] + G[2][2] * y[2],
-                0.0,
-            ];
+            let change = lower_times(&G[row], &y);
             let inside = &coarse.grid.inside[row];
             for (&corner, weight) in coarse.grid.cells[inside.cell as usize].iter().zip(inside.weights()) {
                 let taken = &mut coarse.change[corner as usize];
