@@ -6,7 +6,7 @@ use serde_json::Value;
 use crate::program::{Desk, course_scenes};
 use crate::scene_text::{CUBE, build, edit, shipped, without};
 
-const KEYS: [&str; 21] = [
+const KEYS: [&str; 22] = [
     "scene",
     "status",
     "nodes",
@@ -19,6 +19,7 @@ const KEYS: [&str; 21] = [
     "unconverged_steps",
     "factorizations",
     "symbolic_factorizations",
+    "solver_iterations",
     "stiffness_assemblies",
     "energy_evaluations",
     "line_search_backtracks",

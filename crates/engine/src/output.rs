@@ -56,6 +56,8 @@ pub struct Stats {
     pub unconverged_steps: usize,
     pub factorizations: usize,
     pub symbolic_factorizations: usize,
+    /// Of all iterative solutions.
+    pub solver_iterations: usize,
     pub stiffness_assemblies: usize,
     pub energy_evaluations: usize,
     pub line_search_backtracks: usize,
@@ -91,6 +93,7 @@ impl Stats {
             unconverged_steps: counters.unconverged_steps,
             factorizations: counters.factorizations,
             symbolic_factorizations: counters.symbolic_factorizations,
+            solver_iterations: counters.solver_iterations,
             stiffness_assemblies: counters.stiffness_assemblies,
             energy_evaluations: counters.energy_evaluations,
             line_search_backtracks: counters.line_search_backtracks,

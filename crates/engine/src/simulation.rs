@@ -160,6 +160,7 @@ pub struct Counters {
     pub unconverged_steps: usize,
     pub factorizations: usize,
     pub symbolic_factorizations: usize,
+    pub solver_iterations: usize,
     pub force_assemblies: usize,
     pub stiffness_assemblies: usize,
     pub energy_evaluations: usize,

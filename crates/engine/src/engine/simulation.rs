@@ -169,9 +169,10 @@ impl<T: Real> Simulation for Engine<T> {
     }
 
     fn counters(&self) -> Counters {
-        let symbolic = self.stepper.solver().map_or(0, |solver| solver.counters().symbolic_factorizations);
+        let solver = self.stepper.solver().map(|solver| solver.counters()).unwrap_or_default();
         Counters {
-            symbolic_factorizations: symbolic,
+            symbolic_factorizations: solver.symbolic_factorizations,
+            solver_iterations: solver.iterations,
             skinning_rows: self.skinned_rows.load(Ordering::Relaxed),
             ..self.counters
         }

@@ -163,6 +163,7 @@ impl Row {
             ("newton_it", count(counters.newton_iterations)),
             ("factorizations", count(counters.factorizations)),
             ("lin_solves", count(self.linear_solves())),
+            ("solver_it", count(counters.solver_iterations)),
             ("energy_evals", count(counters.energy_evaluations)),
             ("force_evals", count(counters.force_assemblies)),
             ("stiffness_assemblies", count(counters.stiffness_assemblies)),

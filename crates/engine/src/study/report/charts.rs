@@ -34,7 +34,7 @@ pub fn title(row: &Row) -> String {
     let case = &row.case;
     let counters = &row.counters;
     format!(
-        "{}\n{} steps of {}\nerror {} (largest {})\n{} in all, {} a step\nsteps {}, forces {}, Newton {}, factors {}\n{}",
+        "{}\n{} steps of {}\nerror {} (largest {})\n{} in all, {} a step\nsteps {}, forces {}, Newton {}, factors {}, solver {}\n{}",
         case.method,
         case.steps,
         step(case.dt),
@@ -46,6 +46,7 @@ pub fn title(row: &Row) -> String {
         counters.force_assemblies,
         counters.newton_iterations,
         counters.factorizations,
+        counters.solver_iterations,
         case.id
     )
 }

@@ -52,7 +52,8 @@ relative), or against the manufactured solution (both relative).</li>\n\
 its length.</li>\n\
 <li><code>dE</code> (E − E*) / max(|T*|, |V*|); <code>dp</code> |p − p*| / √(2 m T*); <code>dL</code> |L − L*| / (√(2 m T*) · length), with lumped masses; all at the \
 end. For a free body under no load p* and L* are what is conserved.</li>\n\
-<li><code>lin_solves</code> systems solved for steps and Newton directions; <code>force_evals</code> passes over all elements; these counts do not depend on \
+<li><code>lin_solves</code> systems solved for steps and Newton directions; <code>solver_it</code> iterations of \
+iterative solvers in them; <code>force_evals</code> passes over all elements; these counts do not depend on \
 the machine.</li>\n\
 <li><code>peak_MB</code> largest memory of the whole process while the run was looked at. <code>tol</code> is relative to the body's length and the step's \
 last update.</li>\n</ul>\n";

@@ -56,7 +56,7 @@ fn intro(study: &SceneStudy) -> String {
     format!("{}: {nodes} nodes, {elements} tetrahedra{motion}.", study.about)
 }
 
-const HEAD: [&str; 10] = [
+const HEAD: [&str; 11] = [
     "run",
     ">time step",
     ">error",
@@ -67,6 +67,7 @@ const HEAD: [&str; 10] = [
     ">force evaluations",
     ">Newton",
     ">factors",
+    ">solver iterations",
 ];
 
 fn line(row: &Row) -> Vec<String> {
@@ -82,6 +83,7 @@ fn line(row: &Row) -> Vec<String> {
         row.counters.force_assemblies.to_string(),
         row.counters.newton_iterations.to_string(),
         row.counters.factorizations.to_string(),
+        row.counters.solver_iterations.to_string(),
     ]
 }
 
