@@ -133,12 +133,19 @@ fn meshes(scene: &Scene) -> Vec<Scene> {
     levels(scene).map_or(Vec::new(), |[half, _, twice]| vec![with(half), with(twice)])
 }
 
-/// Cells per metre of three meshes around the scene's, each twice as fine; none where the scene is no box that can be halved.
-pub fn levels(scene: &Scene) -> Option<[usize; 3]> {
-    let cuboid = scene.mesh.cuboid.as_ref()?;
+/// Cells per metre of three meshes around the scene's, each twice as fine; says why where there are none.
+pub fn levels(scene: &Scene) -> Result<[usize; 3], String> {
+    let Some(cuboid) = &scene.mesh.cuboid else {
+        let text = "the mesh is a file, of which no finer mesh of the same body is known: cut into smaller elements, its \
+                    surface stays as coarse, and nodes that are held or pulled one by one have no limit";
+        return Err(text.to_owned());
+    };
     let cells = cuboid.cells_per_unit;
     let is_whole = |edge: &f64| (edge * (cells / 2) as f64).fract() == 0.0;
-    (cells % 2 == 0 && cuboid.size.iter().all(is_whole)).then_some([cells / 2, cells, 2 * cells])
+    if cells % 2 == 0 && cuboid.size.iter().all(is_whole) {
+        return Ok([cells / 2, cells, 2 * cells]);
+    }
+    Err(format!("{cells} cells per metre cannot be halved; an even number can, if edges stay whole numbers of cells"))
 }
 
 /// Solvers, and preconditioners of those that have one.

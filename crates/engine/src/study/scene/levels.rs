@@ -17,11 +17,17 @@ const SECONDS_OF_AN_ELEMENT: f64 = 2e-7;
 impl Bodies<'_> {
     /// What three meshes tell; `None` where the scene is no box, is known in closed form, or would take too long.
     pub fn nested(&mut self, base: &Scene, study: &mut SceneStudy) -> Result<Option<Nested>, String> {
-        let Some(all) = plan::levels(base) else { return Ok(None) };
         let is_static = base.time.integrator == Integrator::Static;
         if closed_forms::uniaxial(base).is_some() || (!is_static && study.fastest == 0.0) {
             return Ok(None);
         }
+        let all = match plan::levels(base) {
+            Ok(all) => all,
+            Err(reason) => {
+                study.left_out.push(("errors in space".to_owned(), reason));
+                return Ok(None);
+            }
+        };
         let steps = 2.0 * study.fastest * study.horizon / EXPLICIT;
         let finest = steps * 8.0 * study.size.1 as f64 * SECONDS_OF_AN_ELEMENT;
         if finest > most_reference_seconds(self.setting.is_quick) {
