@@ -67,6 +67,11 @@ impl Held {
         fixed.chain(led)
     }
 
+    /// Each motion, and the nodes that it leads.
+    pub fn motions(&self) -> &[(Prescribed, Vec<usize>)] {
+        &self.motions
+    }
+
     /// Nodes of `[fixed]`; `None` where the scene has none.
     pub fn fixed(&self) -> Option<&[usize]> {
         self.fixed.as_deref()

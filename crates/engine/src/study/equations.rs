@@ -11,6 +11,7 @@ use crate::solvers::SolverChoice;
 use crate::system::System;
 
 use super::ldl::Ldl;
+use super::led::moves;
 use crate::materials::Material;
 
 /// A body's equations of motion, in the engine's order of nodes.
@@ -20,7 +21,7 @@ pub struct Equations {
     /// Of the nodes that are free in some direction.
     masses: Vec<MassFactor>,
     drag_stiffness: f64,
-    /// Whether nodes are led along a motion, which [`accelerations`](Self::accelerations) do not follow.
+    /// Whether nodes are led along a motion; then [`lead`](Self::lead) goes before [`accelerations`](Self::accelerations).
     pub is_led: bool,
 }
 
@@ -33,6 +34,8 @@ pub struct Scratch {
     springs: Vec<Spring<f64>>,
     force: Vec<[f64; 3]>,
     right: Vec<[f64; 3]>,
+    /// Accelerations of led directions, zero elsewhere, m/s²; empty where nothing is led.
+    pub led: Vec<[f64; 3]>,
 }
 
 impl Equations {
@@ -42,9 +45,6 @@ impl Equations {
         let system = System::new(scene, body, material, SolverChoice::Cholesky);
         let masses = masses(scene, &system)?;
         let drag_stiffness = scene.drag.as_ref().map_or(0.0, |drag| drag.stiffness);
-        let moves = |motion: &crate::scene::Prescribed| {
-            motion.rotation.is_some() || motion.displacement.is_some_and(|displacement| displacement != [0.0; 3])
-        };
         let is_led = scene.prescribed.iter().any(moves);
         Ok(Self { system, masses, drag_stiffness, is_led })
     }
@@ -57,7 +57,7 @@ impl Equations {
     /// `a = M⁻¹ f(u, v, t)`, zero in held directions, m/s².
     pub fn accelerations(&self, u: &[[f64; 3]], v: &[[f64; 3]], time: f64, a: &mut [[f64; 3]], scratch: &mut Scratch) {
         let system = &self.system;
-        let Scratch { springs, force, .. } = scratch;
+        let Scratch { springs, force, led, .. } = scratch;
         force.resize(self.nodes(), [0.0; 3]);
         Pulls { system, hand: None, stiffness: self.drag_stiffness }.at(time, springs);
         system.gradient(u, system.acting(springs), force);
@@ -67,7 +67,18 @@ impl Equations {
             system.mass.add_times(-damping.alpha, v, force);
             system.add_stiffness_times(-damping.beta, u, v, force);
         }
+        if !led.is_empty() {
+            system.mass.add_times(-1.0, led, force);
+        }
         self.divide_by_mass(scratch, a);
+    }
+
+    /// Velocities that the momentum −M `change` gives to nodes that are free, m/s; zero in held directions.
+    pub fn momentum_to_velocity(&self, change: &[[f64; 3]], v: &mut [[f64; 3]], scratch: &mut Scratch) {
+        scratch.force.clear();
+        scratch.force.resize(self.nodes(), [0.0; 3]);
+        self.system.mass.add_times(-1.0, change, &mut scratch.force);
+        self.divide_by_mass(scratch, v);
     }
 
     /// a = M⁻¹ force.

@@ -8,6 +8,7 @@ pub mod closed_forms;
 pub mod costs;
 pub mod equations;
 pub mod ldl;
+pub mod led;
 pub mod locking;
 pub mod machine;
 pub mod manufactured;

@@ -8,6 +8,7 @@
 use nalgebra::DVector;
 
 use super::equations::{Equations, Scratch};
+use super::led::Phase;
 
 /// Columns of the extrapolation: the order is twice as high.
 const COLUMNS: usize = 8;
@@ -41,33 +42,41 @@ pub struct Reference {
     pub evaluations: usize,
 }
 
-/// Displacements and velocities.
-type Phase = [Vec<[f64; 3]>; 2];
+/// A time in which nothing jumps: its begin and end, s, and into how many steps it is cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Piece {
+    begin: f64,
+    end: f64,
+    steps: usize,
+}
 
 /// The state at a time, s, from rest. Says why where there is none, or where it would take longer than `most_seconds`.
 pub fn reference(equations: &Equations, horizon: f64, most_seconds: f64) -> Result<Reference, String> {
-    if equations.is_led {
-        return Err("nodes are led along by [[prescribed]], which the reference does not follow".to_owned());
-    }
     let fastest = equations.fastest();
-    let mut steps = (horizon * fastest / FIRST).ceil().max(4.0) as usize;
+    let jumps = equations.jumps(horizon)?;
+    let piece = |ends: &[f64]| {
+        let steps = ((ends[1] - ends[0]) * fastest / FIRST).ceil().max(4.0) as usize;
+        Piece { begin: ends[0], end: ends[1], steps }
+    };
+    let mut pieces: Vec<Piece> = jumps.windows(2).map(piece).collect();
+    let all = |pieces: &[Piece]| pieces.iter().map(|piece| piece.steps).sum::<usize>();
     // The first solution and the one with half the step.
-    let seconds = 3.0 * (steps * COLUMNS * (COLUMNS + 1)) as f64 * seconds_of_one(equations);
+    let seconds = 3.0 * (all(&pieces) * COLUMNS * (COLUMNS + 1)) as f64 * seconds_of_one(equations);
     if seconds > most_seconds {
         return Err(format!("the reference in time would take {seconds:.0} s"));
     }
-    let mut coarse = solve(equations, horizon, steps);
+    let mut coarse = solve(equations, &pieces);
     for _ in 0..MOST_HALVINGS {
-        steps *= 2;
-        let fine = solve(equations, horizon, steps);
+        pieces.iter_mut().for_each(|piece| piece.steps *= 2);
+        let fine = solve(equations, &pieces);
         let check = distance(&coarse, &fine);
         // NaN fails it.
         if check.0 <= SELF_CHECK.0 && check.1 <= SELF_CHECK.1 {
-            return Ok(finished(equations, horizon, fine, check, steps));
+            return Ok(finished(equations, horizon, fine, check, all(&pieces)));
         }
         coarse = fine;
     }
-    Err(format!("the reference in time does not settle within {steps} steps"))
+    Err(format!("the reference in time does not settle within {} steps", all(&pieces)))
 }
 
 /// Seconds of one evaluation of the accelerations.
@@ -108,31 +117,40 @@ fn distance(a: &Phase, b: &Phase) -> (f64, f64) {
     (part(&a[0], &b[0]), part(&a[1], &b[1]))
 }
 
-fn solve(equations: &Equations, horizon: f64, steps: usize) -> Phase {
+fn solve(equations: &Equations, pieces: &[Piece]) -> Phase {
     let zero = || vec![[0.0; 3]; equations.nodes()];
     let mut now: Phase = [zero(), zero()];
     let mut work = Work { previous: [zero(), zero()], next: [zero(), zero()], a: zero(), scratch: Scratch::default() };
     let mut table: Vec<Phase> = (0..COLUMNS).map(|_| [zero(), zero()]).collect();
-    let step = horizon / steps as f64;
-    for number in 0..steps {
-        let time = horizon * number as f64 / steps as f64;
-        for row in 0..COLUMNS {
-            let substeps = 2 * (row + 1);
-            let mut column = midpoint(equations, &now, time, step, substeps, &mut work);
-            // Aitken and Neville: each entry of the table takes the place of the one above it.
-            for (k, entry) in table.iter_mut().enumerate().take(row + 1) {
-                if k == row {
-                    *entry = column;
-                    break;
-                }
-                let ratio = substeps as f64 / (2 * (row - k)) as f64;
-                let better = extrapolated(&column, entry, 1.0 / (ratio * ratio - 1.0));
-                *entry = std::mem::replace(&mut column, better);
-            }
+    for piece in pieces {
+        equations.kick(piece.begin, &mut now, &mut work.scratch);
+        for number in 0..piece.steps {
+            advance(equations, piece, number, &mut now, &mut table, &mut work);
         }
-        now.clone_from(&table[COLUMNS - 1]);
     }
     now
+}
+
+/// One step of a piece: all columns of the extrapolation.
+fn advance(equations: &Equations, piece: &Piece, number: usize, now: &mut Phase, table: &mut [Phase], work: &mut Work) {
+    let length = piece.end - piece.begin;
+    let (step, time) = (length / piece.steps as f64, piece.begin + length * number as f64 / piece.steps as f64);
+    for row in 0..COLUMNS {
+        let substeps = 2 * (row + 1);
+        let mut column = midpoint(equations, now, (piece.begin, time), step, substeps, work);
+        // Aitken and Neville: each entry of the table takes the place of the one above it.
+        for (k, entry) in table.iter_mut().enumerate().take(row + 1) {
+            if k == row {
+                *entry = column;
+                break;
+            }
+            let ratio = substeps as f64 / (2 * (row - k)) as f64;
+            let better = extrapolated(&column, entry, 1.0 / (ratio * ratio - 1.0));
+            *entry = std::mem::replace(&mut column, better);
+        }
+    }
+    now.clone_from(&table[COLUMNS - 1]);
+    equations.lead(piece.begin, time + step, now, &mut work.scratch);
 }
 
 /// T + (T − T') w.
@@ -153,12 +171,22 @@ struct Work {
 }
 
 /// y₁ = y₀ + h f(y₀), y_{m+1} = y_{m−1} + 2h f(y_m): an even number of substeps, no smoothing.
-fn midpoint(equations: &Equations, now: &Phase, time: f64, step: f64, substeps: usize, work: &mut Work) -> Phase {
+/// `begin` is when the piece began that `time` belongs to, s.
+fn midpoint(
+    equations: &Equations,
+    now: &Phase,
+    (begin, time): (f64, f64),
+    step: f64,
+    substeps: usize,
+    work: &mut Work,
+) -> Phase {
     let Work { previous, next, a, scratch } = work;
     let h = step / substeps as f64;
     let mut at = now.clone();
     for m in 0..substeps {
-        equations.accelerations(&at[0], &at[1], time + m as f64 * h, a, scratch);
+        let instant = time + m as f64 * h;
+        equations.lead(begin, instant, &mut at, scratch);
+        equations.accelerations(&at[0], &at[1], instant, a, scratch);
         let (from, length) = if m == 0 { (now, h) } else { (&*previous, 2.0 * h) };
         for ((next, from), v) in next[0].iter_mut().zip(&from[0]).zip(&at[1]) {
             *next = std::array::from_fn(|i| from[i] + length * v[i]);
