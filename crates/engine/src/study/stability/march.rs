@@ -2,6 +2,7 @@
 
 use super::case::{Clock, Finding, Outcome};
 use crate::engine::Engine;
+use crate::number::Real;
 use crate::simulation::{Failure, Simulation};
 
 /// Part of the steps that must converge.
@@ -30,16 +31,16 @@ pub struct March {
 }
 
 /// Takes up to so many steps.
-pub fn march(simulation: &mut Engine<f64>, steps: usize, clock: Clock) -> March {
+pub fn march<T: Real>(simulation: &mut Engine<T>, steps: usize, clock: Clock) -> March {
     march_with(simulation, steps, clock, |_| {})
 }
 
 /// The same; calls `after` at the end of each step.
-pub fn march_with(
-    simulation: &mut Engine<f64>,
+pub fn march_with<T: Real>(
+    simulation: &mut Engine<T>,
     steps: usize,
     clock: Clock,
-    mut after: impl FnMut(&Engine<f64>),
+    mut after: impl FnMut(&Engine<T>),
 ) -> March {
     let before = simulation.counters().unconverged_steps;
     let mut march = March {

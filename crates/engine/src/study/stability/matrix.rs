@@ -9,10 +9,10 @@ use crate::engine::Engine;
 const FAMILY: &str = "stiffness and time step";
 
 /// Pa
-const YOUNG: [f64; 4] = [1e2, 1e5, 1e8, 1e12];
+pub const YOUNG: [f64; 4] = [1e2, 1e5, 1e8, 1e12];
 
 /// s
-const DT: [f64; 3] = [1e-5, 1e-2, 1.0];
+pub const DT: [f64; 3] = [1e-5, 1e-2, 1.0];
 
 /// Where the fastest vibration starts, m; the body's elements have edges of 1 m.
 const AMPLITUDE: f64 = 1e-4;

@@ -19,6 +19,7 @@ mod poisson;
 mod recovery;
 mod run;
 mod scene_text;
+mod single;
 mod slivers;
 mod start;
 mod strains;
@@ -53,6 +54,7 @@ fn cases(quick: bool, maps: &map::Found) -> Vec<Case> {
     poisson::add(&mut cases, quick);
     frames::add(&mut cases, quick);
     slivers::add(&mut cases, quick);
+    single::add(&mut cases, quick);
     mixed::add(&mut cases, quick);
     strains::add(&mut cases, quick);
     recovery::add(&mut cases, quick);

@@ -8,6 +8,7 @@ use super::case::Finding;
 use super::case::Outcome;
 use crate::engine::Engine;
 use crate::mesh::TetrahedralMesh;
+use crate::number::Real;
 use crate::scene::{Scene, SceneError, body, body_of, parse};
 
 /// The methods that move.
@@ -94,6 +95,11 @@ impl Text {
 
     /// The same on another mesh.
     pub fn build_on(&self, mesh: TetrahedralMesh) -> Result<Engine<f64>, Finding> {
+        self.build_on_as(mesh)
+    }
+
+    /// The same in a precision; the scene must name it too.
+    pub fn build_on_as<T: Real>(&self, mesh: TetrahedralMesh) -> Result<Engine<T>, Finding> {
         let scene = self.scene().map_err(refused)?;
         let body = body_of(&scene, mesh, Path::new("")).map_err(refused)?;
         Engine::new(&scene, body).map_err(refused)
