@@ -64,10 +64,10 @@ const HEAD: [&str; 11] = [
     ">quartiles",
     ">processor",
     ">a step",
-    ">force evaluations",
+    ">forces",
     ">Newton",
     ">factors",
-    ">solver iterations",
+    ">solver",
 ];
 
 fn line(row: &Row) -> Vec<String> {
