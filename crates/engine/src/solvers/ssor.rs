@@ -88,9 +88,7 @@ impl Ssor {
         }
         self.take(r, 1.0 / size);
         let outcome = self.iterate(tolerance);
-        if let Ok(iterations) = outcome {
-            self.coarse.wear(iterations, tolerance);
-        }
+        self.coarse.wear(outcome.as_ref().ok().copied(), tolerance);
         self.give(x, size * self.matrix.scale);
         outcome
     }

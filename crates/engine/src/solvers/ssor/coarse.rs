@@ -196,11 +196,11 @@ impl Coarse {
         product
     }
 
-    /// Takes note of how many iterations made the residual so many times smaller.
-    pub fn wear(&mut self, iterations: usize, tolerance: f64) {
-        let (iterations, powers) = (iterations as f64, -tolerance.ln().min(-1.0));
-        let first = *self.effort.get_or_insert(iterations / powers);
-        self.is_worn |= iterations > WORN.0 + WORN.1 * first * powers;
+    /// Takes note of how many iterations made the residual so many times smaller; none did where this matrix may be why not.
+    pub fn wear(&mut self, iterations: Option<usize>, tolerance: f64) {
+        let powers = -tolerance.ln().min(-1.0);
+        let mut most = |first: f64| WORN.0 + WORN.1 * powers * *self.effort.get_or_insert(first / powers);
+        self.is_worn |= iterations.is_none_or(|count| count as f64 > most(count as f64));
     }
 
     /// Bytes that it holds.

@@ -116,3 +116,14 @@ fn a_matrix_that_no_longer_serves_is_computed_anew() {
     }
     assert_ne!(ssor.coarse.scale, before);
 }
+
+#[test]
+fn after_a_solve_that_fails_the_coarse_matrix_is_computed_anew() {
+    let (mut ssor, beam) = prepared(3, Beam::values);
+    let before = ssor.coarse.scale;
+    let b = random::<f64>(beam.pattern.rows(), 5);
+    // more than single precision has
+    assert!(ssor.correct(&b, &mut vec![[0.0; 3]; b.len()], 1e-30).is_err());
+    ssor.prepare(&beam.scaled::<f64>(|_| 1.1, 1e4)).unwrap();
+    assert_ne!(ssor.coarse.scale, before);
+}
