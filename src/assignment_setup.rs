@@ -10,8 +10,8 @@ mod work;
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use fem_engine::scene::{Drag, Integrator};
-use fem_engine::simulation::{Pull, Shape};
+use fem_scene::simulation::{Pull, Shape};
+use fem_scene::{Drag, Integrator};
 use nalgebra::{DVector, Matrix3, Vector3};
 use nalgebra_sparse::CsrMatrix;
 

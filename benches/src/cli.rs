@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use fem_engine::scene::{Preconditioner, Scene, Solver, SolverKind};
+use fem_scene::{Preconditioner, Scene, Solver, SolverKind};
 
 /// Times the engine: beside its peers, part by part, by size and by solver.
 #[derive(Debug, Parser)]
@@ -135,7 +135,7 @@ impl SolverName {
 impl RunArguments {
     /// The scene with what is different in this run.
     pub fn scene(&self) -> Result<Scene, String> {
-        let mut scene = fem_engine::scene::load(&self.scene, &self.data).map_err(|error| error.to_string())?;
+        let mut scene = fem_scene::load(&self.scene, &self.data).map_err(|error| error.to_string())?;
         scene.time.steps = self.steps.or(scene.time.steps);
         if let Some(solver) = self.solver {
             scene.solver = Some(solver.table());

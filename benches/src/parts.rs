@@ -4,9 +4,9 @@ use std::time::Instant;
 
 use fem_engine::acting::Acting;
 use fem_engine::materials::Material;
-use fem_engine::simulate::quantile;
 use fem_engine::solvers::{Preconditioner, Solver, SolverChoice};
 use fem_engine::system::System;
+use fem_scene::simulate::quantile;
 
 use crate::cli::{RunArguments, SolverName};
 use crate::end::End;
@@ -18,7 +18,7 @@ const LONG_ENOUGH: (f64, usize) = (0.5, 15);
 /// Times each part alone, on a body that is bent a little, and prints a table.
 pub fn run(arguments: &RunArguments) -> Result<(), End> {
     let scene = arguments.scene().map_err(End::unusable)?;
-    let body = fem_engine::scene::body(&scene, &arguments.data).map_err(End::unusable)?;
+    let body = fem_scene::body(&scene, &arguments.data).map_err(End::unusable)?;
     let Some(material) = Material::<f64>::new(&scene.material) else {
         return Err(End::unusable(scene.refuse("material", "lacks the moduli of its model")));
     };

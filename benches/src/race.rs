@@ -1,6 +1,6 @@
 //! Several programs in turn, round after round, so that a busy minute of the machine falls on all of them.
 
-use fem_engine::simulate::quantile;
+use fem_scene::simulate::quantile;
 use serde::Serialize;
 
 use crate::end::End;

@@ -3,8 +3,8 @@
 use std::process::Command;
 use std::time::Instant;
 
-use fem_engine::output::Stats;
-use fem_engine::simulate;
+use fem_scene::output::Stats;
+use fem_scene::simulate;
 use nix::time::{ClockId, clock_gettime};
 use serde::{Deserialize, Serialize};
 
@@ -43,7 +43,7 @@ fn here(arguments: &RunArguments) -> Result<Run, End> {
     let scene = arguments.scene().map_err(End::unusable)?;
     let steps = scene.time.steps.unwrap_or(DEFAULT_STEPS);
     let start = Instant::now();
-    let body = fem_engine::scene::body(&scene, &arguments.data).map_err(End::unusable)?;
+    let body = fem_scene::body(&scene, &arguments.data).map_err(End::unusable)?;
     let mut simulation = fem_engine::engine::build(&scene, body).map_err(End::unusable)?;
     let seconds_setup = start.elapsed().as_secs_f64();
 

@@ -1,8 +1,8 @@
 //! Scenes that the fast engine runs: it is not in this repository, since it holds what you are to write.
 
 use clap::Subcommand;
-use fem_engine::scene::{Body, Scene};
-use fem_engine::simulation::Simulation;
+use fem_scene::{Body, Scene};
+use fem_scene::simulation::Simulation;
 
 use super::end::End;
 

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use fem_engine::scene::{Body, Integrator, Model, Pipeline, Precision, Scene, SceneError};
+use fem_scene::{Body, Integrator, Model, Pipeline, Precision, Scene, SceneError};
 use nalgebra::{DVector, Vector3};
 
 use super::constraints::{Constraints, stack};

@@ -1,7 +1,7 @@
 //! What a scene builds, what it leaves out, and why.
 
-use fem_engine::scene::Integrator;
-use fem_engine::simulation::Part;
+use fem_scene::Integrator;
+use fem_scene::simulation::Part;
 
 use super::AssignmentSetup;
 use super::work::bytes;

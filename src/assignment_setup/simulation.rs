@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use fem_engine::scene::Integrator;
-use fem_engine::simulation::{Cause, Click, Counters, Energies, Failure, Parameter, Part, Pull, Shape, Simulation};
+use fem_scene::Integrator;
+use fem_scene::simulation::{Cause, Click, Counters, Energies, Failure, Parameter, Part, Pull, Shape, Simulation};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::build::{INTEGRATORS, extent};

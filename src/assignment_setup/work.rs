@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::time::Instant;
 
-use fem_engine::simulation::Counters;
+use fem_scene::simulation::Counters;
 use nalgebra_sparse::CsrMatrix;
 
 /// Counters and stop watches. Closures that share the simulation write to them, hence the cells.

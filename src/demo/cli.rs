@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
-use fem_engine::scene::Integrator;
+use fem_scene::Integrator;
 
 use super::engine::Study;
 

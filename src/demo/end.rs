@@ -3,7 +3,7 @@
 use std::fmt;
 use std::process::ExitCode;
 
-use fem_engine::simulation::Failure;
+use fem_scene::simulation::Failure;
 
 /// Why it ends before everything is done.
 #[derive(Debug)]

@@ -4,8 +4,8 @@ pub mod report;
 pub mod stability;
 
 use clap::Subcommand;
-use fem_engine::scene::{Body, Scene};
-use fem_engine::simulation::Simulation;
+use fem_scene::simulation::Simulation;
+use fem_scene::{Body, Scene};
 
 use super::end::End;
 

@@ -1,7 +1,7 @@
 //! `--explain`: what a scene builds and what it leaves out.
 
-use fem_engine::scene::{Pipeline, Scene};
-use fem_engine::simulation::{Part, Simulation};
+use fem_scene::simulation::{Part, Simulation};
+use fem_scene::{Pipeline, Scene};
 
 /// Prints a line for every part.
 pub fn print(scene: &Scene, simulation: &dyn Simulation) {

@@ -1,9 +1,9 @@
 //! A run without a window.
 
-use fem_engine::mesh::write::Frame;
-use fem_engine::output::Series;
-use fem_engine::simulate;
-use fem_engine::simulation::{Energies, Simulation};
+use fem_mesh::write::Frame;
+use fem_scene::output::Series;
+use fem_scene::simulate;
+use fem_scene::simulation::{Energies, Simulation};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::cli::RunArguments;

@@ -1,20 +1,18 @@
 //! `list`: the scenes.
 
-use fem_engine::scene;
-
 use super::end::End;
 use super::{data, explain, run};
 
 /// Prints a line for each scene: its name, what it is about, and what it builds.
 pub fn print_scenes() -> Result<(), End> {
     let data = data::folder();
-    let names = scene::names(&data);
+    let names = fem_scene::names(&data);
     if names.is_empty() {
         return Err(End::unusable(format!("there are no scenes in {}; run from the repository", data.display())));
     }
     let width = names.iter().map(String::len).max().unwrap_or_default();
     for name in names {
-        let scene = scene::load(&name, &data).map_err(End::unusable)?;
+        let scene = fem_scene::load(&name, &data).map_err(End::unusable)?;
         // One scene that cannot be built does not hide the others.
         match run::build(&scene) {
             Ok(ready) => say!("{name:<width$} {} [{}]", scene.about, explain::built(&ready.simulation.parts())),

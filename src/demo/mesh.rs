@@ -2,8 +2,6 @@
 
 use std::path::Path;
 
-use fem_engine::mesh;
-
 use super::cli::MeshAction;
 use super::end::End;
 
@@ -16,17 +14,17 @@ pub fn run(action: &MeshAction) -> Result<(), End> {
     .map_err(End::unusable)
 }
 
-fn info(file: &Path) -> Result<(), mesh::MeshError> {
-    let mesh = mesh::read_tetrahedra(file)?;
-    mesh::check(&mesh, file)?;
-    say!("{}", mesh::quality(&mesh).to_string().trim_end());
+fn info(file: &Path) -> Result<(), fem_mesh::MeshError> {
+    let mesh = fem_mesh::read_tetrahedra(file)?;
+    fem_mesh::check(&mesh, file)?;
+    say!("{}", fem_mesh::quality(&mesh).to_string().trim_end());
     Ok(())
 }
 
-fn convert(from: &Path, to: &Path) -> Result<(), mesh::MeshError> {
-    let mesh = mesh::read_tetrahedra(from)?;
-    mesh::check(&mesh, from)?;
-    mesh::write_tetrahedra(to, &mesh)?;
+fn convert(from: &Path, to: &Path) -> Result<(), fem_mesh::MeshError> {
+    let mesh = fem_mesh::read_tetrahedra(from)?;
+    fem_mesh::check(&mesh, from)?;
+    fem_mesh::write_tetrahedra(to, &mesh)?;
     say!("{}: {} nodes, {} tetrahedra", to.display(), mesh.vertices.len(), mesh.elements.len());
     Ok(())
 }

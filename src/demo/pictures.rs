@@ -1,6 +1,6 @@
 //! Pictures of a run without a window.
 
-use fem_engine::simulation::Simulation;
+use fem_scene::simulation::Simulation;
 use nalgebra::Vector3;
 
 use super::cli::RunArguments;

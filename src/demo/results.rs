@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use fem_engine::cantilever;
-use fem_engine::mesh::write::Frame;
-use fem_engine::output::{self, EXPORTS, Stats};
-use fem_engine::simulate::{Run, quantile};
-use fem_engine::simulation::{Energies, Reaction, Simulation};
+use fem_mesh::write::Frame;
+use fem_scene::cantilever;
+use fem_scene::output::{self, EXPORTS, Stats};
+use fem_scene::simulate::{Run, quantile};
+use fem_scene::simulation::{Energies, Reaction, Simulation};
 
 use nalgebra::Vector3;
 

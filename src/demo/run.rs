@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use fem_engine::cantilever;
-use fem_engine::scene::{self, Body, Integrator, Pipeline, Scene};
-use fem_engine::simulation::Simulation;
+use fem_scene::cantilever;
+use fem_scene::simulation::Simulation;
+use fem_scene::{Body, Integrator, Pipeline, Scene};
 use finite_elements_3d::assignment_setup::AssignmentSetup;
 use nalgebra::Vector3;
 
@@ -48,7 +48,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), End> {
 }
 
 fn scene_with_overrides(arguments: &RunArguments) -> Result<Scene, End> {
-    let mut scene = scene::load(&arguments.scene, &data::folder()).map_err(End::unusable)?;
+    let mut scene = fem_scene::load(&arguments.scene, &data::folder()).map_err(End::unusable)?;
     scene.time.dt = arguments.dt.unwrap_or(scene.time.dt);
     scene.time.integrator = arguments.integrator.unwrap_or(scene.time.integrator);
     scene.time.steps = arguments.steps.or(scene.time.steps);
@@ -58,7 +58,7 @@ fn scene_with_overrides(arguments: &RunArguments) -> Result<Scene, End> {
 /// Reads the meshes of a scene and builds its simulation.
 pub fn build(scene: &Scene) -> Result<Ready, End> {
     let start = Instant::now();
-    let body = scene::body(scene, &data::folder()).map_err(End::unusable)?;
+    let body = fem_scene::body(scene, &data::folder()).map_err(End::unusable)?;
     let simulation = match scene.pipeline {
         Pipeline::Course => course(scene, body)?,
         Pipeline::Engine => engine::build(scene, body)?,

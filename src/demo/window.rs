@@ -19,7 +19,7 @@ pub fn available() -> Result<(), String> {
 /// Shows the simulation until the window is closed, then writes what the options ask for.
 #[cfg(feature = "viewer")]
 pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
-    use fem_engine::simulate::Run;
+    use fem_scene::simulate::Run;
     use fem_viewer::{Stop, WindowError, WindowOptions};
 
     use super::headless;

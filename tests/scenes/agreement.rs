@@ -1,7 +1,7 @@
 //! The course's pipeline and the engine compute the same motion, though they share no element, no assembly and no solver.
 
-use fem_engine::scene::{Integrator, body};
-use fem_engine::simulation::Simulation;
+use fem_scene::simulation::Simulation;
+use fem_scene::{Integrator, body};
 
 use crate::program::data;
 use crate::scene_text::{build, shipped};

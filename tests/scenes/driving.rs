@@ -1,6 +1,6 @@
 //! What a person can do to a running simulation.
 
-use fem_engine::simulation::{Click, Pull, Simulation};
+use fem_scene::simulation::{Click, Pull, Simulation};
 use nalgebra::{Matrix4, Perspective3, Point3, Vector3, Vector4};
 
 use crate::program::course_scenes;

@@ -1,7 +1,7 @@
 //! Energy: who may gain it, and from where.
 
-use fem_engine::scene::{Integrator, Scene, body};
-use fem_engine::simulation::Simulation;
+use fem_scene::simulation::Simulation;
+use fem_scene::{Integrator, Scene, body};
 use nalgebra::Vector3;
 
 use crate::program::{course_scenes, data};

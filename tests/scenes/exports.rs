@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use fem_engine::mesh::{read_surface, read_tetrahedra};
-use fem_engine::simulation::Simulation;
+use fem_mesh::{read_surface, read_tetrahedra};
+use fem_scene::simulation::Simulation;
 
 use crate::program::{Desk, course_scenes};
 use crate::scene_text::{CUBE, build, parse, shipped};

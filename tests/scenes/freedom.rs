@@ -1,6 +1,6 @@
 //! Free fall: the one motion that is known exactly.
 
-use fem_engine::simulation::Simulation;
+use fem_scene::simulation::Simulation;
 
 use crate::program::course_scenes;
 use crate::scene_text::{INTEGRATORS, build, build_with, edit, free_cube, shipped};

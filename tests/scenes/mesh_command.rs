@@ -1,6 +1,6 @@
 //! `mesh`: what it tells of a mesh, and that nothing is lost between formats.
 
-use fem_engine::mesh::{read_tetrahedra, volumes};
+use fem_mesh::{read_tetrahedra, volumes};
 
 use crate::program::{Desk, data};
 

@@ -1,8 +1,8 @@
 //! The momentum of a free body, at every size: without forces from outside it stays what it is.
 
-use fem_engine::mesh::volumes;
-use fem_engine::scene::Integrator;
-use fem_engine::simulation::{Pull, Simulation};
+use fem_mesh::volumes;
+use fem_scene::Integrator;
+use fem_scene::simulation::{Pull, Simulation};
 use finite_elements_3d::mass_matrix_mesh;
 use nalgebra::Vector3;
 

@@ -1,7 +1,7 @@
 //! The whole step against one that is implemented a second time, in another way.
 
-use fem_engine::scene::{Scene, body};
-use fem_engine::simulation::Simulation;
+use fem_scene::simulation::Simulation;
+use fem_scene::{Scene, body};
 use nalgebra::{DVector, Vector3};
 
 use crate::program::data;
@@ -23,7 +23,7 @@ fn model_of(scene: &Scene) -> Model {
 }
 
 fn springs_at(scene: &Scene, time: f64, model: &Model) -> Vec<Spring> {
-    let spring = |drag: &fem_engine::scene::Drag| {
+    let spring = |drag: &fem_scene::Drag| {
         let node = body(scene, &data()).unwrap().dragged.unwrap();
         let swing = drag.amplitude * (std::f64::consts::TAU * drag.frequency * time).sin();
         let target = model.V[node] + Vector3::from(drag.direction) * swing;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use fem_engine::scene::{self, Pipeline};
+use fem_scene::Pipeline;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -100,12 +100,12 @@ pub fn data() -> PathBuf {
 
 /// Names of all shipped scenes.
 pub fn shipped_scenes() -> Vec<String> {
-    scene::names(&data())
+    fem_scene::names(&data())
 }
 
 /// Names of the shipped scenes of the course; there are some.
 pub fn course_scenes() -> Vec<String> {
-    let is_course = |name: &String| scene::load(name, &data()).unwrap().pipeline == Pipeline::Course;
+    let is_course = |name: &String| fem_scene::load(name, &data()).unwrap().pipeline == Pipeline::Course;
     let names: Vec<_> = shipped_scenes().into_iter().filter(is_course).collect();
     assert!(names.len() >= 3, "data/scenes holds {names:?}");
     names

@@ -1,7 +1,7 @@
 //! Fixed nodes and pulled ones.
 
-use fem_engine::scene::body;
-use fem_engine::simulation::{Pull, Simulation};
+use fem_scene::body;
+use fem_scene::simulation::{Pull, Simulation};
 use nalgebra::{DVector, Vector3};
 
 use crate::program::{course_scenes, data};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem_engine::scene::{self, Integrator, Scene};
+use fem_scene::{Integrator, Scene};
 use finite_elements_3d::assignment_setup::AssignmentSetup;
 
 use crate::program::data;
@@ -55,17 +55,17 @@ pub fn free_cube() -> String {
 }
 
 pub fn parse(text: &str) -> Scene {
-    scene::parse(text, Path::new("test.toml")).unwrap()
+    fem_scene::parse(text, Path::new("test.toml")).unwrap()
 }
 
 /// A shipped scene.
 pub fn shipped(name: &str) -> Scene {
-    scene::load(name, &data()).unwrap()
+    fem_scene::load(name, &data()).unwrap()
 }
 
 /// The simulation of a scene, at rest.
 pub fn build(scene: &Scene) -> AssignmentSetup {
-    AssignmentSetup::new(scene, scene::body(scene, &data()).unwrap()).unwrap()
+    AssignmentSetup::new(scene, fem_scene::body(scene, &data()).unwrap()).unwrap()
 }
 
 /// The simulation of a text with this integrator, at rest.

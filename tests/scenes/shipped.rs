@@ -1,6 +1,6 @@
 //! Every scene of `data/scenes`, through the program and through the library.
 
-use fem_engine::simulation::Simulation;
+use fem_scene::simulation::Simulation;
 
 use crate::program::{Desk, course_scenes, data, numbers};
 use crate::scene_text::{build, shipped};

@@ -1,6 +1,6 @@
 //! `--stats`: its keys are promised, and its counts prove what a scene builds and what it leaves out.
 
-use fem_engine::simulation::Simulation;
+use fem_scene::simulation::Simulation;
 use serde_json::Value;
 
 use crate::program::{Desk, course_scenes};

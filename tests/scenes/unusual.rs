@@ -1,6 +1,6 @@
 //! Scenes at the edge of what makes sense, which must work all the same.
 
-use fem_engine::simulation::Simulation;
+use fem_scene::simulation::Simulation;
 
 use crate::program::Desk;
 use crate::scene_text::{CUBE, INTEGRATORS, build_with, edit, without};

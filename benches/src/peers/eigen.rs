@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use fem_engine::scene::{Axis, DragVertex, Scene};
+use fem_scene::{Axis, DragVertex, Scene};
 
 use crate::end::End;
 use crate::race::Time;

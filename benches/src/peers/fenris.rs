@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use fem_engine::scene::{Axis, Scene};
+use fem_scene::{Axis, Scene};
 use serde::Deserialize;
 
 use crate::end::End;

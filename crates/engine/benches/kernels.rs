@@ -11,9 +11,9 @@ use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterio
 use fem_engine::acting::Acting;
 use fem_engine::materials::Material;
 use fem_engine::number::Real;
-use fem_engine::scene::{Scene, body, parse};
 use fem_engine::solvers::{Preconditioner, Solver, SolverChoice};
 use fem_engine::system::System;
+use fem_scene::{Scene, body, parse};
 
 const LAWS: [&str; 5] = ["linear", "corotated", "st_venant_kirchhoff", "neo_hookean", "stable_neo_hookean"];
 

@@ -10,13 +10,13 @@ mod stepper;
 
 use crate::number::Real;
 use crate::pulls::Spring;
-use crate::scene::{Body, Integrator, Precision, Scene, SceneError};
-use crate::simulation::{Counters, Pull, Simulation};
 use crate::skinning::Skinning;
 use crate::solvers::SolverChoice;
 use crate::state::State;
 use crate::system::System;
 use crate::work::Meter;
+use fem_scene::simulation::{Counters, Pull, Simulation};
+use fem_scene::{Body, Integrator, Precision, Scene, SceneError};
 use stepper::Stepper;
 
 pub use build::integrators;

@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 
 use crate::number::Real;
 use crate::order::Order;
-use crate::scene::{Body, Prescribed, Scene};
 use crate::sparse::{Block, Pattern, Stored};
+use fem_scene::{Body, Prescribed, Scene};
 
 /// What holds a body. The engine's nodes from `free` on are held wholly.
 #[derive(Clone, Debug, Default)]

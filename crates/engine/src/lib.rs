@@ -9,14 +9,6 @@
 #![allow(clippy::needless_range_loop)] // indices of tensors are the notation of the field
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
-pub mod cantilever;
-pub mod mesh;
-pub mod output;
-pub mod scene;
-pub mod simulate;
-pub mod simulation;
-
-// The fast engine: not handed out to those who are to write the like.
 pub mod acting;
 pub mod assembly;
 pub mod engine;
@@ -35,7 +27,6 @@ pub mod solvers;
 pub mod sparse;
 pub mod springs;
 pub mod state;
-pub mod study;
 pub mod system;
 pub mod tensor;
 pub mod work;

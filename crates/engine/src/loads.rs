@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::mass::Mass;
 use crate::number::Real;
 use crate::order::Order;
-use crate::scene::{Body, Scene};
+use fem_scene::{Body, Scene};
 
 /// Forces that stay as they are, N, in the engine's order: weight, body force, dead traction. `None` where the scene names
 /// none of them.

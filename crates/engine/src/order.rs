@@ -210,7 +210,7 @@ fn extent(nodes: &[u32], x: &[Vector3<f64>]) -> Vector3<f64> {
 #[cfg(test)]
 mod tests {
     use super::{Numbering, Order};
-    use crate::mesh::box_mesh;
+    use fem_mesh::box_mesh;
 
     #[test]
     fn every_node_has_one_number_and_held_ones_come_last() {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3, Vector4};
 
-use crate::simulation::Click;
+use fem_scene::simulation::Click;
 
 /// Nodes near the first point of the boundary under a click, ascending; none where the click misses. Near is what no triangle's
 /// inside is farther from its corners than.

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use crate::number::Real;
 use crate::order::Order;
-use crate::scene::{Body, Scene};
+use fem_scene::{Body, Scene};
 
 /// A pressure on triangles of the surface.
 #[derive(Clone, Debug, PartialEq)]

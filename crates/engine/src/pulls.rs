@@ -1,8 +1,8 @@
 //! Pulls at single nodes: the scene's scripted one, or those of a person's hand, which take its place.
 
 use crate::number::Real;
-use crate::simulation::Pull;
 use crate::system::System;
+use fem_scene::simulation::Pull;
 
 /// A spring of no rest length from a node to a place.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::mesh::TetrahedralMesh;
+use fem_mesh::TetrahedralMesh;
 
 /// Four nodes and their weights for each display vertex.
 #[derive(Clone, Debug)]

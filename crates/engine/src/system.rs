@@ -14,12 +14,12 @@ use crate::number::Real;
 use crate::order::Order;
 use crate::pressure::Pressure;
 use crate::pulls::Spring;
-use crate::scene::{Body, Damping, Drag, Prescribed, Scene};
-use crate::simulation::Shape;
 use crate::solvers::SolverChoice;
 use crate::sparse::{Block, Pattern};
 use crate::springs::NodeSpring;
 use crate::work::Work;
+use fem_scene::simulation::Shape;
+use fem_scene::{Body, Damping, Drag, Prescribed, Scene};
 
 /// A body in the engine's order of nodes: free ones first, those that are held wholly last.
 pub struct System<T: Real> {
@@ -97,7 +97,7 @@ impl<T: Real> System<T> {
         let springs = node_springs(scene, &body, &order);
         let joined: Vec<[u32; 2]> = springs.iter().map(|spring| spring.nodes.map(|node| node as u32)).collect();
         let pattern = Pattern::joined(order.free, &corners, &joined, choice.stored());
-        let volumes = crate::mesh::volumes(mesh);
+        let volumes = fem_mesh::volumes(mesh);
         // Of the scene's density.
         let denser = |element: usize| body.denser.get(element).copied().unwrap_or(1.0);
         let filled: Vec<f64> = volumes.iter().enumerate().map(|(element, volume)| denser(element) * volume).collect();
@@ -258,7 +258,7 @@ impl<T: Real> System<T> {
 }
 
 fn node_springs<T: Real>(scene: &Scene, body: &Body, order: &Order) -> Vec<NodeSpring<T>> {
-    let spring = |(table, &length): (&crate::scene::Spring, &f64)| {
+    let spring = |(table, &length): (&fem_scene::Spring, &f64)| {
         let [a, b] = table.nodes.map(|node| body.shape.mesh.vertices[node]);
         let edge = b - a;
         NodeSpring {

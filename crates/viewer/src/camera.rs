@@ -2,7 +2,7 @@
 //!
 //! Its projection is OpenGL's (clip depth −1…1), which is also what the drawing library expects of a camera.
 
-use fem_engine::simulation::Click;
+use fem_scene::simulation::Click;
 use kiss3d::camera::Camera3d;
 use kiss3d::event::WindowEvent;
 use kiss3d::glamx::{Mat4, Pose3, Vec2, Vec3};

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use fem_engine::simulation::Energies;
+use fem_scene::simulation::Energies;
 
 /// Simulated seconds that the plot shows.
 pub const SPAN: f64 = 10.0;

@@ -1,4 +1,4 @@
-//! The window and the pictures. They read a [`Simulation`](fem_engine::simulation::Simulation) and give back drags.
+//! The window and the pictures. They read a [`Simulation`](fem_scene::simulation::Simulation) and give back drags.
 //!
 //! - [`open`] shows a simulation in a window until it is closed; the simulation runs on a thread of its own.
 //! - [`Photographer`] takes the same pictures without any window or display server.

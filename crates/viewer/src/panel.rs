@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use fem_engine::simulation::Parameter;
+use fem_scene::simulation::Parameter;
 use kiss3d::egui::{
     Align2, Area, Button, Color32, Context, CornerRadius, Frame, Grid, Id, Margin, Pos2, Rect, RichText, ScrollArea,
     Slider, SliderClamping, Ui, vec2,

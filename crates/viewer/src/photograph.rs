@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
-use fem_engine::simulation::{Shape, Simulation};
+use fem_scene::simulation::{Shape, Simulation};
 use kiss3d::camera::Camera3d;
 use kiss3d::glamx::{Vec2, Vec3};
 use kiss3d::window::{CanvasSetup, NumSamples, OffscreenSurface};

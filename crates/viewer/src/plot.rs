@@ -138,7 +138,7 @@ fn digits(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use fem_engine::simulation::Energies;
+    use fem_scene::simulation::Energies;
 
     use super::*;
 

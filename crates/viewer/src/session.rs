@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use fem_engine::simulation::Shape;
+use fem_scene::simulation::Shape;
 use kiss3d::camera::Camera3d;
 use kiss3d::egui::pos2;
 use kiss3d::event::{Action, Key, Modifiers, MouseButton, WindowEvent};

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use fem_engine::simulation::Shape;
+use fem_scene::simulation::Shape;
 use kiss3d::color::Color;
 use kiss3d::glamx::Vec3;
 use kiss3d::resource::GpuMesh3d;

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use fem_engine::simulation::{Energies, Simulation};
+use fem_scene::simulation::{Energies, Simulation};
 use kiss3d::context::Context;
 use kiss3d::egui::{self, Theme};
 use kiss3d::window::{CanvasSetup, NumSamples, Window};

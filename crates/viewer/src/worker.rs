@@ -10,7 +10,7 @@ use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 
-use fem_engine::simulation::{Click, Energies, Failure, Parameter, Pull, Simulation};
+use fem_scene::simulation::{Click, Energies, Failure, Parameter, Pull, Simulation};
 use kiss3d::glamx::Vec3;
 use nalgebra::Vector3;
 

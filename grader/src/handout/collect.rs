@@ -9,14 +9,16 @@ use syn::Item;
 use super::{Files, HandoutError, manifest, stub};
 
 /// What comes along as it is. Everything else of the repository is ours: its tests of itself, its map, its history.
-const WHOLE: [&str; 13] = [
+const WHOLE: [&str; 15] = [
     ".gitignore",
     "LICENSE-APACHE",
     "LICENSE-MIT",
     "rustfmt.toml",
     "Cargo.toml",
     "Cargo.lock",
-    "crates",
+    "crates/mesh",
+    "crates/scene",
+    "crates/viewer",
     "data",
     "docs",
     "grader/child",
@@ -28,11 +30,8 @@ const WHOLE: [&str; 13] = [
 /// Checks that hold for our own solution, but that no page asks for.
 const OURS: &str = "tests/functions/solution.rs";
 
-/// From this line on, a file of the engine's package is about the fast engine.
-const FAST: &str = "The fast engine: not handed out";
-
-/// Of the fast engine, what no module of its package declares.
-const FAST_FILES: [&str; 4] = ["crates/engine/tests", "crates/engine/benches", "src/demo/engine", "docs/reference"];
+/// Parts of these folders that show what the engine computes.
+const ENGINES_OWN: [&str; 2] = ["src/demo/engine", "docs/reference"];
 
 const ENGINE: &str = include_str!("../../handout/engine.rs");
 const README: &str = include_str!("../../handout/README.md");
@@ -49,7 +48,7 @@ pub fn collect(root: &Path) -> Result<Files, HandoutError> {
     for name in NAMES {
         edit(&mut files, &format!("src/{name}.rs"), |text| stub::stub(name, text))?;
     }
-    leave_out_the_engine(&mut files)?;
+    leave_out_the_engine(&mut files);
     add_module(root, Path::new("grader/src/lib.rs"), &mut files)?;
     files.insert("grader/src/main.rs".into(), PROGRAM.into());
     add(root, Path::new("grader/Cargo.toml"), &mut files)?;
@@ -62,29 +61,12 @@ pub fn collect(root: &Path) -> Result<Files, HandoutError> {
 }
 
 /// The engine computes what students are to write, and its scenes run on nothing else.
-fn leave_out_the_engine(files: &mut Files) -> Result<(), HandoutError> {
-    let mut fast: Vec<PathBuf> = FAST_FILES.iter().map(PathBuf::from).collect();
-    edit(files, "crates/engine/src/lib.rs", |text| {
-        let (kept, left_out) = parted(text)?;
-        for name in left_out.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')) {
-            fast.push(format!("crates/engine/src/{name}").into());
-            fast.push(format!("crates/engine/src/{name}.rs").into());
-        }
-        Ok(kept)
-    })?;
-    edit(files, "crates/engine/Cargo.toml", |text| Ok(parted(text)?.0))?;
+fn leave_out_the_engine(files: &mut Files) {
     let needs_it = |path: &Path, text: &[u8]| {
         path.starts_with("data/scenes") && String::from_utf8_lossy(text).contains("pipeline = \"engine\"")
     };
-    files.retain(|path, text| !fast.iter().any(|fast| path.starts_with(fast)) && !needs_it(path, text));
+    files.retain(|path, text| !ENGINES_OWN.iter().any(|own| path.starts_with(own)) && !needs_it(path, text));
     files.insert("src/demo/engine.rs".into(), ENGINE.into());
-    Ok(())
-}
-
-/// What stands above the line that begins the fast engine's part, and what below.
-fn parted(text: &str) -> Result<(String, String), String> {
-    let at = text.find(FAST).and_then(|at| text[..at].rfind('\n')).ok_or_else(|| format!("holds no line `{FAST}`"))?;
-    Ok((format!("{}\n", text[..at].trim_end()), text[at..].to_owned()))
 }
 
 /// Adds a file or a folder, without hidden files and build products.

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use fem_engine::scene::{self, Scene};
-use fem_engine::simulation::Simulation;
-use fem_engine::study::report::{Report, first_files, report};
-use fem_engine::study::scene::Setting;
+use fem_scene::Scene;
+use fem_scene::simulation::Simulation;
+use fem_study::report::{Report, first_files, report};
+use fem_study::scene::Setting;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::demo::end::End;
@@ -31,7 +31,7 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
     if folder.exists() && !folder.is_dir() {
         return Err(End::unusable(format!("--out {}: is a file; give the name of a folder", folder.display())));
     }
-    let scenes = arguments.scenes.iter().map(|name| scene::load(name, &data).map_err(End::unusable));
+    let scenes = arguments.scenes.iter().map(|name| fem_scene::load(name, &data).map_err(End::unusable));
     let scenes: Vec<Scene> = scenes.collect::<Result<_, _>>()?;
     let bar = progress_bar();
     let tell = |done: usize, all: usize, what: &str| {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use fem_engine::study::stability::{Row, study, write};
+use fem_study::stability::{Row, study, write};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::demo::data;

@@ -2,10 +2,10 @@ use nalgebra::{SVector, Vector3};
 
 use super::Elements;
 use crate::materials::{Law, NeoHookean, StableNeoHookean};
-use crate::mesh::box_mesh;
 use crate::number::{Number, Real};
 use crate::sparse::{Pattern, Stored, multiply};
 use crate::tensor::{Tensor, Tensor4};
+use fem_mesh::box_mesh;
 
 const C: f64 = 2e5;
 const D: f64 = 1e6;

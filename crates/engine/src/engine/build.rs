@@ -2,11 +2,11 @@
 
 use crate::materials::Material;
 use crate::number::Real;
-use crate::scene::{Body, Integrator, Scene, SceneError, Solver, SolverKind};
 use crate::skinning::Skinning;
 use crate::solvers::{Preconditioner, SolverChoice};
 use crate::state::State;
 use crate::system::System;
+use fem_scene::{Body, Integrator, Scene, SceneError, Solver, SolverKind};
 
 use super::stepper::Stepper;
 use super::{Engine, range, rigid};
@@ -38,10 +38,10 @@ const DIRECT: (usize, usize) = (2000, 20_000);
 /// The solver that the scene names, or the one that suits its size.
 pub(super) fn solver_choice(scene: &Scene, nodes: usize) -> SolverChoice {
     let preconditioner = |solver: &Solver| match solver.preconditioner {
-        None | Some(crate::scene::Preconditioner::BlockJacobi) => Preconditioner::BlockJacobi,
-        Some(crate::scene::Preconditioner::IncompleteCholesky) => Preconditioner::IncompleteCholesky,
-        Some(crate::scene::Preconditioner::Multigrid) => Preconditioner::Multigrid,
-        Some(crate::scene::Preconditioner::Ssor) => Preconditioner::Ssor,
+        None | Some(fem_scene::Preconditioner::BlockJacobi) => Preconditioner::BlockJacobi,
+        Some(fem_scene::Preconditioner::IncompleteCholesky) => Preconditioner::IncompleteCholesky,
+        Some(fem_scene::Preconditioner::Multigrid) => Preconditioner::Multigrid,
+        Some(fem_scene::Preconditioner::Ssor) => Preconditioner::Ssor,
     };
     let most_direct = if scene.time.integrator == Integrator::Static { DIRECT.1 } else { DIRECT.0 };
     match &scene.solver {

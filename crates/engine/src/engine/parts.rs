@@ -2,9 +2,9 @@
 
 use super::Engine;
 use crate::number::Real;
-use crate::scene::{Integrator, Material, Projection};
-use crate::simulation::Part;
 use crate::system::System;
+use fem_scene::simulation::Part;
+use fem_scene::{Integrator, Material, Projection};
 
 /// What a part costs: bytes, uses, seconds.
 type Cost = (usize, (usize, f64));

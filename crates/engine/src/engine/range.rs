@@ -1,8 +1,8 @@
 //! Whether a scene's numbers, and what follows from them, fit into the float type that it is computed with.
 
 use crate::number::Real;
-use crate::scene::{Precision, Scene, SceneError};
 use crate::system::System;
+use fem_scene::{Precision, Scene, SceneError};
 
 /// Refuses a scene of which a derived quantity would be zero or infinite. Each of its own numbers has been checked; products of
 /// several can still be out of range, in single precision above all.
@@ -10,7 +10,7 @@ pub(super) fn check<T: Real>(scene: &Scene, system: &System<T>) -> Result<(), Sc
     let [first, second] = system.material.moduli();
     let mass = system.mass.diagonal();
     let rate = T::of(1.0 / (scene.time.dt * scene.time.dt));
-    let volumes = crate::mesh::volumes(&system.shape.mesh);
+    let volumes = fem_mesh::volumes(&system.shape.mesh);
     let has_range = |volume: &f64| is_positive(T::of(*volume)) && is_positive(T::of(1.0 / volume));
     let forces = system.dead_load.iter().flatten().flatten();
     let derived = [

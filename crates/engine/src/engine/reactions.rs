@@ -3,7 +3,7 @@
 use super::Engine;
 use crate::acting::Acting;
 use crate::number::Real;
-use crate::simulation::Reaction;
+use fem_scene::simulation::Reaction;
 
 /// One for each table that holds nodes. The acceleration is the mean of the last step; K of the damping is that at its start.
 pub(super) fn reactions<T: Real>(engine: &Engine<T>) -> Vec<Reaction> {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use crate::scene::{Body, Scene, SceneError};
+use fem_scene::{Body, Scene, SceneError};
 
 /// A motion is held where its stiffness is more than this part of the largest.
 const LEAST: f64 = 1e-9;

@@ -13,12 +13,12 @@ use crate::materials::{Material, allows_inversion, cauchy_stress};
 use crate::number::Real;
 use crate::pick;
 use crate::pulls::{Pulls, Spring};
-use crate::scene::Integrator;
-use crate::simulation::{
-    Cause, Click, Counters, Energies, Failure, Parameter, Part, Pull, Reaction, Shape, Simulation,
-};
 use crate::state::State;
 use crate::tensor::from_fn;
+use fem_scene::Integrator;
+use fem_scene::simulation::{
+    Cause, Click, Counters, Energies, Failure, Parameter, Part, Pull, Reaction, Shape, Simulation,
+};
 
 impl<T: Real> Simulation for Engine<T> {
     fn name(&self) -> &str {

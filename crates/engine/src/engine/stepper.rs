@@ -7,11 +7,11 @@ use crate::integrators::{
 };
 use crate::number::Real;
 use crate::pulls::{Pulls, Spring};
-use crate::scene::{Integrator, Scene};
-use crate::simulation::{Cause, Counters};
 use crate::solvers::{Solver, SolverChoice};
 use crate::state::State;
 use crate::system::System;
+use fem_scene::simulation::{Cause, Counters};
+use fem_scene::{Integrator, Scene};
 
 /// Relative residuals that a linear solver always reaches, in roundings.
 const ROUNDINGS: f64 = 8.0;

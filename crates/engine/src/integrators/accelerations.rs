@@ -3,9 +3,9 @@
 use super::mass_inverse::MassInverse;
 use crate::number::Real;
 use crate::pulls::{Pulls, Spring};
-use crate::simulation::{Cause, Counters};
 use crate::state::State;
 use crate::system::System;
+use fem_scene::simulation::{Cause, Counters};
 
 /// Accelerations, with the vectors that they need.
 ///

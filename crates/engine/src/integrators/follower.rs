@@ -4,8 +4,8 @@ use super::newton::Newton;
 use super::objective::Objective;
 use crate::acting::Acting;
 use crate::number::Real;
-use crate::simulation::{Cause, Counters};
 use crate::system::System;
+use fem_scene::simulation::{Cause, Counters};
 
 /// The most times that loads are computed anew in a step.
 const MOST: usize = 100;

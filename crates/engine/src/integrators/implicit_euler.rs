@@ -8,9 +8,9 @@ use super::start::Start;
 use crate::acting::Acting;
 use crate::number::Real;
 use crate::pulls::Spring;
-use crate::simulation::{Cause, Counters};
 use crate::state::State;
 use crate::system::System;
+use fem_scene::simulation::{Cause, Counters};
 
 /// Implicit Euler as the minimisation of an energy, by [`Newton`]'s method.
 pub struct ImplicitEuler<T: Real> {

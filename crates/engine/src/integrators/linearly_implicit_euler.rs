@@ -8,11 +8,11 @@ use super::objective::{Motion, Objective, Scratch};
 use crate::acting::Acting;
 use crate::number::Real;
 use crate::pulls::Spring;
-use crate::simulation::{Cause, Counters};
 use crate::solvers::Solver;
 use crate::sparse::Block;
 use crate::state::State;
 use crate::system::System;
+use fem_scene::simulation::{Cause, Counters};
 
 /// Linearly implicit Euler with its solver and vectors.
 pub struct LinearlyImplicitEuler<T: Real> {

@@ -2,9 +2,9 @@
 
 use crate::mass::Mass;
 use crate::number::Real;
-use crate::simulation::Cause;
 use crate::solvers::{Breakdown, dot, norm};
 use crate::system::System;
+use fem_scene::simulation::Cause;
 
 /// Division by a lumped mass; conjugate gradients with the diagonal as preconditioner for a consistent one. For tetrahedra the
 /// spectrum of D⁻¹ M lies in [½, 5/2] on any mesh, Wathen, Realistic Eigenvalue Bounds for the Galerkin Mass Matrix (1987): some

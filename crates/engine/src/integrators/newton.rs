@@ -15,10 +15,10 @@ pub use limits::Limits;
 use crate::integrators::history::History;
 use crate::integrators::objective::{Objective, Scratch};
 use crate::number::Real;
-use crate::simulation::{Cause, Counters};
 use crate::solvers::{Breakdown, Solver, dot as product, norm};
 use crate::sparse::Block;
 use crate::system::Energy;
+use fem_scene::simulation::{Cause, Counters};
 
 /// Newton's method, with all that it keeps.
 pub struct Newton<T: Real> {

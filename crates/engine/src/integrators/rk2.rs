@@ -5,9 +5,9 @@ use super::accelerations::Accelerations;
 use super::mass_inverse::step;
 use crate::number::Real;
 use crate::pulls::Pulls;
-use crate::simulation::{Cause, Counters};
 use crate::state::State;
 use crate::system::System;
+use fem_scene::simulation::{Cause, Counters};
 
 /// The midpoint rule with its vectors.
 pub struct Rk2<T: Real> {

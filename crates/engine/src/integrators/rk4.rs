@@ -4,9 +4,9 @@ use super::accelerations::Accelerations;
 use super::mass_inverse::step;
 use crate::number::Real;
 use crate::pulls::Pulls;
-use crate::simulation::{Cause, Counters};
 use crate::state::State;
 use crate::system::System;
+use fem_scene::simulation::{Cause, Counters};
 
 /// The classical method with its vectors.
 pub struct Rk4<T: Real> {

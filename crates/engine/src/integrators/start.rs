@@ -4,8 +4,8 @@ use super::follower::Loads;
 use super::newton::Newton;
 use super::objective::{Motion, Objective};
 use crate::number::Real;
-use crate::simulation::{Cause, Counters};
 use crate::system::System;
+use fem_scene::simulation::{Cause, Counters};
 
 /// What the search for a start works with.
 pub struct Start<'a, T: Real> {

@@ -8,11 +8,11 @@ use crate::acting::Acting;
 use crate::materials::Material;
 use crate::number::Real;
 use crate::pulls::Spring;
-use crate::simulation::{Cause, Counters};
 use crate::solvers::Solver;
 use crate::sparse::Block;
 use crate::state::State;
 use crate::system::System;
+use fem_scene::simulation::{Cause, Counters};
 
 /// The search for equilibrium, with its vectors.
 pub struct Statics<T: Real> {

@@ -5,9 +5,9 @@ use super::accelerations::Accelerations;
 use super::mass_inverse::step;
 use crate::number::Real;
 use crate::pulls::{Pulls, Spring};
-use crate::simulation::{Cause, Counters};
 use crate::state::State;
 use crate::system::System;
+use fem_scene::simulation::{Cause, Counters};
 
 /// Velocity Verlet with its vectors.
 pub struct Verlet<T: Real> {

@@ -1,8 +1,42 @@
 //! The law that a scene asks for, with its moduli.
 
-use super::{Corotated, Linear, NeoHookean, StVenantKirchhoff, StableNeoHookean};
+use super::{Corotated, Law, Linear, NeoHookean, StVenantKirchhoff, StableNeoHookean};
 use crate::number::Real;
-use crate::scene::{self, Model};
+use crate::tensor::{Tensor, Tensor4};
+use fem_scene::Model;
+
+/// Chooses the law once, outside the loop over elements: `with_law!(material, law: T::Lanes => expression)` evaluates the
+/// expression with `law` bound to the concrete law, its moduli of that number type, the same in every lane.
+macro_rules! with_law {
+    ($material:expr, $law:ident: $T:ty => $work:expr) => {{
+        #[allow(unused_imports)] // a float's own splat needs no trait in scope
+        use simba::simd::SimdValue as _;
+        use $crate::materials::{Corotated, Linear, Material, NeoHookean, StVenantKirchhoff, StableNeoHookean};
+        match $material {
+            Material::Linear(Linear { mu, lambda }) => {
+                let $law = Linear { mu: <$T>::splat(mu), lambda: <$T>::splat(lambda) };
+                $work
+            }
+            Material::Corotated(Corotated { mu, lambda }) => {
+                let $law = Corotated { mu: <$T>::splat(mu), lambda: <$T>::splat(lambda) };
+                $work
+            }
+            Material::StVenantKirchhoff(StVenantKirchhoff { mu, lambda }) => {
+                let $law = StVenantKirchhoff { mu: <$T>::splat(mu), lambda: <$T>::splat(lambda) };
+                $work
+            }
+            Material::NeoHookean(NeoHookean { C, D }) => {
+                let $law = NeoHookean { C: <$T>::splat(C), D: <$T>::splat(D) };
+                $work
+            }
+            Material::StableNeoHookean(StableNeoHookean { mu, lambda }) => {
+                let $law = StableNeoHookean { mu: <$T>::splat(mu), lambda: <$T>::splat(lambda) };
+                $work
+            }
+        }
+    }};
+}
+pub(crate) use with_law;
 
 /// One of the laws.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +51,7 @@ pub enum Material<T> {
 
 impl<T: Real> Material<T> {
     /// The law of a scene's table; `None` where the table lacks the moduli of its model, which no checked scene does.
-    pub fn new(table: &scene::Material) -> Option<Self> {
+    pub fn new(table: &fem_scene::Material) -> Option<Self> {
         if table.model == Model::NeoHookean {
             let (C, D) = table.neo_hookean()?;
             return Some(Self::NeoHookean(NeoHookean { C: Real::of(C), D: Real::of(D) }));
@@ -60,40 +94,19 @@ impl<T: Real> Material<T> {
     }
 }
 
+impl Material<f64> {
+    /// P(G) of one element, Pa.
+    pub fn stress(&self, G: &Tensor<f64>) -> Tensor<f64> {
+        with_law!(*self, law: f64 => law.stress(G))
+    }
+
+    /// ∂P/∂F of one element, Pa.
+    pub fn derivative(&self, G: &Tensor<f64>) -> Tensor4<f64> {
+        with_law!(*self, law: f64 => law.derivative(G))
+    }
+}
+
 /// Whether the energy is finite for J ≤ 0 too; where it is not, a step must keep every element J > 0.
 pub fn allows_inversion(model: Model) -> bool {
     model != Model::NeoHookean
 }
-
-/// Chooses the law once, outside the loop over elements: `with_law!(material, law: T::Lanes => expression)` evaluates the
-/// expression with `law` bound to the concrete law, its moduli of that number type, the same in every lane.
-macro_rules! with_law {
-    ($material:expr, $law:ident: $T:ty => $work:expr) => {{
-        #[allow(unused_imports)] // a float's own splat needs no trait in scope
-        use simba::simd::SimdValue as _;
-        use $crate::materials::{Corotated, Linear, Material, NeoHookean, StVenantKirchhoff, StableNeoHookean};
-        match $material {
-            Material::Linear(Linear { mu, lambda }) => {
-                let $law = Linear { mu: <$T>::splat(mu), lambda: <$T>::splat(lambda) };
-                $work
-            }
-            Material::Corotated(Corotated { mu, lambda }) => {
-                let $law = Corotated { mu: <$T>::splat(mu), lambda: <$T>::splat(lambda) };
-                $work
-            }
-            Material::StVenantKirchhoff(StVenantKirchhoff { mu, lambda }) => {
-                let $law = StVenantKirchhoff { mu: <$T>::splat(mu), lambda: <$T>::splat(lambda) };
-                $work
-            }
-            Material::NeoHookean(NeoHookean { C, D }) => {
-                let $law = NeoHookean { C: <$T>::splat(C), D: <$T>::splat(D) };
-                $work
-            }
-            Material::StableNeoHookean(StableNeoHookean { mu, lambda }) => {
-                let $law = StableNeoHookean { mu: <$T>::splat(mu), lambda: <$T>::splat(lambda) };
-                $work
-            }
-        }
-    }};
-}
-pub(crate) use with_law;

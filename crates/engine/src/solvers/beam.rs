@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::mesh::{TetrahedralMesh, box_mesh};
 use crate::number::Real;
 use crate::order::{Numbering, Order};
 use crate::sparse::{Pattern, Stored};
+use fem_mesh::{TetrahedralMesh, box_mesh};
 
 /// Young's modulus in Pa, Poisson's ratio, density in kg/m³.
 const MATERIAL: (f64, f64, f64) = (6e5, 0.4, 1000.0);

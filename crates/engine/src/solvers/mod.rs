@@ -44,7 +44,7 @@ use crate::order::Numbering;
 use crate::sparse::{Pattern, Stored};
 use crate::work::Meter;
 
-pub use crate::simulation::Breakdown;
+pub use fem_scene::simulation::Breakdown;
 
 /// What a solve took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -6,8 +6,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use fem_engine::scene::{Integrator, Scene, body, load, parse};
-use fem_engine::simulation::Simulation;
+use fem_scene::simulation::Simulation;
+use fem_scene::{Integrator, Scene, body, load, parse};
 use nalgebra::Vector3;
 use serde::Deserialize;
 

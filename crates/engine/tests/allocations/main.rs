@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use fem_engine::simulation::Simulation;
-use fem_engine::{engine, scene};
+use fem_engine::engine;
+use fem_scene::simulation::Simulation;
 
 const SCENE: &str = r#"
 pipeline = "engine"
@@ -32,8 +32,8 @@ integrator = "INTEGRATOR"
 /// Allocations of twenty steps after ten.
 fn allocations(integrator: &str, more: &str) -> u64 {
     let text = format!("{}{more}", SCENE.replace("INTEGRATOR", integrator));
-    let scene = scene::parse(&text, Path::new("allocations.toml")).unwrap();
-    let body = scene::body(&scene, Path::new("../../data")).unwrap();
+    let scene = fem_scene::parse(&text, Path::new("allocations.toml")).unwrap();
+    let body = fem_scene::body(&scene, Path::new("../../data")).unwrap();
     let mut simulation = engine::build(&scene, body).unwrap();
     let mut steps = |count: usize| (0..count).for_each(|_| simulation.step().unwrap());
     steps(10);
@@ -66,8 +66,8 @@ fn steps_of_all_solvers_allocate_nothing() {
 fn built(text: &str) -> (Box<dyn Simulation>, i64) {
     let mut simulation = None;
     let info = allocation_counter::measure(|| {
-        let scene = scene::parse(text, Path::new("allocations.toml")).unwrap();
-        let body = scene::body(&scene, Path::new("no data")).unwrap();
+        let scene = fem_scene::parse(text, Path::new("allocations.toml")).unwrap();
+        let body = fem_scene::body(&scene, Path::new("no data")).unwrap();
         simulation = Some(engine::build(&scene, body).unwrap());
     });
     (simulation.unwrap(), info.bytes_current)

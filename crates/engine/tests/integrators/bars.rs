@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use fem_engine::materials::Material;
-use fem_engine::simulation::Simulation;
 use fem_engine::solvers::SolverChoice;
 use fem_engine::system::System;
+use fem_scene::simulation::Simulation;
 use nalgebra::DMatrix;
 
 use crate::{build, run, scene};
@@ -50,7 +50,7 @@ integrator = "verlet"
 /// The lowest frequency of K x = ω² M x of the free coordinates along x, Hz.
 fn lowest_frequency(cells_per_metre: usize, mass: &str) -> f64 {
     let scene = scene(&bar(cells_per_metre, mass));
-    let body = fem_engine::scene::body(&scene, Path::new("no data")).unwrap();
+    let body = fem_scene::body(&scene, Path::new("no data")).unwrap();
     let material = Material::<f64>::new(&scene.material).unwrap();
     let system = System::new(&scene, body, material, SolverChoice::Cholesky);
     let free: Vec<usize> = (0..system.nodes()).filter(|&node| system.rest[node].x > 0.0).collect();

@@ -1,6 +1,6 @@
 //! A clamped beam of linear tetrahedra beside Timoshenko's: it comes nearer with every refinement, and locks as ν → ½.
 
-use fem_engine::cantilever::{expected_tip_displacement, tip_displacement};
+use fem_scene::cantilever::{expected_tip_displacement, tip_displacement};
 
 use crate::{build, run, scene};
 

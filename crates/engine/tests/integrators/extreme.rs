@@ -1,7 +1,7 @@
 //! What stiff and extreme cases have once gone wrong with.
 
-use fem_engine::scene::{body, parse};
-use fem_engine::simulation::Simulation;
+use fem_scene::simulation::Simulation;
+use fem_scene::{body, parse};
 use nalgebra::Vector3;
 use std::path::Path;
 

@@ -19,8 +19,8 @@ mod work;
 
 use std::path::Path;
 
-use fem_engine::scene::{Scene, SceneError, parse};
-use fem_engine::simulation::Simulation;
+use fem_scene::simulation::Simulation;
+use fem_scene::{Scene, SceneError, parse};
 
 /// The scene, in memory.
 fn scene(text: &str) -> Scene {
@@ -29,7 +29,7 @@ fn scene(text: &str) -> Scene {
 
 fn try_build(text: &str) -> Result<Box<dyn Simulation>, SceneError> {
     let scene = scene(text);
-    let body = fem_engine::scene::body(&scene, Path::new("no data"))?;
+    let body = fem_scene::body(&scene, Path::new("no data"))?;
     fem_engine::engine::build(&scene, body)
 }
 
@@ -99,7 +99,7 @@ const DYNAMIC: [&str; 7] =
 fn node_masses(simulation: &dyn Simulation, density: f64) -> Vec<f64> {
     let shape = simulation.shape();
     let mut masses = vec![0.0; shape.mesh.vertices.len()];
-    for (element, volume) in shape.mesh.elements.iter().zip(fem_engine::mesh::volumes(&shape.mesh)) {
+    for (element, volume) in shape.mesh.elements.iter().zip(fem_mesh::volumes(&shape.mesh)) {
         for &node in element {
             masses[node] += density * volume / 4.0;
         }

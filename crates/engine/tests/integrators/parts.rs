@@ -1,6 +1,6 @@
 //! What a scene leaves out costs nothing: with a part its counter rises, without it the counter stays where it was.
 
-use fem_engine::simulation::{Part, Simulation};
+use fem_scene::simulation::{Part, Simulation};
 
 use crate::{build, run, soft};
 
@@ -141,8 +141,8 @@ fn with_display() -> Box<dyn Simulation> {
     std::fs::write(folder.path().join("s.obj"), "v 0.2 0.2 0.2\nv 0.8 0.2 0.2\nv 0.2 0.8 0.2\nf 1 2 3\n").unwrap();
     let text = soft("verlet", 1e-3, "").replace("[mesh]\n", "[mesh]\ndisplay = \"s.obj\"\n");
     std::fs::write(folder.path().join("a.toml"), text).unwrap();
-    let scene = fem_engine::scene::load(folder.path().join("a.toml").to_str().unwrap(), folder.path()).unwrap();
-    let body = fem_engine::scene::body(&scene, folder.path()).unwrap();
+    let scene = fem_scene::load(folder.path().join("a.toml").to_str().unwrap(), folder.path()).unwrap();
+    let body = fem_scene::body(&scene, folder.path()).unwrap();
     fem_engine::engine::build(&scene, body).unwrap()
 }
 

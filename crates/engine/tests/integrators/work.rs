@@ -1,6 +1,6 @@
 //! The work that each method does, and what it says when it cannot go on.
 
-use fem_engine::simulation::Cause;
+use fem_scene::simulation::Cause;
 
 use crate::{DYNAMIC, build, distance, run, soft};
 

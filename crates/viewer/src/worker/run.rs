@@ -8,7 +8,7 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use fem_engine::simulation::{Energies, Simulation};
+use fem_scene::simulation::{Energies, Simulation};
 
 use super::{Command, Finished, Plan, Slot, Snapshot, Stop, Tempo};
 use crate::geometry::{points, single};

@@ -3,8 +3,8 @@
 use std::sync::atomic::AtomicUsize;
 use std::time::{Duration, Instant};
 
-use fem_engine::mesh::TetrahedralMesh;
-use fem_engine::simulation::{Cause, Counters, Part, Shape};
+use fem_mesh::TetrahedralMesh;
+use fem_scene::simulation::{Cause, Counters, Part, Shape};
 use nalgebra::{DVector, Matrix3, Matrix4, Vector4};
 
 use super::*;

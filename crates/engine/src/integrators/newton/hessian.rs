@@ -3,8 +3,8 @@
 use super::{Factor, Newton, largest_entry};
 use crate::integrators::objective::Objective;
 use crate::number::Real;
-use crate::scene::Projection;
-use crate::simulation::{Cause, Counters};
+use fem_scene::Projection;
+use fem_scene::simulation::{Cause, Counters};
 
 impl<T: Real> Newton<T> {
     /// Writes into `w` the step to where the energy, to second order about w = 0, is least when held directions step by `led`: a

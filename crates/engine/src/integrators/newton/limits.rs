@@ -1,6 +1,6 @@
 //! What a scene asks of Newton's method.
 
-use crate::scene::Projection;
+use fem_scene::Projection;
 
 /// When Newton's method ends.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,8 +5,8 @@ use crate::integrators::history::add;
 use crate::integrators::objective::Objective;
 use crate::materials::Material;
 use crate::number::Real;
-use crate::simulation::Counters;
 use crate::solvers::dot as product;
+use fem_scene::simulation::Counters;
 
 /// Part of the energy's terms that is round-off.
 const ROUND_OFF: f64 = 32.0;

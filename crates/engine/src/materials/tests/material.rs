@@ -3,14 +3,14 @@
 use super::*;
 use crate::materials::{Material, allows_inversion, with_law};
 use crate::number::Real;
-use crate::scene::{self, Model};
 use crate::tensor::zero;
+use fem_scene::Model;
 
 const MODELS: [Model; 5] =
     [Model::Linear, Model::Corotated, Model::StVenantKirchhoff, Model::NeoHookean, Model::StableNeoHookean];
 
-fn table(model: Model) -> scene::Material {
-    scene::Material { model, c: None, d: None, young: Some(1000.0), poisson: Some(0.25), density: 1.0 }
+fn table(model: Model) -> fem_scene::Material {
+    fem_scene::Material { model, c: None, d: None, young: Some(1000.0), poisson: Some(0.25), density: 1.0 }
 }
 
 #[test]
@@ -39,9 +39,10 @@ fn the_law_has_the_moduli_in_every_lane_and_in_single_precision() {
 
 #[test]
 fn c_and_d_are_taken_as_they_are() {
-    let table = scene::Material { c: Some(2.0), d: Some(3.0), young: None, poisson: None, ..table(Model::NeoHookean) };
+    let table =
+        fem_scene::Material { c: Some(2.0), d: Some(3.0), young: None, poisson: None, ..table(Model::NeoHookean) };
     assert_eq!(Material::new(&table), Some(Material::NeoHookean(NeoHookean { C: 2.0, D: 3.0 })));
-    assert_eq!(Material::<f64>::new(&scene::Material { model: Model::Linear, ..table }), None);
+    assert_eq!(Material::<f64>::new(&fem_scene::Material { model: Model::Linear, ..table }), None);
 }
 
 #[test]

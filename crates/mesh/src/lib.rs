@@ -1,0 +1,47 @@
+//! Meshes of simplices: what a scene is made of, read from files, checked, measured and written.
+
+#![deny(missing_docs)]
+#![allow(non_snake_case)] // J, F, C and D are the names that the mathematics and the course use
+#![allow(clippy::needless_range_loop)] // indices of tensors are the notation of the field
+#![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
+
+use nalgebra::SVector;
+
+mod boundary;
+mod box_mesh;
+mod check;
+mod error;
+mod faces;
+mod quality;
+mod read;
+mod refine;
+mod volume;
+pub mod write;
+
+pub use boundary::boundary;
+pub use box_mesh::box_mesh;
+pub use check::check;
+pub use error::{MeshError, Problem};
+pub use faces::{
+    Side, area_vector, faces_on_side, nodes_on_side, pressure_forces, pressure_stiffness, traction_forces,
+};
+pub use quality::{Extreme, Quality, quality};
+pub use read::{read_surface, read_tetrahedra};
+pub use refine::refine;
+pub use volume::{signed_volume, volumes};
+pub use write::{write_surface, write_tetrahedra};
+
+/// Simplices of `N` nodes in `D` dimensions. Data without promises: [`check`] is what gives them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh<const D: usize, const N: usize> {
+    /// Undeformed position of each vertex, m.
+    pub vertices: Vec<SVector<f64, D>>,
+    /// Vertex indices of each element, counted from 0.
+    pub elements: Vec<[usize; N]>,
+}
+
+/// Tetrahedra in space; positive when `dot(cross(b − a, c − a), d − a) > 0`.
+pub type TetrahedralMesh = Mesh<3, 4>;
+
+/// Triangles in space, counter-clockwise seen from outside.
+pub type SurfaceMesh = Mesh<3, 3>;

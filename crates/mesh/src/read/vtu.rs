@@ -1,0 +1,97 @@
+//! VTK's unstructured grids. Source: VTK file formats, section «XML file formats», «UnstructuredGrid».
+
+mod array;
+
+use std::path::Path;
+
+use nalgebra::Vector3;
+use roxmltree::{Document, Node};
+
+use self::array::{Arrays, split_appended};
+use crate::{MeshError, Problem, TetrahedralMesh};
+
+const TETRAHEDRON: i64 = 10;
+
+/// Points, lines, polygons, and their curved kin: they fill no space, so nothing is lost without them.
+const SURFACE_CELLS: [i64; 12] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23];
+
+/// Reads the tetrahedra of all pieces; cells that fill no space are left out, other volumes refused.
+pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<TetrahedralMesh, MeshError> {
+    let (text, appended) = split_appended(file, bytes)?;
+    let document = Document::parse(&text).map_err(|error| {
+        let problem = Problem::Malformed { reason: format!("this is not well-formed XML ({error})") };
+        MeshError::in_line(file, error.pos().row as usize, problem)
+    })?;
+    let arrays = Arrays::new(file, document.root_element(), appended);
+    let grid = arrays.child(document.root_element(), "UnstructuredGrid")?;
+    let mut mesh = TetrahedralMesh::default();
+    for piece in grid.children().filter(|node| node.has_tag_name("Piece")) {
+        let first = mesh.vertices.len();
+        let points = arrays.child(piece, "Points")?;
+        mesh.vertices.extend(read_points(&arrays, points)?);
+        let count = mesh.vertices.len() - first;
+        arrays.check_count(piece, "NumberOfPoints", "points", count)?;
+        let tetrahedra = read_cells(&arrays, piece, count)?;
+        mesh.elements.extend(tetrahedra.into_iter().map(|element| element.map(|i| first + i)));
+    }
+    Ok(mesh)
+}
+
+fn read_points(arrays: &Arrays, points: Node) -> Result<Vec<Vector3<f64>>, MeshError> {
+    let array = arrays.child(points, "DataArray")?;
+    let places = arrays.floats(array)?;
+    if !places.len().is_multiple_of(3) || array.attribute("NumberOfComponents").is_some_and(|n| n.trim() != "3") {
+        let reason = format!("{} coordinates are not three for each point", places.len());
+        return Err(arrays.error(points, Problem::Malformed { reason }));
+    }
+    match places.iter().position(|x| !x.is_finite()) {
+        Some(i) => Err(arrays.error(points, Problem::VertexNotFinite { vertex: i / 3 })),
+        None => Ok(places.chunks_exact(3).map(Vector3::from_column_slice).collect()),
+    }
+}
+
+/// The tetrahedra among a piece's cells, as indices of its own points.
+fn read_cells(arrays: &Arrays, piece: Node, points: usize) -> Result<Vec<[usize; 4]>, MeshError> {
+    let cells = arrays.child(piece, "Cells")?;
+    let kinds = arrays.integers(arrays.named(cells, "types")?)?;
+    let ends = arrays.integers(arrays.named(cells, "offsets")?)?;
+    let connectivity = arrays.integers(arrays.named(cells, "connectivity")?)?;
+    arrays.check_count(piece, "NumberOfCells", "cells", kinds.len())?;
+    if ends.len() != kinds.len() {
+        let problem = Problem::WrongCount { what: "cells", announced: kinds.len(), found: ends.len() };
+        return Err(arrays.error(cells, problem));
+    }
+    let mut tetrahedra = Vec::new();
+    let mut start = 0;
+    for (cell, (&kind, &end)) in kinds.iter().zip(&ends).enumerate() {
+        let corners = usize::try_from(end).ok().and_then(|end| connectivity.get(start..end)).ok_or_else(|| {
+            let reason = format!("cell {cell} ends at {end} in a connectivity of {} numbers", connectivity.len());
+            arrays.error(cells, Problem::Malformed { reason })
+        })?;
+        start += corners.len();
+        let tetrahedron = read_cell(cell, kind, corners, points).map_err(|problem| arrays.error(cells, problem))?;
+        tetrahedra.extend(tetrahedron);
+    }
+    Ok(tetrahedra)
+}
+
+/// A tetrahedron, or nothing for a cell that fills no space.
+fn read_cell(cell: usize, kind: i64, corners: &[i64], points: usize) -> Result<Option<[usize; 4]>, Problem> {
+    if SURFACE_CELLS.contains(&kind) {
+        return Ok(None);
+    }
+    let &[a, b, c, d] = corners else { return Err(unsupported_cell(cell, kind)) };
+    if kind != TETRAHEDRON {
+        return Err(unsupported_cell(cell, kind));
+    }
+    let index = |corner: i64| {
+        let index = usize::try_from(corner).ok().filter(|&index| index < points);
+        index.ok_or(Problem::ElementOutOfRange { element: cell, vertex: corner.into(), count: points })
+    };
+    Ok(Some([index(a)?, index(b)?, index(c)?, index(d)?]))
+}
+
+fn unsupported_cell(cell: usize, kind: i64) -> Problem {
+    let found = format!("cell {cell} of VTK's type {kind}, which is no tetrahedron with 4 nodes,");
+    Problem::Unsupported { found, instead: "split such cells first (ParaView's filter Tetrahedralize does)" }
+}

@@ -1,0 +1,128 @@
+//! A text file as words that know their line.
+
+use std::path::Path;
+use std::str::FromStr;
+
+use nalgebra::Vector3;
+
+use crate::{MeshError, Problem};
+
+/// What is left of a text: words between blanks and line ends. A word that starts with `#` begins a comment.
+#[derive(Clone)]
+pub(super) struct Words<'a> {
+    file: &'a Path,
+    line: usize,
+    rest: &'a str,
+}
+
+impl<'a> Words<'a> {
+    /// All words of a text, across its lines.
+    pub(super) fn of_text(file: &'a Path, text: &'a str) -> Self {
+        Self { file, line: 1, rest: text }
+    }
+
+    /// The words of each line that has any.
+    pub(super) fn of_lines(file: &'a Path, text: &'a str) -> impl Iterator<Item = Self> {
+        let lines = text.lines().enumerate().map(move |(i, rest)| Self { file, line: i + 1, rest });
+        lines.filter(|line| line.peek().is_some())
+    }
+
+    /// The next word, left where it is.
+    pub(super) fn peek(&self) -> Option<&'a str> {
+        self.clone().next()
+    }
+
+    /// Line of the word that came last, counted from 1.
+    pub(super) fn line(&self) -> usize {
+        self.line
+    }
+
+    /// A problem of that line.
+    pub(super) fn error(&self, problem: Problem) -> MeshError {
+        MeshError::in_line(self.file, self.line, problem)
+    }
+
+    /// The next word; `expected` says what it is, for the message where there is none.
+    pub(super) fn word(&mut self, expected: &'static str) -> Result<&'a str, MeshError> {
+        self.next().ok_or_else(|| self.error(Problem::Ends { expected }))
+    }
+
+    fn parse<T: FromStr>(&mut self, expected: &'static str) -> Result<T, MeshError> {
+        let word = self.word(expected)?;
+        word.parse().map_err(|_| self.error(Problem::NotA { word: word.to_owned(), expected }))
+    }
+
+    /// The next word as an integer.
+    pub(super) fn integer(&mut self, expected: &'static str) -> Result<i64, MeshError> {
+        self.parse(expected)
+    }
+
+    /// The next word as a number of things. It is what a file announces: never allocate by it.
+    pub(super) fn amount(&mut self, expected: &'static str) -> Result<usize, MeshError> {
+        self.parse(expected)
+    }
+
+    /// The next word as an index between `first` and `first + count − 1`; returned as counted from 0.
+    pub(super) fn index(&mut self, first: i64, count: usize) -> Result<usize, MeshError> {
+        let index = self.integer("the index of a vertex")?;
+        from_zero(index, first, count).map_err(|problem| self.error(problem))
+    }
+
+    /// The next three words as a finite position.
+    pub(super) fn place(&mut self) -> Result<Vector3<f64>, MeshError> {
+        Ok(Vector3::new(self.coordinate()?, self.coordinate()?, self.coordinate()?))
+    }
+
+    fn coordinate(&mut self) -> Result<f64, MeshError> {
+        let start = self.clone();
+        let value: f64 = self.parse("a coordinate, which is a number")?;
+        let word = || start.peek().unwrap_or_default().to_owned();
+        if value.is_finite() { Ok(value) } else { Err(self.error(Problem::NotFinite { word: word() })) }
+    }
+}
+
+impl<'a> Iterator for Words<'a> {
+    type Item = &'a str;
+
+    fn next(&mut self) -> Option<&'a str> {
+        loop {
+            let start = self.rest.find(|c: char| !c.is_whitespace())?;
+            let (blank, rest) = self.rest.split_at(start);
+            self.line += blank.bytes().filter(|&byte| byte == b'\n').count();
+            let is_end: fn(char) -> bool = if rest.starts_with('#') { |c| c == '\n' } else { char::is_whitespace };
+            let (word, rest) = rest.split_at(rest.find(is_end).unwrap_or(rest.len()));
+            self.rest = rest;
+            if !word.starts_with('#') {
+                return Some(word);
+            }
+        }
+    }
+}
+
+/// A file's index, where its vertices count from `first`, as an index from 0.
+pub(super) fn from_zero(index: i64, first: i64, count: usize) -> Result<usize, Problem> {
+    let from_zero = index.checked_sub(first).and_then(|i| usize::try_from(i).ok()).filter(|&i| i < count);
+    from_zero.ok_or_else(|| match count {
+        0 => Problem::NoVertices { index },
+        _ => Problem::OutOfRange { index, first, last: first + count as i64 - 1 },
+    })
+}
+
+/// Exactly as many lines as the file announced, each made into one entry; a line that starts with `$` ends a section.
+pub(super) fn rows<'a, R>(
+    file: &Path,
+    lines: &mut impl Iterator<Item = Words<'a>>,
+    what: &'static str,
+    announced: usize,
+    mut row: impl FnMut(usize, &mut Words<'a>) -> Result<R, MeshError>,
+) -> Result<Vec<R>, MeshError> {
+    let mut entries = Vec::new();
+    while entries.len() < announced {
+        let Some(mut line) = lines.next().filter(|line| !line.rest.trim_start().starts_with('$')) else {
+            let problem = Problem::WrongCount { what, announced, found: entries.len() };
+            return Err(MeshError::in_file(file, problem));
+        };
+        entries.push(row(entries.len(), &mut line)?);
+    }
+    Ok(entries)
+}

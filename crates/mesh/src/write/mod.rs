@@ -1,0 +1,87 @@
+//! Mesh files, by extension. A file appears under its name when it is complete, or not at all.
+//!
+//! Numbers in text files have as many digits as reading them back exactly needs: 17 at most.
+
+mod glb;
+mod gmsh;
+mod medit;
+mod obj;
+mod pvd;
+mod tetgen;
+mod vtu;
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::process;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use nalgebra::Vector3;
+
+pub use self::glb::{Frame, write_glb};
+pub use self::pvd::write_pvd;
+pub use self::vtu::{Field, write_vtu};
+use super::read::{SURFACES, TETRAHEDRAL, extension, unknown_extension};
+use super::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
+
+/// Writes a tetrahedral mesh: `.node` and `.ele` (TetGen; both files by either name), `.mesh` (MEDIT), `.msh` (Gmsh 4.1),
+/// `.vtu` (VTK). Reading the file gives the same mesh, bit for bit.
+pub fn write_tetrahedra(path: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
+    match extension(path).as_str() {
+        "node" | "ele" => tetgen::write(path, mesh),
+        "mesh" => save(path, |out| medit::write(out, mesh)),
+        "msh" => save(path, |out| gmsh::write(out, mesh)),
+        "vtu" => write_vtu(path, mesh, &[], &[]),
+        _ => Err(unknown_extension(path, TETRAHEDRAL)),
+    }
+}
+
+/// Writes a triangle mesh: `.obj` (Wavefront). Reading the file gives the same mesh, bit for bit.
+pub fn write_surface(path: &Path, mesh: &SurfaceMesh) -> Result<(), MeshError> {
+    match extension(path).as_str() {
+        "obj" => save(path, |out| obj::write(out, mesh)),
+        _ => Err(unknown_extension(path, SURFACES)),
+    }
+}
+
+/// Writes to a name of its own in the same folder, then gives the file its name in one step. A link stays a link, to a new
+/// file; a device or pipe is written to as it is.
+pub fn save(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), MeshError> {
+    let unwritable = |error: io::Error| MeshError::in_file(path, Problem::Unwritable { reason: error.to_string() });
+    if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
+        return write_all(path, write).map(drop).map_err(unwritable);
+    }
+    let target = fs::canonicalize(path).unwrap_or(path.to_owned());
+    let unfinished = unfinished_name(&target);
+    let result =
+        write_all(&unfinished, write).and_then(|file| file.sync_all()).and_then(|()| fs::rename(&unfinished, target));
+    result.map_err(|error| {
+        // there may be none; the first error is the one to tell
+        let _ = fs::remove_file(&unfinished);
+        unwritable(error)
+    })
+}
+
+fn write_all(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<File> {
+    let mut out = BufWriter::new(File::create(path)?);
+    write(&mut out)?;
+    out.into_inner().map_err(io::IntoInnerError::into_error)
+}
+
+/// Differs between processes and between calls, so that no two writers meet in one file.
+fn unfinished_name(path: &Path) -> PathBuf {
+    static CALLS: AtomicUsize = AtomicUsize::new(0);
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let call = CALLS.fetch_add(1, Ordering::Relaxed);
+    path.with_file_name(format!(".{name}.{}-{call}.part", process::id()))
+}
+
+/// `x y z`, exact.
+fn place(x: &Vector3<f64>) -> String {
+    format!("{:?} {:?} {:?}", x[0], x[1], x[2])
+}
+
+/// A name as an XML attribute.
+fn escape(name: &str) -> String {
+    name.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

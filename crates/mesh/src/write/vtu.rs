@@ -1,0 +1,100 @@
+//! VTK's unstructured grid with fields, as XML with base64 arrays. Source: VTK file formats, «XML file formats».
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use base64::prelude::{BASE64_STANDARD, Engine};
+
+use super::{escape, save};
+use crate::{MeshError, Problem, TetrahedralMesh};
+
+/// VTK's number for the tetrahedron with 4 nodes.
+const TETRAHEDRON: u8 = 10;
+
+/// Numbers that belong to the points or the cells of a mesh, such as `displacement` in m with 3 components.
+#[derive(Clone, Copy, Debug)]
+pub struct Field<'a> {
+    /// Name that ParaView shows; say the unit in it.
+    pub name: &'a str,
+    /// Numbers for each point or cell: 1 for a scalar, 3 for a vector, 9 for a matrix row by row.
+    pub components: usize,
+    /// `(components · points)` or `(components · cells)` numbers, those of one point or cell side by side.
+    pub values: &'a [f64],
+}
+
+/// Writes a mesh with fields at its points (displacement, velocity) and in its cells (von Mises stress), for ParaView.
+///
+/// Points stay where `mesh` has them; ParaView's filter «Warp By Vector» moves them by a displacement.
+pub fn write_vtu(
+    path: &Path,
+    mesh: &TetrahedralMesh,
+    point_fields: &[Field],
+    cell_fields: &[Field],
+) -> Result<(), MeshError> {
+    check_sizes(point_fields, mesh.vertices.len(), "point").map_err(|problem| MeshError::in_file(path, problem))?;
+    check_sizes(cell_fields, mesh.elements.len(), "cell").map_err(|problem| MeshError::in_file(path, problem))?;
+    save(path, |out| write_grid(out, mesh, point_fields, cell_fields))
+}
+
+fn check_sizes(fields: &[Field], entries: usize, per: &'static str) -> Result<(), Problem> {
+    for Field { name, components, values } in fields {
+        let expected = components.saturating_mul(entries);
+        if values.len() != expected {
+            let (name, found) = ((*name).to_owned(), values.len());
+            return Err(Problem::FieldSize { name, found, expected, components: *components, per });
+        }
+    }
+    Ok(())
+}
+
+fn write_grid(
+    out: &mut dyn Write,
+    mesh: &TetrahedralMesh,
+    point_fields: &[Field],
+    cell_fields: &[Field],
+) -> io::Result<()> {
+    writeln!(out, r#"<?xml version="1.0"?>"#)?;
+    writeln!(out, r#"<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">"#)?;
+    let (points, cells) = (mesh.vertices.len(), mesh.elements.len());
+    writeln!(out, "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">")?;
+
+    writeln!(out, "<Points>")?;
+    array(out, "Points", "Float64", 3, mesh.vertices.iter().flatten().flat_map(|x| x.to_le_bytes()))?;
+    writeln!(out, "</Points>\n<Cells>")?;
+    let connectivity = mesh.elements.iter().flatten().flat_map(|&i| (i as i64).to_le_bytes());
+    array(out, "connectivity", "Int64", 1, connectivity)?;
+    array(out, "offsets", "Int64", 1, (1..=cells).flat_map(|i| (4 * i as i64).to_le_bytes()))?;
+    array(out, "types", "UInt8", 1, std::iter::repeat_n(TETRAHEDRON, cells))?;
+    writeln!(out, "</Cells>\n<PointData>")?;
+    write_fields(out, point_fields)?;
+    writeln!(out, "</PointData>\n<CellData>")?;
+    write_fields(out, cell_fields)?;
+    writeln!(out, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
+}
+
+fn write_fields(out: &mut dyn Write, fields: &[Field]) -> io::Result<()> {
+    for field in fields {
+        array(out, field.name, "Float64", field.components, field.values.iter().flat_map(|x| x.to_le_bytes()))?;
+    }
+    Ok(())
+}
+
+/// Number of bytes, then the bytes, in base64 as a whole.
+fn array(
+    out: &mut dyn Write,
+    name: &str,
+    kind: &str,
+    components: usize,
+    values: impl Iterator<Item = u8>,
+) -> io::Result<()> {
+    let mut bytes = vec![0; 8];
+    bytes.extend(values);
+    let length = (bytes.len() - 8) as u64;
+    bytes[..8].copy_from_slice(&length.to_le_bytes());
+    let name = escape(name);
+    writeln!(
+        out,
+        r#"<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="binary">{}</DataArray>"#,
+        BASE64_STANDARD.encode(&bytes)
+    )
+}

@@ -1,0 +1,148 @@
+//! How far a clamped beam bends, by Timoshenko's theory: what a simulated one is held against.
+
+use nalgebra::Vector3;
+
+use crate::simulation::Simulation;
+use crate::{Integrator, Material, Scene, Traction};
+use fem_mesh::{Side, nodes_on_side};
+
+/// A beam of rectangular cross-section, clamped at one end, that bends in one plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cantilever {
+    /// m
+    pub length: f64,
+    /// Edge of the cross-section along the load, m.
+    pub height: f64,
+    /// Edge of the cross-section across the load, m.
+    pub width: f64,
+    /// Young's modulus, Pa.
+    pub young: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+}
+
+impl Cantilever {
+    /// Deflection of the tip under a force at the tip (N), m: P L³ / (3 E I) + P L / (κ G A).
+    ///
+    /// κ = 10 (1 + ν) / (12 + 11 ν), G. R. Cowper, "The shear coefficient in Timoshenko's beam theory", Journal of Applied
+    /// Mechanics 33, 1966.
+    pub fn under_end_load(&self, force: f64) -> f64 {
+        let L = self.length;
+        force * (L.powi(3) / (3.0 * self.bending()) + L / self.shear())
+    }
+
+    /// Deflection of the tip under a load along the whole beam (N/m), m: w L⁴ / (8 E I) + w L² / (2 κ G A).
+    pub fn under_even_load(&self, load: f64) -> f64 {
+        let L = self.length;
+        load * (L.powi(4) / (8.0 * self.bending()) + L.powi(2) / (2.0 * self.shear()))
+    }
+
+    /// E I, N m²
+    fn bending(&self) -> f64 {
+        self.young * self.width * self.height.powi(3) / 12.0
+    }
+
+    /// κ G A, N
+    fn shear(&self) -> f64 {
+        let nu = self.poisson;
+        let kappa = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu);
+        kappa * self.young / (2.0 * (1.0 + nu)) * self.width * self.height
+    }
+}
+
+/// Tip displacement of a scene that is a cantilever, m, by Timoshenko's theory: a box along x, clamped where x is smallest,
+/// in equilibrium (`static`) under dead loads across x, on all of it or on the opposite end. `None` for any other scene.
+pub fn expected_tip_displacement(scene: &Scene) -> Option<Vector3<f64>> {
+    let size = scene.mesh.cuboid.as_ref()?.size.map(|edge| edge * scene.mesh.scale);
+    let is_clamped_alone = is_clamped_at_x_min(scene, size[0]) && scene.prescribed.is_empty();
+    let is_loaded_alone = scene.springs.is_empty() && scene.drag.is_none();
+    if scene.time.integrator != Integrator::Static || !is_clamped_alone || !is_loaded_alone {
+        return None;
+    }
+    let (even, end) = (force_density(scene), end_traction(&scene.traction, size[0])?);
+    if even.x != 0.0 || end.x != 0.0 {
+        return None;
+    }
+    let (young, poisson) = moduli(&scene.material)?;
+    let area = size[1] * size[2];
+    let along = |axis: usize| {
+        let beam = Cantilever { length: size[0], height: size[axis], width: area / size[axis], young, poisson };
+        beam.under_even_load(even[axis] * area) + beam.under_end_load(end[axis] * area)
+    };
+    Some(Vector3::new(0.0, along(1), along(2)))
+}
+
+/// Mean displacement of the nodes at the end where x is largest, m.
+pub fn tip_displacement(simulation: &dyn Simulation) -> Vector3<f64> {
+    let (shape, q) = (simulation.shape(), simulation.positions());
+    let X = &shape.mesh.vertices;
+    let tip = nodes_on_side(X, 0, Side::Max, 0.0);
+    let displacement = |&node: &usize| q.fixed_rows::<3>(3 * node) - X[node];
+    tip.iter().map(displacement).sum::<Vector3<f64>>() / tip.len() as f64
+}
+
+/// Part of the length that a plane may be thick and still count as an end.
+const END: f64 = 1e-3;
+
+fn is_clamped_at_x_min(scene: &Scene, length: f64) -> bool {
+    let plane = scene.fixed.as_ref().and_then(|fixed| fixed.plane.as_ref());
+    plane.is_some_and(|plane| plane.axis as usize == 0 && plane.below <= END * length)
+}
+
+/// Gravity and body force, N/m³.
+fn force_density(scene: &Scene) -> Vector3<f64> {
+    let gravity = scene.gravity.as_ref().map_or([0.0; 3], |gravity| gravity.acceleration);
+    let force = scene.body_force.as_ref().map_or([0.0; 3], |force| force.density);
+    scene.material.density * Vector3::from(gravity) + Vector3::from(force)
+}
+
+/// The sum of all tractions where they are dead loads on the end where x is largest, Pa.
+fn end_traction(tractions: &[Traction], length: f64) -> Option<Vector3<f64>> {
+    let of = |traction: &Traction| {
+        let on = traction.on.as_ref()?;
+        let is_end = on.axis as usize == 0 && on.side == Side::Max && on.within <= END * length;
+        traction.force_per_area.filter(|_| is_end).map(Vector3::from)
+    };
+    tractions.iter().map(of).sum()
+}
+
+/// Young's modulus (Pa) and Poisson's ratio at small strain; `None` where the table lacks them.
+pub fn moduli(material: &Material) -> Option<(f64, f64)> {
+    match (material.young, material.poisson, material.c, material.d) {
+        (Some(young), Some(poisson), _, _) => Some((young, poisson)),
+        (_, _, Some(C), Some(D)) => Some((18.0 * C * D / (3.0 * D + C), (3.0 * D - 2.0 * C) / (6.0 * D + 2.0 * C))),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    const BEAM: Cantilever = Cantilever { length: 8.0, height: 1.0, width: 1.0, young: 1e6, poisson: 0.3 };
+
+    #[test]
+    fn a_slender_beam_bends_as_euler_and_bernoulli_say() {
+        let slender = Cantilever { length: 1e4, ..BEAM };
+        assert_relative_eq!(slender.under_end_load(1e-6), 4.0, max_relative = 1e-7);
+        assert_relative_eq!(slender.under_even_load(1e-10), 1.5, max_relative = 1e-7);
+    }
+
+    #[test]
+    fn shear_adds_what_the_hand_computes() {
+        // κ = 13/15.3, G = 1e6/2.6: P L³/(3 E I) = 0.1024 m and P L/(κ G A) = 400/326797.4 m
+        assert_relative_eq!(BEAM.under_end_load(50.0), 0.1024 + 0.001224, max_relative = 1e-9);
+    }
+
+    #[test]
+    fn an_even_load_is_the_sum_of_its_pieces() {
+        // By Betti's theorem a force at x moves the tip by P (x²(3L − x)/(6EI) + x/(κGA)).
+        let (pieces, L) = (10_000, BEAM.length);
+        let piece = L / f64::from(pieces);
+        let at = |x: f64| x * x * (3.0 * L - x) / (6.0 * BEAM.bending()) + x / BEAM.shear();
+        let sum: f64 = (0..pieces).map(|i| 7.0 * piece * at(piece * (f64::from(i) + 0.5))).sum();
+        assert_relative_eq!(BEAM.under_even_load(7.0), sum, max_relative = 1e-7);
+    }
+}

@@ -1,0 +1,65 @@
+//! What the tables of loads must keep.
+
+use super::{Problem, check_finite, check_not_negative, check_positive, check_vector, problem};
+use crate::{Drag, Scene, SidePlane, Spring, Traction};
+
+pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+    if let Some(gravity) = &scene.gravity {
+        check_vector("gravity.acceleration", &gravity.acceleration)?;
+    }
+    if let Some(force) = &scene.body_force {
+        check_vector("body_force.density", &force.density)?;
+    }
+    for (number, traction) in scene.traction.iter().enumerate() {
+        check_traction(&format!("traction[{number}]"), traction)?;
+    }
+    for (number, spring) in scene.springs.iter().enumerate() {
+        check_spring(&format!("springs[{number}]"), spring)?;
+    }
+    scene.drag.as_ref().map_or(Ok(()), check_drag)
+}
+
+fn check_traction(table: &str, traction: &Traction) -> Result<(), Problem> {
+    match (&traction.on, &traction.faces) {
+        (Some(plane), None) => check_side(&format!("{table}.on"), plane)?,
+        (None, Some(_)) => {}
+        _ => return problem(table, "needs either on or faces; give one and only one"),
+    }
+    match (&traction.force_per_area, traction.pressure) {
+        (Some(force), None) => check_vector(&format!("{table}.force_per_area"), force),
+        (None, Some(pressure)) => check_finite(&format!("{table}.pressure"), &[pressure]),
+        _ => problem(table, "needs either force_per_area or pressure; give one and only one"),
+    }
+}
+
+pub(super) fn check_side(field: &str, plane: &SidePlane) -> Result<(), Problem> {
+    check_distance(field, "within", plane.within)
+}
+
+/// A distance inside an inline table, which errors name as a whole.
+pub(super) fn check_distance(field: &str, key: &str, distance: f64) -> Result<(), Problem> {
+    if distance >= 0.0 && distance.is_finite() {
+        return Ok(());
+    }
+    problem(field, format!("has {key} = {distance}; give a distance of 0 m or more"))
+}
+
+fn check_spring(table: &str, spring: &Spring) -> Result<(), Problem> {
+    check_positive(&format!("{table}.stiffness"), spring.stiffness, " of N/m")?;
+    if spring.nodes[0] == spring.nodes[1] {
+        let text = format!("names node {} twice; a spring joins two nodes", spring.nodes[0]);
+        return problem(&format!("{table}.nodes"), text);
+    }
+    let length = spring.rest_length;
+    length.map_or(Ok(()), |length| check_not_negative(&format!("{table}.rest_length"), length, "m"))
+}
+
+fn check_drag(drag: &Drag) -> Result<(), Problem> {
+    check_positive("drag.stiffness", drag.stiffness, " of N/m")?;
+    check_vector("drag.direction", &drag.direction)?;
+    if drag.direction == [0.0; 3] {
+        return problem("drag.direction", "is zero; give the direction of the pull");
+    }
+    check_finite("drag.amplitude", &[drag.amplitude])?;
+    check_not_negative("drag.frequency", drag.frequency, "Hz")
+}

@@ -1,0 +1,66 @@
+//! What `[fixed]` and `[[prescribed]]` must keep.
+
+use super::loads::{check_distance, check_side};
+use super::{Problem, check_finite, check_positive, check_vector, problem};
+use crate::{Axis, Fixed, Prescribed, Rotation, Scene};
+
+/// An angle of that many turns still has ten digits.
+const MOST_TURNS: f64 = 1e6;
+
+pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+    scene.fixed.as_ref().map_or(Ok(()), check_fixed)?;
+    let tables = scene.prescribed.iter().enumerate();
+    tables.into_iter().try_for_each(|(number, motion)| check_prescribed(&format!("prescribed[{number}]"), motion))
+}
+
+fn check_fixed(fixed: &Fixed) -> Result<(), Problem> {
+    match (&fixed.plane, &fixed.nodes) {
+        (Some(plane), None) => check_distance("fixed.plane", "below", plane.below),
+        (None, Some(_)) => Ok(()),
+        _ => problem("fixed", "needs either plane or nodes; give one and only one"),
+    }
+}
+
+fn check_prescribed(table: &str, motion: &Prescribed) -> Result<(), Problem> {
+    match (&motion.on, &motion.nodes) {
+        (Some(plane), None) => check_side(&format!("{table}.on"), plane)?,
+        (None, Some(_)) => {}
+        _ => return problem(table, "needs either on or nodes; give one and only one"),
+    }
+    if motion.displacement.is_none() && motion.rotation.is_none() {
+        return problem(table, "says no motion; give displacement or rotation, or use [fixed]");
+    }
+    motion.displacement.map_or(Ok(()), |vector| check_vector(&format!("{table}.displacement"), &vector))?;
+    motion.over.map_or(Ok(()), |over| check_positive(&format!("{table}.over"), over, " of seconds"))?;
+    motion.rotation.as_ref().map_or(Ok(()), |rotation| check_rotation(table, rotation))?;
+    motion.components.as_ref().map_or(Ok(()), |components| check_components(table, motion, components))
+}
+
+fn check_rotation(table: &str, rotation: &Rotation) -> Result<(), Problem> {
+    check_vector(&format!("{table}.rotation.center"), &rotation.center)?;
+    let (field, turns) = (format!("{table}.rotation.turns"), rotation.turns);
+    check_finite(&field, &[turns])?;
+    if turns.abs() <= MOST_TURNS {
+        return Ok(());
+    }
+    problem(&field, format!("is {turns:e}; give at most {MOST_TURNS:e}, beyond which an angle has few digits left"))
+}
+
+fn check_components(table: &str, motion: &Prescribed, components: &[Axis]) -> Result<(), Problem> {
+    let field = format!("{table}.components");
+    if components.is_empty() {
+        return problem(&field, "is empty; name at least one of \"x\", \"y\" and \"z\", or leave it out for all");
+    }
+    if motion.rotation.is_some() {
+        return problem(&field, "stands beside rotation, which moves all three; remove one of the two");
+    }
+    let along = |axis: &Axis| motion.displacement.is_none_or(|vector| vector[*axis as usize] == 0.0);
+    let free = [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|axis| !components.contains(axis));
+    match free.into_iter().find(|axis| !along(axis)) {
+        Some(axis) => {
+            let name = ["x", "y", "z"][axis as usize];
+            problem(&field, format!("leaves {name} free, and displacement moves it; name {name} or write 0 there"))
+        }
+        None => Ok(()),
+    }
+}

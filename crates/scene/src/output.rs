@@ -1,0 +1,184 @@
+//! What a run leaves behind: state, energies, statistics, the final mesh, a series of meshes.
+
+mod series;
+
+pub use series::Series;
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use nalgebra::{DVector, Matrix3};
+use serde::Serialize;
+
+use crate::simulate::{Run, quantile};
+use crate::simulation::{Energies, Part, Simulation};
+use fem_mesh::write::{Field, Frame, save, write_glb, write_surface, write_vtu};
+use fem_mesh::{MeshError, Problem, SurfaceMesh};
+
+/// File extensions that [`export`] knows.
+pub const EXPORTS: [&str; 3] = ["obj", "vtu", "glb"];
+
+/// Writes `{"time", "q", "qdot"}` of all nodes with 17 significant digits, so that reading gives the same numbers.
+pub fn write_state(path: &Path, simulation: &dyn Simulation) -> Result<(), MeshError> {
+    let list =
+        |values: &DVector<f64>| values.iter().map(|value| format!("{value:.16e}")).collect::<Vec<_>>().join(", ");
+    let time = format!("{:.16e}", simulation.time());
+    let (q, qdot) = (list(&simulation.positions()), list(&simulation.velocities()));
+    write_text(path, &format!("{{\n\"time\": {time},\n\"q\": [{q}],\n\"qdot\": [{qdot}]\n}}\n"))
+}
+
+/// Writes `time,kinetic,potential,total` (s and J), a line for each step.
+pub fn write_energies(path: &Path, rows: &[(f64, Energies)]) -> Result<(), MeshError> {
+    let mut text = "time,kinetic,potential,total\n".to_owned();
+    for (time, energies) in rows {
+        let Energies { kinetic, potential } = energies;
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{time:.9e},{kinetic:.16e},{potential:.16e},{:.16e}", energies.total());
+    }
+    write_text(path, &text)
+}
+
+/// The numbers of a run, in the order of the statistics file.
+#[derive(Clone, Debug, Serialize)]
+#[allow(missing_docs)] // the names are the keys of the file; README.md explains them
+pub struct Stats {
+    pub scene: String,
+    /// `done`, or `failed` with the reason.
+    pub status: String,
+    pub nodes: usize,
+    pub elements: usize,
+    pub steps: usize,
+    pub seconds_setup: f64,
+    pub seconds_per_step_median: Option<f64>,
+    pub seconds_per_step_p95: Option<f64>,
+    pub newton_iterations: usize,
+    /// Steps that Newton's method left before it reached its tolerance.
+    pub unconverged_steps: usize,
+    pub factorizations: usize,
+    pub symbolic_factorizations: usize,
+    /// Of all iterative solutions.
+    pub solver_iterations: usize,
+    pub stiffness_assemblies: usize,
+    pub energy_evaluations: usize,
+    pub line_search_backtracks: usize,
+    pub projections: usize,
+    pub skinning_rows: usize,
+    /// Of the whole process; none where the system does not tell.
+    pub peak_memory_bytes: Option<usize>,
+    #[serde(rename = "min_J")]
+    pub min_J: f64,
+    /// Force on the body of each table that holds nodes, N; empty where nothing does, or where the pipeline does not know it.
+    pub reactions: serde_json::Map<String, serde_json::Value>,
+    pub parts: serde_json::Map<String, serde_json::Value>,
+}
+
+impl Stats {
+    /// Gathers them after a run.
+    pub fn of(simulation: &dyn Simulation, run: &Run, seconds_setup: f64) -> Self {
+        let (shape, counters) = (simulation.shape(), simulation.counters());
+        let built = simulation.parts().into_iter().filter(|part| part.built);
+        let reactions =
+            simulation.reactions().into_iter().map(|reaction| (reaction.name, reaction.force.to_vec().into()));
+        let cost = |part: &Part| serde_json::json!({ "bytes": part.bytes, "uses": part.uses, "seconds": part.seconds });
+        Self {
+            scene: simulation.name().to_owned(),
+            status: run.failure.as_ref().map_or("done".to_owned(), |failure| format!("failed: {failure}")),
+            nodes: shape.mesh.vertices.len(),
+            elements: shape.mesh.elements.len(),
+            steps: counters.steps,
+            seconds_setup,
+            seconds_per_step_median: quantile(&run.step_seconds, 0.5),
+            seconds_per_step_p95: quantile(&run.step_seconds, 0.95),
+            newton_iterations: counters.newton_iterations,
+            unconverged_steps: counters.unconverged_steps,
+            factorizations: counters.factorizations,
+            symbolic_factorizations: counters.symbolic_factorizations,
+            solver_iterations: counters.solver_iterations,
+            stiffness_assemblies: counters.stiffness_assemblies,
+            energy_evaluations: counters.energy_evaluations,
+            line_search_backtracks: counters.line_search_backtracks,
+            projections: counters.projections,
+            skinning_rows: counters.skinning_rows,
+            peak_memory_bytes: peak_memory_bytes(),
+            min_J: simulation.min_J().0,
+            reactions: reactions.collect(),
+            parts: built.map(|part| (part.name.to_owned(), cost(&part))).collect(),
+        }
+    }
+
+    /// Writes them as JSON.
+    pub fn write(&self, path: &Path) -> Result<(), MeshError> {
+        let text = serde_json::to_string_pretty(self).expect("numbers and strings have a JSON form");
+        write_text(path, &(text + "\n"))
+    }
+}
+
+/// Largest memory that the process has had, where the system tells (Linux).
+fn peak_memory_bytes() -> Option<usize> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(1024 * line.trim().strip_suffix("kB")?.trim().parse::<usize>().ok()?)
+}
+
+/// Writes the final mesh by extension: `.obj` the display surface, `.vtu` the simulation mesh with displacement, velocity
+/// and stress, `.glb` the display surface with the motion in `frames`.
+pub fn export(path: &Path, simulation: &dyn Simulation, frames: &[Frame]) -> Result<(), MeshError> {
+    let shape = simulation.shape();
+    let faces = shape.display.as_ref().map_or(&shape.boundary, |display| &display.elements);
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("obj") => {
+            write_surface(path, &SurfaceMesh { vertices: simulation.display_positions(), elements: faces.clone() })
+        }
+        Some("glb") => {
+            let rest = shape.display.as_ref().map_or(&shape.mesh.vertices, |display| &display.vertices);
+            write_glb(path, rest, faces, frames)
+        }
+        Some("vtu") => export_fields(path, simulation),
+        other => Err(unknown_export(path, other.unwrap_or_default())),
+    }
+}
+
+/// The error of an extension that [`export`] does not know.
+pub fn unknown_export(path: &Path, extension: &str) -> MeshError {
+    MeshError::in_file(path, Problem::UnknownExtension { found: extension.to_owned(), known: ".obj, .vtu, .glb" })
+}
+
+fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<(), MeshError> {
+    let shape = simulation.shape();
+    let (q, qdot) = (simulation.positions(), simulation.velocities());
+    let displacement: Vec<f64> = q.iter().enumerate().map(|(i, x)| x - shape.mesh.vertices[i / 3][i % 3]).collect();
+    let stresses = simulation.stresses();
+    // A stress is symmetric, so its columns are its rows.
+    let cauchy: Vec<f64> = stresses.iter().flat_map(|stress| stress.iter().copied()).collect();
+    let von_mises: Vec<f64> = stresses.iter().map(von_mises).collect();
+    let point = [
+        Field { name: "displacement (m)", components: 3, values: &displacement },
+        Field { name: "velocity (m/s)", components: 3, values: qdot.as_slice() },
+    ];
+    let cell = [
+        Field { name: "Cauchy stress (Pa)", components: 9, values: &cauchy },
+        Field { name: "von Mises stress (Pa)", components: 1, values: &von_mises },
+    ];
+    write_vtu(path, &shape.mesh, &point, &cell)
+}
+
+/// √(3/2 s:s), s the deviator of a Cauchy stress, Pa.
+pub fn von_mises(stress: &Matrix3<f64>) -> f64 {
+    let deviator = stress - Matrix3::identity() * (stress.trace() / 3.0);
+    (1.5 * deviator.norm_squared()).sqrt()
+}
+
+fn write_text(path: &Path, text: &str) -> Result<(), MeshError> {
+    save(path, |out| out.write_all(text.as_bytes()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_von_mises_stress_of_a_tension_is_the_tension_and_of_a_pressure_nothing() {
+        assert_eq!(von_mises(&Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into())), 2.0);
+        assert_eq!(von_mises(&Matrix3::from_diagonal_element(-3.0)), 0.0);
+    }
+}

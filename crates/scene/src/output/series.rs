@@ -1,0 +1,49 @@
+//! A run as a series of `.vtu` files with a `.pvd` that lists them, for ParaView.
+
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use super::export_fields;
+use crate::simulation::Simulation;
+use fem_mesh::write::write_pvd;
+use fem_mesh::{MeshError, Problem};
+
+/// Files of a run in a folder: `NAME_000000.vtu` at rest and one for every so many steps, and `NAME.pvd`, which tells the time
+/// of each. NAME is the simulation's.
+#[derive(Debug)]
+pub struct Series {
+    folder: PathBuf,
+    every: NonZeroUsize,
+    states: usize,
+    written: Vec<(f64, String)>,
+}
+
+impl Series {
+    /// Makes the folder where there is none.
+    pub fn new(folder: &Path, every: NonZeroUsize) -> Result<Self, MeshError> {
+        let unwritable = |error: std::io::Error| Problem::Unwritable { reason: error.to_string() };
+        fs::create_dir_all(folder).map_err(|error| MeshError::in_file(folder, unwritable(error)))?;
+        Ok(Self { folder: folder.to_owned(), every, states: 0, written: Vec::new() })
+    }
+
+    /// Call it at rest and after every step; writes the state where one is due.
+    pub fn add(&mut self, simulation: &dyn Simulation) -> Result<(), MeshError> {
+        let step = self.states;
+        self.states += 1;
+        if !step.is_multiple_of(self.every.get()) {
+            return Ok(());
+        }
+        let file = format!("{}_{step:06}.vtu", simulation.name());
+        export_fields(&self.folder.join(&file), simulation)?;
+        self.written.push((simulation.time(), file));
+        Ok(())
+    }
+
+    /// Writes the list of the files so far, and returns its path.
+    pub fn finish(&self, simulation: &dyn Simulation) -> Result<PathBuf, MeshError> {
+        let path = self.folder.join(format!("{}.pvd", simulation.name()));
+        write_pvd(&path, &self.written)?;
+        Ok(path)
+    }
+}

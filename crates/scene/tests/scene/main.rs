@@ -1,0 +1,50 @@
+//! Scene files: what is read from them, what is refused and where, and the bodies that they name.
+
+#![allow(non_snake_case)] // C, D and E are the names that the mathematics and the course use
+
+mod bodies;
+mod cantilevers;
+mod errors;
+mod examples;
+mod lookup;
+mod moduli;
+mod motions;
+mod tables;
+
+use std::path::{Path, PathBuf};
+
+use fem_scene::{Body, Scene, SceneError, parse};
+
+/// The smallest scene: what it must say and nothing else.
+const LEAST: &str = r#"pipeline = "course"
+[mesh]
+box = { size = [2, 1, 1], cells_per_unit = 1 }
+[material]
+model = "neo_hookean"
+C = 1e5
+D = 4e5
+density = 1000.0
+[time]
+dt = 0.01
+integrator = "implicit_euler"
+"#;
+
+fn read(text: &str) -> Scene {
+    parse(text, Path::new("folder/name.toml")).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// The scene with one passage replaced, which must be there once.
+fn edit(text: &str, from: &str, to: &str) -> String {
+    assert_eq!(text.matches(from).count(), 1, "`{from}` is not there once:\n{text}");
+    text.replacen(from, to, 1)
+}
+
+/// The body of a scene that needs no data but its own.
+fn body(text: &str) -> Result<Body, SceneError> {
+    fem_scene::body(&read(text), Path::new("no data"))
+}
+
+/// The repository's `data`.
+fn data() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data")
+}

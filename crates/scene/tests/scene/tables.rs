@@ -1,0 +1,173 @@
+//! The tables of the engine: what they say, and what is refused at which line.
+
+use fem_scene::{
+    Axis, BodyForce, Damping, Precision, Preconditioner, Projection, Side, SidePlane, Spring, Static, Traction,
+};
+
+use crate::errors::assert_refused;
+use crate::{LEAST, body, edit, read};
+
+/// Every table that only the engine has; together with [`LEAST`], whose last line is 12.
+const TABLES: &str = r#"precision = "f32"
+[newton]
+projection = "always"
+[solver]
+kind = "pcg"
+preconditioner = "multigrid"
+[damping]
+alpha = 0.5
+beta = 1e-3
+[static]
+load_steps = 4
+[body_force]
+density = [0, 0, -9810]
+[[traction]]
+on = { axis = "x", side = "max", within = 1e-9 }
+force_per_area = [1, 2, 3]
+[[traction]]
+faces = [[4, 0, 1]]
+pressure = -5.0
+[[springs]]
+nodes = [0, 11]
+stiffness = 100.0
+rest_length = 0
+"#;
+
+fn with_tables() -> String {
+    format!("{LEAST}{TABLES}")
+}
+
+#[test]
+fn the_tables_of_the_engine_say_what_the_file_says() {
+    let scene = read(&with_tables());
+    assert_eq!(scene.time.precision, Precision::F32);
+    assert_eq!(scene.newton.unwrap().projection, Some(Projection::Always));
+    assert_eq!(scene.solver.unwrap().preconditioner, Some(Preconditioner::Multigrid));
+    assert_eq!(scene.damping, Some(Damping { alpha: 0.5, beta: 1e-3 }));
+    assert_eq!(scene.statics, Some(Static { load_steps: 4 }));
+    assert_eq!(scene.body_force, Some(BodyForce { density: [0.0, 0.0, -9810.0] }));
+    let on = Some(SidePlane { axis: Axis::X, side: Side::Max, within: 1e-9 });
+    let dead = Traction { on, faces: None, force_per_area: Some([1.0, 2.0, 3.0]), pressure: None };
+    let follower = Traction { on: None, faces: Some(vec![[4, 0, 1]]), force_per_area: None, pressure: Some(-5.0) };
+    assert_eq!(scene.traction, [dead, follower]);
+    assert_eq!(scene.springs, [Spring { nodes: [0, 11], stiffness: 100.0, rest_length: Some(0.0) }]);
+}
+
+#[test]
+fn what_a_scene_does_not_say_of_the_engine_has_its_default() {
+    let scene = read(&format!("{LEAST}[newton]\n[damping]\nbeta = 2\n"));
+    assert_eq!((scene.time.precision, scene.mesh.refine), (Precision::F64, 0));
+    assert_eq!(scene.newton.unwrap().projection.unwrap_or_default(), Projection::WhenNeeded);
+    assert_eq!(Preconditioner::default(), Preconditioner::BlockJacobi);
+    assert_eq!(scene.damping, Some(Damping { alpha: 0.0, beta: 2.0 }));
+    assert!(scene.traction.is_empty() && scene.springs.is_empty() && scene.prescribed.is_empty());
+    assert!(scene.statics.is_none() && scene.body_force.is_none());
+}
+
+#[test]
+fn every_name_of_the_engine_s_tables_is_known() {
+    for name in ["when_needed", "always", "never"] {
+        read(&edit(&with_tables(), "\"always\"", &format!("\"{name}\"")));
+    }
+    for name in ["block_jacobi", "incomplete_cholesky", "multigrid"] {
+        read(&edit(&with_tables(), "multigrid", name));
+    }
+    assert_refused(&edit(&with_tables(), "\"f32\"", "\"f16\""), 12, "unknown variant `f16`");
+    assert_refused(&edit(&with_tables(), "\"always\"", "\"often\""), 14, "unknown variant `often`");
+    assert_refused(&edit(&with_tables(), "\"max\"", "\"top\""), 26, "unknown variant `top`");
+}
+
+#[test]
+fn numbers_out_of_range_are_refused_at_their_line() {
+    let refused = |from: &str, to: &str, line: usize, beginning: &str| {
+        assert_refused(&edit(&with_tables(), from, to), line, beginning);
+    };
+    refused("alpha = 0.5", "alpha = -1", 19, "damping.alpha is -1; give 0 1/s or more");
+    refused("beta = 1e-3", "beta = nan", 20, "damping.beta is NaN; give 0 s or more");
+    refused("load_steps = 4", "load_steps = 0", 22, "static.load_steps is 0; give at least one");
+    refused("-9810]", "inf]", 24, "body_force.density is inf; give finite numbers");
+    refused("within = 1e-9", "within = -1", 26, "traction[0].on has within = -1; give a distance");
+    refused("[1, 2, 3]", "[1, nan, 3]", 27, "traction[0].force_per_area is NaN");
+    refused("-5.0", "inf", 30, "traction[1].pressure is inf; give finite numbers");
+    refused("100.0", "0", 33, "springs[0].stiffness is 0; give a positive number of N/m");
+    refused("rest_length = 0", "rest_length = -1", 34, "springs[0].rest_length is -1; give 0 m or more");
+    refused("[0, 11]", "[3, 3]", 32, "springs[0].nodes names node 3 twice; a spring joins");
+    refused("cells_per_unit = 1 }", "cells_per_unit = 1 }\nrefine = 5", 4, "mesh.refine is 5; cut");
+}
+
+#[test]
+fn lists_have_as_many_numbers_as_they_need() {
+    assert_refused(&edit(&with_tables(), "[0, 11]", "[0, 11, 12]"), 32, "invalid length 3, expected two nodes");
+    assert_refused(&edit(&with_tables(), "[[4, 0, 1]]", "[[4, 0, 1, 2]]"), 29, "invalid length 4, expected three");
+    assert_refused(&edit(&with_tables(), "[1, 2, 3]", "[1, 2]"), 27, "invalid length 2, expected three numbers");
+}
+
+#[test]
+fn a_traction_names_one_place_and_one_force() {
+    let place = "traction[1] needs either on or faces; give one and only one";
+    let force = "needs either force_per_area or pressure; give one and only one";
+    assert_refused(&edit(&with_tables(), "faces = [[4, 0, 1]]\n", ""), 28, place);
+    assert_refused(&edit(&with_tables(), "pressure = -5.0\n", ""), 28, &format!("traction[1] {force}"));
+    let both = edit(&with_tables(), "force_per_area = [1, 2, 3]\n", "force_per_area = [1, 2, 3]\npressure = 1\n");
+    assert_refused(&both, 25, &format!("traction[0] {force}"));
+}
+
+#[test]
+fn a_preconditioner_belongs_to_the_preconditioned_solver() {
+    for kind in ["cholesky", "lu", "cg"] {
+        assert_refused(
+            &edit(&with_tables(), "\"pcg\"", &format!("\"{kind}\"")),
+            17,
+            "solver.preconditioner belongs to the kind \"pcg\"; write",
+        );
+    }
+}
+
+#[test]
+fn a_traction_on_a_side_loads_its_triangles_and_listed_ones_are_looked_up_in_any_order() {
+    let body = body(&with_tables()).unwrap();
+    let [side, listed] = &body.loaded_faces[..] else { panic!("{:?}", body.loaded_faces) };
+    assert_eq!(side.len(), 2);
+    assert!(side.iter().flatten().all(|&node| body.shape.mesh.vertices[node].x == 2.0), "{side:?}");
+    assert_eq!(listed.len(), 1);
+    assert!(body.shape.boundary.contains(&listed[0]), "as the boundary has it, so that it looks outward");
+    assert_eq!(body.rest_lengths, [0.0]);
+}
+
+#[test]
+fn a_spring_without_a_rest_length_is_at_rest_in_the_undeformed_body() {
+    let lengths = body(&edit(&with_tables(), "rest_length = 0\n", "")).unwrap().rest_lengths;
+    assert_eq!(lengths, [6f64.sqrt()]);
+}
+
+#[test]
+fn what_the_mesh_does_not_have_is_refused() {
+    let refused = |from: &str, to: &str, end: &str| {
+        let message = body(&edit(&with_tables(), from, to)).unwrap_err().to_string();
+        assert!(message.ends_with(end), "{message}");
+    };
+    refused("[0, 11]", "[0, 12]", "springs[0].nodes names node 12; the mesh has nodes 0 to 11");
+    refused(
+        "[[4, 0, 1]]",
+        "[[0, 1, 11]]",
+        "traction[1].faces names [0, 1, 11], which is no triangle of the boundary; correct it",
+    );
+    refused("[[4, 0, 1]]", "[]", "traction[1].faces is empty; name a triangle of the boundary or use on");
+}
+
+#[test]
+fn a_refined_body_has_eight_times_the_elements_and_keeps_its_first_nodes() {
+    let plain = body(LEAST).unwrap().shape.mesh;
+    let refined = body(&edit(LEAST, "cells_per_unit = 1 }", "cells_per_unit = 1 }\nrefine = 2")).unwrap().shape.mesh;
+    assert_eq!(refined.elements.len(), 64 * plain.elements.len());
+    assert_eq!(refined.vertices[..12], plain.vertices);
+    assert_eq!(refined.vertices.len(), 9 * 5 * 5, "a grid of quarter cells");
+}
+
+#[test]
+fn a_refinement_that_would_be_too_large_is_refused_with_its_size() {
+    let text =
+        edit(LEAST, "size = [2, 1, 1], cells_per_unit = 1 }", "size = [2, 1, 1], cells_per_unit = 20 }\nrefine = 4");
+    let message = body(&text).unwrap_err().to_string();
+    assert!(message.contains("mesh.refine: box: refined 4 times the mesh would have 3.93216e8 elements"), "{message}");
+}

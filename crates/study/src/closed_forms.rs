@@ -1,0 +1,100 @@
+//! Equilibria that are known in closed form: a scene's exact answer, where it has one.
+
+use super::norms;
+use fem_scene::cantilever::{expected_tip_displacement, tip_displacement};
+use fem_scene::simulation::Simulation;
+use fem_scene::{Axis, Integrator, Model, Prescribed, Scene, Side};
+
+/// Distance of a simulation at its horizon from the scene's closed form, relative; `None` for a scene without one.
+///
+/// A cantilever: the displacement of its tip against Timoshenko's, as a part of it. A stretched bar: root mean square over the
+/// nodes against the uniform state, as a part of the body's length.
+pub fn error(scene: &Scene, simulation: &dyn Simulation) -> Option<f64> {
+    if let Some(expected) = expected_tip_displacement(scene) {
+        return Some((tip_displacement(simulation) - expected).norm() / expected.norm());
+    }
+    let (stretch, lateral) = uniaxial(scene)?;
+    let (shape, q) = (simulation.shape(), simulation.positions());
+    let mesh = &shape.mesh;
+    let origin = mesh.vertices.iter().fold(mesh.vertices[0], |least, x| least.inf(x));
+    let factors = [stretch, lateral, lateral];
+    let exact: Vec<f64> = (0..q.len()).map(|i| (mesh.vertices[i / 3] - origin)[i % 3] * factors[i % 3]).collect();
+    let found: Vec<f64> = (0..q.len()).map(|i| q[i] - origin[i % 3]).collect();
+    Some(norms::l2(&norms::weights(mesh), &found, &exact) / norms::length(mesh))
+}
+
+/// Stretch along x and across it, of a neo-Hookean box between three rollers that a dead traction pulls along x.
+pub fn uniaxial(scene: &Scene) -> Option<(f64, f64)> {
+    let is_neo_hookean = scene.material.model == Model::NeoHookean && scene.time.integrator == Integrator::Static;
+    let is_alone =
+        scene.gravity.is_none() && scene.body_force.is_none() && scene.springs.is_empty() && scene.drag.is_none();
+    let [traction] = &scene.traction[..] else { return None };
+    let on = traction.on.as_ref().filter(|on| on.axis == Axis::X && on.side == Side::Max)?;
+    let [pull, 0.0, 0.0] = traction.force_per_area? else { return None };
+    let rollers =
+        [Axis::X, Axis::Y, Axis::Z].iter().all(|&axis| scene.prescribed.iter().any(|held| is_roller(held, axis)));
+    let is_bar =
+        scene.mesh.cuboid.is_some() && scene.prescribed.len() == 3 && scene.fixed.is_none() && on.within >= 0.0;
+    let (C, D) = scene.material.neo_hookean()?;
+    if !(is_neo_hookean && is_alone && rollers && is_bar) {
+        return None;
+    }
+    stretches(C, D, pull)
+}
+
+/// A plane of symmetry: the side of the smallest coordinate keeps that coordinate.
+fn is_roller(held: &Prescribed, axis: Axis) -> bool {
+    let on_side = held.on.as_ref().is_some_and(|on| on.axis == axis && on.side == Side::Min);
+    let stays = held.rotation.is_none() && held.displacement == Some([0.0; 3]);
+    on_side && stays && held.components.as_deref() == Some(&[axis])
+}
+
+/// λ and a of P11(λ, a) = pull where (2C/3) J^(−2/3) (a² − λ²) + 2D (J − 1) J = 0, J = λ a²: bisection over λ, and over a in it.
+fn stretches(C: f64, D: f64, pull: f64) -> Option<(f64, f64)> {
+    let lateral = |stretch: f64| {
+        bisect(1e-3, 10.0, |a| {
+            let J = stretch * a * a;
+            2.0 * C / 3.0 * J.powf(-2.0 / 3.0) * (a * a - stretch * stretch) + 2.0 * D * (J - 1.0) * J
+        })
+    };
+    let stress = |stretch: f64| {
+        let a = lateral(stretch)?;
+        Some(2.0 * C / stretch * (stretch * a * a).powf(-2.0 / 3.0) * (stretch * stretch - a * a))
+    };
+    let stretch = bisect(0.05, 20.0, |stretch| stress(stretch).map_or(f64::NAN, |stress| stress - pull))?;
+    Some((stretch, lateral(stretch)?))
+}
+
+/// A zero of a function that is negative at `low` and positive at `high`.
+fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> Option<f64> {
+    // NaN is neither.
+    if !(f(low) < 0.0 && f(high) > 0.0) {
+        return None;
+    }
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if f(middle) < 0.0 { low = middle } else { high = middle }
+    }
+    Some(0.5 * (low + high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bar_of_the_scenes_is_stretched_by_half() {
+        let (stretch, lateral) = stretches(2e5, 1e6, 3.842394e5).unwrap();
+        assert!((stretch - 1.5).abs() < 1e-6, "{stretch} {lateral}");
+    }
+
+    #[test]
+    fn a_small_pull_stretches_as_hooke_says() {
+        // E = 18CD/(3D + C), ν = (3D − 2C)/(6D + 2C)
+        let (C, D) = (2e5, 1e6);
+        let (E, nu) = (18.0 * C * D / (3.0 * D + C), (3.0 * D - 2.0 * C) / (6.0 * D + 2.0 * C));
+        let (stretch, lateral) = stretches(C, D, 1.0).unwrap();
+        assert!(((stretch - 1.0) * E - 1.0).abs() < 1e-5);
+        assert!(((1.0 - lateral) * E - nu).abs() < 1e-5);
+    }
+}

@@ -1,0 +1,92 @@
+//! What the parts of a step cost on this machine, each by itself: with the counts of a run they tell where its time went.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::equations::Equations;
+use super::row::Row;
+use fem_engine::acting::Acting;
+use fem_engine::solvers::{Solver, SolverChoice};
+use fem_scene::simulate::quantile;
+
+/// Seconds of one call.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Costs {
+    /// Forces of all elements.
+    pub force: f64,
+    /// Energy and forces in one pass.
+    pub pass: f64,
+    /// Stiffness of all elements into the matrix.
+    pub stiffness: f64,
+    /// Cholesky factor of it.
+    pub factor: f64,
+    /// Forward and backward substitution.
+    pub substitution: f64,
+}
+
+/// Kinds of work in [`shares`], in order.
+pub const KINDS: [&str; 5] = ["forces and energies", "stiffness", "factor", "substitution", "mass and all else"];
+
+/// Takes the time of each part, at rest.
+pub fn measure(equations: &Equations) -> Costs {
+    let system = &equations.system;
+    let u = vec![[0.0; 3]; system.nodes()];
+    let mut gradient = u.clone();
+    let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
+    let acting = Acting { pulls: &[], load: system.dead_load.as_deref() };
+    let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
+    let mut solver = Solver::<f64>::new(SolverChoice::Cholesky, &Arc::clone(&system.pattern), &rest);
+    let force = median(|| system.gradient(&u, acting, &mut gradient));
+    let pass = median(|| {
+        system.potential_and_gradient(&u, acting, &mut gradient);
+    });
+    let stiffness = median(|| {
+        values.fill([[0.0; 3]; 3]);
+        system.add_stiffness(1.0, &u, &mut values);
+    });
+    // Inertia makes it positive definite, as it does in a step.
+    system.mass.add_to(1e4, &system.pattern, &mut values);
+    system.held.take_out(&system.pattern, &mut values);
+    let mut is_factor = false;
+    let factor = median(|| is_factor = solver.prepare(&values).is_ok());
+    let mut x = vec![[0.0; 3]; system.nodes()];
+    let substitution = if is_factor { median(|| solver.apply(&gradient, &mut x)) } else { 0.0 };
+    Costs { force, pass, stiffness, factor, substitution }
+}
+
+fn median(mut work: impl FnMut()) -> f64 {
+    let mut times = Vec::new();
+    let begin = Instant::now();
+    while times.len() < 5 || (times.len() < 40 && begin.elapsed().as_secs_f64() < 0.2) {
+        let start = Instant::now();
+        work();
+        times.push(start.elapsed().as_secs_f64());
+    }
+    quantile(&times, 0.5).unwrap_or_default()
+}
+
+/// Milliseconds of a step that went into each of [`KINDS`]; none for runs of which the counts do not tell: other solvers than
+/// Cholesky, other precision, the course.
+pub fn shares(costs: &Costs, row: &Row) -> Option<[f64; 5]> {
+    let case = &row.case;
+    let is_known = ["automatic", "cholesky", "none"].contains(&&*case.solver);
+    if case.pipeline != "engine" || case.precision != "f64" || !is_known {
+        return None;
+    }
+    let (counters, steps) = (&row.counters, row.counters.steps.max(1) as f64);
+    let per_step = |count: usize, seconds: f64| 1e3 * count as f64 * seconds / steps;
+    let pass = if counters.energy_evaluations > 0 { costs.pass } else { costs.force };
+    let mut known = [
+        per_step(counters.force_assemblies, pass),
+        per_step(counters.stiffness_assemblies, costs.stiffness),
+        per_step(counters.factorizations, costs.factor),
+        per_step(row.linear_solves(), costs.substitution),
+    ];
+    // The median step: a busy machine lengthens some steps, and not the parts that were timed by themselves.
+    let whole = row.times.step_ms[0]?;
+    let rest = (whole - known.iter().sum::<f64>()).max(0.0);
+    // Steps differ: those with a new factor take longer than the median.
+    let fitting = (whole / known.iter().sum::<f64>()).min(1.0);
+    known.iter_mut().for_each(|part| *part *= fitting);
+    Some([known[0], known[1], known[2], known[3], rest])
+}

@@ -1,0 +1,50 @@
+//! Locking: linear tetrahedra that can hardly change their volume can hardly bend. How far a cantilever's tip moves, as a part of
+//! what Timoshenko's beam says, for Poisson's ratio up to ½ and cells as small as time allows.
+
+use std::path::Path;
+
+use fem_engine::engine;
+use fem_scene::cantilever::{expected_tip_displacement, tip_displacement};
+use fem_scene::{body, parse};
+
+/// Poisson's ratios.
+pub const RATIOS: [f64; 6] = [0.0, 0.3, 0.45, 0.49, 0.499, 0.4999];
+
+/// One beam.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bent {
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Cells per metre of a beam of 8 × 1 × 1 m.
+    pub cells: usize,
+    /// Displacement of the tip over Timoshenko's.
+    pub ratio: f64,
+}
+
+/// Bends a beam.
+pub fn bend(poisson: f64, cells: usize) -> Result<Bent, String> {
+    let text = format!(
+        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [8, 1, 1], cells_per_unit = {cells} }}\n[material]\n\
+         model = \"linear\"\nyoung = 1e6\npoisson = {poisson}\ndensity = 1000.0\n[fixed]\n\
+         plane = {{ axis = \"x\", below = 1e-9 }}\n[[traction]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\n\
+         force_per_area = [0, 0, -50]\n[time]\ndt = 1.0\nintegrator = \"static\"\nsteps = 1\n"
+    );
+    let scene = parse(&text, Path::new("locking.toml")).map_err(|error| error.to_string())?;
+    let body = body(&scene, Path::new("")).map_err(|error| error.to_string())?;
+    let mut simulation = engine::build(&scene, body).map_err(|error| error.to_string())?;
+    simulation.step().map_err(|failure| failure.to_string())?;
+    let expected = expected_tip_displacement(&scene).ok_or("the beam is no cantilever")?;
+    Ok(Bent { poisson, cells, ratio: tip_displacement(&*simulation).z / expected.z })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_beam_that_keeps_its_volume_hardly_bends() {
+        let bent = bend(0.4999, 2).unwrap();
+        assert!(bent.ratio > 0.0 && bent.ratio < 0.1, "{bent:?}");
+        assert!(bend(0.0, 2).unwrap().ratio > 5.0 * bent.ratio);
+    }
+}

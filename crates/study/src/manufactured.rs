@@ -1,0 +1,220 @@
+//! Equilibrium of a cube whose solution is known because it was chosen: u_i = a_i sin πx sin πy sin πz, zero on all sides.
+//!
+//! The body force that makes it so is −Div P, by the chain rule −∂P/∂F : ∇∇u, exact in every point. P. J. Roache, "Code
+//! verification by the method of manufactured solutions", Journal of Fluids Engineering 124, 2002.
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use nalgebra::{DVector, Vector3};
+
+use super::quadrature::Rule;
+use fem_engine::integrators::{Limits, Newton, Statics};
+use fem_engine::materials::Material;
+use fem_engine::solvers::{Solver, SolverChoice};
+use fem_engine::state::State;
+use fem_engine::system::System;
+use fem_engine::tensor::{Tensor, from_fn};
+use fem_mesh::{TetrahedralMesh, volumes};
+use fem_scene::simulation::Counters;
+use fem_scene::{Body, Fixed, Model, Projection, Scene, body, parse};
+
+/// a, m: large enough that the neo-Hookean law is far from linear.
+pub const AMPLITUDE: [f64; 3] = [0.06, -0.05, 0.04];
+
+/// Integrates the body force and the errors.
+const RULE: u32 = 3;
+
+/// A cube of this many cells in each direction, solved.
+#[derive(Clone, Debug)]
+pub struct Solved {
+    /// The scene that it was solved as.
+    pub scene: Scene,
+    /// The mesh.
+    pub mesh: TetrahedralMesh,
+    /// Positions of all nodes, m.
+    pub q: DVector<f64>,
+    /// ‖u − u_h‖ / ‖u‖ over the cube.
+    pub l2: f64,
+    /// ‖∇u − ∇u_h‖ / ‖∇u‖ over the cube.
+    pub h1: f64,
+    /// Work that it took.
+    pub counters: Counters,
+    /// Wall-clock time of the solution, set-up apart, s.
+    pub seconds: f64,
+}
+
+/// Displacement at a place, m.
+pub fn displacement(X: &Vector3<f64>) -> [f64; 3] {
+    let product: f64 = X.iter().map(|x| (PI * x).sin()).product();
+    AMPLITUDE.map(|a| a * product)
+}
+
+/// G_ij = ∂u_i/∂X_j.
+pub fn gradient(X: &Vector3<f64>) -> Tensor<f64> {
+    let (sin, cos) = (X.map(|x| (PI * x).sin()), X.map(|x| (PI * x).cos()));
+    let part = |j: usize| PI * (0..3).map(|k| if k == j { cos[k] } else { sin[k] }).product::<f64>();
+    from_fn(|i, j| AMPLITUDE[i] * part(j))
+}
+
+/// ∂²u_i/∂X_j∂X_l
+fn second(X: &Vector3<f64>, i: usize, j: usize, l: usize) -> f64 {
+    let (sin, cos) = (X.map(|x| (PI * x).sin()), X.map(|x| (PI * x).cos()));
+    let factor = |k: usize| match (k == j, k == l) {
+        (true, true) => -sin[k],
+        (false, false) => sin[k],
+        _ => cos[k],
+    };
+    AMPLITUDE[i] * PI * PI * (0..3).map(factor).product::<f64>()
+}
+
+/// −Div P at a place, N/m³.
+fn body_force(material: &Material<f64>, X: &Vector3<f64>) -> [f64; 3] {
+    let G = gradient(X);
+    let H = material.derivative(&G);
+    let mut force = [0.0; 3];
+    for (i, force) in force.iter_mut().enumerate() {
+        for j in 0..3 {
+            for k in 0..3 {
+                for l in 0..3 {
+                    *force -= H[3 * i + j][3 * k + l] * second(X, k, l, j);
+                }
+            }
+        }
+    }
+    force
+}
+
+/// Solves it on a mesh of `cells` cells in each direction.
+pub fn solve(model: Model, cells: usize) -> Result<Solved, String> {
+    let (scene, body) = cube(model, cells)?;
+    let mesh = body.shape.mesh.clone();
+    let material = Material::<f64>::new(&scene.material).ok_or("the material lacks its moduli")?;
+    let load = nodal_load(&material, &mesh);
+    let mut system = System::new(&scene, body, material, SolverChoice::Cholesky);
+    system.dead_load = Some(system.order.mesh_node.iter().map(|&node| load[node as usize]).collect());
+    let mut counters = Counters::default();
+    let mut state = State::at_rest(system.nodes());
+    let limits =
+        Limits { max_iterations: 50, tolerance: 1e-13, projection: Projection::WhenNeeded, solver_tolerance: 1e-12 };
+    let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
+    let solver = Solver::new(SolverChoice::Cholesky, &system.pattern, &rest);
+    let newton = Newton::new(limits, solver, system.nodes(), system.pattern.blocks());
+    let mut method = Statics::new(newton, &system, 1);
+    let start = std::time::Instant::now();
+    method.step(&system, &mut state, &[], &mut counters).map_err(|cause| format!("no equilibrium: {cause:?}"))?;
+    counters.steps = 1;
+    let seconds = start.elapsed().as_secs_f64();
+    let u = system.order.to_mesh(&state.u);
+    let (l2, h1) = errors(&mesh, &u);
+    let q = DVector::from_fn(3 * u.len(), |i, _| mesh.vertices[i / 3][i % 3] + u[i / 3][i % 3]);
+    Ok(Solved { scene, mesh, q, l2, h1, counters, seconds })
+}
+
+/// The unit cube, held on all sides.
+fn cube(model: Model, cells: usize) -> Result<(Scene, Body), String> {
+    let moduli = match model {
+        Model::NeoHookean => "model = \"neo_hookean\"\nC = 1e4\nD = 3e4",
+        _ => "model = \"linear\"\nyoung = 1e5\npoisson = 0.3",
+    };
+    let text = format!(
+        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = {cells} }}\n[material]\n{moduli}\n\
+         density = 1000.0\n[time]\ndt = 1.0\nintegrator = \"static\"\nsteps = 1\n"
+    );
+    let name = if model == Model::NeoHookean { "manufactured-neo-hookean" } else { "manufactured-linear" };
+    let mut scene = parse(&text, Path::new(&format!("{name}.toml"))).map_err(|error| error.to_string())?;
+    let per_edge = cells + 1;
+    let is_inside = |node: usize| {
+        [node % per_edge, node / per_edge % per_edge, node / per_edge / per_edge].iter().all(|&i| i > 0 && i < cells)
+    };
+    let sides = (0..per_edge.pow(3)).filter(|&node| !is_inside(node)).collect();
+    scene.fixed = Some(Fixed { plane: None, nodes: Some(sides) });
+    let body = body(&scene, Path::new("")).map_err(|error| error.to_string())?;
+    Ok((scene, body))
+}
+
+/// ∫ b φ of each node, N.
+fn nodal_load(material: &Material<f64>, mesh: &TetrahedralMesh) -> Vec<[f64; 3]> {
+    let rule = Rule::of_index(RULE);
+    let mut load = vec![[0.0; 3]; mesh.vertices.len()];
+    for (element, volume) in mesh.elements.iter().zip(volumes(mesh)) {
+        for (at, weight) in &rule.points {
+            let force = body_force(material, &place(mesh, element, at));
+            for (corner, &node) in element.iter().enumerate() {
+                for i in 0..3 {
+                    load[node][i] += volume * weight * at[corner] * force[i];
+                }
+            }
+        }
+    }
+    load
+}
+
+fn place(mesh: &TetrahedralMesh, element: &[usize; 4], at: &[f64; 4]) -> Vector3<f64> {
+    element.iter().zip(at).map(|(&node, &weight)| mesh.vertices[node] * weight).sum()
+}
+
+/// Relative errors in L2 and in the seminorm of H1.
+fn errors(mesh: &TetrahedralMesh, u: &[[f64; 3]]) -> (f64, f64) {
+    let rule = Rule::of_index(RULE);
+    let [mut l2, mut h1, mut size, mut slope] = [0.0; 4];
+    for (element, volume) in mesh.elements.iter().zip(volumes(mesh)) {
+        let found = element_gradient(mesh, element, u);
+        for (at, weight) in &rule.points {
+            let X = place(mesh, element, at);
+            let (exact, steep) = (displacement(&X), gradient(&X));
+            for i in 0..3 {
+                let here: f64 = (0..4).map(|corner| at[corner] * u[element[corner]][i]).sum();
+                l2 += volume * weight * (here - exact[i]).powi(2);
+                size += volume * weight * exact[i].powi(2);
+                for j in 0..3 {
+                    h1 += volume * weight * (found[i][j] - steep[i][j]).powi(2);
+                    slope += volume * weight * steep[i][j].powi(2);
+                }
+            }
+        }
+    }
+    ((l2 / size).sqrt(), (h1 / slope).sqrt())
+}
+
+/// G of an element.
+pub fn element_gradient(mesh: &TetrahedralMesh, element: &[usize; 4], u: &[[f64; 3]]) -> Tensor<f64> {
+    let edge = |of: &dyn Fn(usize) -> Vector3<f64>| {
+        let origin = of(element[0]);
+        nalgebra::Matrix3::from_columns(&[of(element[1]) - origin, of(element[2]) - origin, of(element[3]) - origin])
+    };
+    let (rest, moved) = (edge(&|node| mesh.vertices[node]), edge(&|node| Vector3::from(u[node])));
+    let G = moved * rest.try_inverse().unwrap_or_default();
+    from_fn(|i, j| G[(i, j)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_body_force_is_minus_the_divergence_of_the_stress() {
+        for model in [Model::Linear, Model::NeoHookean] {
+            let material = Material::<f64>::new(&cube(model, 1).unwrap().0.material).unwrap();
+            let X = Vector3::new(0.31, 0.62, 0.27);
+            let stress = |X: &Vector3<f64>| material.stress(&gradient(X));
+            let h = 1e-5;
+            for (i, force) in body_force(&material, &X).into_iter().enumerate() {
+                let slope = |j: usize| {
+                    let step = Vector3::ith(j, h);
+                    (stress(&(X + step))[i][j] - stress(&(X - step))[i][j]) / (2.0 * h)
+                };
+                let divergence: f64 = (0..3).map(slope).sum();
+                assert!((force + divergence).abs() < 1e-6 * force.abs(), "{model:?}: {force} {divergence}");
+            }
+        }
+    }
+
+    #[test]
+    fn errors_fall_with_the_cells() {
+        for model in [Model::Linear, Model::NeoHookean] {
+            let [coarse, fine] = [4, 8].map(|cells| solve(model, cells).unwrap());
+            assert!(coarse.l2 / fine.l2 > 3.0 && coarse.h1 / fine.h1 > 1.75, "{} {}", coarse.l2, fine.l2);
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! Runs and takes their time. The first run of each is looked at: its end, its energies on the way. Later ones are timed only, in
+//! turn with all other runs, so that a busy minute of the machine falls on all of them.
+
+use std::time::Instant;
+
+use nalgebra::DVector;
+
+use super::machine;
+use super::plan::Run;
+use fem_scene::Scene;
+use fem_scene::simulate::quantile;
+use fem_scene::simulation::{Counters, Simulation};
+
+/// Builds the simulation of a scene, by whichever pipeline it names.
+pub type Factory<'a> = dyn Fn(&Scene) -> Result<Box<dyn Simulation>, String> + 'a;
+
+/// What a run led to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// s
+    pub time: f64,
+    /// Positions of all nodes, m.
+    pub q: DVector<f64>,
+    /// Velocities of all nodes, m/s.
+    pub qdot: DVector<f64>,
+    /// Kinetic and potential energy at the end, J.
+    pub energies: (f64, f64),
+    /// Time (s) and total energy (J) on the way.
+    pub history: Vec<(f64, f64)>,
+    /// Smallest J of the moments that were looked at.
+    pub min_j: f64,
+    /// Work done.
+    pub counters: Counters,
+    /// Why it ended early, where it did.
+    pub failure: Option<String>,
+    /// Distance from the scene's closed form, where it has one.
+    pub analytic: Option<f64>,
+    /// Largest memory of the process, MB.
+    pub peak_mb: Option<f64>,
+    /// Processor time of steps and looks, s; by the clock where the system does not tell.
+    pub spent: f64,
+    /// The clock of this run.
+    pub timing: Timing,
+}
+
+/// The clock of one run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Timing {
+    /// s
+    pub setup: f64,
+    /// Each step, s.
+    pub steps: Vec<f64>,
+    /// Processor time of all steps in all threads, s; none where it is not told, or where something else was done between them.
+    pub processor: Option<f64>,
+}
+
+impl Timing {
+    /// All steps, s.
+    pub fn total(&self) -> f64 {
+        self.steps.iter().sum()
+    }
+}
+
+/// Moments of a run that are looked at.
+const LOOKS: usize = 120;
+
+/// Why there is no outcome.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refusal {
+    /// In words.
+    pub reason: String,
+    /// Seconds that were spent, and steps that were done in them.
+    pub spent: Option<(f64, usize)>,
+}
+
+/// Runs and looks; gives up after `most_seconds`.
+pub fn first(factory: &Factory, run: &Run, most_seconds: f64) -> Result<Outcome, Refusal> {
+    machine::forget_peak();
+    let (start, before) = (Instant::now(), machine::processor_seconds());
+    let mut simulation = factory(&run.scene).map_err(|reason| Refusal { reason, spent: None })?;
+    let mut timing = Timing { setup: start.elapsed().as_secs_f64(), ..Timing::default() };
+    let every = run.steps.div_ceil(LOOKS);
+    let (mut history, mut min_j) = (vec![(0.0, simulation.energies().total())], simulation.min_J().0);
+    let failure = steps(&mut *simulation, run.steps, &mut timing, |simulation, step| {
+        if step % every == 0 || step == run.steps {
+            history.push((simulation.time(), simulation.energies().total()));
+            min_j = min_j.min(simulation.min_J().0);
+        }
+        start.elapsed().as_secs_f64() < most_seconds
+    });
+    // Other work on the machine must not decide what is run.
+    let spent = machine::processor_seconds().zip(before).map_or(timing.total(), |(after, before)| after - before);
+    let count = timing.steps.len();
+    if failure.is_none() && count < run.steps {
+        let reason = format!("given up in step {count} of {}, after {most_seconds:.0} s", run.steps);
+        return Err(Refusal { reason, spent: Some((spent, count)) });
+    }
+    let energies = simulation.energies();
+    Ok(Outcome {
+        time: simulation.time(),
+        q: simulation.positions(),
+        qdot: simulation.velocities(),
+        energies: (energies.kinetic, energies.potential),
+        history,
+        min_j,
+        counters: simulation.counters(),
+        analytic: super::closed_forms::error(&run.scene, &*simulation).filter(|_| failure.is_none()),
+        failure,
+        peak_mb: machine::peak_mb(),
+        spent,
+        timing,
+    })
+}
+
+/// Runs and takes the time, nothing else.
+pub fn again(factory: &Factory, run: &Run) -> Result<Timing, String> {
+    let start = Instant::now();
+    let mut simulation = factory(&run.scene)?;
+    let mut timing = Timing { setup: start.elapsed().as_secs_f64(), ..Timing::default() };
+    let before = machine::processor_seconds();
+    steps(&mut *simulation, run.steps, &mut timing, |_, _| true);
+    timing.processor = machine::processor_seconds().zip(before).map(|(after, before)| after - before);
+    Ok(timing)
+}
+
+/// Steps as long as `look` says so; the clock runs in the steps alone.
+fn steps(
+    simulation: &mut dyn Simulation,
+    count: usize,
+    timing: &mut Timing,
+    mut look: impl FnMut(&dyn Simulation, usize) -> bool,
+) -> Option<String> {
+    timing.steps.reserve(count);
+    for step in 1..=count {
+        let start = Instant::now();
+        let outcome = simulation.step();
+        timing.steps.push(start.elapsed().as_secs_f64());
+        if let Err(failure) = outcome {
+            return Some(failure.to_string());
+        }
+        if !look(simulation, step) {
+            break;
+        }
+    }
+    None
+}
+
+/// When a run has been timed often enough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patience {
+    /// Repetitions at least, and at most.
+    pub repetitions: (usize, usize),
+    /// Time for all of a run's repetitions, once there are enough of them, s.
+    pub seconds: f64,
+    /// A first run as long as this has warmed up by itself, and counts, s.
+    pub long: f64,
+}
+
+impl Patience {
+    /// For a study of minutes, or for a look.
+    pub fn new(is_quick: bool) -> Self {
+        let repetitions = if is_quick { (2, 3) } else { (3, 9) };
+        Self { repetitions, seconds: if is_quick { 0.02 } else { 0.6 }, long: if is_quick { 0.3 } else { 2.0 } }
+    }
+
+    /// The clocks of all runs: round after round over all of them. `tell` is called after each.
+    pub fn time(&self, factory: &Factory, runs: &[(&Run, &Timing)], mut tell: impl FnMut()) -> Vec<Vec<Timing>> {
+        let counts = |timing: &Timing| timing.total() > self.long;
+        let mut clocks: Vec<Vec<Timing>> =
+            runs.iter().map(|(_, first)| if counts(first) { vec![(*first).clone()] } else { Vec::new() }).collect();
+        for _ in 0..self.repetitions.1 {
+            for ((run, _), clocks) in runs.iter().zip(&mut clocks) {
+                let spent: f64 = clocks.iter().map(|clock| clock.total() + clock.setup).sum();
+                let is_enough = clocks.len() >= self.repetitions.0 && spent > self.seconds;
+                if clocks.len() < self.repetitions.1 && !is_enough {
+                    // It could be built before, and can be again.
+                    clocks.extend(again(factory, run));
+                }
+                tell();
+            }
+        }
+        clocks
+    }
+
+    /// Calls of `tell` that [`time`](Self::time) makes for so many runs.
+    pub fn calls(&self, runs: usize) -> usize {
+        self.repetitions.1 * runs
+    }
+}
+
+/// Lower quartile, median and upper quartile.
+pub fn quartiles(values: &[f64]) -> [Option<f64>; 3] {
+    [0.25, 0.5, 0.75].map(|part| quantile(values, part))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use fem_scene::{body, parse};
+
+    fn build(scene: &Scene) -> Result<Box<dyn Simulation>, String> {
+        let body = body(scene, Path::new("no data")).map_err(|error| error.to_string())?;
+        fem_engine::engine::build(scene, body).map_err(|error| error.to_string())
+    }
+
+    fn run(dt: f64, steps: usize) -> Run {
+        let text = format!(
+            "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 1 }}\n[material]\n\
+             model = \"neo_hookean\"\nC = 1e4\nD = 4e4\ndensity = 1000.0\n[gravity]\nacceleration = [0, -9.81, 0]\n\
+             [fixed]\nplane = {{ axis = \"x\", below = 1e-9 }}\n[time]\ndt = {dt:e}\nintegrator = \"explicit_euler\"\n"
+        );
+        let scene = parse(&text, Path::new("box.toml")).unwrap();
+        Run { group: "method", method: "explicit Euler".to_owned(), scene, steps }
+    }
+
+    #[test]
+    fn a_run_is_looked_at_from_its_start_to_its_end() {
+        let outcome = first(&build, &run(1e-3, 300), 60.0).unwrap();
+        assert_eq!(outcome.failure, None);
+        assert_eq!((outcome.counters.steps, outcome.timing.steps.len()), (300, 300));
+        let times: Vec<f64> = outcome.history.iter().map(|(time, _)| *time).collect();
+        assert_eq!(times[0], 0.0);
+        assert!((times[times.len() - 1] - 0.3).abs() < 1e-9 && times.len() <= LOOKS + 2, "{}", times.len());
+    }
+
+    #[test]
+    fn a_run_that_explodes_says_so() {
+        let outcome = first(&build, &run(1.0, 20), 60.0).unwrap();
+        assert!(outcome.failure.is_some_and(|failure| failure.contains("failed in step")));
+    }
+
+    #[test]
+    fn a_run_that_takes_too_long_is_given_up() {
+        let refusal = first(&build, &run(1e-3, 300), 0.0).unwrap_err();
+        assert!(refusal.reason.contains("step 1 of 300") && refusal.spent.is_some(), "{refusal:?}");
+    }
+
+    #[test]
+    fn all_runs_are_timed_at_least_so_often() {
+        let runs = [run(1e-3, 5), run(1e-3, 10)];
+        let clock = Timing::default();
+        let patience = Patience { repetitions: (2, 4), seconds: 0.0, long: 1.0 };
+        let mut told = 0;
+        let clocks = patience.time(&build, &[(&runs[0], &clock), (&runs[1], &clock)], || told += 1);
+        assert_eq!(clocks.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
+        assert_eq!(clocks[1][0].steps.len(), 10);
+        assert_eq!(told, patience.calls(2));
+    }
+}

@@ -1,0 +1,158 @@
+//! Errors in space of boxes, from three meshes of which each halves the cells of the one before: Richardson's extrapolation.
+
+use nalgebra::DVector;
+
+use super::manufactured::element_gradient;
+use super::norms;
+use fem_mesh::{TetrahedralMesh, volumes};
+
+/// A box's state on one mesh.
+#[derive(Clone, Debug)]
+pub struct Level {
+    /// Cells per metre.
+    pub cells: usize,
+    /// The mesh.
+    pub mesh: TetrahedralMesh,
+    /// Positions of all nodes, m.
+    pub q: DVector<f64>,
+}
+
+/// What three levels tell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Nested {
+    /// Observed orders.
+    pub orders: (f64, f64),
+    /// For each level: cells per metre, error in L2 as a part of the body's length, error of the displacement's gradient in L2 as a
+    /// part of the gradient's own norm.
+    pub errors: Vec<(usize, f64, f64)>,
+    /// Extrapolated displacements at the coarsest level's nodes, m.
+    pub limit: Vec<f64>,
+}
+
+/// Orders that are believed; beyond, the meshes are too coarse to tell.
+const BELIEVED: (f64, f64) = (0.5, 3.0);
+
+/// Compares three levels, from coarse to fine, at the nodes of the coarsest; `None` where they are not nested.
+///
+/// With p = log₂(‖u₁ − u₂‖ / ‖u₂ − u₃‖) the limit is u₃ + (u₃ − u₂)/(2^p − 1), and an error is a distance from it (L. F. Richardson,
+/// "The approximate arithmetical solution by finite differences", 1911). Gradients: ‖∇(u − u_l)‖ = ‖∇(u_{l+1} − u_l)‖ / √(1 − 4^−p),
+/// because what a finer mesh adds is orthogonal to what it leaves out.
+pub fn compare(levels: &[Level; 3]) -> Option<Nested> {
+    let places = [0, 1, 2].map(|level| places(&levels[level]));
+    let coarse = &levels[0].mesh;
+    let on_coarse = |level: usize| -> Option<Vec<f64>> {
+        let Level { mesh, q, .. } = &levels[level];
+        let mut values = Vec::with_capacity(3 * coarse.vertices.len());
+        for node in 0..coarse.vertices.len() {
+            let ratio = levels[level].cells / levels[0].cells;
+            let fine = places[level].get(&places_of(coarse, node, levels[0].cells).map(|i| i * ratio as i64))?;
+            values.extend((0..3).map(|i| q[3 * fine + i] - mesh.vertices[*fine][i]));
+        }
+        Some(values)
+    };
+    let u = [on_coarse(0)?, on_coarse(1)?, on_coarse(2)?];
+    let weights = norms::weights(coarse);
+    let apart = [norms::l2(&weights, &u[0], &u[1]), norms::l2(&weights, &u[1], &u[2])];
+    let p = (apart[0] / apart[1]).log2();
+    let factor = 2f64.powf(p.clamp(BELIEVED.0, BELIEVED.1)) - 1.0;
+    let limit: Vec<f64> = u[2].iter().zip(&u[1]).map(|(fine, coarse)| fine + (fine - coarse) / factor).collect();
+    let length = norms::length(coarse);
+    let slopes = [slope_apart(&levels[0], &levels[1])?, slope_apart(&levels[1], &levels[2])?];
+    let p1 = (slopes[0] / slopes[1]).log2();
+    let remaining = (1.0 - 4f64.powf(-p1.clamp(BELIEVED.0, BELIEVED.1))).sqrt();
+    let size = slope_norm(&levels[2]);
+    let steep = [slopes[0] / remaining, slopes[1] / remaining, slopes[1] / remaining / 2f64.powf(p1)];
+    let error =
+        |level: usize| (levels[level].cells, norms::l2(&weights, &u[level], &limit) / length, steep[level] / size);
+    Some(Nested { orders: (p, p1), errors: (0..3).map(error).collect(), limit })
+}
+
+/// Nodes by their place on the grid of a level.
+fn places(level: &Level) -> std::collections::HashMap<[i64; 3], usize> {
+    (0..level.mesh.vertices.len()).map(|node| (places_of(&level.mesh, node, level.cells), node)).collect()
+}
+
+fn places_of(mesh: &TetrahedralMesh, node: usize, cells: usize) -> [i64; 3] {
+    mesh.vertices[node].map(|x| (x * cells as f64).round() as i64).into()
+}
+
+/// ‖∇(u_fine − u_coarse)‖ over the body. A node between two coarse ones lies on the edge that joins them: all edges of the box's
+/// cells lead along (0 or 1, 0 or 1, 0 or 1).
+fn slope_apart(coarse: &Level, fine: &Level) -> Option<f64> {
+    if fine.cells != 2 * coarse.cells {
+        return None;
+    }
+    let there = places(coarse);
+    let displacement = |level: &Level, node: usize| -> [f64; 3] {
+        std::array::from_fn(|i| level.q[3 * node + i] - level.mesh.vertices[node][i])
+    };
+    let mut apart = Vec::with_capacity(fine.mesh.vertices.len());
+    for node in 0..fine.mesh.vertices.len() {
+        let at = places_of(&fine.mesh, node, fine.cells);
+        let low = displacement(coarse, *there.get(&at.map(|i| i.div_euclid(2)))?);
+        let high = displacement(coarse, *there.get(&at.map(|i| (i + 1).div_euclid(2)))?);
+        let found = displacement(fine, node);
+        apart.push(std::array::from_fn(|i| found[i] - 0.5 * (low[i] + high[i])));
+    }
+    Some(gradient_norm(&fine.mesh, &apart))
+}
+
+fn slope_norm(level: &Level) -> f64 {
+    let u: Vec<[f64; 3]> = (0..level.mesh.vertices.len())
+        .map(|node| std::array::from_fn(|i| level.q[3 * node + i] - level.mesh.vertices[node][i]))
+        .collect();
+    gradient_norm(&level.mesh, &u)
+}
+
+/// √∫ |∇u|²
+fn gradient_norm(mesh: &TetrahedralMesh, u: &[[f64; 3]]) -> f64 {
+    let square =
+        |element: &[usize; 4]| element_gradient(mesh, element, u).as_flattened().iter().map(|g| g * g).sum::<f64>();
+    mesh.elements.iter().zip(volumes(mesh)).map(|(element, volume)| volume * square(element)).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::manufactured;
+    use fem_mesh::box_mesh;
+
+    /// Interpolants of a known displacement, each with an error of its own order at the nodes.
+    fn level(cells: usize) -> Level {
+        let mesh = box_mesh([1.0; 3], cells).unwrap();
+        let h = 1.0 / cells as f64;
+        let q = mesh.vertices.iter().flat_map(|X| {
+            let u = manufactured::displacement(X);
+            (0..3).map(move |i| X[i] + u[i] * (1.0 + h * h)).collect::<Vec<_>>()
+        });
+        Level { cells, q: DVector::from_iterator(3 * mesh.vertices.len(), q), mesh }
+    }
+
+    #[test]
+    fn the_limit_and_the_order_are_found_from_three_levels() {
+        let levels = [4, 8, 16].map(level);
+        let nested = compare(&levels).unwrap();
+        assert!((nested.orders.0 - 2.0).abs() < 1e-9, "{:?}", nested.orders);
+        assert!((nested.orders.1 - 1.0).abs() < 0.05, "{:?}", nested.orders);
+        for (node, X) in levels[0].mesh.vertices.iter().enumerate() {
+            let exact = manufactured::displacement(X);
+            assert!((0..3).all(|i| (nested.limit[3 * node + i] - exact[i]).abs() < 1e-12));
+        }
+        assert!((nested.errors[0].1 / nested.errors[1].1 - 4.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn errors_of_gradients_are_those_against_the_exact_one() {
+        let levels = [4, 8, 16].map(level);
+        let nested = compare(&levels).unwrap();
+        // An interpolant of sin πx sin πy sin πz on this mesh: integrated against the exact gradient.
+        let exact = manufactured::solve(fem_scene::Model::Linear, 8).unwrap().h1;
+        let found = nested.errors[1].2;
+        assert!((found / exact - 1.0).abs() < 0.1, "{found} {exact}");
+    }
+
+    #[test]
+    fn meshes_that_are_not_nested_are_not_compared() {
+        assert_eq!(compare(&[level(2), level(3), level(4)]), None);
+    }
+}

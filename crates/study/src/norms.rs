@@ -1,0 +1,120 @@
+//! Distances between two states of a body, with nothing that an outsider could not compute from the state files.
+
+use fem_mesh::{TetrahedralMesh, volumes};
+
+/// Weights of the nodes, m³: a quarter of the volume of every element at a node.
+pub fn weights(mesh: &TetrahedralMesh) -> Vec<f64> {
+    let mut weights = vec![0.0; mesh.vertices.len()];
+    for (element, volume) in mesh.elements.iter().zip(volumes(mesh)) {
+        for &node in element {
+            weights[node] += volume / 4.0;
+        }
+    }
+    weights
+}
+
+/// Longest edge of the bounding box of the undeformed body, m: what errors are parts of.
+pub fn length(mesh: &TetrahedralMesh) -> f64 {
+    let Some(&first) = mesh.vertices.first() else { return 1.0 };
+    let (least, most) = mesh.vertices.iter().fold((first, first), |(least, most), x| (least.inf(x), most.sup(x)));
+    (most - least).max()
+}
+
+/// √(Σ wᵢ |aᵢ − bᵢ|² / Σ wᵢ), for values stacked `[x0 y0 z0 x1 …]`.
+pub fn l2(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
+    let distance = |i: usize| (0..3).map(|c| (a[3 * i + c] - b[3 * i + c]).powi(2)).sum::<f64>();
+    let sum: f64 = weights.iter().enumerate().map(|(i, weight)| weight * distance(i)).sum();
+    (sum / weights.iter().sum::<f64>()).sqrt()
+}
+
+/// The largest distance of a node, max |aᵢ − bᵢ|.
+pub fn largest(a: &[f64], b: &[f64]) -> f64 {
+    let distance = |(a, b): (&[f64], &[f64])| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+    // NaN stays: it is no small distance.
+    a.chunks(3).zip(b.chunks(3)).map(distance).fold(0.0, |most: f64, d| if d > most || d.is_nan() { d } else { most })
+}
+
+/// Momentum Σ mᵢ vᵢ (kg m/s) and angular momentum Σ mᵢ (xᵢ − c) × vᵢ (kg m²/s) about the undeformed body's centre c, with
+/// mᵢ = ρ wᵢ. Rows of the consistent mass add up to the same mᵢ, so the momentum is exact.
+pub fn momenta(mesh: &TetrahedralMesh, weights: &[f64], density: f64, q: &[f64], v: &[f64]) -> ([f64; 3], [f64; 3]) {
+    let total: f64 = weights.iter().sum();
+    let mut centre = nalgebra::Vector3::zeros();
+    for (x, &weight) in mesh.vertices.iter().zip(weights) {
+        centre += x * (weight / total);
+    }
+    let (mut linear, mut angular) = (nalgebra::Vector3::zeros(), nalgebra::Vector3::zeros());
+    for (i, &weight) in weights.iter().enumerate() {
+        let at = nalgebra::Vector3::new(q[3 * i], q[3 * i + 1], q[3 * i + 2]);
+        let momentum = density * weight * nalgebra::Vector3::new(v[3 * i], v[3 * i + 1], v[3 * i + 2]);
+        linear += momentum;
+        angular += (at - centre).cross(&momentum);
+    }
+    (linear.into(), angular.into())
+}
+
+/// |a − b|
+pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// A number for a mesh: FNV-1a over the bits of its coordinates and the indices of its elements (Fowler, Noll, Vo, 1991).
+pub fn mesh_hash(mesh: &TetrahedralMesh) -> String {
+    let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
+    let mut add = |word: u64| {
+        for byte in word.to_le_bytes() {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    };
+    mesh.vertices.iter().flat_map(|x| x.iter()).for_each(|x| add(x.to_bits()));
+    mesh.elements.iter().flatten().for_each(|&node| add(node as u64));
+    format!("{hash:016x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fem_mesh::box_mesh;
+
+    #[test]
+    fn a_shift_of_all_nodes_is_its_own_length_in_both_norms() {
+        let mesh = box_mesh([2.0, 1.0, 1.0], 2).unwrap();
+        let a: Vec<f64> = mesh.vertices.iter().flat_map(|x| x.iter().copied()).collect();
+        let b: Vec<f64> = a.iter().enumerate().map(|(i, a)| a + [0.3, 0.0, -0.4][i % 3]).collect();
+        let weights = weights(&mesh);
+        assert!((weights.iter().sum::<f64>() - 2.0).abs() < 1e-14);
+        assert!((l2(&weights, &a, &b) - 0.5).abs() < 1e-14);
+        assert!((largest(&a, &b) - 0.5).abs() < 1e-14);
+        assert_eq!(length(&mesh), 2.0);
+    }
+
+    #[test]
+    fn a_distance_that_is_not_a_number_is_not_small() {
+        assert!(largest(&[0.0, f64::NAN, 0.0, 1.0, 0.0, 0.0], &[0.0; 6]).is_nan());
+        assert!(l2(&[1.0], &[f64::NAN, 0.0, 0.0], &[0.0; 3]).is_nan());
+    }
+
+    #[test]
+    fn a_turning_box_has_angular_momentum_and_no_momentum() {
+        let mesh = box_mesh([1.0, 1.0, 1.0], 2).unwrap();
+        let weights = weights(&mesh);
+        let q: Vec<f64> = mesh.vertices.iter().flat_map(|x| x.iter().copied()).collect();
+        let v: Vec<f64> = mesh.vertices.iter().flat_map(|x| [-(x.y - 0.5), x.x - 0.5, 0.0]).collect();
+        let (linear, angular) = momenta(&mesh, &weights, 10.0, &q, &v);
+        let inertia: f64 = mesh
+            .vertices
+            .iter()
+            .zip(&weights)
+            .map(|(x, w)| 10.0 * w * ((x.x - 0.5).powi(2) + (x.y - 0.5).powi(2)))
+            .sum();
+        assert!(distance(linear, [0.0; 3]) < 1e-14);
+        // The mesh has no mirror symmetry, so the other two components are not zero.
+        assert!((angular[2] - inertia).abs() < 1e-13, "{angular:?}");
+    }
+
+    #[test]
+    fn meshes_that_differ_have_different_hashes() {
+        let (a, b) = (box_mesh([1.0; 3], 1).unwrap(), box_mesh([1.0; 3], 2).unwrap());
+        assert_ne!(mesh_hash(&a), mesh_hash(&b));
+        assert_eq!(mesh_hash(&a), mesh_hash(&a.clone()));
+    }
+}

@@ -1,0 +1,276 @@
+//! Which runs make sense for a scene: a star around the scene's own method and time step, not the product of all choices.
+//!
+//! Every method goes down a ladder of time steps, each half of the one before. Explicit ones begin above their limit of stability,
+//! so that the failure is seen. What belongs to one method only (tolerance, solver, projection, precision, mesh) is varied
+//! around one point of its ladder.
+
+use fem_scene::{Integrator, Newton, Pipeline, Precision, Preconditioner, Projection, Scene, Solver, SolverKind};
+
+/// One run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Which question it belongs to: `method`, `tolerance`, `solver`, `projection`, `precision`, `mesh`.
+    pub group: &'static str,
+    /// The method as people call it.
+    pub method: String,
+    /// All that there is to run.
+    pub scene: Scene,
+    /// Number of steps; the scene's `dt` times this is the horizon.
+    pub steps: usize,
+}
+
+/// Runs of one method from coarse to fine: where one takes too long, those after it are left out.
+pub type Ladder = Vec<Run>;
+
+/// How much is asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    /// Whether minutes are too long.
+    pub is_quick: bool,
+    /// Time that is simulated, s.
+    pub horizon: f64,
+    /// The scene's own number of steps in it.
+    pub steps: usize,
+    /// Fastest vibration, 1/s.
+    pub fastest: f64,
+}
+
+/// Fastest vibration times the largest explicit step: above every method's limit.
+const ABOVE_THE_LIMIT: f64 = 3.6;
+
+/// The engine's and the course's runs of a scene in motion. `scene` is what [`base`] returns.
+pub fn dynamic(scene: &Scene, extent: Extent) -> Vec<Ladder> {
+    let mut ladders = Vec::new();
+    let with = |integrator: Integrator| {
+        let mut scene = scene.clone();
+        scene.time.integrator = integrator;
+        scene
+    };
+    let halvings = if extent.is_quick { -1..=3 } else { -2..=5 };
+    let implicit: Vec<usize> = halvings.map(|k: i32| scaled(extent.steps, k)).collect();
+    for integrator in [Integrator::ImplicitEuler, Integrator::LinearlyImplicitEuler] {
+        ladders.push(ladder("method", name(integrator), &with(integrator), &implicit, extent));
+    }
+    let first = (extent.horizon * extent.fastest / ABOVE_THE_LIMIT).ceil().max(1.0) as usize;
+    let most = if extent.is_quick { 3 } else { 5 };
+    let explicit: Vec<usize> = (0..=most).map(|k| first << k).collect();
+    for integrator in [Integrator::SemiImplicitEuler, Integrator::Rk2, Integrator::Rk4, Integrator::Verlet] {
+        ladders.push(ladder("method", name(integrator), &with(integrator), &explicit, extent));
+    }
+    // Its growth e^(ω² dt T/2) leaves nothing of most of them: every other one is enough to see it.
+    let sparse: Vec<usize> = explicit.iter().copied().step_by(2).collect();
+    ladders.push(ladder("method", name(Integrator::ExplicitEuler), &with(Integrator::ExplicitEuler), &sparse, extent));
+    ladders.extend(course(scene, extent));
+    ladders.extend(variants(scene, extent));
+    ladders
+}
+
+/// The same body in the course's pipeline.
+fn course(scene: &Scene, extent: Extent) -> Vec<Ladder> {
+    let mut scene = Scene { pipeline: Pipeline::Course, newton: None, solver: None, ..scene.clone() };
+    let steps: Vec<usize> = if extent.is_quick { vec![0, 2] } else { vec![-1, 0, 1, 2] }
+        .into_iter()
+        .map(|k| scaled(extent.steps, k))
+        .collect();
+    let of = |integrator: Integrator| {
+        scene.time.integrator = integrator;
+        ladder("method", &format!("course: {}", name(integrator)), &scene, &steps, extent)
+    };
+    [Integrator::ImplicitEuler, Integrator::LinearlyImplicitEuler].map(of).into()
+}
+
+/// What else there is to choose for implicit Euler; precision for others too.
+fn variants(scene: &Scene, extent: Extent) -> Vec<Ladder> {
+    let mut base = scene.clone();
+    base.time.integrator = Integrator::ImplicitEuler;
+    let at = [scaled(extent.steps, 2)];
+    let mut ladders = Vec::new();
+    let tolerances: &[f64] = if extent.is_quick { &[1e-3, 1e-12] } else { &[1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12] };
+    for &tolerance in tolerances {
+        let mut scene = base.clone();
+        scene.newton = Some(Newton { tolerance: Some(tolerance), ..newton(&scene) });
+        ladders.push(ladder("tolerance", &format!("implicit Euler to {tolerance:e}"), &scene, &at, extent));
+    }
+    for (kind, preconditioner) in SOLVERS {
+        let mut scene = base.clone();
+        scene.solver = Some(Solver { kind, tolerance: None, preconditioner });
+        let method = format!("implicit Euler by {}", solver_name(&scene));
+        ladders.push(ladder("solver", &method, &scene, &at, extent));
+    }
+    for (projection, word) in [(Projection::Always, "always"), (Projection::Never, "never")] {
+        let mut scene = base.clone();
+        scene.newton = Some(Newton { projection: Some(projection), ..newton(&scene) });
+        ladders.push(ladder("projection", &format!("implicit Euler, projected {word}"), &scene, &at, extent));
+    }
+    let explicit = (extent.horizon * extent.fastest / ABOVE_THE_LIMIT).ceil() as usize;
+    for (integrator, steps) in [
+        (Integrator::ImplicitEuler, scaled(extent.steps, 2)),
+        (Integrator::LinearlyImplicitEuler, scaled(extent.steps, 2)),
+        (Integrator::Verlet, 4 * explicit),
+    ] {
+        let mut scene = single(scene);
+        scene.time.integrator = integrator;
+        ladders.push(ladder("precision", &format!("{} in f32", name(integrator)), &scene, &[steps], extent));
+    }
+    ladders.extend(meshes(scene).into_iter().map(|scene| {
+        let cells = scene.mesh.cuboid.as_ref().map_or(0, |cuboid| cuboid.cells_per_unit);
+        let method = format!("{}, {cells} cells per metre", name(scene.time.integrator));
+        ladder("mesh", &method, &scene, &[extent.steps, at[0]], extent)
+    }));
+    ladders
+}
+
+/// A box with half as many and with twice as many cells, under implicit Euler.
+fn meshes(scene: &Scene) -> Vec<Scene> {
+    let with = |cells: usize| {
+        let mut scene = scene.clone();
+        scene.time.integrator = Integrator::ImplicitEuler;
+        if let Some(cuboid) = &mut scene.mesh.cuboid {
+            cuboid.cells_per_unit = cells;
+        }
+        scene
+    };
+    levels(scene).map_or(Vec::new(), |[half, _, twice]| vec![with(half), with(twice)])
+}
+
+/// Cells per metre of three meshes around the scene's, each twice as fine; says why where there are none.
+pub fn levels(scene: &Scene) -> Result<[usize; 3], String> {
+    let Some(cuboid) = &scene.mesh.cuboid else {
+        let text = "the mesh is a file, of which no finer mesh of the same body is known: cut into smaller elements, its \
+                    surface stays as coarse, and nodes that are held or pulled one by one have no limit";
+        return Err(text.to_owned());
+    };
+    let cells = cuboid.cells_per_unit;
+    let is_whole = |edge: &f64| (edge * (cells / 2) as f64).fract() == 0.0;
+    if cells % 2 == 0 && cuboid.size.iter().all(is_whole) {
+        return Ok([cells / 2, cells, 2 * cells]);
+    }
+    Err(format!("{cells} cells per metre cannot be halved; an even number can, if edges stay whole numbers of cells"))
+}
+
+/// Solvers, and preconditioners of those that have one.
+const SOLVERS: [(SolverKind, Option<Preconditioner>); 7] = [
+    (SolverKind::Cholesky, None),
+    (SolverKind::Lu, None),
+    (SolverKind::Cg, None),
+    (SolverKind::Pcg, Some(Preconditioner::BlockJacobi)),
+    (SolverKind::Pcg, Some(Preconditioner::IncompleteCholesky)),
+    (SolverKind::Pcg, Some(Preconditioner::Multigrid)),
+    (SolverKind::Pcg, Some(Preconditioner::Ssor)),
+];
+
+/// Steps at which each method's order shows, from the scene's horizon cut into so many; four halvings.
+const FIRST: [(Integrator, usize); 7] = [
+    (Integrator::ExplicitEuler, 400),
+    (Integrator::SemiImplicitEuler, 400),
+    (Integrator::LinearlyImplicitEuler, 400),
+    (Integrator::ImplicitEuler, 400),
+    (Integrator::Rk2, 100),
+    (Integrator::Verlet, 100),
+    (Integrator::Rk4, 50),
+];
+
+/// Ladders that begin where a method's order is seen already.
+pub fn orders(scene: &Scene, extent: Extent) -> Vec<Ladder> {
+    let halvings = if extent.is_quick { 3 } else { 4 };
+    let steps = |first: usize| (0..halvings).map(|k| first << k).collect::<Vec<_>>();
+    let mut ladders = Vec::new();
+    for (integrator, first) in FIRST {
+        let mut scene = scene.clone();
+        scene.time.integrator = integrator;
+        ladders.push(ladder("order", name(integrator), &scene, &steps(first), extent));
+        if matches!(integrator, Integrator::LinearlyImplicitEuler | Integrator::ImplicitEuler) {
+            scene.pipeline = Pipeline::Course;
+            ladders.push(ladder("order", &format!("course: {}", name(integrator)), &scene, &steps(first), extent));
+        }
+    }
+    ladders
+}
+
+/// Runs of a scene in equilibrium: solvers, precision and meshes.
+pub fn equilibrium(scene: &Scene, load_steps: usize) -> Vec<Ladder> {
+    let run =
+        |group, method: String, scene: &Scene| vec![Run { group, method, scene: scene.clone(), steps: load_steps }];
+    let mut ladders = vec![run("method", "static".to_owned(), scene)];
+    for (kind, preconditioner) in SOLVERS {
+        let mut scene = scene.clone();
+        scene.solver = Some(Solver { kind, tolerance: None, preconditioner });
+        ladders.push(run("solver", format!("static by {}", solver_name(&scene)), &scene));
+    }
+    ladders.push(run("precision", "static in f32".to_owned(), &single(scene)));
+    for scene in meshes(scene) {
+        let scene = Scene { time: fem_scene::Time { integrator: Integrator::Static, ..scene.time }, ..scene };
+        let cells = scene.mesh.cuboid.as_ref().map_or(0, |cuboid| cuboid.cells_per_unit);
+        ladders.push(run("mesh", format!("static, {cells} cells per metre"), &scene));
+    }
+    ladders
+}
+
+/// The scene in single precision, with a tolerance that it can reach.
+fn single(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    scene.time.precision = Precision::F32;
+    scene.newton = Some(Newton { tolerance: Some(1e-6), ..newton(&scene) });
+    scene
+}
+
+/// A scene without what is only looked at, run by the engine; small where minutes are too long.
+pub fn base(scene: &Scene, is_quick: bool) -> Scene {
+    let mut scene = Scene { pipeline: Pipeline::Engine, ..scene.clone() };
+    scene.mesh.display = None;
+    if is_quick && let Some(cuboid) = &mut scene.mesh.cuboid {
+        cuboid.cells_per_unit = cuboid.cells_per_unit.min(2);
+    }
+    scene
+}
+
+/// `steps` · 2^k, at least one.
+fn scaled(steps: usize, k: i32) -> usize {
+    (steps as f64 * 2f64.powi(k)).round().max(1.0) as usize
+}
+
+fn ladder(group: &'static str, method: &str, scene: &Scene, steps: &[usize], extent: Extent) -> Ladder {
+    let run = |&steps: &usize| {
+        let mut scene = scene.clone();
+        scene.time.dt = extent.horizon / steps as f64;
+        Run { group, method: method.to_owned(), scene, steps }
+    };
+    steps.iter().map(run).collect()
+}
+
+fn newton(scene: &Scene) -> Newton {
+    scene.newton.clone().unwrap_or(Newton { max_iterations: None, tolerance: None, projection: None })
+}
+
+/// A method as people call it.
+pub fn name(integrator: Integrator) -> &'static str {
+    match integrator {
+        Integrator::ExplicitEuler => "explicit Euler",
+        Integrator::SemiImplicitEuler => "semi-implicit Euler",
+        Integrator::Rk2 => "RK2",
+        Integrator::Rk4 => "RK4",
+        Integrator::Verlet => "Verlet",
+        Integrator::LinearlyImplicitEuler => "linearly implicit Euler",
+        Integrator::ImplicitEuler => "implicit Euler",
+        Integrator::Static => "static",
+    }
+}
+
+/// The solver that a scene names, `automatic` where it names none.
+pub fn solver_name(scene: &Scene) -> String {
+    let Some(solver) = &scene.solver else { return "automatic".to_owned() };
+    let kind = match solver.kind {
+        SolverKind::Cholesky => "cholesky",
+        SolverKind::Lu => "lu",
+        SolverKind::Cg => "cg",
+        SolverKind::Pcg => "pcg",
+    };
+    let preconditioner = match solver.preconditioner {
+        Some(Preconditioner::BlockJacobi) => " block_jacobi",
+        Some(Preconditioner::IncompleteCholesky) => " incomplete_cholesky",
+        Some(Preconditioner::Multigrid) => " multigrid",
+        Some(Preconditioner::Ssor) => " ssor",
+        None => "",
+    };
+    format!("{kind}{preconditioner}")
+}

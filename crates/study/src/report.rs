@@ -1,0 +1,242 @@
+//! Error against run time: studies of scenes, written as tables, pictures and a page.
+
+mod answer;
+mod charts;
+mod notes;
+mod scene_page;
+mod space_page;
+
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use super::machine::Machine;
+use super::order::{Order, asymptotic};
+use super::row::Row;
+use super::scene::{self, Question, SceneStudy, Setting};
+use super::space::{self, Space};
+use super::{locking, table};
+use fem_chart::page::page;
+use fem_mesh::write::save;
+use fem_scene::{Scene, parse};
+
+/// All that was found.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// What it was measured on.
+    pub machine: Machine,
+    /// Whether it is the short one.
+    pub is_quick: bool,
+    /// Scenes that were asked for.
+    pub scenes: Vec<SceneStudy>,
+    /// The small body on which orders in time are seen.
+    pub orders: SceneStudy,
+    /// Errors in space.
+    pub space: Space,
+}
+
+/// An order that was observed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observed {
+    /// Scene.
+    pub scene: String,
+    /// Method.
+    pub method: String,
+    /// `dt`, `h in L2` or `h in H1`.
+    pub of: &'static str,
+    /// The order; none where too few runs came to their end.
+    pub order: Option<Order>,
+    /// What theory says.
+    pub expected: f64,
+}
+
+/// A small soft body that is clamped, weighed and pulled: it starts with an acceleration, and its forces depend on time.
+const ORDERS: &str = r#"about = "a small soft box, clamped, pulled and under its weight, at steps that show the orders"
+pipeline = "engine"
+[mesh]
+box = { size = [2, 1, 1], cells_per_unit = 1 }
+[material]
+model = "neo_hookean"
+C = 1e4
+D = 4e4
+density = 1000.0
+[gravity]
+acceleration = [0, -20, 3]
+[fixed]
+plane = { axis = "x", below = 1e-9 }
+[time]
+dt = 0.01
+integrator = "implicit_euler"
+steps = 20
+[drag]
+vertex = 5
+stiffness = 2e3
+direction = [1, 0, 0.5]
+amplitude = 0.3
+frequency = 2.0
+"#;
+
+/// Studies the scenes and writes everything into the folder of the setting. Returns the report; an error names the file or
+/// the scene.
+pub fn report(setting: &Setting, scenes: &[Scene]) -> Result<Report, String> {
+    scene::make_folders(&setting.out)?;
+    let machine = Machine::this(&setting.data);
+    let small = parse(ORDERS, Path::new("orders.toml")).map_err(|error| error.to_string())?;
+    let orders = scene::study(setting, &small, Question::Order)?;
+    let space = space::study(setting)?;
+    let studied = scenes.iter().map(|scene| {
+        scene::study(setting, scene, Question::Choice).map_err(|error| format!("{}: {error}", scene.name))
+    });
+    let scenes = studied.collect::<Result<_, _>>()?;
+    let report = Report { machine, is_quick: setting.is_quick, scenes, orders, space };
+    write(&report, &setting.out)?;
+    Ok(report)
+}
+
+impl Report {
+    /// All rows.
+    pub fn rows(&self) -> Vec<Row> {
+        let studies = std::iter::once(&self.orders).chain(&self.scenes);
+        studies.flat_map(|study| &study.rows).chain(&self.space.rows).cloned().collect()
+    }
+
+    /// All orders, in time and in space.
+    pub fn observed(&self) -> Vec<Observed> {
+        let mut observed = orders_in_time(&self.orders);
+        for (scene, l2, h1) in &self.space.orders {
+            for (of, order, expected) in [("h in L2", l2, 2.0), ("h in H1", h1, 1.0)] {
+                let method = "linear tetrahedra".to_owned();
+                observed.push(Observed { scene: scene.clone(), method, of, order: *order, expected });
+            }
+        }
+        observed.extend(self.scenes.iter().flat_map(orders_in_time));
+        observed
+    }
+
+    /// One sentence for each scene: which method for which error.
+    pub fn answers(&self) -> Vec<String> {
+        self.scenes.iter().map(answer::sentence).collect()
+    }
+}
+
+/// Finest runs of a ladder that an order is taken from.
+const FINEST: usize = 4;
+
+/// Errors below this may be those of the reference.
+const FLOOR: f64 = 1e-11;
+
+/// Order in dt of each method that has a ladder.
+pub fn orders_in_time(study: &SceneStudy) -> Vec<Observed> {
+    let mut methods: Vec<&str> = Vec::new();
+    for row in study.rows.iter().filter(|row| ["method", "order"].contains(&&*row.case.group)) {
+        if !methods.contains(&&*row.case.method) {
+            methods.push(&row.case.method);
+        }
+    }
+    let observe = |method: &str| {
+        let rows = study.rows.iter().filter(|row| row.case.method == method && row.is_done());
+        let pairs: Vec<_> = rows.filter_map(|row| Some((row.case.dt, row.errors.time_l2?))).collect();
+        let expected = match study.rows.iter().find(|row| row.case.method == method)?.case.integrator {
+            "rk4" => 4.0,
+            "rk2" | "verlet" => 2.0,
+            "static" => return None,
+            _ => 1.0,
+        };
+        let order = asymptotic(&pairs, FINEST, FLOOR).filter(|order| order.points > 2);
+        Some(Observed { scene: study.name.clone(), method: method.to_owned(), of: "dt", order, expected })
+    };
+    methods.into_iter().filter_map(observe).collect()
+}
+
+fn write(report: &Report, out: &Path) -> Result<(), String> {
+    let write = |name: &str, text: String| {
+        save(&out.join(name), |file| file.write_all(text.as_bytes())).map_err(|error| error.to_string())
+    };
+    let rows = report.rows();
+    write("runs.csv", table::csv(&rows, &report.machine))?;
+    write("orders.csv", orders_csv(report))?;
+    write("locking.csv", locking_csv(report))?;
+    write("runs.json", serde_json::to_string_pretty(&as_json(report)).map_err(|error| error.to_string())? + "\n")?;
+    write("README.txt", notes::README.to_owned())?;
+    for (name, picture) in charts::files(report) {
+        write(&name, picture.standalone())?;
+    }
+    write("report.html", page("Error against run time", &body(report)))
+}
+
+/// The page's body.
+fn body(report: &Report) -> String {
+    let mut html = notes::head(report);
+    html.push_str(&answer::html(report));
+    html.extend(report.scenes.iter().map(scene_page::html));
+    html.push_str(&space_page::orders(report));
+    html.push_str(&space_page::space(report));
+    html.push_str(&notes::method(report));
+    html
+}
+
+fn orders_csv(report: &Report) -> String {
+    let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.6}"));
+    let row = |observed: Observed| {
+        let Observed { scene, method, of, order, expected } = observed;
+        let width = order.and_then(|order| order.half_width);
+        let points = order.map_or(String::new(), |order| order.points.to_string());
+        vec![
+            scene,
+            method,
+            of.to_owned(),
+            cell(order.map(|order| order.value)),
+            cell(width),
+            points,
+            expected.to_string(),
+        ]
+    };
+    let rows: Vec<_> = report.observed().into_iter().map(row).collect();
+    table::csv_of(&["scene", "method", "of", "order", "half_width_95", "points", "expected"], &rows)
+}
+
+fn locking_csv(report: &Report) -> String {
+    let row =
+        |bent: &locking::Bent| vec![bent.poisson.to_string(), bent.cells.to_string(), format!("{:e}", bent.ratio)];
+    let rows: Vec<_> = report.space.bent.iter().map(row).collect();
+    table::csv_of(&["poisson", "cells_per_metre", "tip_over_timoshenko"], &rows)
+}
+
+fn as_json(report: &Report) -> Value {
+    let order = |observed: Observed| {
+        let order = observed.order;
+        json!({
+            "scene": observed.scene, "method": observed.method, "of": observed.of, "expected": observed.expected,
+            "order": order.map(|order| order.value), "half_width_95": order.and_then(|order| order.half_width),
+            "points": order.map(|order| order.points),
+        })
+    };
+    let scene = |study: &SceneStudy| {
+        json!({
+            "name": study.name, "horizon_s": study.horizon, "fastest_vibration_1_s": study.fastest,
+            "references": study.references.iter().map(|(file, check, evaluations)| json!({
+                "file": file, "self_check": check.0, "self_check_velocities": check.1, "force_evaluations": evaluations })).collect::<Vec<_>>(),
+            "nested_meshes": study.nested.as_ref().map(|nested| json!({
+                "order_L2": nested.orders.0, "order_H1": nested.orders.1,
+                "levels": nested.errors.iter().map(|(cells, l2, h1)| json!({
+                    "cells_per_metre": cells, "err_space_L2": l2, "err_space_H1": h1 })).collect::<Vec<_>>() })),
+            "left_out": study.left_out.iter().map(|(what, why)| json!({ "what": what, "why": why })).collect::<Vec<_>>(),
+        })
+    };
+    json!({
+        "format_version": 1,
+        "quick": report.is_quick,
+        "machine": report.machine,
+        "answers": report.answers(),
+        "scenes": std::iter::once(&report.orders).chain(&report.scenes).map(scene).collect::<Vec<_>>(),
+        "orders": report.observed().into_iter().map(order).collect::<Vec<_>>(),
+        "locking": report.space.bent.iter().map(|bent| json!({
+            "poisson": bent.poisson, "cells_per_metre": bent.cells, "tip_over_timoshenko": bent.ratio })).collect::<Vec<_>>(),
+        "runs": table::json(&report.rows()),
+    })
+}
+
+/// Files of a report that people open first.
+pub fn first_files(out: &Path) -> [PathBuf; 2] {
+    [out.join("report.html"), out.join("runs.csv")]
+}

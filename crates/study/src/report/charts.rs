@@ -1,0 +1,233 @@
+//! The pictures of a report.
+
+use super::Report;
+use crate::costs::{self, KINDS};
+use crate::order::asymptotic;
+use crate::row::Row;
+use crate::scene::{SceneStudy, competing_error};
+use crate::space::{self, Space};
+use crate::text::{number, seconds, step};
+use fem_chart::{Axis, Bar, Chart, Dot, Guide, Picture, Series, bars};
+
+/// Pictures that become files of their own.
+pub fn files(report: &Report) -> Vec<(String, Picture)> {
+    let mut files = Vec::new();
+    for (place, study) in report.scenes.iter().enumerate() {
+        let picture = error_against_time(study);
+        if place == 0 {
+            files.push(("error-vs-time.svg".to_owned(), picture.clone()));
+        }
+        files.push((format!("error-vs-time-{}.svg", study.name), picture));
+        files.push((format!("convergence-in-dt-{}.svg", study.name), convergence(study)));
+    }
+    files.push(("orders-in-dt.svg".to_owned(), convergence(&report.orders)));
+    files.push(("orders-in-h.svg".to_owned(), in_space(&report.space)));
+    files.push(("locking.svg".to_owned(), locking(&report.space)));
+    files
+}
+
+/// Frames in a second of motion.
+const FRAMES: f64 = 60.0;
+
+/// What a dot says of its run.
+pub fn title(row: &Row) -> String {
+    let case = &row.case;
+    let counters = &row.counters;
+    format!(
+        "{}\n{} steps of {}\nerror {} (largest {})\n{} in all, {} a step\nsteps {}, forces {}, Newton {}, factors {}, solver {}\n{}",
+        case.method,
+        case.steps,
+        step(case.dt),
+        number(competing_error(row)),
+        number(row.errors.time_linf),
+        seconds(row.seconds()),
+        seconds(row.times.step_ms[0].map(|ms| ms / 1e3)),
+        counters.steps,
+        counters.force_assemblies,
+        counters.newton_iterations,
+        counters.factorizations,
+        counters.solver_iterations,
+        case.id
+    )
+}
+
+/// Colour and shape of a method.
+fn look(method: &str) -> (usize, usize) {
+    match method {
+        "implicit Euler" => (0, 0),
+        "linearly implicit Euler" => (1, 1),
+        "Verlet" => (2, 2),
+        "RK4" => (3, 3),
+        "semi-implicit Euler" => (4, 4),
+        "RK2" => (5, 0),
+        "explicit Euler" => (6, 1),
+        "course: implicit Euler" => (7, 2),
+        "course: linearly implicit Euler" => (7, 3),
+        _ => (8, 4),
+    }
+}
+
+/// Names of the methods that have a ladder, in the order of their first run.
+fn methods(study: &SceneStudy) -> Vec<String> {
+    let mut methods: Vec<String> = Vec::new();
+    for row in study.rows.iter().filter(|row| ["method", "order"].contains(&&*row.case.group)) {
+        if !methods.contains(&row.case.method) {
+            methods.push(row.case.method.clone());
+        }
+    }
+    methods
+}
+
+/// The picture that the report is named after.
+pub fn error_against_time(study: &SceneStudy) -> Picture {
+    let is_moving = study.horizon > 0.0;
+    let (unit, name) = if is_moving {
+        (1e3 / (study.horizon * FRAMES), "wall time for 1/60 s of motion (ms)")
+    } else {
+        (1e3, "wall time of the whole equilibrium (ms)")
+    };
+    let error_name =
+        if is_moving { "error in time, part of the body's length" } else { "error against the closed form" };
+    let label = format!("{}: error against run time", study.name);
+    let mut chart = Chart::new(label, Axis::log(name), Axis::log(error_name));
+    chart.size = (660.0, 450.0);
+    let own = |row: &&Row| row.is_done() && (row.case.nodes == study.size.0 || !is_moving);
+    let dot = |row: &Row| {
+        let [low, median, high] = row.times.total_s;
+        let spread = low.zip(high).map(|(low, high)| (low * unit, high * unit));
+        let is_best = row.standing == "front";
+        Some(Dot { x: median? * unit, y: competing_error(row)?, title: title(row), spread, is_best })
+    };
+    let rows = |method: &str| study.rows.iter().filter(own).filter(|row| row.case.method == method).collect::<Vec<_>>();
+    for method in methods(study) {
+        let (colour, shape) = look(&method);
+        let dots: Vec<Dot> = rows(&method).into_iter().filter_map(dot).collect();
+        let name = if dots.is_empty() { format!("{method} (none ended)") } else { method };
+        chart.series.push(Series { name, colour, shape, is_joined: true, has_dots: true, dots });
+    }
+    let others = study.rows.iter().filter(own).filter(|row| row.case.group != "method");
+    let dots: Vec<Dot> = others.filter_map(dot).collect();
+    if !dots.is_empty() {
+        let name = "variants: tolerance, solver, projection, precision".to_owned();
+        chart.series.push(Series { name, colour: 8, shape: 4, is_joined: false, has_dots: true, dots });
+    }
+    if is_moving {
+        chart.guides.push(Guide::Vertical(4.0, "4 ms".to_owned()));
+        chart.guides.push(Guide::Vertical(16.0, "16 ms".to_owned()));
+        chart.guides.extend(slopes(&chart));
+        if let Some(level) = study.nested.as_ref().and_then(|nested| nested.errors.get(1)) {
+            chart.guides.push(Guide::Horizontal(level.1, "the mesh's own error".to_owned()));
+        }
+    }
+    chart.draw()
+}
+
+/// Slopes of order 1, 2 and 4 beside the methods that have them.
+fn slopes(chart: &Chart) -> Vec<Guide> {
+    let of = |(method, order): (&str, f64)| {
+        let series = chart.series.iter().find(|series| series.name == method)?;
+        let dot = series.dots.get(series.dots.len().checked_sub(2)?)?;
+        let through = (dot.x, dot.y / 2.5);
+        Some(Guide::Slope { through, slope: -order, name: format!("order {order}") })
+    };
+    [("linearly implicit Euler", 1.0), ("Verlet", 2.0), ("RK4", 4.0)].into_iter().filter_map(of).collect()
+}
+
+/// Error over time step.
+pub fn convergence(study: &SceneStudy) -> Picture {
+    let label = format!("{}: convergence in dt", study.name);
+    let mut chart =
+        Chart::new(label, Axis::log("time step (s)"), Axis::log("error in time, part of the body's length"));
+    for method in methods(study) {
+        let rows = study.rows.iter().filter(|row| row.case.method == method && row.is_done());
+        let dot = |row: &Row| Some(Dot { x: row.case.dt, y: row.errors.time_l2?, title: title(row), ..Dot::default() });
+        let dots: Vec<Dot> = rows.filter_map(dot).collect();
+        let pairs: Vec<_> = dots.iter().map(|dot| (dot.x, dot.y)).collect();
+        let order = asymptotic(&pairs, super::FINEST, super::FLOOR).filter(|order| order.points > 2);
+        let name = order.map_or(method.clone(), |order| format!("{method}: {:.2}", order.value));
+        let (colour, shape) = look(&method);
+        chart.series.push(Series { name, colour, shape, is_joined: true, has_dots: true, dots });
+    }
+    chart.draw()
+}
+
+/// Total energy over time, less that at the start, as a part of the energy that moves.
+pub fn drift(study: &SceneStudy) -> Option<Picture> {
+    let label = format!("{}: total energy over time", study.name);
+    let name = "change of total energy, part of the largest kinetic or potential";
+    let mut chart = Chart::new(label, Axis::linear("time (s)"), Axis::linear(name));
+    for method in methods(study).iter().filter(|method| !method.starts_with("course")) {
+        // The run of the ladder's middle: steps that people use.
+        let places: Vec<usize> = (0..study.rows.len())
+            .filter(|&place| study.rows[place].case.method == *method && study.rows[place].is_done())
+            .collect();
+        let Some(&place) = places.get(places.len() / 2) else { continue };
+        let scale = study.energy_scale;
+        let dots =
+            study.histories[place].iter().map(|(time, energy)| Dot { x: *time, y: energy / scale, ..Dot::default() });
+        let (colour, _) = look(method);
+        let name = format!("{method}, dt = {}", step(study.rows[place].case.dt));
+        let dots = dots.collect();
+        chart.series.push(Series { name, colour, shape: 0, is_joined: true, has_dots: false, dots });
+    }
+    (study.energy_scale > 0.0).then(|| chart.draw())
+}
+
+/// Milliseconds of a step by kinds of work, for the finest run of each method.
+pub fn where_time_goes(study: &SceneStudy) -> Option<Picture> {
+    let costs = study.costs.as_ref()?;
+    let bar = |method: String| {
+        let rows: Vec<&Row> = study.rows.iter().filter(|row| row.case.method == method && row.is_done()).collect();
+        let row = rows.get(rows.len() / 2)?;
+        let shares = costs::shares(costs, row)?;
+        let whole: f64 = shares.iter().sum();
+        let figure = format!("{} at {}", seconds(Some(whole / 1e3)), step(row.case.dt));
+        Some(Bar { name: method, shares: shares.to_vec(), figure })
+    };
+    let all: Vec<Bar> = methods(study).into_iter().filter_map(bar).collect();
+    (!all.is_empty()).then(|| bars(format!("{}: where the time of a step goes", study.name), &KINDS, &all))
+}
+
+/// Errors of the manufactured solution over the cells' edge.
+pub fn in_space(space: &Space) -> Picture {
+    let label = "manufactured solution: convergence in h";
+    let mut chart = Chart::new(label, Axis::log("edge of a cell (m)"), Axis::log("relative error"));
+    for (place, (scene, l2, h1)) in space.orders.iter().enumerate() {
+        let law = scene.trim_start_matches("manufactured-");
+        for (norm, order, shape) in [("L2", l2, 0), ("H1", h1, 1)] {
+            let rows = space.rows.iter().filter(|row| row.case.scene == *scene);
+            let dot = |row: &Row| {
+                let error = if norm == "L2" { row.errors.space_l2 } else { row.errors.space_h1 };
+                let title =
+                    format!("{law}, {} nodes\nerror in {norm} {}\n{}", row.case.nodes, number(error), row.case.id);
+                Some(Dot { x: space::spacing(row), y: error?, title, ..Dot::default() })
+            };
+            let name =
+                format!("{law}, {norm}: {}", order.map_or("–".to_owned(), |order| format!("{:.2}", order.value)));
+            let dots = rows.filter_map(dot).collect();
+            chart.series.push(Series { name, colour: place, shape, is_joined: true, has_dots: true, dots });
+        }
+    }
+    chart.draw()
+}
+
+/// What is left of the tip's displacement, over the cells' edge, for each Poisson's ratio.
+pub fn locking(space: &Space) -> Picture {
+    let label = "locking: displacement of the tip as a part of Timoshenko's";
+    let y = Axis { range: Some((0.0, 1.05)), ..Axis::linear("part of Timoshenko's displacement") };
+    let mut chart = Chart::new(label, Axis::log("edge of a cell, beam 1 m high (m)"), y);
+    chart.guides.push(Guide::Horizontal(1.0, "Timoshenko".to_owned()));
+    for (place, poisson) in crate::locking::RATIOS.into_iter().enumerate() {
+        let beams = space.bent.iter().filter(|bent| bent.poisson == poisson);
+        let dot = |bent: &crate::locking::Bent| Dot {
+            x: 1.0 / bent.cells as f64,
+            y: bent.ratio,
+            title: format!("ν = {poisson}, {} cells\n{} of Timoshenko's", bent.cells, number(Some(bent.ratio))),
+            ..Dot::default()
+        };
+        let dots = beams.map(dot).collect();
+        let name = format!("ν = {poisson}");
+        chart.series.push(Series { name, colour: place, shape: place, is_joined: true, has_dots: true, dots });
+    }
+    chart.draw()
+}

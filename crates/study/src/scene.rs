@@ -1,0 +1,207 @@
+//! The study of one scene: references, runs, times, standings.
+
+mod bodies;
+mod case;
+mod levels;
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use super::costs::Costs;
+use super::measure::{Factory, Outcome, Patience, Timing, first, quartiles};
+use super::nested::Nested;
+use super::pareto::{Contender, standings};
+use super::plan::{self, Extent, Ladder, Run};
+use super::row::{Row, Times};
+use bodies::Bodies;
+use fem_scene::simulate::quantile;
+use fem_scene::{Integrator, Scene};
+
+/// What a study needs.
+pub struct Setting<'a> {
+    /// Where meshes are.
+    pub data: PathBuf,
+    /// Where results go; it has a folder `states`.
+    pub out: PathBuf,
+    /// Whether minutes are too long.
+    pub is_quick: bool,
+    /// Both pipelines.
+    pub factory: &'a Factory<'a>,
+    /// Told how many pieces of work are done, of how many, and what comes next.
+    pub tell: &'a dyn Fn(usize, usize, &str),
+}
+
+/// What is known of one scene.
+#[derive(Clone, Debug, Default)]
+pub struct SceneStudy {
+    /// Its name.
+    pub name: String,
+    /// Its own words.
+    pub about: String,
+    /// Time that is simulated, s; none in equilibrium.
+    pub horizon: f64,
+    /// Nodes and elements of the scene's own mesh.
+    pub size: (usize, usize),
+    /// Fastest vibration, 1/s.
+    pub fastest: f64,
+    /// All runs.
+    pub rows: Vec<Row>,
+    /// Total energy over time of each row, less that at the start: s and J.
+    pub histories: Vec<Vec<(f64, f64)>>,
+    /// Each reference: its file, its own checks (displacements, velocities), force evaluations.
+    pub references: Vec<(String, (f64, f64), usize)>,
+    /// Largest energy that moves between kinetic and potential, J.
+    pub energy_scale: f64,
+    /// Three meshes.
+    pub nested: Option<Nested>,
+    /// What parts cost.
+    pub costs: Option<Costs>,
+    /// What was not done, and why.
+    pub left_out: Vec<(String, String)>,
+}
+
+/// Processor time that a single run may take, s. Those of the short study are short, and all of them are compared with a table.
+fn most_seconds(is_quick: bool) -> f64 {
+    if is_quick { 60.0 } else { 4.0 }
+}
+
+/// Times that by which a run may be longer by the clock, before it is given up.
+const GIVEN_UP: f64 = 8.0;
+
+/// Which runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// Which method for which error: all that makes sense for the scene.
+    Choice,
+    /// Which order each method has: steps that are small enough to tell.
+    Order,
+}
+
+/// Studies a scene.
+pub fn study(setting: &Setting, scene: &Scene, question: Question) -> Result<SceneStudy, String> {
+    let base = plan::base(scene, setting.is_quick);
+    let own_steps = base.time.steps.unwrap_or(50);
+    let is_short = setting.is_quick && question == Question::Choice;
+    let steps = if is_short { own_steps.min(10) } else { own_steps };
+    let mut study = SceneStudy { name: scene.name.clone(), about: scene.about.clone(), ..SceneStudy::default() };
+    let is_static = base.time.integrator == Integrator::Static;
+    study.horizon = if is_static { 0.0 } else { base.time.dt * steps as f64 };
+    (setting.tell)(0, 1, &format!("{}: reference", study.name));
+    let mut bodies = Bodies { setting, scene: &base, known: HashMap::new() };
+    bodies.add(&base, (!is_static).then_some(study.horizon), &mut study)?;
+    let extent = Extent { is_quick: setting.is_quick, horizon: study.horizon, steps, fastest: study.fastest };
+    let ladders = match question {
+        Question::Order => plan::orders(&base, extent),
+        Question::Choice if is_static => {
+            plan::equilibrium(&base, base.statics.as_ref().map_or(1, |statics| statics.load_steps))
+        }
+        Question::Choice => plan::dynamic(&base, extent),
+    };
+    if question == Question::Choice {
+        study.nested = bodies.nested(&base, &mut study)?;
+    }
+    let done = first_runs(setting, &mut bodies, ladders, &mut study)?;
+    take_times(setting, &done, &mut study);
+    stand(&mut study.rows);
+    Ok(study)
+}
+
+/// Times all runs that came to their end; of the others the first clock is all there is.
+fn take_times(setting: &Setting, done: &[(Run, Outcome)], study: &mut SceneStudy) {
+    let patience = Patience::new(setting.is_quick);
+    let ended = |place: &usize| done[*place].1.failure.is_none();
+    let places: Vec<usize> = (0..done.len()).filter(ended).collect();
+    let runs: Vec<_> = places.iter().map(|&place| (&done[place].0, &done[place].1.timing)).collect();
+    let (all, mut told) = (patience.calls(runs.len()), 0);
+    let what = format!("{}: timing {} runs in turn", study.name, runs.len());
+    let clocks = patience.time(setting.factory, &runs, || {
+        told += 1;
+        (setting.tell)(told, all, &what);
+    });
+    for (row, (_, outcome)) in study.rows.iter_mut().zip(done) {
+        row.times = times(std::slice::from_ref(&outcome.timing));
+    }
+    for (place, clocks) in places.into_iter().zip(clocks) {
+        study.rows[place].times = times(&clocks);
+    }
+}
+
+/// Runs everything once, and looks.
+fn first_runs(
+    setting: &Setting,
+    bodies: &mut Bodies,
+    ladders: Vec<Ladder>,
+    study: &mut SceneStudy,
+) -> Result<Vec<(Run, Outcome)>, String> {
+    let (all, mut count) = (ladders.iter().map(Vec::len).sum(), 0);
+    let mut done = Vec::new();
+    for ladder in ladders {
+        let mut before: Option<(f64, usize)> = None;
+        for run in ladder {
+            count += 1;
+            (setting.tell)(count, all, &format!("{}: {}, dt = {:.1e} s", study.name, run.method, run.scene.time.dt));
+            let what = format!("{}, {} steps", run.method, run.steps);
+            let expected = before.map(|(seconds, steps)| seconds * run.steps as f64 / steps as f64);
+            if let Some(expected) = expected.filter(|&seconds| seconds > most_seconds(setting.is_quick)) {
+                study.left_out.push((what, format!("would take {expected:.0} s")));
+                continue;
+            }
+            match first(setting.factory, &run, GIVEN_UP * most_seconds(setting.is_quick)) {
+                Ok(outcome) => {
+                    before = Some((outcome.spent, outcome.timing.steps.len()));
+                    bodies.add_row(&run, &outcome, study)?;
+                    done.push((run, outcome));
+                }
+                Err(refusal) => {
+                    before = refusal.spent.or(before);
+                    study.left_out.push((what, refusal.reason));
+                }
+            }
+        }
+    }
+    Ok(done)
+}
+
+fn times(clocks: &[Timing]) -> Times {
+    let totals: Vec<f64> = clocks.iter().map(|clock| clock.total()).collect();
+    let setups: Vec<f64> = clocks.iter().map(|clock| 1e3 * clock.setup).collect();
+    let steps: Vec<f64> = clocks.iter().flat_map(|clock| clock.steps.iter().map(|step| 1e3 * step)).collect();
+    Times {
+        setup_ms: quantile(&setups, 0.5),
+        step_ms: [0.5, 0.95, 0.99].map(|part| quantile(&steps, part)),
+        total_s: quartiles(&totals),
+        processor_s: quantile(&clocks.iter().filter_map(|clock| clock.processor).collect::<Vec<_>>(), 0.5),
+        repetitions: clocks.len(),
+    }
+}
+
+/// Which error a run competes with: in time, or against the closed form.
+pub fn competing_error(row: &Row) -> Option<f64> {
+    row.errors.time_l2.or(row.errors.analytic).filter(|error| error.is_finite())
+}
+
+/// Runs on one mesh compete with each other.
+fn stand(rows: &mut [Row]) {
+    let mut meshes: Vec<String> = rows.iter().map(|row| row.case.mesh_hash.clone()).collect();
+    meshes.sort();
+    meshes.dedup();
+    for mesh in meshes {
+        let contender = |(place, row): (usize, &Row)| {
+            let time = (row.times.total_s[0]?, row.times.total_s[2]?);
+            let competes = row.case.mesh_hash == mesh && row.is_done();
+            let error = competing_error(row).filter(|_| competes)?;
+            Some((place, Contender { error, time }))
+        };
+        let (places, contenders): (Vec<usize>, Vec<Contender>) = rows.iter().enumerate().filter_map(contender).unzip();
+        for (place, standing) in places.into_iter().zip(standings(&contenders)) {
+            rows[place].standing = standing.name();
+        }
+    }
+}
+
+/// Where states of a study go.
+pub fn make_folders(out: &Path) -> Result<(), String> {
+    let states = out.join("states");
+    std::fs::create_dir_all(&states)
+        .map_err(|error| format!("{}: {error}; name a folder that can be made", states.display()))
+}

@@ -1,0 +1,93 @@
+//! A run's identity and its errors, as its row shows them.
+
+use nalgebra::DVector;
+
+use super::SceneStudy;
+use super::bodies::{Body, cells};
+use crate::measure::Outcome;
+use crate::norms;
+use crate::plan::{self, Run};
+use crate::row::{Case, Errors};
+use fem_scene::cantilever::moduli;
+use fem_scene::{Integrator, Pipeline, Precision, Projection};
+
+/// Distances of a run that has come to its end.
+pub(super) fn errors(run: &Run, outcome: &Outcome, body: &Body, study: &SceneStudy) -> Errors {
+    let in_space = study.nested.as_ref().and_then(|nested| nested.errors.iter().find(|row| row.0 == cells(&run.scene)));
+    let mut errors = Errors {
+        space_l2: in_space.map(|row| row.1),
+        space_h1: in_space.map(|row| row.2),
+        analytic: outcome.analytic,
+        ..Errors::default()
+    };
+    let Some(reference) = &body.reference else { return errors };
+    let length = norms::length(&body.mesh);
+    let (q, exact) = (outcome.q.as_slice(), reference.q.as_slice());
+    errors.time_l2 = Some(norms::l2(&body.weights, q, exact) / length);
+    errors.time_linf = Some(norms::largest(q, exact) / length);
+    let momenta = |q: &DVector<f64>, v: &DVector<f64>| {
+        norms::momenta(&body.mesh, &body.weights, run.scene.material.density, q.as_slice(), v.as_slice())
+    };
+    let (found, expected) = (momenta(&outcome.q, &outcome.qdot), momenta(&reference.q, &reference.qdot));
+    let mass: f64 = run.scene.material.density * body.weights.iter().sum::<f64>();
+    // The momentum that all of the kinetic energy would be, moving one way; the same at the body's length.
+    let scale = (2.0 * mass * reference.kinetic).sqrt();
+    let total = |energies: (f64, f64)| energies.0 + energies.1;
+    let expected_energy = reference.kinetic + reference.potential;
+    let size = reference.kinetic.abs().max(reference.potential.abs());
+    errors.energy = Some((total(outcome.energies) - expected_energy) / size);
+    errors.momentum = Some(norms::distance(found.0, expected.0) / scale);
+    errors.angular = Some(norms::distance(found.1, expected.1) / (scale * length));
+    errors
+}
+
+pub(super) fn case(id: String, run: &Run, body: &Body) -> Case {
+    let Run { scene, .. } = run;
+    let moduli = moduli(&scene.material);
+    let is_newton = matches!(scene.time.integrator, Integrator::ImplicitEuler | Integrator::Static);
+    let is_course = scene.pipeline == Pipeline::Course;
+    let newton = scene.newton.as_ref();
+    let projection = match newton.and_then(|newton| newton.projection).unwrap_or_default() {
+        _ if is_course => "always",
+        Projection::WhenNeeded => "when_needed",
+        Projection::Always => "always",
+        Projection::Never => "never",
+    };
+    let has_matrix = is_newton || scene.time.integrator == Integrator::LinearlyImplicitEuler;
+    let solver = if is_course { "course cholesky".to_owned() } else { plan::solver_name(scene) };
+    let engine = |value: f64| if is_course { None } else { Some(value) };
+    Case {
+        id,
+        scene: scene.name.clone(),
+        group: run.group.to_owned(),
+        method: run.method.clone(),
+        pipeline: if is_course { "course" } else { "engine" },
+        mesh_hash: body.hash.clone(),
+        nodes: body.mesh.vertices.len(),
+        elements: body.mesh.elements.len(),
+        young: moduli.map(|moduli| moduli.0),
+        poisson: moduli.map(|moduli| moduli.1),
+        integrator: scene.time.integrator.name(),
+        projection: if has_matrix { projection } else { "none" },
+        solver: if has_matrix { solver } else { "none".to_owned() },
+        dt: scene.time.dt,
+        steps: run.steps,
+        tolerance: is_newton.then(|| newton.and_then(|newton| newton.tolerance).unwrap_or(1e-10)).and_then(engine),
+        max_iterations: is_newton.then(|| match (is_course, newton.and_then(|newton| newton.max_iterations)) {
+            (true, _) => 5,
+            (false, given) => given.unwrap_or(50),
+        }),
+        precision: if scene.time.precision == Precision::F32 { "f32" } else { "f64" },
+    }
+}
+
+/// `done`, or what went wrong.
+pub(super) fn status(outcome: &Outcome) -> String {
+    match &outcome.failure {
+        Some(failure) => format!("failed: {failure}"),
+        None if outcome.counters.unconverged_steps > 0 => {
+            format!("done, with {} steps not converged", outcome.counters.unconverged_steps)
+        }
+        None => "done".to_owned(),
+    }
+}

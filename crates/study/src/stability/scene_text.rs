@@ -1,0 +1,136 @@
+//! Scenes of this study, as the text of their files: whoever doubts a row can run it.
+
+use std::path::Path;
+
+use nalgebra::Vector3;
+
+use super::case::Finding;
+use super::case::Outcome;
+use fem_engine::engine::Engine;
+use fem_engine::number::Real;
+use fem_mesh::TetrahedralMesh;
+use fem_scene::{Scene, SceneError, body, body_of, parse};
+
+/// The methods that move.
+pub const DYNAMIC: [&str; 7] =
+    ["explicit_euler", "semi_implicit_euler", "rk2", "rk4", "verlet", "linearly_implicit_euler", "implicit_euler"];
+
+/// The laws.
+pub const LAWS: [&str; 5] = ["linear", "corotated", "st_venant_kirchhoff", "neo_hookean", "stable_neo_hookean"];
+
+/// What a scene is made of.
+#[derive(Clone, Debug)]
+pub struct Text {
+    /// What stands in `[mesh]`.
+    pub mesh: String,
+    /// The law.
+    pub model: &'static str,
+    /// Pa
+    pub young: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// kg/m³
+    pub density: f64,
+    /// The method.
+    pub integrator: &'static str,
+    /// s
+    pub dt: f64,
+    /// Further tables.
+    pub rest: String,
+}
+
+/// Holds the side of smallest x.
+pub const CLAMPED: &str = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n";
+
+/// Mass on the nodes.
+pub const LUMPED: &str = "[mass]\nlumped = true\n";
+
+impl Text {
+    /// A box of 2 × 1 × 1 m of a rubber-like material, in cells of 1 m.
+    pub fn small(integrator: &'static str, model: &'static str) -> Self {
+        Self {
+            mesh: "box = { size = [2, 1, 1], cells_per_unit = 1 }".to_owned(),
+            model,
+            young: 1e5,
+            poisson: 0.3,
+            density: 1000.0,
+            integrator,
+            dt: 0.01,
+            rest: String::new(),
+        }
+    }
+
+    /// In cells of half a metre.
+    pub fn finer(integrator: &'static str, model: &'static str) -> Self {
+        let mesh = "box = { size = [2, 1, 1], cells_per_unit = 2 }".to_owned();
+        Self { mesh, ..Self::small(integrator, model) }
+    }
+
+    /// With further tables.
+    pub fn with(mut self, tables: &str) -> Self {
+        self.rest.push_str(tables);
+        self
+    }
+
+    /// The text of the file.
+    pub fn text(&self) -> String {
+        let Self { mesh, model, young, poisson, density, integrator, dt, rest } = self;
+        format!(
+            "pipeline = \"engine\"\n[mesh]\n{mesh}\n[material]\nmodel = \"{model}\"\nyoung = {young:e}\npoisson = {poisson}\n\
+             density = {density:e}\n[time]\ndt = {dt:e}\nintegrator = \"{integrator}\"\n{rest}"
+        )
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> Result<Scene, SceneError> {
+        parse(&self.text(), Path::new("case.toml"))
+    }
+
+    /// The simulation, at rest.
+    pub fn build(&self) -> Result<Engine<f64>, Finding> {
+        let scene = self.scene().map_err(refused)?;
+        let body = body(&scene, Path::new("")).map_err(refused)?;
+        Engine::new(&scene, body).map_err(refused)
+    }
+
+    /// The same on another mesh.
+    pub fn build_on(&self, mesh: TetrahedralMesh) -> Result<Engine<f64>, Finding> {
+        self.build_on_as(mesh)
+    }
+
+    /// The same in a precision; the scene must name it too.
+    pub fn build_on_as<T: Real>(&self, mesh: TetrahedralMesh) -> Result<Engine<T>, Finding> {
+        let scene = self.scene().map_err(refused)?;
+        let body = body_of(&scene, mesh, Path::new("")).map_err(refused)?;
+        Engine::new(&scene, body).map_err(refused)
+    }
+}
+
+/// The finding that a scene cannot be begun.
+pub fn refused(error: SceneError) -> Finding {
+    Finding::plain(Outcome::Refused, error.to_string())
+}
+
+/// Weight along an axis, m/s².
+pub fn gravity(acceleration: [f64; 3]) -> String {
+    format!("[gravity]\nacceleration = {acceleration:?}\n")
+}
+
+/// `[[prescribed]]` of all nodes at the end where x is largest.
+pub fn led_end(motion: &str, over: f64) -> String {
+    format!("[[prescribed]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\n{motion}\nover = {over:e}\n")
+}
+
+/// The mesh of a box, with each vertex moved.
+pub fn moved_box(
+    size: [f64; 3],
+    cells_per_unit: usize,
+    place: impl Fn(&Vector3<f64>) -> Vector3<f64>,
+) -> Result<TetrahedralMesh, Finding> {
+    let mesh = fem_mesh::box_mesh(size, cells_per_unit);
+    let mut mesh = mesh.map_err(|error| Finding::plain(Outcome::Refused, error.to_string()))?;
+    for vertex in &mut mesh.vertices {
+        *vertex = place(vertex);
+    }
+    Ok(mesh)
+}

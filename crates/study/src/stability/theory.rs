@@ -1,0 +1,98 @@
+//! What theory says of a vibration of frequency ω at the time step dt, z = ω dt: how fast it grows.
+//!
+//! Hairer, Lubich and Wanner, Geometric Numerical Integration (2006), ch. I and VI.3; Hairer and Wanner, Solving Ordinary
+//! Differential Equations II (1996), ch. IV.2.
+
+use super::start::Random;
+use fem_engine::integrators::MassInverse;
+use fem_engine::solvers::{dot, norm};
+use fem_engine::system::System;
+use fem_scene::simulation::Cause;
+
+/// ω dt below which the method is stable; none where it always is.
+pub fn limit(integrator: &str) -> Option<f64> {
+    match integrator {
+        "explicit_euler" | "rk2" => Some(0.0),
+        "semi_implicit_euler" | "verlet" => Some(2.0),
+        "rk4" => Some(8.0f64.sqrt()),
+        _ => None,
+    }
+}
+
+/// Logarithm of the factor by which a vibration grows in a step: that of the largest eigenvalue of the method's matrix for
+/// x'' = −ω² x.
+pub fn growth(integrator: &str, z: f64) -> f64 {
+    let z2 = z * z;
+    match integrator {
+        // |1 + iz|
+        "explicit_euler" => 0.5 * z2.ln_1p(),
+        // |1 + iz − z²/2|
+        "rk2" => 0.5 * (0.25 * z2 * z2).ln_1p(),
+        // |1 + iz − z²/2 − iz³/6 + z⁴/24|
+        "rk4" => 0.5 * (z2.powi(3) * (z2 / 576.0 - 1.0 / 72.0)).ln_1p(),
+        // trace 2 − z², determinant 1
+        "semi_implicit_euler" | "verlet" if z > 2.0 => (0.5 * z2 - 1.0).acosh(),
+        "semi_implicit_euler" | "verlet" => 0.0,
+        // 1 / |1 − iz|
+        _ => -0.5 * z2.ln_1p(),
+    }
+}
+
+/// The fastest vibration of a body.
+pub struct Fastest {
+    /// Its frequency, 1/s.
+    pub omega: f64,
+    /// Displacements in the engine's order, m; the largest component is 1.
+    pub shape: Vec<[f64; 3]>,
+}
+
+/// Iterations after which a power iteration ends in any case.
+const MOST: usize = 20_000;
+
+/// ω_max at rest: the root of the largest eigenvalue of M⁻¹ K by power iteration, Golub and Van Loan, Matrix Computations (2013),
+/// ch. 8.2, with Rayleigh's quotient, whose error is that of the shape squared.
+pub fn fastest(system: &System<f64>) -> Result<Fastest, Cause> {
+    let mut inverse = MassInverse::new(&system.mass);
+    let mut random = Random::new(1);
+    let rest = vec![[0.0; 3]; system.nodes()];
+    let mut x: Vec<[f64; 3]> = rest.iter().map(|_| random.vector().into()).collect();
+    let (mut force, mut next) = (rest.clone(), rest.clone());
+    let mut omega2: f64 = 0.0;
+    for _ in 0..MOST {
+        system.held.clear(&mut x);
+        let length = norm(&x);
+        scale(&mut x, 1.0 / length);
+        force.fill([0.0; 3]);
+        system.add_stiffness_times(1.0, &rest, &x, &mut force);
+        let quotient = dot(&x, &force) / (2.0 * system.mass.kinetic_energy(&x));
+        let is_settled = (quotient - omega2).abs() <= 1e-13 * quotient;
+        omega2 = quotient;
+        if is_settled {
+            break;
+        }
+        inverse.solve(system, &mut force, &mut next)?;
+        std::mem::swap(&mut x, &mut next);
+    }
+    let largest = x.as_flattened().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    scale(&mut x, 1.0 / largest);
+    Ok(Fastest { omega: omega2.sqrt(), shape: x })
+}
+
+fn scale(x: &mut [[f64; 3]], factor: f64) {
+    x.as_flattened_mut().iter_mut().for_each(|x| *x *= factor);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{growth, limit};
+
+    #[test]
+    fn vibrations_grow_beyond_the_limit_and_not_below() {
+        for integrator in ["semi_implicit_euler", "verlet", "rk4"] {
+            let limit = limit(integrator).unwrap();
+            assert!(growth(integrator, 0.99 * limit) <= 0.0 && growth(integrator, 1.01 * limit) > 0.03, "{integrator}");
+        }
+        assert!(growth("rk2", 0.1) > 0.0 && growth("explicit_euler", 0.1) > 0.0);
+        assert!(growth("implicit_euler", 1e6) < -13.0);
+    }
+}

@@ -1,0 +1,73 @@
+//! Files from which every error can be computed again.
+
+use std::path::Path;
+
+use nalgebra::DVector;
+
+use super::norms;
+use super::reference::Reference;
+use fem_mesh::TetrahedralMesh;
+use fem_mesh::write::save;
+
+/// A state: where a run ended.
+#[derive(Clone, Copy, Debug)]
+pub struct Snapshot<'a> {
+    /// s
+    pub time: f64,
+    /// Positions of all nodes, m.
+    pub q: &'a DVector<f64>,
+    /// Velocities of all nodes, m/s.
+    pub qdot: &'a DVector<f64>,
+    /// Kinetic and potential energy, J.
+    pub energies: (f64, f64),
+}
+
+/// Writes `time`, `kinetic`, `potential`, `q`, `qdot` with 17 significant digits.
+pub fn write_state(path: &Path, snapshot: &Snapshot) -> Result<(), String> {
+    save(path, |out| writeln!(out, "{{\n{}\n}}", fields(snapshot))).map_err(|error| error.to_string())
+}
+
+/// Writes a reference: a state, and what errors are measured with: `rest`, `elements`, `weights` (m³), `length` (m),
+/// `density` (kg/m³), and how far the reference trusts itself.
+pub fn write_reference(
+    path: &Path,
+    mesh: &TetrahedralMesh,
+    density: f64,
+    reference: Option<&Reference>,
+) -> Result<(), String> {
+    let rest = mesh.vertices.iter().flat_map(|x| x.iter().copied());
+    let elements: Vec<String> = mesh.elements.iter().map(|element| format!("{element:?}")).collect();
+    let state = reference.map_or(String::new(), |reference| {
+        let Reference { time, q, qdot, kinetic, potential, check, evaluations } = reference;
+        let snapshot = Snapshot { time: *time, q, qdot, energies: (*kinetic, *potential) };
+        let (u, v) = check;
+        let check = format!("\"self_check\": {u:e},\n\"self_check_velocities\": {v:e}");
+        format!("{},\n{check},\n\"force_evaluations\": {evaluations},\n", fields(&snapshot))
+    });
+    let text = format!(
+        "{{\n{state}\"length\": {:e},\n\"density\": {density:e},\n\"weights\": [{}],\n\"rest\": [{}],\n\"elements\": [{}]\n}}",
+        norms::length(mesh),
+        list(norms::weights(mesh).into_iter()),
+        list(rest),
+        elements.join(", ")
+    );
+    save(path, |out| writeln!(out, "{text}")).map_err(|error| error.to_string())
+}
+
+fn fields(snapshot: &Snapshot) -> String {
+    let Snapshot { time, q, qdot, energies: (kinetic, potential) } = snapshot;
+    let (q, qdot) = (list(q.iter().copied()), list(qdot.iter().copied()));
+    let (kinetic, potential) = (json(*kinetic), json(*potential));
+    format!(
+        "\"time\": {time:e},\n\"kinetic\": {kinetic},\n\"potential\": {potential},\n\"q\": [{q}],\n\"qdot\": [{qdot}]"
+    )
+}
+
+/// A number that is not finite has no JSON form.
+fn json(value: f64) -> String {
+    if value.is_finite() { format!("{value:.16e}") } else { "null".to_owned() }
+}
+
+fn list(values: impl Iterator<Item = f64>) -> String {
+    values.map(json).collect::<Vec<_>>().join(", ")
+}

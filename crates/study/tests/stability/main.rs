@@ -1,0 +1,84 @@
+//! The reduced study of stiff and extreme cases ends as it must, and as it did: docs/reference/stability-quick.csv.
+//!
+//! After a change that is meant, write that table anew:
+//! `cargo run --release -- stability --quick --out new && cp new/stability.csv docs/reference/stability-quick.csv`
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use fem_study::stability::study;
+use fem_study::table::split;
+
+/// Largest change of a margin, in parts of its bound or of itself, whichever is more.
+const SAME: f64 = 0.01;
+
+#[test]
+fn every_case_ends_as_it_must_and_as_it_did() {
+    let table = study(true, Path::new("."), &|_, _| {});
+    let wrong: Vec<_> = table.rows.iter().filter(|row| !row.pass).collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference/stability-quick.csv");
+    let stored = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let (stored, found) = (rows(&stored), rows(&table.csv()));
+    let names = |rows: &BTreeMap<String, Row>| rows.keys().cloned().collect::<Vec<_>>();
+    assert_eq!(names(&found), names(&stored), "cases have come or gone; write the table anew");
+    let changes = found.iter().filter_map(|(name, row)| Some(format!("{name}: {}", change(&stored[name], row)?)));
+    let changes: Vec<String> = changes.collect();
+    assert!(changes.is_empty(), "\n{}\n", changes.join("\n"));
+}
+
+/// What decides about a case.
+#[derive(Debug, PartialEq)]
+struct Row {
+    expected: String,
+    outcome: String,
+    margin: Option<f64>,
+    /// Whether the margin is the same on every machine.
+    is_steady: bool,
+}
+
+/// Every case by its name.
+fn rows(csv: &str) -> BTreeMap<String, Row> {
+    let mut lines = csv.lines();
+    let head = split(lines.next().unwrap_or_default());
+    let column = |name: &str| head.iter().position(|found| found == name).unwrap_or_else(|| panic!("no column {name}"));
+    let names = ["family", "case", "parameters", "integrator", "material", "seed"].map(column);
+    let [expected, outcome, margin, margin_is] = ["expected", "outcome", "margin", "margin_is"].map(column);
+    let row = |line: &str| {
+        let fields = split(line);
+        // A tangle may unwind into one balance or another by its last digits, and a body squashed flat may buckle so.
+        let is_one_of_many = fields[expected] == "untangles" || fields[names[1]].starts_with("squashed to 2 %");
+        let is_steady = !fields[margin_is].contains("round-off") && !is_one_of_many;
+        let row = Row {
+            outcome: if fields[expected] == "untangles" { "-".to_owned() } else { fields[outcome].clone() },
+            expected: fields[expected].clone(),
+            margin: fields[margin].parse().ok(),
+            is_steady,
+        };
+        (names.map(|name| fields[name].as_str()).join(", "), row)
+    };
+    lines.map(row).collect()
+}
+
+fn change(stored: &Row, found: &Row) -> Option<String> {
+    let same_end = (&stored.expected, &stored.outcome) == (&found.expected, &found.outcome);
+    let same_margin = match (stored.margin, found.margin) {
+        (Some(a), Some(b)) => (a - b).abs() <= SAME * a.abs().max(1.0),
+        (a, b) => a == b,
+    };
+    let is_same = same_end && (same_margin || !found.is_steady);
+    (!is_same).then(|| format!("{stored:?} has become {found:?}"))
+}
+
+#[test]
+fn a_margin_that_has_changed_by_two_percent_is_told() {
+    let row = |margin| Row {
+        expected: "survives".to_owned(),
+        outcome: "survives".to_owned(),
+        margin: Some(margin),
+        is_steady: true,
+    };
+    assert!(change(&row(2.0), &row(2.05)).is_some() && change(&row(2.0), &row(2.01)).is_none());
+    assert!(change(&row(2.0), &Row { margin: None, ..row(2.0) }).is_some());
+}
