@@ -2,10 +2,10 @@
 
 use std::time::Instant;
 
-use fem_engine::acting::Acting;
+use fem_engine::forces::acting::Acting;
 use fem_engine::materials::Material;
+use fem_engine::model::system::System;
 use fem_engine::solvers::{Preconditioner, Solver, SolverChoice};
-use fem_engine::system::System;
 use fem_scene::simulate::quantile;
 
 use crate::cli::{RunArguments, SolverName};
@@ -78,7 +78,7 @@ fn elastic(system: &System<f64>) -> Result<(), End> {
         Ok(())
     })?;
     time("smallest J", count, || {
-        std::hint::black_box(system.elements.smallest_J(&u));
+        std::hint::black_box(system.elements.min_det_F(&u));
         Ok(())
     })
 }

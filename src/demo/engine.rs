@@ -30,5 +30,5 @@ impl Study {
 
 /// The engine's simulation of a scene.
 pub fn build(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, End> {
-    fem_engine::engine::build(scene, body).map_err(End::unusable)
+    fem_engine::simulator::build(scene, body).map_err(End::unusable)
 }

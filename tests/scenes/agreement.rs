@@ -18,7 +18,7 @@ fn largest_distance(name: &str, integrator: Integrator, amplitude: f64) -> f64 {
     });
     let mut course = build(&course_scene);
     let engine_body = body(&engine_scene, &data()).unwrap();
-    let mut engine = fem_engine::engine::build(&engine_scene, engine_body).unwrap();
+    let mut engine = fem_engine::simulator::build(&engine_scene, engine_body).unwrap();
     let V = &course.shape().mesh.vertices;
     let (least, most) = V.iter().fold((V[0], V[0]), |(least, most), x| (least.inf(x), most.sup(x)));
     let mut largest: f64 = 0.0;

@@ -8,11 +8,11 @@ use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
-use fem_engine::acting::Acting;
+use fem_engine::forces::acting::Acting;
 use fem_engine::materials::Material;
+use fem_engine::model::system::System;
 use fem_engine::number::Real;
 use fem_engine::solvers::{Preconditioner, Solver, SolverChoice};
-use fem_engine::system::System;
 use fem_scene::{Scene, body, parse};
 
 const LAWS: [&str; 5] = ["linear", "corotated", "st_venant_kirchhoff", "neo_hookean", "stable_neo_hookean"];

@@ -9,24 +9,19 @@
 #![allow(clippy::needless_range_loop)] // indices of tensors are the notation of the field
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
-pub mod acting;
-pub mod assembly;
-pub mod engine;
-pub mod held;
+pub mod boundary;
+pub mod elements;
+pub mod forces;
 pub mod integrators;
-pub mod loads;
-pub mod mass;
 pub mod materials;
+pub mod model;
+pub mod newton;
 pub mod number;
-pub mod order;
 pub mod pick;
-pub mod pressure;
-pub mod pulls;
+pub mod profile;
+pub mod simulator;
 pub mod skinning;
 pub mod solvers;
 pub mod sparse;
-pub mod springs;
-pub mod state;
-pub mod system;
+pub mod svd;
 pub mod tensor;
-pub mod work;

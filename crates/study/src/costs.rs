@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use super::equations::Equations;
 use super::row::Row;
-use fem_engine::acting::Acting;
+use fem_engine::forces::acting::Acting;
 use fem_engine::solvers::{Solver, SolverChoice};
 use fem_scene::simulate::quantile;
 

@@ -3,10 +3,10 @@
 //! Forces are the engine's, since the equations are the same whoever solves them. The mass is the consistent one (or the lumped
 //! one that the scene asks for), put together anew here and factorised exactly.
 
-use fem_engine::acting::Acting;
-use fem_engine::pulls::{Pulls, Spring};
+use fem_engine::forces::acting::Acting;
+use fem_engine::forces::pulls::{AnchorSpring, Pulls};
+use fem_engine::model::system::System;
 use fem_engine::solvers::SolverChoice;
-use fem_engine::system::System;
 use fem_mesh::volumes;
 use fem_scene::{Body, Scene};
 
@@ -31,7 +31,7 @@ type MassFactor = (Vec<usize>, Ldl, [bool; 3]);
 /// What evaluations write to.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
-    springs: Vec<Spring<f64>>,
+    springs: Vec<AnchorSpring<f64>>,
     force: Vec<[f64; 3]>,
     right: Vec<[f64; 3]>,
     /// Accelerations of led directions, zero elsewhere, m/s²; empty where nothing is led.

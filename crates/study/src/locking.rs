@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use fem_engine::engine;
+use fem_engine::simulator;
 use fem_scene::cantilever::{expected_tip_displacement, tip_displacement};
 use fem_scene::{body, parse};
 
@@ -31,7 +31,7 @@ pub fn bend(poisson: f64, cells: usize) -> Result<Bent, String> {
     );
     let scene = parse(&text, Path::new("locking.toml")).map_err(|error| error.to_string())?;
     let body = body(&scene, Path::new("")).map_err(|error| error.to_string())?;
-    let mut simulation = engine::build(&scene, body).map_err(|error| error.to_string())?;
+    let mut simulation = simulator::build(&scene, body).map_err(|error| error.to_string())?;
     simulation.step().map_err(|failure| failure.to_string())?;
     let expected = expected_tip_displacement(&scene).ok_or("the beam is no cantilever")?;
     Ok(Bent { poisson, cells, ratio: tip_displacement(&*simulation).z / expected.z })

@@ -9,11 +9,12 @@ use std::path::Path;
 use nalgebra::{DVector, Vector3};
 
 use super::quadrature::Rule;
-use fem_engine::integrators::{Limits, Newton, Statics};
+use fem_engine::integrators::Statics;
 use fem_engine::materials::Material;
+use fem_engine::model::state::State;
+use fem_engine::model::system::System;
+use fem_engine::newton::{Limits, Newton};
 use fem_engine::solvers::{Solver, SolverChoice};
-use fem_engine::state::State;
-use fem_engine::system::System;
 use fem_engine::tensor::{Tensor, from_fn};
 use fem_mesh::{TetrahedralMesh, volumes};
 use fem_scene::simulation::Counters;

@@ -202,7 +202,7 @@ mod tests {
 
     fn build(scene: &Scene) -> Result<Box<dyn Simulation>, String> {
         let body = body(scene, Path::new("no data")).map_err(|error| error.to_string())?;
-        fem_engine::engine::build(scene, body).map_err(|error| error.to_string())
+        fem_engine::simulator::build(scene, body).map_err(|error| error.to_string())
     }
 
     fn run(dt: f64, steps: usize) -> Run {

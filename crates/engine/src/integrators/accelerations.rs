@@ -1,10 +1,10 @@
 //! What explicit methods ask for: accelerations, a(u, v, t) = M⁻¹ (f(u, t) − C v). No energy, no matrix.
 
 use super::mass_inverse::MassInverse;
+use crate::forces::pulls::{AnchorSpring, Pulls};
+use crate::model::state::State;
+use crate::model::system::System;
 use crate::number::Real;
-use crate::pulls::{Pulls, Spring};
-use crate::state::State;
-use crate::system::System;
 use fem_scene::simulation::{Cause, Counters};
 
 /// Accelerations, with the vectors that they need.
@@ -14,7 +14,7 @@ use fem_scene::simulation::{Cause, Counters};
 #[derive(Clone, Debug)]
 pub struct Accelerations<T: Real> {
     mass: MassInverse<T>,
-    springs: Vec<Spring<T>>,
+    springs: Vec<AnchorSpring<T>>,
     force: Vec<[T; 3]>,
     /// Accelerations of led directions, and their velocities; empty where nothing is led.
     led: Vec<[T; 3]>,
@@ -36,7 +36,7 @@ impl<T: Real> Accelerations<T> {
     }
 
     /// The pulls of the last evaluation.
-    pub fn springs(&self) -> &[Spring<T>] {
+    pub fn springs(&self) -> &[AnchorSpring<T>] {
         &self.springs
     }
 

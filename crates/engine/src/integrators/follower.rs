@@ -1,10 +1,10 @@
 //! Loads that follow the surface, and loads that grow.
 
-use super::newton::Newton;
-use super::objective::Objective;
-use crate::acting::Acting;
+use crate::forces::acting::Acting;
+use crate::model::system::System;
+use crate::newton::Newton;
+use crate::newton::incremental_potential::IncrementalPotential;
 use crate::number::Real;
-use crate::system::System;
 use fem_scene::simulation::{Cause, Counters};
 
 /// The most times that loads are computed anew in a step.
@@ -30,10 +30,10 @@ impl<T: Real> Loads<T> {
     }
 
     /// The objective with these loads: those that were gathered last.
-    pub fn on<'a>(&'a self, objective: Objective<'a, T>) -> Objective<'a, T> {
+    pub fn on<'a>(&'a self, objective: IncrementalPotential<'a, T>) -> IncrementalPotential<'a, T> {
         let dead = objective.system.dead_load.as_deref();
         let load = if self.force.is_empty() { dead } else { Some(&self.force[..]) };
-        Objective { acting: Acting { load, ..objective.acting }, ..objective }
+        IncrementalPotential { acting: Acting { load, ..objective.acting }, ..objective }
     }
 
     /// Gathers the part `factor` of the dead loads, and of pressures on the surface at u₀ + w.
@@ -57,7 +57,7 @@ impl<T: Real> Loads<T> {
     pub fn minimize(
         &mut self,
         newton: &mut Newton<T>,
-        objective: Objective<T>,
+        objective: IncrementalPotential<T>,
         factor: f64,
         w: &mut [[T; 3]],
         counters: &mut Counters,

@@ -1,15 +1,15 @@
 //! Implicit Euler: M (v⁺ − v)/dt = f(u + dt v⁺), every force at the end of the step; first order, unconditionally stable.
 
 use super::follower::Loads;
+use super::initial_guess::Start;
 use super::momentum;
-use super::newton::Newton;
-use super::objective::{Motion, Objective};
-use super::start::Start;
-use crate::acting::Acting;
+use crate::forces::acting::Acting;
+use crate::forces::pulls::AnchorSpring;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::newton::Newton;
+use crate::newton::incremental_potential::{IncrementalPotential, Motion};
 use crate::number::Real;
-use crate::pulls::Spring;
-use crate::state::State;
-use crate::system::System;
 use fem_scene::simulation::{Cause, Counters};
 
 /// Implicit Euler as the minimisation of an energy, by [`Newton`]'s method.
@@ -41,7 +41,7 @@ impl<T: Real> ImplicitEuler<T> {
         &mut self,
         system: &System<T>,
         state: &mut State<T>,
-        springs: &[Spring<T>],
+        springs: &[AnchorSpring<T>],
         dt: f64,
         counters: &mut Counters,
     ) -> Result<bool, Cause> {
@@ -51,7 +51,7 @@ impl<T: Real> ImplicitEuler<T> {
         }
         let motion = Motion::new(system, inertial, dt);
         let acting = Acting { pulls: springs, load: None };
-        let objective = Objective { system, acting, start: &state.u, motion: Some(motion) };
+        let objective = IncrementalPotential { system, acting, start: &state.u, motion: Some(motion) };
         loads.gather(system, 1.0, &state.u, inertial);
         likely(step, inertial, last_change, T::of(dt));
         Start { newton, loads, objective, motion, end: state.time + dt }.find(step, counters)?;

@@ -4,14 +4,14 @@
 
 use super::follower::Loads;
 use super::momentum;
-use super::objective::{Motion, Objective, Scratch};
-use crate::acting::Acting;
+use crate::forces::acting::Acting;
+use crate::forces::pulls::AnchorSpring;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::newton::incremental_potential::{IncrementalPotential, Motion, Scratch};
 use crate::number::Real;
-use crate::pulls::Spring;
 use crate::solvers::Solver;
 use crate::sparse::Block;
-use crate::state::State;
-use crate::system::System;
 use fem_scene::simulation::{Cause, Counters};
 
 /// Linearly implicit Euler with its solver and vectors.
@@ -55,7 +55,7 @@ impl<T: Real> LinearlyImplicitEuler<T> {
         &mut self,
         system: &System<T>,
         state: &mut State<T>,
-        springs: &[Spring<T>],
+        springs: &[AnchorSpring<T>],
         dt: f64,
         counters: &mut Counters,
     ) -> Result<(), Cause> {
@@ -67,7 +67,7 @@ impl<T: Real> LinearlyImplicitEuler<T> {
         loads.gather(system, 1.0, &state.u, led);
         system.lead(|motion| motion.fraction(state.time + dt), &state.u, led);
         let (motion, acting) = (Some(Motion::new(system, inertial, dt)), Acting { pulls: springs, load: None });
-        let objective = loads.on(Objective { system, acting, start: &state.u, motion });
+        let objective = loads.on(IncrementalPotential { system, acting, start: &state.u, motion });
         counters.force_assemblies += 1;
         objective.linear_slope(led, right, scratch);
         for right in right.as_flattened_mut() {
@@ -95,7 +95,7 @@ impl<T: Real> LinearlyImplicitEuler<T> {
 
 /// The matrix is the Hessian where the step starts, at w = 0; projected where that is not positive definite.
 fn prepare<T: Real>(
-    objective: &Objective<T>,
+    objective: &IncrementalPotential<T>,
     w: &[[T; 3]],
     solver: &mut Solver<T>,
     values: &mut [Block<T, 3>],

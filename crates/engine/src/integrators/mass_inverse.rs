@@ -1,9 +1,9 @@
 //! M⁻¹ f over the directions that are not held.
 
-use crate::mass::Mass;
+use crate::model::mass::Mass;
+use crate::model::system::System;
 use crate::number::Real;
 use crate::solvers::{Breakdown, dot, norm};
-use crate::system::System;
 use fem_scene::simulation::Cause;
 
 /// Division by a lumped mass; conjugate gradients with the diagonal as preconditioner for a consistent one. For tetrahedra the

@@ -3,17 +3,16 @@
 mod accelerations;
 mod explicit_euler;
 mod follower;
-mod history;
+
 mod implicit_euler;
 mod linearly_implicit_euler;
 mod mass_inverse;
 mod momentum;
-mod newton;
-mod objective;
+
+mod initial_guess;
 mod rk2;
 mod rk4;
 mod semi_implicit_euler;
-mod start;
 mod statics;
 mod verlet;
 
@@ -21,7 +20,7 @@ pub use explicit_euler::ExplicitEuler;
 pub use implicit_euler::ImplicitEuler;
 pub use linearly_implicit_euler::LinearlyImplicitEuler;
 pub use mass_inverse::MassInverse;
-pub use newton::{Limits, Newton};
+
 pub use rk2::Rk2;
 pub use rk4::Rk4;
 pub use semi_implicit_euler::SemiImplicitEuler;

@@ -1,6 +1,6 @@
 //! The last digits of a free body's momentum.
 
-use super::objective::Objective;
+use crate::newton::incremental_potential::IncrementalPotential;
 use crate::number::Real;
 
 /// Puts the mean of a step right where nothing holds or pulls the body.
@@ -8,8 +8,8 @@ use crate::number::Real;
 /// Forces inside a body add up to zero, so the step's sum over all nodes, M-weighted, is what inertia, loads and the damping of
 /// the mass alone make it. In the matrix of a small stiff body M is far below dt² K, and a solution loses that. `w` is the step
 /// of `dt` seconds, m.
-pub fn restore<T: Real>(objective: &Objective<T>, dt: f64, w: &mut [[T; 3]]) {
-    let Objective { system, acting, motion: Some(motion), .. } = objective else { return };
+pub fn restore<T: Real>(objective: &IncrementalPotential<T>, dt: f64, w: &mut [[T; 3]]) {
+    let IncrementalPotential { system, acting, motion: Some(motion), .. } = objective else { return };
     if !system.is_unheld() || !acting.pulls.is_empty() {
         return;
     }

@@ -2,10 +2,10 @@
 
 use super::accelerations::Accelerations;
 use super::mass_inverse::step;
+use crate::forces::pulls::Pulls;
+use crate::model::state::State;
+use crate::model::system::System;
 use crate::number::Real;
-use crate::pulls::Pulls;
-use crate::state::State;
-use crate::system::System;
 use fem_scene::simulation::{Cause, Counters};
 
 /// The classical method with its vectors.

@@ -1,17 +1,17 @@
 //! Equilibrium: ∇V(u) = 0 at loads and prescribed motions that grow in equal parts, one in each step.
 
 use super::follower::Loads;
-use super::newton::Newton;
-use super::objective::{Objective, Scratch};
-use super::start::no_start;
-use crate::acting::Acting;
+use super::initial_guess::no_start;
+use crate::forces::acting::Acting;
+use crate::forces::pulls::AnchorSpring;
 use crate::materials::Material;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::newton::Newton;
+use crate::newton::incremental_potential::{IncrementalPotential, Scratch};
 use crate::number::Real;
-use crate::pulls::Spring;
 use crate::solvers::Solver;
 use crate::sparse::Block;
-use crate::state::State;
-use crate::system::System;
 use fem_scene::simulation::{Cause, Counters};
 
 /// The search for equilibrium, with its vectors.
@@ -94,7 +94,7 @@ impl<T: Real> Statics<T> {
         &mut self,
         system: &System<T>,
         state: &mut State<T>,
-        pulls: &[Spring<T>],
+        pulls: &[AnchorSpring<T>],
         counters: &mut Counters,
     ) -> Result<bool, Cause> {
         let (from, to) = (self.fraction(state.steps), self.fraction(state.steps + 1));
@@ -127,7 +127,7 @@ impl<T: Real> Linear<T> {
     ) -> Result<(), Cause> {
         let Self { solver, tolerance, values, scratch, rest, right, free } = self;
         loads.gather(system, fraction, rest, rest);
-        let objective = loads.on(Objective { system, acting, start: rest, motion: None });
+        let objective = loads.on(IncrementalPotential { system, acting, start: rest, motion: None });
         system.lead(|_| fraction, rest, u);
         counters.force_assemblies += 1;
         objective.linear_slope(u, right, scratch);
@@ -190,7 +190,7 @@ impl<T: Real> Work<'_, T> {
         let Self { newton, system, acting, loads, led, step } = self;
         step.fill([T::default(); 3]);
         loads.gather(system, fraction, u, step);
-        let objective = Objective { system, acting: *acting, start: u, motion: None };
+        let objective = IncrementalPotential { system, acting: *acting, start: u, motion: None };
         system.lead(|_| fraction, u, led);
         newton.predict(&loads.on(objective), led, step, counters)?;
         if !newton.can_start(&loads.on(objective), step, counters) {

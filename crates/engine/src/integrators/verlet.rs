@@ -3,10 +3,10 @@
 
 use super::accelerations::Accelerations;
 use super::mass_inverse::step;
+use crate::forces::pulls::{AnchorSpring, Pulls};
+use crate::model::state::State;
+use crate::model::system::System;
 use crate::number::Real;
-use crate::pulls::{Pulls, Spring};
-use crate::state::State;
-use crate::system::System;
 use fem_scene::simulation::{Cause, Counters};
 
 /// Velocity Verlet with its vectors.
@@ -15,7 +15,7 @@ pub struct Verlet<T: Real> {
     a: Vec<[T; 3]>,
     v: Vec<[T; 3]>,
     /// The pulls at the start of a step.
-    springs: Vec<Spring<T>>,
+    springs: Vec<AnchorSpring<T>>,
     /// Whether `a` is that at the end of the last step.
     is_known: bool,
 }

@@ -7,8 +7,9 @@
 //! element that is inside out has σ_3 < 0 and is pushed back. Where σ_i + σ_j = 0, R jumps and ψ has a crease.
 
 use super::isotropic::{Principal, derivative_from, projected};
-use super::{Law, Projected, Singular, singular};
+use super::{Law, Projected};
 use crate::number::{Number, Real, constant};
+use crate::svd::{Svd, svd};
 use crate::tensor::{Tensor, Tensor4, dot, green_strain, half, plus_identity};
 
 /// Lamé's constants of small strain, Pa.
@@ -22,8 +23,8 @@ pub struct Corotated<T> {
 
 /// F = U diag(1 + e) Vᵀ and e.
 #[inline(always)]
-fn stretches<T: Number>(G: &Tensor<T>) -> (Singular<T>, [T; 3]) {
-    let F = singular(&plus_identity(G));
+fn stretches<T: Number>(G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
+    let F = svd(&plus_identity(G));
     let strain = green_strain(G);
     let is_small = dot(&strain, &strain).simd_lt(constant(0.0625));
     let mut e = F.sigma;
@@ -43,7 +44,7 @@ fn stretches<T: Number>(G: &Tensor<T>) -> (Singular<T>, [T; 3]) {
 
 impl<T: Number> Corotated<T> {
     #[inline(always)]
-    fn principal(&self, F: &Singular<T>, e: &[T; 3]) -> Principal<T> {
+    fn principal(&self, F: &Svd<T>, e: &[T; 3]) -> Principal<T> {
         let two = constant::<T>(2.0);
         let pressure = two * self.lambda * (e[0] + e[1] + e[2]);
         // On the crease the derivative is not finite; beside it, it is cut off.

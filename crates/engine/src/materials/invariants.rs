@@ -1,8 +1,8 @@
 //! The stress derivative of a law of the invariants I = tr(FᵀF) and J = det F.
 
 use super::isotropic::{derivative_from, from_invariants, projected};
-use super::singular;
 use crate::number::Number;
+use crate::svd::svd;
 use crate::tensor::{Tensor, Tensor4, add_cofactor_derivative, add_diagonal, outer_products};
 
 /// P = a F + b cof and ∂P/∂F = a 1 + s F⊗F + t (F⊗cof + cof⊗F) + r cof⊗cof + b ∂cof/∂F, where cof = ∂J/∂F.
@@ -31,7 +31,7 @@ impl<T: Number> OfInvariants<T> {
     /// The same with its negative eigenvalues raised to zero.
     #[inline(always)]
     pub fn projected(&self) -> Tensor4<T> {
-        let F = singular(&self.F);
+        let F = svd(&self.F);
         derivative_from(&F, &projected(&from_invariants(&F.sigma, self.a, self.b, [self.s, self.t, self.r])))
     }
 }

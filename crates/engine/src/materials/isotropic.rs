@@ -6,9 +6,9 @@
 //! Energies (2019). Laws give the ratios with their denominators divided out, so that nothing is 0/0 where stretches
 //! coincide.
 
-use super::Singular;
-use super::singular::{largest_entry, rotation, turn, unit};
 use crate::number::Number;
+use crate::svd::Svd;
+use crate::svd::{largest_entry, rotation, turn, unit};
 use crate::tensor::{Tensor, Tensor4, zero};
 
 /// Sweeps of Jacobi's iteration; the angles left over square from one to the next.
@@ -103,7 +103,7 @@ fn eigen<T: Number>(A: &Tensor<T>, size: T) -> ([T; 3], [[T; 3]; 3]) {
 
 /// ∂P/∂F
 #[inline(always)]
-pub(super) fn derivative_from<T: Number>(F: &Singular<T>, principal: &Principal<T>) -> Tensor4<T> {
+pub(super) fn derivative_from<T: Number>(F: &Svd<T>, principal: &Principal<T>) -> Tensor4<T> {
     let half = crate::tensor::half::<T>();
     // A row of `q` is u_i v_jᵀ; with the same row of `images`, ∂P/∂F = Σ q ⊗ image.
     let mut q = [[T::zero(); 9]; 9];

@@ -11,7 +11,6 @@ mod isotropic;
 mod linear;
 mod material;
 mod neo_hookean;
-mod singular;
 mod st_venant_kirchhoff;
 mod stable_neo_hookean;
 #[cfg(test)]
@@ -24,7 +23,6 @@ pub use linear::Linear;
 pub(crate) use material::with_law;
 pub use material::{Material, allows_inversion};
 pub use neo_hookean::NeoHookean;
-pub use singular::{Singular, singular};
 pub use st_venant_kirchhoff::StVenantKirchhoff;
 pub use stable_neo_hookean::StableNeoHookean;
 

@@ -5,8 +5,9 @@
 //! An element that is squashed to less than 1/√3 of its length resists less and less, one that is flat not at all.
 
 use super::isotropic::{Principal, derivative_from, projected};
-use super::{Law, Projected, singular};
+use super::{Law, Projected};
 use crate::number::{Number, constant};
+use crate::svd::svd;
 use crate::tensor::{Tensor, Tensor4, dot, from_fn, green_strain, half, plus_identity, product, trace};
 
 /// Lamé's constants of small strain, Pa.
@@ -73,7 +74,7 @@ impl<T: Number> Projected<T> for StVenantKirchhoff<T> {
     /// With e_i = (σ_i² − 1)/2 and p_i = σ_i (2μ e_i + λ Σe), the ratios (p_i ± p_j)/(σ_i ± σ_j) divide out.
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        let F = singular(&plus_identity(G));
+        let F = svd(&plus_identity(G));
         let sigma = &F.sigma;
         let pressure = self.lambda * trace(&green_strain(G));
         let mut principal = Principal::zero();

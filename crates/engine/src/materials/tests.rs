@@ -6,7 +6,7 @@ mod lanes;
 mod material;
 mod near_rest;
 mod projected;
-mod singular;
+mod svd;
 mod symmetries;
 
 use super::{Corotated, Law, Linear, NeoHookean, Projected, StVenantKirchhoff, StableNeoHookean};

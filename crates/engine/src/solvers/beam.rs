@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::model::numbering::{Numbering, Ordering};
 use crate::number::Real;
-use crate::order::{Numbering, Order};
 use crate::sparse::{Pattern, Stored};
 use fem_mesh::{TetrahedralMesh, box_mesh};
 
@@ -30,11 +30,11 @@ impl Beam {
     pub fn held_where(cells_per_unit: usize, stored: Stored, hold: impl Fn(&Vector3<f64>) -> bool) -> Self {
         let mesh = box_mesh([4.0, 1.0, 1.0], cells_per_unit).unwrap();
         let held: Vec<bool> = mesh.vertices.iter().map(hold).collect();
-        let order = Order::new(Numbering::Dissected, &mesh.vertices, &mesh.elements, &held);
+        let order = Numbering::new(Ordering::Dissected, &mesh.vertices, &mesh.elements, &held);
         Self::ordered(&mesh, &order, stored)
     }
 
-    pub fn ordered(mesh: &TetrahedralMesh, order: &Order, stored: Stored) -> Self {
+    pub fn ordered(mesh: &TetrahedralMesh, order: &Numbering, stored: Stored) -> Self {
         let elements = order.elements(&mesh.elements);
         let vertices: Vec<Vector3<f64>> = order.mesh_node.iter().map(|&node| mesh.vertices[node as usize]).collect();
         let rest = vertices[..order.free].iter().map(|x| [x.x, x.y, x.z]).collect();

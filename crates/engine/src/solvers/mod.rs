@@ -27,7 +27,6 @@ use std::time::Instant;
 
 pub use amd::amd_order;
 pub use product::product;
-pub use supernodal::Packed;
 pub use vector::{dot, norm};
 
 use block_jacobi::BlockJacobi;
@@ -39,10 +38,10 @@ use multigrid::Multigrid;
 use refine::refine;
 use ssor::Ssor;
 
+use crate::model::numbering::Ordering;
 use crate::number::Real;
-use crate::order::Numbering;
+use crate::profile::Timer;
 use crate::sparse::{Pattern, Stored};
-use crate::work::Meter;
 
 pub use fem_scene::simulation::Breakdown;
 
@@ -76,10 +75,10 @@ impl SolverChoice {
     }
 
     /// In which order the rows should be: a factor should fill in little, sweeps should pass from one end to the other.
-    pub fn numbering(self) -> Numbering {
+    pub fn numbering(self) -> Ordering {
         match self {
-            SolverChoice::Cholesky | SolverChoice::Lu => Numbering::Dissected,
-            SolverChoice::Cg | SolverChoice::Pcg(_) => Numbering::Swept,
+            SolverChoice::Cholesky | SolverChoice::Lu => Ordering::Dissected,
+            SolverChoice::Cg | SolverChoice::Pcg(_) => Ordering::Swept,
         }
     }
 }
@@ -132,8 +131,8 @@ pub struct Solver<T: Real> {
     method: Method<T>,
     work: Work<T>,
     counters: Counters,
-    preparing: Meter,
-    solving: Meter,
+    preparing: Timer,
+    solving: Timer,
 }
 
 enum Method<T> {
@@ -166,8 +165,8 @@ impl<T: Real> Solver<T> {
             method,
             work: Work::new(pattern.rows()),
             counters,
-            preparing: Meter::default(),
-            solving: Meter::default(),
+            preparing: Timer::default(),
+            solving: Timer::default(),
         }
     }
 
@@ -258,7 +257,7 @@ impl<T: Real> Solver<T> {
     }
 
     /// How often it has prepared and solved, and for how long.
-    pub fn meters(&self) -> (&Meter, &Meter) {
+    pub fn meters(&self) -> (&Timer, &Timer) {
         (&self.preparing, &self.solving)
     }
 

@@ -44,7 +44,7 @@ fn data() -> PathBuf {
 /// The scene after so many steps, all of which have converged.
 fn run(scene: &Scene, steps: usize) -> Box<dyn Simulation> {
     let body = body(scene, &data()).unwrap_or_else(|error| panic!("{error}"));
-    let mut simulation = fem_engine::engine::build(scene, body).unwrap_or_else(|error| panic!("{error}"));
+    let mut simulation = fem_engine::simulator::build(scene, body).unwrap_or_else(|error| panic!("{error}"));
     for _ in 0..steps {
         simulation.step().unwrap_or_else(|failure| panic!("{failure}"));
     }

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use fem_engine::acting::Acting;
+use fem_engine::forces::acting::Acting;
 use fem_engine::materials::Material;
+use fem_engine::model::system::System;
 use fem_engine::solvers::SolverChoice;
-use fem_engine::system::System;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::{MODELS, block, scene};

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use fem_engine::materials::Material;
+use fem_engine::model::system::System;
 use fem_engine::solvers::SolverChoice;
-use fem_engine::system::System;
 use fem_scene::simulation::Simulation;
 use nalgebra::DMatrix;
 

@@ -8,14 +8,14 @@ use std::path::Path;
 use crate::{build, run, soft};
 
 /// The engine itself, whose nodes can be put anywhere.
-fn engine(text: &str) -> fem_engine::engine::Engine<f64> {
+fn engine(text: &str) -> fem_engine::simulator::Simulator<f64> {
     let scene = parse(text, Path::new("case.toml")).unwrap();
     let body = body(&scene, Path::new("")).unwrap();
-    fem_engine::engine::Engine::new(&scene, body).unwrap()
+    fem_engine::simulator::Simulator::new(&scene, body).unwrap()
 }
 
 /// Puts every node where `place` says, without velocity.
-fn place(simulation: &mut fem_engine::engine::Engine<f64>, place: impl Fn(&Vector3<f64>) -> Vector3<f64>) {
+fn place(simulation: &mut fem_engine::simulator::Simulator<f64>, place: impl Fn(&Vector3<f64>) -> Vector3<f64>) {
     let shape = simulation.shape();
     let displacements: Vec<[f64; 3]> = shape.mesh.vertices.iter().map(|X| (place(X) - X).into()).collect();
     simulation.place(&displacements, &vec![[0.0; 3]; displacements.len()]);
@@ -92,7 +92,7 @@ fn the_half_that_is_stiffer_and_denser_moves_less_and_weighs_more() {
     // The first six elements are those of the cell at x < 1.
     body.stiffer = (0..12).map(|element| if element < 6 { 1.0 } else { 1e6 }).collect();
     body.denser = (0..12).map(|element| if element < 6 { 1.0 } else { 3.0 }).collect();
-    let mut simulation = fem_engine::engine::Engine::<f64>::new(&scene, body).unwrap();
+    let mut simulation = fem_engine::simulator::Simulator::<f64>::new(&scene, body).unwrap();
     run(&mut simulation, 1);
     let sunk = |node: usize| 1.0 - simulation.positions()[3 * node + 2];
     assert!(sunk(6) > 1e-4 && sunk(8).abs() < 1e-3 * sunk(6), "{} and {}", sunk(6), sunk(8));

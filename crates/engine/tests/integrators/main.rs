@@ -30,7 +30,7 @@ fn scene(text: &str) -> Scene {
 fn try_build(text: &str) -> Result<Box<dyn Simulation>, SceneError> {
     let scene = scene(text);
     let body = fem_scene::body(&scene, Path::new("no data"))?;
-    fem_engine::engine::build(&scene, body)
+    fem_engine::simulator::build(&scene, body)
 }
 
 fn build(text: &str) -> Box<dyn Simulation> {

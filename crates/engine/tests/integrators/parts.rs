@@ -143,7 +143,7 @@ fn with_display() -> Box<dyn Simulation> {
     std::fs::write(folder.path().join("a.toml"), text).unwrap();
     let scene = fem_scene::load(folder.path().join("a.toml").to_str().unwrap(), folder.path()).unwrap();
     let body = fem_scene::body(&scene, folder.path()).unwrap();
-    fem_engine::engine::build(&scene, body).unwrap()
+    fem_engine::simulator::build(&scene, body).unwrap()
 }
 
 #[test]

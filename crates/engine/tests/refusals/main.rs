@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use fem_engine::engine;
+use fem_engine::simulator;
 use fem_scene::simulation::Simulation;
 use fem_scene::{Integrator, SceneError, parse};
 
@@ -82,7 +82,7 @@ frequency = 1.5
 fn try_all(text: &str) -> Result<Box<dyn Simulation>, SceneError> {
     let scene = parse(text, Path::new("folder/name.toml"))?;
     let body = fem_scene::body(&scene, Path::new("no data"))?;
-    engine::build(&scene, body)
+    simulator::build(&scene, body)
 }
 
 /// Line (counted from 1), and the bytes in the whole text, of every number that stands outside quotes.

@@ -6,7 +6,7 @@ use super::case::{Case, Clock, Finding, Outcome};
 use super::march::march;
 use super::scene_text::{CLAMPED, DYNAMIC, LUMPED, Text, gravity, moved_box};
 use super::start::{Random, place_moving};
-use fem_engine::engine::Engine;
+use fem_engine::simulator::Simulator;
 use fem_mesh::TetrahedralMesh;
 
 const FAMILY: &str = "frames of reference";
@@ -80,7 +80,7 @@ fn answer(text: &Text, mesh: TetrahedralMesh, steps: usize, clock: Clock) -> Res
     }
 }
 
-fn relative(simulation: &Engine<f64>) -> Vec<Vector3<f64>> {
+fn relative(simulation: &Simulator<f64>) -> Vec<Vector3<f64>> {
     let (system, u) = (simulation.system(), &simulation.state().u);
     system.order.to_mesh(u).into_iter().map(|u| Vector3::from(u) / system.length).collect()
 }
@@ -206,7 +206,7 @@ fn rigid(integrator: &'static str, mass: &'static str, steps: usize) -> Case {
 }
 
 /// Σ M v, kg m/s.
-fn momentum(simulation: &Engine<f64>) -> Vector3<f64> {
+fn momentum(simulation: &Simulator<f64>) -> Vector3<f64> {
     let (masses, v) = (simulation.system().mass.lumped(), &simulation.state().v);
     masses.iter().zip(v).map(|(mass, v)| *mass * Vector3::from(*v)).sum()
 }

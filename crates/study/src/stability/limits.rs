@@ -5,7 +5,7 @@ use super::march::march;
 use super::matrix::{clamped, excite, forecast, try_forecast};
 use super::scene_text::{DYNAMIC, LUMPED, Text};
 use super::theory;
-use fem_engine::engine::Engine;
+use fem_engine::simulator::Simulator;
 use fem_scene::simulation::Simulation;
 
 const FAMILY: &str = "limits of stability";
@@ -121,7 +121,7 @@ fn measured(text: &Text, growth: f64, clock: Clock) -> Finding {
 }
 
 /// The rate beside that of theory; what grows fast enough goes on to its end.
-fn rated(simulation: &mut Engine<f64>, rate: f64, growth: f64, clock: Clock) -> Finding {
+fn rated(simulation: &mut Simulator<f64>, rate: f64, growth: f64, clock: Clock) -> Finding {
     let (ratio, note) = (rate / growth, format!("{rate:.4e} e-folds a step"));
     if !((ratio - 1.0).abs() <= 0.01) {
         return Finding::new(Outcome::Deviates, ratio, note);
@@ -137,6 +137,6 @@ fn rated(simulation: &mut Engine<f64>, rate: f64, growth: f64, clock: Clock) -> 
 }
 
 /// √(kinetic + potential energy): of a single vibration, a multiple of its amplitude.
-fn amplitude(simulation: &Engine<f64>) -> f64 {
+fn amplitude(simulation: &Simulator<f64>) -> f64 {
     simulation.energies().total().max(0.0).sqrt()
 }

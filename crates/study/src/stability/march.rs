@@ -1,8 +1,8 @@
 //! Steps a case, and notes what decides whether it survives.
 
 use super::case::{Clock, Finding, Outcome};
-use fem_engine::engine::Engine;
 use fem_engine::number::Real;
+use fem_engine::simulator::Simulator;
 use fem_scene::simulation::{Failure, Simulation};
 
 /// Part of the steps that must converge.
@@ -31,16 +31,16 @@ pub struct March {
 }
 
 /// Takes up to so many steps.
-pub fn march<T: Real>(simulation: &mut Engine<T>, steps: usize, clock: Clock) -> March {
+pub fn march<T: Real>(simulation: &mut Simulator<T>, steps: usize, clock: Clock) -> March {
     march_with(simulation, steps, clock, |_| {})
 }
 
 /// The same; calls `after` at the end of each step.
 pub fn march_with<T: Real>(
-    simulation: &mut Engine<T>,
+    simulation: &mut Simulator<T>,
     steps: usize,
     clock: Clock,
-    mut after: impl FnMut(&Engine<T>),
+    mut after: impl FnMut(&Simulator<T>),
 ) -> March {
     let before = simulation.counters().unconverged_steps;
     let mut march = March {

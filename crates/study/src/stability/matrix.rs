@@ -4,7 +4,7 @@ use super::case::{Case, Clock, Finding, Outcome};
 use super::march::{SMALLEST_J, march};
 use super::scene_text::{CLAMPED, DYNAMIC, LAWS, Text, gravity};
 use super::theory::{self, Fastest};
-use fem_engine::engine::Engine;
+use fem_engine::simulator::Simulator;
 
 const FAMILY: &str = "stiffness and time step";
 
@@ -76,7 +76,7 @@ pub fn unit_omega() -> f64 {
 }
 
 /// Starts in the shape of the fastest vibration.
-pub fn excite(simulation: &mut Engine<f64>, amplitude: f64) -> Result<Fastest, Finding> {
+pub fn excite(simulation: &mut Simulator<f64>, amplitude: f64) -> Result<Fastest, Finding> {
     let fastest = theory::fastest(simulation.system());
     let fastest = fastest.map_err(|cause| Finding::plain(Outcome::Deviates, format!("no frequency: {cause:?}")))?;
     let order = &simulation.system().order;

@@ -6,7 +6,7 @@ use super::case::{Case, Clock, Finding, Outcome};
 use super::march::{SMALLEST_J, march};
 use super::matrix::excite;
 use super::scene_text::{CLAMPED, Text, gravity, refused};
-use fem_engine::engine::Engine;
+use fem_engine::simulator::Simulator;
 use fem_scene::body;
 
 const FAMILY: &str = "unlike neighbours";
@@ -83,7 +83,7 @@ fn tried(mixture: Factors, mut text: Text, steps: usize, clock: Clock) -> Result
     Ok(march(&mut build(&text, mixture)?, steps, clock).survival())
 }
 
-fn build(text: &Text, mixture: Factors) -> Result<Engine<f64>, Finding> {
+fn build(text: &Text, mixture: Factors) -> Result<Simulator<f64>, Finding> {
     let scene = text.scene().map_err(refused)?;
     let mut body = body(&scene, Path::new("")).map_err(refused)?;
     let mesh = &body.shape.mesh;
@@ -91,5 +91,5 @@ fn build(text: &Text, mixture: Factors) -> Result<Engine<f64>, Finding> {
     let beyond: Vec<bool> = mesh.elements.iter().map(is_beyond).collect();
     let factors = |factor: f64| beyond.iter().map(|&beyond| if beyond { factor } else { 1.0 }).collect();
     (body.stiffer, body.denser) = (factors(mixture.young), factors(mixture.density));
-    Engine::new(&scene, body).map_err(refused)
+    Simulator::new(&scene, body).map_err(refused)
 }

@@ -11,7 +11,7 @@ use super::march::march;
 use super::scene_text::{CLAMPED, Text};
 use super::start::{Random, distance_from_rest, place};
 use super::strains::DAMPED;
-use fem_engine::engine::Engine;
+use fem_engine::simulator::Simulator;
 use fem_scene::simulation::Simulation;
 
 const FAMILY: &str = "recovery";
@@ -110,7 +110,7 @@ fn recovering(name: &str, tangle: Tangle, expected: Outcome, is_held: bool, seed
     }
 }
 
-fn recovered(simulation: &mut Engine<f64>, tangle: Tangle, is_held: bool, seed: u64, clock: Clock) -> Finding {
+fn recovered(simulation: &mut Simulator<f64>, tangle: Tangle, is_held: bool, seed: u64, clock: Clock) -> Finding {
     let mut random = Random::new(seed);
     let mut tangled = tangle(&mut random);
     place(simulation, |X| tangled(&mut random, X) + SHAKEN * random.vector());
@@ -118,7 +118,7 @@ fn recovered(simulation: &mut Engine<f64>, tangle: Tangle, is_held: bool, seed: 
 }
 
 /// Whether a body is back after so many steps: where it was where it is held, else in its shape.
-pub fn back_at_rest(simulation: &mut Engine<f64>, steps: usize, is_held: bool, clock: Clock) -> Finding {
+pub fn back_at_rest(simulation: &mut Simulator<f64>, steps: usize, is_held: bool, clock: Clock) -> Finding {
     let end = march(simulation, steps, clock);
     if let Some(trouble) = end.trouble().filter(|trouble| trouble.outcome != Outcome::Inverts) {
         return trouble;
@@ -138,7 +138,7 @@ pub fn back_at_rest(simulation: &mut Engine<f64>, steps: usize, is_held: bool, c
 }
 
 /// Largest change of the distance between two nodes, in lengths of the body: a free one may end anywhere, and turned.
-fn change_of_shape(simulation: &Engine<f64>) -> f64 {
+fn change_of_shape(simulation: &Simulator<f64>) -> f64 {
     let (system, u) = (simulation.system(), &simulation.state().u);
     let x: Vec<Vector3<f64>> = system.rest.iter().zip(u).map(|(X, u)| X + Vector3::from(*u)).collect();
     let change = |i: usize, j: usize| ((x[i] - x[j]).norm() - (system.rest[i] - system.rest[j]).norm()).abs();

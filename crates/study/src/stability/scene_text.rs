@@ -6,8 +6,8 @@ use nalgebra::Vector3;
 
 use super::case::Finding;
 use super::case::Outcome;
-use fem_engine::engine::Engine;
 use fem_engine::number::Real;
+use fem_engine::simulator::Simulator;
 use fem_mesh::TetrahedralMesh;
 use fem_scene::{Scene, SceneError, body, body_of, parse};
 
@@ -87,22 +87,22 @@ impl Text {
     }
 
     /// The simulation, at rest.
-    pub fn build(&self) -> Result<Engine<f64>, Finding> {
+    pub fn build(&self) -> Result<Simulator<f64>, Finding> {
         let scene = self.scene().map_err(refused)?;
         let body = body(&scene, Path::new("")).map_err(refused)?;
-        Engine::new(&scene, body).map_err(refused)
+        Simulator::new(&scene, body).map_err(refused)
     }
 
     /// The same on another mesh.
-    pub fn build_on(&self, mesh: TetrahedralMesh) -> Result<Engine<f64>, Finding> {
+    pub fn build_on(&self, mesh: TetrahedralMesh) -> Result<Simulator<f64>, Finding> {
         self.build_on_as(mesh)
     }
 
     /// The same in a precision; the scene must name it too.
-    pub fn build_on_as<T: Real>(&self, mesh: TetrahedralMesh) -> Result<Engine<T>, Finding> {
+    pub fn build_on_as<T: Real>(&self, mesh: TetrahedralMesh) -> Result<Simulator<T>, Finding> {
         let scene = self.scene().map_err(refused)?;
         let body = body_of(&scene, mesh, Path::new("")).map_err(refused)?;
-        Engine::new(&scene, body).map_err(refused)
+        Simulator::new(&scene, body).map_err(refused)
     }
 }
 

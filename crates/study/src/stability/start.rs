@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use fem_engine::engine::Engine;
+use fem_engine::simulator::Simulator;
 
 /// Evenly spread numbers: SplitMix64 by Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators (2014).
 pub struct Random(u64);
@@ -54,13 +54,13 @@ impl Random {
 }
 
 /// Moves the nodes that nothing holds wholly to where `place` says, without velocity.
-pub fn place(simulation: &mut Engine<f64>, mut place: impl FnMut(&Vector3<f64>) -> Vector3<f64>) {
+pub fn place(simulation: &mut Simulator<f64>, mut place: impl FnMut(&Vector3<f64>) -> Vector3<f64>) {
     place_moving(simulation, |X| (place(X), Vector3::zeros()));
 }
 
 /// The same with a velocity, m/s.
 pub fn place_moving(
-    simulation: &mut Engine<f64>,
+    simulation: &mut Simulator<f64>,
     mut place: impl FnMut(&Vector3<f64>) -> (Vector3<f64>, Vector3<f64>),
 ) {
     let system = simulation.system();
@@ -76,7 +76,7 @@ pub fn place_moving(
 }
 
 /// Largest distance of a node from where it is at rest, in lengths of the body.
-pub fn distance_from_rest(simulation: &Engine<f64>) -> f64 {
+pub fn distance_from_rest(simulation: &Simulator<f64>) -> f64 {
     let u = simulation.state().u.iter().map(|u| Vector3::from(*u).norm());
     u.fold(0.0, f64::max) / simulation.system().length
 }

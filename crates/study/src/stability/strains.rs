@@ -7,7 +7,7 @@ use super::march::{SMALLEST_J, march};
 use super::recovery::{MARGIN_IS, back_at_rest};
 use super::scene_text::{CLAMPED, Text, led_end};
 use super::start::place;
-use fem_engine::engine::Engine;
+use fem_engine::simulator::Simulator;
 
 const FAMILY: &str = "large strains";
 
@@ -188,7 +188,7 @@ fn released_linearly(name: &str, factors: [f64; 2], dt: f64) -> Case {
     )
 }
 
-fn placed(text: &Text, [along, across]: [f64; 2]) -> Result<Engine<f64>, Finding> {
+fn placed(text: &Text, [along, across]: [f64; 2]) -> Result<Simulator<f64>, Finding> {
     let mut simulation = text.build()?;
     place(&mut simulation, |X| Vector3::new(along * X.x, across * X.y, across * X.z));
     Ok(simulation)

@@ -36,7 +36,7 @@ fn found() -> &'static (Report, tempfile::TempDir) {
                 return Err("the engine's tests know nothing of the course".to_owned());
             }
             let body = fem_scene::body(scene, &root().join("data")).map_err(|error| error.to_string())?;
-            fem_engine::engine::build(scene, body).map_err(|error| error.to_string())
+            fem_engine::simulator::build(scene, body).map_err(|error| error.to_string())
         };
         let scenes = ["arma", "beam", "bar", "cantilever"].map(|name| fem_scene::load(name, &data).unwrap());
         let setting = Setting {

@@ -1,7 +1,7 @@
 //! Stress against differences of the energy, stress derivative against differences of the stress.
 
 use super::*;
-use crate::materials::singular::singular;
+use crate::svd::svd;
 use crate::tensor::plus_identity;
 
 /// Largest errors of central differences with step h, relative to the largest entry: of the stress, of its derivative.
@@ -30,7 +30,7 @@ fn converges(coarse: f64, fine: f64) -> bool {
 
 fn check(name: &str, law: impl Law<f64>, G: &Tensor<f64>) {
     // A step is small against the smallest stretch, on which the curvature depends.
-    let smallest = singular(&plus_identity(G)).sigma.map(f64::abs)[2].min(1.0);
+    let smallest = svd(&plus_identity(G)).sigma.map(f64::abs)[2].min(1.0);
     let h = 1e-3 * smallest;
     let (coarse, fine) = (errors(&law, G, h), errors(&law, G, h / 2.0));
     assert!(converges(coarse.0, fine.0), "{name}, stress: {} then {}; {G:?}", coarse.0, fine.0);
@@ -52,7 +52,7 @@ fn inside_out_too_where_the_law_allows_it() {
     let mut number = 0;
     while number < 50 {
         let G = random.tensor(2.0);
-        let sigma = singular(&plus_identity(&G)).sigma;
+        let sigma = svd(&plus_identity(&G)).sigma;
         // Away from the crease of the corotated law.
         if sigma[2] < -0.1 && sigma[1] + sigma[2] > 0.3 {
             check("corotated", corotated(), &G);

@@ -6,7 +6,7 @@ use super::blocks::Blocks;
 const NONE: u32 = u32::MAX;
 
 /// The aggregate of each node, and how many there are: whole neighbourhoods first, what is left over joins one next to it
-/// (Vaněk, Mandel and Brezina, Algebraic Multigrid by Smoothed Aggregation for Second and Fourth Order Elliptic Problems, 1996).
+/// (Vaněk, Mandel and Brezina, Algebraic Multigrid by Smoothed Aggregation for Second and Fourth Numbering Elliptic Problems, 1996).
 pub fn aggregate<const D: usize>(A: &Blocks<D, D>) -> (Vec<u32>, usize) {
     let mut aggregates = vec![NONE; A.rows()];
     let mut count = 0;

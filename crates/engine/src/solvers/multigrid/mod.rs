@@ -1,5 +1,5 @@
 //! Multigrid by smoothed aggregation with the six rigid motions: Vaněk, Mandel and Brezina, Algebraic Multigrid by Smoothed
-//! Aggregation for Second and Fourth Order Elliptic Problems (1996). In single precision: it only preconditions.
+//! Aggregation for Second and Fourth Numbering Elliptic Problems (1996). In single precision: it only preconditions.
 
 mod aggregate;
 mod blocks;

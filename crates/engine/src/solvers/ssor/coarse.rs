@@ -10,8 +10,8 @@ use pulp::{Simd, WithSimd};
 use super::Row;
 use super::grid::Grid;
 use super::scaled::Places;
+use crate::model::numbering::{Numbering, Ordering};
 use crate::number::{Real, vectorized};
-use crate::order::{Numbering, Order};
 use crate::solvers::supernodal::Supernodal;
 use crate::sparse::{Pattern, Stored};
 
@@ -275,7 +275,7 @@ fn renumber(grid: &mut Grid, pairs: &[[u32; 2]]) -> Pattern {
     joined.sort_unstable();
     joined.dedup();
     let places: Vec<Vector3<f64>> = grid.corners.iter().map(|&x| Vector3::from(x)).collect();
-    let order = Order::new(Numbering::Dissected, &places, &joined, &vec![false; places.len()]);
+    let order = Numbering::new(Ordering::Dissected, &places, &joined, &vec![false; places.len()]);
     grid.renumber(&order.engine_node);
     Pattern::new(places.len(), &order.elements(&joined), Stored::Lower)
 }

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use pulp::{Simd, WithSimd};
 
-use super::packed::Packed;
+use crate::number::Packed;
 use crate::number::Real;
 use crate::solvers::Breakdown;
 use crate::solvers::block_jacobi::root;

@@ -2,11 +2,8 @@
 //! of Indefinite Sparse Symmetric Linear Equations (1983).
 
 mod dense;
-mod packed;
 mod panels;
 mod substitute;
-
-pub use packed::Packed;
 
 use pulp::{Simd, WithSimd};
 

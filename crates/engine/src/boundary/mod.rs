@@ -1,0 +1,3 @@
+//! Dirichlet conditions: fixed nodes, prescribed motions, and the reactions at both.
+
+pub mod dirichlet;

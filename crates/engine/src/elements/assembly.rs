@@ -1,0 +1,247 @@
+//! The passes over all elements.
+
+use super::build::NONE;
+use super::kernel::{
+    LaneBlock, corner_blocks, corner_gradients, displacement_gradient, element_hessian, energy, invariant_blocks,
+    squares,
+};
+use super::parallel::over_chunks;
+use super::{Batch, Chunk, Elements};
+use crate::materials::Law;
+use simba::simd::SimdValue;
+
+use crate::number::{Real, constant};
+use crate::sparse::Block;
+use crate::tensor::{from_fn, volume_change};
+
+impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
+    /// Elastic energy at displacements `u` of all nodes, J; not finite where the law does not allow an element.
+    pub fn energy<L: Law<T::Lanes>>(&self, law: L, u: &[[T; D]]) -> f64 {
+        let of_chunk = |chunk: &Chunk<T, D, N>, _: &mut [()]| energy_of(chunk, law, u);
+        over_chunks(&self.chunks, &mut [], |_| 0, of_chunk)
+    }
+
+    /// Σ V G:G, m³: what rounding in the energies of elements that have turned is measured by. It grows with the turn, where
+    /// their energies do not.
+    pub fn squares(&self, u: &[[T; D]]) -> f64 {
+        let of_chunk = |chunk: &Chunk<T, D, N>, _: &mut [()]| squares_of(chunk, u);
+        over_chunks(&self.chunks, &mut [], |_| 0, of_chunk)
+    }
+
+    /// Adds the gradient of the energy by the nodes' positions, N.
+    pub fn add_gradient<L: Law<T::Lanes>>(&self, law: L, u: &[[T; D]], gradient: &mut [[T; D]]) {
+        let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; D]]| {
+            add_gradient_of(chunk, law, u, sums);
+            0.0
+        };
+        over_chunks(&self.chunks, gradient, |chunk| chunk.nodes.end, of_chunk);
+    }
+
+    /// Energy and gradient in one pass.
+    pub fn add_energy_and_gradient<L: Law<T::Lanes>>(&self, law: L, u: &[[T; D]], gradient: &mut [[T; D]]) -> f64 {
+        let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; D]]| add_energy_and_gradient_of(chunk, law, u, sums);
+        over_chunks(&self.chunks, gradient, |chunk| chunk.nodes.end, of_chunk)
+    }
+
+    /// Adds `factor` times the Hessian of the energy to the values of the pattern that the elements were made for, N/m.
+    pub fn add_stiffness<L: Law<T::Lanes>>(&self, law: L, factor: T, u: &[[T; D]], values: &mut [Block<T, D>]) {
+        let of_chunk = |chunk: &Chunk<T, D, N>, values: &mut [Block<T, D>]| {
+            add_stiffness_of(chunk, law, factor, u, values);
+            0.0
+        };
+        over_chunks(&self.chunks, values, |chunk| chunk.blocks.end, of_chunk);
+    }
+
+    /// Adds `factor` K(u) d, the change of the gradient along a direction, without a matrix, N.
+    pub fn add_stiffness_times<L: Law<T::Lanes>>(
+        &self,
+        law: L,
+        factor: T,
+        u: &[[T; D]],
+        d: &[[T; D]],
+        product: &mut [[T; D]],
+    ) {
+        let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; D]]| {
+            add_stiffness_times_of(chunk, law, factor, u, d, sums);
+            0.0
+        };
+        over_chunks(&self.chunks, product, |chunk| chunk.nodes.end, of_chunk);
+    }
+
+    /// The smallest J = det F, and the element of the mesh that has it.
+    pub fn min_det_F(&self, u: &[[T; D]]) -> (T, usize) {
+        let mut least = (T::of(f64::INFINITY), 0);
+        for chunk in &self.chunks {
+            let (J, element) = min_det_F_of(chunk, u);
+            if !(least.0 <= J) {
+                least = (J, element);
+            }
+        }
+        least
+    }
+}
+
+/// Adds what the corners of a batch contribute to the nodes of its chunk.
+#[inline(always)]
+fn scatter<T: Real, const D: usize, const N: usize>(
+    chunk: &Chunk<T, D, N>,
+    corners: &[[u32; N]],
+    gradients: &[[T::Lanes; D]; D],
+    sums: &mut [[T; D]],
+) {
+    let first = chunk.nodes.start as u32;
+    // Bounded by a constant, so that no lane needs to be checked.
+    for lane in 0..T::WIDTH {
+        let corners = &corners[lane];
+        let mut of_first = [T::default(); D];
+        for e in 0..D {
+            let value: [T; D] = std::array::from_fn(|i| T::each(&gradients[e][i])[lane]);
+            for i in 0..D {
+                of_first[i] -= value[i];
+            }
+            // A node of another chunk is out of range.
+            if let Some(sum) = sums.get_mut(corners[e + 1].wrapping_sub(first) as usize) {
+                for i in 0..D {
+                    sum[i] += value[i];
+                }
+            }
+        }
+        if let Some(sum) = sums.get_mut(corners[0].wrapping_sub(first) as usize) {
+            for i in 0..D {
+                sum[i] += of_first[i];
+            }
+        }
+    }
+}
+
+/// Adds the Hessian of a batch, of which the blocks of all corners but the first are given, to the rows of its chunk.
+#[inline(always)]
+fn add_hessian<T: Real, const D: usize, const N: usize>(
+    chunk: &Chunk<T, D, N>,
+    batch: usize,
+    inner: &[[LaneBlock<T, D>; D]; D],
+    values: &mut [Block<T, D>],
+) {
+    let hessian = element_hessian::<T, D, N>(inner);
+    let targets = &chunk.targets[batch * T::WIDTH..(batch + 1) * T::WIDTH];
+    for a in 0..N {
+        for b in 0..=a {
+            // A pair without a block, or whose row belongs to another chunk, is out of range.
+            T::add_by_lane(&hessian[a][b], values, |lane| targets[lane][a][b]);
+            if a != b && targets.iter().any(|targets| targets[b][a] != NONE) {
+                let transposed = std::array::from_fn(|i| std::array::from_fn(|k| hessian[a][b][k][i]));
+                T::add_by_lane(&transposed, values, |lane| targets[lane][b][a]);
+            }
+        }
+    }
+}
+
+/// The batches of a chunk, with their corners.
+#[inline(always)]
+fn batches<T: Real, const D: usize, const N: usize>(
+    chunk: &Chunk<T, D, N>,
+) -> impl Iterator<Item = (&Batch<T, D>, &[[u32; N]])> {
+    chunk.batches.iter().zip(chunk.corners.chunks_exact(T::WIDTH))
+}
+
+fn energy_of<T: Real, L: Law<T::Lanes>, const D: usize, const N: usize>(
+    chunk: &Chunk<T, D, N>,
+    law: L,
+    u: &[[T; D]],
+) -> f64 {
+    let of_batch = |(batch, corners)| energy(batch, law, &displacement_gradient(batch, corners, u));
+    batches(chunk).map(of_batch).sum()
+}
+
+fn squares_of<T: Real, const D: usize, const N: usize>(chunk: &Chunk<T, D, N>, u: &[[T; D]]) -> f64 {
+    let of_batch = |(batch, corners)| squares(batch, &displacement_gradient(batch, corners, u));
+    batches(chunk).map(of_batch).sum()
+}
+
+fn add_gradient_of<T: Real, L: Law<T::Lanes>, const D: usize, const N: usize>(
+    chunk: &Chunk<T, D, N>,
+    law: L,
+    u: &[[T; D]],
+    sums: &mut [[T; D]],
+) {
+    for (batch, corners) in batches(chunk) {
+        let G = displacement_gradient(batch, corners, u);
+        scatter(chunk, corners, &corner_gradients(batch, &law.stress(&G)), sums);
+    }
+}
+
+fn add_energy_and_gradient_of<T: Real, L: Law<T::Lanes>, const D: usize, const N: usize>(
+    chunk: &Chunk<T, D, N>,
+    law: L,
+    u: &[[T; D]],
+    sums: &mut [[T; D]],
+) -> f64 {
+    let mut total = 0.0;
+    for (batch, corners) in batches(chunk) {
+        let G = displacement_gradient(batch, corners, u);
+        total += energy(batch, law, &G);
+        scatter(chunk, corners, &corner_gradients(batch, &law.stress(&G)), sums);
+    }
+    total
+}
+
+fn add_stiffness_of<T: Real, L: Law<T::Lanes>, const D: usize, const N: usize>(
+    chunk: &Chunk<T, D, N>,
+    law: L,
+    factor: T,
+    u: &[[T; D]],
+    values: &mut [Block<T, D>],
+) {
+    let factor = T::Lanes::splat(factor);
+    for (i, (batch, corners)) in batches(chunk).enumerate() {
+        let G = displacement_gradient(batch, corners, u);
+        let mut scaled = *batch;
+        scaled.volume *= factor;
+        let inner = match law.of_invariants(&G) {
+            Some(terms) => invariant_blocks(&scaled, &terms),
+            None => corner_blocks(&scaled, &law.derivative(&G)),
+        };
+        add_hessian(chunk, i, &inner, values);
+    }
+}
+
+fn add_stiffness_times_of<T: Real, L: Law<T::Lanes>, const D: usize, const N: usize>(
+    chunk: &Chunk<T, D, N>,
+    law: L,
+    factor: T,
+    u: &[[T; D]],
+    d: &[[T; D]],
+    sums: &mut [[T; D]],
+) {
+    let factor = T::Lanes::splat(factor);
+    for (batch, corners) in batches(chunk) {
+        let G = displacement_gradient(batch, corners, u);
+        let dF = displacement_gradient(batch, corners, d);
+        let H = law.derivative(&G);
+        let dP = from_fn(
+            #[inline(always)]
+            |i, j| {
+                let mut sum = H[3 * i + j][0] * dF[0][0];
+                for c in 1..9 {
+                    sum += H[3 * i + j][c] * dF[c / 3][c % 3];
+                }
+                sum * factor
+            },
+        );
+        scatter(chunk, corners, &corner_gradients(batch, &dP), sums);
+    }
+}
+
+fn min_det_F_of<T: Real, const D: usize, const N: usize>(chunk: &Chunk<T, D, N>, u: &[[T; D]]) -> (T, usize) {
+    let mut least = (T::of(f64::INFINITY), 0);
+    for ((batch, corners), elements) in batches(chunk).zip(chunk.elements.chunks(T::WIDTH)) {
+        let J = volume_change(&displacement_gradient(batch, corners, u)).0 + constant(1.0);
+        for (&J, &element) in T::each(&J).iter().zip(elements) {
+            // NaN is the smallest of all.
+            if !(least.0 <= J) {
+                least = (J, element as usize);
+            }
+        }
+    }
+    least
+}

@@ -1,0 +1,6 @@
+//! A body as the engine computes with it: what never changes in a run ([`system`]), and what does ([`state`]).
+
+pub mod mass;
+pub mod numbering;
+pub mod state;
+pub mod system;

@@ -1,0 +1,84 @@
+//! What earlier iterations tell about the Hessian.
+
+use std::collections::VecDeque;
+
+use crate::number::Real;
+use crate::solvers::dot as product;
+
+/// Pairs that are kept.
+const DEPTH: usize = 6;
+
+/// The last steps and the changes of the gradient along them: limited-memory BFGS, Nocedal, Updating Quasi-Newton Matrices with
+/// Limited Storage (1980), with a kept factor of the Hessian for its start, Liu, Bouaziz, Kavan, Quasi-Newton Methods for
+/// Real-Time Simulation of Hyperelastic Materials (2017).
+#[derive(Clone, Debug)]
+pub struct Lbfgs<T> {
+    pairs: VecDeque<Pair<T>>,
+    spare: Vec<Pair<T>>,
+}
+
+#[derive(Clone, Debug)]
+struct Pair<T> {
+    step: Vec<[T; 3]>,
+    change: Vec<[T; 3]>,
+    /// step · change
+    curvature: f64,
+}
+
+impl<T: Real> Lbfgs<T> {
+    /// For vectors of so many nodes.
+    pub fn new(nodes: usize) -> Self {
+        let pair =
+            || Pair { step: vec![[T::default(); 3]; nodes], change: vec![[T::default(); 3]; nodes], curvature: 0.0 };
+        Self { pairs: VecDeque::with_capacity(DEPTH), spare: (0..DEPTH).map(|_| pair()).collect() }
+    }
+
+    /// Forgets everything: the Hessian is known anew.
+    pub fn clear(&mut self) {
+        self.spare.extend(self.pairs.drain(..));
+    }
+
+    /// Remembers `length` × `direction` and the change of the gradient along it. One of no positive curvature is left out: it
+    /// would lead uphill.
+    pub fn push(&mut self, length: f64, direction: &[[T; 3]], before: &[[T; 3]], after: &[[T; 3]]) {
+        let Some(mut pair) = self.spare.pop().or_else(|| self.pairs.pop_front()) else { return };
+        for node in 0..direction.len() {
+            for i in 0..3 {
+                pair.step[node][i] = T::of(length) * direction[node][i];
+                pair.change[node][i] = after[node][i] - before[node][i];
+            }
+        }
+        let curvature = product(&pair.step, &pair.change);
+        pair.curvature = curvature;
+        if curvature > 0.0 && curvature.is_finite() {
+            self.pairs.push_back(pair);
+        } else {
+            self.spare.push(pair);
+        }
+    }
+
+    /// x becomes H⁻¹ x, `solve` being the kept inverse: Nocedal's two loops.
+    pub fn apply<E>(&self, x: &mut [[T; 3]], solve: impl FnOnce(&mut [[T; 3]]) -> Result<(), E>) -> Result<(), E> {
+        let mut weights = [0.0; DEPTH];
+        for (pair, weight) in self.pairs.iter().zip(&mut weights).rev() {
+            *weight = product(&pair.step, x) / pair.curvature;
+            add(-*weight, &pair.change, x);
+        }
+        solve(x)?;
+        for (pair, weight) in self.pairs.iter().zip(weights) {
+            let other = product(&pair.change, x) / pair.curvature;
+            add(weight - other, &pair.step, x);
+        }
+        Ok(())
+    }
+}
+
+/// y += s x
+pub fn add<T: Real>(s: f64, x: &[[T; 3]], y: &mut [[T; 3]]) {
+    let s = T::of(s);
+    for (x, y) in x.iter().zip(y) {
+        for i in 0..3 {
+            y[i] += s * x[i];
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! F = U diag(σ) Vᵀ with rotations U and V: the signed singular value decomposition, of one matrix or of lanes of them.
+//!
+//! σ_1 ≥ σ_2 ≥ |σ_3|, and σ_3 < 0 where F is inside out: Irving, Teran and Fedkiw, Invertible Finite Elements for Robust
+//! Simulation of Large Deformation (2004). Columns of F are turned in pairs until they are orthogonal: Hestenes, Inversion
+//! of Matrices by Biorthogonalization and Related Results (1958). Unlike eigenvalues of FᵀF, that costs no digits.
+
+use crate::number::{Number, Real, constant};
+use crate::tensor::Tensor;
+
+/// A vector.
+type Vector<T> = [T; 3];
+
+/// Sweeps over the three pairs; the angles left over square from one to the next.
+const SWEEPS: usize = 5;
+
+/// F = Σ σ_k u_k v_kᵀ.
+#[derive(Clone, Copy, Debug)]
+pub struct Svd<T> {
+    /// u_0, u_1, u_2: the columns of U.
+    pub U: [[T; 3]; 3],
+    /// Principal stretches; only the last may be negative.
+    pub sigma: [T; 3],
+    /// v_0, v_1, v_2: the columns of V.
+    pub V: [[T; 3]; 3],
+}
+
+impl<T: Number> Svd<T> {
+    /// Σ p_k u_k v_kᵀ
+    #[inline(always)]
+    pub fn with_values(&self, p: &[T; 3]) -> Tensor<T> {
+        crate::tensor::from_fn(
+            #[inline(always)]
+            |i, j| {
+                p[0] * self.U[0][i] * self.V[0][j]
+                    + p[1] * self.U[1][i] * self.V[1][j]
+                    + p[2] * self.U[2][i] * self.V[2][j]
+            },
+        )
+    }
+}
+
+/// Decomposes any finite F, to round-off relative to its largest entry.
+#[inline(always)]
+pub fn svd<T: Number>(F: &Tensor<T>) -> Svd<T> {
+    let size = largest_entry(F);
+    let inverse = T::one() / size;
+    let mut B = crate::tensor::from_fn(
+        #[inline(always)]
+        |k, i| F[i][k] * inverse,
+    );
+    let mut V = unit();
+    for _ in 0..SWEEPS {
+        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+            let (c, s) = rotation(inner(&B[i], &B[j]), inner(&B[j], &B[j]) - inner(&B[i], &B[i]));
+            turn(&mut B, i, j, c, s);
+            turn(&mut V, i, j, c, s);
+        }
+    }
+    for (i, j) in [(0, 1), (1, 2), (0, 1)] {
+        sort(&mut B, &mut V, i, j);
+    }
+    let U = basis(&B);
+    let sigma = [0, 1, 2].map(
+        #[inline(always)]
+        |k: usize| size * inner(&U[k], &B[k]),
+    );
+    Svd { U, sigma, V }
+}
+
+/// The largest |entry|, or one where all are zero.
+#[inline(always)]
+pub(crate) fn largest_entry<T: Number>(a: &Tensor<T>) -> T {
+    let mut largest = T::zero();
+    for row in a {
+        for entry in row {
+            largest = largest.simd_max(entry.simd_abs());
+        }
+    }
+    largest.select(largest.simd_gt(T::zero()), T::one())
+}
+
+/// The three unit vectors.
+#[inline(always)]
+pub(crate) fn unit<T: Number>() -> Tensor<T> {
+    crate::tensor::plus_identity(&crate::tensor::zero())
+}
+
+/// Cosine and sine of the smaller angle that turns a symmetric [[x, p], [p, x + d]] diagonal, entries of size one.
+///
+/// Where both are below round-off the angle is too small, but never wrong by more than round-off.
+#[inline(always)]
+pub(crate) fn rotation<T: Number>(p: T, d: T) -> (T, T) {
+    let epsilon = Real::as_f64(<T::Element as Real>::EPSILON);
+    let twice = p + p;
+    let denominator = (d.simd_abs() + (d * d + twice * twice).simd_sqrt()).simd_max(constant(epsilon * epsilon));
+    let tangent = twice.simd_copysign(p * d) / denominator;
+    let c = T::one() / (T::one() + tangent * tangent).simd_sqrt();
+    (c, c * tangent)
+}
+
+/// Vectors i and j, turned in their plane.
+#[inline(always)]
+pub(crate) fn turn<T: Number>(a: &mut [Vector<T>; 3], i: usize, j: usize, c: T, s: T) {
+    for k in 0..3 {
+        let (x, y) = (a[i][k], a[j][k]);
+        a[i][k] = c * x - s * y;
+        a[j][k] = s * x + c * y;
+    }
+}
+
+/// Turns i and j by a quarter where j is the longer one.
+#[inline(always)]
+fn sort<T: Number>(B: &mut [Vector<T>; 3], V: &mut [Vector<T>; 3], i: usize, j: usize) {
+    let keep = inner(&B[i], &B[i]).simd_ge(inner(&B[j], &B[j]));
+    let (c, s) = (T::one().select(keep, T::zero()), T::zero().select(keep, T::one()));
+    turn(B, i, j, c, -s);
+    turn(V, i, j, c, -s);
+}
+
+/// A right-handed orthonormal basis along the first two columns, which are orthogonal; any direction where one vanishes.
+#[inline(always)]
+fn basis<T: Number>(B: &[Vector<T>; 3]) -> [Vector<T>; 3] {
+    let [x, y, _] = unit::<T>();
+    let (zero, epsilon) = (T::zero(), Real::as_f64(<T::Element as Real>::EPSILON));
+    let first = normalized(&choose(inner(&B[0], &B[0]).simd_gt(zero), &B[0], &x));
+    // Of the axes x and y, one is at least 45° away from it.
+    let axis = choose(first[0].simd_abs().simd_lt(constant(0.7)), &x, &y);
+    let second = without(&B[1], &first);
+    let is_long = inner(&second, &second).simd_gt(constant(epsilon * epsilon * epsilon * epsilon));
+    let second = normalized(&choose(is_long, &second, &without(&axis, &first)));
+    // Once more: what was left of a short column may lean towards the first.
+    let second = normalized(&without(&second, &first));
+    let third = [
+        first[1] * second[2] - first[2] * second[1],
+        first[2] * second[0] - first[0] * second[2],
+        first[0] * second[1] - first[1] * second[0],
+    ];
+    [first, second, third]
+}
+
+#[inline(always)]
+fn inner<T: Number>(a: &Vector<T>, b: &Vector<T>) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// a without its part along the unit vector u.
+#[inline(always)]
+fn without<T: Number>(a: &Vector<T>, u: &Vector<T>) -> Vector<T> {
+    let along = inner(a, u);
+    [a[0] - along * u[0], a[1] - along * u[1], a[2] - along * u[2]]
+}
+
+#[inline(always)]
+fn normalized<T: Number>(a: &Vector<T>) -> Vector<T> {
+    let factor = T::one() / inner(a, a).simd_sqrt();
+    [a[0] * factor, a[1] * factor, a[2] * factor]
+}
+
+/// a where `condition` holds, else b.
+#[inline(always)]
+fn choose<T: Number>(condition: T::SimdBool, a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
+    [a[0].select(condition, b[0]), a[1].select(condition, b[1]), a[2].select(condition, b[2])]
+}
