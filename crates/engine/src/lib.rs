@@ -25,3 +25,4 @@ pub mod solvers;
 pub mod sparse;
 pub mod svd;
 pub mod tensor;
+pub mod vector;

@@ -1,11 +1,11 @@
 //! Explicit Euler: u⁺ = u + dt v, v⁺ = v + dt a(u, v, t). First order; a motion without damping grows at any time step.
 
 use super::accelerations::Accelerations;
-use super::mass_inverse::step;
 use crate::forces::pulls::Pulls;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
+use crate::vector::axpy;
 use fem_scene::simulation::{Cause, Counters};
 
 /// Explicit Euler with its vectors.
@@ -30,8 +30,8 @@ impl<T: Real> ExplicitEuler<T> {
     ) -> Result<(), Cause> {
         self.accelerations.begin(pulls.system, state, dt);
         self.accelerations.at(pulls, (&state.u, &state.v), state.time, &mut self.a, counters)?;
-        step(T::of(dt), &state.v, &mut state.u);
-        step(T::of(dt), &self.a, &mut state.v);
+        axpy(dt, &state.v, &mut state.u);
+        axpy(dt, &self.a, &mut state.v);
         Ok(())
     }
 }

@@ -3,7 +3,8 @@
 use crate::model::mass::Mass;
 use crate::model::system::System;
 use crate::number::Real;
-use crate::solvers::{Breakdown, dot, norm};
+use crate::solvers::Breakdown;
+use crate::vector::{axpy, dot, norm, subtract_from, xpby};
 use fem_scene::simulation::Cause;
 
 /// Division by a lumped mass; conjugate gradients with the diagonal as preconditioner for a consistent one. For tetrahedra the
@@ -61,35 +62,23 @@ impl<T: Real> MassInverse<T> {
             system.mass.add_times(T::one(), x, y);
             system.held.clear(y);
         };
-        times(a, &mut q);
-        for (r, (f, q)) in r.iter_mut().zip(f.iter().zip(&q)) {
-            *r = std::array::from_fn(|i| f[i] - q[i]);
-        }
+        times(a, &mut r);
+        subtract_from(f, &mut r);
         self.divide(&r, &mut z);
         p.copy_from_slice(&z);
         let target = TOLERANCE.0.max(TOLERANCE.1 * T::EPSILON.as_f64()) * size;
         let (mut rz, mut residual, mut left) = (dot(&r, &z), norm(&r), MOST);
         while residual > target && left > 0 {
             times(&p, &mut q);
-            let length = T::of(rz / dot(&p, &q));
-            step(length, &p, a);
-            step(-length, &q, &mut r);
+            let length = rz / dot(&p, &q);
+            axpy(length, &p, a);
+            axpy(-length, &q, &mut r);
             self.divide(&r, &mut z);
             let next = dot(&r, &z);
-            let ratio = T::of(next / rz);
-            for (p, z) in p.as_flattened_mut().iter_mut().zip(z.as_flattened()) {
-                *p = *z + ratio * *p;
-            }
+            xpby(&z, next / rz, &mut p);
             (rz, residual, left) = (next, norm(&r), left - 1);
         }
         self.work = [r, z, p, q];
         if residual > target { Err(Breakdown::NotConverged { residual: residual / size }) } else { Ok(()) }
-    }
-}
-
-/// y += s x
-pub fn step<T: Real>(s: T, x: &[[T; 3]], y: &mut [[T; 3]]) {
-    for (y, x) in y.as_flattened_mut().iter_mut().zip(x.as_flattened()) {
-        *y += s * *x;
     }
 }

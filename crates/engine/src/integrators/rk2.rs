@@ -2,11 +2,11 @@
 //! order; a motion without damping grows, though slowly.
 
 use super::accelerations::Accelerations;
-use super::mass_inverse::step;
 use crate::forces::pulls::Pulls;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
+use crate::vector::axpy;
 use fem_scene::simulation::{Cause, Counters};
 
 /// The midpoint rule with its vectors.
@@ -33,16 +33,16 @@ impl<T: Real> Rk2<T> {
         counters: &mut Counters,
     ) -> Result<(), Cause> {
         let Self { accelerations, a, u, v } = self;
-        let half = T::of(0.5 * dt);
+        let half = 0.5 * dt;
         accelerations.begin(pulls.system, state, dt);
         accelerations.at(pulls, (&state.u, &state.v), state.time, a, counters)?;
         u.copy_from_slice(&state.u);
         v.copy_from_slice(&state.v);
-        step(half, &state.v, u);
-        step(half, a, v);
+        axpy(half, &state.v, u);
+        axpy(half, a, v);
         accelerations.at(pulls, (u, v), state.time + 0.5 * dt, a, counters)?;
-        step(T::of(dt), v, &mut state.u);
-        step(T::of(dt), a, &mut state.v);
+        axpy(dt, v, &mut state.u);
+        axpy(dt, a, &mut state.v);
         Ok(())
     }
 }

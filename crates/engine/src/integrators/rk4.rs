@@ -1,11 +1,11 @@
 //! The classical Runge–Kutta method, Kutta (1901): fourth order; stable for ω dt < 2√2 of the fastest vibration.
 
 use super::accelerations::Accelerations;
-use super::mass_inverse::step;
 use crate::forces::pulls::Pulls;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
+use crate::vector::axpy;
 use fem_scene::simulation::{Cause, Counters};
 
 /// The classical method with its vectors.
@@ -43,14 +43,14 @@ impl<T: Real> Rk4<T> {
         }
         for (stage, (after, weight)) in STAGES.into_iter().enumerate() {
             accelerations.at(pulls, (u, v), state.time + after * dt, a, counters)?;
-            step(T::of(weight * dt), v, &mut state.u);
-            step(T::of(weight * dt), a, &mut state.v);
+            axpy(weight * dt, v, &mut state.u);
+            axpy(weight * dt, a, &mut state.v);
             // Where the next stage is.
             let Some((after, _)) = STAGES.get(stage + 1) else { break };
             u.copy_from_slice(u0);
-            step(T::of(after * dt), v, u);
+            axpy(after * dt, v, u);
             v.copy_from_slice(v0);
-            step(T::of(after * dt), a, v);
+            axpy(after * dt, a, v);
         }
         Ok(())
     }

@@ -3,11 +3,11 @@
 //! (2006), I.1.2.
 
 use super::accelerations::Accelerations;
-use super::mass_inverse::step;
 use crate::forces::pulls::Pulls;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
+use crate::vector::axpy;
 use fem_scene::simulation::{Cause, Counters};
 
 /// Semi-implicit Euler with its vectors.
@@ -32,8 +32,8 @@ impl<T: Real> SemiImplicitEuler<T> {
     ) -> Result<(), Cause> {
         self.accelerations.begin(pulls.system, state, dt);
         self.accelerations.at(pulls, (&state.u, &state.v), state.time, &mut self.a, counters)?;
-        step(T::of(dt), &self.a, &mut state.v);
-        step(T::of(dt), &state.v, &mut state.u);
+        axpy(dt, &self.a, &mut state.v);
+        axpy(dt, &state.v, &mut state.u);
         Ok(())
     }
 }

@@ -2,11 +2,11 @@
 //! vibration; symplectic without damping.
 
 use super::accelerations::Accelerations;
-use super::mass_inverse::step;
 use crate::forces::pulls::{AnchorSpring, Pulls};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
+use crate::vector::axpy;
 use fem_scene::simulation::{Cause, Counters};
 
 /// Velocity Verlet with its vectors.
@@ -42,7 +42,7 @@ impl<T: Real> Verlet<T> {
         counters: &mut Counters,
     ) -> Result<(), Cause> {
         let Self { accelerations, a, v, springs, is_known } = self;
-        let half = T::of(0.5 * dt);
+        let half = 0.5 * dt;
         accelerations.begin(pulls.system, state, dt);
         pulls.at(state.time, springs);
         if !(*is_known && springs == accelerations.springs()) {
@@ -50,11 +50,11 @@ impl<T: Real> Verlet<T> {
         }
         // Damping at the end is that of the velocity expected there: with half a kick alone it were first order.
         v.copy_from_slice(&state.v);
-        step(T::of(dt), a, v);
-        step(half, a, &mut state.v);
-        step(T::of(dt), &state.v, &mut state.u);
+        axpy(dt, a, v);
+        axpy(half, a, &mut state.v);
+        axpy(dt, &state.v, &mut state.u);
         accelerations.at(pulls, (&state.u, v), state.time + dt, a, counters)?;
-        step(half, a, &mut state.v);
+        axpy(half, a, &mut state.v);
         // It depends on velocities where there is damping, and on their change where nodes are led.
         *is_known = pulls.system.damping.is_none() && !pulls.system.held.leads();
         Ok(())

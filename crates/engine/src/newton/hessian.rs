@@ -1,8 +1,9 @@
 //! The Hessian that directions come from: as it is, projected, or shifted.
 
-use super::{Factor, Newton, largest_entry};
+use super::{Factor, Newton};
 use crate::newton::incremental_potential::IncrementalPotential;
 use crate::number::Real;
+use crate::vector::max_norm;
 use fem_scene::Projection;
 use fem_scene::simulation::{Cause, Counters};
 
@@ -88,6 +89,6 @@ impl<T: Real> Newton<T> {
             }
             shift *= 10.0;
         }
-        Err(Cause::Stuck { unbalanced: largest_entry(&self.gradient) })
+        Err(Cause::Stuck { unbalanced: max_norm(&self.gradient) })
     }
 }

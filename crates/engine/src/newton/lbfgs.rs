@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::number::Real;
-use crate::solvers::dot as product;
+use crate::vector::{axpy, dot};
 
 /// Pairs that are kept.
 const DEPTH: usize = 6;
@@ -48,7 +48,7 @@ impl<T: Real> Lbfgs<T> {
                 pair.change[node][i] = after[node][i] - before[node][i];
             }
         }
-        let curvature = product(&pair.step, &pair.change);
+        let curvature = dot(&pair.step, &pair.change);
         pair.curvature = curvature;
         if curvature > 0.0 && curvature.is_finite() {
             self.pairs.push_back(pair);
@@ -61,24 +61,14 @@ impl<T: Real> Lbfgs<T> {
     pub fn apply<E>(&self, x: &mut [[T; 3]], solve: impl FnOnce(&mut [[T; 3]]) -> Result<(), E>) -> Result<(), E> {
         let mut weights = [0.0; DEPTH];
         for (pair, weight) in self.pairs.iter().zip(&mut weights).rev() {
-            *weight = product(&pair.step, x) / pair.curvature;
-            add(-*weight, &pair.change, x);
+            *weight = dot(&pair.step, x) / pair.curvature;
+            axpy(-*weight, &pair.change, x);
         }
         solve(x)?;
         for (pair, weight) in self.pairs.iter().zip(weights) {
-            let other = product(&pair.change, x) / pair.curvature;
-            add(weight - other, &pair.step, x);
+            let other = dot(&pair.change, x) / pair.curvature;
+            axpy(weight - other, &pair.step, x);
         }
         Ok(())
-    }
-}
-
-/// y += s x
-pub fn add<T: Real>(s: f64, x: &[[T; 3]], y: &mut [[T; 3]]) {
-    let s = T::of(s);
-    for (x, y) in x.iter().zip(y) {
-        for i in 0..3 {
-            y[i] += s * x[i];
-        }
     }
 }

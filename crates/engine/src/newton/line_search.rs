@@ -1,11 +1,10 @@
 //! How far to go along a direction.
 
-use super::{Iterate, Newton, largest_entry};
+use super::{Iterate, Newton};
 use crate::materials::Material;
 use crate::newton::incremental_potential::IncrementalPotential;
-use crate::newton::lbfgs::add;
 use crate::number::Real;
-use crate::solvers::dot as product;
+use crate::vector::{axpy, dot, max_norm};
 use fem_scene::simulation::Counters;
 
 /// Part of the energy's terms that is round-off.
@@ -35,7 +34,7 @@ impl<T: Real> Newton<T> {
         let least_J = self.least_J(objective, w);
         while length >= SHORTEST {
             self.next.copy_from_slice(w);
-            add(length, &self.direction, &mut self.next);
+            axpy(length, &self.direction, &mut self.next);
             counters.energy_evaluations += 1;
             counters.force_assemblies += 1;
             let energy = objective.energy_and_gradient(&self.next, &mut self.next_gradient, &mut self.scratch);
@@ -46,7 +45,7 @@ impl<T: Real> Newton<T> {
                 let cancelled = *cancelled.get_or_insert_with(|| objective.cancelled(w, &mut self.scratch));
                 let round_off = ROUND_OFF * T::EPSILON.as_f64() * (at.energy.terms + energy.terms + cancelled);
                 let drowns = change.is_finite() && change.abs() <= round_off;
-                drowns && product(&self.next_gradient, &self.direction).abs() <= 0.9 * slope.abs()
+                drowns && dot(&self.next_gradient, &self.direction).abs() <= 0.9 * slope.abs()
             };
             let is_lower = change <= DECREASE * length * slope || is_flatter();
             if is_lower && least_J.is_none_or(|least| objective.min_det_F(&self.next, &mut self.scratch) >= least) {
@@ -65,7 +64,7 @@ impl<T: Real> Newton<T> {
     /// would have stopped a shorter one.
     fn least_J(&mut self, objective: &IncrementalPotential<T>, w: &[[T; 3]]) -> Option<f64> {
         let has_barrier = matches!(objective.system.material, Material::NeoHookean(_));
-        let is_long = has_barrier && largest_entry(&self.direction) > LONG * objective.system.length;
+        let is_long = has_barrier && max_norm(&self.direction) > LONG * objective.system.length;
         is_long.then(|| KEPT * objective.min_det_F(w, &mut self.scratch))
     }
 }

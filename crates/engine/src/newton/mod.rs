@@ -18,8 +18,9 @@ use crate::model::system::Energy;
 use crate::newton::incremental_potential::{IncrementalPotential, Scratch};
 use crate::newton::lbfgs::Lbfgs;
 use crate::number::Real;
-use crate::solvers::{Breakdown, Solver, dot as product, norm};
+use crate::solvers::{Breakdown, Solver};
 use crate::sparse::Block;
+use crate::vector::{dot, max_norm, norm};
 use fem_scene::simulation::{Cause, Counters};
 
 /// Newton's method, with all that it keeps.
@@ -204,7 +205,7 @@ impl<T: Real> Newton<T> {
             };
             history.apply(direction, apply).is_ok()
         };
-        if solved { product(&self.gradient, &self.direction) } else { f64::NAN }
+        if solved { dot(&self.gradient, &self.direction) } else { f64::NAN }
     }
 
     fn accept(&mut self, w: &mut [[T; 3]], at: &mut Iterate, length: f64) {
@@ -213,7 +214,7 @@ impl<T: Real> Newton<T> {
             self.history.push(length, &self.direction, &self.gradient, &self.next_gradient);
         }
         std::mem::swap(&mut self.gradient, &mut self.next_gradient);
-        let size = length * largest_entry(&self.direction);
+        let size = length * max_norm(&self.direction);
         at.rate = at.size.is_finite().then_some(size / at.size);
         at.size = size;
         at.norms = (norm(&self.gradient), at.norms.0);
@@ -238,19 +239,14 @@ impl<T: Real> Newton<T> {
     /// No direction leads down any more: either that is the minimum, as far as numbers go, or something is wrong.
     fn end_of_the_way(&self, objective: &IncrementalPotential<T>, at: &Iterate) -> Result<bool, Cause> {
         // What is left to move is less than what is asked for.
-        if largest_entry(&self.direction) <= self.limits.tolerance * objective.system.length {
+        if max_norm(&self.direction) <= self.limits.tolerance * objective.system.length {
             return Ok(false);
         }
-        let unbalanced = largest_entry(&self.gradient);
+        let unbalanced = max_norm(&self.gradient);
         let round_off = T::EPSILON.as_f64() * at.energy.terms / objective.system.length;
         if unbalanced <= 1e6 * round_off {
             return Ok(false);
         }
         Err(Cause::Stuck { unbalanced })
     }
-}
-
-/// ‖x‖∞
-fn largest_entry<T: Real>(x: &[[T; 3]]) -> f64 {
-    x.as_flattened().iter().map(|x| x.as_f64().abs()).fold(0.0, f64::max)
 }

@@ -1,9 +1,9 @@
 //! Conjugate gradients, Hestenes and Stiefel, Methods of Conjugate Gradients for Solving Linear Systems (1952), with a
 //! preconditioner or with none.
 
-use super::vector::{add_multiple, add_to_multiple, dot, norm, subtract_from};
 use super::{Breakdown, Solved};
 use crate::number::Real;
+use crate::vector::{axpy, dot, norm, subtract_from, xpby};
 
 /// Vectors that an iteration needs; kept from one solve to the next.
 pub(super) struct Work<T> {
@@ -72,14 +72,14 @@ pub(super) fn conjugate_gradients<T: Real>(
         let Start::Along { rz } = state else { continue };
         A(p, q);
         let alpha = rz / progress.curvature(dot(p, q), dot(p, p))?;
-        add_multiple(alpha, p, x);
-        add_multiple(-alpha, q, r);
+        axpy(alpha, p, x);
+        axpy(-alpha, q, r);
         state = if progress.residual(norm(r))? {
             Start::Fresh
         } else {
             P(r, z);
             let next = positive(dot(r, z))?;
-            add_to_multiple(z, next / rz, p);
+            xpby(z, next / rz, p);
             Start::Along { rz: next }
         };
     }

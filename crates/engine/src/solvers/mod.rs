@@ -14,7 +14,6 @@ mod product;
 mod refine;
 mod ssor;
 mod supernodal;
-mod vector;
 
 #[cfg(test)]
 pub(crate) mod beam;
@@ -27,7 +26,6 @@ use std::time::Instant;
 
 pub use amd::amd_order;
 pub use product::product;
-pub use vector::{dot, norm};
 
 use block_jacobi::BlockJacobi;
 use cg::{Work, conjugate_gradients};

@@ -2,8 +2,8 @@
 
 use super::Breakdown;
 use super::cg::Work;
-use super::vector::{norm, subtract_from};
 use crate::number::Real;
+use crate::vector::{norm, subtract_from};
 
 /// How far corrections have come.
 pub(super) struct Refined {

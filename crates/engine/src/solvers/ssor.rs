@@ -17,6 +17,7 @@ use std::array::from_fn;
 use super::Breakdown;
 use crate::number::{Real, vectorized};
 use crate::sparse::Pattern;
+use crate::vector::norm;
 use coarse::Coarse;
 use scaled::Scaled;
 use sweeps::{Backward, Forward};
@@ -82,7 +83,7 @@ impl Ssor {
         x: &mut [[T; 3]],
         tolerance: f64,
     ) -> Result<usize, Breakdown> {
-        let size = super::norm(r);
+        let size = norm(r);
         if !(size > 0.0 && size.is_finite()) {
             return if size == 0.0 { Ok(0) } else { Err(Breakdown::Singular) };
         }
@@ -95,7 +96,7 @@ impl Ssor {
 
     /// z = P⁻¹ r
     pub(super) fn apply<T: Real>(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
-        let size = super::norm(r);
+        let size = norm(r);
         if !(size > 0.0 && size.is_finite()) {
             z.copy_from_slice(r);
             return;

@@ -1,8 +1,9 @@
 //! Every solver against each other, on matrices of a beam.
 
 use super::beam::{Beam, random};
-use super::{Breakdown, Preconditioner, Solver, SolverChoice, norm, product};
+use super::{Breakdown, Preconditioner, Solver, SolverChoice, product};
 use crate::number::Real;
+use crate::vector::norm;
 
 const KINDS: [SolverChoice; 7] = [
     SolverChoice::Cholesky,

@@ -6,7 +6,7 @@
 use super::start::Random;
 use fem_engine::integrators::MassInverse;
 use fem_engine::model::system::System;
-use fem_engine::solvers::{dot, norm};
+use fem_engine::vector::{dot, norm};
 use fem_scene::simulation::Cause;
 
 /// ω dt below which the method is stable; none where it always is.

@@ -8,10 +8,11 @@ mod level;
 use blocks::Blocks;
 use level::Level;
 
+use super::Breakdown;
 use super::supernodal::Supernodal;
-use super::{Breakdown, norm};
 use crate::number::Real;
 use crate::sparse::{Pattern, Stored};
+use crate::vector::norm;
 
 /// Coarse matrices of up to so many nodes are factorised.
 const DIRECT: usize = 150;

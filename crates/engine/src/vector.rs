@@ -1,0 +1,82 @@
+//! Inner products, norms and updates of nodal vectors, one `[T; 3]` per node.
+//!
+//! Inner products accumulate in double precision and in a fixed order, so that results do not depend on the number of threads.
+
+use crate::number::Real;
+
+/// Number of independent partial sums, so that an addition does not wait for the one before it.
+const PARTIAL_SUMS: usize = 8;
+
+/// x·y, accumulated in double precision.
+pub fn dot<T: Real>(x: &[[T; 3]], y: &[[T; 3]]) -> f64 {
+    let (x, x_rest) = x.as_flattened().as_chunks::<PARTIAL_SUMS>();
+    let (y, y_rest) = y.as_flattened().as_chunks::<PARTIAL_SUMS>();
+    let mut sums = [0.0; PARTIAL_SUMS];
+    for (x, y) in x.iter().zip(y) {
+        for lane in 0..PARTIAL_SUMS {
+            sums[lane] += x[lane].as_f64() * y[lane].as_f64();
+        }
+    }
+    let rest: f64 = x_rest.iter().zip(y_rest).map(|(x, y)| x.as_f64() * y.as_f64()).sum();
+    sums.iter().sum::<f64>() + rest
+}
+
+/// Euclidean norm ‖x‖₂, accumulated in double precision.
+pub fn norm<T: Real>(x: &[[T; 3]]) -> f64 {
+    dot(x, x).sqrt()
+}
+
+/// Maximum norm ‖x‖∞, the largest absolute value of an entry.
+pub(crate) fn max_norm<T: Real>(x: &[[T; 3]]) -> f64 {
+    x.as_flattened().iter().map(|x| x.as_f64().abs()).fold(0.0, f64::max)
+}
+
+/// y += a x
+pub(crate) fn axpy<T: Real>(a: f64, x: &[[T; 3]], y: &mut [[T; 3]]) {
+    let a = <T as Real>::of(a);
+    for (y, x) in y.as_flattened_mut().iter_mut().zip(x.as_flattened()) {
+        *y += a * *x;
+    }
+}
+
+/// y = x + b y
+pub(crate) fn xpby<T: Real>(x: &[[T; 3]], b: f64, y: &mut [[T; 3]]) {
+    let b = <T as Real>::of(b);
+    for (y, x) in y.as_flattened_mut().iter_mut().zip(x.as_flattened()) {
+        *y = *x + b * *y;
+    }
+}
+
+/// y = x − y
+pub(crate) fn subtract_from<T: Real>(x: &[[T; 3]], y: &mut [[T; 3]]) {
+    for (y, x) in y.as_flattened_mut().iter_mut().zip(x.as_flattened()) {
+        *y = *x - *y;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{axpy, dot, max_norm, norm, subtract_from, xpby};
+
+    #[test]
+    fn inner_products_count_every_entry_once() {
+        for nodes in 0..20 {
+            let x: Vec<[f64; 3]> = (0..nodes).map(|i| [f64::from(i), 1.0, -2.0]).collect();
+            let direct: f64 = x.as_flattened().iter().map(|x| x * x).sum();
+            assert_eq!(dot(&x, &x), direct);
+            assert_eq!(norm(&x), direct.sqrt());
+        }
+    }
+
+    #[test]
+    fn updates_write_their_last_argument() {
+        let (x, mut y) = ([[1.0, -2.0, 3.0]], [[10.0, 20.0, 30.0]]);
+        axpy(2.0, &x, &mut y);
+        assert_eq!(y, [[12.0, 16.0, 36.0]]);
+        xpby(&x, 0.5, &mut y);
+        assert_eq!(y, [[7.0, 6.0, 21.0]]);
+        subtract_from(&x, &mut y);
+        assert_eq!(y, [[-6.0, -8.0, -18.0]]);
+        assert_eq!(max_norm(&y), 18.0);
+    }
+}
