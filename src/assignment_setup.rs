@@ -4,23 +4,23 @@
 mod build;
 mod constraints;
 mod explain;
+mod profile;
 mod simulation;
-mod work;
 
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use fem_scene::simulation::{Pull, Shape};
-use fem_scene::{Drag, Integrator};
+use fem_scene::simulation::Shape;
+use fem_scene::{Integrator, Interaction};
 use nalgebra::{DVector, Matrix3, Vector3};
 use nalgebra_sparse::CsrMatrix;
 
 use crate::given::{Solver, add_block};
 use crate::*;
 use constraints::Constraints;
-use work::Work;
+use profile::Profile;
 
-/// The course's simulation of one scene: what it is made of, and where it is now.
+/// The course's simulation of one scene: its matrices and its current state.
 pub struct AssignmentSetup {
     name: String,
     shape: Arc<Shape>,
@@ -29,62 +29,59 @@ pub struct AssignmentSetup {
     C: f64,
     D: f64,
     density: f64,
-    /// Gravity's direction, and its size in m/s².
+    /// Direction of gravity, and its size in m/s².
     gravity: Option<(Vector3<f64>, f64)>,
-    /// Mass of the coordinates that are free, kg.
+    /// Mass matrix of the free coordinates, kg.
     M: CsrMatrix<f64>,
     /// Weight of every coordinate, N.
     weight: DVector<f64>,
     constraints: Constraints,
     skinning: Option<CsrMatrix<f64>>,
-    /// The scene's drag, and the node that it pulls.
-    drag: Option<(Drag, usize)>,
-    /// Stiffness of every pull, N/m.
-    drag_stiffness: f64,
-    /// A person's pull, which takes the place of the scene's.
-    pull: Option<Pull>,
-    /// How far a coordinate may move before a stiffness is out of date, m.
-    hardly_moved: f64,
+    /// The scene's drag, or the pull of the mouse.
+    interaction: Interaction,
+    /// Largest displacement of a coordinate up to which an assembled stiffness is used again, m.
+    reuse_distance: f64,
     integrator: Integrator,
     dt: f64,
     time: f64,
     steps_since_reset: usize,
-    /// Positions and velocities of the coordinates that are free.
+    /// Free coordinates, m, and their velocities, m/s.
     q: DVector<f64>,
     qdot: DVector<f64>,
     solver: RefCell<Solver>,
-    work: Work,
+    profile: Profile,
 }
 
-/// A stiffness, and where the body was that has it.
-struct Kept {
+/// An assembled stiffness, and the free coordinates that it belongs to.
+struct Assembled {
     q: DVector<f64>,
     K: CsrMatrix<f64>,
 }
 
-/// A spring of no rest length that pulls a node to a place.
-struct Spring {
+/// A spring of zero rest length from a node to a fixed point, `target` (m).
+struct AnchorSpring {
     node: usize,
     target: Vector3<f64>,
 }
 
 impl AssignmentSetup {
-    /// One step of the chosen integrator from (q, qdot), with the springs as they are at its end.
-    fn advance(&self, q: &mut DVector<f64>, qdot: &mut DVector<f64>, springs: &[Spring]) {
+    /// One step of the chosen integrator from (q, qdot). `springs` are those at the end of the step.
+    fn advance(&self, q: &mut DVector<f64>, qdot: &mut DVector<f64>, springs: &[AnchorSpring]) {
         let (dt, M) = (self.dt, &self.M);
         let (q_before, qdot_before) = (q.clone(), qdot.clone());
         let energy = |v: &DVector<f64>| {
-            self.work.count_energy_evaluation();
+            self.profile.count_energy_evaluation();
             let dv = v - &qdot_before;
-            0.5 * dv.dot(&(M * &dv)) + self.work.energy.time(|| self.potential(&(&q_before + v * dt), springs))
+            0.5 * dv.dot(&(M * &dv)) + self.profile.energy.time(|| self.potential(&(&q_before + v * dt), springs))
         };
-        let force = |q: &DVector<f64>, _: &DVector<f64>| self.work.forces.time(|| self.force(q, springs));
-        let kept = RefCell::new(None);
-        let stiffness =
-            |q: &DVector<f64>, _: &DVector<f64>| self.work.stiffness.time(|| self.kept_stiffness(q, springs, &kept));
+        let force = |q: &DVector<f64>, _: &DVector<f64>| self.profile.forces.time(|| self.force(q, springs));
+        let last = RefCell::new(None);
+        let stiffness = |q: &DVector<f64>, _: &DVector<f64>| {
+            self.profile.stiffness.time(|| self.recent_stiffness(q, springs, &last))
+        };
         let solve = |A: &CsrMatrix<f64>, b: &DVector<f64>| {
-            self.work.count_solve(self.integrator == Integrator::ImplicitEuler);
-            self.work.solve.time(|| self.solve(A, b, springs))
+            self.profile.count_solve(self.integrator == Integrator::ImplicitEuler);
+            self.profile.solve.time(|| self.solve(A, b, springs))
         };
 
         match self.integrator {
@@ -96,10 +93,10 @@ impl AssignmentSetup {
 
     /// Solves A x = b, A = M − dt² K.
     ///
-    /// In A of a small stiff body, M is far below dt² K and loses its last digits, and x with it. But forces inside a body
-    /// add up to zero, 1ᵀ K = 0, so where nothing else acts 1ᵀ M x = 1ᵀ b, and this puts the mean of x right: the last digits
-    /// of a free body's momentum.
-    fn solve(&self, A: &CsrMatrix<f64>, b: &DVector<f64>, springs: &[Spring]) -> DVector<f64> {
+    /// In A of a small stiff body, M is far below dt² K and loses its last digits, and x with it. But inner forces add up to
+    /// zero, 1ᵀ K = 0. So 1ᵀ M x = 1ᵀ b for a body without constraints and springs, which corrects the mean of x and with it
+    /// the last digits of the momentum.
+    fn solve(&self, A: &CsrMatrix<f64>, b: &DVector<f64>, springs: &[AnchorSpring]) -> DVector<f64> {
         let mut x = self.solver.borrow_mut().solve(A, b);
         if self.constraints.is_free() && springs.is_empty() {
             let missing = sum_of_nodes(&(b - &self.M * &x)) / (self.density * self.v0.iter().sum::<f64>());
@@ -110,26 +107,28 @@ impl AssignmentSetup {
         x
     }
 
-    /// Elastic energy, weight (nothing at rest) and springs, J.
-    fn potential(&self, q: &DVector<f64>, springs: &[Spring]) -> f64 {
+    /// Elastic energy, potential of gravity (zero in the undeformed body) and energy of the springs, J.
+    fn potential(&self, q: &DVector<f64>, springs: &[AnchorSpring]) -> f64 {
         let x = self.constraints.all_coordinates(q);
         let (V, T) = (&self.shape.mesh.vertices, &self.shape.mesh.elements);
         let elastic: f64 =
             T.iter().zip(&self.v0).map(|(element, &v0)| V_linear_tetrahedron(&x, V, element, v0, self.C, self.D)).sum();
-        let lifted: f64 = match self.gravity {
+        let work_of_gravity: f64 = match self.gravity {
             Some(_) => (0..x.len()).map(|i| self.weight[i] * (x[i] - V[i / 3][i % 3])).sum(),
             None => 0.0,
         };
-        let pulled: f64 = springs
+        let of_springs: f64 = springs
             .iter()
-            .map(|spring| V_spring_particle_particle(&node(&x, spring.node), &spring.target, 0.0, self.drag_stiffness))
+            .map(|spring| {
+                V_spring_particle_particle(&node(&x, spring.node), &spring.target, 0.0, self.interaction.stiffness)
+            })
             .sum();
-        elastic - lifted + pulled
+        elastic - work_of_gravity + of_springs
     }
 
     /// −∂V/∂q of [`potential`](Self::potential), N.
-    fn force(&self, q: &DVector<f64>, springs: &[Spring]) -> DVector<f64> {
-        self.work.count_force_assembly();
+    fn force(&self, q: &DVector<f64>, springs: &[AnchorSpring]) -> DVector<f64> {
+        self.profile.count_force_assembly();
         let x = self.constraints.all_coordinates(q);
         let (V, T) = (&self.shape.mesh.vertices, &self.shape.mesh.elements);
         let mut f = assemble_forces(&x, V, T, &self.v0, self.C, self.D);
@@ -138,7 +137,7 @@ impl AssignmentSetup {
         }
         for spring in springs {
             let gradient =
-                dV_spring_particle_particle_dq(&node(&x, spring.node), &spring.target, 0.0, self.drag_stiffness);
+                dV_spring_particle_particle_dq(&node(&x, spring.node), &spring.target, 0.0, self.interaction.stiffness);
             for i in 0..3 {
                 f[3 * spring.node + i] -= gradient[i];
             }
@@ -146,45 +145,44 @@ impl AssignmentSetup {
         self.constraints.free_coordinates(f)
     }
 
-    /// [`stiffness`](Self::stiffness), or the one that is kept from an earlier iteration of the same step, where the body has
-    /// hardly moved since: Newton's directions stay as good, and most of its time is saved.
-    fn kept_stiffness(&self, q: &DVector<f64>, springs: &[Spring], kept: &RefCell<Option<Kept>>) -> CsrMatrix<f64> {
-        let mut kept = kept.borrow_mut();
-        match &*kept {
-            Some(old) if (q - &old.q).amax() <= self.hardly_moved => old.K.clone(),
+    /// [`stiffness`](Self::stiffness), or the last one of the same step if no coordinate has moved by more than
+    /// `reuse_distance` since: Newton's directions stay as good, and most of the time of a step is saved.
+    fn recent_stiffness(
+        &self,
+        q: &DVector<f64>,
+        springs: &[AnchorSpring],
+        last: &RefCell<Option<Assembled>>,
+    ) -> CsrMatrix<f64> {
+        let mut last = last.borrow_mut();
+        match &*last {
+            Some(last) if (q - &last.q).amax() <= self.reuse_distance => last.K.clone(),
             _ => {
                 let K = self.stiffness(q, springs);
-                *kept = Some(Kept { q: q.clone(), K: K.clone() });
+                *last = Some(Assembled { q: q.clone(), K: K.clone() });
                 K
             }
         }
     }
 
-    /// ∂f/∂q of [`force`](Self::force) with projected elements, N/m. A spring of no rest length has the same stiffness
-    /// in every direction; without it here, a stiff pull would be explicit and blow up.
-    fn stiffness(&self, q: &DVector<f64>, springs: &[Spring]) -> CsrMatrix<f64> {
-        self.work.count_stiffness_assembly(self.shape.mesh.elements.len());
+    /// ∂f/∂q of [`force`](Self::force) with projected elements, N/m. A spring of zero rest length has the same stiffness in
+    /// every direction; without it in K, a stiff spring would be treated explicitly and be unstable.
+    fn stiffness(&self, q: &DVector<f64>, springs: &[AnchorSpring]) -> CsrMatrix<f64> {
+        self.profile.count_stiffness_assembly(self.shape.mesh.elements.len());
         let x = self.constraints.all_coordinates(q);
         let (V, T) = (&self.shape.mesh.vertices, &self.shape.mesh.elements);
         let mut K = assemble_stiffness(&x, V, T, &self.v0, self.C, self.D);
         for spring in springs {
-            let block = Matrix3::from_diagonal_element(-self.drag_stiffness);
+            let block = Matrix3::from_diagonal_element(-self.interaction.stiffness);
             add_block(&mut K, spring.node, spring.node, &block);
         }
         self.constraints.free_block(K)
     }
 
-    /// The pulls at a time: a person's where there is one, else the scene's.
-    fn springs(&self, time: f64) -> Vec<Spring> {
-        if let Some(pull) = &self.pull {
-            let spring = |&(node, anchor): &(usize, Vector3<f64>)| Spring { node, target: anchor + pull.offset };
-            return pull.anchors.iter().map(spring).collect();
-        }
-        let scripted = self.drag.as_ref().map(|(drag, node)| {
-            let swing = drag.amplitude * (std::f64::consts::TAU * drag.frequency * time).sin();
-            Spring { node: *node, target: self.shape.mesh.vertices[*node] + Vector3::from(drag.direction) * swing }
-        });
-        scripted.into_iter().collect()
+    /// The springs of the drag or of the mouse at a time, s.
+    fn springs(&self, time: f64) -> Vec<AnchorSpring> {
+        let V = &self.shape.mesh.vertices;
+        let anchors = self.interaction.anchors(V, time);
+        anchors.map(|anchor| AnchorSpring { node: anchor.node, target: V[anchor.node] + anchor.displacement }).collect()
     }
 }
 

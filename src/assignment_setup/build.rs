@@ -1,13 +1,13 @@
-//! From a scene to a simulation at rest.
+//! Builds a simulation at rest from a scene.
 
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use fem_scene::{Body, Integrator, Model, Pipeline, Precision, Scene, SceneError};
+use fem_scene::{Body, Integrator, Interaction, Model, Pipeline, Precision, Scene, SceneError};
 use nalgebra::{DVector, Vector3};
 
 use super::constraints::{Constraints, stack};
-use super::{AssignmentSetup, Work};
+use super::{AssignmentSetup, Profile};
 use crate::given::{Solver, volumes};
 use crate::{build_skinning_matrix, dphi_linear_tetrahedron_dX, mass_matrix_mesh};
 
@@ -15,7 +15,7 @@ use crate::{build_skinning_matrix, dphi_linear_tetrahedron_dX, mass_matrix_mesh}
 pub(super) const INTEGRATORS: [Integrator; 2] = [Integrator::LinearlyImplicitEuler, Integrator::ImplicitEuler];
 
 impl AssignmentSetup {
-    /// Builds what the scene names, and nothing else. Refuses what only the engine can do.
+    /// Builds the parts that the scene names. Returns an error for what only the engine can do.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
         check_pipeline(scene)?;
         let Some((C, D)) = scene.material.neo_hookean() else {
@@ -38,10 +38,8 @@ impl AssignmentSetup {
             weight: DVector::zeros(0),
             constraints,
             skinning,
-            drag_stiffness: scene.drag.as_ref().map_or_else(|| C * extent(V), |drag| drag.stiffness),
-            drag: scene.drag.clone().zip(body.dragged),
-            pull: None,
-            hardly_moved: HARDLY * smallest_height(V, T),
+            interaction: Interaction::new(scene, &body, C * extent(V)),
+            reuse_distance: REUSE * smallest_height(V, T),
             integrator: scene.time.integrator,
             dt: scene.time.dt,
             time: 0.0,
@@ -49,7 +47,7 @@ impl AssignmentSetup {
             qdot: DVector::zeros(q.len()),
             q,
             solver: RefCell::new(Solver::default()),
-            work: Work::default(),
+            profile: Profile::default(),
             shape: Arc::new(body.shape),
         };
         setup.weigh();
@@ -67,17 +65,11 @@ impl AssignmentSetup {
         };
         self.M = self.constraints.free_block(M);
     }
-
-    /// Display vertices that lie in no element: skinning carries them along, but stretches them.
-    pub fn display_vertices_outside(&self) -> usize {
-        let outside = |weights: &[f64]| weights.iter().any(|&weight| weight < -1e-6);
-        self.skinning.as_ref().map_or(0, |N| N.row_iter().filter(|row| outside(row.values())).count())
-    }
 }
 
-/// Part of the smallest element's height that a coordinate may move before a stiffness is out of date. Few elements are strained
-/// by that much then, and projection makes Newton's directions worse than a stiffness of that age does.
-const HARDLY: f64 = 0.1;
+/// Part of the smallest element's height by which a coordinate may move before the stiffness is assembled again. Few elements are
+/// strained by that much then, and projection makes Newton's directions worse than an older stiffness does.
+const REUSE: f64 = 0.1;
 
 /// The smallest height of all elements, m: one over the longest gradient of a shape function.
 fn smallest_height(V: &[Vector3<f64>], T: &[[usize; 4]]) -> f64 {
@@ -88,8 +80,8 @@ fn smallest_height(V: &[Vector3<f64>], T: &[[usize; 4]]) -> f64 {
 
 /// Longest edge of the bounding box, m.
 pub(super) fn extent(V: &[Vector3<f64>]) -> f64 {
-    let (least, most) = V.iter().fold((V[0], V[0]), |(least, most), x| (least.inf(x), most.sup(x)));
-    (most - least).max()
+    let (low, high) = V.iter().fold((V[0], V[0]), |(low, high), x| (low.inf(x), high.sup(x)));
+    (high - low).max()
 }
 
 fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {

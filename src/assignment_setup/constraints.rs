@@ -1,4 +1,4 @@
-//! Nodes that never move: P leaves their coordinates out, x0 puts them back.
+//! Fixed nodes: P eliminates their coordinates, x0 puts them back.
 
 use nalgebra::{DVector, Vector3};
 use nalgebra_sparse::CsrMatrix;
@@ -6,13 +6,13 @@ use nalgebra_sparse::CsrMatrix;
 use crate::fixed_point_constraints;
 use crate::given::select;
 
-/// P, its transpose, and where the fixed coordinates are; nothing at all where a scene fixes none.
+/// P, its transpose and the fixed coordinates; `None` if the scene fixes no node.
 pub(super) struct Constraints(Option<Fixed>);
 
 struct Fixed {
     P: CsrMatrix<f64>,
     P_transposed: CsrMatrix<f64>,
-    /// Fixed coordinates in their places, zero elsewhere, m.
+    /// The fixed coordinates, zero for free ones, m.
     x0: DVector<f64>,
 }
 
@@ -32,7 +32,7 @@ impl Constraints {
         self.0.as_ref().is_none_or(|fixed| fixed.P.nrows() == fixed.P.ncols())
     }
 
-    /// `Pᵀ q + x0`: fixed coordinates where they are, free ones from q.
+    /// `Pᵀ q + x0`: all coordinates, the free ones from q.
     pub(super) fn all_coordinates(&self, q: &DVector<f64>) -> DVector<f64> {
         match &self.0 {
             Some(fixed) => &fixed.P_transposed * q + &fixed.x0,
@@ -40,7 +40,7 @@ impl Constraints {
         }
     }
 
-    /// `Pᵀ v`: no velocity where nothing moves.
+    /// `Pᵀ v`: all velocities, zero for fixed coordinates.
     pub(super) fn all_velocities(&self, v: &DVector<f64>) -> DVector<f64> {
         self.0.as_ref().map_or_else(|| v.clone(), |fixed| &fixed.P_transposed * v)
     }
@@ -62,7 +62,7 @@ impl Constraints {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        self.0.as_ref().map_or(0, |fixed| 2 * super::work::bytes(&fixed.P) + 8 * fixed.x0.len())
+        self.0.as_ref().map_or(0, |fixed| 2 * super::profile::bytes(&fixed.P) + 8 * fixed.x0.len())
     }
 }
 

@@ -1,4 +1,4 @@
-//! What the window, the headless loop and the reports see.
+//! The interface to the window, the headless loop and the reports.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::build::{INTEGRATORS, extent};
 use super::constraints::stack;
-use super::{AssignmentSetup, Spring, explain};
+use super::{AnchorSpring, AssignmentSetup, explain};
 use crate::given::deformation_gradient;
 use crate::{T_linear_tetrahedron, dphi_linear_tetrahedron_dX, dpsi_neo_hookean_dF, pick_nearest_vertices};
 
@@ -33,8 +33,8 @@ impl Simulation for AssignmentSetup {
         let x = self.positions();
         let nodes = x.len() / 3;
         let Some(N) = &self.skinning else { return (0..nodes).map(|node| super::node(&x, node)).collect() };
-        self.work.count_skinning_rows(N.nrows());
-        self.work.skinning.time(|| {
+        self.profile.count_skinning_rows(N.nrows());
+        self.profile.skinning.time(|| {
             let skinned = N * DMatrix::from_fn(nodes, 3, |node, i| x[3 * node + i]);
             skinned.row_iter().map(|row| Vector3::new(row[0], row[1], row[2])).collect()
         })
@@ -49,7 +49,7 @@ impl Simulation for AssignmentSetup {
     }
 
     fn step(&mut self) -> Result<(), Failure> {
-        self.work.begin_step();
+        self.profile.begin_step();
         let springs = self.springs(self.time + self.dt);
         let (mut q, mut qdot) = (self.q.clone(), self.qdot.clone());
         self.advance(&mut q, &mut qdot, &springs);
@@ -60,7 +60,7 @@ impl Simulation for AssignmentSetup {
         (self.q, self.qdot) = (q, qdot);
         self.time += self.dt;
         self.steps_since_reset += 1;
-        self.work.count_step();
+        self.profile.count_step();
         Ok(())
     }
 
@@ -81,7 +81,7 @@ impl Simulation for AssignmentSetup {
     }
 
     fn min_J(&self) -> (f64, usize) {
-        self.smallest_J(&self.positions())
+        self.min_J_at(&self.positions())
     }
 
     fn stresses(&self) -> Vec<Matrix3<f64>> {
@@ -99,8 +99,7 @@ impl Simulation for AssignmentSetup {
     }
 
     fn next_integrator(&mut self) -> &'static str {
-        let position = INTEGRATORS.iter().position(|&integrator| integrator == self.integrator);
-        self.integrator = INTEGRATORS[position.map_or(0, |i| (i + 1) % INTEGRATORS.len())];
+        self.integrator = self.integrator.next_in(&INTEGRATORS);
         self.integrator.name()
     }
 
@@ -108,7 +107,7 @@ impl Simulation for AssignmentSetup {
         let parameter =
             |key, label, unit, value, range, logarithmic| Parameter { key, label, unit, value, range, logarithmic };
         let mut parameters = vec![
-            parameter("dt", "time step", "s", self.dt, (1e-4, 0.1), true),
+            Parameter::dt(self.dt, (1e-4, 0.1)),
             parameter("C", "stiffness C", "Pa", self.C, (1e2, 1e9), true),
             parameter("D", "stiffness D", "Pa", self.D, (1e2, 1e9), true),
             parameter("density", "density", "kg/m³", self.density, (1.0, 2e4), true),
@@ -116,43 +115,36 @@ impl Simulation for AssignmentSetup {
         if let Some((_, size)) = self.gravity {
             parameters.push(parameter("gravity", "gravity", "m/s²", size, (0.0, 30.0), false));
         }
-        parameters.push(parameter("drag", "drag stiffness", "N/m", self.drag_stiffness, (1.0, 1e8), true));
+        parameters.push(Parameter::drag(self.interaction.stiffness));
         parameters
     }
 
-    fn set_parameter(&mut self, key: &str, value: f64) -> Result<(), String> {
-        let Some(parameter) = self.parameters().into_iter().find(|parameter| parameter.key == key) else {
-            return Err(format!("there is no parameter {key}"));
-        };
-        let (low, high) = parameter.range;
-        // NaN fails the comparison.
-        if !(low <= value && value <= high) {
-            return Err(format!("{} = {value} {}; give {low} to {high}", parameter.label, parameter.unit));
-        }
+    fn apply_parameter(&mut self, key: &'static str, value: f64) {
         match key {
             "dt" => self.dt = value,
             "C" => self.C = value,
             "D" => self.D = value,
             "density" => self.density = value,
             "gravity" => self.gravity = self.gravity.map(|(direction, _)| (direction, value)),
-            _ => self.drag_stiffness = value,
+            _ => self.interaction.stiffness = value,
         }
         self.weigh();
-        Ok(())
     }
 
     fn pick(&self, click: &Click) -> Vec<usize> {
         let x = self.positions();
         let V: Vec<_> = (0..x.len() / 3).map(|node| super::node(&x, node)).collect();
-        let F = &self.shape.boundary;
-        // A point of a triangle is never farther from a corner than this part of its longest edge.
-        let edges = F.iter().flat_map(|&[a, b, c]| [V[a] - V[b], V[b] - V[c], V[c] - V[a]]);
-        let radius = edges.map(|edge| edge.norm()).fold(0.0, f64::max) / 3f64.sqrt();
+        let (F, radius) = (&self.shape.boundary, self.shape.pick_radius(&V));
         pick_nearest_vertices(&click.win, &click.view, &click.proj, &click.viewport, &V, F, radius)
     }
 
     fn pull(&mut self, pull: Option<Pull>) {
-        self.pull = pull;
+        self.interaction.set_pull(pull);
+    }
+
+    fn display_vertices_outside(&self) -> usize {
+        let is_outside = |weights: &[f64]| weights.iter().any(|&weight| weight < -1e-6);
+        self.skinning.as_ref().map_or(0, |N| N.row_iter().filter(|row| is_outside(row.values())).count())
     }
 
     fn counters(&self) -> Counters {
@@ -160,7 +152,7 @@ impl Simulation for AssignmentSetup {
         Counters {
             factorizations: solver.factorizations,
             symbolic_factorizations: solver.symbolic_factorizations,
-            ..self.work.counters()
+            ..self.profile.counters()
         }
     }
 
@@ -175,8 +167,8 @@ impl AssignmentSetup {
         deformation_gradient(x, element, &dphi_linear_tetrahedron_dX(V, element, &V[element[0]]))
     }
 
-    /// The smallest J of all elements, and the element that has it.
-    fn smallest_J(&self, x: &DVector<f64>) -> (f64, usize) {
+    /// The minimum of J = det F over all elements, and its element.
+    fn min_J_at(&self, x: &DVector<f64>) -> (f64, usize) {
         let determinants =
             self.shape.mesh.elements.iter().map(|element| self.deformation_gradient(x, element).determinant());
         determinants.enumerate().fold((f64::INFINITY, 0), |least, (i, J)| if J < least.0 { (J, i) } else { least })
@@ -187,33 +179,29 @@ impl AssignmentSetup {
         if let Some(i) = (0..x.len()).find(|&i| !(x[i].is_finite() && v[i].is_finite())) {
             return Some(Cause::NotFinite { node: i / 3 });
         }
-        let (J, element) = self.smallest_J(&x);
-        (J <= 0.0).then_some(Cause::Inverted { element, J })
+        Cause::inverted(self.min_J_at(&x))
     }
 
-    /// Whether implicit Euler has accepted no direction, though the forces on the body are not in balance.
+    /// [`Cause::Stuck`] if implicit Euler has accepted no direction, though the forces are not in balance.
     ///
-    /// A settled body accepts none either, but what is left of its forces is round-off of those that act on it.
-    fn stuck(&self, q: &DVector<f64>, qdot: &DVector<f64>, springs: &[Spring]) -> Option<Cause> {
+    /// A body at rest accepts no direction either, but its residual is round-off of the external forces.
+    fn stuck(&self, q: &DVector<f64>, qdot: &DVector<f64>, springs: &[AnchorSpring]) -> Option<Cause> {
         let has_moved = *qdot != self.qdot && qdot.iter().any(|&v| v != 0.0);
         if self.integrator != Integrator::ImplicitEuler || has_moved || qdot.is_empty() {
             return None;
         }
         let x = self.constraints.all_coordinates(q);
-        let pulls =
-            springs.iter().map(|spring| self.drag_stiffness * (super::node(&x, spring.node) - spring.target).amax());
+        let stiffness = self.interaction.stiffness;
+        let of_springs = springs.iter().map(|spring| stiffness * (super::node(&x, spring.node) - spring.target).amax());
         let inertia = &self.M * &self.qdot / self.dt;
-        let acting = self.weight.iter().chain(&inertia).map(|force| force.abs()).chain(pulls).fold(0.0, f64::max);
+        let external =
+            self.weight.iter().chain(&inertia).map(|force| force.abs()).chain(of_springs).fold(0.0, f64::max);
         let elastic = (self.C + self.D) * extent(&self.shape.mesh.vertices).powi(2);
         let unbalanced = (&self.M * (qdot - &self.qdot) / self.dt - self.force(q, springs)).amax();
-        (unbalanced > 1e-6 * (acting + elastic)).then_some(Cause::Stuck { unbalanced })
+        (unbalanced > 1e-6 * (external + elastic)).then_some(Cause::Stuck { unbalanced })
     }
 
     fn failure(&self, cause: Cause) -> Failure {
-        let remedy = match self.integrator {
-            Integrator::LinearlyImplicitEuler => "use implicit_euler, a smaller time step or a gentler pull",
-            _ => "use a smaller time step or a gentler pull",
-        };
-        Failure { step: self.steps_since_reset + 1, time: self.time + self.dt, cause, remedy: remedy.to_owned() }
+        Failure::of_step(self.steps_since_reset, self.time, self.dt, self.integrator, cause)
     }
 }

@@ -63,6 +63,7 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
         Pipeline::Course => course(scene, body)?,
         Pipeline::Engine => engine::build(scene, body)?,
     };
+    warn_of_vertices_outside(scene, &*simulation);
     let seconds_setup = start.elapsed().as_secs_f64();
     let down = scene.gravity.as_ref().and_then(|gravity| Vector3::from(gravity.acceleration).try_normalize(0.0));
     let expected_tip = cantilever::expected_tip_displacement(scene);
@@ -81,10 +82,14 @@ fn steps(scene: &Scene) -> usize {
     scene.time.steps.or(load_steps).unwrap_or(DEFAULT_STEPS)
 }
 
-/// The functions of the assignment.
+/// The simulation that the 22 functions run.
 fn course(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, End> {
-    let setup = AssignmentSetup::new(scene, body).map_err(End::unusable)?;
-    let outside = setup.display_vertices_outside();
+    Ok(Box::new(AssignmentSetup::new(scene, body).map_err(End::unusable)?))
+}
+
+/// Warns of display vertices that the mesh does not enclose: their weights stretch them.
+fn warn_of_vertices_outside(scene: &Scene, simulation: &dyn Simulation) {
+    let outside = simulation.display_vertices_outside();
     if outside > 0 {
         eprintln!(
             "warning: {}: mesh.display: {outside} vertices lie outside the tetrahedra and follow the nearest one; \
@@ -92,5 +97,4 @@ fn course(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, End> {
             scene.path.display()
         );
     }
-    Ok(Box::new(setup))
 }

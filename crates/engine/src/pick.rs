@@ -1,21 +1,20 @@
-//! What lies under a click.
+//! Nodes under a click.
 
 use nalgebra::{Point3, Vector3, Vector4};
 
-use fem_scene::simulation::Click;
+use fem_scene::simulation::{Click, Shape};
 
-/// Nodes near the first point of the boundary under a click, ascending; none where the click misses. Near is what no triangle's
-/// inside is farther from its corners than.
-pub fn nodes_under(click: &Click, x: &[Vector3<f64>], boundary: &[[usize; 3]]) -> Vec<usize> {
+/// Nodes within [`Shape::pick_radius`] of the first point of the boundary under a click, ascending; empty if the click misses it.
+/// `x` are the positions of the nodes now, m.
+pub fn nodes_under(click: &Click, x: &[Vector3<f64>], shape: &Shape) -> Vec<usize> {
     let Some((origin, direction)) = ray(click) else { return Vec::new() };
-    let hits = boundary.iter().filter_map(|face| hit(&origin, &direction, face.map(|node| x[node])));
+    let hits = shape.boundary.iter().filter_map(|face| hit(&origin, &direction, face.map(|node| x[node])));
     let first = hits.fold(f64::INFINITY, f64::min);
     if !first.is_finite() {
         return Vec::new();
     }
     let point = origin + first * direction;
-    let edges = boundary.iter().flat_map(|&[a, b, c]| [x[a] - x[b], x[b] - x[c], x[c] - x[a]]);
-    let radius = edges.map(|edge| edge.norm()).fold(0.0, f64::max) / 3f64.sqrt();
+    let radius = shape.pick_radius(x);
     (0..x.len()).filter(|&node| (x[node] - point).norm() <= radius).collect()
 }
 

@@ -44,6 +44,12 @@ impl Integrator {
         }
     }
 
+    /// The method that follows this one in a list, the first after the last.
+    pub fn next_in(self, list: &[Self]) -> Self {
+        let place = list.iter().position(|&integrator| integrator == self);
+        list[place.map_or(0, |place| (place + 1) % list.len())]
+    }
+
     /// The method of that name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|integrator| integrator.name() == name)

@@ -13,6 +13,7 @@ pub mod cantilever;
 mod check;
 mod error;
 mod integrator;
+mod interaction;
 mod load;
 mod loads;
 mod methods;
@@ -21,14 +22,17 @@ mod nodes;
 pub mod output;
 pub mod simulate;
 pub mod simulation;
+mod timer;
 
 pub use body::{Body, body, body_of};
 pub use error::SceneError;
 pub use integrator::Integrator;
+pub use interaction::{Anchor, Interaction};
 pub use load::{load, names, parse};
 pub use loads::{BodyForce, Drag, DragVertex, Gravity, SidePlane, Spring, Traction};
 pub use methods::{Damping, Newton, Precision, Preconditioner, Projection, Solver, SolverKind, Static, Time};
 pub use motion::{Fixed, Plane, Prescribed, Rotation};
+pub use timer::Timer;
 
 pub use fem_mesh::Side;
 

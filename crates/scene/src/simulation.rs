@@ -1,11 +1,18 @@
-//! The one trait between a pipeline and whoever drives it.
+//! The trait between a pipeline and the window, the headless loop and the reports.
 
-use std::fmt;
+mod failure;
+mod parameter;
+mod part;
+
 use std::sync::Arc;
 
 use nalgebra::{DVector, Matrix3, Matrix4, Vector3, Vector4};
 
 use fem_mesh::{SurfaceMesh, TetrahedralMesh};
+
+pub use failure::{Breakdown, Cause, Failure};
+pub use parameter::Parameter;
+pub use part::Part;
 
 /// A body in motion, as the window, the headless loop and the reports see it. Lengths in m, times in s, energies in J.
 pub trait Simulation: Send {
@@ -21,7 +28,7 @@ pub trait Simulation: Send {
     /// `qdot  (3n)` velocities of all nodes now, m/s.
     fn velocities(&self) -> DVector<f64>;
 
-    /// Positions of the display surface's vertices now, m: skinned where the scene has a display mesh, else the nodes.
+    /// Positions of the display surface's vertices now, m: skinned if the scene has a display mesh, else the nodes.
     fn display_positions(&self) -> Vec<Vector3<f64>>;
 
     /// Seconds simulated since the start or the last reset.
@@ -51,19 +58,35 @@ pub trait Simulation: Send {
     /// Goes on with the next integrator that this pipeline has, and returns its name.
     fn next_integrator(&mut self) -> &'static str;
 
-    /// What a person may change while it runs.
+    /// The numbers that the user may change while it runs.
     fn parameters(&self) -> Vec<Parameter>;
 
-    /// Sets one of [`parameters`](Self::parameters) by its key; refuses values that are not finite or out of range.
-    fn set_parameter(&mut self, key: &str, value: f64) -> Result<(), String>;
+    /// Sets one of [`parameters`](Self::parameters) by its key.
+    ///
+    /// Returns an error if there is no such parameter, or if the value is not finite or out of its range.
+    fn set_parameter(&mut self, key: &str, value: f64) -> Result<(), String> {
+        let parameter = self.parameters().into_iter().find(|parameter| parameter.key == key);
+        let parameter = parameter.ok_or_else(|| format!("there is no parameter {key}"))?;
+        parameter.check(value)?;
+        self.apply_parameter(parameter.key, value);
+        Ok(())
+    }
 
-    /// Nodes near the point of the body under a click; empty where the click misses.
+    /// Stores a value that [`set_parameter`](Self::set_parameter) has checked.
+    fn apply_parameter(&mut self, key: &'static str, value: f64);
+
+    /// Nodes near the point of the body under a click; empty if the click misses the body.
     fn pick(&self, click: &Click) -> Vec<usize>;
 
-    /// Springs that a person holds: replaces the scene's scripted drag until `None` is given.
+    /// Pulls at nodes in place of the scene's drag, until `None` is given.
     fn pull(&mut self, pull: Option<Pull>);
 
-    /// The forces with which `[fixed]` and each `[[prescribed]]` hold the body now; none where a pipeline does not know them.
+    /// Number of display vertices that lie in no tetrahedron.
+    fn display_vertices_outside(&self) -> usize {
+        0
+    }
+
+    /// Reaction forces now, of `[fixed]` and of each `[[prescribed]]`; empty for a pipeline that does not compute them.
     fn reactions(&self) -> Vec<Reaction> {
         Vec::new()
     }
@@ -71,7 +94,7 @@ pub trait Simulation: Send {
     /// Counts of the work done since the start (a reset does not clear them).
     fn counters(&self) -> Counters;
 
-    /// What the scene builds and what it leaves out.
+    /// The parts that the scene builds and those that it leaves out.
     fn parts(&self) -> Vec<Part>;
 }
 
@@ -82,7 +105,7 @@ pub struct Shape {
     pub mesh: TetrahedralMesh,
     /// Boundary triangles of `mesh`, as indices of its nodes, counter-clockwise from outside.
     pub boundary: Vec<[usize; 3]>,
-    /// Surface that is shown, where the scene names one.
+    /// Surface that is shown, if the scene names one.
     pub display: Option<SurfaceMesh>,
 }
 
@@ -96,6 +119,15 @@ pub struct Energies {
     pub potential: f64,
 }
 
+impl Shape {
+    /// Distance from a point of the boundary within which its nearest corner lies, m: the longest edge over √3.
+    /// `x` are the positions of the nodes now, m.
+    pub fn pick_radius(&self, x: &[Vector3<f64>]) -> f64 {
+        let edges = self.boundary.iter().flat_map(|&[a, b, c]| [x[a] - x[b], x[b] - x[c], x[c] - x[a]]);
+        edges.map(|edge| edge.norm()).fold(0.0, f64::max) / 3f64.sqrt()
+    }
+}
+
 impl Energies {
     /// Kinetic and potential energy together.
     pub fn total(&self) -> f64 {
@@ -103,30 +135,13 @@ impl Energies {
     }
 }
 
-/// What holds a part of the body, and how hard.
+/// The reaction force of one Dirichlet condition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reaction {
     /// The scene's table: `fixed`, or such as `prescribed[0]`.
     pub name: String,
-    /// Sum over the nodes of the force on the body, in the directions that are held, N.
+    /// Sum over the nodes of the force on the body, in the constrained directions, N.
     pub force: [f64; 3],
-}
-
-/// A number that a person may change while the simulation runs.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Parameter {
-    /// Name for [`Simulation::set_parameter`].
-    pub key: &'static str,
-    /// Name for people.
-    pub label: &'static str,
-    /// SI unit, such as `Pa`.
-    pub unit: &'static str,
-    /// Value in use.
-    pub value: f64,
-    /// Smallest and largest value that is accepted.
-    pub range: (f64, f64),
-    /// Whether a slider should be logarithmic.
-    pub logarithmic: bool,
 }
 
 /// A click into a picture of the simulation mesh, in OpenGL's conventions.
@@ -142,12 +157,12 @@ pub struct Click {
     pub viewport: Vector4<f32>,
 }
 
-/// Zero-length springs from each of some nodes to where the node was when the pull began, plus a common offset.
+/// Springs of zero rest length from nodes to their positions when the pull began, plus a common offset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pull {
-    /// Nodes that are held, and where each was when the pull began, m.
+    /// Nodes that are pulled, and the position of each when the pull began, m.
     pub anchors: Vec<(usize, Vector3<f64>)>,
-    /// How far the hand has moved since, m.
+    /// Displacement of the mouse since then, m.
     pub offset: Vector3<f64>,
 }
 
@@ -168,107 +183,3 @@ pub struct Counters {
     pub projections: usize,
     pub skinning_rows: usize,
 }
-
-/// One part of a scene: built, or left out.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Part {
-    /// Short name, also its key in the statistics file.
-    pub name: &'static str,
-    /// Whether the scene builds it.
-    pub built: bool,
-    /// What it is for and what in the scene switches it on or leaves it out.
-    pub why: String,
-    /// Memory that it holds, bytes.
-    pub bytes: usize,
-    /// How often it has been used so far.
-    pub uses: usize,
-    /// Wall-clock time spent in it so far, s.
-    pub seconds: f64,
-}
-
-/// Why a simulation cannot go on.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Failure {
-    /// The step that failed, counted from 1 since the start or the last reset.
-    pub step: usize,
-    /// The time that the step would have reached, s.
-    pub time: f64,
-    /// What happened.
-    pub cause: Cause,
-    /// What a person can do about it.
-    pub remedy: String,
-}
-
-/// What ended a simulation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cause {
-    /// A position or velocity is NaN or infinite.
-    NotFinite {
-        /// The first node that is.
-        node: usize,
-    },
-    /// An element is turned inside out or has no volume left.
-    Inverted {
-        /// The element.
-        element: usize,
-        /// Its J = det F ≤ 0.
-        J: f64,
-    },
-    /// Where a step starts, an energy or a force is too large for a number.
-    Overflow,
-    /// A linear system was not solved.
-    Solver(Breakdown),
-    /// Newton's method found no velocity of lower energy, though forces are not in balance.
-    Stuck {
-        /// The largest component of what is left of the forces, N.
-        unbalanced: f64,
-    },
-}
-
-/// Why a linear system was not solved.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Breakdown {
-    /// The matrix is not positive definite: a pivot, or the curvature along a search direction, is not positive.
-    NotPositiveDefinite,
-    /// The matrix is singular, or holds a number that is not finite.
-    Singular,
-    /// The iteration ended before it reached its tolerance.
-    NotConverged {
-        /// Relative residual that was reached.
-        residual: f64,
-    },
-    /// The factor would not fit into memory.
-    TooLarge,
-}
-
-impl fmt::Display for Breakdown {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotPositiveDefinite => write!(f, "the stiffness is not positive definite"),
-            Self::Singular => write!(f, "the stiffness is singular, or not finite"),
-            Self::NotConverged { residual } => {
-                write!(f, "the linear solver does not converge (relative residual {residual:.1e})")
-            }
-            Self::TooLarge => write!(f, "the factor of the stiffness does not fit into memory"),
-        }
-    }
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the simulation failed in step {} (t = {:.6} s): ", self.step, self.time)?;
-        match self.cause {
-            Cause::NotFinite { node } => write!(f, "node {node} is no longer at a finite place")?,
-            Cause::Inverted { element, J } => write!(f, "element {element} is inverted (J = {J:.3e})")?,
-            Cause::Overflow => write!(f, "an energy or a force is too large for a number")?,
-            Cause::Solver(breakdown) => write!(f, "{breakdown}")?,
-            Cause::Stuck { unbalanced } => write!(
-                f,
-                "Newton's method finds no way to lower the energy, and {unbalanced:.3e} N are not in balance"
-            )?,
-        }
-        write!(f, "; {}", self.remedy)
-    }
-}
-
-impl std::error::Error for Failure {}

@@ -15,7 +15,6 @@ use crate::model::state::State;
 use crate::number::Real;
 use crate::pick;
 use crate::tensor::from_fn;
-use fem_scene::Integrator;
 use fem_scene::simulation::{
     Cause, Click, Counters, Energies, Failure, Parameter, Part, Pull, Reaction, Shape, Simulation,
 };
@@ -120,45 +119,34 @@ impl<T: Real> Simulation for Simulator<T> {
 
     fn next_integrator(&mut self) -> &'static str {
         let all = integrators(&self.scene);
-        let position = all.iter().position(|&integrator| integrator == self.integrator);
-        self.integrator = all[position.map_or(0, |i| (i + 1) % all.len())];
+        self.integrator = self.integrator.next_in(all);
         let choice = solver_choice(&self.scene, self.system.nodes());
         self.stepper = Stepper::new(&self.scene, &self.system, self.integrator, choice);
         self.integrator.name()
     }
 
     fn parameters(&self) -> Vec<Parameter> {
-        let parameter =
-            |key, label, unit, value, range, logarithmic| Parameter { key, label, unit, value, range, logarithmic };
-        vec![
-            parameter("dt", "time step", "s", self.dt, (1e-5, 0.1), true),
-            parameter("drag", "drag stiffness", "N/m", self.drag_stiffness, (1.0, 1e8), true),
-        ]
+        vec![Parameter::dt(self.dt, (1e-5, 0.1)), Parameter::drag(self.drag_stiffness)]
     }
 
-    fn set_parameter(&mut self, key: &str, value: f64) -> Result<(), String> {
-        let Some(parameter) = self.parameters().into_iter().find(|parameter| parameter.key == key) else {
-            return Err(format!("there is no parameter {key}"));
-        };
-        let (low, high) = parameter.range;
-        // NaN fails the comparison.
-        if !(low <= value && value <= high) {
-            return Err(format!("{} = {value} {}; give {low} to {high}", parameter.label, parameter.unit));
-        }
+    fn apply_parameter(&mut self, key: &'static str, value: f64) {
         match key {
             "dt" => self.dt = value,
             _ => self.drag_stiffness = value,
         }
         self.stepper.forget();
-        Ok(())
     }
 
     fn pick(&self, click: &Click) -> Vec<usize> {
-        pick::nodes_under(click, &self.nodes_now(), &self.system.shape.boundary)
+        pick::nodes_under(click, &self.nodes_now(), &self.system.shape)
     }
 
     fn pull(&mut self, pull: Option<Pull>) {
         self.pull = pull;
+    }
+
+    fn display_vertices_outside(&self) -> usize {
+        self.skinning.as_ref().map_or(0, |skinning| skinning.outside())
     }
 
     fn reactions(&self) -> Vec<Reaction> {
@@ -207,17 +195,10 @@ impl<T: Real> Simulator<T> {
         if allows_inversion(self.scene.material.model) {
             return Ok(());
         }
-        let (J, element) = self.system.elements.min_det_F(&self.state.u);
-        // NaN is no volume either.
-        if J > T::default() { Ok(()) } else { Err(Cause::Inverted { element, J: J.as_f64() }) }
+        Cause::inverted(self.min_J()).map_or(Ok(()), Err)
     }
 
     fn failure(&self, cause: Cause) -> Failure {
-        let remedy = match self.integrator {
-            Integrator::Static => "use more static.load_steps, or a gentler load".to_owned(),
-            Integrator::ImplicitEuler => format!("use a time step below {} s, or a gentler load", self.dt),
-            _ => format!("use a time step below {} s, or implicit_euler", self.dt),
-        };
-        Failure { step: self.state.steps + 1, time: self.state.time + self.dt, cause, remedy }
+        Failure::of_step(self.state.steps, self.state.time, self.dt, self.integrator, cause)
     }
 }

@@ -96,12 +96,8 @@ impl Simulation for Fake {
         let range = (0.0, 1.0);
         vec![Parameter { key: "offset", label: "Offset", unit: "m", value: self.offset, range, logarithmic: false }]
     }
-    fn set_parameter(&mut self, key: &str, value: f64) -> Result<(), String> {
-        if !(0.0..=1.0).contains(&value) {
-            return Err(format!("{key} must lie between 0 and 1"));
-        }
+    fn apply_parameter(&mut self, _: &'static str, value: f64) {
         self.offset = value;
-        Ok(())
     }
     fn pick(&self, click: &Click) -> Vec<usize> {
         if click.win.x < 0.0 { Vec::new() } else { vec![0] }

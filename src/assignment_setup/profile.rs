@@ -1,25 +1,25 @@
-//! Counts and clocks of the work that a simulation does.
+//! Counters and timers of a simulation.
 
 use std::cell::Cell;
-use std::time::Instant;
 
+use fem_scene::Timer;
 use fem_scene::simulation::Counters;
 use nalgebra_sparse::CsrMatrix;
 
-/// Counters and stop watches. Closures that share the simulation write to them, hence the cells.
+/// Counters, and timers of the parts. Closures that share the simulation write to them, hence the cells.
 #[derive(Default)]
-pub(super) struct Work {
+pub(super) struct Profile {
     counters: Cell<Counters>,
-    /// Energies asked for since the last linear solve: all but the first of them are backtracking.
+    /// Energies evaluated since the last linear solve: all but the first of them are backtracking.
     trials: Cell<Option<usize>>,
-    pub(super) energy: Clock,
-    pub(super) forces: Clock,
-    pub(super) stiffness: Clock,
-    pub(super) solve: Clock,
-    pub(super) skinning: Clock,
+    pub(super) energy: Timer,
+    pub(super) forces: Timer,
+    pub(super) stiffness: Timer,
+    pub(super) solve: Timer,
+    pub(super) skinning: Timer,
 }
 
-impl Work {
+impl Profile {
     pub(super) fn counters(&self) -> Counters {
         self.counters.get()
     }
@@ -30,7 +30,7 @@ impl Work {
         self.counters.set(counters);
     }
 
-    /// A step begins: an energy is not the trial of a line search until a direction has been solved for.
+    /// Begins a step: energies are not trials of a line search before the first linear solve.
     pub(super) fn begin_step(&self) {
         self.trials.set(None);
     }
@@ -59,7 +59,7 @@ impl Work {
         });
     }
 
-    /// A linear solve: in Newton's method a new direction, along which the next energies are trials.
+    /// Counts a linear solve: in Newton's method it gives a new direction, along which the next energies are trials.
     pub(super) fn count_solve(&self, of_newton: bool) {
         self.trials.set(Some(0));
         self.count(|counters| counters.newton_iterations += usize::from(of_newton));
@@ -67,24 +67,6 @@ impl Work {
 
     pub(super) fn count_skinning_rows(&self, rows: usize) {
         self.count(|counters| counters.skinning_rows += rows);
-    }
-}
-
-/// Uses of one part, and seconds of wall-clock time spent in it.
-#[derive(Default)]
-pub(super) struct Clock(Cell<(usize, f64)>);
-
-impl Clock {
-    pub(super) fn time<R>(&self, work: impl FnOnce() -> R) -> R {
-        let start = Instant::now();
-        let result = work();
-        let (uses, seconds) = self.0.get();
-        self.0.set((uses + 1, seconds + start.elapsed().as_secs_f64()));
-        result
-    }
-
-    pub(super) fn read(&self) -> (usize, f64) {
-        self.0.get()
     }
 }
 

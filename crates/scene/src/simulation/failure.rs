@@ -1,0 +1,113 @@
+//! Reasons for which a simulation cannot go on.
+
+use std::fmt;
+
+use crate::Integrator;
+
+/// A step that failed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// The step that failed, counted from 1 since the start or the last reset.
+    pub step: usize,
+    /// The time that the step would have reached, s.
+    pub time: f64,
+    /// What happened.
+    pub cause: Cause,
+    /// What the user can do about it.
+    pub remedy: String,
+}
+
+/// What ended a simulation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cause {
+    /// A position or velocity is NaN or infinite.
+    NotFinite {
+        /// The first such node.
+        node: usize,
+    },
+    /// An element is inverted or has no volume left.
+    Inverted {
+        /// The element.
+        element: usize,
+        /// Its J = det F ≤ 0.
+        J: f64,
+    },
+    /// At the start of a step, an energy or a force is too large for a number.
+    Overflow,
+    /// A linear system was not solved.
+    Solver(Breakdown),
+    /// Newton's method found no velocity of lower energy, though forces are not in balance.
+    Stuck {
+        /// The largest component of the residual, N.
+        unbalanced: f64,
+    },
+}
+
+impl Cause {
+    /// [`Cause::Inverted`] if the smallest J of all elements is not positive. `min_J` is as
+    /// [`Simulation::min_J`](super::Simulation::min_J) returns it.
+    pub fn inverted((J, element): (f64, usize)) -> Option<Self> {
+        // NaN is no volume either.
+        if J > 0.0 { None } else { Some(Self::Inverted { element, J }) }
+    }
+}
+
+/// Why a linear system was not solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Breakdown {
+    /// The matrix is not positive definite: a pivot, or the curvature along a search direction, is not positive.
+    NotPositiveDefinite,
+    /// The matrix is singular, or holds a number that is not finite.
+    Singular,
+    /// The iteration ended before it reached its tolerance.
+    NotConverged {
+        /// Relative residual that was reached.
+        residual: f64,
+    },
+    /// The factor would not fit into memory.
+    TooLarge,
+}
+
+impl Failure {
+    /// The failure of the step that follows the state at `time` (s) after `steps` steps of length `dt` (s).
+    pub fn of_step(steps: usize, time: f64, dt: f64, integrator: Integrator, cause: Cause) -> Self {
+        let remedy = match integrator {
+            Integrator::Static => "use more static.load_steps, or smaller loads".to_owned(),
+            Integrator::ImplicitEuler => format!("use a time step below {dt} s, smaller loads, or a gentler pull"),
+            _ => format!("use a time step below {dt} s, or implicit_euler"),
+        };
+        Self { step: steps + 1, time: time + dt, cause, remedy }
+    }
+}
+
+impl fmt::Display for Breakdown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotPositiveDefinite => write!(f, "the stiffness is not positive definite"),
+            Self::Singular => write!(f, "the stiffness is singular, or not finite"),
+            Self::NotConverged { residual } => {
+                write!(f, "the linear solver does not converge (relative residual {residual:.1e})")
+            }
+            Self::TooLarge => write!(f, "the factor of the stiffness does not fit into memory"),
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the simulation failed in step {} (t = {:.6} s): ", self.step, self.time)?;
+        match self.cause {
+            Cause::NotFinite { node } => write!(f, "the position or velocity of node {node} is no longer finite")?,
+            Cause::Inverted { element, J } => write!(f, "element {element} is inverted (J = {J:.3e})")?,
+            Cause::Overflow => write!(f, "an energy or a force is too large for a number")?,
+            Cause::Solver(breakdown) => write!(f, "{breakdown}")?,
+            Cause::Stuck { unbalanced } => write!(
+                f,
+                "Newton's method finds no way to lower the energy, and {unbalanced:.3e} N are not in balance"
+            )?,
+        }
+        write!(f, "; {}", self.remedy)
+    }
+}
+
+impl std::error::Error for Failure {}
