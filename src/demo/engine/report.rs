@@ -6,7 +6,7 @@ use clap::Args;
 use fem_scene::Scene;
 use fem_scene::simulation::Simulation;
 use fem_study::report::{Report, first_files, report};
-use fem_study::scene::Setting;
+use fem_study::studies::Settings;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::demo::end::End;
@@ -42,8 +42,8 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
     let factory = |scene: &Scene| -> Result<Box<dyn Simulation>, String> {
         demo::build(scene).map(|ready| ready.simulation).map_err(|end| end.message())
     };
-    let setting = Setting { data, out: folder.clone(), is_quick: arguments.quick, factory: &factory, tell: &tell };
-    let found = report(&setting, &scenes).map_err(End::Stopped)?;
+    let settings = Settings { data, out: folder.clone(), is_quick: arguments.quick, factory: &factory, tell: &tell };
+    let found = report(&settings, &scenes).map_err(End::Stopped)?;
     bar.finish_and_clear();
     print(&found);
     for file in first_files(folder) {

@@ -1,9 +1,9 @@
 //! The first screen: which method for which error.
 
 use super::Report;
-use crate::row::Row;
-use crate::scene::{SceneStudy, competing_error};
-use crate::text::{number, percent, seconds, step, trimmed};
+use crate::report::text::{number, percent, seconds, step, trimmed};
+use crate::runs::row::Row;
+use crate::studies::scene::{SceneStudy, competing_error};
 use fem_chart::escape;
 
 /// Errors that people ask for, as parts of the body's length.
@@ -21,7 +21,7 @@ pub fn html(report: &Report) -> String {
 
 /// The fastest run within an error, on the scene's own mesh.
 pub fn fastest(study: &SceneStudy, budget: f64) -> Option<&Row> {
-    let own = |row: &&Row| row.is_done() && row.case.nodes == study.size.0;
+    let own = |row: &&Row| row.is_done() && row.config.nodes == study.size.0;
     let within = |row: &&Row| competing_error(row).is_some_and(|error| error <= budget);
     let candidates = study.rows.iter().filter(own).filter(within).filter(|row| row.seconds().is_some());
     candidates.min_by(|a, b| a.seconds().unwrap_or(f64::NAN).total_cmp(&b.seconds().unwrap_or(f64::NAN)))
@@ -42,8 +42,8 @@ pub fn sentence(study: &SceneStudy) -> String {
             Some(row) => format!(
                 "{} of its length, {} at dt = {} ({}, {})",
                 percent(budget),
-                row.case.method,
-                step(row.case.dt),
+                row.config.method,
+                step(row.config.dt),
                 seconds(row.seconds()),
                 real_time(row, study.horizon)
             ),
@@ -52,7 +52,7 @@ pub fn sentence(study: &SceneStudy) -> String {
         parts.push(part);
     }
     let mesh =
-        study.nested.as_ref().and_then(|nested| nested.errors.get(1)).map_or(String::new(), |level| {
+        study.richardson.as_ref().and_then(|nested| nested.errors.get(1)).map_or(String::new(), |level| {
             format!(" – mind that its mesh alone is {} % off", trimmed(100.0 * level.1))
         });
     format!("for {} s of motion with an error in time of {}{mesh}.", trimmed(study.horizon), parts.join("; of "))
@@ -68,8 +68,10 @@ fn real_time(row: &Row, horizon: f64) -> String {
 }
 
 fn equilibrium(study: &SceneStudy) -> String {
-    let timed =
-        study.rows.iter().filter(|row| row.is_done() && row.case.nodes == study.size.0 && row.case.precision == "f64");
+    let timed = study
+        .rows
+        .iter()
+        .filter(|row| row.is_done() && row.config.nodes == study.size.0 && row.config.precision == "f64");
     let best = timed.min_by(|a, b| a.seconds().unwrap_or(f64::NAN).total_cmp(&b.seconds().unwrap_or(f64::NAN)));
     let Some(row) = best else { return "no run came to its end.".to_owned() };
     let error = row.errors.analytic.map_or(String::new(), |error| {
@@ -78,15 +80,15 @@ fn equilibrium(study: &SceneStudy) -> String {
     let finer: Vec<String> = study
         .rows
         .iter()
-        .filter(|row| row.case.group == "mesh" && row.is_done())
+        .filter(|row| row.config.group == "mesh" && row.is_done())
         .filter_map(|row| {
-            Some(format!("{} ({}, {})", row.case.method, percent(row.errors.analytic?), seconds(row.seconds())))
+            Some(format!("{} ({}, {})", row.config.method, percent(row.errors.analytic?), seconds(row.seconds())))
         })
         .collect();
     let finer = if finer.is_empty() { String::new() } else { format!("; other meshes: {}", finer.join(", ")) };
     format!(
         "the equilibrium on its own mesh is fastest by {} ({}{error}){finer}.",
-        row.case.method,
+        row.config.method,
         seconds(row.seconds())
     )
 }

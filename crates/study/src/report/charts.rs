@@ -1,12 +1,12 @@
 //! The pictures of a report.
 
 use super::Report;
-use crate::costs::{self, KINDS};
-use crate::order::asymptotic;
-use crate::row::Row;
-use crate::scene::{SceneStudy, competing_error};
-use crate::space::{self, Space};
-use crate::text::{number, seconds, step};
+use crate::report::text::{number, seconds, step};
+use crate::runs::convergence_order::asymptotic;
+use crate::runs::costs::{self, KINDS};
+use crate::runs::row::Row;
+use crate::studies::scene::{SceneStudy, competing_error};
+use crate::studies::space::{self, SpaceStudy};
 use fem_chart::{Axis, Bar, Chart, Dot, Guide, Picture, Series, bars};
 
 /// Pictures that become files of their own.
@@ -31,7 +31,7 @@ const FRAMES: f64 = 60.0;
 
 /// What a dot says of its run.
 pub fn title(row: &Row) -> String {
-    let case = &row.case;
+    let case = &row.config;
     let counters = &row.counters;
     format!(
         "{}\n{} steps of {}\nerror {} (largest {})\n{} in all, {} a step\nsteps {}, forces {}, Newton {}, factors {}, solver {}\n{}",
@@ -70,9 +70,9 @@ fn look(method: &str) -> (usize, usize) {
 /// Names of the methods that have a ladder, in the order of their first run.
 fn methods(study: &SceneStudy) -> Vec<String> {
     let mut methods: Vec<String> = Vec::new();
-    for row in study.rows.iter().filter(|row| ["method", "order"].contains(&&*row.case.group)) {
-        if !methods.contains(&row.case.method) {
-            methods.push(row.case.method.clone());
+    for row in study.rows.iter().filter(|row| ["method", "order"].contains(&&*row.config.group)) {
+        if !methods.contains(&row.config.method) {
+            methods.push(row.config.method.clone());
         }
     }
     methods
@@ -91,21 +91,22 @@ pub fn error_against_time(study: &SceneStudy) -> Picture {
     let label = format!("{}: error against run time", study.name);
     let mut chart = Chart::new(label, Axis::log(name), Axis::log(error_name));
     chart.size = (660.0, 450.0);
-    let own = |row: &&Row| row.is_done() && (row.case.nodes == study.size.0 || !is_moving);
+    let own = |row: &&Row| row.is_done() && (row.config.nodes == study.size.0 || !is_moving);
     let dot = |row: &Row| {
         let [low, median, high] = row.times.total_s;
         let spread = low.zip(high).map(|(low, high)| (low * unit, high * unit));
         let is_best = row.standing == "front";
         Some(Dot { x: median? * unit, y: competing_error(row)?, title: title(row), spread, is_best })
     };
-    let rows = |method: &str| study.rows.iter().filter(own).filter(|row| row.case.method == method).collect::<Vec<_>>();
+    let rows =
+        |method: &str| study.rows.iter().filter(own).filter(|row| row.config.method == method).collect::<Vec<_>>();
     for method in methods(study) {
         let (colour, shape) = look(&method);
         let dots: Vec<Dot> = rows(&method).into_iter().filter_map(dot).collect();
         let name = if dots.is_empty() { format!("{method} (none ended)") } else { method };
         chart.series.push(Series { name, colour, shape, is_joined: true, has_dots: true, dots });
     }
-    let others = study.rows.iter().filter(own).filter(|row| row.case.group != "method");
+    let others = study.rows.iter().filter(own).filter(|row| row.config.group != "method");
     let dots: Vec<Dot> = others.filter_map(dot).collect();
     if !dots.is_empty() {
         let name = "variants: tolerance, solver, projection, precision".to_owned();
@@ -115,7 +116,7 @@ pub fn error_against_time(study: &SceneStudy) -> Picture {
         chart.guides.push(Guide::Vertical(4.0, "4 ms".to_owned()));
         chart.guides.push(Guide::Vertical(16.0, "16 ms".to_owned()));
         chart.guides.extend(slopes(&chart));
-        if let Some(level) = study.nested.as_ref().and_then(|nested| nested.errors.get(1)) {
+        if let Some(level) = study.richardson.as_ref().and_then(|nested| nested.errors.get(1)) {
             chart.guides.push(Guide::Horizontal(level.1, "the mesh's own error".to_owned()));
         }
     }
@@ -139,8 +140,9 @@ pub fn convergence(study: &SceneStudy) -> Picture {
     let mut chart =
         Chart::new(label, Axis::log("time step (s)"), Axis::log("error in time, part of the body's length"));
     for method in methods(study) {
-        let rows = study.rows.iter().filter(|row| row.case.method == method && row.is_done());
-        let dot = |row: &Row| Some(Dot { x: row.case.dt, y: row.errors.time_l2?, title: title(row), ..Dot::default() });
+        let rows = study.rows.iter().filter(|row| row.config.method == method && row.is_done());
+        let dot =
+            |row: &Row| Some(Dot { x: row.config.dt, y: row.errors.time_l2?, title: title(row), ..Dot::default() });
         let dots: Vec<Dot> = rows.filter_map(dot).collect();
         let pairs: Vec<_> = dots.iter().map(|dot| (dot.x, dot.y)).collect();
         let order = asymptotic(&pairs, super::FINEST, super::FLOOR).filter(|order| order.points > 2);
@@ -159,14 +161,14 @@ pub fn drift(study: &SceneStudy) -> Option<Picture> {
     for method in methods(study).iter().filter(|method| !method.starts_with("course")) {
         // The run of the ladder's middle: steps that people use.
         let places: Vec<usize> = (0..study.rows.len())
-            .filter(|&place| study.rows[place].case.method == *method && study.rows[place].is_done())
+            .filter(|&place| study.rows[place].config.method == *method && study.rows[place].is_done())
             .collect();
         let Some(&place) = places.get(places.len() / 2) else { continue };
         let scale = study.energy_scale;
         let dots =
             study.histories[place].iter().map(|(time, energy)| Dot { x: *time, y: energy / scale, ..Dot::default() });
         let (colour, _) = look(method);
-        let name = format!("{method}, dt = {}", step(study.rows[place].case.dt));
+        let name = format!("{method}, dt = {}", step(study.rows[place].config.dt));
         let dots = dots.collect();
         chart.series.push(Series { name, colour, shape: 0, is_joined: true, has_dots: false, dots });
     }
@@ -177,11 +179,11 @@ pub fn drift(study: &SceneStudy) -> Option<Picture> {
 pub fn where_time_goes(study: &SceneStudy) -> Option<Picture> {
     let costs = study.costs.as_ref()?;
     let bar = |method: String| {
-        let rows: Vec<&Row> = study.rows.iter().filter(|row| row.case.method == method && row.is_done()).collect();
+        let rows: Vec<&Row> = study.rows.iter().filter(|row| row.config.method == method && row.is_done()).collect();
         let row = rows.get(rows.len() / 2)?;
         let shares = costs::shares(costs, row)?;
         let whole: f64 = shares.iter().sum();
-        let figure = format!("{} at {}", seconds(Some(whole / 1e3)), step(row.case.dt));
+        let figure = format!("{} at {}", seconds(Some(whole / 1e3)), step(row.config.dt));
         Some(Bar { name: method, shares: shares.to_vec(), figure })
     };
     let all: Vec<Bar> = methods(study).into_iter().filter_map(bar).collect();
@@ -189,17 +191,17 @@ pub fn where_time_goes(study: &SceneStudy) -> Option<Picture> {
 }
 
 /// Errors of the manufactured solution over the cells' edge.
-pub fn in_space(space: &Space) -> Picture {
+pub fn in_space(space: &SpaceStudy) -> Picture {
     let label = "manufactured solution: convergence in h";
     let mut chart = Chart::new(label, Axis::log("edge of a cell (m)"), Axis::log("relative error"));
     for (place, (scene, l2, h1)) in space.orders.iter().enumerate() {
         let law = scene.trim_start_matches("manufactured-");
         for (norm, order, shape) in [("L2", l2, 0), ("H1", h1, 1)] {
-            let rows = space.rows.iter().filter(|row| row.case.scene == *scene);
+            let rows = space.rows.iter().filter(|row| row.config.scene == *scene);
             let dot = |row: &Row| {
                 let error = if norm == "L2" { row.errors.space_l2 } else { row.errors.space_h1 };
                 let title =
-                    format!("{law}, {} nodes\nerror in {norm} {}\n{}", row.case.nodes, number(error), row.case.id);
+                    format!("{law}, {} nodes\nerror in {norm} {}\n{}", row.config.nodes, number(error), row.config.id);
                 Some(Dot { x: space::spacing(row), y: error?, title, ..Dot::default() })
             };
             let name =
@@ -212,14 +214,14 @@ pub fn in_space(space: &Space) -> Picture {
 }
 
 /// What is left of the tip's displacement, over the cells' edge, for each Poisson's ratio.
-pub fn locking(space: &Space) -> Picture {
+pub fn locking(space: &SpaceStudy) -> Picture {
     let label = "locking: displacement of the tip as a part of Timoshenko's";
     let y = Axis { range: Some((0.0, 1.05)), ..Axis::linear("part of Timoshenko's displacement") };
     let mut chart = Chart::new(label, Axis::log("edge of a cell, beam 1 m high (m)"), y);
     chart.guides.push(Guide::Horizontal(1.0, "Timoshenko".to_owned()));
-    for (place, poisson) in crate::locking::RATIOS.into_iter().enumerate() {
-        let beams = space.bent.iter().filter(|bent| bent.poisson == poisson);
-        let dot = |bent: &crate::locking::Bent| Dot {
+    for (place, poisson) in crate::space::locking::RATIOS.into_iter().enumerate() {
+        let beams = space.tip_deflections.iter().filter(|bent| bent.poisson == poisson);
+        let dot = |bent: &crate::space::locking::TipDeflection| Dot {
             x: 1.0 / bent.cells as f64,
             y: bent.ratio,
             title: format!("ν = {poisson}, {} cells\n{} of Timoshenko's", bent.cells, number(Some(bent.ratio))),

@@ -1,7 +1,7 @@
 //! What words mean, how it was measured, and what anyone can compute again.
 
 use super::Report;
-use crate::text::number;
+use crate::report::text::number;
 use fem_chart::escape;
 use fem_chart::page::table;
 

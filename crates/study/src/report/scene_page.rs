@@ -1,9 +1,9 @@
 //! What the page tells of one scene.
 
 use super::{charts, orders_in_time};
-use crate::row::Row;
-use crate::scene::{SceneStudy, competing_error};
-use crate::text::{number, percent, seconds, step, trimmed};
+use crate::report::text::{number, percent, seconds, step, trimmed};
+use crate::runs::row::Row;
+use crate::studies::scene::{SceneStudy, competing_error};
 use fem_chart::escape;
 use fem_chart::page::{details, figure, table};
 
@@ -73,8 +73,8 @@ const HEAD: [&str; 11] = [
 fn line(row: &Row) -> Vec<String> {
     let [low, _, high] = row.times.total_s;
     vec![
-        row.case.method.clone(),
-        step(row.case.dt),
+        row.config.method.clone(),
+        step(row.config.dt),
         number(competing_error(row)),
         seconds(row.seconds()),
         format!("{} – {}", seconds(low), seconds(high)),
@@ -91,7 +91,7 @@ fn front(study: &SceneStudy) -> String {
     let mut rows: Vec<&Row> = study
         .rows
         .iter()
-        .filter(|row| ["front", "tie"].contains(&row.standing) && row.case.nodes == study.size.0)
+        .filter(|row| ["front", "tie"].contains(&row.standing) && row.config.nodes == study.size.0)
         .collect();
     rows.sort_by(|a, b| a.seconds().unwrap_or(f64::NAN).total_cmp(&b.seconds().unwrap_or(f64::NAN)));
     let line = |row: &&Row| {
@@ -106,8 +106,8 @@ fn front(study: &SceneStudy) -> String {
 fn orders(study: &SceneStudy) -> String {
     let mut rows = Vec::new();
     for observed in orders_in_time(study) {
-        let of = study.rows.iter().filter(|row| row.case.method == observed.method);
-        let finest = of.clone().filter(|row| row.is_done()).min_by(|a, b| a.case.dt.total_cmp(&b.case.dt));
+        let of = study.rows.iter().filter(|row| row.config.method == observed.method);
+        let finest = of.clone().filter(|row| row.is_done()).min_by(|a, b| a.config.dt.total_cmp(&b.config.dt));
         let failed = of.filter(|row| !row.is_done()).count();
         let kept = |value: fn(&Row) -> Option<f64>| number(finest.and_then(value));
         rows.push(vec![
@@ -115,7 +115,7 @@ fn orders(study: &SceneStudy) -> String {
             observed.order.map_or("–".to_owned(), |order| order.text()),
             observed.expected.to_string(),
             failed.to_string(),
-            finest.map_or("–".to_owned(), |row| step(row.case.dt)),
+            finest.map_or("–".to_owned(), |row| step(row.config.dt)),
             kept(|row| row.errors.energy),
             kept(|row| row.errors.momentum),
             kept(|row| row.errors.angular),
@@ -137,7 +137,7 @@ fn orders(study: &SceneStudy) -> String {
 }
 
 fn mesh(study: &SceneStudy) -> String {
-    let Some(nested) = &study.nested else { return String::new() };
+    let Some(nested) = &study.richardson else { return String::new() };
     let rows: Vec<_> =
         nested.errors.iter().map(|(cells, l2, h1)| vec![cells.to_string(), percent(*l2), percent(*h1)]).collect();
     let head = [">cells per metre", ">displacement, of the body's length", ">its gradient, relative"];
@@ -156,14 +156,14 @@ fn mesh(study: &SceneStudy) -> String {
 fn variants(study: &SceneStudy) -> String {
     let mut rows: Vec<&Row> = Vec::new();
     for group in ["tolerance", "solver", "projection", "precision", "mesh"] {
-        rows.extend(study.rows.iter().filter(|row| row.case.group == group));
+        rows.extend(study.rows.iter().filter(|row| row.config.group == group));
     }
     let Some(first) = rows.first() else { return String::new() };
-    let base = study.rows.iter().find(|row| row.case.group == "method" && row.case.dt == first.case.dt);
+    let base = study.rows.iter().find(|row| row.config.group == "method" && row.config.dt == first.config.dt);
     let all: Vec<&Row> = base.into_iter().chain(rows).collect();
     let line = |row: &&Row| {
         let mut cells = line(row);
-        let group = if row.case.group == "method" { "base" } else { &row.case.group };
+        let group = if row.config.group == "method" { "base" } else { &row.config.group };
         cells.insert(0, group.to_owned());
         cells.push(row.status.clone());
         cells
@@ -180,7 +180,7 @@ fn beaten(study: &SceneStudy) -> String {
 fn runs(rows: &[&Row]) -> String {
     let line = |row: &&Row| {
         let mut cells = line(row);
-        cells.insert(0, row.case.id.clone());
+        cells.insert(0, row.config.id.clone());
         cells.push(if row.is_done() {
             row.standing.to_owned()
         } else {

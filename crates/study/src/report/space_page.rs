@@ -1,8 +1,8 @@
 //! What the page tells of orders and of space.
 
 use super::{Report, charts, orders_in_time};
-use crate::locking::RATIOS;
-use crate::text::number;
+use crate::report::text::number;
+use crate::space::locking::RATIOS;
 use fem_chart::escape;
 use fem_chart::page::{figure, table};
 
@@ -36,7 +36,9 @@ pub fn space(report: &Report) -> String {
         .orders
         .iter()
         .map(|(scene, l2, h1)| {
-            let text = |order: &Option<crate::order::Order>| order.map_or("–".to_owned(), |order| order.text());
+            let text = |order: &Option<crate::runs::convergence_order::ConvergenceOrder>| {
+                order.map_or("–".to_owned(), |order| order.text())
+            };
             vec![scene.clone(), text(l2), text(h1)]
         })
         .collect();
@@ -53,12 +55,13 @@ pub fn space(report: &Report) -> String {
 
 fn locking(report: &Report) -> String {
     let space = &report.space;
-    let mut meshes: Vec<usize> = space.bent.iter().map(|bent| bent.cells).collect();
+    let mut meshes: Vec<usize> = space.tip_deflections.iter().map(|bent| bent.cells).collect();
     meshes.dedup();
     let names: Vec<String> = meshes.iter().map(|cells| format!(">h = 1/{cells} m")).collect();
     let head: Vec<&str> = std::iter::once("ν").chain(names.iter().map(String::as_str)).collect();
-    let found =
-        |poisson: f64, cells: usize| space.bent.iter().find(|bent| bent.poisson == poisson && bent.cells == cells);
+    let found = |poisson: f64, cells: usize| {
+        space.tip_deflections.iter().find(|bent| bent.poisson == poisson && bent.cells == cells)
+    };
     let row = |poisson: f64| {
         let cells = meshes.iter().map(|&cells| number(found(poisson, cells).map(|bent| bent.ratio)));
         std::iter::once(poisson.to_string()).chain(cells).collect::<Vec<String>>()

@@ -9,8 +9,8 @@ use serde::Serialize;
 use super::case::Row;
 use super::map::Map;
 use super::page;
+use crate::csv_table::csv_text;
 use crate::machine::Machine;
-use crate::table::csv_of;
 
 /// All that a study has found.
 #[derive(Clone, Debug, Serialize)]
@@ -64,9 +64,8 @@ impl Table {
     }
 
     /// A line for each row, with a head.
-    pub fn csv(&self) -> String {
-        let rows: Vec<Vec<String>> = self.rows.iter().map(cells).collect();
-        csv_of(&COLUMNS, &rows)
+    pub fn csv(&self) -> Result<String, csv::Error> {
+        csv_text(&COLUMNS, self.rows.iter().map(cells))
     }
 }
 
@@ -111,7 +110,7 @@ fn cells(row: &Row) -> Vec<String> {
 /// Writes `stability.csv`, `stability.json` and `stability.html` into a folder, and a picture of each map.
 pub fn write(table: &Table, folder: &Path) -> io::Result<()> {
     std::fs::create_dir_all(folder)?;
-    std::fs::write(folder.join("stability.csv"), table.csv())?;
+    std::fs::write(folder.join("stability.csv"), table.csv()?)?;
     std::fs::write(folder.join("stability.json"), serde_json::to_string_pretty(table)? + "\n")?;
     for map in &table.maps {
         let picture = page::picture(map).standalone();

@@ -7,7 +7,6 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use fem_study::stability::study;
-use fem_study::table::split;
 
 /// Largest change of a margin, in parts of its bound or of itself, whichever is more.
 const SAME: f64 = 0.01;
@@ -20,7 +19,7 @@ fn every_case_ends_as_it_must_and_as_it_did() {
 
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/reference/stability-quick.csv");
     let stored = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let (stored, found) = (rows(&stored), rows(&table.csv()));
+    let (stored, found) = (rows(&stored), rows(&table.csv().unwrap()));
     let names = |rows: &BTreeMap<String, Row>| rows.keys().cloned().collect::<Vec<_>>();
     assert_eq!(names(&found), names(&stored), "cases have come or gone; write the table anew");
     let changes = found.iter().filter_map(|(name, row)| Some(format!("{name}: {}", change(&stored[name], row)?)));
@@ -39,26 +38,25 @@ struct Row {
 }
 
 /// Every case by its name.
-fn rows(csv: &str) -> BTreeMap<String, Row> {
-    let mut lines = csv.lines();
-    let head = split(lines.next().unwrap_or_default());
+fn rows(text: &str) -> BTreeMap<String, Row> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let head = reader.headers().unwrap().clone();
     let column = |name: &str| head.iter().position(|found| found == name).unwrap_or_else(|| panic!("no column {name}"));
     let names = ["family", "case", "parameters", "integrator", "material", "seed"].map(column);
     let [expected, outcome, margin, margin_is] = ["expected", "outcome", "margin", "margin_is"].map(column);
-    let row = |line: &str| {
-        let fields = split(line);
+    let row = |fields: csv::StringRecord| {
         // A tangle may unwind into one balance or another by its last digits, and a body squashed flat may buckle so.
-        let is_one_of_many = fields[expected] == "untangles" || fields[names[1]].starts_with("squashed to 2 %");
+        let is_one_of_many = &fields[expected] == "untangles" || fields[names[1]].starts_with("squashed to 2 %");
         let is_steady = !fields[margin_is].contains("round-off") && !is_one_of_many;
         let row = Row {
-            outcome: if fields[expected] == "untangles" { "-".to_owned() } else { fields[outcome].clone() },
-            expected: fields[expected].clone(),
+            outcome: if &fields[expected] == "untangles" { "-".to_owned() } else { fields[outcome].to_owned() },
+            expected: fields[expected].to_owned(),
             margin: fields[margin].parse().ok(),
             is_steady,
         };
-        (names.map(|name| fields[name].as_str()).join(", "), row)
+        (names.map(|name| &fields[name]).join(", "), row)
     };
-    lines.map(row).collect()
+    reader.records().map(|fields| row(fields.unwrap())).collect()
 }
 
 fn change(stored: &Row, found: &Row) -> Option<String> {

@@ -1,7 +1,7 @@
 //! The short report beside the one that is stored: errors and orders must not change by more than a hundredth. Times may.
 //!
 //! Where a change is meant, write the tables anew:
-//! `FEM_WRITE_REFERENCE=1 cargo test --release -p fem-engine --test study`, and tell in the commit why they changed.
+//! `FEM_WRITE_REFERENCE=1 cargo test --release -p fem-study --test study`, and tell in the commit why they changed.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -11,9 +11,8 @@ use std::sync::OnceLock;
 use fem_scene::simulation::Simulation;
 use fem_scene::{Pipeline, Scene};
 use fem_study::report::{Report, report};
-use fem_study::row::Row;
-use fem_study::scene::Setting;
-use fem_study::table::{csv_of, split};
+use fem_study::runs::row::Row;
+use fem_study::studies::Settings;
 
 /// Largest relative change of an error or an order.
 const CHANGE: f64 = 0.01;
@@ -39,23 +38,23 @@ fn found() -> &'static (Report, tempfile::TempDir) {
             fem_engine::simulator::build(scene, body).map_err(|error| error.to_string())
         };
         let scenes = ["arma", "beam", "bar", "cantilever"].map(|name| fem_scene::load(name, &data).unwrap());
-        let setting = Setting {
+        let settings = Settings {
             data: data.clone(),
             out: out.path().to_owned(),
             is_quick: true,
             factory: &factory,
             tell: &|_, _, _| (),
         };
-        (report(&setting, &scenes).unwrap(), out)
+        (report(&settings, &scenes).unwrap(), out)
     })
 }
 
 /// A name for each run that does not depend on its place, and its errors. Loose tolerances end where Newton's path happens to.
 fn errors(rows: &[Row]) -> Vec<Vec<String>> {
     let is_loose =
-        |row: &&Row| row.case.group == "tolerance" && row.case.tolerance.is_some_and(|tolerance| tolerance > 1e-6);
+        |row: &&Row| row.config.group == "tolerance" && row.config.tolerance.is_some_and(|tolerance| tolerance > 1e-6);
     let line = |row: &Row| {
-        let case = &row.case;
+        let case = &row.config;
         let name = format!("{}; {}; {} nodes; {} steps", case.scene, case.method, case.nodes, case.steps);
         let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.6e}"));
         let errors = &row.errors;
@@ -82,13 +81,15 @@ fn orders(report: &Report) -> Vec<Vec<String>> {
 fn compare(file: &str, head: &[&str], rows: &[Vec<String>]) {
     let path = root().join("docs/reference").join(file);
     if std::env::var_os("FEM_WRITE_REFERENCE").is_some() {
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(&path, csv_of(head, rows)).unwrap();
+        let mut writer = csv::Writer::from_path(&path).unwrap();
+        writer.write_record(head).unwrap();
+        rows.iter().for_each(|row| writer.write_record(row).unwrap());
+        writer.flush().unwrap();
         return;
     }
-    let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let stored: BTreeMap<String, Vec<String>> =
-        text.lines().skip(1).map(split).map(|cells| (cells[0].clone(), cells)).collect();
+    let mut reader = csv::Reader::from_path(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let stored: BTreeMap<String, csv::StringRecord> =
+        reader.records().map(|cells| cells.unwrap()).map(|cells| (cells[0].to_owned(), cells)).collect();
     let mut problems = Vec::new();
     for row in rows {
         let Some(before) = stored.get(&row[0]) else {
@@ -140,8 +141,10 @@ fn an_error_can_be_computed_from_the_files_that_its_row_names() {
         value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
     };
     let rows = report.rows();
-    let row =
-        rows.iter().find(|row| row.case.scene == "beam" && row.case.integrator == "verlet" && row.is_done()).unwrap();
+    let row = rows
+        .iter()
+        .find(|row| row.config.scene == "beam" && row.config.integrator == "verlet" && row.is_done())
+        .unwrap();
     let (state, reference) = (read(&row.state), read(&row.reference_state));
     let (q, exact, weights) = (list(&state["q"]), list(&reference["q"]), list(&reference["weights"]));
     let square: f64 = (0..q.len()).map(|i| weights[i / 3] * (q[i] - exact[i]).powi(2)).sum();
@@ -152,7 +155,7 @@ fn an_error_can_be_computed_from_the_files_that_its_row_names() {
 #[test]
 fn what_must_explode_is_kept_as_a_failed_row() {
     let rows = found().0.rows();
-    let explicit = rows.iter().filter(|row| row.case.scene == "arma" && row.case.integrator == "explicit_euler");
+    let explicit = rows.iter().filter(|row| row.config.scene == "arma" && row.config.integrator == "explicit_euler");
     let statuses: Vec<_> = explicit.map(|row| &row.status).collect();
     assert!(!statuses.is_empty() && statuses.iter().all(|status| status.starts_with("failed: ")), "{statuses:?}");
 }

@@ -1,6 +1,6 @@
 //! Equilibria that are known in closed form: a scene's exact answer, where it has one.
 
-use super::norms;
+use crate::space::norms;
 use fem_scene::cantilever::{expected_tip_displacement, tip_displacement};
 use fem_scene::simulation::Simulation;
 use fem_scene::{Axis, Integrator, Model, Prescribed, Scene, Side};

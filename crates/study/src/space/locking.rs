@@ -12,7 +12,7 @@ pub const RATIOS: [f64; 6] = [0.0, 0.3, 0.45, 0.49, 0.499, 0.4999];
 
 /// One beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bent {
+pub struct TipDeflection {
     /// Poisson's ratio.
     pub poisson: f64,
     /// Cells per metre of a beam of 8 × 1 × 1 m.
@@ -22,7 +22,7 @@ pub struct Bent {
 }
 
 /// Bends a beam.
-pub fn bend(poisson: f64, cells: usize) -> Result<Bent, String> {
+pub fn bend(poisson: f64, cells: usize) -> Result<TipDeflection, String> {
     let text = format!(
         "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [8, 1, 1], cells_per_unit = {cells} }}\n[material]\n\
          model = \"linear\"\nyoung = 1e6\npoisson = {poisson}\ndensity = 1000.0\n[fixed]\n\
@@ -34,7 +34,7 @@ pub fn bend(poisson: f64, cells: usize) -> Result<Bent, String> {
     let mut simulation = simulator::build(&scene, body).map_err(|error| error.to_string())?;
     simulation.step().map_err(|failure| failure.to_string())?;
     let expected = expected_tip_displacement(&scene).ok_or("the beam is no cantilever")?;
-    Ok(Bent { poisson, cells, ratio: tip_displacement(&*simulation).z / expected.z })
+    Ok(TipDeflection { poisson, cells, ratio: tip_displacement(&*simulation).z / expected.z })
 }
 
 #[cfg(test)]

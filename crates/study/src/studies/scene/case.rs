@@ -3,17 +3,18 @@
 use nalgebra::DVector;
 
 use super::SceneStudy;
-use super::bodies::{Body, cells};
-use crate::measure::Outcome;
-use crate::norms;
-use crate::plan::{self, Run};
-use crate::row::{Case, Errors};
+use super::mesh::{StudyMesh, cells};
+use crate::runs::measure::RunResult;
+use crate::runs::plan::{self, PlannedRun};
+use crate::runs::row::{Configuration, Errors};
+use crate::space::norms;
 use fem_scene::cantilever::moduli;
 use fem_scene::{Integrator, Pipeline, Precision, Projection};
 
 /// Distances of a run that has come to its end.
-pub(super) fn errors(run: &Run, outcome: &Outcome, body: &Body, study: &SceneStudy) -> Errors {
-    let in_space = study.nested.as_ref().and_then(|nested| nested.errors.iter().find(|row| row.0 == cells(&run.scene)));
+pub(super) fn errors(run: &PlannedRun, outcome: &RunResult, body: &StudyMesh, study: &SceneStudy) -> Errors {
+    let in_space =
+        study.richardson.as_ref().and_then(|nested| nested.errors.iter().find(|row| row.0 == cells(&run.scene)));
     let mut errors = Errors {
         space_l2: in_space.map(|row| row.1),
         space_h1: in_space.map(|row| row.2),
@@ -41,8 +42,8 @@ pub(super) fn errors(run: &Run, outcome: &Outcome, body: &Body, study: &SceneStu
     errors
 }
 
-pub(super) fn case(id: String, run: &Run, body: &Body) -> Case {
-    let Run { scene, .. } = run;
+pub(super) fn configuration(id: String, run: &PlannedRun, body: &StudyMesh) -> Configuration {
+    let PlannedRun { scene, .. } = run;
     let moduli = moduli(&scene.material);
     let is_newton = matches!(scene.time.integrator, Integrator::ImplicitEuler | Integrator::Static);
     let is_course = scene.pipeline == Pipeline::Course;
@@ -56,7 +57,7 @@ pub(super) fn case(id: String, run: &Run, body: &Body) -> Case {
     let has_matrix = is_newton || scene.time.integrator == Integrator::LinearlyImplicitEuler;
     let solver = if is_course { "course cholesky".to_owned() } else { plan::solver_name(scene) };
     let engine = |value: f64| if is_course { None } else { Some(value) };
-    Case {
+    Configuration {
         id,
         scene: scene.name.clone(),
         group: run.group.to_owned(),
@@ -82,7 +83,7 @@ pub(super) fn case(id: String, run: &Run, body: &Body) -> Case {
 }
 
 /// `done`, or what went wrong.
-pub(super) fn status(outcome: &Outcome) -> String {
+pub(super) fn status(outcome: &RunResult) -> String {
     match &outcome.failure {
         Some(failure) => format!("failed: {failure}"),
         None if outcome.counters.unconverged_steps > 0 => {

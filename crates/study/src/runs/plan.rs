@@ -8,7 +8,7 @@ use fem_scene::{Integrator, Newton, Pipeline, Precision, Preconditioner, Project
 
 /// One run.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Run {
+pub struct PlannedRun {
     /// Which question it belongs to: `method`, `tolerance`, `solver`, `projection`, `precision`, `mesh`.
     pub group: &'static str,
     /// The method as people call it.
@@ -20,7 +20,7 @@ pub struct Run {
 }
 
 /// Runs of one method from coarse to fine: where one takes too long, those after it are left out.
-pub type Ladder = Vec<Run>;
+pub type Ladder = Vec<PlannedRun>;
 
 /// How much is asked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -189,8 +189,9 @@ pub fn orders(scene: &Scene, extent: Extent) -> Vec<Ladder> {
 
 /// Runs of a scene in equilibrium: solvers, precision and meshes.
 pub fn equilibrium(scene: &Scene, load_steps: usize) -> Vec<Ladder> {
-    let run =
-        |group, method: String, scene: &Scene| vec![Run { group, method, scene: scene.clone(), steps: load_steps }];
+    let run = |group, method: String, scene: &Scene| {
+        vec![PlannedRun { group, method, scene: scene.clone(), steps: load_steps }]
+    };
     let mut ladders = vec![run("method", "static".to_owned(), scene)];
     for (kind, preconditioner) in SOLVERS {
         let mut scene = scene.clone();
@@ -233,7 +234,7 @@ fn ladder(group: &'static str, method: &str, scene: &Scene, steps: &[usize], ext
     let run = |&steps: &usize| {
         let mut scene = scene.clone();
         scene.time.dt = extent.horizon / steps as f64;
-        Run { group, method: method.to_owned(), scene, steps }
+        PlannedRun { group, method: method.to_owned(), scene, steps }
     };
     steps.iter().map(run).collect()
 }

@@ -2,8 +2,8 @@
 
 use nalgebra::DVector;
 
-use super::manufactured::element_gradient;
-use super::norms;
+use crate::space::manufactured::element_gradient;
+use crate::space::norms;
 use fem_mesh::{TetrahedralMesh, volumes};
 
 /// A box's state on one mesh.
@@ -19,7 +19,7 @@ pub struct Level {
 
 /// What three levels tell.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Nested {
+pub struct RichardsonEstimate {
     /// Observed orders.
     pub orders: (f64, f64),
     /// For each level: cells per metre, error in L2 as a part of the body's length, error of the displacement's gradient in L2 as a
@@ -37,7 +37,7 @@ const BELIEVED: (f64, f64) = (0.5, 3.0);
 /// With p = log₂(‖u₁ − u₂‖ / ‖u₂ − u₃‖) the limit is u₃ + (u₃ − u₂)/(2^p − 1), and an error is a distance from it (L. F. Richardson,
 /// "The approximate arithmetical solution by finite differences", 1911). Gradients: ‖∇(u − u_l)‖ = ‖∇(u_{l+1} − u_l)‖ / √(1 − 4^−p),
 /// because what a finer mesh adds is orthogonal to what it leaves out.
-pub fn compare(levels: &[Level; 3]) -> Option<Nested> {
+pub fn compare(levels: &[Level; 3]) -> Option<RichardsonEstimate> {
     let places = [0, 1, 2].map(|level| places(&levels[level]));
     let coarse = &levels[0].mesh;
     let on_coarse = |level: usize| -> Option<Vec<f64>> {
@@ -64,7 +64,7 @@ pub fn compare(levels: &[Level; 3]) -> Option<Nested> {
     let steep = [slopes[0] / remaining, slopes[1] / remaining, slopes[1] / remaining / 2f64.powf(p1)];
     let error =
         |level: usize| (levels[level].cells, norms::l2(&weights, &u[level], &limit) / length, steep[level] / size);
-    Some(Nested { orders: (p, p1), errors: (0..3).map(error).collect(), limit })
+    Some(RichardsonEstimate { orders: (p, p1), errors: (0..3).map(error).collect(), limit })
 }
 
 /// Nodes by their place on the grid of a level.
@@ -114,7 +114,7 @@ fn gradient_norm(mesh: &TetrahedralMesh, u: &[[f64; 3]]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::manufactured;
+    use crate::space::manufactured;
     use fem_mesh::box_mesh;
 
     /// Interpolants of a known displacement, each with an error of its own order at the nodes.

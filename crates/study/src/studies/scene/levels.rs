@@ -3,9 +3,10 @@
 use nalgebra::DVector;
 
 use super::SceneStudy;
-use super::bodies::{Bodies, most_reference_seconds};
-use crate::nested::{self, Level, Nested};
-use crate::{closed_forms, plan};
+use super::meshes::{StudyMeshes, most_reference_seconds};
+use crate::runs::plan;
+use crate::space::closed_forms;
+use crate::space::nested::{self, Level, RichardsonEstimate};
 use fem_scene::{Integrator, Scene};
 
 /// Fastest vibration times a step of Verlet that is safely stable.
@@ -14,9 +15,9 @@ const EXPLICIT: f64 = 1.2;
 /// Time of an explicit step for each element, s; about.
 const SECONDS_OF_AN_ELEMENT: f64 = 2e-7;
 
-impl Bodies<'_> {
+impl StudyMeshes<'_> {
     /// What three meshes tell; `None` where the scene is no box, is known in closed form, or would take too long.
-    pub fn nested(&mut self, base: &Scene, study: &mut SceneStudy) -> Result<Option<Nested>, String> {
+    pub fn nested(&mut self, base: &Scene, study: &mut SceneStudy) -> Result<Option<RichardsonEstimate>, String> {
         let is_static = base.time.integrator == Integrator::Static;
         if closed_forms::uniaxial(base).is_some() || (!is_static && study.fastest == 0.0) {
             return Ok(None);
@@ -30,13 +31,13 @@ impl Bodies<'_> {
         };
         let steps = 2.0 * study.fastest * study.horizon / EXPLICIT;
         let finest = steps * 8.0 * study.size.1 as f64 * SECONDS_OF_AN_ELEMENT;
-        if finest > most_reference_seconds(self.setting.is_quick) {
+        if finest > most_reference_seconds(self.settings.is_quick) {
             study.left_out.push(("errors in space".to_owned(), format!("the finest mesh would take {finest:.0} s")));
             return Ok(None);
         }
         let mut levels = Vec::new();
         for (number, cells) in all.into_iter().enumerate() {
-            (self.setting.tell)(number, 3, &format!("{}: mesh of {cells} cells per metre", study.name));
+            (self.settings.tell)(number, 3, &format!("{}: mesh of {cells} cells per metre", study.name));
             match self.level(base, number, cells, study)? {
                 Ok(level) => levels.push(level),
                 Err(reason) => {
@@ -85,7 +86,7 @@ impl Bodies<'_> {
         if !is_static {
             scene.time.dt = horizon / steps as f64;
         }
-        let mut simulation = (self.setting.factory)(&scene)?;
+        let mut simulation = (self.settings.factory)(&scene)?;
         for _ in 0..steps {
             simulation.step().map_err(|failure| failure.to_string())?;
         }

@@ -2,7 +2,7 @@
 
 /// A fitted order.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Order {
+pub struct ConvergenceOrder {
     /// p of error ∝ step^p.
     pub value: f64,
     /// Half the width of its 95 % confidence interval (Student's t); `None` for two points, which leave nothing to judge by.
@@ -15,7 +15,7 @@ pub struct Order {
 const STUDENT: [f64; 8] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306];
 
 /// Fits pairs of step and error; `None` where fewer than two of them have a logarithm, or all steps are the same.
-pub fn fit(pairs: &[(f64, f64)]) -> Option<Order> {
+pub fn fit(pairs: &[(f64, f64)]) -> Option<ConvergenceOrder> {
     let usable = |&&(step, error): &&(f64, f64)| step > 0.0 && error > 0.0 && step.is_finite() && error.is_finite();
     let logs: Vec<(f64, f64)> = pairs.iter().filter(usable).map(|&(step, error)| (step.ln(), error.ln())).collect();
     let n = logs.len() as f64;
@@ -30,19 +30,19 @@ pub fn fit(pairs: &[(f64, f64)]) -> Option<Order> {
         let left: f64 = logs.iter().map(|pair| (pair.1 - y - value * (pair.0 - x)).powi(2)).sum();
         STUDENT[more.min(STUDENT.len() - 1)] * (left / (n - 2.0) / sxx).sqrt()
     });
-    Some(Order { value, half_width, points: logs.len() })
+    Some(ConvergenceOrder { value, half_width, points: logs.len() })
 }
 
 /// The order of the finest steps, at most `most` of them: those whose errors are above `floor`, where round-off or the reference
 /// itself begin.
-pub fn asymptotic(pairs: &[(f64, f64)], most: usize, floor: f64) -> Option<Order> {
+pub fn asymptotic(pairs: &[(f64, f64)], most: usize, floor: f64) -> Option<ConvergenceOrder> {
     let mut usable: Vec<_> = pairs.iter().copied().filter(|(_, error)| *error > floor && error.is_finite()).collect();
     usable.sort_by(|a, b| a.0.total_cmp(&b.0));
     usable.truncate(most);
     fit(&usable)
 }
 
-impl Order {
+impl ConvergenceOrder {
     /// `2.00 ± 0.01`
     pub fn text(&self) -> String {
         match self.half_width {

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use nalgebra::{DVector, Vector3};
 
-use super::quadrature::Rule;
+use crate::space::quadrature::Rule;
 use fem_engine::integrators::Statics;
 use fem_engine::materials::Material;
 use fem_engine::model::state::State;

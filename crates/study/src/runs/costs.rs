@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::equations::Equations;
-use super::row::Row;
+use crate::reference::Equations;
+use crate::runs::row::Row;
 use fem_engine::forces::acting::Acting;
 use fem_engine::solvers::{Solver, SolverChoice};
 use fem_scene::simulate::quantile;
@@ -68,7 +68,7 @@ fn median(mut work: impl FnMut()) -> f64 {
 /// Milliseconds of a step that went into each of [`KINDS`]; none for runs of which the counts do not tell: other solvers than
 /// Cholesky, other precision, the course.
 pub fn shares(costs: &Costs, row: &Row) -> Option<[f64; 5]> {
-    let case = &row.case;
+    let case = &row.config;
     let is_known = ["automatic", "cholesky", "none"].contains(&&*case.solver);
     if case.pipeline != "engine" || case.precision != "f64" || !is_known {
         return None;

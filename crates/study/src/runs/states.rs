@@ -4,8 +4,8 @@ use std::path::Path;
 
 use nalgebra::DVector;
 
-use super::norms;
-use super::reference::Reference;
+use crate::reference::Reference;
+use crate::space::norms;
 use fem_mesh::TetrahedralMesh;
 use fem_mesh::write::save;
 

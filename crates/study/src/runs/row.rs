@@ -5,7 +5,7 @@ use fem_scene::simulation::Counters;
 /// What was run.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[allow(missing_docs)] // the names are the columns; README.txt of the output explains them
-pub struct Case {
+pub struct Configuration {
     pub id: String,
     pub scene: String,
     /// Which question of the study the run belongs to.
@@ -61,7 +61,7 @@ pub struct Errors {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[allow(missing_docs)]
 pub struct Row {
-    pub case: Case,
+    pub config: Configuration,
     pub times: Times,
     pub errors: Errors,
     pub counters: Counters,
@@ -78,7 +78,7 @@ pub struct Row {
 
 /// A cell.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Value {
+pub enum CellValue {
     /// Words.
     Text(String),
     /// A whole number, where there is one.
@@ -100,22 +100,22 @@ impl Row {
 
     /// Linear systems that were solved for steps or Newton directions.
     pub fn linear_solves(&self) -> usize {
-        match self.case.integrator {
+        match self.config.integrator {
             "linearly_implicit_euler" => self.counters.steps,
             _ => self.counters.newton_iterations,
         }
     }
 
     /// Names and values of all columns but those of the machine.
-    pub fn cells(&self) -> Vec<(&'static str, Value)> {
+    pub fn cells(&self) -> Vec<(&'static str, CellValue)> {
         let mut cells = self.of_case();
         cells.extend(self.of_results());
         cells
     }
 
-    fn of_case(&self) -> Vec<(&'static str, Value)> {
-        let case = &self.case;
-        let (text, count) = (|text: &str| Value::Text(text.to_owned()), |n: usize| Value::Count(Some(n)));
+    fn of_case(&self) -> Vec<(&'static str, CellValue)> {
+        let case = &self.config;
+        let (text, count) = (|text: &str| CellValue::Text(text.to_owned()), |n: usize| CellValue::Count(Some(n)));
         vec![
             ("id", text(&case.id)),
             ("scene", text(&case.scene)),
@@ -125,23 +125,23 @@ impl Row {
             ("mesh_hash", text(&case.mesh_hash)),
             ("nodes", count(case.nodes)),
             ("elements", count(case.elements)),
-            ("E", Value::Number(case.young)),
-            ("nu", Value::Number(case.poisson)),
+            ("E", CellValue::Number(case.young)),
+            ("nu", CellValue::Number(case.poisson)),
             ("integrator", text(case.integrator)),
             ("projection", text(case.projection)),
             ("solver", text(&case.solver)),
-            ("dt", Value::Number(Some(case.dt))),
+            ("dt", CellValue::Number(Some(case.dt))),
             ("steps", count(case.steps)),
-            ("tol", Value::Number(case.tolerance)),
-            ("max_it", Value::Count(case.max_iterations)),
+            ("tol", CellValue::Number(case.tolerance)),
+            ("max_it", CellValue::Count(case.max_iterations)),
             ("precision", text(case.precision)),
         ]
     }
 
-    fn of_results(&self) -> Vec<(&'static str, Value)> {
+    fn of_results(&self) -> Vec<(&'static str, CellValue)> {
         let Self { times, errors, counters, .. } = self;
-        let (number, count) = (Value::Number, |n: usize| Value::Count(Some(n)));
-        let text = |text: &str| Value::Text(text.to_owned());
+        let (number, count) = (CellValue::Number, |n: usize| CellValue::Count(Some(n)));
+        let text = |text: &str| CellValue::Text(text.to_owned());
         vec![
             ("setup_ms", number(times.setup_ms)),
             ("step_ms_med", number(times.step_ms[0])),

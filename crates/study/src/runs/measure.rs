@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use nalgebra::DVector;
 
-use super::machine;
-use super::plan::Run;
+use crate::machine;
+use crate::runs::plan::PlannedRun;
 use fem_scene::Scene;
 use fem_scene::simulate::quantile;
 use fem_scene::simulation::{Counters, Simulation};
@@ -16,7 +16,7 @@ pub type Factory<'a> = dyn Fn(&Scene) -> Result<Box<dyn Simulation>, String> + '
 
 /// What a run led to.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
+pub struct RunResult {
     /// s
     pub time: f64,
     /// Positions of all nodes, m.
@@ -74,7 +74,7 @@ pub struct Refusal {
 }
 
 /// Runs and looks; gives up after `most_seconds`.
-pub fn first(factory: &Factory, run: &Run, most_seconds: f64) -> Result<Outcome, Refusal> {
+pub fn first(factory: &Factory, run: &PlannedRun, most_seconds: f64) -> Result<RunResult, Refusal> {
     machine::forget_peak();
     let (start, before) = (Instant::now(), machine::processor_seconds());
     let mut simulation = factory(&run.scene).map_err(|reason| Refusal { reason, spent: None })?;
@@ -96,7 +96,7 @@ pub fn first(factory: &Factory, run: &Run, most_seconds: f64) -> Result<Outcome,
         return Err(Refusal { reason, spent: Some((spent, count)) });
     }
     let energies = simulation.energies();
-    Ok(Outcome {
+    Ok(RunResult {
         time: simulation.time(),
         q: simulation.positions(),
         qdot: simulation.velocities(),
@@ -104,7 +104,7 @@ pub fn first(factory: &Factory, run: &Run, most_seconds: f64) -> Result<Outcome,
         history,
         min_j,
         counters: simulation.counters(),
-        analytic: super::closed_forms::error(&run.scene, &*simulation).filter(|_| failure.is_none()),
+        analytic: crate::space::closed_forms::error(&run.scene, &*simulation).filter(|_| failure.is_none()),
         failure,
         peak_mb: machine::peak_mb(),
         spent,
@@ -113,7 +113,7 @@ pub fn first(factory: &Factory, run: &Run, most_seconds: f64) -> Result<Outcome,
 }
 
 /// Runs and takes the time, nothing else.
-pub fn again(factory: &Factory, run: &Run) -> Result<Timing, String> {
+pub fn again(factory: &Factory, run: &PlannedRun) -> Result<Timing, String> {
     let start = Instant::now();
     let mut simulation = factory(&run.scene)?;
     let mut timing = Timing { setup: start.elapsed().as_secs_f64(), ..Timing::default() };
@@ -147,7 +147,7 @@ fn steps(
 
 /// When a run has been timed often enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Patience {
+pub struct TimingPlan {
     /// Repetitions at least, and at most.
     pub repetitions: (usize, usize),
     /// Time for all of a run's repetitions, once there are enough of them, s.
@@ -156,7 +156,7 @@ pub struct Patience {
     pub long: f64,
 }
 
-impl Patience {
+impl TimingPlan {
     /// For a study of minutes, or for a look.
     pub fn new(is_quick: bool) -> Self {
         let repetitions = if is_quick { (2, 3) } else { (3, 9) };
@@ -164,7 +164,7 @@ impl Patience {
     }
 
     /// The clocks of all runs: round after round over all of them. `tell` is called after each.
-    pub fn time(&self, factory: &Factory, runs: &[(&Run, &Timing)], mut tell: impl FnMut()) -> Vec<Vec<Timing>> {
+    pub fn time(&self, factory: &Factory, runs: &[(&PlannedRun, &Timing)], mut tell: impl FnMut()) -> Vec<Vec<Timing>> {
         let counts = |timing: &Timing| timing.total() > self.long;
         let mut clocks: Vec<Vec<Timing>> =
             runs.iter().map(|(_, first)| if counts(first) { vec![(*first).clone()] } else { Vec::new() }).collect();
@@ -205,14 +205,14 @@ mod tests {
         fem_engine::simulator::build(scene, body).map_err(|error| error.to_string())
     }
 
-    fn run(dt: f64, steps: usize) -> Run {
+    fn run(dt: f64, steps: usize) -> PlannedRun {
         let text = format!(
             "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 1 }}\n[material]\n\
              model = \"neo_hookean\"\nC = 1e4\nD = 4e4\ndensity = 1000.0\n[gravity]\nacceleration = [0, -9.81, 0]\n\
              [fixed]\nplane = {{ axis = \"x\", below = 1e-9 }}\n[time]\ndt = {dt:e}\nintegrator = \"explicit_euler\"\n"
         );
         let scene = parse(&text, Path::new("box.toml")).unwrap();
-        Run { group: "method", method: "explicit Euler".to_owned(), scene, steps }
+        PlannedRun { group: "method", method: "explicit Euler".to_owned(), scene, steps }
     }
 
     #[test]
@@ -241,7 +241,7 @@ mod tests {
     fn all_runs_are_timed_at_least_so_often() {
         let runs = [run(1e-3, 5), run(1e-3, 10)];
         let clock = Timing::default();
-        let patience = Patience { repetitions: (2, 4), seconds: 0.0, long: 1.0 };
+        let patience = TimingPlan { repetitions: (2, 4), seconds: 0.0, long: 1.0 };
         let mut told = 0;
         let clocks = patience.time(&build, &[(&runs[0], &clock), (&runs[1], &clock)], || told += 1);
         assert_eq!(clocks.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);

@@ -5,17 +5,21 @@ mod charts;
 mod notes;
 mod scene_page;
 mod space_page;
+mod text;
 
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::machine::Machine;
-use super::order::{Order, asymptotic};
-use super::row::Row;
-use super::scene::{self, Question, SceneStudy, Setting};
-use super::space::{self, Space};
-use super::{locking, table};
+use crate::csv_table::csv_text;
+use crate::machine::Machine;
+use crate::runs::convergence_order::{ConvergenceOrder, asymptotic};
+use crate::runs::row::Row;
+use crate::runs::table;
+use crate::space::locking;
+use crate::studies::scene::{self, Question, SceneStudy};
+use crate::studies::space::{self, SpaceStudy};
+use crate::studies::{Settings, make_folders};
 use fem_chart::page::page;
 use fem_mesh::write::save;
 use fem_scene::{Scene, parse};
@@ -32,7 +36,7 @@ pub struct Report {
     /// The small body on which orders in time are seen.
     pub orders: SceneStudy,
     /// Errors in space.
-    pub space: Space,
+    pub space: SpaceStudy,
 }
 
 /// An order that was observed.
@@ -45,7 +49,7 @@ pub struct Observed {
     /// `dt`, `h in L2` or `h in H1`.
     pub of: &'static str,
     /// The order; none where too few runs came to their end.
-    pub order: Option<Order>,
+    pub order: Option<ConvergenceOrder>,
     /// What theory says.
     pub expected: f64,
 }
@@ -78,18 +82,18 @@ frequency = 2.0
 
 /// Studies the scenes and writes everything into the folder of the setting. Returns the report; an error names the file or
 /// the scene.
-pub fn report(setting: &Setting, scenes: &[Scene]) -> Result<Report, String> {
-    scene::make_folders(&setting.out)?;
-    let machine = Machine::this(&setting.data);
+pub fn report(settings: &Settings, scenes: &[Scene]) -> Result<Report, String> {
+    make_folders(&settings.out)?;
+    let machine = Machine::this(&settings.data);
     let small = parse(ORDERS, Path::new("orders.toml")).map_err(|error| error.to_string())?;
-    let orders = scene::study(setting, &small, Question::Order)?;
-    let space = space::study(setting)?;
+    let orders = scene::study(settings, &small, Question::Order)?;
+    let space = space::study(settings)?;
     let studied = scenes.iter().map(|scene| {
-        scene::study(setting, scene, Question::Choice).map_err(|error| format!("{}: {error}", scene.name))
+        scene::study(settings, scene, Question::Choice).map_err(|error| format!("{}: {error}", scene.name))
     });
     let scenes = studied.collect::<Result<_, _>>()?;
-    let report = Report { machine, is_quick: setting.is_quick, scenes, orders, space };
-    write(&report, &setting.out)?;
+    let report = Report { machine, is_quick: settings.is_quick, scenes, orders, space };
+    write(&report, &settings.out)?;
     Ok(report)
 }
 
@@ -128,15 +132,15 @@ const FLOOR: f64 = 1e-11;
 /// Order in dt of each method that has a ladder.
 pub fn orders_in_time(study: &SceneStudy) -> Vec<Observed> {
     let mut methods: Vec<&str> = Vec::new();
-    for row in study.rows.iter().filter(|row| ["method", "order"].contains(&&*row.case.group)) {
-        if !methods.contains(&&*row.case.method) {
-            methods.push(&row.case.method);
+    for row in study.rows.iter().filter(|row| ["method", "order"].contains(&&*row.config.group)) {
+        if !methods.contains(&&*row.config.method) {
+            methods.push(&row.config.method);
         }
     }
     let observe = |method: &str| {
-        let rows = study.rows.iter().filter(|row| row.case.method == method && row.is_done());
-        let pairs: Vec<_> = rows.filter_map(|row| Some((row.case.dt, row.errors.time_l2?))).collect();
-        let expected = match study.rows.iter().find(|row| row.case.method == method)?.case.integrator {
+        let rows = study.rows.iter().filter(|row| row.config.method == method && row.is_done());
+        let pairs: Vec<_> = rows.filter_map(|row| Some((row.config.dt, row.errors.time_l2?))).collect();
+        let expected = match study.rows.iter().find(|row| row.config.method == method)?.config.integrator {
             "rk4" => 4.0,
             "rk2" | "verlet" => 2.0,
             "static" => return None,
@@ -153,9 +157,10 @@ fn write(report: &Report, out: &Path) -> Result<(), String> {
         save(&out.join(name), |file| file.write_all(text.as_bytes())).map_err(|error| error.to_string())
     };
     let rows = report.rows();
-    write("runs.csv", table::csv(&rows, &report.machine))?;
-    write("orders.csv", orders_csv(report))?;
-    write("locking.csv", locking_csv(report))?;
+    let csv = |text: Result<String, csv::Error>| text.map_err(|error| error.to_string());
+    write("runs.csv", csv(table::csv(&rows, &report.machine))?)?;
+    write("orders.csv", csv(orders_csv(report))?)?;
+    write("locking.csv", csv(locking_csv(report))?)?;
     write("runs.json", serde_json::to_string_pretty(&as_json(report)).map_err(|error| error.to_string())? + "\n")?;
     write("README.txt", notes::README.to_owned())?;
     for (name, picture) in charts::files(report) {
@@ -175,7 +180,7 @@ fn body(report: &Report) -> String {
     html
 }
 
-fn orders_csv(report: &Report) -> String {
+fn orders_csv(report: &Report) -> Result<String, csv::Error> {
     let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.6}"));
     let row = |observed: Observed| {
         let Observed { scene, method, of, order, expected } = observed;
@@ -191,15 +196,15 @@ fn orders_csv(report: &Report) -> String {
             expected.to_string(),
         ]
     };
-    let rows: Vec<_> = report.observed().into_iter().map(row).collect();
-    table::csv_of(&["scene", "method", "of", "order", "half_width_95", "points", "expected"], &rows)
+    let head = ["scene", "method", "of", "order", "half_width_95", "points", "expected"];
+    csv_text(&head, report.observed().into_iter().map(row))
 }
 
-fn locking_csv(report: &Report) -> String {
-    let row =
-        |bent: &locking::Bent| vec![bent.poisson.to_string(), bent.cells.to_string(), format!("{:e}", bent.ratio)];
-    let rows: Vec<_> = report.space.bent.iter().map(row).collect();
-    table::csv_of(&["poisson", "cells_per_metre", "tip_over_timoshenko"], &rows)
+fn locking_csv(report: &Report) -> Result<String, csv::Error> {
+    let row = |bent: &locking::TipDeflection| {
+        vec![bent.poisson.to_string(), bent.cells.to_string(), format!("{:e}", bent.ratio)]
+    };
+    csv_text(&["poisson", "cells_per_metre", "tip_over_timoshenko"], report.space.tip_deflections.iter().map(row))
 }
 
 fn as_json(report: &Report) -> Value {
@@ -216,7 +221,7 @@ fn as_json(report: &Report) -> Value {
             "name": study.name, "horizon_s": study.horizon, "fastest_vibration_1_s": study.fastest,
             "references": study.references.iter().map(|(file, check, evaluations)| json!({
                 "file": file, "self_check": check.0, "self_check_velocities": check.1, "force_evaluations": evaluations })).collect::<Vec<_>>(),
-            "nested_meshes": study.nested.as_ref().map(|nested| json!({
+            "nested_meshes": study.richardson.as_ref().map(|nested| json!({
                 "order_L2": nested.orders.0, "order_H1": nested.orders.1,
                 "levels": nested.errors.iter().map(|(cells, l2, h1)| json!({
                     "cells_per_metre": cells, "err_space_L2": l2, "err_space_H1": h1 })).collect::<Vec<_>>() })),
@@ -230,7 +235,7 @@ fn as_json(report: &Report) -> Value {
         "answers": report.answers(),
         "scenes": std::iter::once(&report.orders).chain(&report.scenes).map(scene).collect::<Vec<_>>(),
         "orders": report.observed().into_iter().map(order).collect::<Vec<_>>(),
-        "locking": report.space.bent.iter().map(|bent| json!({
+        "locking": report.space.tip_deflections.iter().map(|bent| json!({
             "poisson": bent.poisson, "cells_per_metre": bent.cells, "tip_over_timoshenko": bent.ratio })).collect::<Vec<_>>(),
         "runs": table::json(&report.rows()),
     })

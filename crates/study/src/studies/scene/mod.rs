@@ -1,35 +1,22 @@
 //! The study of one scene: references, runs, times, standings.
 
-mod bodies;
 mod case;
 mod levels;
+mod mesh;
+mod meshes;
 
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
 
-use super::costs::Costs;
-use super::measure::{Factory, Outcome, Patience, Timing, first, quartiles};
-use super::nested::Nested;
-use super::pareto::{Contender, standings};
-use super::plan::{self, Extent, Ladder, Run};
-use super::row::{Row, Times};
-use bodies::Bodies;
+use super::Settings;
+use crate::runs::costs::Costs;
+use crate::runs::measure::{RunResult, Timing, TimingPlan, first, quartiles};
+use crate::runs::pareto::{Contender, standings};
+use crate::runs::plan::{self, Extent, Ladder, PlannedRun};
+use crate::runs::row::{Row, Times};
+use crate::space::nested::RichardsonEstimate;
 use fem_scene::simulate::quantile;
 use fem_scene::{Integrator, Scene};
-
-/// What a study needs.
-pub struct Setting<'a> {
-    /// Where meshes are.
-    pub data: PathBuf,
-    /// Where results go; it has a folder `states`.
-    pub out: PathBuf,
-    /// Whether minutes are too long.
-    pub is_quick: bool,
-    /// Both pipelines.
-    pub factory: &'a Factory<'a>,
-    /// Told how many pieces of work are done, of how many, and what comes next.
-    pub tell: &'a dyn Fn(usize, usize, &str),
-}
+use meshes::StudyMeshes;
 
 /// What is known of one scene.
 #[derive(Clone, Debug, Default)]
@@ -53,7 +40,7 @@ pub struct SceneStudy {
     /// Largest energy that moves between kinetic and potential, J.
     pub energy_scale: f64,
     /// Three meshes.
-    pub nested: Option<Nested>,
+    pub richardson: Option<RichardsonEstimate>,
     /// What parts cost.
     pub costs: Option<Costs>,
     /// What was not done, and why.
@@ -78,18 +65,18 @@ pub enum Question {
 }
 
 /// Studies a scene.
-pub fn study(setting: &Setting, scene: &Scene, question: Question) -> Result<SceneStudy, String> {
-    let base = plan::base(scene, setting.is_quick);
+pub fn study(settings: &Settings, scene: &Scene, question: Question) -> Result<SceneStudy, String> {
+    let base = plan::base(scene, settings.is_quick);
     let own_steps = base.time.steps.unwrap_or(50);
-    let is_short = setting.is_quick && question == Question::Choice;
+    let is_short = settings.is_quick && question == Question::Choice;
     let steps = if is_short { own_steps.min(10) } else { own_steps };
     let mut study = SceneStudy { name: scene.name.clone(), about: scene.about.clone(), ..SceneStudy::default() };
     let is_static = base.time.integrator == Integrator::Static;
     study.horizon = if is_static { 0.0 } else { base.time.dt * steps as f64 };
-    (setting.tell)(0, 1, &format!("{}: reference", study.name));
-    let mut bodies = Bodies { setting, scene: &base, known: HashMap::new() };
+    (settings.tell)(0, 1, &format!("{}: reference", study.name));
+    let mut bodies = StudyMeshes { settings, scene: &base, known: HashMap::new() };
     bodies.add(&base, (!is_static).then_some(study.horizon), &mut study)?;
-    let extent = Extent { is_quick: setting.is_quick, horizon: study.horizon, steps, fastest: study.fastest };
+    let extent = Extent { is_quick: settings.is_quick, horizon: study.horizon, steps, fastest: study.fastest };
     let ladders = match question {
         Question::Order => plan::orders(&base, extent),
         Question::Choice if is_static => {
@@ -98,25 +85,25 @@ pub fn study(setting: &Setting, scene: &Scene, question: Question) -> Result<Sce
         Question::Choice => plan::dynamic(&base, extent),
     };
     if question == Question::Choice {
-        study.nested = bodies.nested(&base, &mut study)?;
+        study.richardson = bodies.nested(&base, &mut study)?;
     }
-    let done = first_runs(setting, &mut bodies, ladders, &mut study)?;
-    take_times(setting, &done, &mut study);
+    let done = first_runs(settings, &mut bodies, ladders, &mut study)?;
+    take_times(settings, &done, &mut study);
     stand(&mut study.rows);
     Ok(study)
 }
 
 /// Times all runs that came to their end; of the others the first clock is all there is.
-fn take_times(setting: &Setting, done: &[(Run, Outcome)], study: &mut SceneStudy) {
-    let patience = Patience::new(setting.is_quick);
+fn take_times(settings: &Settings, done: &[(PlannedRun, RunResult)], study: &mut SceneStudy) {
+    let patience = TimingPlan::new(settings.is_quick);
     let ended = |place: &usize| done[*place].1.failure.is_none();
     let places: Vec<usize> = (0..done.len()).filter(ended).collect();
     let runs: Vec<_> = places.iter().map(|&place| (&done[place].0, &done[place].1.timing)).collect();
     let (all, mut told) = (patience.calls(runs.len()), 0);
     let what = format!("{}: timing {} runs in turn", study.name, runs.len());
-    let clocks = patience.time(setting.factory, &runs, || {
+    let clocks = patience.time(settings.factory, &runs, || {
         told += 1;
-        (setting.tell)(told, all, &what);
+        (settings.tell)(told, all, &what);
     });
     for (row, (_, outcome)) in study.rows.iter_mut().zip(done) {
         row.times = times(std::slice::from_ref(&outcome.timing));
@@ -128,25 +115,25 @@ fn take_times(setting: &Setting, done: &[(Run, Outcome)], study: &mut SceneStudy
 
 /// Runs everything once, and looks.
 fn first_runs(
-    setting: &Setting,
-    bodies: &mut Bodies,
+    settings: &Settings,
+    bodies: &mut StudyMeshes,
     ladders: Vec<Ladder>,
     study: &mut SceneStudy,
-) -> Result<Vec<(Run, Outcome)>, String> {
+) -> Result<Vec<(PlannedRun, RunResult)>, String> {
     let (all, mut count) = (ladders.iter().map(Vec::len).sum(), 0);
     let mut done = Vec::new();
     for ladder in ladders {
         let mut before: Option<(f64, usize)> = None;
         for run in ladder {
             count += 1;
-            (setting.tell)(count, all, &format!("{}: {}, dt = {:.1e} s", study.name, run.method, run.scene.time.dt));
+            (settings.tell)(count, all, &format!("{}: {}, dt = {:.1e} s", study.name, run.method, run.scene.time.dt));
             let what = format!("{}, {} steps", run.method, run.steps);
             let expected = before.map(|(seconds, steps)| seconds * run.steps as f64 / steps as f64);
-            if let Some(expected) = expected.filter(|&seconds| seconds > most_seconds(setting.is_quick)) {
+            if let Some(expected) = expected.filter(|&seconds| seconds > most_seconds(settings.is_quick)) {
                 study.left_out.push((what, format!("would take {expected:.0} s")));
                 continue;
             }
-            match first(setting.factory, &run, GIVEN_UP * most_seconds(setting.is_quick)) {
+            match first(settings.factory, &run, GIVEN_UP * most_seconds(settings.is_quick)) {
                 Ok(outcome) => {
                     before = Some((outcome.spent, outcome.timing.steps.len()));
                     bodies.add_row(&run, &outcome, study)?;
@@ -182,13 +169,13 @@ pub fn competing_error(row: &Row) -> Option<f64> {
 
 /// Runs on one mesh compete with each other.
 fn stand(rows: &mut [Row]) {
-    let mut meshes: Vec<String> = rows.iter().map(|row| row.case.mesh_hash.clone()).collect();
+    let mut meshes: Vec<String> = rows.iter().map(|row| row.config.mesh_hash.clone()).collect();
     meshes.sort();
     meshes.dedup();
     for mesh in meshes {
         let contender = |(place, row): (usize, &Row)| {
             let time = (row.times.total_s[0]?, row.times.total_s[2]?);
-            let competes = row.case.mesh_hash == mesh && row.is_done();
+            let competes = row.config.mesh_hash == mesh && row.is_done();
             let error = competing_error(row).filter(|_| competes)?;
             Some((place, Contender { error, time }))
         };
@@ -197,11 +184,4 @@ fn stand(rows: &mut [Row]) {
             rows[place].standing = standing.name();
         }
     }
-}
-
-/// Where states of a study go.
-pub fn make_folders(out: &Path) -> Result<(), String> {
-    let states = out.join("states");
-    std::fs::create_dir_all(&states)
-        .map_err(|error| format!("{}: {error}; name a folder that can be made", states.display()))
 }

@@ -1,0 +1,167 @@
+//! The semi-discrete equations of motion M ü = f(u, u̇, t), which a reference in time integrates.
+//!
+//! Forces are the engine's. The mass is assembled and factorised here, by code that the engine's integrators do not use.
+
+use fem_engine::forces::acting::Acting;
+use fem_engine::forces::pulls::{AnchorSpring, Pulls};
+use fem_engine::materials::Material;
+use fem_engine::model::system::System;
+use fem_engine::solvers::SolverChoice;
+use fem_scene::{Body, Scene};
+
+use super::mass::MassInverse;
+use super::prescribed_motion::{kinematics, moves};
+
+/// Displacements, m, and velocities, m/s, of all nodes.
+pub type Phase = [Vec<[f64; 3]>; 2];
+
+/// A body's equations of motion, in the engine's numbering of nodes.
+pub struct Equations {
+    /// The body.
+    pub system: System<f64>,
+    mass: MassInverse,
+    drag_stiffness: f64,
+    has_prescribed_motion: bool,
+}
+
+/// Working memory of an evaluation.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    springs: Vec<AnchorSpring<f64>>,
+    force: Vec<[f64; 3]>,
+    right: Vec<[f64; 3]>,
+    /// Accelerations of prescribed directions, zero elsewhere, m/s²; empty without prescribed motion.
+    prescribed: Vec<[f64; 3]>,
+}
+
+impl Equations {
+    /// Builds the equations of a scene. The error says why the scene has none.
+    pub fn new(scene: &Scene, body: Body) -> Result<Self, String> {
+        let material = Material::<f64>::new(&scene.material).ok_or("the material lacks its moduli")?;
+        let system = System::new(scene, body, material, SolverChoice::Cholesky);
+        let mass = MassInverse::new(scene, &system)?;
+        let drag_stiffness = scene.drag.as_ref().map_or(0.0, |drag| drag.stiffness);
+        let has_prescribed_motion = scene.prescribed.iter().any(moves);
+        Ok(Self { system, mass, drag_stiffness, has_prescribed_motion })
+    }
+
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.system.nodes()
+    }
+
+    /// a = M⁻¹ f(u, v, t), m/s², zero in constrained directions. With prescribed motion, [`prescribe`](Self::prescribe) must
+    /// come first.
+    pub fn accelerations(&self, u: &[[f64; 3]], v: &[[f64; 3]], time: f64, a: &mut [[f64; 3]], scratch: &mut Scratch) {
+        let system = &self.system;
+        let Scratch { springs, force, prescribed, right } = scratch;
+        force.resize(self.nodes(), [0.0; 3]);
+        Pulls { system, hand: None, stiffness: self.drag_stiffness }.at(time, springs);
+        system.gradient(u, system.acting(springs), force);
+        force.as_flattened_mut().iter_mut().for_each(|force| *force = -*force);
+        system.add_pressures(1.0, u, force);
+        if let Some(damping) = &system.damping {
+            system.mass.add_times(-damping.alpha, v, force);
+            system.add_stiffness_times(-damping.beta, u, v, force);
+        }
+        if !prescribed.is_empty() {
+            system.mass.add_times(-1.0, prescribed, force);
+        }
+        self.mass.apply(force, a, right);
+    }
+
+    /// Times at which prescribed velocities may jump, including 0 and the horizon, s. A displacement that jumps is an error.
+    pub fn jumps(&self, horizon: f64) -> Result<Vec<f64>, String> {
+        let mut jumps = vec![0.0, horizon];
+        for (motion, _) in self.system.held.motions().iter().filter(|(motion, _)| moves(motion)) {
+            let Some(over) = motion.over else {
+                return Err("[[prescribed]] without `over` moves nodes at once, which no time step resolves".to_owned());
+            };
+            jumps.extend((over < horizon).then_some(over));
+        }
+        jumps.sort_by(f64::total_cmp);
+        jumps.dedup();
+        Ok(jumps)
+    }
+
+    /// Sets prescribed displacements and velocities at a time, s, of the interval between two jumps that starts at `begin`.
+    pub fn prescribe(&self, begin: f64, time: f64, [u, v]: &mut Phase, scratch: &mut Scratch) {
+        if !self.has_prescribed_motion {
+            return;
+        }
+        scratch.prescribed.resize(self.nodes(), [0.0; 3]);
+        for (motion, nodes) in self.system.held.motions() {
+            let holds = motion.holds();
+            for &node in nodes {
+                let rest = &self.system.rest[node];
+                let [x, velocity, acceleration] = kinematics(motion, rest, begin, time);
+                for i in (0..3).filter(|&i| holds[i]) {
+                    u[node][i] = x[i] - rest[i];
+                    v[node][i] = velocity[i];
+                    scratch.prescribed[node][i] = acceleration[i];
+                }
+            }
+        }
+    }
+
+    /// Starts an interval: a jump Δv_p of prescribed velocities gives free nodes an impulse through the consistent mass,
+    /// M_ff Δv_f = −M_fp Δv_p.
+    pub fn jump(&self, begin: f64, now: &mut Phase, scratch: &mut Scratch) {
+        if !self.has_prescribed_motion {
+            return;
+        }
+        let before = now[1].clone();
+        self.prescribe(begin, begin, now, scratch);
+        let change: Vec<[f64; 3]> =
+            now[1].iter().zip(&before).map(|(after, before)| std::array::from_fn(|i| after[i] - before[i])).collect();
+        scratch.force.clear();
+        scratch.force.resize(self.nodes(), [0.0; 3]);
+        self.system.mass.add_times(-1.0, &change, &mut scratch.force);
+        let mut free = vec![[0.0; 3]; self.nodes()];
+        self.mass.apply(&scratch.force, &mut free, &mut scratch.right);
+        for (v, change) in now[1].iter_mut().zip(free) {
+            (0..3).for_each(|i| v[i] += change[i]);
+        }
+    }
+
+    /// The fastest rate about the undeformed state, 1/s: the highest natural frequency by power iteration on M⁻¹ K, which
+    /// converges from below, or the decay rate α + β ω² if that is larger.
+    pub fn fastest(&self) -> f64 {
+        let (n, mut scratch) = (self.nodes(), Scratch::default());
+        let rest = vec![[0.0; 3]; n];
+        // A rough start contains all modes, and is the same on every machine.
+        let mut d: Vec<[f64; 3]> =
+            (0..n).map(|i| [0, 1, 2].map(|c| ((7 * i + 3 * c) as f64 * 1.618_034).fract() - 0.5)).collect();
+        self.system.held.clear(&mut d);
+        let mut square = 0.0;
+        for _ in 0..POWER_ITERATIONS {
+            scratch.force.clear();
+            scratch.force.resize(n, [0.0; 3]);
+            self.system.add_stiffness_times(1.0, &rest, &d, &mut scratch.force);
+            if let Some((_, node)) = &self.system.drag {
+                for i in 0..3 {
+                    scratch.force[*node][i] += self.drag_stiffness * d[*node][i];
+                }
+            }
+            let mut next = vec![[0.0; 3]; n];
+            self.mass.apply(&scratch.force, &mut next, &mut scratch.right);
+            let size = |x: &[[f64; 3]]| x.as_flattened().iter().map(|x| x * x).sum::<f64>().sqrt();
+            square = size(&next) / size(&d).max(f64::MIN_POSITIVE);
+            let over = 1.0 / size(&next).max(f64::MIN_POSITIVE);
+            d = next.into_iter().map(|x| x.map(|x| over * x)).collect();
+        }
+        let decay = self.system.damping.as_ref().map_or(0.0, |damping| damping.alpha + damping.beta * square);
+        square.sqrt().max(decay)
+    }
+
+    /// Kinetic and potential energy, J.
+    pub fn energies(&self, u: &[[f64; 3]], v: &[[f64; 3]], time: f64) -> (f64, f64) {
+        let mut springs = Vec::new();
+        Pulls { system: &self.system, hand: None, stiffness: self.drag_stiffness }.at(time, &mut springs);
+        let acting = Acting { pulls: &springs, load: self.system.dead_load.as_deref() };
+        (self.system.mass.kinetic_energy(v), self.system.potential(u, acting).value)
+    }
+}
+
+/// Products with M⁻¹ K.
+const POWER_ITERATIONS: usize = 60;

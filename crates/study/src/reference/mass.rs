@@ -1,0 +1,81 @@
+//! The inverse mass matrix of the reference, factorised exactly.
+
+use fem_engine::model::system::System;
+use fem_mesh::volumes;
+use fem_scene::Scene;
+
+use super::ldl::Ldl;
+
+/// Factors of the mass matrix: directions that are free at the same nodes share one.
+pub(super) struct MassInverse(Vec<Factor>);
+
+struct Factor {
+    /// Nodes that are free in these directions, in the engine's numbering.
+    nodes: Vec<usize>,
+    factor: Ldl,
+    directions: [bool; 3],
+}
+
+impl MassInverse {
+    /// Factorises the consistent mass, or the lumped one if the scene asks for it.
+    pub fn new(scene: &Scene, system: &System<f64>) -> Result<Self, String> {
+        let mut is_free = vec![[1.0; 3]; system.nodes()];
+        system.held.clear(&mut is_free);
+        let mut factors: Vec<Factor> = Vec::new();
+        for axis in 0..3 {
+            let nodes: Vec<usize> = (0..system.nodes()).filter(|&node| is_free[node][axis] > 0.0).collect();
+            if let Some(known) = factors.iter_mut().find(|known| known.nodes == nodes) {
+                known.directions[axis] = true;
+                continue;
+            }
+            let factor = Ldl::new(&mass(scene, system, &nodes)).ok_or("the mass is not positive definite")?;
+            factors.push(Factor { nodes, factor, directions: std::array::from_fn(|i| i == axis) });
+        }
+        Ok(Self(factors))
+    }
+
+    /// a = M⁻¹ force, zero in constrained directions. `right` is working memory.
+    pub fn apply(&self, force: &[[f64; 3]], a: &mut [[f64; 3]], right: &mut Vec<[f64; 3]>) {
+        a.fill([0.0; 3]);
+        for Factor { nodes, factor, directions } in &self.0 {
+            right.clear();
+            right.extend(nodes.iter().map(|&node| force[node]));
+            factor.solve(right);
+            for (&node, right) in nodes.iter().zip(&*right) {
+                for i in (0..3).filter(|&i| directions[i]) {
+                    a[node][i] = right[i];
+                }
+            }
+        }
+    }
+}
+
+/// ∫ ρ φ_i φ_j of these nodes, or the row sums: the upper triangle by columns, kg.
+fn mass(scene: &Scene, system: &System<f64>, nodes: &[usize]) -> Vec<Vec<(usize, f64)>> {
+    let mesh = &system.shape.mesh;
+    let mut place = vec![usize::MAX; mesh.vertices.len()];
+    for (i, &node) in nodes.iter().enumerate() {
+        place[system.order.mesh_node[node] as usize] = i;
+    }
+    let mut columns: Vec<Vec<(usize, f64)>> = (0..nodes.len()).map(|i| vec![(i, 0.0)]).collect();
+    let mut add = |row: usize, column: usize, mass: f64| {
+        if row > column || column == usize::MAX {
+            return;
+        }
+        match columns[column].iter_mut().find(|(i, _)| *i == row) {
+            Some((_, sum)) => *sum += mass,
+            None => columns[column].push((row, mass)),
+        }
+    };
+    for (element, volume) in mesh.elements.iter().zip(volumes(mesh)) {
+        let share = scene.material.density * volume / 20.0;
+        for (a, &row) in element.iter().enumerate() {
+            for (b, &column) in element.iter().enumerate() {
+                let mass = if a == b { 2.0 * share } else { share };
+                let column = if scene.mass.lumped { row } else { column };
+                add(place[row], place[column], mass);
+            }
+        }
+    }
+    columns
+}

@@ -1,0 +1,13 @@
+//! Reference solutions in time: the semi-discrete equations of motion, integrated to round-off.
+
+mod equations;
+mod extrapolation;
+mod ldl;
+mod mass;
+mod prescribed_motion;
+
+pub use equations::{Equations, Phase, Scratch};
+pub use extrapolation::{Reference, SELF_CHECK, reference};
+
+#[cfg(test)]
+mod tests;

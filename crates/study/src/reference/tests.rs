@@ -1,0 +1,117 @@
+use std::path::Path;
+
+use fem_scene::{body, parse};
+use nalgebra::Vector3;
+
+use super::prescribed_motion::kinematics;
+use super::*;
+
+fn equations(text: &str) -> Equations {
+    let scene = parse(text, Path::new("folder/name.toml")).unwrap();
+    let body = body(&scene, Path::new("no data")).unwrap();
+    Equations::new(&scene, body).unwrap()
+}
+
+#[test]
+fn free_fall_is_exact() {
+    let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [1, 1, 1], cells_per_unit = 1 }\n[material]\n\
+        model = \"neo_hookean\"\nC = 1e4\nD = 4e4\ndensity = 1000.0\n[gravity]\nacceleration = [0, -9.81, 0]\n\
+        [time]\ndt = 0.01\nintegrator = \"verlet\"\n";
+    let reference = reference(&equations(text), 0.5, 60.0).unwrap();
+    assert!(reference.check.0 <= SELF_CHECK.0 && reference.check.1 <= SELF_CHECK.1);
+    for (i, v) in reference.qdot.iter().enumerate() {
+        let expected = if i % 3 == 1 { -9.81 * 0.5 } else { 0.0 };
+        assert!((v - expected).abs() < 1e-11, "{v} {expected}");
+    }
+}
+
+#[test]
+fn a_node_on_a_spring_follows_the_cosine() {
+    // All nodes but one are constrained and the body is too soft to matter: ü = 1 − ω² u, ω² = k/m.
+    let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 1 }\n[material]\n\
+        model = \"linear\"\nyoung = 1e-9\npoisson = 0.0\ndensity = 1000.0\n[mass]\nlumped = true\n[gravity]\n\
+        acceleration = [1, 0, 0]\n[fixed]\nnodes = [0, 1, 2, 3, 4, 6, 7, 8, 9, 10, 11]\n[[springs]]\nnodes = [4, 5]\n\
+        stiffness = 1e4\n[time]\ndt = 0.01\nintegrator = \"verlet\"\n";
+    let equations = equations(text);
+    let fastest = equations.fastest();
+    let found = reference(&equations, 3.0, 60.0).unwrap();
+    let expected = (1.0 - (fastest * 3.0).cos()) / (fastest * fastest);
+    let moved = found.q[15] - 2.0;
+    assert!((moved - expected).abs() < 1e-9 * (2.0 / (fastest * fastest)), "{moved} {expected}");
+}
+
+#[test]
+fn energy_is_conserved_to_the_self_check() {
+    let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 1 }\n[material]\n\
+        model = \"neo_hookean\"\nC = 1e4\nD = 4e4\ndensity = 1000.0\n[gravity]\nacceleration = [0, -9.81, 0]\n\
+        [fixed]\nplane = { axis = \"x\", below = 1e-9 }\n[time]\ndt = 0.01\nintegrator = \"verlet\"\n";
+    let found = reference(&equations(text), 0.3, 60.0).unwrap();
+    assert!((found.kinetic + found.potential).abs() < 1e-9 * found.kinetic, "{found:?}");
+}
+
+/// A box of 12 nodes so soft that only springs and mass matter.
+fn soft_box(tables: &str) -> Equations {
+    equations(&format!(
+        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [2, 1, 1], cells_per_unit = 1 }}\n[material]\nmodel = \"linear\"\n\
+         young = 1e-9\npoisson = 0.0\ndensity = 1000.0\n[time]\ndt = 0.01\nintegrator = \"verlet\"\n{tables}"
+    ))
+}
+
+const TOWED: &str = "[fixed]\nnodes = [0, 1, 2, 3, 6, 7, 8, 9, 10, 11]\n[[springs]]\nnodes = [4, 5]\nstiffness = 1e4\n\
+     [[prescribed]]\nnodes = [4]\ndisplacement = [0.2, 0, 0]\nover = 1.0\n";
+
+/// Displacement V t + (v − V)/ω sin ωt and velocity of a node with initial velocity v, on a spring whose other end moves at V.
+fn towed(omega: f64, V: f64, v: f64, t: f64) -> [f64; 2] {
+    [V * t + (v - V) / omega * (omega * t).sin(), V + (v - V) * (omega * t).cos()]
+}
+
+#[test]
+fn a_towed_node_follows_the_sine_and_swings_after_the_tow() {
+    let equations = soft_box(&format!("[mass]\nlumped = true\n{TOWED}"));
+    let omega = equations.fastest();
+    let found = reference(&equations, 1.0, 60.0).unwrap();
+    let [u, v] = towed(omega, 0.2, 0.0, 1.0);
+    assert!((found.q[15] - 2.0 - u).abs() < 1e-9 && (found.qdot[15] - v).abs() < 1e-7, "{found:?}");
+    let later = reference(&equations, 1.7, 60.0).unwrap();
+    let (c, s) = ((omega * 0.7).cos(), (omega * 0.7).sin());
+    let expected = 0.2 + (u - 0.2) * c + v / omega * s;
+    assert!((later.q[15] - 2.0 - expected).abs() < 1e-9, "{} {expected}", later.q[15] - 2.0);
+}
+
+#[test]
+fn a_velocity_jump_gives_neighbours_an_impulse_through_the_consistent_mass() {
+    let equations = soft_box(TOWED);
+    let (node, towed_node) =
+        (equations.system.order.engine_node[5] as usize, equations.system.order.engine_node[4] as usize);
+    let mass = |from: usize| {
+        let (mut unit, mut force) = (vec![[0.0; 3]; 12], vec![[0.0; 3]; 12]);
+        unit[from][0] = 1.0;
+        equations.system.mass.add_times(1.0, &unit, &mut force);
+        force[node][0]
+    };
+    let [u, _] = towed(equations.fastest(), 0.2, -0.2 * mass(towed_node) / mass(node), 0.5);
+    let found = reference(&equations, 0.5, 60.0).unwrap();
+    assert!(mass(towed_node) > 0.1 * mass(node));
+    assert!((found.q[15] - 2.0 - u).abs() < 1e-9, "{} {u}", found.q[15] - 2.0);
+}
+
+#[test]
+fn prescribed_velocities_and_accelerations_match_finite_differences() {
+    let equations = soft_box(
+        "[[prescribed]]\nnodes = [4]\ndisplacement = [0.2, -0.1, 0.4]\nover = 2.0\n\
+         rotation = { axis = \"y\", center = [0.3, 0.1, 0.2], turns = 0.7 }\n",
+    );
+    let motion = &equations.system.held.motions()[0].0;
+    let at = |time: f64| kinematics(motion, &Vector3::new(1.0, 2.0, -1.0), 0.0, time);
+    let (h, [_, v, a]) = (1e-4, at(0.8));
+    let (before, after) = (at(0.8 - h), at(0.8 + h));
+    assert!(((after[0] - before[0]) / (2.0 * h) - v).norm() < 1e-6);
+    assert!(((after[1] - before[1]) / (2.0 * h) - a).norm() < 1e-6);
+    assert_eq!(kinematics(motion, &Vector3::new(1.0, 2.0, -1.0), 2.0, 2.5)[1], Vector3::zeros());
+}
+
+#[test]
+fn displacements_that_jump_have_no_reference() {
+    let equations = soft_box("[[prescribed]]\nnodes = [4]\ndisplacement = [0.2, 0, 0]\n");
+    assert!(reference(&equations, 1.0, 60.0).unwrap_err().contains("over"));
+}

@@ -1,0 +1,10 @@
+//! Runs of a study: the plan, the measurement, and the row that each run becomes.
+
+pub mod convergence_order;
+pub(crate) mod costs;
+pub mod measure;
+pub mod pareto;
+pub mod plan;
+pub mod row;
+pub(crate) mod states;
+pub(crate) mod table;

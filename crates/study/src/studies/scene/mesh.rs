@@ -1,0 +1,19 @@
+//! A mesh of a study, with its reference.
+
+use fem_mesh::TetrahedralMesh;
+use fem_scene::Scene;
+
+use crate::reference::Reference;
+
+/// A mesh of the study, with its reference.
+pub(super) struct StudyMesh {
+    pub mesh: TetrahedralMesh,
+    pub weights: Vec<f64>,
+    pub hash: String,
+    pub file: String,
+    pub reference: Option<Reference>,
+}
+
+pub(super) fn cells(scene: &Scene) -> usize {
+    scene.mesh.cuboid.as_ref().map_or(0, |cuboid| cuboid.cells_per_unit)
+}
