@@ -278,10 +278,10 @@ pub fn run(options: &Options) -> Result<(), CheckError> {
 mod tests {
     use super::*;
     use crate::implementation::{Implementation, Local};
-    use grader_child::NOTHING;
+    use grader_child::UNWRITTEN;
 
     fn outcome(checks: &[Check]) -> (Status, usize) {
-        let nothing = Local(NOTHING);
+        let nothing = Local(UNWRITTEN);
         let course = Course { subject: &nothing, trusted: &nothing, seed: SEED };
         let (status, messages) = held_to("psi_neo_hookean", checks, &course, &[]);
         (status, messages.len())
@@ -298,7 +298,7 @@ mod tests {
 
     #[test]
     fn a_function_that_a_program_lacks_is_missing_and_has_not_panicked() {
-        let answer = Local(NOTHING).mass_matrix_linear_tetrahedron(1.0, 1.0);
+        let answer = Local(UNWRITTEN).mass_matrix_linear_tetrahedron(1.0, 1.0);
         assert_eq!(answer.map(drop), Err(Trouble::Missing));
     }
 }

@@ -8,9 +8,8 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
 
-use grader::compile::names;
 use grader::sandbox::Sandbox;
-use grader::submission::{Source, Submission};
+use grader::submission::{NAMES, Source, Submission};
 
 use crate::class::Outcome;
 use crate::cli::GradeOptions;
@@ -95,7 +94,7 @@ fn read(path: &Path) -> Submission {
     let read = if path.is_dir() { Submission::read_folder(path) } else { archive::read_submission(path) };
     read.unwrap_or_else(|error| {
         let why = "the submission cannot be read";
-        let functions: BTreeMap<_, _> = names().map(|name| (name, Source::Missing(why.to_owned()))).collect();
+        let functions: BTreeMap<_, _> = NAMES.into_iter().map(|name| (name, Source::Missing(why.to_owned()))).collect();
         Submission { name: archive::name(path), functions, remarks: vec![error.to_string()] }
     })
 }

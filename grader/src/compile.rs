@@ -15,7 +15,6 @@ use thiserror::Error;
 use crate::sandbox::{Confined, Limits, Profile, Sandbox};
 use diagnostics::faults;
 use prebuilt::Prebuilt;
-pub use sources::names;
 
 /// By the clock on the wall, rustc may take so many times its limit: a busy machine is no fault of a submission.
 const PATIENCE: u32 = 6;

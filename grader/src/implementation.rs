@@ -6,7 +6,7 @@ pub mod sandboxed;
 use std::fmt;
 use std::time::Duration;
 
-use grader_child::{Force, Gradient, Hessian, Objective, Solve, Stiffness, all_functions};
+use grader_child::{Force, Gradient, Hessian, Integrand, Objective, Solve, Stiffness, course_functions};
 use nalgebra::{DVector, Matrix3, Matrix4, Matrix4x3, SMatrix, SVector, Vector3, Vector4};
 use nalgebra_sparse::CsrMatrix;
 
@@ -52,9 +52,8 @@ impl fmt::Display for Trouble {
 pub type Answer<T> = Result<T, Trouble>;
 
 macro_rules! methods {
-    ($($number:literal $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
-        /// The 22 functions, as whoever judges them calls them. `quadrature_single_point`, which is generic, is asked for numbers
-        /// and for vectors.
+    ($($kind:ident $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        /// The 22 functions as the grader calls them. The generic `quadrature_single_point` is called with vectors.
         #[allow(clippy::too_many_arguments)] // the course's signatures
         pub trait Implementation {
             $(
@@ -65,4 +64,4 @@ macro_rules! methods {
         }
     };
 }
-all_functions!(methods);
+course_functions!(methods);

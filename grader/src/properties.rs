@@ -63,28 +63,10 @@ pub struct Check {
     pub run: fn(&Course) -> Outcome,
 }
 
-/// The functions of the course in teaching order, each with its checks.
-pub const FUNCTIONS: [(&str, &[Check]); 22] = [
-    ("phi_linear_tetrahedron", phi_linear_tetrahedron::CHECKS),
-    ("dphi_linear_tetrahedron_dX", dphi_linear_tetrahedron_dX::CHECKS),
-    ("psi_neo_hookean", psi_neo_hookean::CHECKS),
-    ("dpsi_neo_hookean_dF", dpsi_neo_hookean_dF::CHECKS),
-    ("d2psi_neo_hookean_dF2", d2psi_neo_hookean_dF2::CHECKS),
-    ("T_linear_tetrahedron", T_linear_tetrahedron::CHECKS),
-    ("quadrature_single_point", quadrature_single_point::CHECKS),
-    ("V_linear_tetrahedron", V_linear_tetrahedron::CHECKS),
-    ("dV_linear_tetrahedron_dq", dV_linear_tetrahedron_dq::CHECKS),
-    ("d2V_linear_tetrahedron_dq2", d2V_linear_tetrahedron_dq2::CHECKS),
-    ("V_spring_particle_particle", V_spring_particle_particle::CHECKS),
-    ("dV_spring_particle_particle_dq", dV_spring_particle_particle_dq::CHECKS),
-    ("mass_matrix_linear_tetrahedron", mass_matrix_linear_tetrahedron::CHECKS),
-    ("mass_matrix_mesh", mass_matrix_mesh::CHECKS),
-    ("assemble_forces", assemble_forces::CHECKS),
-    ("assemble_stiffness", assemble_stiffness::CHECKS),
-    ("build_skinning_matrix", build_skinning_matrix::CHECKS),
-    ("fixed_point_constraints", fixed_point_constraints::CHECKS),
-    ("pick_nearest_vertices", pick_nearest_vertices::CHECKS),
-    ("linearly_implicit_euler", linearly_implicit_euler::CHECKS),
-    ("newtons_method", newtons_method::CHECKS),
-    ("implicit_euler", implicit_euler::CHECKS),
-];
+macro_rules! list {
+    ($($kind:ident $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        /// The functions of the course in teaching order, each with its checks.
+        pub const FUNCTIONS: [(&str, &[Check]); 22] = [$((stringify!($name), $name::CHECKS)),*];
+    };
+}
+grader_child::course_functions!(list);

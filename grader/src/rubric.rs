@@ -4,7 +4,7 @@ use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use grader::compile::names;
+use grader::submission::NAMES;
 use serde::Deserialize;
 use thiserror::Error;
 use toml::Spanned;
@@ -95,7 +95,7 @@ impl Rubric {
         };
         for (index, function) in self.functions.iter().enumerate() {
             let name = function.name.get_ref();
-            if !names().any(|known| known == name) {
+            if !NAMES.contains(&name.as_str()) {
                 let problem = format!("`{name}` is no function of the course; the README lists their names");
                 return Err(at(function.name.span(), problem));
             }
@@ -118,7 +118,7 @@ impl Rubric {
 
     fn check_whole(&self) -> Result<(), String> {
         if let Some(missing) =
-            names().find(|name| !self.functions.iter().any(|function| function.name.get_ref() == name))
+            NAMES.into_iter().find(|name| !self.functions.iter().any(|function| function.name.get_ref() == name))
         {
             return Err(format!(
                 "`{missing}` is missing; add a table [[function]] for it, with 0 points if it is not asked for"

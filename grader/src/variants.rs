@@ -53,31 +53,13 @@ pub struct Variant {
     pub functions: Functions,
 }
 
-/// The variants of each function, in the order in which the course teaches the functions.
-pub const ALL: [&[Variant]; 22] = [
-    phi_linear_tetrahedron::VARIANTS,
-    dphi_linear_tetrahedron_dX::VARIANTS,
-    psi_neo_hookean::VARIANTS,
-    dpsi_neo_hookean_dF::VARIANTS,
-    d2psi_neo_hookean_dF2::VARIANTS,
-    T_linear_tetrahedron::VARIANTS,
-    quadrature_single_point::VARIANTS,
-    V_linear_tetrahedron::VARIANTS,
-    dV_linear_tetrahedron_dq::VARIANTS,
-    d2V_linear_tetrahedron_dq2::VARIANTS,
-    V_spring_particle_particle::VARIANTS,
-    dV_spring_particle_particle_dq::VARIANTS,
-    mass_matrix_linear_tetrahedron::VARIANTS,
-    mass_matrix_mesh::VARIANTS,
-    assemble_forces::VARIANTS,
-    assemble_stiffness::VARIANTS,
-    build_skinning_matrix::VARIANTS,
-    fixed_point_constraints::VARIANTS,
-    pick_nearest_vertices::VARIANTS,
-    linearly_implicit_euler::VARIANTS,
-    newtons_method::VARIANTS,
-    implicit_euler::VARIANTS,
-];
+macro_rules! list {
+    ($($kind:ident $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        /// The variants of each function, in teaching order.
+        pub const ALL: [&[Variant]; 22] = [$($name::VARIANTS),*];
+    };
+}
+grader_child::course_functions!(list);
 
 /// The variants of one function; none for a name that is no function.
 pub fn of(function: &str) -> &'static [Variant] {

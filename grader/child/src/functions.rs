@@ -1,8 +1,10 @@
-//! The 22 functions as data: one table of function pointers, and the list of signatures that everything else is made from.
+//! The 22 functions of the course: one list of their names, order and signatures, from which every other list is made.
 
 use nalgebra::{DVector, Matrix3, Matrix4, Matrix4x3, SMatrix, SVector, Vector3, Vector4};
 use nalgebra_sparse::CsrMatrix;
 
+/// Integrand of an integral over an element, as a vector of any length.
+pub type Integrand<'a> = &'a dyn Fn(&Vector3<f64>) -> DVector<f64>;
 /// Value of a function of many variables.
 pub type Objective<'a> = &'a dyn Fn(&DVector<f64>) -> f64;
 /// Gradient of such a function.
@@ -16,87 +18,67 @@ pub type Stiffness<'a> = &'a dyn Fn(&DVector<f64>, &DVector<f64>) -> CsrMatrix<f
 /// Solution x of A x = b.
 pub type Solve<'a> = &'a dyn Fn(&CsrMatrix<f64>, &DVector<f64>) -> DVector<f64>;
 
-/// Hands the signatures of the 18 functions that take no closure to the macro `$then`, and behind them what else is given. A call
-/// travels under its number.
+/// The list: hands the functions in teaching order to the macro `$then`, after the tokens `$first`.
+///
+/// Each row starts with `plain`, or with `with_closures` if an argument is a closure, so that a macro of that name can treat the
+/// two kinds differently. The generic `quadrature_single_point` is called with vectors.
 #[macro_export]
-macro_rules! plain_functions {
-    ($then:ident $($more:tt)*) => {
-        $then! {
-            0 phi_linear_tetrahedron(V: &[Vector3<f64>], element: &[usize; 4], x: &Vector3<f64>) -> Vector4<f64>;
-            1 dphi_linear_tetrahedron_dX(V: &[Vector3<f64>], element: &[usize; 4], X: &Vector3<f64>) -> Matrix4x3<f64>;
-            2 psi_neo_hookean(F: &Matrix3<f64>, C: f64, D: f64) -> f64;
-            3 dpsi_neo_hookean_dF(F: &Matrix3<f64>, C: f64, D: f64) -> SVector<f64, 9>;
-            4 d2psi_neo_hookean_dF2(F: &Matrix3<f64>, C: f64, D: f64) -> SMatrix<f64, 9, 9>;
-            5 T_linear_tetrahedron(qdot: &DVector<f64>, element: &[usize; 4], density: f64, volume: f64) -> f64;
-            6 V_linear_tetrahedron(q: &DVector<f64>, V: &[Vector3<f64>], element: &[usize; 4], volume: f64, C: f64, D: f64) -> f64;
-            7 dV_linear_tetrahedron_dq(q: &DVector<f64>, V: &[Vector3<f64>], element: &[usize; 4], volume: f64, C: f64, D: f64) -> SVector<f64, 12>;
-            8 d2V_linear_tetrahedron_dq2(q: &DVector<f64>, V: &[Vector3<f64>], element: &[usize; 4], volume: f64, C: f64, D: f64) -> SMatrix<f64, 12, 12>;
-            9 V_spring_particle_particle(q0: &Vector3<f64>, q1: &Vector3<f64>, l0: f64, stiffness: f64) -> f64;
-            10 dV_spring_particle_particle_dq(q0: &Vector3<f64>, q1: &Vector3<f64>, l0: f64, stiffness: f64) -> SVector<f64, 6>;
-            11 mass_matrix_linear_tetrahedron(density: f64, volume: f64) -> SMatrix<f64, 12, 12>;
-            12 mass_matrix_mesh(q_size: usize, T: &[[usize; 4]], density: f64, v0: &[f64]) -> CsrMatrix<f64>;
-            13 assemble_forces(q: &DVector<f64>, V: &[Vector3<f64>], T: &[[usize; 4]], v0: &[f64], C: f64, D: f64) -> DVector<f64>;
-            14 assemble_stiffness(q: &DVector<f64>, V: &[Vector3<f64>], T: &[[usize; 4]], v0: &[f64], C: f64, D: f64) -> CsrMatrix<f64>;
-            15 build_skinning_matrix(V: &[Vector3<f64>], T: &[[usize; 4]], V_skin: &[Vector3<f64>]) -> CsrMatrix<f64>;
-            16 fixed_point_constraints(q_size: usize, indices: &[usize]) -> CsrMatrix<f64>;
-            17 pick_nearest_vertices(win: &Vector3<f64>, view: &Matrix4<f32>, proj: &Matrix4<f32>, viewport: &Vector4<f32>, V: &[Vector3<f64>], F: &[[usize; 3]], radius: f64) -> Vec<usize>;
-            $($more)*
+macro_rules! course_functions {
+    ($($then:ident)::+ $(=> $($first:tt)*)?) => {
+        $($then)::+! { $($($first)*)?
+            plain phi_linear_tetrahedron(V: &[Vector3<f64>], element: &[usize; 4], x: &Vector3<f64>) -> Vector4<f64>;
+            plain dphi_linear_tetrahedron_dX(V: &[Vector3<f64>], element: &[usize; 4], X: &Vector3<f64>) -> Matrix4x3<f64>;
+            plain psi_neo_hookean(F: &Matrix3<f64>, C: f64, D: f64) -> f64;
+            plain dpsi_neo_hookean_dF(F: &Matrix3<f64>, C: f64, D: f64) -> SVector<f64, 9>;
+            plain d2psi_neo_hookean_dF2(F: &Matrix3<f64>, C: f64, D: f64) -> SMatrix<f64, 9, 9>;
+            plain T_linear_tetrahedron(qdot: &DVector<f64>, element: &[usize; 4], density: f64, volume: f64) -> f64;
+            with_closures quadrature_single_point(V: &[Vector3<f64>], element: &[usize; 4], volume: f64, integrand: Integrand) -> DVector<f64>;
+            plain V_linear_tetrahedron(q: &DVector<f64>, V: &[Vector3<f64>], element: &[usize; 4], volume: f64, C: f64, D: f64) -> f64;
+            plain dV_linear_tetrahedron_dq(q: &DVector<f64>, V: &[Vector3<f64>], element: &[usize; 4], volume: f64, C: f64, D: f64) -> SVector<f64, 12>;
+            plain d2V_linear_tetrahedron_dq2(q: &DVector<f64>, V: &[Vector3<f64>], element: &[usize; 4], volume: f64, C: f64, D: f64) -> SMatrix<f64, 12, 12>;
+            plain V_spring_particle_particle(q0: &Vector3<f64>, q1: &Vector3<f64>, l0: f64, stiffness: f64) -> f64;
+            plain dV_spring_particle_particle_dq(q0: &Vector3<f64>, q1: &Vector3<f64>, l0: f64, stiffness: f64) -> SVector<f64, 6>;
+            plain mass_matrix_linear_tetrahedron(density: f64, volume: f64) -> SMatrix<f64, 12, 12>;
+            plain mass_matrix_mesh(q_size: usize, T: &[[usize; 4]], density: f64, v0: &[f64]) -> CsrMatrix<f64>;
+            plain assemble_forces(q: &DVector<f64>, V: &[Vector3<f64>], T: &[[usize; 4]], v0: &[f64], C: f64, D: f64) -> DVector<f64>;
+            plain assemble_stiffness(q: &DVector<f64>, V: &[Vector3<f64>], T: &[[usize; 4]], v0: &[f64], C: f64, D: f64) -> CsrMatrix<f64>;
+            plain build_skinning_matrix(V: &[Vector3<f64>], T: &[[usize; 4]], V_skin: &[Vector3<f64>]) -> CsrMatrix<f64>;
+            plain fixed_point_constraints(q_size: usize, indices: &[usize]) -> CsrMatrix<f64>;
+            plain pick_nearest_vertices(win: &Vector3<f64>, view: &Matrix4<f32>, proj: &Matrix4<f32>, viewport: &Vector4<f32>, V: &[Vector3<f64>], F: &[[usize; 3]], radius: f64) -> Vec<usize>;
+            with_closures linearly_implicit_euler(q: &mut DVector<f64>, qdot: &mut DVector<f64>, dt: f64, mass: &CsrMatrix<f64>, force: Force, stiffness: Stiffness, solve: Solve) -> ();
+            with_closures newtons_method(x0: &mut DVector<f64>, f: Objective, g: Gradient, H: Hessian, solve: Solve, max_steps: usize) -> f64;
+            with_closures implicit_euler(q: &mut DVector<f64>, qdot: &mut DVector<f64>, dt: f64, mass: &CsrMatrix<f64>, energy: Objective, force: Force, stiffness: Stiffness, solve: Solve) -> ();
         }
     };
 }
 
-/// The same with those that take closures. `quadrature_single_point`, which is generic, is asked for numbers and for vectors.
-#[macro_export]
-macro_rules! all_functions {
-    ($then:ident) => {
-        $crate::plain_functions! { $then
-            18 quadrature_of_number(V: &[Vector3<f64>], element: &[usize; 4], volume: f64, integrand: &dyn Fn(&Vector3<f64>) -> f64) -> f64;
-            19 quadrature_of_vector(V: &[Vector3<f64>], element: &[usize; 4], volume: f64, integrand: &dyn Fn(&Vector3<f64>) -> DVector<f64>) -> DVector<f64>;
-            20 linearly_implicit_euler(q: &mut DVector<f64>, qdot: &mut DVector<f64>, dt: f64, mass: &CsrMatrix<f64>, force: Force, stiffness: Stiffness, solve: Solve) -> ();
-            21 newtons_method(x0: &mut DVector<f64>, f: Objective, g: Gradient, H: Hessian, solve: Solve, max_steps: usize) -> f64;
-            22 implicit_euler(q: &mut DVector<f64>, qdot: &mut DVector<f64>, dt: f64, mass: &CsrMatrix<f64>, energy: Objective, force: Force, stiffness: Stiffness, solve: Solve) -> ();
+macro_rules! define {
+    ($($kind:ident $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        /// One of the functions. Its value is its place in teaching order and the number under which calls of it travel.
+        #[allow(non_camel_case_types)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Exercise {
+            $(#[doc = concat!("See `include-docs/", stringify!($name), ".md`.")] $name,)*
         }
-    };
-}
 
-/// The table of a crate that holds the 22 functions under their names.
-#[macro_export]
-macro_rules! functions_of {
-    ($course:ident) => {
-        $crate::Functions {
-            phi_linear_tetrahedron: $course::phi_linear_tetrahedron,
-            dphi_linear_tetrahedron_dX: $course::dphi_linear_tetrahedron_dX,
-            psi_neo_hookean: $course::psi_neo_hookean,
-            dpsi_neo_hookean_dF: $course::dpsi_neo_hookean_dF,
-            d2psi_neo_hookean_dF2: $course::d2psi_neo_hookean_dF2,
-            T_linear_tetrahedron: $course::T_linear_tetrahedron,
-            V_linear_tetrahedron: $course::V_linear_tetrahedron,
-            dV_linear_tetrahedron_dq: $course::dV_linear_tetrahedron_dq,
-            d2V_linear_tetrahedron_dq2: $course::d2V_linear_tetrahedron_dq2,
-            V_spring_particle_particle: $course::V_spring_particle_particle,
-            dV_spring_particle_particle_dq: $course::dV_spring_particle_particle_dq,
-            mass_matrix_linear_tetrahedron: $course::mass_matrix_linear_tetrahedron,
-            mass_matrix_mesh: $course::mass_matrix_mesh,
-            assemble_forces: $course::assemble_forces,
-            assemble_stiffness: $course::assemble_stiffness,
-            build_skinning_matrix: $course::build_skinning_matrix,
-            fixed_point_constraints: $course::fixed_point_constraints,
-            pick_nearest_vertices: $course::pick_nearest_vertices,
-            quadrature_of_number: |V, element, volume, f| $course::quadrature_single_point(V, element, volume, f),
-            quadrature_of_vector: |V, element, volume, f| $course::quadrature_single_point(V, element, volume, f),
-            linearly_implicit_euler: |q, qdot, dt, mass, force, stiffness, solve| {
-                $course::linearly_implicit_euler(q, qdot, dt, mass, force, stiffness, solve)
-            },
-            newtons_method: |x0, f, g, H, solve, max_steps| $course::newtons_method(x0, f, g, H, solve, max_steps),
-            implicit_euler: |q, qdot, dt, mass, energy, force, stiffness, solve| {
-                $course::implicit_euler(q, qdot, dt, mass, energy, force, stiffness, solve)
-            },
+        impl Exercise {
+            /// All functions in teaching order.
+            pub const ALL: [Self; 22] = [$(Self::$name),*];
+
+            /// Name of the function.
+            pub const fn name(self) -> &'static str {
+                NAMES[self as usize]
+            }
+
+            /// The function of this name.
+            pub fn from_name(name: &str) -> Option<Self> {
+                Self::ALL.into_iter().find(|exercise| exercise.name() == name)
+            }
         }
-    };
-}
 
-macro_rules! table {
-    ($($number:literal $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        /// Names of the functions in teaching order.
+        pub const NAMES: [&str; 22] = [$(stringify!($name)),*];
+
         /// One implementation of the 22 functions.
         #[derive(Clone, Copy)]
         #[allow(clippy::type_complexity)] // the course's signatures
@@ -104,10 +86,27 @@ macro_rules! table {
             $(#[doc = concat!("`", stringify!($name), "`")] pub $name: fn($($type),*) -> $result,)*
         }
 
-        /// A table in which every function panics like the handout's: what a program without a function answers when asked for it.
-        pub const NOTHING: Functions = Functions {
+        /// An implementation in which every function panics like the handout's: a program starts from it and replaces those that
+        /// it has.
+        pub const UNWRITTEN: Functions = Functions {
             $($name: |$(_: $type),*| panic!("not yet implemented"),)*
         };
     };
 }
-all_functions!(table);
+course_functions!(define);
+
+/// The [`Functions`] of a crate that holds the 22 functions under their names.
+#[macro_export]
+macro_rules! functions_of {
+    ($course:ident) => {
+        $crate::course_functions! { $crate::functions_from => $course }
+    };
+}
+
+#[doc(hidden)]
+#[macro_export]
+macro_rules! functions_from {
+    ($course:ident $($kind:ident $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        $crate::Functions { $($name: |$($argument),*| $course::$name($($argument),*)),* }
+    };
+}

@@ -13,5 +13,7 @@ pub mod socket;
 mod standard;
 pub mod wire;
 
-pub use functions::{Force, Functions, Gradient, Hessian, NOTHING, Objective, Solve, Stiffness};
+pub use functions::{
+    Exercise, Force, Functions, Gradient, Hessian, Integrand, NAMES, Objective, Solve, Stiffness, UNWRITTEN,
+};
 pub use serve::{GivenSolve, serve};

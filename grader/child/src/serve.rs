@@ -14,7 +14,7 @@ use crate::simulation::simulate;
 use crate::socket::{self, Socket};
 use crate::standard;
 use crate::wire::{self, Argument, Wire, bytes, kind, read};
-use crate::{Functions, plain_functions};
+use crate::{Exercise, Functions, course_functions};
 
 /// `given::solve`, which the program is linked with and this crate is not.
 pub type GivenSolve = fn(&CsrMatrix<f64>, &DVector<f64>) -> DVector<f64>;
@@ -32,7 +32,7 @@ pub fn serve(functions: &Functions, solve: GivenSolve) {
         let answered = panic::catch_unwind(AssertUnwindSafe(|| match called {
             kind::REPEAT => repeat(functions, &parent, &body),
             kind::SIMULATE => read(&body).map(|scene| bytes(&simulate(functions, &scene, solve))),
-            _ => answer(functions, &parent, called, &body),
+            _ => answer(functions, &parent, exercise(called)?, &body),
         }));
         match answered {
             Ok(Some(answer)) => parent.send(kind::RETURNED, &answer),
@@ -90,23 +90,39 @@ fn message(panic: &(dyn Any + Send)) -> String {
 }
 
 macro_rules! plain {
-    ($($number:literal $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
-        fn plain(functions: &Functions, called: u8, input: &mut &[u8]) -> Option<Box<dyn Fn() -> Vec<u8>>> {
-            match called {
-                $($number => {
-                    $(let $argument = <<$type as Argument>::Stored as Wire>::get(input)?;)*
-                    let function = functions.$name;
-                    Some(Box::new(move || bytes(&black_box(function($(<$type as Argument>::lend(black_box(&$argument))),*)))))
-                })*
-                _ => None,
-            }
+    ($functions:ident $called:ident $input:ident $name:ident($($argument:ident: $type:ty),*)) => {
+        if $called == Exercise::$name {
+            $(let $argument = <<$type as Argument>::Stored as Wire>::get($input)?;)*
+            let function = $functions.$name;
+            return Some(Box::new(move || {
+                bytes(&black_box(function($(<$type as Argument>::lend(black_box(&$argument))),*)))
+            }));
         }
     };
 }
-plain_functions!(plain);
+
+macro_rules! with_closures {
+    ($($row:tt)*) => {};
+}
+
+macro_rules! calls {
+    ($($kind:ident $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        /// The call of a function that takes no closure, with its arguments.
+        fn plain(functions: &Functions, called: Exercise, input: &mut &[u8]) -> Option<Box<dyn Fn() -> Vec<u8>>> {
+            $($kind! { functions called input $name($($argument: $type),*) })*
+            None
+        }
+    };
+}
+course_functions!(calls);
+
+/// The function that travels under this number.
+fn exercise(number: u8) -> Option<Exercise> {
+    Exercise::ALL.get(usize::from(number)).copied()
+}
 
 /// Makes one call, closures answered by the parent.
-fn answer(functions: &Functions, parent: &Parent, called: u8, body: &[u8]) -> Option<Vec<u8>> {
+fn answer(functions: &Functions, parent: &Parent, called: Exercise, body: &[u8]) -> Option<Vec<u8>> {
     let mut input = body;
     let two = |a: &DVector<f64>, b: &DVector<f64>| [bytes(a), bytes(b)].concat();
     let solve = |A: &CsrMatrix<f64>, b: &DVector<f64>| parent.ask(4, &[bytes(A), bytes(b)].concat());
@@ -114,27 +130,23 @@ fn answer(functions: &Functions, parent: &Parent, called: u8, body: &[u8]) -> Op
     let stiffness = |q: &DVector<f64>, v: &DVector<f64>| parent.ask(3, &two(q, v));
     let objective = |x: &DVector<f64>| parent.ask(1, &bytes(x));
     match called {
-        kind::QUADRATURE_OF_NUMBER => {
-            let (V, element, volume) = quadrature(&mut input)?;
+        Exercise::quadrature_single_point => {
+            let (V, element, volume): (Vec<Vector3<f64>>, _, _) =
+                (Wire::get(&mut input)?, Wire::get(&mut input)?, Wire::get(&mut input)?);
             let integrand = |X: &Vector3<f64>| parent.ask(0, &bytes(X));
-            Some(bytes(&(functions.quadrature_of_number)(&V, &element, volume, &integrand)))
+            Some(bytes(&(functions.quadrature_single_point)(&V, &element, volume, &integrand)))
         }
-        kind::QUADRATURE_OF_VECTOR => {
-            let (V, element, volume) = quadrature(&mut input)?;
-            let integrand = |X: &Vector3<f64>| parent.ask(0, &bytes(X));
-            Some(bytes(&(functions.quadrature_of_vector)(&V, &element, volume, &integrand)))
-        }
-        kind::LINEARLY_IMPLICIT_EULER => {
+        Exercise::linearly_implicit_euler => {
             let (mut q, mut qdot, dt, mass) = step(&mut input)?;
             (functions.linearly_implicit_euler)(&mut q, &mut qdot, dt, &mass, &force, &stiffness, &solve);
             Some(two(&q, &qdot))
         }
-        kind::IMPLICIT_EULER => {
+        Exercise::implicit_euler => {
             let (mut q, mut qdot, dt, mass) = step(&mut input)?;
             (functions.implicit_euler)(&mut q, &mut qdot, dt, &mass, &objective, &force, &stiffness, &solve);
             Some(two(&q, &qdot))
         }
-        kind::NEWTONS_METHOD => {
+        Exercise::newtons_method => {
             let mut x: DVector<f64> = Wire::get(&mut input)?;
             let max_steps = Wire::get(&mut input)?;
             let gradient = |x: &DVector<f64>| parent.ask(2, &bytes(x));
@@ -144,12 +156,6 @@ fn answer(functions: &Functions, parent: &Parent, called: u8, body: &[u8]) -> Op
         }
         _ => plain(functions, called, &mut input).map(|call| call()),
     }
-}
-
-type Quadrature = (Vec<Vector3<f64>>, [usize; 4], f64);
-
-fn quadrature(input: &mut &[u8]) -> Option<Quadrature> {
-    Some((Wire::get(input)?, Wire::get(input)?, Wire::get(input)?))
 }
 
 type Step = (DVector<f64>, DVector<f64>, f64, CsrMatrix<f64>);
@@ -163,10 +169,8 @@ fn step(input: &mut &[u8]) -> Option<Step> {
 fn repeat(functions: &Functions, parent: &Parent, body: &[u8]) -> Option<Vec<u8>> {
     let times: u64 = read(body)?;
     let (called, body) = parent.receive();
-    let call: Box<dyn Fn() -> Vec<u8>> = match called {
-        0..18 => plain(functions, called, &mut &body[..])?,
-        _ => standard::load(*functions, called)?,
-    };
+    let called = exercise(called)?;
+    let call = plain(functions, called, &mut &body[..]).or_else(|| standard::load(*functions, called))?;
     let mut last = Vec::new();
     for _ in 0..times {
         last = call();

@@ -3,8 +3,8 @@
 use nalgebra::{DVector, Vector3};
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
-use crate::Functions;
-use crate::wire::{bytes, kind};
+use crate::wire::bytes;
+use crate::{Exercise, Functions};
 
 const LENGTH: usize = 120;
 const DT: f64 = 0.01;
@@ -13,24 +13,25 @@ const SPRING: f64 = 200.0;
 /// Hardening of a spring, so that Newton's method needs more than one step.
 const HARDENING: f64 = 2e4;
 
-/// A call of the function with this number on the chain; `None` where it is no function with closures.
-pub fn load(functions: Functions, called: u8) -> Option<Box<dyn Fn() -> Vec<u8>>> {
+/// A call of a function on the chain, or of the integral on the unit tetrahedron; `None` if the function takes no closure.
+pub fn load(functions: Functions, called: Exercise) -> Option<Box<dyn Fn() -> Vec<u8>>> {
     let V = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
     let start: DVector<f64> = DVector::from_fn(LENGTH, |i, _| 0.05 * (i as f64).sin());
     let rest: DVector<f64> = DVector::zeros(LENGTH);
     let mass = tridiagonal(LENGTH, |_| 0.0, |_| MASS);
     Some(match called {
-        kind::QUADRATURE_OF_NUMBER | kind::QUADRATURE_OF_VECTOR => Box::new(move || {
-            bytes(&(functions.quadrature_of_number)(&V, &[0, 1, 2, 3], 1.0 / 6.0, &|X| X.x + 2.0 * X.y * X.z))
+        Exercise::quadrature_single_point => Box::new(move || {
+            let integrand = |X: &Vector3<f64>| DVector::from_element(1, X.x + 2.0 * X.y * X.z);
+            bytes(&(functions.quadrature_single_point)(&V, &[0, 1, 2, 3], 1.0 / 6.0, &integrand))
         }),
-        kind::LINEARLY_IMPLICIT_EULER => Box::new(move || {
+        Exercise::linearly_implicit_euler => Box::new(move || {
             let (mut q, mut v) = (start.clone(), rest.clone());
             let (force, K) =
                 (|q: &DVector<f64>, _: &DVector<f64>| force(q), |q: &DVector<f64>, _: &DVector<f64>| stiffness(q));
             (functions.linearly_implicit_euler)(&mut q, &mut v, DT, &mass, &force, &K, &sweep);
             bytes(&(q, v))
         }),
-        kind::IMPLICIT_EULER => Box::new(move || {
+        Exercise::implicit_euler => Box::new(move || {
             let (mut q, mut v) = (start.clone(), rest.clone());
             let (force, K) =
                 (|q: &DVector<f64>, _: &DVector<f64>| force(q), |q: &DVector<f64>, _: &DVector<f64>| stiffness(q));
@@ -38,7 +39,7 @@ pub fn load(functions: Functions, called: u8) -> Option<Box<dyn Fn() -> Vec<u8>>
             (functions.implicit_euler)(&mut q, &mut v, DT, &mass, &energy, &force, &K, &sweep);
             bytes(&(q, v))
         }),
-        kind::NEWTONS_METHOD => Box::new(move || {
+        Exercise::newtons_method => Box::new(move || {
             let mut x = start.clone();
             let f = (functions.newtons_method)(&mut x, &energy, &|x| -force(x), &|x| stiffness(x) * -1.0, &sweep, 20);
             bytes(&(x, f))

@@ -10,18 +10,8 @@ use nalgebra_sparse::CsrMatrix;
 /// Longest frame that is read, bytes; what claims to be longer is not an answer.
 pub const LONGEST_FRAME: usize = 1 << 26;
 
-/// Kinds of frames above the numbers of the functions, which are kinds themselves.
+/// Kinds of frames beside the calls, whose kind is the number of their function.
 pub mod kind {
-    /// Call of `quadrature_single_point` with numbers.
-    pub const QUADRATURE_OF_NUMBER: u8 = 18;
-    /// Call of `quadrature_single_point` with vectors.
-    pub const QUADRATURE_OF_VECTOR: u8 = 19;
-    /// Call of `linearly_implicit_euler`.
-    pub const LINEARLY_IMPLICIT_EULER: u8 = 20;
-    /// Call of `newtons_method`.
-    pub const NEWTONS_METHOD: u8 = 21;
-    /// Call of `implicit_euler`.
-    pub const IMPLICIT_EULER: u8 = 22;
     /// The next call is to be made this often (u64) in a row; its last answer counts. Its closures are the child's own.
     pub const REPEAT: u8 = 30;
     /// A whole simulation.

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use grader_child::Exercise;
 use serde::Deserialize;
 
-use super::sources::{names, signature};
+use super::sources::signature;
 
 /// How much of the compiler's text is kept for one function, bytes.
 const MOST_TEXT: usize = 4000;
@@ -36,13 +37,13 @@ pub fn faults(messages: &str) -> BTreeMap<&'static str, String> {
         if message.level != "error" {
             continue;
         }
-        let Some((name, is_call)) = message.spans.iter().find_map(blamed) else { continue };
+        let Some((function, is_call)) = message.spans.iter().find_map(blamed) else { continue };
         let text = if is_call {
-            format!("the signature is not the course's, which is `{}`", signature(name))
+            format!("the signature is not the course's, which is `{}`", signature(function))
         } else {
             message.rendered.unwrap_or(message.message)
         };
-        let told = found.entry(name).or_default();
+        let told = found.entry(function.name()).or_default();
         if told.len() + text.len() < MOST_TEXT && !told.contains(&text) {
             told.push_str(&text);
             told.push('\n');
@@ -54,13 +55,13 @@ pub fn faults(messages: &str) -> BTreeMap<&'static str, String> {
 }
 
 /// The function whose file a place is in, and whether it is the line that calls the function.
-fn blamed(span: &Span) -> Option<(&'static str, bool)> {
+fn blamed(span: &Span) -> Option<(Exercise, bool)> {
     // Windows divides paths in its own way.
     let file_name = span.file_name.replace('\\', "/");
     let here = file_name.strip_prefix("src/").and_then(|file| {
         let (is_call, file) = file.strip_prefix("calls/").map_or((false, file), |file| (true, file));
         let stem = file.strip_suffix(".rs")?;
-        names().find(|name| *name == stem).map(|name| (name, is_call))
+        Exercise::from_name(stem).map(|function| (function, is_call))
     });
     here.or_else(|| span.expansion.as_ref().and_then(|expansion| blamed(&expansion.span)))
 }

@@ -3,86 +3,65 @@
 use std::path::Path;
 use std::{fs, io};
 
-use grader_child::plain_functions;
+use grader_child::{Exercise, course_functions};
 
 use super::Plan;
 
-macro_rules! signatures {
-    ($($number:literal $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
-        /// Name, arguments and result of the functions that take no closure.
-        const PLAIN: &[(&str, &[(&str, &str)], &str)] =
-            &[$((stringify!($name), &[$((stringify!($argument), stringify!($type))),*], stringify!($result))),*];
+/// A row of the list of functions as text.
+struct Row {
+    takes_closures: bool,
+    arguments: &'static [(&'static str, &'static str)],
+    result: &'static str,
+}
+
+macro_rules! rows {
+    ($($kind:ident $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        const ROWS: [Row; 22] = [$(Row {
+            takes_closures: $kind!(),
+            arguments: &[$((stringify!($argument), stringify!($type))),*],
+            result: stringify!($result),
+        }),*];
     };
 }
-plain_functions!(signatures);
-
-/// The functions with closures: name, generic parameters, arguments, result, and how they are called with `&dyn Fn`.
-const WITH_CLOSURES: [(&str, &str, &str, &str, &str); 4] = [
-    (
-        "quadrature_single_point",
-        "<R: std::ops::Mul<f64, Output = R>>",
-        "V: &[Vector3<f64>], element: &[usize; 4], volume: f64, integrand: impl Fn(&Vector3<f64>) -> R",
-        "R",
-        "pub const NUMBER: fn(&[Vector3<f64>], &[usize; 4], f64, &dyn Fn(&Vector3<f64>) -> f64) -> f64 =\n    \
-         |V, element, volume, integrand| crate::quadrature_single_point(V, element, volume, integrand);\n\
-         pub const VECTOR: fn(&[Vector3<f64>], &[usize; 4], f64, &dyn Fn(&Vector3<f64>) -> DVector<f64>) -> DVector<f64> =\n    \
-         |V, element, volume, integrand| crate::quadrature_single_point(V, element, volume, integrand);\n",
-    ),
-    (
-        "linearly_implicit_euler",
-        "",
-        "q: &mut DVector<f64>, qdot: &mut DVector<f64>, dt: f64, mass: &CsrMatrix<f64>, \
-         force: impl Fn(&DVector<f64>, &DVector<f64>) -> DVector<f64>, \
-         stiffness: impl Fn(&DVector<f64>, &DVector<f64>) -> CsrMatrix<f64>, \
-         solve: impl Fn(&CsrMatrix<f64>, &DVector<f64>) -> DVector<f64>",
-        "()",
-        "pub const CALL: fn(&mut DVector<f64>, &mut DVector<f64>, f64, &CsrMatrix<f64>, Force, Stiffness, Solve) =\n    \
-         |q, qdot, dt, mass, force, stiffness, solve| crate::linearly_implicit_euler(q, qdot, dt, mass, force, stiffness, solve);\n",
-    ),
-    (
-        "newtons_method",
-        "",
-        "x0: &mut DVector<f64>, f: impl Fn(&DVector<f64>) -> f64, g: impl Fn(&DVector<f64>) -> DVector<f64>, \
-         H: impl Fn(&DVector<f64>) -> CsrMatrix<f64>, \
-         solve: impl Fn(&CsrMatrix<f64>, &DVector<f64>) -> DVector<f64>, max_steps: usize",
-        "f64",
-        "pub const CALL: fn(&mut DVector<f64>, Objective, Gradient, Hessian, Solve, usize) -> f64 =\n    \
-         |x0, f, g, H, solve, max_steps| crate::newtons_method(x0, f, g, H, solve, max_steps);\n",
-    ),
-    (
-        "implicit_euler",
-        "",
-        "q: &mut DVector<f64>, qdot: &mut DVector<f64>, dt: f64, mass: &CsrMatrix<f64>, \
-         energy: impl Fn(&DVector<f64>) -> f64, force: impl Fn(&DVector<f64>, &DVector<f64>) -> DVector<f64>, \
-         stiffness: impl Fn(&DVector<f64>, &DVector<f64>) -> CsrMatrix<f64>, \
-         solve: impl Fn(&CsrMatrix<f64>, &DVector<f64>) -> DVector<f64>",
-        "()",
-        "pub const CALL: fn(&mut DVector<f64>, &mut DVector<f64>, f64, &CsrMatrix<f64>, Objective, Force, Stiffness, Solve) =\n    \
-         |q, qdot, dt, mass, energy, force, stiffness, solve| \
-         crate::implicit_euler(q, qdot, dt, mass, energy, force, stiffness, solve);\n",
-    ),
-];
+macro_rules! plain {
+    () => {
+        false
+    };
+}
+macro_rules! with_closures {
+    () => {
+        true
+    };
+}
+course_functions!(rows);
 
 /// Types that signatures are made of.
 const IMPORTS: &str = "use nalgebra::{DVector, Matrix3, Matrix4, Matrix4x3, SMatrix, SVector, Vector3, Vector4};\n\
-     use nalgebra_sparse::CsrMatrix;\nuse grader_child::{Force, Gradient, Hessian, Objective, Solve, Stiffness};\n";
+     use nalgebra_sparse::CsrMatrix;\nuse grader_child::{Force, Gradient, Hessian, Integrand, Objective, Solve, Stiffness};\n";
 
-/// Names of the 22 functions, in no particular order.
-pub fn names() -> impl Iterator<Item = &'static str> {
-    PLAIN.iter().map(|(name, ..)| *name).chain(WITH_CLOSURES.iter().map(|(name, ..)| *name))
-}
+/// A function that takes a vector and returns this.
+const OF_ONE: &str = "impl Fn(&DVector<f64>) -> ";
 
 /// The course's signature of a function.
-pub fn signature(name: &str) -> String {
-    let with_closures = WITH_CLOSURES.iter().find(|(found, ..)| *found == name);
-    if let Some((name, generics, arguments, result, _)) = with_closures {
-        return format!("pub fn {name}{generics}({arguments}) -> {result}");
-    }
-    let plain = PLAIN.iter().find(|(found, ..)| *found == name);
-    plain.map_or_else(String::new, |(name, arguments, result)| {
-        let arguments: Vec<_> = arguments.iter().map(|(argument, kind)| format!("{argument}: {kind}")).collect();
-        format!("pub fn {name}({}) -> {result}", arguments.join(", "))
-    })
+pub fn signature(function: Exercise) -> String {
+    let Row { arguments, result, .. } = &ROWS[function as usize];
+    // The list holds the types that a call has: references to closures, and vectors in place of the generic R.
+    let (generics, result) = match function {
+        Exercise::quadrature_single_point => ("<R: std::ops::Mul<f64, Output = R>>", "R"),
+        _ => ("", *result),
+    };
+    let written = |kind: &str| match kind {
+        "Integrand" => "impl Fn(&Vector3<f64>) -> R".to_owned(),
+        "Objective" => format!("{OF_ONE}f64"),
+        "Gradient" => format!("{OF_ONE}DVector<f64>"),
+        "Hessian" => format!("{OF_ONE}CsrMatrix<f64>"),
+        "Force" => "impl Fn(&DVector<f64>, &DVector<f64>) -> DVector<f64>".to_owned(),
+        "Stiffness" => "impl Fn(&DVector<f64>, &DVector<f64>) -> CsrMatrix<f64>".to_owned(),
+        "Solve" => "impl Fn(&CsrMatrix<f64>, &DVector<f64>) -> DVector<f64>".to_owned(),
+        plain => plain.to_owned(),
+    };
+    let arguments: Vec<_> = arguments.iter().map(|(argument, kind)| format!("{argument}: {}", written(kind))).collect();
+    format!("pub fn {}{generics}({}) -> {result}", function.name(), arguments.join(", "))
 }
 
 /// Writes the sources of a program, and removes those of an earlier one.
@@ -97,10 +76,11 @@ pub fn write(plan: &Plan, folder: &Path) -> io::Result<()> {
     );
     let mut calls = String::new();
     let mut entries = String::new();
-    for name in names() {
+    for function in Exercise::ALL {
+        let name = function.name();
         if plan.own.contains_key(name) || !from_reference(name) {
             root.push_str(&format!("pub mod {name};\npub use {name}::{name};\n"));
-            let absent = || format!("{IMPORTS}\n{} {{\n    panic!(\"not yet implemented\")\n}}\n", signature(name));
+            let absent = || format!("{IMPORTS}\n{} {{\n    panic!(\"not yet implemented\")\n}}\n", signature(function));
             fs::write(folder.join(format!("{name}.rs")), plan.own.get(name).cloned().unwrap_or_else(absent))?;
         } else if let Some(text) = plan.helpers.get(name) {
             // The function is a value and the module is not, so the two can stand side by side under one name.
@@ -111,33 +91,29 @@ pub fn write(plan: &Plan, folder: &Path) -> io::Result<()> {
         }
         if plan.own.contains_key(name) {
             calls.push_str(&format!("mod {name};\n"));
-            entries.push_str(&entry(name));
-            fs::write(folder.join(format!("calls/{name}.rs")), format!("{IMPORTS}\n{}", call(name)))?;
+            entries.push_str(&format!("    {name}: {name}::CALL,\n"));
+            fs::write(folder.join(format!("calls/{name}.rs")), format!("{IMPORTS}\n{}", call(function)))?;
         }
     }
     root.push_str("fn main() {\n    grader_child::serve(&calls::FUNCTIONS, given::solve)\n}\n");
     calls.push_str(&format!(
-        "pub const FUNCTIONS: grader_child::Functions = grader_child::Functions {{\n{entries}    ..grader_child::NOTHING\n}};\n"
+        "pub const FUNCTIONS: grader_child::Functions = grader_child::Functions {{\n{entries}    ..grader_child::UNWRITTEN\n}};\n"
     ));
     fs::write(folder.join("calls.rs"), calls)?;
     fs::write(folder.join("main.rs"), root)
 }
 
-fn entry(name: &str) -> String {
-    if name == "quadrature_single_point" {
-        return format!("    quadrature_of_number: {name}::NUMBER,\n    quadrature_of_vector: {name}::VECTOR,\n");
-    }
-    format!("    {name}: {name}::CALL,\n")
-}
-
 /// The text that calls a function, with the course's signature and nothing else in it.
-fn call(name: &str) -> String {
-    if let Some((.., text)) = WITH_CLOSURES.iter().find(|(found, ..)| *found == name) {
-        return (*text).to_owned();
+fn call(function: Exercise) -> String {
+    let (name, Row { takes_closures, arguments, result }) = (function.name(), &ROWS[function as usize]);
+    let (names, types): (Vec<_>, Vec<_>) = arguments.iter().copied().unzip();
+    let (names, types) = (names.join(", "), types.join(", "));
+    if !takes_closures {
+        return format!("pub const CALL: fn({types}) -> {result} = crate::{name};\n");
     }
-    let plain = PLAIN.iter().find(|(found, ..)| *found == name);
-    plain.map_or_else(String::new, |(_, arguments, result)| {
-        let types: Vec<_> = arguments.iter().map(|(_, kind)| *kind).collect();
-        format!("pub const CALL: fn({}) -> {result} = crate::{name};\n", types.join(", "))
-    })
+    let call = format!("|{names}| crate::{name}({names});\n");
+    // Generic, so a call with numbers must compile as well.
+    let of_numbers = "const _: fn(&[Vector3<f64>], &[usize; 4], f64, &dyn Fn(&Vector3<f64>) -> f64) -> f64 =\n    ";
+    let also = if types.contains("Integrand") { format!("{of_numbers}{call}") } else { String::new() };
+    format!("pub const CALL: fn({types}) -> {result} =\n    {call}{also}")
 }

@@ -7,6 +7,7 @@ use grader::implementation::{Local, Trouble};
 use grader::properties::outcome::Mistake;
 use grader::properties::{Course, FUNCTIONS};
 use grader::status::Status;
+use grader_child::Exercise;
 
 use super::load::load;
 use super::{Grading, GradingError, finished};
@@ -99,9 +100,9 @@ impl Grading {
     }
 
     fn time(&self, grade: &mut FunctionGrade, name: &str, subject: &Sandboxed) -> Result<(), GradingError> {
-        let Some((number, body, times)) = load(name) else { return Ok(()) };
-        let own = || subject.seconds(number, &body, times).ok();
-        let reference = || self.reference_seconds(number, &body, times);
+        let Some((function, body, times)) = load(name) else { return Ok(()) };
+        let own = || subject.seconds(function, &body, times).ok();
+        let reference = || self.reference_seconds(function, &body, times);
         let mut best = (own(), reference()?);
         // Turn by turn: what else the machine does is to delay both alike.
         for turn in 1..MOST_TURNS {
@@ -116,11 +117,11 @@ impl Grading {
         Ok(())
     }
 
-    fn reference_seconds(&self, number: u8, body: &[u8], times: u64) -> Result<f64, GradingError> {
-        let seconds = self.reference.seconds(number, body, times).or_else(|_| {
+    fn reference_seconds(&self, function: Exercise, body: &[u8], times: u64) -> Result<f64, GradingError> {
+        let seconds = self.reference.seconds(function, body, times).or_else(|_| {
             // One process serves all functions, and it may have come to the end of its time while a submission took its own.
             self.reference.next_function();
-            self.reference.seconds(number, body, times)
+            self.reference.seconds(function, body, times)
         });
         seconds.map_err(|trouble| GradingError::Reference(trouble.to_string()))
     }

@@ -4,10 +4,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use grader::compile::{Plan, build, names};
+use grader::compile::{Plan, build};
 use grader::implementation::sandboxed::Sandboxed;
 use grader::status::Status;
-use grader::submission::{Source, Submission, mentions};
+use grader::submission::{NAMES, Source, Submission, mentions};
 
 use super::groups::{Calls, Group, Names, groups};
 use super::programs::start;
@@ -27,8 +27,8 @@ impl Grading {
         graded: &mut BTreeMap<String, FunctionGrade>,
     ) -> Result<(), GradingError> {
         let is_due = |name: &&str| self.rubric.level(name) == level && !graded.contains_key(*name);
-        let judged: Vec<&'static str> = names().filter(is_due).collect();
-        let below: Names = names().filter(|name| self.rubric.level(name) < level).collect();
+        let judged: Vec<&'static str> = NAMES.into_iter().filter(is_due).collect();
+        let below: Names = NAMES.into_iter().filter(|name| self.rubric.level(name) < level).collect();
         let own = calls_of(submission);
         for group in groups(&judged, &below, &own, &self.programs.calls) {
             if let Some((program, folder)) = whole.filter(|_| group.reference.is_empty()).and_then(Whole::program) {
@@ -122,7 +122,7 @@ fn text<'a>(name: &str, submission: &'a Submission) -> Option<&'a String> {
 }
 
 fn calls_of(submission: &Submission) -> Calls {
-    names().filter_map(|name| Some((name, mentions(text(name, submission)?)))).collect()
+    NAMES.into_iter().filter_map(|name| Some((name, mentions(text(name, submission)?)))).collect()
 }
 
 /// The texts of a group, and of the student's others that they call and that no reference answers.

@@ -7,9 +7,9 @@ use std::time::Duration;
 use std::{env, fs, io};
 
 use grader::compile::prebuilt::{Prebuilt, once};
-use grader::compile::{Plan, build, names};
+use grader::compile::{Plan, build};
 use grader::sandbox::{Confined, Limits, Profile, Running, Sandbox, library_folders};
-use grader::submission::mentions;
+use grader::submission::{NAMES, mentions};
 
 use super::GradingError;
 use super::groups::{Calls, Names};
@@ -31,10 +31,10 @@ impl Programs {
     /// Where our own sources do not compile.
     pub fn new(root: &Path, rubric: &Rubric, prebuilt: &Prebuilt) -> Result<Self, GradingError> {
         let mut texts = BTreeMap::new();
-        for name in names() {
+        for name in NAMES {
             texts.insert(name, fs::read_to_string(root.join(format!("src/{name}.rs")))?);
         }
-        let levels: Vec<u32> = names().map(|name| rubric.level(name)).collect();
+        let levels: Vec<u32> = NAMES.into_iter().map(|name| rubric.level(name)).collect();
         let mut hasher = DefaultHasher::new();
         // Times are compared only between programs that were compiled alike.
         (&texts, levels, prebuilt.arguments()).hash(&mut hasher);
@@ -78,7 +78,7 @@ impl Programs {
 
     fn build(&self, rubric: &Rubric, prebuilt: &Prebuilt) -> Result<(), GradingError> {
         for level in rubric.levels().into_iter().filter(|level| *level > self.lowest) {
-            let below = names().filter(|name| rubric.level(name) < level).collect();
+            let below = NAMES.into_iter().filter(|name| rubric.level(name) < level).collect();
             self.library(prebuilt, &below, &self.folder.join(format!("below-{level}")))?;
         }
         let whole = self.folder.join("whole");

@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::panic::{self, AssertUnwindSafe};
 
-use grader_child::{Force, Functions, Gradient, Hessian, Objective, Solve, Stiffness, all_functions};
+use grader_child::{Force, Functions, Gradient, Hessian, Integrand, Objective, Solve, Stiffness, course_functions};
 use nalgebra::{DVector, Matrix3, Matrix4, Matrix4x3, SMatrix, SVector, Vector3, Vector4};
 use nalgebra_sparse::CsrMatrix;
 
@@ -25,7 +25,7 @@ fn trouble(panic: &(dyn Any + Send)) -> Trouble {
 }
 
 macro_rules! calls {
-    ($($number:literal $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+    ($($kind:ident $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
         impl Implementation for Local {
             $(fn $name(&self, $($argument: $type),*) -> Answer<$result> {
                 caught(|| (self.0.$name)($($argument),*))
@@ -33,4 +33,4 @@ macro_rules! calls {
         }
     };
 }
-all_functions!(calls);
+course_functions!(calls);

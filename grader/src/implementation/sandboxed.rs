@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use grader_child::simulation::Scene;
 use grader_child::wire::{Argument, Wire, bytes, kind, read};
-use grader_child::{Force, Gradient, Hessian, Objective, Solve, Stiffness, plain_functions};
+use grader_child::{Exercise, Force, Gradient, Hessian, Integrand, Objective, Solve, Stiffness, course_functions};
 use nalgebra::{DVector, Matrix3, Matrix4, Matrix4x3, SMatrix, SVector, Vector3, Vector4};
 use nalgebra_sparse::CsrMatrix;
 
@@ -36,12 +36,12 @@ impl Sandboxed {
         self.given_up.set(false);
     }
 
-    /// Time of a series of calls on the standard load of the function with this number, s.
+    /// Duration of a series of calls of a function with these arguments, s.
     ///
     /// # Errors
-    /// Where there is no answer.
-    pub fn seconds(&self, number: u8, body: &[u8], times: u64) -> Answer<f64> {
-        let frames = [(kind::REPEAT, bytes(&times)), (number, body.to_vec())];
+    /// The reason if the function does not answer.
+    pub fn seconds(&self, function: Exercise, body: &[u8], times: u64) -> Answer<f64> {
+        let frames = [(kind::REPEAT, bytes(&times)), (function as u8, body.to_vec())];
         let begin = Instant::now();
         self.frames(&frames, self.limit, &mut |_, _| None)?;
         Ok(begin.elapsed().as_secs_f64())
@@ -58,8 +58,8 @@ impl Sandboxed {
         read(&body).map(|positions| (positions, passed)).ok_or(Trouble::Malformed)
     }
 
-    fn call<T: Wire>(&self, number: u8, body: Vec<u8>, closures: Closures) -> Answer<T> {
-        let answer = self.frames(&[(number, body)], self.limit, closures)?;
+    fn call<T: Wire>(&self, function: Exercise, body: Vec<u8>, closures: Closures) -> Answer<T> {
+        let answer = self.frames(&[(function as u8, body)], self.limit, closures)?;
         read(&answer).ok_or(Trouble::Malformed)
     }
 
@@ -104,33 +104,35 @@ fn body(arguments: &[Append]) -> Vec<u8> {
     out
 }
 
+macro_rules! plain {
+    ($name:ident($($argument:ident: $type:ty),*) -> $result:ty) => {
+        fn $name(&self, $($argument: $type),*) -> Answer<$result> {
+            let body = body(&[$(&|out| Argument::append(&$argument, out)),*]);
+            self.call(Exercise::$name, body, &mut |_, _| None)
+        }
+    };
+}
+
+// Each of them is written out below.
+macro_rules! with_closures {
+    ($($row:tt)*) => {};
+}
+
 macro_rules! calls {
-    ($($number:literal $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+    ($($kind:ident $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
         impl Implementation for Sandboxed {
-            $(fn $name(&self, $($argument: $type),*) -> Answer<$result> {
-                self.call($number, body(&[$(&|out| Argument::append(&$argument, out)),*]), &mut |_, _| None)
-            })*
+            $($kind! { $name($($argument: $type),*) -> $result })*
 
-            fn quadrature_of_number(
+            fn quadrature_single_point(
                 &self,
                 V: &[Vector3<f64>],
                 element: &[usize; 4],
                 volume: f64,
-                integrand: &dyn Fn(&Vector3<f64>) -> f64,
-            ) -> Answer<f64> {
-                let body = bytes(&(V.to_vec(), (*element, volume)));
-                self.call(kind::QUADRATURE_OF_NUMBER, body, &mut |_, X| Some(bytes(&integrand(&read(X)?))))
-            }
-
-            fn quadrature_of_vector(
-                &self,
-                V: &[Vector3<f64>],
-                element: &[usize; 4],
-                volume: f64,
-                integrand: &dyn Fn(&Vector3<f64>) -> DVector<f64>,
+                integrand: Integrand,
             ) -> Answer<DVector<f64>> {
                 let body = bytes(&(V.to_vec(), (*element, volume)));
-                self.call(kind::QUADRATURE_OF_VECTOR, body, &mut |_, X| Some(bytes(&integrand(&read(X)?))))
+                let mut closures = |_: u8, X: &[u8]| Some(bytes(&integrand(&read(X)?)));
+                self.call(Exercise::quadrature_single_point, body, &mut closures)
             }
 
             fn linearly_implicit_euler(
@@ -146,7 +148,7 @@ macro_rules! calls {
                 let none = |_: &DVector<f64>| f64::NAN;
                 let body = step(q, qdot, dt, mass);
                 let mut closures = |which: u8, input: &[u8]| integrator(which, input, &none, force, stiffness, solve);
-                (*q, *qdot) = self.call(kind::LINEARLY_IMPLICIT_EULER, body, &mut closures)?;
+                (*q, *qdot) = self.call(Exercise::linearly_implicit_euler, body, &mut closures)?;
                 Ok(())
             }
 
@@ -167,7 +169,7 @@ macro_rules! calls {
                     4 => solved(input, solve),
                     _ => None,
                 };
-                let (x, value) = self.call(kind::NEWTONS_METHOD, body, &mut closures)?;
+                let (x, value) = self.call(Exercise::newtons_method, body, &mut closures)?;
                 *x0 = x;
                 Ok(value)
             }
@@ -185,25 +187,13 @@ macro_rules! calls {
             ) -> Answer<()> {
                 let body = step(q, qdot, dt, mass);
                 let mut closures = |which: u8, input: &[u8]| integrator(which, input, energy, force, stiffness, solve);
-                (*q, *qdot) = self.call(kind::IMPLICIT_EULER, body, &mut closures)?;
+                (*q, *qdot) = self.call(Exercise::implicit_euler, body, &mut closures)?;
                 Ok(())
-            }
-        }
-
-        /// The number under which a plain function travels.
-        pub fn number(name: &str) -> Option<u8> {
-            match name {
-                $(stringify!($name) => Some($number),)*
-                "quadrature_single_point" => Some(kind::QUADRATURE_OF_NUMBER),
-                "linearly_implicit_euler" => Some(kind::LINEARLY_IMPLICIT_EULER),
-                "newtons_method" => Some(kind::NEWTONS_METHOD),
-                "implicit_euler" => Some(kind::IMPLICIT_EULER),
-                _ => None,
             }
         }
     };
 }
-plain_functions!(calls);
+course_functions!(calls);
 
 fn step(q: &DVector<f64>, qdot: &DVector<f64>, dt: f64, mass: &CsrMatrix<f64>) -> Vec<u8> {
     bytes(&((q.clone(), qdot.clone()), (dt, mass.clone())))

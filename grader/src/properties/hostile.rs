@@ -1,6 +1,8 @@
 //! Nothing that an implementation answers makes a check panic or pass by mistake.
 
-use grader_child::{Functions, NOTHING, plain_functions};
+use grader_child::{
+    Force, Functions, Gradient, Hessian, Integrand, Objective, Solve, Stiffness, UNWRITTEN, course_functions,
+};
 use nalgebra::{DVector, Matrix3, Matrix4, SMatrix, Vector3, Vector4};
 use nalgebra_sparse::CsrMatrix;
 
@@ -44,36 +46,45 @@ impl Garbage for Vec<usize> {
     }
 }
 
-macro_rules! garbage {
-    ($($number:literal $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
-        fn answering_garbage<const KIND: u8>() -> Functions {
-            Functions {
-                $($name: |$(_: $type),*| Garbage::garbage(KIND),)*
-                quadrature_of_number: |_, _, _, f| f(&Vector3::garbage(KIND)),
-                quadrature_of_vector: |_, _, _, f| f(&Vector3::garbage(KIND)).push(1.0),
-                linearly_implicit_euler: |q, qdot, _, _, force, stiffness, solve| {
-                    force(&DVector::garbage(KIND), &DVector::garbage(KIND));
-                    stiffness(qdot, &DVector::garbage(KIND));
-                    solve(&CsrMatrix::garbage(KIND), &DVector::garbage(KIND));
-                    (*q, *qdot) = (DVector::garbage(KIND), DVector::garbage(KIND));
-                },
-                newtons_method: |x, f, g, H, solve, _| {
-                    (f(&DVector::garbage(KIND)), g(&DVector::garbage(KIND)), H(&DVector::garbage(KIND)));
-                    solve(&CsrMatrix::garbage(KIND), &DVector::garbage(KIND));
-                    *x = DVector::garbage(KIND);
-                    f64::garbage(KIND)
-                },
-                implicit_euler: |q, qdot, _, _, energy, force, stiffness, solve| {
-                    (energy(&DVector::garbage(KIND)), force(&DVector::garbage(KIND), qdot));
-                    stiffness(&DVector::garbage(KIND), &DVector::garbage(KIND));
-                    solve(&CsrMatrix::garbage(KIND), &DVector::garbage(KIND));
-                    (*q, *qdot) = (DVector::garbage(KIND), DVector::garbage(KIND));
-                },
-            }
+impl Garbage for () {
+    fn garbage(_: u8) {}
+}
+
+macro_rules! without_closures {
+    ($($kind:ident $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        /// Answers garbage and calls no closure.
+        fn returning_garbage<const KIND: u8>() -> Functions {
+            Functions { $($name: |$(_: $type),*| Garbage::garbage(KIND)),* }
         }
     };
 }
-plain_functions!(garbage);
+course_functions!(without_closures);
+
+/// Answers garbage, and passes garbage to the closures.
+fn answering_garbage<const KIND: u8>() -> Functions {
+    Functions {
+        quadrature_single_point: |_, _, _, f| f(&Vector3::garbage(KIND)).push(1.0),
+        linearly_implicit_euler: |q, qdot, _, _, force, stiffness, solve| {
+            force(&DVector::garbage(KIND), &DVector::garbage(KIND));
+            stiffness(qdot, &DVector::garbage(KIND));
+            solve(&CsrMatrix::garbage(KIND), &DVector::garbage(KIND));
+            (*q, *qdot) = (DVector::garbage(KIND), DVector::garbage(KIND));
+        },
+        newtons_method: |x, f, g, H, solve, _| {
+            (f(&DVector::garbage(KIND)), g(&DVector::garbage(KIND)), H(&DVector::garbage(KIND)));
+            solve(&CsrMatrix::garbage(KIND), &DVector::garbage(KIND));
+            *x = DVector::garbage(KIND);
+            f64::garbage(KIND)
+        },
+        implicit_euler: |q, qdot, _, _, energy, force, stiffness, solve| {
+            (energy(&DVector::garbage(KIND)), force(&DVector::garbage(KIND), qdot));
+            stiffness(&DVector::garbage(KIND), &DVector::garbage(KIND));
+            solve(&CsrMatrix::garbage(KIND), &DVector::garbage(KIND));
+            (*q, *qdot) = (DVector::garbage(KIND), DVector::garbage(KIND));
+        },
+        ..returning_garbage::<KIND>()
+    }
+}
 
 fn mistakes(function: &str, checks: &[Check], functions: Functions) -> Vec<Mistake> {
     let asked = Local(functions);
@@ -86,7 +97,7 @@ fn mistakes(function: &str, checks: &[Check], functions: Functions) -> Vec<Mista
 #[test]
 fn a_function_that_is_not_there_fails_every_check() {
     for (function, checks) in FUNCTIONS {
-        let found = mistakes(function, checks, NOTHING);
+        let found = mistakes(function, checks, UNWRITTEN);
         assert_eq!(found.len(), checks.len(), "{function}");
         assert!(found.iter().all(|mistake| !matches!(mistake, Mistake::Wrong { .. })), "{function}: {found:?}");
     }
@@ -124,7 +135,7 @@ fn no_rule_gives_away_an_input() {
 
 #[test]
 fn a_function_that_a_check_needs_is_named_where_it_is_not_there() {
-    let (asked, needed) = (Local(answering_garbage::<0>()), Local(NOTHING));
+    let (asked, needed) = (Local(answering_garbage::<0>()), Local(UNWRITTEN));
     let course = Course { subject: &asked, trusted: &needed, seed: 7 };
     let (_, checks) = FUNCTIONS.iter().find(|(name, _)| *name == "dpsi_neo_hookean_dF").expect("a function");
     let waits = checks.iter().filter_map(|check| (check.run)(&course).err());

@@ -106,11 +106,7 @@ fn quadrature(
     volume: f64,
     integrand: &Integrand,
 ) -> Answer<Observed> {
-    let answer = if integrand.vector {
-        who.quadrature_of_vector(V, element, volume, &|X| integrand.at(X))?
-    } else {
-        DVector::from_element(1, who.quadrature_of_number(V, element, volume, &|X| integrand.at(X)[0])?)
-    };
+    let answer = who.quadrature_single_point(V, element, volume, &|X| integrand.at(X))?;
     Ok(Observed::vector(answer.as_slice().to_vec()))
 }
 

@@ -112,7 +112,7 @@ pub fn quadratures(function: &'static str, random: &mut Random) -> Vec<Trial> {
             }
             terms
         };
-        let integrand = Integrand { terms: (0..length).map(|_| terms()).collect(), vector: index >= 16 };
+        let integrand = Integrand { terms: (0..length).map(|_| terms()).collect() };
         let far = element.iter().map(|&vertex| V[vertex].amax()).fold(0.0, f64::max);
         let size = if name == "a constant" { 1.0 } else { 1.0 + 3.0 * far + far * far };
         trial(function, name, Input::Quadrature { V, element, volume, integrand }, volume * size)

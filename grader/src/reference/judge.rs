@@ -5,6 +5,7 @@ use super::random::Random;
 use super::trial::{Observed, Trial};
 use super::{REFERENCE, elements, meshes, picks, steps};
 use grader::implementation::{Answer, Implementation, Local, Trouble};
+use grader_child::Exercise;
 
 /// What the comparison with the reference says about a function.
 #[derive(Clone, Debug, Default)]
@@ -46,40 +47,31 @@ impl Judgement {
     }
 }
 
-/// The trials of a function, drawn anew from a seed; none for a name that is no function.
+/// The trials of a function, drawn anew from a seed; empty if no function has this name.
 pub fn trials(function: &str, seed: u64) -> Vec<Trial> {
-    let random = &mut Random::new(seed, function);
-    let Some(&(function, draw)) = DRAWN_BY.iter().find(|(name, _)| *name == function) else { return Vec::new() };
-    draw(function, random)
+    let Some(function) = Exercise::from_name(function) else { return Vec::new() };
+    let draw = match function {
+        Exercise::phi_linear_tetrahedron | Exercise::dphi_linear_tetrahedron_dX => elements::shapes,
+        Exercise::psi_neo_hookean | Exercise::dpsi_neo_hookean_dF | Exercise::d2psi_neo_hookean_dF2 => {
+            elements::densities
+        }
+        Exercise::T_linear_tetrahedron => elements::kinetic,
+        Exercise::quadrature_single_point => elements::quadratures,
+        Exercise::V_linear_tetrahedron | Exercise::dV_linear_tetrahedron_dq | Exercise::d2V_linear_tetrahedron_dq2 => {
+            elements::elastic
+        }
+        Exercise::V_spring_particle_particle | Exercise::dV_spring_particle_particle_dq => elements::springs,
+        Exercise::mass_matrix_linear_tetrahedron => elements::masses,
+        Exercise::mass_matrix_mesh => meshes::masses,
+        Exercise::assemble_forces | Exercise::assemble_stiffness => meshes::assembled,
+        Exercise::build_skinning_matrix => meshes::skinnings,
+        Exercise::fixed_point_constraints => meshes::constraints,
+        Exercise::pick_nearest_vertices => picks::picks,
+        Exercise::linearly_implicit_euler | Exercise::implicit_euler => steps::steps,
+        Exercise::newtons_method => steps::minima,
+    };
+    draw(function.name(), &mut Random::new(seed, function.name()))
 }
-
-type Draw = fn(&'static str, &mut Random) -> Vec<Trial>;
-
-/// The functions in teaching order, and who draws their trials.
-pub const DRAWN_BY: [(&str, Draw); 22] = [
-    ("phi_linear_tetrahedron", elements::shapes),
-    ("dphi_linear_tetrahedron_dX", elements::shapes),
-    ("psi_neo_hookean", elements::densities),
-    ("dpsi_neo_hookean_dF", elements::densities),
-    ("d2psi_neo_hookean_dF2", elements::densities),
-    ("T_linear_tetrahedron", elements::kinetic),
-    ("quadrature_single_point", elements::quadratures),
-    ("V_linear_tetrahedron", elements::elastic),
-    ("dV_linear_tetrahedron_dq", elements::elastic),
-    ("d2V_linear_tetrahedron_dq2", elements::elastic),
-    ("V_spring_particle_particle", elements::springs),
-    ("dV_spring_particle_particle_dq", elements::springs),
-    ("mass_matrix_linear_tetrahedron", elements::masses),
-    ("mass_matrix_mesh", meshes::masses),
-    ("assemble_forces", meshes::assembled),
-    ("assemble_stiffness", meshes::assembled),
-    ("build_skinning_matrix", meshes::skinnings),
-    ("fixed_point_constraints", meshes::constraints),
-    ("pick_nearest_vertices", picks::picks),
-    ("linearly_implicit_euler", steps::steps),
-    ("newtons_method", steps::minima),
-    ("implicit_euler", steps::steps),
-];
 
 /// Compares a function with the reference. After an answer that never comes, nothing more is asked.
 ///

@@ -55,8 +55,6 @@ pub struct Step {
 pub struct Integrand {
     /// One for each number: constant, factors of X, Y and Z, factor of XY.
     pub terms: Vec<[f64; 5]>,
-    /// Whether the function is asked for a vector.
-    pub vector: bool,
 }
 
 /// The arguments of a call.

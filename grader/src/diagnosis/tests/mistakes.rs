@@ -84,8 +84,7 @@ pub const ELEMENTS: &[Mistake] = &[
     (
         "quadrature_single_point",
         Functions {
-            quadrature_of_number: |V, e, w, f| solved::quadrature_single_point(V, e, w, f) / 6.0,
-            quadrature_of_vector: |V, e, w, f| solved::quadrature_single_point(V, e, w, f) / 6.0,
+            quadrature_single_point: |V, e, w, f| solved::quadrature_single_point(V, e, w, f) / 6.0,
             ..REFERENCE
         },
         "scaled by 1/6",

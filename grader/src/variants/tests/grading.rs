@@ -6,7 +6,7 @@ use std::thread;
 use grader::implementation::Local;
 use grader::properties::outcome::Outcome;
 use grader::properties::{Course, FUNCTIONS};
-use grader_child::{Functions, plain_functions};
+use grader_child::{Functions, course_functions};
 
 use super::super::{ALL, Variant, of};
 use crate::diagnosis::diagnose;
@@ -67,28 +67,17 @@ fn every_variant_loses_marks_in_its_own_function() {
 }
 
 macro_rules! copied {
-    ($($number:literal $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+    ($($kind:ident $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
         /// The table with a variant's function in it.
         fn with(table: Functions, variant: &Variant) -> Functions {
-            let from = variant.functions;
             match variant.function {
-                $(stringify!($name) => Functions { $name: from.$name, ..table },)*
-                "quadrature_single_point" => Functions {
-                    quadrature_of_number: from.quadrature_of_number,
-                    quadrature_of_vector: from.quadrature_of_vector,
-                    ..table
-                },
-                "linearly_implicit_euler" => {
-                    Functions { linearly_implicit_euler: from.linearly_implicit_euler, ..table }
-                }
-                "newtons_method" => Functions { newtons_method: from.newtons_method, ..table },
-                "implicit_euler" => Functions { implicit_euler: from.implicit_euler, ..table },
+                $(stringify!($name) => Functions { $name: variant.functions.$name, ..table },)*
                 other => panic!("{other} is no function"),
             }
         }
     };
 }
-plain_functions!(copied);
+course_functions!(copied);
 
 #[test]
 fn mistakes_in_all_other_functions_cost_nothing_in_a_right_one() {

@@ -71,9 +71,8 @@ pub fn answers(function: &str, table: &Functions) -> Vec<Vec<f64>> {
             of_element(function, table, &V)
         }
         "quadrature_single_point" => {
-            let number = (table.quadrature_of_number)(&V, &T[0], 0.7, &|X| X.x + X.y * X.z);
-            let vector = (table.quadrature_of_vector)(&V, &T[0], 0.7, &|X| dvector![1.0, X.x, X.norm()]);
-            vec![vec![number], vector.as_slice().to_vec()]
+            let integrand = |X: &Vector3<f64>| dvector![1.0, X.x, X.norm(), X.x + X.y * X.z];
+            vec![(table.quadrature_single_point)(&V, &T[0], 0.7, &integrand).as_slice().to_vec()]
         }
         "linearly_implicit_euler" | "newtons_method" | "implicit_euler" => with_closures(function, table),
         _ => of_mesh(function, table, &V),
