@@ -18,6 +18,9 @@ pub type Stiffness<'a> = &'a dyn Fn(&DVector<f64>, &DVector<f64>) -> CsrMatrix<f
 /// Solution x of A x = b.
 pub type Solve<'a> = &'a dyn Fn(&CsrMatrix<f64>, &DVector<f64>) -> DVector<f64>;
 
+/// `given::solve`: the program is linked with it, this crate is not.
+pub type GivenSolve = fn(&CsrMatrix<f64>, &DVector<f64>) -> DVector<f64>;
+
 /// The list: hands the functions in teaching order to the macro `$then`, after the tokens `$first`.
 ///
 /// Each row starts with `plain`, or with `with_closures` if an argument is a closure, so that a macro of that name can treat the

@@ -14,6 +14,6 @@ mod standard;
 pub mod wire;
 
 pub use functions::{
-    Exercise, Force, Functions, Gradient, Hessian, Integrand, NAMES, Objective, Solve, Stiffness, UNWRITTEN,
+    Exercise, Force, Functions, GivenSolve, Gradient, Hessian, Integrand, NAMES, Objective, Solve, Stiffness, UNWRITTEN,
 };
-pub use serve::{GivenSolve, serve};
+pub use serve::serve;

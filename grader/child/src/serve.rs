@@ -14,10 +14,7 @@ use crate::simulation::simulate;
 use crate::socket::{self, Socket};
 use crate::standard;
 use crate::wire::{self, Argument, Wire, bytes, kind, read};
-use crate::{Exercise, Functions, course_functions};
-
-/// `given::solve`, which the program is linked with and this crate is not.
-pub type GivenSolve = fn(&CsrMatrix<f64>, &DVector<f64>) -> DVector<f64>;
+use crate::{Exercise, Functions, GivenSolve, course_functions};
 
 /// Answers calls that arrive on the parent's socket until the parent closes it.
 ///

@@ -3,9 +3,8 @@
 use nalgebra::{DVector, Vector3};
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
 
-use crate::Functions;
-use crate::serve::GivenSolve;
 use crate::wire::Wire;
+use crate::{Functions, GivenSolve};
 
 /// What is simulated; SI units.
 #[derive(Clone)]

@@ -1,5 +1,6 @@
 //! Which files are handed out, and with what in them.
 
+use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -27,9 +28,6 @@ const WHOLE: [&str; 15] = [
     "tests/functions",
 ];
 
-/// Checks that hold for our own solution, but that no page asks for.
-const OURS: &str = "tests/functions/solution.rs";
-
 /// Parts of these folders that show what the engine computes.
 const ENGINES_OWN: [&str; 2] = ["src/demo/engine", "docs/reference"];
 
@@ -43,8 +41,6 @@ pub fn collect(root: &Path) -> Result<Files, HandoutError> {
     for name in WHOLE {
         add(root, Path::new(name), &mut files)?;
     }
-    files.remove(Path::new(OURS));
-    edit(&mut files, "tests/functions/main.rs", |text| Ok(text.replace("mod solution;\n", "")))?;
     for name in NAMES {
         edit(&mut files, &format!("src/{name}.rs"), |text| stub::stub(name, text))?;
     }
@@ -52,7 +48,12 @@ pub fn collect(root: &Path) -> Result<Files, HandoutError> {
     add_module(root, Path::new("grader/src/lib.rs"), &mut files)?;
     files.insert("grader/src/main.rs".into(), PROGRAM.into());
     add(root, Path::new("grader/Cargo.toml"), &mut files)?;
-    edit(&mut files, "grader/Cargo.toml", manifest::without_instructors_part)?;
+    let is_source = |path: &Path| path.starts_with("grader/src") && path.extension().is_some_and(|end| end == "rs");
+    let sources = files.iter().filter(|(path, _)| is_source(path)).map(|(_, text)| String::from_utf8_lossy(text));
+    let sources: Vec<String> = sources.map(Cow::into_owned).collect();
+    edit(&mut files, "grader/Cargo.toml", |text| {
+        manifest::with_used_dependencies(text, sources.iter().map(String::as_str))
+    })?;
     let has: Vec<_> = files.keys().cloned().collect();
     let is_there = |path: &str| has.iter().any(|found| found == Path::new(path));
     edit(&mut files, "Cargo.toml", |text| manifest::root_manifest(text, is_there))?;

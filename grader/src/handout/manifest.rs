@@ -1,14 +1,42 @@
 //! The manifests of the students' repository.
 
+use std::collections::BTreeSet;
+
+use proc_macro2::{TokenStream, TokenTree};
 use toml_edit::{DocumentMut, Item, TableLike, TomlError};
 
-/// From this line on, `grader/Cargo.toml` is the instructor's.
-const MARKER: &str = "# The instructor's part";
+/// A package's manifest with only those dependencies that its `sources` name.
+pub fn with_used_dependencies<'a>(
+    manifest: &str,
+    sources: impl IntoIterator<Item = &'a str>,
+) -> Result<String, String> {
+    let mut manifest: DocumentMut = manifest.parse().map_err(|error: TomlError| error.to_string())?;
+    let mut used = BTreeSet::new();
+    for source in sources {
+        add_crates(source.parse().map_err(|error| format!("{error}"))?, &mut used);
+    }
+    if let Some(dependencies) = manifest["dependencies"].as_table_mut() {
+        dependencies.retain(|name, _| used.contains(&name.replace('-', "_")));
+        // The comment above the list is about its whole.
+        dependencies.decor_mut().set_prefix("\n");
+    }
+    Ok(manifest.to_string())
+}
 
-/// `grader/Cargo.toml` above its marker.
-pub fn without_instructors_part(manifest: &str) -> Result<String, String> {
-    let at = manifest.find(MARKER).ok_or_else(|| format!("holds no line `{MARKER}`"))?;
-    Ok(format!("{}\n", manifest[..at].trim_end()))
+/// Adds the words that begin a path: `a` of `a::b`, but not `b` of `a::b::c`.
+fn add_crates(source: TokenStream, found: &mut BTreeSet<String>) {
+    let tokens: Vec<_> = source.into_iter().collect();
+    let is_colon = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Punct(sign)) if sign.as_char() == ':');
+    for (i, token) in tokens.iter().enumerate() {
+        match token {
+            TokenTree::Group(group) => add_crates(group.stream(), found),
+            TokenTree::Ident(word) if is_colon(tokens.get(i + 1)) && is_colon(tokens.get(i + 2)) => {
+                let is_inside = i >= 2 && is_colon(tokens.get(i - 1)) && is_colon(tokens.get(i - 2));
+                found.extend((!is_inside).then(|| word.to_string()));
+            }
+            _ => {}
+        }
+    }
 }
 
 /// The root's `Cargo.toml` without the crates, features and tests that are not handed out; `has` tells whether a file is.
@@ -71,7 +99,16 @@ fn remove_features(features: &mut dyn TableLike, removed: &[String]) {
 
 #[cfg(test)]
 mod tests {
-    use super::root_manifest;
+    use super::{root_manifest, with_used_dependencies};
+
+    #[test]
+    fn dependencies_that_no_source_names_are_removed() {
+        let whole =
+            "[dependencies]\nserde.workspace = true\nsome-zip = \"1\"\nzip = \"2\"\n\n[dev-dependencies]\nx = \"3\"\n";
+        let source = "use some_zip::Archive;\nfn f() { let zip = a.iter().zip(b); crate::zip::g(\"serde::\") }";
+        let text = with_used_dependencies(whole, [source]).unwrap();
+        assert_eq!(text, "\n[dependencies]\nsome-zip = \"1\"\n\n[dev-dependencies]\nx = \"3\"\n");
+    }
 
     #[test]
     fn crates_features_and_tests_that_are_not_handed_out_leave_no_trace() {

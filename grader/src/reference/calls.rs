@@ -2,15 +2,22 @@
 
 use std::cell::Cell;
 
-use grader::implementation::{Answer, Implementation};
+use grader::implementation::{Answer, Implementation, Trouble};
 use nalgebra::{DVector, Vector3};
 use nalgebra_sparse::CsrMatrix;
 
 use super::systems::{Objective, solve};
-use super::trial::{Elastic, Input, Integrand, Mesh, Observed, Pick, Step};
+use super::trial::{Elastic, Input, Integrand, Mesh, Observed, Pick, Step, Trial};
 
-/// Calls a function; `None` where it does not take such input.
-pub fn call(function: &str, input: &Input, who: &dyn Implementation) -> Option<Answer<Observed>> {
+impl Trial {
+    /// Calls the function of an implementation.
+    pub fn run(&self, who: &dyn Implementation) -> Answer<Observed> {
+        call(self.function, &self.input, who).unwrap_or(Err(Trouble::Missing))
+    }
+}
+
+/// Calls a function; `None` if it does not take such input.
+fn call(function: &str, input: &Input, who: &dyn Implementation) -> Option<Answer<Observed>> {
     let number = |x: f64| Observed::vector(vec![x]);
     Some(match (function, input) {
         ("phi_linear_tetrahedron", Input::Shape { V, element, x }) => {

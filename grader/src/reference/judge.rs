@@ -70,7 +70,7 @@ pub fn trials(function: &str, seed: u64) -> Vec<Trial> {
         Exercise::linearly_implicit_euler | Exercise::implicit_euler => steps::steps,
         Exercise::newtons_method => steps::minima,
     };
-    draw(function.name(), &mut Random::new(seed, function.name()))
+    draw(function.name(), &mut Random::new(seed, function))
 }
 
 /// Compares a function with the reference. After an answer that never comes, nothing more is asked.

@@ -1,38 +1,33 @@
-//! Random numbers from a seed, and what the trials are made of: deformations, constants, sizes.
+//! Random numbers from a seed, and the inputs made of them: deformations, constants, sizes.
 
 use std::ops::Range;
 
+use grader_child::Exercise;
 use nalgebra::{DVector, Matrix3, Rotation3, Vector3};
+use rand::rngs::ChaCha8Rng;
+use rand::seq::SliceRandom;
+use rand::{RngExt, SeedableRng};
 
-/// A small generator (SplitMix64): the same seed and name give the same trials on every machine.
-pub struct Random(u64);
+/// The inputs of one function. ChaCha with eight rounds (D. J. Bernstein, ChaCha, a variant of Salsa20, 2008): the same seed
+/// gives the same inputs on every machine, and each function has a stream of its own.
+pub struct Random(ChaCha8Rng);
 
 impl Random {
-    /// Starts from a seed and a name, so that functions do not share their inputs.
-    pub fn new(seed: u64, name: &str) -> Self {
-        let mut random = Self(seed);
-        for byte in name.bytes() {
-            random.0 = random.bits() ^ u64::from(byte);
-        }
-        random
+    /// Starts the stream of a function.
+    pub fn new(seed: u64, function: Exercise) -> Self {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        generator.set_stream(function as u64);
+        Self(generator)
     }
 
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in a range.
+    /// Uniform in a range; its start if it is empty.
     pub fn number(&mut self, range: Range<f64>) -> f64 {
-        let unit = (self.bits() >> 11) as f64 / (1u64 << 53) as f64;
-        range.start + (range.end - range.start) * unit
+        range.start + (range.end - range.start) * self.0.random::<f64>()
     }
 
     /// One of 0 … n − 1.
     pub fn below(&mut self, n: usize) -> usize {
-        (self.bits() % n.max(1) as u64) as usize
+        self.0.random_range(0..n.max(1))
     }
 
     /// Three numbers of a range.
@@ -48,9 +43,7 @@ impl Random {
     /// 0 … n − 1 in any order.
     pub fn order(&mut self, n: usize) -> Vec<usize> {
         let mut order: Vec<usize> = (0..n).collect();
-        for i in (1..n).rev() {
-            order.swap(i, self.below(i + 1));
-        }
+        order.shuffle(&mut self.0);
         order
     }
 

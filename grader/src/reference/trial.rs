@@ -3,9 +3,7 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix4, Vector3, Vector4};
 use nalgebra_sparse::CsrMatrix;
 
-use super::calls;
 use super::systems::{Objective, System};
-use grader::implementation::{Answer, Implementation, Trouble};
 
 /// Input of the functions of one deformed element.
 #[derive(Clone, Debug)]
@@ -155,10 +153,5 @@ impl Trial {
     /// The size that the number at `index` is judged against.
     pub fn scale(&self, index: usize) -> f64 {
         self.scales.get(index).or(self.scales.last()).copied().unwrap_or(1.0)
-    }
-
-    /// Calls the function.
-    pub fn run(&self, who: &dyn Implementation) -> Answer<Observed> {
-        calls::call(self.function, &self.input, who).unwrap_or(Err(Trouble::Missing))
     }
 }

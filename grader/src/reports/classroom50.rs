@@ -4,9 +4,10 @@
 //! The schema takes whole points alone, so each point counts as [`UNITS_PER_POINT`]: a submission's share stays exact.
 
 use std::io;
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::SystemTime;
 
 use grader::status::Status;
+use jiff::Timestamp;
 use serde::Serialize;
 
 use super::{escape, gradescope, view};
@@ -117,30 +118,14 @@ fn units(points: f64, max_points: f64) -> u64 {
 
 /// A time as `2026-06-01T14:32:01Z`.
 fn utc(time: SystemTime) -> String {
-    // A clock before 1970 is wrong by decades; the first second of that year says so.
-    let seconds = time.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
-    let (year, month, day) = date(seconds / 86_400);
-    let second = seconds % 86_400;
-    format!("{year:04}-{month:02}-{day:02}T{:02}:{:02}:{:02}Z", second / 3600, second / 60 % 60, second % 60)
-}
-
-/// Year, month and day in the Gregorian calendar, counted in years that begin in March so that leap days come last.
-fn date(days_since_1970: u64) -> (u64, u64, u64) {
-    let days = days_since_1970 + 719_468; // since 1 March of year 0
-    let era = days / 146_097;
-    let day_of_era = days % 146_097;
-    let year_of_era = (day_of_era - day_of_era / 1_460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
-    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-    let month = (5 * day_of_year + 2) / 153;
-    let day = day_of_year - (153 * month + 2) / 5 + 1;
-    let january_or_february = u64::from(month >= 10);
-    (era * 400 + year_of_era + january_or_february, month + 3 - 12 * january_or_february, day)
+    // A clock beyond the year 9999 is wrong; 1970 says so.
+    Timestamp::try_from(time).unwrap_or_default().strftime("%FT%TZ").to_string()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::time::Duration;
+    use std::time::{Duration, UNIX_EPOCH};
 
     #[test]
     fn times_are_written_in_utc() {

@@ -1,0 +1,51 @@
+//! Length and layout of every file.
+
+use std::path::PathBuf;
+
+use super::{assert_none, files, read, without_unit_tests};
+
+#[test]
+fn no_file_has_more_than_300_lines_apart_from_its_unit_tests() {
+    let lines = |path: &PathBuf| without_unit_tests(&read(path)).lines().count();
+    let too_long = files("rs").into_iter().map(|path| (lines(&path), path)).filter(|(lines, _)| *lines > 300);
+    assert_none(
+        too_long.map(|(n, path)| format!("{}: {n} lines; two things live there, part them", path.display())).collect(),
+    );
+}
+
+#[test]
+fn no_file_has_tabs_spaces_at_the_end_of_a_line_or_a_last_line_without_an_end() {
+    let mut problems = Vec::new();
+    for path in ["rs", "md", "toml"].iter().flat_map(|extension| files(extension)) {
+        let text = read(&path);
+        for (number, line) in text.lines().enumerate() {
+            if line.contains('\t') || line.ends_with([' ', '\r']) {
+                problems.push(format!(
+                    "{}, line {}: remove the tab or the spaces at its end",
+                    path.display(),
+                    number + 1
+                ));
+            }
+        }
+        if !text.ends_with('\n') || text.ends_with("\n\n") {
+            problems.push(format!("{}: let it end in one line end", path.display()));
+        }
+    }
+    assert_none(problems);
+}
+
+#[test]
+fn no_code_is_left_unfinished() {
+    // Inside quotes a word is talked about, not used.
+    let is_used = |line: &str, word: &str| line.find(word).is_some_and(|at| !line[..at].contains(['"', '`']));
+    let note = concat!("FIX", "ME");
+    let mut problems = Vec::new();
+    for path in files("rs") {
+        for (number, line) in read(&path).lines().enumerate() {
+            if ["todo!", "unimplemented!", "dbg!"].iter().any(|word| is_used(line, word)) || line.contains(note) {
+                problems.push(format!("{}, line {}: `{}`; finish it", path.display(), number + 1, line.trim()));
+            }
+        }
+    }
+    assert_none(problems);
+}
