@@ -34,7 +34,7 @@ pub fn read_submission(path: &Path) -> Result<Submission, Unreadable> {
     Submission::from_entries(name, entries?)
 }
 
-/// What a submission is called: its file name without the ending of an archive.
+/// The name of a submission: its file name without the ending of an archive.
 pub fn name(path: &Path) -> String {
     let full = path.canonicalize();
     let path = full.as_deref().unwrap_or(path);

@@ -24,7 +24,7 @@ use crate::submission::{Source, Submission, Unreadable};
 pub use program::{Options, main};
 use watch::watch;
 
-/// Where random inputs start; the same in every run, so that a mended function shows.
+/// Seed of the random inputs; the same in every run, so that a corrected function shows.
 const SEED: u64 = 2024;
 
 /// Longest time for one answer.
@@ -33,7 +33,7 @@ const LIMIT: Duration = Duration::from_secs(5);
 /// Longest processor time for the compiler; all functions together take it some seconds.
 const COMPILE_LIMIT: Duration = Duration::from_secs(20);
 
-/// Why nothing could be checked.
+/// Reason why no function can be checked.
 #[derive(Debug, Error)]
 pub enum CheckError {
     /// The libraries could not be built.
@@ -44,7 +44,7 @@ pub enum CheckError {
     Unreadable {
         /// The folder.
         folder: PathBuf,
-        /// What is wrong with it.
+        /// The problem.
         reason: Unreadable,
     },
     /// No file can be written, no program started.
@@ -53,8 +53,8 @@ pub enum CheckError {
     /// The compiler breaks down.
     #[error(transparent)]
     Build(#[from] BuildError),
-    /// A name that is none.
-    #[error("`{0}` is no function of the course; the README lists their names")]
+    /// A name that no function has.
+    #[error("`{0}` is not a function of the course; the README lists the names")]
     Unknown(String),
     /// Saved files cannot be noticed.
     #[error("{0}; run `check` without `--watch`")]
@@ -68,7 +68,7 @@ impl CheckError {
     }
 }
 
-/// How one function fared.
+/// Result of the checks of one function.
 pub struct Report {
     /// The function.
     pub name: &'static str,
@@ -76,19 +76,19 @@ pub struct Report {
     pub place: usize,
     /// The outcome.
     pub status: Status,
-    /// Number of its checks, where they were run.
+    /// Number of its checks.
     pub checks: usize,
-    /// What went wrong, for its author.
+    /// Messages for the author.
     pub messages: Vec<String>,
 }
 
-/// How many failing checks of one function are told at once.
+/// Number of failing checks of one function that are shown at once.
 const MOST_MESSAGES: usize = 3;
 
 /// Checks the functions of the repository at `folder`, or one of them.
 ///
 /// # Errors
-/// Where nothing can be checked; a function that fails is no error.
+/// The reason if no function can be checked; a function that fails is not an error.
 pub fn check(folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckError> {
     let submission = usable(folder, only)?;
     let bar = bar();
@@ -265,7 +265,7 @@ pub fn print(reports: &[Report]) {
 /// Checks once and prints, or again and again whenever a file is saved.
 ///
 /// # Errors
-/// Where nothing can be checked.
+/// The reason if no function can be checked.
 pub fn run(options: &Options) -> Result<(), CheckError> {
     if options.watch {
         return watch(&options.folder, options.only.as_deref());

@@ -1,6 +1,6 @@
 //! Grades a whole class: every submission of a folder, each by its own process, again only where it must be.
 //!
-//! What is finished lies complete in `OUT/grades/KEY`, so that a run may be killed at any time and be started again.
+//! A finished grade lies complete in `OUT/grades/KEY`, so that grading may be killed at any time and started again.
 
 mod find;
 mod key;
@@ -57,7 +57,7 @@ pub struct Summary {
     pub shard: Option<(usize, usize)>,
     /// By name of the student, then of the submission.
     pub entries: Vec<Entry>,
-    /// What an instructor should look at: other files, students that may be one, conflicts, …
+    /// Remarks for the instructor: other files, students that may be one, conflicts, …
     pub remarks: Vec<String>,
     /// How many this run graded.
     pub graded_now: usize,
@@ -76,7 +76,7 @@ pub struct Entry {
     pub outcome: Outcome,
 }
 
-/// What became of a submission. Only a graded one has a score: the others have none, which is not zero.
+/// Outcome of a submission. Only a graded one has a score; a missing score is not zero.
 #[derive(Clone, Debug)]
 pub enum Outcome {
     /// The grade, and the folder of its reports relative to the output.

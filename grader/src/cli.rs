@@ -52,7 +52,7 @@ pub enum Command {
         /// Result folders of `class`.
         #[arg(required = true)]
         folders: Vec<PathBuf>,
-        /// Where the joined results go.
+        /// Folder for the joined results.
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
     },
@@ -62,7 +62,7 @@ pub enum Command {
         /// A new or empty folder.
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
-        /// Where random inputs start.
+        /// Seed of the random inputs.
         #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed, allow_hyphen_values = true)]
         seed: u64,
         /// Pack the sources of all dependencies too, so that setting up needs no crates from the network.
@@ -73,10 +73,10 @@ pub enum Command {
 
 #[derive(clap::Args)]
 pub struct GradeOptions {
-    /// Where results go.
+    /// Folder for the results.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Where random inputs start.
+    /// Seed of the random inputs.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed, allow_hyphen_values = true)]
     pub seed: u64,
     /// Points, levels and tolerances, instead of the grader's own.

@@ -1,4 +1,4 @@
-//! What each command does, and how it ends: 0 done, 1 the grader itself failed, 2 unusable arguments.
+//! The work of each command and its exit code: 0 done, 1 the grader itself failed, 2 unusable arguments.
 
 use std::collections::BTreeMap;
 use std::env;

@@ -23,7 +23,7 @@ const PATIENCE: u32 = 6;
 /// which differ on a busy machine.
 const ALMOST: f64 = 0.7;
 
-/// What goes into a program.
+/// The parts of a program.
 #[derive(Clone)]
 pub struct Plan {
     /// Texts of the submission, by function.
@@ -40,17 +40,17 @@ pub struct Plan {
 pub struct Built {
     /// The program; `None` where nothing could be built.
     pub program: Option<PathBuf>,
-    /// For each function that does not compile, what to tell its author.
+    /// Messages for the authors of functions that do not compile, by function.
     pub faults: BTreeMap<&'static str, String>,
 }
 
-/// What one call of rustc came to.
+/// Result of one call of rustc.
 pub enum Attempt {
     /// A program.
     Built(PathBuf),
-    /// For each function that is to blame, what to tell its author; empty where the compiler blames none.
+    /// Messages for the authors of the functions with errors; empty if the compiler names no file.
     Failed(BTreeMap<&'static str, String>),
-    /// The compiler itself ended badly; how.
+    /// The compiler itself broke down; its end in words.
     GaveUp(String),
 }
 
@@ -65,7 +65,7 @@ pub enum BuildError {
         "{0}; it took the files apart, so give it more time (compile_seconds in the rubric) or the machine more memory"
     )]
     GaveUp(String),
-    /// Without any file of a submission there is no program either.
+    /// A program without any file of a submission does not compile.
     #[error("not even a program without a function can be built; do rustc and its linker work on this machine?")]
     Nothing,
 }
@@ -73,7 +73,7 @@ pub enum BuildError {
 /// Builds a program in `folder`. Files that do not compile are left out, and their functions panic when they are called.
 ///
 /// # Errors
-/// Where the machine or the compiler fails.
+/// The reason if the machine or the compiler fails.
 pub fn build(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path) -> Result<Built, BuildError> {
     let mut plan = plan.clone();
     let mut all_faults = BTreeMap::new();
@@ -125,7 +125,7 @@ fn one_by_one(
 /// Calls rustc once, for all files of a plan.
 ///
 /// # Errors
-/// Where files cannot be written or rustc cannot be started.
+/// The reason if files cannot be written or rustc cannot be started.
 pub fn attempt(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path) -> io::Result<Attempt> {
     sources::write(plan, &folder.join("src"))?;
     let file = format!("program{}", env::consts::EXE_SUFFIX);
@@ -184,7 +184,7 @@ mod tests {
     use super::*;
     use std::os::unix::fs::PermissionsExt;
 
-    /// What becomes of two files when this script, started beside `src`, is the compiler.
+    /// Builds two files with this script, started beside `src`, in place of the compiler.
     fn built_by(script: &str) -> Result<Built, BuildError> {
         let folder = tempfile::tempdir().unwrap();
         let rustc = folder.path().join("rustc");

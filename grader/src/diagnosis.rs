@@ -1,4 +1,4 @@
-//! Which common mistake explains these answers? Named only where it explains every trial in which it shows.
+//! Finds the common mistake that explains wrong answers. It is named only if it explains every trial in which it shows.
 
 mod answers;
 mod formulas;
@@ -17,11 +17,11 @@ use crate::variants::Variant;
 pub struct Diagnosis {
     /// Short, such as `negated`.
     pub name: String,
-    /// What a student is told: teaches, and does not give the answer.
+    /// Sentence for the student: it teaches and does not give the answer.
     pub sentence: String,
 }
 
-/// What a mistake would answer in a trial, given the right answer; `None` where it cannot be made there.
+/// Answer of a mistake in a trial, from the right answer; `None` if the mistake cannot be made there.
 type Answers<'a> = Box<dyn Fn(&Trial, &Observed) -> Option<Observed> + 'a>;
 
 /// A mistake that may have been made.
@@ -41,7 +41,7 @@ impl<'a> Candidate<'a> {
     }
 }
 
-/// One trial, what should have come and what came.
+/// One trial with the expected and the observed answer.
 struct Case {
     trial: Trial,
     expected: Observed,

@@ -1,4 +1,4 @@
-//! What is known about a submission once it is graded. `grade.json` is this, field by field.
+//! The grade of a submission. `grade.json` holds it field by field.
 
 use std::collections::BTreeMap;
 
@@ -19,11 +19,11 @@ pub struct Grade {
     pub score: f64,
     pub max_score: f64,
     pub seed: u64,
-    /// What `rustc --version` prints.
+    /// Output of `rustc --version`.
     pub toolchain: String,
     /// Layers of the sandbox, and whether this machine had them.
     pub sandbox: BTreeMap<String, bool>,
-    /// What concerns the submission as a whole: it cannot be read, files were left aside, …
+    /// Remarks on the submission as a whole: it cannot be read, files were ignored, …
     pub remarks: Vec<String>,
     /// In teaching order, all 22.
     pub functions: Vec<FunctionGrade>,
@@ -57,7 +57,7 @@ pub struct Run {
     pub reference: Outcome,
 }
 
-/// What a run came to.
+/// Result of a simulation.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Outcome {
     /// Largest distance of a vertex from where it should be at the end, m; the body is 1 m long.
@@ -93,7 +93,7 @@ pub struct FunctionGrade {
 pub struct CheckGrade {
     pub name: String,
     pub status: Status,
-    /// What must hold or what went wrong, without inputs and figures: fit for students.
+    /// The broken rule or the failure without inputs and figures, which students may read.
     pub message: String,
     /// Input and figures of the failure: the instructor's.
     pub counterexample: Option<String>,

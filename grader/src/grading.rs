@@ -61,7 +61,7 @@ impl Grading {
     /// Prepares libraries and the reference's own program from the repository at `root`.
     ///
     /// # Errors
-    /// Where something of ours does not compile.
+    /// The reason if the reference does not compile.
     pub fn new(root: &Path, rubric: Rubric, sandbox: Sandbox, seed: u64) -> Result<Self, GradingError> {
         let prebuilt = Prebuilt::new(root)?;
         let programs = Programs::new(root, &rubric, &prebuilt)?;

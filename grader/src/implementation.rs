@@ -1,4 +1,5 @@
-//! Whoever computes: this process, a sandboxed child, a deliberately wrong variant. A property is written once and judges all.
+//! Implementations of the 22 functions: in this process, in a sandboxed child, deliberately wrong ones. A property is written once
+//! and judges all of them.
 
 mod local;
 pub mod sandboxed;
@@ -12,14 +13,14 @@ use nalgebra_sparse::CsrMatrix;
 
 pub use local::Local;
 
-/// Why there is no answer.
+/// Reason why a function does not answer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Trouble {
-    /// The function is not there, or is still the handout's `todo!`.
+    /// The function is missing or is still the handout's `todo!`.
     Missing,
     /// The function panicked.
     Panicked {
-        /// What it said. May hold the inputs of a check, so it is the instructor's.
+        /// The message. It may hold the inputs of a check, so only the instructor sees it.
         message: String,
         /// File and line.
         place: String,
@@ -28,9 +29,9 @@ pub enum Trouble {
     Crashed(String),
     /// The submission took longer than this.
     TimedOut(Duration),
-    /// The answer makes no sense: wrong number of bytes, a sparse matrix that is none.
+    /// The answer is not valid: wrong number of bytes, inconsistent sparse matrix.
     Malformed,
-    /// The function was given up after earlier trouble.
+    /// The function was not called again after earlier trouble.
     GivenUp,
 }
 
@@ -48,7 +49,7 @@ impl fmt::Display for Trouble {
     }
 }
 
-/// What a function answered, or why it did not.
+/// The answer of a function, or the reason why there is none.
 pub type Answer<T> = Result<T, Trouble>;
 
 macro_rules! methods {

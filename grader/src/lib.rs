@@ -1,6 +1,6 @@
 //! Judges implementations of the 22 functions: what a student can run on their own machine.
 //!
-//! What only an instructor needs (the reference, diagnoses, classes, reports) belongs to the program, `main.rs`.
+//! The instructor's part (the reference, diagnoses, classes, reports) belongs to the program, `main.rs`.
 
 #![allow(non_snake_case)] // V, T, F, C and D are the names that the mathematics and the course use
 #![deny(missing_docs)]

@@ -21,7 +21,7 @@ pub enum Engine {
     Slurm,
 }
 
-/// What to pack.
+/// Options of `pack`.
 #[derive(Clone, Debug)]
 pub struct PackOptions {
     pub engine: Engine,
@@ -86,7 +86,7 @@ pub fn pack(options: &PackOptions) -> Result<(), PackError> {
     })
 }
 
-/// What stands for the marks of the templates.
+/// Values for the placeholders of the templates.
 fn fields(options: &PackOptions) -> Result<[(&'static str, String); 6], PackError> {
     Ok([
         ("@TOOLCHAIN@", toolchain()?),

@@ -1,4 +1,5 @@
-//! What must hold for each function, written once: `cargo test`, `check`, `grade` and the grader's own tests use it.
+//! The properties that each function must have, written once: `cargo test`, `check`, `grade` and the grader's own tests use
+//! them.
 //!
 //! A property calls the function that it judges on [`Course::subject`] and, where it needs other functions, those of
 //! [`Course::trusted`]: the reference when a submission is graded, the student's own functions on a student's machine.
@@ -44,13 +45,13 @@ pub mod quadrature_single_point;
 use crate::implementation::Implementation;
 use outcome::Outcome;
 
-/// Whom a property asks.
+/// The implementations that a property calls.
 pub struct Course<'a> {
     /// The implementation that is judged.
     pub subject: &'a dyn Implementation,
     /// An implementation for the functions that a check needs beside the one that it judges.
     pub trusted: &'a dyn Implementation,
-    /// Where random inputs start.
+    /// Seed of the random inputs.
     pub seed: u64,
 }
 

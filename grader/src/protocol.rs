@@ -18,7 +18,7 @@ const END: Duration = Duration::from_millis(500);
 /// Most closures that one call may ask for; an honest call of the checks asks for some hundreds.
 const MOST_CLOSURES: usize = 100_000;
 
-/// Answers what a function asks of the closures that it was given: a number and a body to a body; `None` for what makes no sense.
+/// Answers what a function asks of the closures that it was given: a number and a body to a body; `None` if they make no sense.
 pub type Closures<'a> = &'a mut dyn FnMut(u8, &[u8]) -> Option<Vec<u8>>;
 
 /// Asks a submission one thing and waits for the answer.
@@ -61,10 +61,10 @@ pub fn call(
     Err(Trouble::Crashed("it asks its closures without end".to_owned()))
 }
 
-/// Waits for the first word of a process.
+/// Waits until a process is ready.
 ///
 /// # Errors
-/// Where it ends or says something else.
+/// The trouble if it ends or sends something else.
 pub fn greet(running: &mut Running, limit: Duration) -> Result<(), Trouble> {
     let mut timed = Timed { socket: &running.socket, deadline: Instant::now() + limit };
     match wire::receive(&mut timed) {
@@ -92,7 +92,7 @@ fn is_place(text: &str) -> bool {
     file.is_some_and(|name| NAMES.contains(&name)) && parts.clone().count() <= 2 && parts.all(is_line)
 }
 
-/// What became of a process that does not answer.
+/// The reason why a process does not answer.
 fn lost(running: &mut Running, error: &io::Error, limit: Duration) -> Trouble {
     let is_late = matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut);
     if is_late {

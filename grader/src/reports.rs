@@ -31,12 +31,12 @@ use std::path::Path;
 use crate::class::Summary;
 use crate::grade::Grade;
 
-/// What the reports of one submission show, and for whom.
+/// Contents of the reports of one submission.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Whether students read the name of the mistake and the sentence that explains it.
     pub show_diagnosis: bool,
-    /// Where the submission comes from in a classroom of Classroom 50; `result.json` is written with it alone.
+    /// Origin of the submission in a classroom of Classroom 50; `result.json` is written with it alone.
     pub origin: Option<classroom50::Origin>,
 }
 

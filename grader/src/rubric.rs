@@ -31,7 +31,7 @@ pub struct Rubric {
     pub functions: Vec<Function>,
 }
 
-/// What students see.
+/// The parts of a grade that students see.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Students {
@@ -75,7 +75,7 @@ impl Rubric {
     /// Reads a rubric; without a path, the one that comes with the grader.
     ///
     /// # Errors
-    /// What is wrong, with the line.
+    /// The problem, with its line.
     pub fn load(path: Option<&Path>) -> Result<Self, RubricError> {
         let file = path.unwrap_or(Path::new("rubric.toml"));
         let text = match path {

@@ -36,7 +36,7 @@ use serde::{Deserialize, Serialize};
 
 pub use running::Running;
 
-/// What is run, which decides what it may do beside computing.
+/// Kind of program, which decides which system calls it may make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Profile {
     /// rustc and what it calls: may start other programs that it can read.
@@ -45,7 +45,7 @@ pub enum Profile {
     Submission,
 }
 
-/// What a program may use up.
+/// Limits on a program's resources.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Limits {
     /// Time until the whole process tree is killed.
@@ -79,9 +79,9 @@ pub struct Confined {
     pub readable: Vec<PathBuf>,
     /// Files and folders that it may also change. Without another way their owner becomes the program's user.
     pub writable: Vec<PathBuf>,
-    /// What it may do.
+    /// Kind of program.
     pub profile: Profile,
-    /// What it may use up.
+    /// Limits on its resources.
     pub limits: Limits,
 }
 

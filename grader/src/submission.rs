@@ -1,7 +1,6 @@
-//! A submission: what is taken of a folder or an archive, and what is not.
+//! A submission: the files `src/NAME.rs` of the 22 functions in a folder or an archive, as text.
 //!
-//! Taken are the files `src/NAME.rs` of the 22 functions alone, as text. Everything else of a submission – its manifest, build
-//! script, toolchain, tests – never reaches a compiler.
+//! Everything else – its manifest, build script, toolchain, tests – is ignored and never reaches a compiler.
 
 pub mod entries;
 mod folder;
@@ -23,30 +22,30 @@ pub use stub::is_stub;
 /// A file may have as many bytes as this; a function of the course has a few thousand.
 pub const MAX_FILE_BYTES: u64 = 1 << 20;
 
-/// What a submission has for one function.
+/// The submission's source of one function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// Nothing yet; why.
+    /// Not written; the reason.
     Missing(String),
-    /// Something that is not taken.
+    /// Refused.
     Refused {
-        /// Where it stands, counted from one; none where it concerns the file as a whole.
+        /// Line, counted from one; `None` if the whole file is refused.
         line: Option<usize>,
-        /// What is wrong, and what to do.
+        /// The problem and the remedy.
         reason: String,
     },
     /// The file's text, without a byte-order mark and with `\n` at the end of each line.
     Written(String),
 }
 
-/// What is taken of one submission.
+/// One submission.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Submission {
     /// Its folder's or archive's name without the ending.
     pub name: String,
     /// All 22, by name.
     pub functions: BTreeMap<&'static str, Source>,
-    /// What was left aside and may surprise, a sentence each.
+    /// A sentence for each ignored file whose author may expect otherwise.
     pub remarks: Vec<String>,
 }
 
@@ -78,7 +77,7 @@ impl Submission {
     }
 }
 
-/// The name of a folder; that of the current one where the path is `.`.
+/// The name of a folder, also if its path is `.`.
 fn display_name(folder: &Path) -> String {
     let full = folder.canonicalize();
     let path = full.as_deref().unwrap_or(folder);

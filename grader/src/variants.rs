@@ -1,5 +1,5 @@
-//! Wrong implementations of every function, as students write them: the grader's own test, and what answers are compared with
-//! to find out which mistake was made.
+//! Wrong implementations of every function, as students write them. The grader is tested with them, and answers are compared
+//! with theirs to find out which mistake was made.
 
 use grader_child::Functions;
 
@@ -45,9 +45,9 @@ mod tests;
 pub struct Variant {
     /// The function that is wrong.
     pub function: &'static str,
-    /// Name of the diagnosis, such as `negated` or `columns for rows`; `None` where no short name explains the mistake.
+    /// Name of the diagnosis, such as `negated` or `columns for rows`; `None` if no short name explains the mistake.
     pub diagnosis: Option<&'static str>,
-    /// What a student is told: teaches, and does not give the answer.
+    /// Sentence for the student: it teaches and does not give the answer.
     pub sentence: &'static str,
     /// The reference with this mistake in it.
     pub functions: Functions,
@@ -61,7 +61,7 @@ macro_rules! list {
 }
 grader_child::course_functions!(list);
 
-/// The variants of one function; none for a name that is no function.
+/// The variants of one function; empty if no function has this name.
 pub fn of(function: &str) -> &'static [Variant] {
     ALL.into_iter().find(|variants| variants.iter().any(|variant| variant.function == function)).unwrap_or(&[])
 }

@@ -43,7 +43,7 @@ fn texts(repository: &Path) -> BTreeMap<&'static str, String> {
     NAMES.map(|name| (name, read(name))).into()
 }
 
-/// What `check` says of the handout in which the first functions are solved: status and messages of each.
+/// Output of `check` for the handout with the first functions solved: status and messages of each.
 fn checked_with_first(solved: usize) -> BTreeMap<&'static str, (Status, Vec<String>)> {
     let folder = TempDir::new().expect("a folder");
     fs::create_dir(folder.path().join("src")).expect("a folder");
@@ -138,7 +138,7 @@ mod grades {
     use super::*;
     use serde_json::Value;
 
-    /// What a submission is graded as, by the program itself.
+    /// The grade that the program gives a submission.
     fn graded(submission: &Path, seed: u64, more: &[&str]) -> Value {
         LazyLock::force(&LIBRARIES);
         let out = TempDir::new().expect("a folder");

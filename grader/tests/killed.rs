@@ -1,4 +1,4 @@
-//! Whoever kills a class, kills all that works for it.
+//! Killing the grading of a class ends every process that works for it.
 #![cfg(target_os = "linux")]
 
 use std::fs;

@@ -1,4 +1,4 @@
-//! What the course gives: `given::{sparsity, add_block, add_scaled, select}`. Nothing to do here; read
+//! Given functions, `given::{sparsity, add_block, add_scaled, select}`: no exercise; read
 //! include-docs/given.md.
 
 use finite_elements_3d::{fixed_point_constraints, given};

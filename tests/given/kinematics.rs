@@ -1,4 +1,4 @@
-//! What the course gives: `given::{deformation_gradient, volumes}`. Nothing to do here; read include-docs/given.md.
+//! Given functions, `given::{deformation_gradient, volumes}`: no exercise; read include-docs/given.md.
 
 use finite_elements_3d::{dphi_linear_tetrahedron_dX, given};
 use nalgebra::{Matrix3, Vector3};

@@ -1,4 +1,4 @@
-//! What the course gives, and what our own solution holds beyond what the pages ask of a student.
+//! Tests of the given functions, and of properties of the reference solution that the pages do not ask of a student.
 
 #![allow(non_snake_case)] // V, T, F, J, C and D are the names that the mathematics and the course use
 

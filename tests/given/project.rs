@@ -1,4 +1,4 @@
-//! What the course gives: `given::project`. Nothing to do here; read include-docs/given_project.md.
+//! A given function, `given::project`: no exercise; read include-docs/given_project.md.
 
 use finite_elements_3d::{d2V_linear_tetrahedron_dq2, given};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};

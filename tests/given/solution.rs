@@ -1,4 +1,4 @@
-//! What our own solution holds beyond what the pages ask of a student: energies near rest to the digits that F has, and the
+//! Properties of the reference solution that the pages do not ask of a student: energies near rest to the digits that F has, and the
 //! first element of those that hold a display vertex, numbers so large that a norm overflows, and time steps whose old velocity
 //! leads where the energy is infinite.
 

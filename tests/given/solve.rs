@@ -1,4 +1,4 @@
-//! What the course gives: `given::solve`. Nothing to do here; read include-docs/given_solve.md.
+//! A given function, `given::solve`: no exercise; read include-docs/given_solve.md.
 
 use finite_elements_3d::given;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};

@@ -173,7 +173,7 @@ impl Crate {
         self.modules.contains_key(&name).then_some(name)
     }
 
-    /// For each group of modules that need each other, the shortest way around.
+    /// The shortest way around of each group of modules that need each other.
     fn cycles(&self) -> Vec<String> {
         let mut needs: BTreeMap<&Name, Vec<Name>> = BTreeMap::new();
         for (name, module) in &self.modules {

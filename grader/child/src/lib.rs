@@ -1,7 +1,7 @@
-//! What stands between a submission and the process that judges it.
+//! The link between a submission and the process that judges it.
 //!
-//! A submission's functions become a [`Functions`] table; [`serve`](serve()) calls them as the parent asks and sends back what they
-//! return. Nothing here knows what a right answer is.
+//! A submission's functions become a [`Functions`] table; [`serve`](serve()) calls them as the parent asks and returns their
+//! results. This crate holds no right answer.
 
 #![allow(non_snake_case)] // V, T, F, C and D are the names that the mathematics and the course use
 #![deny(missing_docs)]

@@ -1,4 +1,4 @@
-//! A whole simulation made of a submission's functions alone: a body that falls, held at some vertices and pulled at one.
+//! A whole simulation made of a submission's functions alone: a body under gravity with constrained vertices and an anchor spring.
 
 use nalgebra::{DVector, Vector3};
 use nalgebra_sparse::{CooMatrix, CsrMatrix};
@@ -6,7 +6,7 @@ use nalgebra_sparse::{CooMatrix, CsrMatrix};
 use crate::wire::Wire;
 use crate::{Functions, GivenSolve};
 
-/// What is simulated; SI units.
+/// The scene; SI units.
 #[derive(Clone)]
 pub struct Scene {
     /// Undeformed positions, m.
@@ -15,11 +15,11 @@ pub struct Scene {
     pub T: Vec<[usize; 4]>,
     /// Undeformed volumes, m³.
     pub v0: Vec<f64>,
-    /// Vertices that stay.
+    /// Constrained vertices.
     pub fixed: Vec<usize>,
-    /// The vertex that a spring of no length pulls.
+    /// The vertex that a spring of zero rest length pulls.
     pub pulled: usize,
-    /// Where the spring pulls it to, m.
+    /// Target of the spring, m.
     pub target: Vector3<f64>,
     /// Stiffness of the spring, N/m.
     pub pull: f64,

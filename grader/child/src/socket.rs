@@ -1,12 +1,12 @@
-//! What calls and answers travel through.
+//! The socket of calls and answers.
 
 use std::io;
 
-/// Unix hands over one of two connected sockets, which nobody else can reach. Elsewhere the parent listens on this machine's own
+/// On Unix one of two connected sockets, which no other process can reach; elsewhere the parent listens on this machine's own
 /// address.
 #[cfg(unix)]
 pub type Socket = std::os::unix::net::UnixStream;
-/// Unix hands over one of two connected sockets, which nobody else can reach. Elsewhere the parent listens on this machine's own
+/// On Unix one of two connected sockets, which no other process can reach; elsewhere the parent listens on this machine's own
 /// address.
 #[cfg(not(unix))]
 pub type Socket = std::net::TcpStream;

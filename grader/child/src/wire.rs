@@ -7,7 +7,7 @@ use std::io::{self, Read, Write};
 use nalgebra::{DVector, Matrix4, SMatrix, Scalar, Vector4};
 use nalgebra_sparse::CsrMatrix;
 
-/// Longest frame that is read, bytes; what claims to be longer is not an answer.
+/// Length of the longest frame that is read, bytes.
 pub const LONGEST_FRAME: usize = 1 << 26;
 
 /// Kinds of frames beside the calls, whose kind is the number of their function.
@@ -18,7 +18,7 @@ pub mod kind {
     pub const SIMULATE: u8 = 31;
     /// The child is ready.
     pub const READY: u8 = 40;
-    /// What the function returned.
+    /// The function's result.
     pub const RETURNED: u8 = 41;
     /// The function panicked: message and place, as text.
     pub const PANICKED: u8 = 42;
@@ -31,7 +31,7 @@ pub mod kind {
 /// Writes one frame.
 ///
 /// # Errors
-/// Where the other side is gone.
+/// The reason if the other side is gone.
 pub fn send(to: &mut impl Write, kind: u8, body: &[u8]) -> io::Result<()> {
     let length = u32::try_from(body.len()).map_err(|_| io::ErrorKind::InvalidInput)?;
     let mut frame = Vec::with_capacity(body.len() + 5);
@@ -44,7 +44,7 @@ pub fn send(to: &mut impl Write, kind: u8, body: &[u8]) -> io::Result<()> {
 /// Reads one frame: its kind and its body.
 ///
 /// # Errors
-/// Where the other side is gone or claims a frame longer than [`LONGEST_FRAME`].
+/// The reason if the other side is gone or announces a frame longer than [`LONGEST_FRAME`].
 pub fn receive(from: &mut impl Read) -> io::Result<(u8, Vec<u8>)> {
     let mut head = [0; 5];
     from.read_exact(&mut head)?;
@@ -65,11 +65,11 @@ pub fn receive(from: &mut impl Read) -> io::Result<(u8, Vec<u8>)> {
 pub trait Wire: Sized {
     /// Appends the value.
     fn put(&self, out: &mut Vec<u8>);
-    /// Takes the value from the front; `None` where it is not there or makes no sense.
+    /// Takes the value from the front; `None` if it is missing or not valid.
     fn get(input: &mut &[u8]) -> Option<Self>;
 }
 
-/// Reads a whole body as one value; `None` where anything is missing or left over.
+/// Reads a whole body as one value; `None` if bytes are missing or left over.
 pub fn read<T: Wire>(mut body: &[u8]) -> Option<T> {
     let value = T::get(&mut body)?;
     body.is_empty().then_some(value)

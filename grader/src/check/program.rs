@@ -21,7 +21,7 @@ enum Command {
     Check(Options),
 }
 
-/// What to check, and how often.
+/// Options of `check`.
 #[derive(clap::Args)]
 pub struct Options {
     /// The repository.

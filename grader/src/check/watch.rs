@@ -14,7 +14,8 @@ const QUIET: Duration = Duration::from_millis(200);
 /// Checks whenever a file in `src` changes, until the program is stopped.
 ///
 /// # Errors
-/// Where the folder or the name is none, or cannot be watched; what a later check finds wrong with the repository is printed, and watching goes on.
+/// The reason if the folder or the name is not usable or cannot be watched. Problems that a later check finds are printed, and
+/// watching goes on.
 pub fn watch(folder: &Path, only: Option<&str>) -> Result<(), CheckError> {
     usable(folder, only)?;
     let (sender, changes) = channel();

@@ -19,7 +19,7 @@ use super::{ClassError, at};
 const STUDENTS: &str = "students.csv";
 const ENDINGS: [&str; 3] = [".tar.gz", ".tgz", ".zip"];
 
-/// What a folder holds.
+/// Contents of a class folder.
 pub struct Class {
     pub submissions: Vec<Submission>,
     pub remarks: Vec<String>,

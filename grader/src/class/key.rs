@@ -1,4 +1,4 @@
-//! What a grade depends on, as one hash: where nothing of it changed, the grade stands.
+//! A hash of everything that a grade depends on: as long as it stays the same, the grade stands.
 
 use std::fs::{self, File};
 use std::io;
@@ -10,13 +10,13 @@ use sha2::{Digest, Sha256};
 
 use super::{ClassError, at};
 
-/// What all grades of a class have in common. Without a file, the rubric is part of the grader's program.
+/// Settings that all grades of a class share. Without a file, the rubric is part of the grader's program.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Identity {
     /// Hash of the grader's program.
     pub grader: String,
-    /// What `rustc --version` prints.
+    /// Output of `rustc --version`.
     pub toolchain: String,
     pub seed: u64,
     /// Hash of the rubric's file, if there is one.

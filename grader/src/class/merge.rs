@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::store::{self, Index, IndexState, Store, read_grade};
 use super::{ClassError, Entry, Identity, Outcome, Report, Summary, at};
 
-/// What [`super::merge`] promises.
+/// Implementation of [`super::merge`].
 pub fn join(dirs: &[PathBuf], out: &Path, report: Report) -> Result<Summary, ClassError> {
     let indices = dirs.iter().map(|dir| Index::read(dir)).collect::<Result<Vec<_>, _>>()?;
     let first = indices.first().ok_or(ClassError::Nothing)?;

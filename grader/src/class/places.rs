@@ -1,4 +1,4 @@
-//! Where a class lies and where its results go: neither may lie in the other's way.
+//! The folders of a class and of its results: neither may contain the other.
 
 use std::io;
 use std::path::{Path, PathBuf, absolute};

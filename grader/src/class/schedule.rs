@@ -19,7 +19,7 @@ const TICK: Duration = Duration::from_millis(20);
 /// Tables of a large class are not written more often than that.
 const REFRESH: Duration = Duration::from_secs(3);
 
-/// A run at work.
+/// State of the grading of a class.
 struct Run<'a> {
     options: &'a ClassOptions,
     store: &'a Store,
@@ -92,7 +92,7 @@ impl<'a> Run<'a> {
         run
     }
 
-    /// What is known of a submission before anything is started.
+    /// Outcome of a submission before any process is started: kept, superseded, unreadable or waiting.
     fn first_look(&mut self, index: usize, submission: &Submission) -> Outcome {
         if let Some(newer) = &submission.newer {
             return Outcome::Older { newer: newer.clone() };

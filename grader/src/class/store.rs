@@ -1,4 +1,4 @@
-//! What lies in the output folder: complete grades by key, an index, and logs of what failed.
+//! The output folder: complete grades by key, an index, and logs of failures.
 //!
 //! A folder of grades appears under its key by one renaming, when it is complete. The index is written beside its place and renamed.
 
@@ -137,12 +137,12 @@ impl Store {
     }
 }
 
-/// Where an output folder keeps the log of a submission that could not be graded.
+/// Path of the log of a submission that could not be graded, in the output folder.
 pub fn log(out: &Path, name: &str) -> PathBuf {
     out.join("failed").join(format!("{name}.log"))
 }
 
-/// Where the grade of a key lies in an output folder.
+/// Path of the grade of a key, in the output folder.
 pub fn folder(key: &str) -> PathBuf {
     Path::new("grades").join(key)
 }

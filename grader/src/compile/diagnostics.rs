@@ -1,4 +1,4 @@
-//! What rustc says, sorted by the file that is to blame.
+//! Errors of rustc, sorted by the file that causes them.
 
 use std::collections::BTreeMap;
 
@@ -29,7 +29,7 @@ struct Expansion {
     span: Span,
 }
 
-/// For each function with an error in its file, or in the line that calls it, what to tell.
+/// Messages for the functions with an error in their file or in the line that calls them, by function.
 pub fn faults(messages: &str) -> BTreeMap<&'static str, String> {
     let mut found: BTreeMap<&'static str, String> = BTreeMap::new();
     // Lines that are no message come from a linker or a panicking compiler; they blame no file.

@@ -1,4 +1,4 @@
-//! What every program of a submission is linked with, built once for each toolchain: nalgebra, what the course gives, and the
+//! The libraries that every program of a submission is linked with, built once for each toolchain: nalgebra, what the course gives, and the
 //! loop that answers calls.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -40,7 +40,7 @@ pub struct Prebuilt {
     pub rustc: PathBuf,
     /// Its standard library.
     pub sysroot: PathBuf,
-    /// What `rustc --version` prints.
+    /// Output of `rustc --version`.
     pub toolchain: String,
 }
 
@@ -51,7 +51,7 @@ impl Prebuilt {
     /// Builds the libraries of the repository at `root`, or finds them already built.
     ///
     /// # Errors
-    /// Where a compiler or a file is missing or something does not compile.
+    /// The reason if a compiler or a file is missing or a library does not compile.
     pub fn new(root: &Path) -> Result<Self, PrebuildError> {
         // Linkers on Windows do not read what that system calls a canonical path.
         let whole = if cfg!(windows) { path::absolute(root) } else { fs::canonicalize(root) };
@@ -90,7 +90,7 @@ impl Prebuilt {
         all
     }
 
-    /// What a compiler must be able to read: itself, the system's linker, the libraries.
+    /// Folders that a compiler must be able to read: its own, the system's linker, the libraries.
     pub fn readable(&self) -> Vec<PathBuf> {
         let own = [self.sysroot.clone(), self.folder.join("deps"), self.folder.join("given")];
         system_folders().into_iter().chain(own).collect()
@@ -139,7 +139,7 @@ impl Prebuilt {
     /// Compiles one more library from its root file.
     ///
     /// # Errors
-    /// Where it does not compile.
+    /// The reason if it does not compile.
     pub fn library(&self, source: &Path, name: &str, to: &Path, more: &[String]) -> Result<(), PrebuildError> {
         let mut rustc = Command::new(&self.rustc);
         let given = self
@@ -222,7 +222,7 @@ fn io_error(path: &Path) -> impl FnOnce(io::Error) -> PrebuildError {
     move |error| PrebuildError::Io { what, error }
 }
 
-/// What a program prints, without the space around it.
+/// Output of a program, without the space around it.
 fn output(command: &mut Command) -> Result<String, PrebuildError> {
     let what = format!("{:?}", command.get_program());
     let output = command.output().map_err(|error| PrebuildError::Io { what: what.clone(), error })?;

@@ -1,12 +1,12 @@
-//! Which functions of a level share a program. A function that calls another one of its own level must not pay for the mistakes
-//! in it, so it is judged in a second program, where the reference answers that call.
+//! Divides the functions of a level among programs. A function that calls another one of its own level must not lose marks for the
+//! mistakes in it, so it is judged in a second program, where the reference answers that call.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Names of functions.
 pub type Names = BTreeSet<&'static str>;
 
-/// For each function those that its text calls.
+/// The functions that the text of each function calls.
 pub type Calls = BTreeMap<&'static str, Names>;
 
 /// Functions that share a program.
@@ -44,7 +44,7 @@ pub fn groups(judged: &[&'static str], below: &Names, own: &Calls, reference: &C
     groups
 }
 
-/// What a function calls that is not below its level, and what the reference of those calls in turn. A function whose reference
+/// The functions that a function calls and that are not below its level, and those that their reference calls. One whose reference
 /// leads back to the one that is judged is left out: there, the student's own one answers.
 fn needs(name: &str, below: &Names, own: &Calls, reference: &Calls) -> Names {
     let called = own.get(name).into_iter().flatten().filter(|other| **other != name && !below.contains(*other));

@@ -68,7 +68,7 @@ impl Grading {
                 (Some(trouble), _) => Err(Mistake::Trouble(trouble.clone())),
                 (None, None) => Ok(()),
                 (None, Some(failure)) => Err(Mistake::Wrong {
-                    rule: failure.what.to_owned(),
+                    rule: failure.rule.to_owned(),
                     figures: failure.figures.clone(),
                     counterexample: format!("{} (trial {}, {})", failure.input, failure.trial.0, failure.trial.1),
                 }),
@@ -127,7 +127,7 @@ impl Grading {
     }
 }
 
-/// What a check found, apart: what students may read, and what is the instructor's.
+/// The result of a check: the message for students apart from the instructor's counterexample.
 fn check_grade(name: &str, outcome: Result<(), Mistake>) -> CheckGrade {
     let (status, message, counterexample) = match outcome {
         Ok(()) => (Status::Passed, String::new(), None),

@@ -15,11 +15,11 @@ use super::GradingError;
 use super::groups::{Calls, Names};
 use crate::rubric::Rubric;
 
-/// Where our own programs lie.
+/// The grader's own programs.
 pub struct Programs {
     folder: PathBuf,
     lowest: u32,
-    /// Whom each function of the reference calls.
+    /// The functions that each function of the reference calls.
     pub calls: Calls,
     texts: BTreeMap<&'static str, String>,
 }
@@ -28,7 +28,7 @@ impl Programs {
     /// Builds them, or finds them already built.
     ///
     /// # Errors
-    /// Where our own sources do not compile.
+    /// The reason if the reference does not compile.
     pub fn new(root: &Path, rubric: &Rubric, prebuilt: &Prebuilt) -> Result<Self, GradingError> {
         let mut texts = BTreeMap::new();
         for name in NAMES {
@@ -60,7 +60,7 @@ impl Programs {
     /// Builds the library with the reference of these functions in a folder that holds nothing else.
     ///
     /// # Errors
-    /// Where our own sources do not compile, or these call others.
+    /// The reason if the reference does not compile, or if these functions call others.
     pub fn library(&self, prebuilt: &Prebuilt, of: &Names, to: &Path) -> Result<PathBuf, GradingError> {
         let sources = to.join("sources");
         fs::create_dir_all(&sources)?;

@@ -13,18 +13,18 @@ const STEPS: usize = 200;
 /// The change by the second half of the steps that still counts as none, m.
 const ALLOWED: f64 = 1e-6;
 
-/// Where a body is in the end.
+/// Final positions of a body.
 pub struct Truth {
     /// Positions of all vertices, m.
     pub positions: DVector<f64>,
-    /// What halving the step has changed, m.
+    /// Largest change by halving the step, m.
     pub uncertainty: f64,
 }
 
-/// Where the body of a scene is after its last step.
+/// Positions of a scene's body after the last step.
 ///
 /// # Errors
-/// Where the method does not agree with itself.
+/// The reason if halving the step changes the positions by more than [`ALLOWED`].
 pub fn truth(scene: &Scene) -> Result<Truth, String> {
     let duration = scene.dt * scene.steps as f64;
     let body = Body::new(scene).ok_or("the mass matrix of the free vertices is not positive definite")?;

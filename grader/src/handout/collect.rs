@@ -1,4 +1,4 @@
-//! Which files are handed out, and with what in them.
+//! The files that are handed out, and their contents.
 
 use std::borrow::Cow;
 use std::fs;
@@ -9,7 +9,7 @@ use syn::Item;
 
 use super::{Files, HandoutError, manifest, stub};
 
-/// What comes along as it is. Everything else of the repository is ours: its tests of itself, its map, its history.
+/// Files and folders that are handed out whole. The tests of the repository, its map and its history are not.
 const WHOLE: [&str; 15] = [
     ".gitignore",
     "LICENSE-APACHE",

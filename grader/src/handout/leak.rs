@@ -36,7 +36,7 @@ impl fmt::Display for Leak {
     }
 }
 
-/// Where pieces of the bodies in the repository `root` stand in these files; the first of each function in each file.
+/// Pieces of the bodies in the repository `root` that these files contain; the first of each function in each file.
 pub fn leaks(root: &Path, files: &Files) -> Result<Vec<Leak>, HandoutError> {
     let mut pieces: HashMap<Vec<String>, &'static str> = HashMap::new();
     for name in NAMES {

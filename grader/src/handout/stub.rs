@@ -82,7 +82,7 @@ fn imports(items: &[Item], names: &BTreeSet<String>, text: &str) -> String {
     if kept.is_empty() { kept } else { kept + "\n" }
 }
 
-/// What is left of an import that brings the names alone; none where it brings none of them.
+/// An import reduced to the given names; `None` if it brings none of them.
 fn pruned(tree: &UseTree, names: &BTreeSet<String>) -> Option<String> {
     match tree {
         UseTree::Path(path) => pruned(&path.tree, names).map(|rest| format!("{}::{rest}", path.ident)),

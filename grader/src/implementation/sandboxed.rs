@@ -50,7 +50,7 @@ impl Sandboxed {
     /// Positions of a whole simulation and how long it took, s.
     ///
     /// # Errors
-    /// Where there is no answer within `limit`.
+    /// The reason if no answer comes within `limit`.
     pub fn simulate(&self, scene: &Scene, limit: Duration) -> Answer<(Vec<DVector<f64>>, f64)> {
         let begin = Instant::now();
         let body = self.frames(&[(kind::SIMULATE, bytes(scene))], limit, &mut |_, _| None)?;

@@ -9,7 +9,7 @@ use toml::{Table, Value};
 
 use super::{PackError, at, output};
 
-/// What the grader is built from and works with.
+/// Files that the grader is built from and works with.
 const PARTS: [&str; 7] = ["Cargo.toml", "Cargo.lock", "LICENSE-APACHE", "LICENSE-MIT", "grader", "include-docs", "src"];
 
 /// Copies the sources of the repository `root` into the folder `to`, with a manifest and a lock file that ask for no more.

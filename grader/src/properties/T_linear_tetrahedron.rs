@@ -8,7 +8,7 @@ use super::random::{deformation, for_all, for_some, tetrahedron, vector};
 use super::{Check, Course};
 use crate::implementation::Answer;
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     a_translating_element_has_half_m_v_squared,
     one_moving_vertex_carries_a_tenth_of_the_mass,

@@ -9,7 +9,7 @@ use super::scales::energy_terms;
 use super::{Check, Course};
 use crate::implementation::Answer;
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     an_element_that_only_moves_stores_nothing,
     uniform_stretch_costs_volume_times_d,

@@ -6,7 +6,7 @@ use super::outcome::{Outcome, near_number, with_input};
 use super::random::{for_all, rotation, vector};
 use super::{Check, Course};
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     stretched_and_squeezed_springs_store_half_k_times_the_square,
     a_spring_of_no_length_stores_the_energy_of_its_rest_length,

@@ -8,7 +8,7 @@ use super::outcome::{Mistake, Outcome, holds, long, near, waits};
 use super::random::{constants, for_all, rotation, vector};
 use super::{Check, Course};
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     every_element_subtracts_its_gradient_at_its_vertices,
     it_is_minus_the_gradient_of_the_total_energy,

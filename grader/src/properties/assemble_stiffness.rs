@@ -10,7 +10,7 @@ use super::random::{for_all, vector};
 use super::{Check, Course};
 use crate::implementation::Trouble;
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     every_element_subtracts_its_projected_hessian,
     near_rest_it_is_the_derivative_of_the_forces,

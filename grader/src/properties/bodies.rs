@@ -59,7 +59,7 @@ impl<'a> FreeBody<'a> {
     /// A body of about this size, m.
     ///
     /// # Errors
-    /// Where its mass matrix cannot be had.
+    /// The trouble if the mass matrix is not available.
     pub fn new(course: &'a Course, size: f64) -> Result<Self, Mistake> {
         let mesh = Mesh::uneven_box([1, 1, 1], size);
         let q_size = 3 * mesh.V.len();
@@ -131,7 +131,7 @@ impl<'a> FreeBody<'a> {
     /// `energy(v)` of a step of implicit Euler from the present state.
     ///
     /// # Errors
-    /// Where v has another length than q, or an element's energy cannot be had.
+    /// The trouble if v has another length than q, or an element's energy is not available.
     pub fn step_energy(&self, v: &DVector<f64>, dt: f64) -> Result<f64, Mistake> {
         self.checked(v)?;
         let gained = v - &self.qdot;
@@ -147,7 +147,7 @@ impl<'a> FreeBody<'a> {
     /// One step of `linearly_implicit_euler`.
     ///
     /// # Errors
-    /// Where the step fails or leaves no state.
+    /// The mistake if the step fails or returns vectors of another length.
     pub fn linearly_implicit_step(&mut self, dt: f64) -> Outcome {
         let (mut q, mut qdot) = (self.q.clone(), self.qdot.clone());
         let (force, stiffness) = (|q: &_, _: &_| self.force(q), |q: &_, _: &_| self.stiffness(q));
@@ -166,7 +166,7 @@ impl<'a> FreeBody<'a> {
     /// One step of `implicit_euler`.
     ///
     /// # Errors
-    /// Where the step fails or leaves no state.
+    /// The mistake if the step fails or returns vectors of another length.
     pub fn implicit_step(&mut self, dt: f64) -> Outcome {
         let (mut q, mut qdot) = (self.q.clone(), self.qdot.clone());
         let (force, stiffness) = (|q: &_, _: &_| self.force(q), |q: &_, _: &_| self.stiffness(q));

@@ -7,7 +7,7 @@ use super::outcome::{Mistake, Outcome, dense_of, holds, near, near_number, waits
 use super::random::{for_all, for_some, vector};
 use super::{Check, Course};
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     every_row_is_that_of_a_search_through_all_elements,
     each_display_vertex_has_its_own_row_in_order,

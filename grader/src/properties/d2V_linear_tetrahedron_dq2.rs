@@ -10,7 +10,7 @@ use super::scales::{smallest_stretch, stiffness_terms};
 use super::{Check, Course};
 use crate::implementation::Answer;
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     it_is_the_derivative_of_the_gradient,
     the_unit_tetrahedron_at_rest_agrees_with_a_calculation_by_hand,
@@ -34,7 +34,7 @@ fn terms(t: &Tetrahedron, F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
     t.volume / t.height().powi(2) * stiffness_terms(F, C, D)
 }
 
-/// What round-off in the positions can do to a sum of terms.
+/// Bound on the effect of round-off in the positions on a sum of terms.
 fn allowed(t: &Tetrahedron, F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
     1e-11 * terms(t, F, C, D) * t.size() / t.height() / smallest_stretch(F).min(1.0)
 }

@@ -8,7 +8,7 @@ use super::random::{constants, deformation, for_all, for_some, rotation, stretch
 use super::scales::{smallest_stretch, stiffness_terms};
 use super::{Check, Course};
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     column_by_column_it_is_the_derivative_of_the_stress,
     it_is_symmetric,

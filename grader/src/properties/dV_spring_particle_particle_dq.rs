@@ -7,7 +7,7 @@ use super::outcome::{Outcome, holds, near, waits};
 use super::random::{for_all, for_some, vector};
 use super::{Check, Course};
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     a_spring_agrees_with_a_calculation_by_hand,
     it_is_the_gradient_of_the_energy,

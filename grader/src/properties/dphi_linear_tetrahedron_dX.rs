@@ -9,7 +9,7 @@ use super::random::{deformation, for_all, for_some, tetrahedron, vector};
 use super::{Check, Course};
 use crate::implementation::Answer;
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     the_unit_tetrahedron_gives_minus_ones_above_the_identity,
     a_tetrahedron_without_symmetry_agrees_with_a_calculation_by_hand,

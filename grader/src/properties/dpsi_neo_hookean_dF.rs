@@ -9,7 +9,7 @@ use super::scales::{energy_terms, smallest_stretch, stress_terms};
 use super::{Check, Course};
 use crate::implementation::Answer;
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     entry_3i_plus_j_is_the_derivative_by_row_i_column_j,
     simple_shear_has_the_stress_of_the_closed_form,

@@ -7,7 +7,7 @@ use super::outcome::{Mistake, Outcome, dense_of, near};
 use super::random::for_all;
 use super::{Check, Course};
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     fixing_the_middle_of_three_vertices_agrees_with_a_matrix_by_hand,
     p_q_is_q_without_the_fixed_vertices_in_the_old_order,

@@ -1,4 +1,4 @@
-//! Nothing that an implementation answers makes a check panic or pass by mistake.
+//! No answer of an implementation makes a check panic or pass by mistake.
 
 use grader_child::{
     Force, Functions, Gradient, Hessian, Integrand, Objective, Solve, Stiffness, UNWRITTEN, course_functions,

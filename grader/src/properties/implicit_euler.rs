@@ -10,7 +10,7 @@ use super::outcome::{Mistake, Outcome, dense_of, holds, near, near_number};
 use super::random::{for_some, vector};
 use super::{Check, Course};
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     a_spring_follows_the_exact_recurrence,
     the_force_is_that_at_the_end_of_the_step,
@@ -32,7 +32,7 @@ struct Potential {
     K: fn(&DVector<f64>) -> DMatrix<f64>,
 }
 
-/// What a step asked for. Vectors of another length than q's are counted and not kept.
+/// The calls of a step's closures. Vectors of another length than q's are counted and not kept.
 #[derive(Default)]
 struct Asked {
     energies: RefCell<Vec<DVector<f64>>>,

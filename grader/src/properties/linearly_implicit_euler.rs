@@ -10,7 +10,7 @@ use super::outcome::{Outcome, holds, near, near_number};
 use super::random::for_some;
 use super::{Check, Course};
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     a_spring_follows_the_exact_recurrence,
     coupled_unknowns_solve_the_system_of_the_page,

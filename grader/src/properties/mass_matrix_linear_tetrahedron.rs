@@ -6,7 +6,7 @@ use super::outcome::{Outcome, eigenvalues_of, holds, near, near_number};
 use super::random::for_all;
 use super::{Check, Course};
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     it_is_the_integral_of_products_of_shape_functions,
     the_mass_along_each_axis_is_density_times_volume,

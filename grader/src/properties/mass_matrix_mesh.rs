@@ -8,7 +8,7 @@ use super::random::{for_some, vector};
 use super::{Check, Course};
 use crate::implementation::Answer;
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     elements_add_up_where_they_share_vertices,
     each_element_has_its_own_volume,

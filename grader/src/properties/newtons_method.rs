@@ -16,7 +16,7 @@ use super::outcome::{Outcome, holds, near, near_number};
 use super::random::{for_all, for_some, vector};
 use super::{Check, Course};
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     a_quadratic_is_solved_by_one_direction,
     rosenbrocks_valley_is_followed_to_its_end,

@@ -12,20 +12,20 @@ use crate::implementation::Trouble;
 pub enum Mistake {
     /// The answer is wrong.
     Wrong {
-        /// What must hold, as a sentence; anyone may read it, so it holds no input and no expected value.
+        /// The broken rule as a sentence; anyone may read it, so it holds no input and no expected value.
         rule: String,
-        /// What came and what should have come; empty where the rule says it all. Not for students while they are graded.
+        /// The observed and the expected figures; may be empty. Students do not see them in a grade.
         figures: String,
-        /// The input, as simple as shrinking made it; empty where there is none. Not for students while they are graded.
+        /// The input, as simple as shrinking made it; may be empty. Students do not see it in a grade.
         counterexample: String,
     },
     /// There is no answer.
     Trouble(Trouble),
     /// A function that the check needs beside the one that it judges gives no answer.
     Waits {
-        /// Which one.
+        /// Its name.
         needs: &'static str,
-        /// Why it does not answer.
+        /// The reason why it does not answer.
         trouble: Trouble,
     },
 }
@@ -59,7 +59,7 @@ impl fmt::Debug for Mistake {
     }
 }
 
-/// The mistake as its maker reads it: what is wrong, and which page tells how it should be.
+/// The message for the author of a mistake: the broken rule and the page to read.
 pub fn told(function: &str, mistake: &Mistake) -> String {
     format!("{mistake:?}\nRead include-docs/{function}.md")
 }
@@ -68,12 +68,13 @@ fn wrong(rule: &str, figures: String) -> Mistake {
     Mistake::Wrong { rule: rule.to_owned(), figures, counterexample: String::new() }
 }
 
-/// For an answer of [`Course::trusted`](super::Course::trusted): its trouble is not the fault of the function that is judged.
+/// Turns the trouble of a function of [`Course::trusted`](super::Course::trusted) into a mistake that is not the fault of the
+/// judged function.
 pub fn waits(needs: &'static str) -> impl Fn(Trouble) -> Mistake {
     move |trouble| Mistake::Waits { needs, trouble }
 }
 
-/// Fails with the sentence `rule` where the condition does not hold.
+/// Fails with the sentence `rule` if the condition is false.
 ///
 /// # Errors
 /// The mistake.

@@ -8,7 +8,7 @@ use super::random::{for_all, for_some, tetrahedron, vector};
 use super::{Check, Course};
 use crate::implementation::Answer;
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     the_unit_tetrahedron_gives_one_minus_the_sum_and_the_coordinates,
     a_tetrahedron_without_symmetry_agrees_with_a_calculation_by_hand,

@@ -7,7 +7,7 @@ use super::random::{for_all, vector};
 use super::{Check, Course};
 use crate::implementation::Answer;
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     a_pixel_over_a_corner_picks_that_corner,
     the_first_hit_counts_not_the_back_of_the_body,

@@ -8,7 +8,7 @@ use super::random::{constants, deformation, for_all, rotation, stretches};
 use super::scales::energy_terms;
 use super::{Check, Course};
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     a_body_at_rest_or_rotated_stores_nothing,
     blowing_up_uniformly_costs_d_alone,

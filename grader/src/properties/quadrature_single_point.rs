@@ -10,7 +10,7 @@ use super::random::{for_all, tetrahedron, vector};
 use super::{Check, Course};
 use crate::implementation::{Answer, Trouble};
 
-/// What must hold for the function.
+/// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     a_constant_integrates_to_itself_times_the_volume,
     the_volume_that_is_given_counts,

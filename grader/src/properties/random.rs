@@ -17,7 +17,7 @@ const SHRINKING_STEPS: usize = 100;
 /// Holds a property to random inputs; where an answer is wrong, a simpler input that also fails is looked for and shown.
 ///
 /// # Errors
-/// What is wrong, with the input.
+/// The mistake, with the input.
 pub fn for_all<S: Strategy>(seed: u64, inputs: S, property: impl Fn(S::Value) -> Outcome) -> Outcome {
     for_cases(CASES, seed, &inputs, &property)
 }
@@ -25,7 +25,7 @@ pub fn for_all<S: Strategy>(seed: u64, inputs: S, property: impl Fn(S::Value) ->
 /// The same with fewer inputs, for properties that make many calls for each.
 ///
 /// # Errors
-/// What is wrong, with the input.
+/// The mistake, with the input.
 pub fn for_some<S: Strategy>(seed: u64, inputs: S, property: impl Fn(S::Value) -> Outcome) -> Outcome {
     for_cases(FEW_CASES, seed, &inputs, &property)
 }

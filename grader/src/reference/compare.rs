@@ -1,26 +1,27 @@
-//! Is an answer right? Judged is what the course promises: values, shapes, numbers of calls; not storage, not iterates.
+//! Compares answers with the reference's in what the course promises: values, shapes and numbers of calls, neither storage nor
+//! iterates.
 
 use nalgebra::Vector3;
 
 use super::trial::{Input, Observed, Trial};
 
-/// What a comparison with the reference finds.
+/// Result of a comparison with the reference.
 #[derive(Clone, Debug, Default)]
 pub struct Verdict {
-    /// Worst |actual − expected| relative to the terms that were added; `None` where numbers are missing or not finite.
+    /// Worst |actual − expected| relative to the terms that were added; `None` if numbers are missing or not finite.
     pub error: Option<f64>,
-    /// What is wrong; empty where nothing is.
+    /// The rules that the answer breaks; empty if it is right.
     pub wrongs: Vec<Wrong>,
 }
 
-/// One thing that is wrong.
+/// A rule that an answer breaks.
 #[derive(Clone, Debug)]
 pub struct Wrong {
     /// Which check this belongs to.
     pub check: Check,
-    /// What must hold, without figures.
+    /// The rule, without figures.
     pub rule: &'static str,
-    /// What came and what should have come.
+    /// The observed and the expected figures.
     pub figures: String,
 }
 

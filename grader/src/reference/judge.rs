@@ -1,4 +1,4 @@
-//! All trials of a function, and what comes of them.
+//! All trials of a function and their results.
 
 use super::compare::{Check, compare};
 use super::random::Random;
@@ -7,14 +7,14 @@ use super::{REFERENCE, elements, meshes, picks, steps};
 use grader::implementation::{Answer, Implementation, Local, Trouble};
 use grader_child::Exercise;
 
-/// What the comparison with the reference says about a function.
+/// Result of the comparison of a function with the reference.
 #[derive(Clone, Debug, Default)]
 pub struct Judgement {
     /// Number of calls that were made.
     pub trials: usize,
-    /// Worst scale-aware relative error; `None` where no answer has finite numbers in the right places.
+    /// Worst relative error; `None` if no answer has finite numbers in the right places.
     pub worst_error: Option<f64>,
-    /// What went wrong, in the order of the trials.
+    /// Failures in the order of the trials.
     pub failures: Vec<Failure>,
     /// Why the function did not answer; of several reasons the last.
     pub trouble: Option<Trouble>,
@@ -23,15 +23,15 @@ pub struct Judgement {
 /// One trial that went wrong.
 #[derive(Clone, Debug)]
 pub struct Failure {
-    /// Which trial: its place among the trials, and what is special about its input.
+    /// Index of the trial and its name.
     pub trial: (usize, &'static str),
     /// The check that it fails.
     pub check: Check,
-    /// What must hold, without figures: fit for students.
-    pub what: &'static str,
-    /// What came and what should have come: the instructor's.
+    /// The broken rule without figures, which students may read.
+    pub rule: &'static str,
+    /// The observed and the expected figures, for the instructor.
     pub figures: String,
-    /// The input: the instructor's.
+    /// The input, for the instructor.
     pub input: String,
 }
 
@@ -73,7 +73,7 @@ pub fn trials(function: &str, seed: u64) -> Vec<Trial> {
     draw(function.name(), &mut Random::new(seed, function))
 }
 
-/// Compares a function with the reference. After an answer that never comes, nothing more is asked.
+/// Compares a function with the reference. No call follows one that was never answered.
 ///
 /// An error means that the reference itself did not answer: the grader failed, and there is no judgement.
 pub fn judge(function: &str, seed: u64, subject: &dyn Implementation, tolerance: f64) -> Answer<Judgement> {
@@ -104,7 +104,7 @@ impl Judgement {
         self.failures.extend(verdict.wrongs.into_iter().map(|wrong| Failure {
             trial: (index, trial.name),
             check: wrong.check,
-            what: wrong.rule,
+            rule: wrong.rule,
             figures: wrong.figures,
             input: format!("{}: {:?}", trial.name, trial.input),
         }));

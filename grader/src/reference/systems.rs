@@ -1,4 +1,4 @@
-//! What the functions with closures are run on: bodies for the integrators, functions to minimise for Newton's method.
+//! Problems for the functions that take closures: bodies for the integrators, functions to minimise for Newton's method.
 
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use nalgebra_sparse::CsrMatrix;
@@ -18,7 +18,7 @@ pub struct System {
     pub damping: f64,
     /// J; a wall at zero that the first coordinate never reaches. 0 means none.
     pub wall: f64,
-    /// What the force is multiplied with before it is handed out: 1, but for a mistake to be imitated.
+    /// Factor of the force: 1, or another number to imitate a mistake.
     pub force_factor: f64,
     /// The same for the stiffness.
     pub stiffness_factor: f64,

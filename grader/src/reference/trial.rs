@@ -1,4 +1,4 @@
-//! One call of one function on known input, and what is seen of it.
+//! A trial: one call of one function on known input, and the observed answer.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix4, Vector3, Vector4};
 use nalgebra_sparse::CsrMatrix;
@@ -48,10 +48,10 @@ pub struct Step {
     pub dt: f64,
 }
 
-/// What is integrated: c₀ + c₁ X + c₂ X Y + …, one number or several.
+/// An integrand c₀ + c₁ X + c₂ Y + c₃ Z + c₄ X Y with one component or several.
 #[derive(Clone, Debug)]
 pub struct Integrand {
-    /// One for each number: constant, factors of X, Y and Z, factor of XY.
+    /// Coefficients c₀ … c₄ of each component.
     pub terms: Vec<[f64; 5]>,
 }
 
@@ -78,7 +78,7 @@ pub enum Input {
     Mesh(Mesh),
     /// Display vertices in a mesh.
     Skinning { V: Vec<Vector3<f64>>, T: Vec<[usize; 4]>, V_skin: Vec<Vector3<f64>> },
-    /// Vertices that are held.
+    /// Constrained vertices.
     Fixed { q_size: usize, indices: Vec<usize> },
     /// A pixel and what it shows.
     Pick(Pick),
@@ -93,7 +93,7 @@ pub enum Input {
 pub struct Trial {
     /// The function that is called.
     pub function: &'static str,
-    /// What is special about the input; the same words for the same kind of input.
+    /// Name of the kind of input.
     pub name: &'static str,
     /// Whether the input is a limiting case, which a formula alone does not cover.
     pub edge: bool,
@@ -103,7 +103,7 @@ pub struct Trial {
     pub scales: Vec<f64>,
 }
 
-/// What is seen of a call.
+/// The observed answer of a call.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Observed {
     /// Rows and columns.
@@ -131,10 +131,10 @@ impl Observed {
         Self { shape: [rows, columns], numbers, ..Self::default() }
     }
 
-    /// A sparse matrix; where it stores its zeros is nobody's business.
+    /// A sparse matrix, whether or not it stores its zeros.
     pub fn sparse(matrix: &CsrMatrix<f64>) -> Self {
         let shape = [matrix.nrows(), matrix.ncols()];
-        // Whoever is judged may promise a matrix of any size; one so large is wrong, and is not written out.
+        // A submission may return a matrix of any size; one so large is wrong, and is not written out.
         let small = shape[0].checked_mul(shape[1]).is_some_and(|entries| entries <= MOST_ENTRIES);
         if !small {
             return Self { shape, ..Self::default() };

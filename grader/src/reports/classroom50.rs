@@ -30,7 +30,7 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// What the environment of this process says; `None` outside Classroom 50.
+    /// Reads the environment of this process; `None` outside Classroom 50.
     pub fn from_environment() -> Option<Self> {
         Self::from_variables(|name| std::env::var(name).ok())
     }

@@ -10,7 +10,7 @@ use crate::grade::{FunctionGrade, Grade};
 /// Tells Excel that the file is UTF-8, so that it reads names right.
 const BYTE_ORDER_MARK: &str = "\u{feff}";
 
-/// What every row begins with. Without a grade the cells of the scores are empty and `note` tells why.
+/// Columns at the start of each row. Without a grade the cells of the scores are empty and `note` gives the reason.
 const FIRST: [&str; 5] = ["student", "submission", "score", "max_score", "note"];
 
 /// The text of `grades.csv`: points of every function first, then their statuses, then the diagnoses.

@@ -32,7 +32,7 @@ impl Row<'_> {
         }
     }
 
-    /// Where the submission's own page is, relative to the class's, parts divided by `/`.
+    /// Path of the submission's page, relative to the class's, parts divided by `/`.
     pub fn page(&self) -> Option<String> {
         match &self.entry.outcome {
             Outcome::Graded(_, folder) => Some(folder.join("report.html").to_string_lossy().replace('\\', "/")),
@@ -40,7 +40,7 @@ impl Row<'_> {
         }
     }
 
-    /// What an instructor should know: why there is no grade, what the grader remarked, what it counts in place of.
+    /// A note for the instructor: the reason for a missing grade, the grader's remarks, the older submissions that it replaces.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = match &self.entry.outcome {
             Outcome::Graded(grade, _) => grade.remarks.clone(),

@@ -9,7 +9,7 @@ use grader::submission::NAMES;
 use crate::class::{Entry, Identity, Outcome, Summary};
 use crate::grade::{CheckGrade, FORMAT_VERSION, FunctionGrade, Grade, Outcome as Ended, Run, Study};
 
-/// What only the instructor may read; no student's file may hold it.
+/// Text that only the instructor may read; no student's file may hold it.
 pub const SECRET: &str = "SECRET-INPUT-0.4711";
 
 /// Text that tries every format at once.

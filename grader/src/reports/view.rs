@@ -1,4 +1,4 @@
-//! What the reports say of a grade: words, figures as people read them, and what students may see.
+//! The contents of the reports: words, figures as people read them, and the part that students may see.
 
 use grader::status::Status;
 
@@ -40,7 +40,7 @@ pub fn sentence(check: &str) -> String {
     escape::line(&check.replace('_', " "))
 }
 
-/// What a student is told of a function: the diagnosis, its sentence or the compiler's words, the hint.
+/// The texts for a student about a function: the diagnosis, its sentence or the compiler's message, the hint.
 pub fn notes(function: &FunctionGrade, show_diagnosis: bool) -> Vec<String> {
     let mut notes = Vec::new();
     match &function.diagnosis {

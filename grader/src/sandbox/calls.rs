@@ -12,7 +12,7 @@ use seccompiler::{
 
 use super::Profile;
 
-/// What nobody in the sandbox may call: other processes, mounts, namespaces, users, the machine, new ways into the kernel.
+/// System calls that are refused to every program in the sandbox: other processes, mounts, namespaces, users, the machine, new ways into the kernel.
 const NEVER: &[i64] = &[
     libc::SYS_socket,
     libc::SYS_ptrace,
@@ -83,7 +83,7 @@ const NEVER: &[i64] = &[
     libc::SYS_modify_ldt,
 ];
 
-/// What a submission may not call beside that: other processes, and ways to leave something behind in memory.
+/// System calls that are refused to a submission as well: other processes, and ways to leave something behind in memory.
 const NOT_FOR_SUBMISSIONS: &[i64] = &[
     #[cfg(target_arch = "x86_64")]
     libc::SYS_fork,

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use super::spec::Spec;
 use super::{enter, keep};
 
-/// What `confine` was asked to do.
+/// The arguments of `confine`.
 ///
 /// `keep SPEC` is how the grader calls it, `enter PIPE SPEC` how it calls itself, and `nothing` is the program of a trial.
 pub fn confine(arguments: &[String]) -> ExitCode {

@@ -1,4 +1,4 @@
-//! Whom the program runs as.
+//! The user that the program runs as.
 
 use std::fs::{self, File};
 use std::io::{self, Write};

@@ -13,7 +13,7 @@ use nix::unistd::{chdir, pivot_root};
 
 use super::Confined;
 
-/// Where the old root stands until the new one is complete.
+/// Mount point of the old root until the new one is complete.
 const OLD: &str = "/.old";
 
 const DEVICES: [&str; 3] = ["/dev/null", "/dev/zero", "/dev/urandom"];

@@ -96,7 +96,7 @@ impl std::fmt::Display for End {
     }
 }
 
-/// What a signal says about the program. The numbers are the same on all systems that run it.
+/// The cause that a signal stands for. The numbers are the same on all systems that run it.
 fn meaning(signal: i32) -> &'static str {
     match signal {
         4 => "abort or invalid instruction",

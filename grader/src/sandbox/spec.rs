@@ -1,4 +1,4 @@
-//! What the grader and its launcher tell each other.
+//! Messages between the grader and its launcher.
 
 use std::collections::BTreeSet;
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Confined;
 
-/// What the launcher is to do, its last argument.
+/// The launcher's task, its last argument.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spec {
@@ -20,7 +20,7 @@ pub struct Spec {
     pub control: Control,
 }
 
-/// Where the launcher finds the socket to the grader. The other standard descriptors are the program's.
+/// The launcher's descriptor for the socket to the grader. The other standard descriptors are the program's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Control {
     /// The program reads nothing.
@@ -29,7 +29,7 @@ pub enum Control {
     Stdout,
 }
 
-/// What the launcher tells the grader, one line each.
+/// Reports of the launcher to the grader, one line each.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum News {
     /// The program has begun.

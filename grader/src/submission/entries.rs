@@ -64,7 +64,7 @@ impl Submission {
     }
 }
 
-/// What stands before `src/` in the paths of a submission: nothing, or one folder that wraps it all.
+/// The part before `src/` in the paths of a submission: empty, or one folder that wraps it all.
 fn top(entries: &[Entry]) -> Result<String, Unreadable> {
     let paths = || entries.iter().map(|(path, _)| path.as_str());
     if paths().any(|path| path.starts_with("src/")) {

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use super::MAX_FILE_BYTES;
 use super::entries::{Content, Entry, Unreadable, may_be_taken};
 
-/// A folder with more entries than this is none of a course.
+/// A folder with more entries than this is refused.
 const MAX_ENTRIES: usize = 10_000;
 
-/// What lies in a folder, in its `src`, and in the `src` of its folders.
+/// The entries of a folder, of its `src`, and of the `src` of its folders.
 pub fn entries(folder: &Path) -> Result<Vec<Entry>, Unreadable> {
     let unreadable = |error: io::Error| Unreadable(format!("the folder cannot be read: {error}"));
     let mut found = Vec::new();

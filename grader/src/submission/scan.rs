@@ -1,5 +1,5 @@
-//! What may not stand in a submitted file: code that leaves Rust's safety, runs before the program or reads files while
-//! compiling. Comments and string literals do not count.
+//! Refuses files with code that leaves Rust's safety, runs before the program or reads files while compiling. Comments and string
+//! literals do not count.
 //!
 //! This is a fence, not the wall: a sandbox holds whatever gets past it.
 
@@ -11,12 +11,12 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 use words::{ALWAYS, AS_MACROS, IN_ATTRIBUTES, as_text};
 
-/// What is refused, and where.
+/// A refused word.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Found {
     /// Line in the file, counted from one.
     pub line: usize,
-    /// What stands there, and what to do.
+    /// The problem and the remedy.
     pub reason: String,
 }
 
@@ -140,7 +140,7 @@ impl Walk {
     }
 }
 
-/// Where a token stands.
+/// Surroundings of a token.
 #[derive(Clone, Copy, Default)]
 struct Place {
     in_attribute: bool,

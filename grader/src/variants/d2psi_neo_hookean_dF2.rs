@@ -75,7 +75,7 @@ pub const VARIANTS: &[Variant] = &[
     ),
 ];
 
-/// Where an entry stands when columns take the place of rows.
+/// Index of an entry after the exchange of rows and columns.
 fn swapped(entry: usize) -> usize {
     3 * (entry % 3) + entry / 3
 }
@@ -89,7 +89,7 @@ fn mixed(F: &Matrix3<f64>, C: f64) -> Matrix9 {
     flat(*F) * flat(inverse.transpose()).transpose() * factor
 }
 
-/// What the second derivative of J is multiplied by.
+/// Factor of the second derivative of J.
 fn factor_of_second(F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
     let J = F.determinant();
     2.0 * D * (J - 1.0) - 2.0 / 3.0 * C * F.norm_squared() * J.cbrt().powi(-5)

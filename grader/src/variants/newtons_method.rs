@@ -98,7 +98,7 @@ pub const VARIANTS: &[Variant] = &[
     ),
 ];
 
-/// What goes wrong in a Newton's method.
+/// A mistake in Newton's method.
 struct Habits {
     /// Takes the value after a step and the largest value that is good enough.
     accepts: fn(f64, f64) -> bool,

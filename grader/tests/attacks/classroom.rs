@@ -27,7 +27,7 @@ pub struct Classroom {
     solutions: BTreeMap<&'static str, String>,
 }
 
-/// What came of it.
+/// The grades of a class.
 pub struct Attacked {
     out: TempDir,
     expected: BTreeMap<&'static str, &'static str>,
@@ -125,12 +125,12 @@ impl Attacked {
         assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     }
 
-    /// What its author is told about a function.
+    /// The message for the author of a function.
     pub fn message(&self, name: &str) -> &str {
         self.function(name)["message"].as_str().unwrap_or_default()
     }
 
-    /// What is remarked about the submission as a whole.
+    /// The remarks on the submission as a whole.
     pub fn remarks(&self) -> Vec<&str> {
         self.grade["remarks"].as_array().into_iter().flatten().filter_map(Value::as_str).collect()
     }

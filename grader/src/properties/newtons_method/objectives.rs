@@ -21,7 +21,7 @@ pub struct Objective {
     pub H: Matrix,
 }
 
-/// What was asked, in order.
+/// The calls of the closures in order.
 #[derive(Clone, Debug)]
 pub enum Asked {
     Value(DVector<f64>),
@@ -46,7 +46,7 @@ impl Run {
         solves.filter_map(|asked| if let Asked::Solve(_, d) = asked { Some(d) } else { None }).collect()
     }
 
-    /// For each direction the points at which f was asked after it.
+    /// The points at which f was evaluated after each direction.
     pub fn trials(&self) -> Vec<Vec<&DVector<f64>>> {
         let mut trials = Vec::new();
         for asked in &self.asked {

@@ -50,7 +50,7 @@ impl Tree {
         }
     }
 
-    /// What the launcher says next; `None` if it says nothing for so long.
+    /// The launcher's next line; `None` if none comes within this time.
     fn news(&mut self, wait: Duration) -> io::Result<Option<News>> {
         let Some(control) = &mut self.control else { return Ok(None) };
         control.get_ref().set_read_timeout(Some(wait.max(Duration::from_millis(1))))?;

@@ -30,7 +30,7 @@ fn first_failure(function: &str, functions: Functions, seed: u64) -> Option<Stri
         return Some(trouble.to_string());
     }
     if let Some(failure) = judgement.failures.first() {
-        return Some(failure.what.to_owned());
+        return Some(failure.rule.to_owned());
     }
     let course = Course { subject: &subject, trusted: &Local(REFERENCE), seed };
     let (_, checks) = FUNCTIONS.iter().find(|(name, _)| *name == function)?;
@@ -41,7 +41,7 @@ fn first_failure(function: &str, functions: Functions, seed: u64) -> Option<Stri
     checks.iter().find(|check| !passes(check.run)).map(|check| check.name.to_owned())
 }
 
-/// What `find` says of the variants of each function; the functions are shared between two threads.
+/// Results of `find` for the variants of each function; the functions are shared between two threads.
 fn in_parallel<T: Send>(find: impl Fn(&'static [Variant]) -> Vec<T> + Sync) -> Vec<T> {
     let half = |first: usize| ALL.into_iter().skip(first).step_by(2).flat_map(&find).collect::<Vec<_>>();
     thread::scope(|scope| {

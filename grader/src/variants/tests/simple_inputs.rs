@@ -53,7 +53,7 @@ fn flat(matrix: &CsrMatrix<f64>) -> Vec<f64> {
     shape.into_iter().chain(dense.iter().copied()).collect()
 }
 
-/// What a table answers on the simple inputs of one function.
+/// Answers of an implementation on the simple inputs of one function.
 pub fn answers(function: &str, table: &Functions) -> Vec<Vec<f64>> {
     let V = vertices();
     match function {

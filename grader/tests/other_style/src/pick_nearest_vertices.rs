@@ -37,7 +37,7 @@ pub fn pick_nearest_vertices(
     V.iter().enumerate().filter(|(_, x)| (*x - point).norm() <= radius).map(|(vertex, _)| vertex).collect()
 }
 
-/// Where a line meets the plane of a triangle, if that is on the inner side of its three edges.
+/// The point at which a line meets the plane of a triangle, if that is on the inner side of its three edges.
 fn meets(near: &Vector3<f64>, sight: &Vector3<f64>, corners: [Vector3<f64>; 3]) -> Option<f64> {
     let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
     let t = normal.dot(&(corners[0] - near)) / normal.dot(sight);
