@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use fem_engine::forces::acting::Acting;
-use fem_engine::materials::Material;
+use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::solvers::{Preconditioner, Solver, SolverChoice};
 use fem_scene::simulate::quantile;
@@ -19,11 +19,11 @@ const LONG_ENOUGH: (f64, usize) = (0.5, 15);
 pub fn run(arguments: &RunArguments) -> Result<(), End> {
     let scene = arguments.scene().map_err(End::unusable)?;
     let body = fem_scene::body(&scene, &arguments.data).map_err(End::unusable)?;
-    let Some(material) = Material::<f64>::new(&scene.material) else {
-        return Err(End::unusable(scene.refuse("material", "lacks the moduli of its model")));
+    let Some(law) = AnyLaw::new(&scene.material) else {
+        return Err(End::unusable(scene.refuse("material", "lacks the parameters of its model")));
     };
     let name = arguments.solver.unwrap_or(SolverName::Cholesky);
-    let system = System::<f64>::new(&scene, body, material, choice(name));
+    let system = System::<f64>::new(&scene, body, law, choice(name));
     let (nodes, free, elements) = (system.nodes(), system.free(), system.elements.count);
     println!("{}\n", Machine::this().line());
     println!("{}: {nodes} nodes, {free} free, {elements} elements, {} blocks\n", scene.name, system.pattern.blocks());

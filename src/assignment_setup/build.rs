@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use fem_scene::{Body, Integrator, Interaction, Model, Pipeline, Precision, Scene, SceneError};
+use fem_scene::{Body, Integrator, Interaction, Pipeline, Precision, Scene, SceneError};
 use nalgebra::{DVector, Vector3};
 
 use super::constraints::{Constraints, stack};
@@ -90,7 +90,7 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
             scene.refuse("pipeline", "is \"engine\", and these are the functions of the course; write \"course\"")
         );
     }
-    if scene.material.model != Model::NeoHookean {
+    if scene.material.model != "neo_hookean" {
         return Err(scene.refuse("material.model", "is not one that the course has; write \"neo_hookean\""));
     }
     if !INTEGRATORS.contains(&scene.time.integrator) {

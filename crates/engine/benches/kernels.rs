@@ -9,7 +9,7 @@ use std::time::Duration;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use fem_engine::forces::acting::Acting;
-use fem_engine::materials::Material;
+use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::number::Real;
 use fem_engine::solvers::{Preconditioner, Solver, SolverChoice};
@@ -29,8 +29,8 @@ fn beam(law: &str, cells: usize) -> Scene {
 
 fn system<T: Real>(scene: &Scene, choice: SolverChoice) -> System<T> {
     let body = body(scene, Path::new("")).expect("a box needs no files");
-    let material = Material::<T>::new(&scene.material).expect("moduli of every law");
-    System::new(scene, body, material, choice)
+    let law = AnyLaw::new(&scene.material).expect("a known law with its parameters");
+    System::new(scene, body, law, choice)
 }
 
 /// Displacements that bend and twist a little, m.

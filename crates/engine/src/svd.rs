@@ -40,7 +40,7 @@ impl<T: Number> Svd<T> {
 }
 
 /// Decomposes any finite F, to round-off relative to its largest entry.
-#[inline(always)]
+#[inline(never)] // one instance for each number type
 pub fn svd<T: Number>(F: &Tensor<T>) -> Svd<T> {
     let size = largest_entry(F);
     let inverse = T::one() / size;

@@ -108,7 +108,7 @@ fn end_traction(tractions: &[Traction], length: f64) -> Option<Vector3<f64>> {
 
 /// Young's modulus (Pa) and Poisson's ratio at small strain; `None` where the table lacks them.
 pub fn moduli(material: &Material) -> Option<(f64, f64)> {
-    match (material.young, material.poisson, material.c, material.d) {
+    match (material.young, material.poisson, material.C, material.D) {
         (Some(young), Some(poisson), _, _) => Some((young, poisson)),
         (_, _, Some(C), Some(D)) => Some((18.0 * C * D / (3.0 * D + C), (3.0 * D - 2.0 * C) / (6.0 * D + 2.0 * C))),
         _ => None,

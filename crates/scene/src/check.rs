@@ -3,10 +3,10 @@
 mod loads;
 mod motion;
 
-use super::{Damping, Material, MeshTable, Model, Newton, Scene, Solver, SolverKind, Static, Time};
+use super::{Damping, MeshTable, Newton, Scene, Solver, SolverKind, Static, Time};
 
 /// The field that is wrong, and what is wrong with it together with the remedy.
-type Problem = (String, String);
+pub(super) type Problem = (String, String);
 
 /// The most cuts of each tetrahedron into eight: 8⁴ = 4096 of each.
 const MOST_REFINEMENTS: u32 = 4;
@@ -14,7 +14,7 @@ const MOST_REFINEMENTS: u32 = 4;
 /// Returns the first problem.
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     check_mesh(&scene.mesh)?;
-    check_material(&scene.material)?;
+    scene.material.check()?;
     check_time(&scene.time)?;
     loads::check(scene)?;
     motion::check(scene)?;
@@ -24,7 +24,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     scene.solver.as_ref().map_or(Ok(()), check_solver)
 }
 
-fn problem<T>(field: &str, text: impl Into<String>) -> Result<T, Problem> {
+pub(super) fn problem<T>(field: &str, text: impl Into<String>) -> Result<T, Problem> {
     Err((field.to_owned(), text.into()))
 }
 
@@ -34,7 +34,7 @@ const LARGEST: f64 = 1e60;
 /// And numbers nearer to zero than these.
 const SMALLEST: f64 = 1e-60;
 
-fn check_positive(field: &str, value: f64, unit: &str) -> Result<(), Problem> {
+pub(super) fn check_positive(field: &str, value: f64, unit: &str) -> Result<(), Problem> {
     // NaN fails the comparison.
     if !(value > 0.0 && value.is_finite()) {
         return problem(field, format!("is {value}; give a positive number{unit}"));
@@ -53,7 +53,7 @@ fn check_not_negative(field: &str, value: f64, unit: &str) -> Result<(), Problem
     check_size(field, value)
 }
 
-fn check_finite(field: &str, values: &[f64]) -> Result<(), Problem> {
+pub(super) fn check_finite(field: &str, values: &[f64]) -> Result<(), Problem> {
     match values.iter().find(|value| !value.is_finite()) {
         Some(value) => problem(field, format!("is {value}; give finite numbers")),
         None => values.iter().try_for_each(|&value| check_size(field, value)),
@@ -85,27 +85,6 @@ fn check_mesh(mesh: &MeshTable) -> Result<(), Problem> {
         (Some(_), Some(_)) => problem("mesh.box", "stands beside `file`; keep one of the two"),
         (None, None) => problem("mesh", "names no tetrahedra; give it `file` or `box`"),
         _ => Ok(()),
-    }
-}
-
-fn check_material(material: &Material) -> Result<(), Problem> {
-    check_positive("material.density", material.density, " of kg/m³")?;
-    match (material.c, material.d, material.young, material.poisson) {
-        (Some(C), Some(D), None, None) => {
-            if material.model != Model::NeoHookean {
-                return problem("material.C", "and D belong to neo_hookean; give this model young and poisson");
-            }
-            check_positive("material.C", C, " of Pa")?;
-            check_positive("material.D", D, " of Pa")
-        }
-        (None, None, Some(young), Some(poisson)) => {
-            check_positive("material.young", young, " of Pa")?;
-            if poisson > -1.0 && poisson < 0.5 {
-                return Ok(());
-            }
-            problem("material.poisson", format!("is {poisson}; Poisson's ratio lies above -1 and below 0.5"))
-        }
-        _ => problem("material", "needs either C and D or young and poisson; give one pair and only one"),
     }
 }
 

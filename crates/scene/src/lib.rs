@@ -16,6 +16,7 @@ mod integrator;
 mod interaction;
 mod load;
 mod loads;
+mod material;
 mod methods;
 mod motion;
 mod nodes;
@@ -30,6 +31,7 @@ pub use integrator::Integrator;
 pub use interaction::{Anchor, Interaction};
 pub use load::{load, names, parse};
 pub use loads::{BodyForce, Drag, DragVertex, Gravity, SidePlane, Spring, Traction};
+pub use material::{MODELS, Material};
 pub use methods::{Damping, Newton, Precision, Preconditioner, Projection, Solver, SolverKind, Static, Time};
 pub use motion::{Fixed, Plane, Prescribed, Rotation};
 pub use timer::Timer;
@@ -134,63 +136,6 @@ pub struct Cuboid {
     pub size: [f64; 3],
     /// Cubes per metre.
     pub cells_per_unit: usize,
-}
-
-/// `[material]`: C and D, or Young's modulus and Poisson's ratio.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct Material {
-    /// Which law.
-    pub model: Model,
-    /// Neo-Hookean C, Pa.
-    #[serde(rename = "C")]
-    pub c: Option<f64>,
-    /// Neo-Hookean D, Pa.
-    #[serde(rename = "D")]
-    pub d: Option<f64>,
-    /// Young's modulus, Pa.
-    pub young: Option<f64>,
-    /// Poisson's ratio.
-    pub poisson: Option<f64>,
-    /// Density, kg/m³.
-    pub density: f64,
-}
-
-impl Material {
-    /// C and D, Pa: as given, or those with the same small-strain moduli as `young` and `poisson`,
-    /// C = E/(4(1+ν)) and D = E/(6(1−2ν)).
-    pub fn neo_hookean(&self) -> Option<(f64, f64)> {
-        match (self.c, self.d, self.young, self.poisson) {
-            (Some(C), Some(D), _, _) => Some((C, D)),
-            (_, _, Some(E), Some(nu)) => Some((E / (4.0 * (1.0 + nu)), E / (6.0 * (1.0 - 2.0 * nu)))),
-            _ => None,
-        }
-    }
-}
-
-/// Constitutive law.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-#[allow(missing_docs)] // the names are the field's
-pub enum Model {
-    Linear,
-    Corotated,
-    StVenantKirchhoff,
-    NeoHookean,
-    StableNeoHookean,
-}
-
-impl Model {
-    /// The name as scene files spell it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Linear => "linear",
-            Self::Corotated => "corotated",
-            Self::StVenantKirchhoff => "st_venant_kirchhoff",
-            Self::NeoHookean => "neo_hookean",
-            Self::StableNeoHookean => "stable_neo_hookean",
-        }
-    }
 }
 
 /// `[mass]`

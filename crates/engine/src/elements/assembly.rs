@@ -2,8 +2,8 @@
 
 use super::build::NONE;
 use super::kernel::{
-    LaneBlock, corner_blocks, corner_gradients, displacement_gradient, element_hessian, energy, invariant_blocks,
-    squares,
+    LaneBlock, corner_blocks, corner_gradients, displacement_gradient, element_hessian, invariant_blocks, squares,
+    total_energy,
 };
 use super::parallel::over_chunks;
 use super::{Batch, Chunk, Elements};
@@ -16,7 +16,7 @@ use crate::tensor::{from_fn, volume_change};
 
 impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     /// Elastic energy at displacements `u` of all nodes, J; not finite where the law does not allow an element.
-    pub fn energy<L: Law<T::Lanes>>(&self, law: L, u: &[[T; D]]) -> f64 {
+    pub fn energy(&self, law: &dyn Law<T::Lanes>, u: &[[T; D]]) -> f64 {
         let of_chunk = |chunk: &Chunk<T, D, N>, _: &mut [()]| energy_of(chunk, law, u);
         over_chunks(&self.chunks, &mut [], |_| 0, of_chunk)
     }
@@ -29,7 +29,7 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     }
 
     /// Adds the gradient of the energy by the nodes' positions, N.
-    pub fn add_gradient<L: Law<T::Lanes>>(&self, law: L, u: &[[T; D]], gradient: &mut [[T; D]]) {
+    pub fn add_gradient(&self, law: &dyn Law<T::Lanes>, u: &[[T; D]], gradient: &mut [[T; D]]) {
         let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; D]]| {
             add_gradient_of(chunk, law, u, sums);
             0.0
@@ -38,13 +38,13 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     }
 
     /// Energy and gradient in one pass.
-    pub fn add_energy_and_gradient<L: Law<T::Lanes>>(&self, law: L, u: &[[T; D]], gradient: &mut [[T; D]]) -> f64 {
+    pub fn add_energy_and_gradient(&self, law: &dyn Law<T::Lanes>, u: &[[T; D]], gradient: &mut [[T; D]]) -> f64 {
         let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; D]]| add_energy_and_gradient_of(chunk, law, u, sums);
         over_chunks(&self.chunks, gradient, |chunk| chunk.nodes.end, of_chunk)
     }
 
     /// Adds `factor` times the Hessian of the energy to the values of the pattern that the elements were made for, N/m.
-    pub fn add_stiffness<L: Law<T::Lanes>>(&self, law: L, factor: T, u: &[[T; D]], values: &mut [Block<T, D>]) {
+    pub fn add_stiffness(&self, law: &dyn Law<T::Lanes>, factor: T, u: &[[T; D]], values: &mut [Block<T, D>]) {
         let of_chunk = |chunk: &Chunk<T, D, N>, values: &mut [Block<T, D>]| {
             add_stiffness_of(chunk, law, factor, u, values);
             0.0
@@ -53,9 +53,9 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     }
 
     /// Adds `factor` K(u) d, the change of the gradient along a direction, without a matrix, N.
-    pub fn add_stiffness_times<L: Law<T::Lanes>>(
+    pub fn add_stiffness_times(
         &self,
-        law: L,
+        law: &dyn Law<T::Lanes>,
         factor: T,
         u: &[[T; D]],
         d: &[[T; D]],
@@ -144,12 +144,12 @@ fn batches<T: Real, const D: usize, const N: usize>(
     chunk.batches.iter().zip(chunk.corners.chunks_exact(T::WIDTH))
 }
 
-fn energy_of<T: Real, L: Law<T::Lanes>, const D: usize, const N: usize>(
+fn energy_of<T: Real, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
-    law: L,
+    law: &dyn Law<T::Lanes>,
     u: &[[T; D]],
 ) -> f64 {
-    let of_batch = |(batch, corners)| energy(batch, law, &displacement_gradient(batch, corners, u));
+    let of_batch = |(batch, corners)| total_energy(batch, law.energy(&displacement_gradient(batch, corners, u)));
     batches(chunk).map(of_batch).sum()
 }
 
@@ -158,9 +158,9 @@ fn squares_of<T: Real, const D: usize, const N: usize>(chunk: &Chunk<T, D, N>, u
     batches(chunk).map(of_batch).sum()
 }
 
-fn add_gradient_of<T: Real, L: Law<T::Lanes>, const D: usize, const N: usize>(
+fn add_gradient_of<T: Real, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
-    law: L,
+    law: &dyn Law<T::Lanes>,
     u: &[[T; D]],
     sums: &mut [[T; D]],
 ) {
@@ -170,24 +170,25 @@ fn add_gradient_of<T: Real, L: Law<T::Lanes>, const D: usize, const N: usize>(
     }
 }
 
-fn add_energy_and_gradient_of<T: Real, L: Law<T::Lanes>, const D: usize, const N: usize>(
+fn add_energy_and_gradient_of<T: Real, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
-    law: L,
+    law: &dyn Law<T::Lanes>,
     u: &[[T; D]],
     sums: &mut [[T; D]],
 ) -> f64 {
     let mut total = 0.0;
     for (batch, corners) in batches(chunk) {
         let G = displacement_gradient(batch, corners, u);
-        total += energy(batch, law, &G);
-        scatter(chunk, corners, &corner_gradients(batch, &law.stress(&G)), sums);
+        let (energy, P) = law.energy_and_stress(&G);
+        total += total_energy(batch, energy);
+        scatter(chunk, corners, &corner_gradients(batch, &P), sums);
     }
     total
 }
 
-fn add_stiffness_of<T: Real, L: Law<T::Lanes>, const D: usize, const N: usize>(
+fn add_stiffness_of<T: Real, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
-    law: L,
+    law: &dyn Law<T::Lanes>,
     factor: T,
     u: &[[T; D]],
     values: &mut [Block<T, D>],
@@ -205,9 +206,9 @@ fn add_stiffness_of<T: Real, L: Law<T::Lanes>, const D: usize, const N: usize>(
     }
 }
 
-fn add_stiffness_times_of<T: Real, L: Law<T::Lanes>, const D: usize, const N: usize>(
+fn add_stiffness_times_of<T: Real, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
-    law: L,
+    law: &dyn Law<T::Lanes>,
     factor: T,
     u: &[[T; D]],
     d: &[[T; D]],

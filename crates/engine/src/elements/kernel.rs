@@ -3,7 +3,7 @@
 use simba::simd::{SimdPartialOrd, SimdValue};
 
 use super::Batch;
-use crate::materials::{Law, OfInvariants};
+use crate::materials::OfInvariants;
 use crate::number::Real;
 use crate::tensor::{Tensor, Tensor4, dot, zero};
 
@@ -179,17 +179,13 @@ pub(super) fn element_hessian<T: Real, const D: usize, const N: usize>(
     all
 }
 
-/// Energy of a batch, J.
+/// Energy of a batch from its densities, J.
 #[inline(always)]
-pub(super) fn energy<T: Real, const D: usize, L: Law<T::Lanes>>(
-    batch: &Batch<T, D>,
-    law: L,
-    G: &Tensor<T::Lanes>,
-) -> f64 {
-    // An element of no volume has no energy, whatever its lane holds.
-    let none = T::Lanes::splat(T::default());
-    let energy = (law.energy(G) * batch.counted).select(batch.counted.simd_gt(none), none);
-    T::each(&energy).iter().map(|energy| energy.as_f64()).sum()
+pub(super) fn total_energy<T: Real, const D: usize>(batch: &Batch<T, D>, densities: T::Lanes) -> f64 {
+    // An element of no volume has no energy, whatever its lane contains.
+    let zero = T::Lanes::splat(T::default());
+    let energies = (densities * batch.counted).select(batch.counted.simd_gt(zero), zero);
+    T::each(&energies).iter().map(|energy| energy.as_f64()).sum()
 }
 
 /// Σ V G:G of a batch, m³.

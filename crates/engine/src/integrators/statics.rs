@@ -4,7 +4,6 @@ use super::follower::Loads;
 use super::initial_guess::no_start;
 use crate::forces::acting::Acting;
 use crate::forces::pulls::AnchorSpring;
-use crate::materials::Material;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::Newton;
@@ -46,8 +45,7 @@ impl<T: Real> Statics<T> {
     /// For a body; a linear one keeps no more of `newton` than its solver.
     pub fn new(newton: Newton<T>, system: &System<T>, load_steps: usize) -> Self {
         let zero = || vec![[T::default(); 3]; system.nodes()];
-        let is_linear =
-            matches!(system.material, Material::Linear(_)) && system.springs.is_empty() && system.pressures.is_empty();
+        let is_linear = system.law.is_linear() && system.springs.is_empty() && system.pressures.is_empty();
         let method = if is_linear {
             Method::Linear(Box::new(Linear {
                 tolerance: newton.limits().solver_tolerance,

@@ -6,8 +6,8 @@
 //! With F = U diag(σ) Vᵀ, R = U Vᵀ and e = σ − 1: ψ = μ Σe² + λ/2 (Σe)², P = U diag(2μ e + λ Σe) Vᵀ. R is always proper: an
 //! element that is inside out has σ_3 < 0 and is pushed back. Where σ_i + σ_j = 0, R jumps and ψ has a crease.
 
-use super::isotropic::{Principal, derivative_from, projected};
-use super::{Law, Projected};
+use super::isotropic::{Principal, derivative_from, projected_derivative_from};
+use super::{Law, NamedLaw};
 use crate::number::{Number, Real, constant};
 use crate::svd::{Svd, svd};
 use crate::tensor::{Tensor, Tensor4, dot, green_strain, half, plus_identity};
@@ -44,6 +44,18 @@ fn stretches<T: Number>(G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
 
 impl<T: Number> Corotated<T> {
     #[inline(always)]
+    fn energy_of(&self, e: &[T; 3]) -> T {
+        let sum = e[0] + e[1] + e[2];
+        self.mu * (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]) + half::<T>() * self.lambda * sum * sum
+    }
+
+    #[inline(always)]
+    fn stress_of(&self, F: &Svd<T>, e: &[T; 3]) -> Tensor<T> {
+        let (two_mu, pressure) = (constant::<T>(2.0) * self.mu, self.lambda * (e[0] + e[1] + e[2]));
+        F.with_values(&[two_mu * e[0] + pressure, two_mu * e[1] + pressure, two_mu * e[2] + pressure])
+    }
+
+    #[inline(always)]
     fn principal(&self, F: &Svd<T>, e: &[T; 3]) -> Principal<T> {
         let two = constant::<T>(2.0);
         let pressure = two * self.lambda * (e[0] + e[1] + e[2]);
@@ -65,16 +77,20 @@ impl<T: Number> Corotated<T> {
 impl<T: Number> Law<T> for Corotated<T> {
     #[inline(always)]
     fn energy(&self, G: &Tensor<T>) -> T {
-        let (_, e) = stretches(G);
-        let sum = e[0] + e[1] + e[2];
-        self.mu * (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]) + half::<T>() * self.lambda * sum * sum
+        self.energy_of(&stretches(G).1)
     }
 
     #[inline(always)]
     fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
         let (F, e) = stretches(G);
-        let (two_mu, pressure) = (constant::<T>(2.0) * self.mu, self.lambda * (e[0] + e[1] + e[2]));
-        F.with_values(&[two_mu * e[0] + pressure, two_mu * e[1] + pressure, two_mu * e[2] + pressure])
+        self.stress_of(&F, &e)
+    }
+
+    /// With one singular value decomposition for both.
+    #[inline(always)]
+    fn energy_and_stress(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
+        let (F, e) = stretches(G);
+        (self.energy_of(&e), self.stress_of(&F, &e))
     }
 
     #[inline(always)]
@@ -82,12 +98,23 @@ impl<T: Number> Law<T> for Corotated<T> {
         let (F, e) = stretches(G);
         derivative_from(&F, &self.principal(&F, &e))
     }
-}
 
-impl<T: Number> Projected<T> for Corotated<T> {
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         let (F, e) = stretches(G);
-        derivative_from(&F, &projected(&self.principal(&F, &e)))
+        projected_derivative_from(&F, &self.principal(&F, &e))
+    }
+}
+
+impl<T: Number> NamedLaw<T> for Corotated<T> {
+    const NAME: &'static str = "corotated";
+
+    fn from_scene(table: &fem_scene::Material) -> Option<Self> {
+        let (mu, lambda) = table.lame()?;
+        Some(Self { mu: constant(mu), lambda: constant(lambda) })
+    }
+
+    fn moduli(&self) -> [T; 2] {
+        [self.mu, self.lambda + constant::<T>(2.0 / 3.0) * self.mu]
     }
 }

@@ -1,6 +1,6 @@
 //! The stress derivative of a law of the invariants I = tr(FᵀF) and J = det F.
 
-use super::isotropic::{derivative_from, from_invariants, projected};
+use super::isotropic::{from_invariants, projected_derivative_from};
 use crate::number::Number;
 use crate::svd::svd;
 use crate::tensor::{Tensor, Tensor4, add_cofactor_derivative, add_diagonal, outer_products};
@@ -28,10 +28,9 @@ impl<T: Number> OfInvariants<T> {
         H
     }
 
-    /// The same with its negative eigenvalues raised to zero.
-    #[inline(always)]
-    pub fn projected(&self) -> Tensor4<T> {
+    /// ∂P/∂F with its negative eigenvalues raised to zero.
+    pub fn projected_derivative(&self) -> Tensor4<T> {
         let F = svd(&self.F);
-        derivative_from(&F, &projected(&from_invariants(&F.sigma, self.a, self.b, [self.s, self.t, self.r])))
+        projected_derivative_from(&F, &from_invariants(&F.sigma, self.a, self.b, [self.s, self.t, self.r]))
     }
 }

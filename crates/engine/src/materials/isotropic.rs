@@ -50,8 +50,8 @@ pub(super) fn from_invariants<T: Number>(sigma: &[T; 3], a: T, b: T, [s, t, r]: 
 }
 
 /// Negative eigenvalues raised to zero.
-#[inline(always)]
-pub(super) fn projected<T: Number>(principal: &Principal<T>) -> Principal<T> {
+#[inline(never)]
+fn projected<T: Number>(principal: &Principal<T>) -> Principal<T> {
     let mut raised = *principal;
     for k in 0..3 {
         raised.twist[k] = raised.twist[k].simd_max(T::zero());
@@ -101,8 +101,13 @@ fn eigen<T: Number>(A: &Tensor<T>, size: T) -> ([T; 3], [[T; 3]; 3]) {
     (diagonal, w)
 }
 
-/// ∂P/∂F
-#[inline(always)]
+/// ∂P/∂F with its negative eigenvalues raised to zero.
+pub(super) fn projected_derivative_from<T: Number>(F: &Svd<T>, principal: &Principal<T>) -> Tensor4<T> {
+    derivative_from(F, &projected(principal))
+}
+
+/// ∂P/∂F. All laws share its code, compiled once for each number type.
+#[inline(never)]
 pub(super) fn derivative_from<T: Number>(F: &Svd<T>, principal: &Principal<T>) -> Tensor4<T> {
     let half = crate::tensor::half::<T>();
     // A row of `q` is u_i v_jᵀ; with the same row of `images`, ∂P/∂F = Σ q ⊗ image.

@@ -3,7 +3,7 @@
 //! Sifakis and Barbič, FEM Simulation of 3D Deformable Solids (2012), part one, §3.2. P = 2μ ε + λ tr(ε) 1. A rotation is
 //! taken for a strain.
 
-use super::{Law, Projected};
+use super::{Law, NamedLaw};
 use crate::number::{Number, constant};
 use crate::tensor::{Tensor, Tensor4, dot, from_fn, half, trace};
 
@@ -63,12 +63,24 @@ impl<T: Number> Law<T> for Linear<T> {
         }
         H
     }
-}
 
-impl<T: Number> Projected<T> for Linear<T> {
     /// The derivative itself: its eigenvalues are 2μ, 2μ + 3λ and, for rotations, zero.
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         self.derivative(G)
+    }
+}
+
+impl<T: Number> NamedLaw<T> for Linear<T> {
+    const NAME: &'static str = "linear";
+    const IS_LINEAR: bool = true;
+
+    fn from_scene(table: &fem_scene::Material) -> Option<Self> {
+        let (mu, lambda) = table.lame()?;
+        Some(Self { mu: constant(mu), lambda: constant(lambda) })
+    }
+
+    fn moduli(&self) -> [T; 2] {
+        [self.mu, self.lambda + constant::<T>(2.0 / 3.0) * self.mu]
     }
 }

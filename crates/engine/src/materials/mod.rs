@@ -1,27 +1,26 @@
-//! Constitutive laws, one file each: energy, stress and stress derivative side by side.
+//! Constitutive laws, one file each: energy, stress and stress derivative side by side, and the facts about the law.
 //!
-//! A law is asked with the displacement gradient G = F − 1, because energies computed from F cancel near rest: at strain
-//! 1e-7 nothing would be left of their digits. Stresses are first Piola–Kirchhoff, derivatives are ∂P/∂F, flattened row by row.
-//! A [`Material`] is one of the laws, chosen by a scene.
+//! A law takes the displacement gradient G = F − 1, because energies computed from F cancel near rest: at strain 1e-7
+//! they would lose all their digits. Stresses are first Piola–Kirchhoff, derivatives are ∂P/∂F, flattened row by row.
+//! [`AnyLaw`] is one of the laws, chosen by a scene.
 
+mod any;
 mod cauchy;
 mod corotated;
 mod invariants;
 mod isotropic;
 mod linear;
-mod material;
 mod neo_hookean;
 mod st_venant_kirchhoff;
 mod stable_neo_hookean;
 #[cfg(test)]
 mod tests;
 
-pub use cauchy::{cauchy_stress, von_mises};
+pub use any::AnyLaw;
+pub use cauchy::cauchy_stress;
 pub use corotated::Corotated;
 pub use invariants::OfInvariants;
 pub use linear::Linear;
-pub(crate) use material::with_law;
-pub use material::{Material, allows_inversion};
 pub use neo_hookean::NeoHookean;
 pub use st_venant_kirchhoff::StVenantKirchhoff;
 pub use stable_neo_hookean::StableNeoHookean;
@@ -29,47 +28,72 @@ pub use stable_neo_hookean::StableNeoHookean;
 use crate::number::Number;
 use crate::tensor::{Tensor, Tensor4};
 
-/// A constitutive law, for one element or for a batch of them.
-pub trait Law<T: Number>: Copy + Send + Sync {
+/// A constitutive law, for one element or for a batch of them. A pass over elements calls it once per batch, by reference,
+/// so that each pass is compiled once for all laws.
+pub trait Law<T: Number>: Send + Sync {
     /// `ψ(G)` energy density, J/m³; zero at rest, not finite where the law does not allow the deformation.
     fn energy(&self, G: &Tensor<T>) -> T;
 
     /// `P(G) = ∂ψ/∂F`, Pa.
     fn stress(&self, G: &Tensor<T>) -> Tensor<T>;
 
+    /// Both at once. The compiler shares what both compute, but for calls that it does not inline.
+    fn energy_and_stress(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
+        (self.energy(G), self.stress(G))
+    }
+
     /// `∂P/∂F`, Pa, exact and symmetric.
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T>;
 
-    /// What the derivative is made of, where it is that of a law of invariants: much less than its 81 entries.
-    #[inline(always)]
+    /// The terms of [`derivative`](Self::derivative), if the law has no invariants but tr(FᵀF) and det F: far fewer
+    /// numbers than its 81 entries.
     fn of_invariants(&self, _G: &Tensor<T>) -> Option<OfInvariants<T>> {
         None
     }
-}
 
-/// A law whose derivative can be made positive semi-definite, element by element.
-pub trait Projected<T: Number> {
-    /// `∂P/∂F` with its negative eigenvalues raised to zero, Pa.
+    /// `∂P/∂F` with its negative eigenvalues raised to zero, Pa: the positive semi-definite projection.
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T>;
 }
 
-/// A law whose derivative is the projected one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Definite<L>(pub L);
+/// A law that scene files name, and the facts that methods ask for.
+pub trait NamedLaw<T: Number>: Law<T> + Copy {
+    /// The name in scene files.
+    const NAME: &'static str;
 
-impl<T: Number, L: Law<T> + Projected<T>> Law<T> for Definite<L> {
-    #[inline(always)]
+    /// Whether the stress is a linear function of the displacement gradient.
+    const IS_LINEAR: bool = false;
+
+    /// Whether the energy is finite for J = det F ≤ 0 too. If it is not, a step must keep J > 0 in every element.
+    const ALLOWS_INVERSION: bool = true;
+
+    /// The law with a scene's parameters; `None` if the table lacks them, as a checked table never does.
+    fn from_scene(table: &fem_scene::Material) -> Option<Self>;
+
+    /// Shear modulus and bulk modulus of small strain, Pa.
+    fn moduli(&self) -> [T; 2];
+}
+
+/// A law whose derivative is the positive semi-definite projection of another's.
+pub struct Projected<'a, T>(pub &'a dyn Law<T>);
+
+impl<T: Number> Law<T> for Projected<'_, T> {
     fn energy(&self, G: &Tensor<T>) -> T {
         self.0.energy(G)
     }
 
-    #[inline(always)]
     fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
         self.0.stress(G)
     }
 
-    #[inline(always)]
+    fn energy_and_stress(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
+        self.0.energy_and_stress(G)
+    }
+
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
+        self.0.projected_derivative(G)
+    }
+
+    fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         self.0.projected_derivative(G)
     }
 }

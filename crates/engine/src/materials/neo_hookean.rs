@@ -4,7 +4,7 @@
 //! P = a F + b cof, a = 2Cg, b = C I g' + 2D (J − 1), and
 //! ∂P/∂F = a 1 + 2Cg' (F⊗cof + cof⊗F) + (C I g'' + 2D) cof⊗cof + b ∂cof/∂F.
 
-use super::{Law, OfInvariants, Projected};
+use super::{Law, NamedLaw, OfInvariants};
 use crate::number::{Number, constant, inverse_cube_root};
 use crate::tensor::{Tensor, Tensor4, cofactor, dot, from_fn, plus_identity, trace, volume_change};
 
@@ -100,12 +100,24 @@ impl<T: Number> Law<T> for NeoHookean<T> {
     fn of_invariants(&self, G: &Tensor<T>) -> Option<OfInvariants<T>> {
         Some(self.terms(G))
     }
-}
 
-impl<T: Number> Projected<T> for NeoHookean<T> {
     /// For J > 0.
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        self.terms(G).projected()
+        self.terms(G).projected_derivative()
+    }
+}
+
+impl<T: Number> NamedLaw<T> for NeoHookean<T> {
+    const NAME: &'static str = "neo_hookean";
+    const ALLOWS_INVERSION: bool = false;
+
+    fn from_scene(table: &fem_scene::Material) -> Option<Self> {
+        let (C, D) = table.neo_hookean()?;
+        Some(Self { C: constant(C), D: constant(D) })
+    }
+
+    fn moduli(&self) -> [T; 2] {
+        [self.C + self.C, self.D + self.D]
     }
 }

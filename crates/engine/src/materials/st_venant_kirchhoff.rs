@@ -4,8 +4,8 @@
 //! With S = 2μ E + λ tr(E) 1: P = F S, and ∂P_ij/∂F_kl = δ_ik S_jl + μ ((FFᵀ)_ik δ_jl + F_il F_kj) + λ F_ij F_kl.
 //! An element that is squashed to less than 1/√3 of its length resists less and less, one that is flat not at all.
 
-use super::isotropic::{Principal, derivative_from, projected};
-use super::{Law, Projected};
+use super::isotropic::{Principal, projected_derivative_from};
+use super::{Law, NamedLaw};
 use crate::number::{Number, constant};
 use crate::svd::svd;
 use crate::tensor::{Tensor, Tensor4, dot, from_fn, green_strain, half, plus_identity, product, trace};
@@ -68,9 +68,7 @@ impl<T: Number> Law<T> for StVenantKirchhoff<T> {
         }
         H
     }
-}
 
-impl<T: Number> Projected<T> for StVenantKirchhoff<T> {
     /// With e_i = (σ_i² − 1)/2 and p_i = σ_i (2μ e_i + λ Σe), the ratios (p_i ± p_j)/(σ_i ± σ_j) divide out.
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
@@ -89,6 +87,19 @@ impl<T: Number> Projected<T> for StVenantKirchhoff<T> {
             }
             principal.scaling[k][k] += self.mu * (constant::<T>(3.0) * sigma[k] * sigma[k] - T::one()) + pressure;
         }
-        derivative_from(&F, &projected(&principal))
+        projected_derivative_from(&F, &principal)
+    }
+}
+
+impl<T: Number> NamedLaw<T> for StVenantKirchhoff<T> {
+    const NAME: &'static str = "st_venant_kirchhoff";
+
+    fn from_scene(table: &fem_scene::Material) -> Option<Self> {
+        let (mu, lambda) = table.lame()?;
+        Some(Self { mu: constant(mu), lambda: constant(lambda) })
+    }
+
+    fn moduli(&self) -> [T; 2] {
+        [self.mu, self.lambda + constant::<T>(2.0 / 3.0) * self.mu]
     }
 }

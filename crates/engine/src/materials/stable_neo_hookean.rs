@@ -7,7 +7,7 @@
 //! With i = I − 3 and j = J − 1, P = a F + b cof, a = μ' I/(I + 1), b = λ' j − μ, and
 //! ∂P/∂F = a 1 + 2μ'/(I + 1)² F⊗F + λ' cof⊗cof + b ∂cof/∂F.
 
-use super::{Law, OfInvariants, Projected};
+use super::{Law, NamedLaw, OfInvariants};
 use crate::number::{Number, constant, minus_ln_1p};
 use crate::tensor::{Tensor, Tensor4, cofactor, dot, from_fn, half, plus_identity, trace, volume_change};
 
@@ -87,11 +87,22 @@ impl<T: Number> Law<T> for StableNeoHookean<T> {
     fn of_invariants(&self, G: &Tensor<T>) -> Option<OfInvariants<T>> {
         Some(self.terms(G))
     }
-}
 
-impl<T: Number> Projected<T> for StableNeoHookean<T> {
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        self.terms(G).projected()
+        self.terms(G).projected_derivative()
+    }
+}
+
+impl<T: Number> NamedLaw<T> for StableNeoHookean<T> {
+    const NAME: &'static str = "stable_neo_hookean";
+
+    fn from_scene(table: &fem_scene::Material) -> Option<Self> {
+        let (mu, lambda) = table.lame()?;
+        Some(Self { mu: constant(mu), lambda: constant(lambda) })
+    }
+
+    fn moduli(&self) -> [T; 2] {
+        [self.mu, self.lambda + constant::<T>(2.0 / 3.0) * self.mu]
     }
 }

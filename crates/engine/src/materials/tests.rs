@@ -3,13 +3,13 @@
 mod closed_forms;
 mod derivatives;
 mod lanes;
-mod material;
 mod near_rest;
 mod projected;
+mod scenes;
 mod svd;
 mod symmetries;
 
-use super::{Corotated, Law, Linear, NeoHookean, Projected, StVenantKirchhoff, StableNeoHookean};
+use super::{AnyLaw, Corotated, Law, Linear, NeoHookean, StVenantKirchhoff, StableNeoHookean};
 use crate::number::{Number, constant};
 use crate::tensor::{Tensor, Tensor4};
 
@@ -38,25 +38,31 @@ fn stable_neo_hookean<T: Number>() -> StableNeoHookean<T> {
     StableNeoHookean { mu: constant(MU), lambda: constant(LAMBDA) }
 }
 
-/// Calls a generic function `f(name, law)` with every law.
-macro_rules! for_all_laws {
-    ($T:ty, $f:path) => {{
-        $f("linear", $crate::materials::tests::linear::<$T>());
-        for_all_objective_laws!($T, $f);
-    }};
+/// All laws.
+fn laws<T: Number>() -> Vec<AnyLaw<T>> {
+    vec![
+        AnyLaw::Linear(linear()),
+        AnyLaw::Corotated(corotated()),
+        AnyLaw::StVenantKirchhoff(st_venant_kirchhoff()),
+        AnyLaw::NeoHookean(neo_hookean()),
+        AnyLaw::StableNeoHookean(stable_neo_hookean()),
+    ]
 }
 
-/// With all but the linear one.
-macro_rules! for_all_objective_laws {
-    ($T:ty, $f:path) => {{
-        use $crate::materials::tests;
-        $f("corotated", tests::corotated::<$T>());
-        $f("St. Venant-Kirchhoff", tests::st_venant_kirchhoff::<$T>());
-        $f("neo-Hookean", tests::neo_hookean::<$T>());
-        $f("stable neo-Hookean", tests::stable_neo_hookean::<$T>());
-    }};
+/// Calls `check(name, law)` with every law.
+fn for_all_laws(check: impl Fn(&str, &dyn Law<f64>)) {
+    laws().iter().for_each(|law| check(law.name(), law.as_law()));
 }
-use {for_all_laws, for_all_objective_laws};
+
+/// Calls it with every law that ignores rotations.
+fn for_all_objective_laws(check: impl Fn(&str, &dyn Law<f64>)) {
+    laws().iter().filter(|law| !law.is_linear()).for_each(|law| check(law.name(), law.as_law()));
+}
+
+/// Calls it with every law whose energy is finite for J ≤ 0.
+fn for_all_laws_with_inversion(check: impl Fn(&str, &dyn Law<f64>)) {
+    laws().iter().filter(|law| law.allows_inversion()).for_each(|law| check(law.name(), law.as_law()));
+}
 
 /// Evenly spread numbers in [−1, 1], the same in every run: SplitMix64 by Steele, Lea and Flood (2014).
 struct Random(u64);

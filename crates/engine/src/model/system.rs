@@ -11,7 +11,7 @@ use crate::forces::dead_load;
 use crate::forces::pressure::Pressure;
 use crate::forces::pulls::AnchorSpring;
 use crate::forces::springs::Spring;
-use crate::materials::{Definite, Material, with_law};
+use crate::materials::{AnyLaw, Projected};
 use crate::model::mass::Mass;
 use crate::model::numbering::Numbering;
 use crate::number::Real;
@@ -36,7 +36,7 @@ pub struct System<T: Real> {
     /// Where the blocks of the stiffness are; its rows are the free nodes.
     pub pattern: Arc<Pattern>,
     /// Constitutive law.
-    pub material: Material<T>,
+    pub law: AnyLaw<T::Lanes>,
     /// Factor of its moduli in each of the mesh's elements; empty for none.
     pub stiffer: Vec<f64>,
     /// Mass of all nodes.
@@ -89,7 +89,7 @@ impl std::ops::Add for Energy {
 
 impl<T: Real> System<T> {
     /// Builds what the scene names, and nothing else; rows and blocks as the solver wants them.
-    pub fn new(scene: &Scene, body: Body, material: Material<T>, choice: SolverChoice) -> Self {
+    pub fn new(scene: &Scene, body: Body, law: AnyLaw<T::Lanes>, choice: SolverChoice) -> Self {
         let mesh = &body.shape.mesh;
         let order =
             Numbering::new(choice.numbering(), &mesh.vertices, &mesh.elements, &fully_constrained_nodes(scene, &body));
@@ -119,7 +119,7 @@ impl<T: Real> System<T> {
             pattern: Arc::new(pattern),
             order,
             rest,
-            material,
+            law,
             mass,
             dead_load,
             springs,
@@ -152,22 +152,20 @@ impl<T: Real> System<T> {
 
     /// Potential energy: elastic energy, that of springs, less the work of loads from rest on.
     pub fn potential(&self, u: &[[T; 3]], acting: Acting<T>) -> Energy {
-        let elastic = with_law!(self.material, law: T::Lanes => self.elements.energy(law, u));
+        let elastic = self.elements.energy(self.law.as_law(), u);
         Energy::of(elastic) + Energy::of(self.spring_energy(u)) + acting.potential(u)
     }
 
     /// Size of what cancels in the elastic energy where the body has turned, J. A turn alone has no energy, but that of its
     /// rounding.
     pub fn cancelled(&self, u: &[[T; 3]]) -> f64 {
-        self.material.size() * self.elements.squares(u)
+        self.law.size() * self.elements.squares(u)
     }
 
     /// Energy and gradient of [`potential`](Self::potential), the latter in `gradient`, N.
     pub fn potential_and_gradient(&self, u: &[[T; 3]], acting: Acting<T>, gradient: &mut [[T; 3]]) -> Energy {
         gradient.fill([T::default(); 3]);
-        let elastic = self.work.energies.time(
-            || with_law!(self.material, law: T::Lanes => self.elements.add_energy_and_gradient(law, u, gradient)),
-        );
+        let elastic = self.work.energies.time(|| self.elements.add_energy_and_gradient(self.law.as_law(), u, gradient));
         self.add_outer_gradient(u, acting, gradient);
         Energy::of(elastic) + Energy::of(self.spring_energy(u)) + acting.potential(u)
     }
@@ -175,31 +173,25 @@ impl<T: Real> System<T> {
     /// Gradient of the potential energy, N: minus the force on each node.
     pub fn gradient(&self, u: &[[T; 3]], acting: Acting<T>, gradient: &mut [[T; 3]]) {
         gradient.fill([T::default(); 3]);
-        self.work
-            .forces
-            .time(|| with_law!(self.material, law: T::Lanes => self.elements.add_gradient(law, u, gradient)));
+        self.work.forces.time(|| self.elements.add_gradient(self.law.as_law(), u, gradient));
         self.add_outer_gradient(u, acting, gradient);
     }
 
     /// Adds `factor` K(u), the Hessian of the body's own energy, N/m.
     pub fn add_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
-        self.work
-            .stiffness
-            .time(|| with_law!(self.material, law: T::Lanes => self.elements.add_stiffness(law, factor, u, values)));
+        self.work.stiffness.time(|| self.elements.add_stiffness(self.law.as_law(), factor, u, values));
         self.add_spring_stiffness(factor, u, false, values);
     }
 
     /// The same with each element and spring projected to positive semi-definite.
     pub fn add_projected_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
-        self.work.projection.time(
-            || with_law!(self.material, law: T::Lanes => self.elements.add_stiffness(Definite(law), factor, u, values)),
-        );
+        self.work.projection.time(|| self.elements.add_stiffness(&Projected(self.law.as_law()), factor, u, values));
         self.add_spring_stiffness(factor, u, true, values);
     }
 
     /// Adds `factor` K(u) d, without a matrix, N.
     pub fn add_stiffness_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
-        with_law!(self.material, law: T::Lanes => self.elements.add_stiffness_times(law, factor, u, d, product));
+        self.elements.add_stiffness_times(self.law.as_law(), factor, u, d, product);
         for spring in &self.springs {
             spring.add_stiffness_times(factor, u, d, product);
         }

@@ -1,7 +1,6 @@
 //! How far to go along a direction.
 
 use super::{Iterate, Newton};
-use crate::materials::Material;
 use crate::newton::incremental_potential::IncrementalPotential;
 use crate::number::Real;
 use crate::vector::{axpy, dot, max_norm};
@@ -63,8 +62,8 @@ impl<T: Real> Newton<T> {
     /// A law that forbids J ≤ 0 may still have finite energy in a point: a long step must not leap across the forces that
     /// would have stopped a shorter one.
     fn least_J(&mut self, objective: &IncrementalPotential<T>, w: &[[T; 3]]) -> Option<f64> {
-        let has_barrier = matches!(objective.system.material, Material::NeoHookean(_));
-        let is_long = has_barrier && max_norm(&self.direction) > LONG * objective.system.length;
+        let is_long =
+            !objective.system.law.allows_inversion() && max_norm(&self.direction) > LONG * objective.system.length;
         is_long.then(|| KEPT * objective.min_det_F(w, &mut self.scratch))
     }
 }

@@ -1,6 +1,6 @@
 //! From a scene to a simulation at rest.
 
-use crate::materials::Material;
+use crate::materials::AnyLaw;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
@@ -61,15 +61,15 @@ pub(super) fn solver_choice(scene: &Scene, nodes: usize) -> SolverChoice {
 impl<T: Real> Simulator<T> {
     /// Builds what the scene names, and nothing else.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
-        let Some(material) = Material::<T>::new(&scene.material) else {
-            return Err(scene.refuse("material", "lacks the moduli of its model; give young and poisson"));
+        let Some(law) = AnyLaw::new(&scene.material) else {
+            return Err(scene.refuse("material", "lacks the parameters of its model; give those that README.md names"));
         };
         if scene.time.integrator == Integrator::Static {
             rigid::check(scene, &body)?;
         }
         let skinning = body.shape.display.as_ref().map(|display| Skinning::new(&body.shape.mesh, &display.vertices));
         let choice = solver_choice(scene, body.shape.mesh.vertices.len());
-        let system = System::new(scene, body, material, choice);
+        let system = System::new(scene, body, law, choice);
         range::check(scene, &system)?;
         let state = State::at_rest(system.nodes());
         Ok(Self {
@@ -78,7 +78,7 @@ impl<T: Real> Simulator<T> {
             choice,
             dt: scene.time.dt,
             skinning,
-            drag_stiffness: scene.drag.as_ref().map_or(scene_stiffness(scene, system.length), |drag| drag.stiffness),
+            drag_stiffness: scene.drag.as_ref().map_or(hand_stiffness(&system), |drag| drag.stiffness),
             pull: None,
             springs: Vec::new(),
             counters: Default::default(),
@@ -93,8 +93,9 @@ impl<T: Real> Simulator<T> {
     }
 }
 
-/// A pull that deforms the body visibly and does not tear it, N/m: a modulus times its length.
-fn scene_stiffness(scene: &Scene, length: f64) -> f64 {
-    let modulus = scene.material.c.or(scene.material.young.map(|young| young / 5.0)).unwrap_or(1e5);
-    modulus * length
+/// Stiffness of the spring by which a user drags a node, N/m: half the shear modulus times the body's length, so that it
+/// deforms the body visibly and does not tear it.
+fn hand_stiffness<T: Real>(system: &System<T>) -> f64 {
+    let [shear, _] = system.law.moduli();
+    0.5 * shear * system.length
 }

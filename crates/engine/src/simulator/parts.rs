@@ -41,15 +41,17 @@ fn body<T: Real>(engine: &Simulator<T>) -> Vec<Part> {
     ]
 }
 
-/// The law, and what linear tetrahedra make of it.
+/// The law with its parameters, and the warning that linear tetrahedra need.
 fn material(material: &Material) -> String {
-    let moduli = match (material.young, material.poisson) {
-        (Some(young), Some(poisson)) => format!("E = {young:.4e} Pa, ν = {poisson}"),
-        _ => format!("C = {:.4e} Pa, D = {:.4e} Pa", material.c.unwrap_or_default(), material.d.unwrap_or_default()),
-    };
     let locks = material.poisson.is_some_and(|poisson| poisson > LOCKS);
     let note = if locks { "; linear tetrahedra lock so near to ½: displacements come out far too small" } else { "" };
-    format!("{}, {moduli}{note}", material.model.name())
+    let parameter = |(name, value)| match name {
+        "young" => format!(", E = {value:.4e} Pa"),
+        "poisson" => format!(", ν = {value}"),
+        _ => format!(", {name} = {value:.4e} Pa"),
+    };
+    let parameters: String = material.parameters().map(parameter).collect();
+    format!("{}{parameters}{note}", material.model)
 }
 
 /// What holds the body and acts on it.

@@ -7,7 +7,7 @@ use fem_scene::{Precision, Scene, SceneError};
 /// Refuses a scene of which a derived quantity would be zero or infinite. Each of its own numbers has been checked; products of
 /// several can still be out of range, in single precision above all.
 pub(super) fn check<T: Real>(scene: &Scene, system: &System<T>) -> Result<(), SceneError> {
-    let [first, second] = system.material.moduli();
+    let [shear, bulk] = system.law.moduli();
     let mass = system.mass.diagonal();
     let rate = T::of(1.0 / (scene.time.dt * scene.time.dt));
     let volumes = fem_mesh::volumes(&system.shape.mesh);
@@ -15,10 +15,10 @@ pub(super) fn check<T: Real>(scene: &Scene, system: &System<T>) -> Result<(), Sc
     let forces = system.dead_load.iter().flatten().flatten();
     let derived = [
         ("mesh", "a volume of an element", volumes.iter().all(has_range)),
-        ("material", "moduli", is_positive(first) && second.as_f64().is_finite()),
+        ("material", "moduli", is_positive(shear) && bulk.is_finite()),
         ("material.density", "a mass of a node", mass.iter().all(|&mass| is_positive(mass))),
         ("time.dt", "a mass over the time step squared", mass.iter().all(|&mass| is_positive(mass * rate))),
-        ("material", "a stiffness of an element", volumes.iter().all(|volume| is_stiff(first, *volume))),
+        ("material", "a stiffness of an element", volumes.iter().all(|volume| is_stiff(T::of(shear), *volume))),
         ("gravity", "a force on a node", forces.clone().all(|force| force.as_f64().is_finite())),
         ("drag", "a stiffness", system.drag.iter().all(|(drag, _)| is_positive(T::of(drag.stiffness)))),
         ("springs", "a stiffness", system.springs.iter().all(|spring| is_positive(spring.stiffness))),

@@ -10,7 +10,7 @@ use super::stepper::Stepper;
 use super::{Simulator, parts, reactions};
 use crate::forces::acting::Acting;
 use crate::forces::pulls::{AnchorSpring, Pulls};
-use crate::materials::{Material, allows_inversion, cauchy_stress};
+use crate::materials::{AnyLaw, cauchy_stress};
 use crate::model::state::State;
 use crate::number::Real;
 use crate::pick;
@@ -98,7 +98,7 @@ impl<T: Real> Simulation for Simulator<T> {
 
     fn stresses(&self) -> Vec<Matrix3<f64>> {
         let (mesh, x) = (&self.system.shape.mesh, self.nodes_now());
-        let Some(material) = Material::<f64>::new(&self.scene.material) else { return Vec::new() };
+        let Some(law) = AnyLaw::<f64>::new(&self.scene.material) else { return Vec::new() };
         let stress = |(number, element): (usize, &[usize; 4])| {
             let edges = |of: &[Vector3<f64>]| {
                 let [a, b, c, d] = element.map(|node| of[node]);
@@ -106,7 +106,7 @@ impl<T: Real> Simulation for Simulator<T> {
             };
             let (rest, now) = (edges(&mesh.vertices), edges(&x));
             let G = (now - rest) * rest.try_inverse().unwrap_or_default();
-            let stress = cauchy_stress(&material, &from_fn(|i, j| G[(i, j)]));
+            let stress = cauchy_stress(&law, &from_fn(|i, j| G[(i, j)]));
             let factor = self.system.stiffer.get(number).copied().unwrap_or(1.0);
             Matrix3::from_fn(|i, j| factor * stress[i][j])
         };
@@ -192,7 +192,7 @@ impl<T: Real> Simulator<T> {
         if let Some(node) = self.state.first_not_finite() {
             return Err(Cause::NotFinite { node: self.system.order.mesh_node[node] as usize });
         }
-        if allows_inversion(self.scene.material.model) {
+        if self.system.law.allows_inversion() {
             return Ok(());
         }
         Cause::inverted(self.min_J()).map_or(Ok(()), Err)

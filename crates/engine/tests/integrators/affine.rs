@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem_engine::forces::acting::Acting;
-use fem_engine::materials::Material;
+use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::solvers::SolverChoice;
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -42,8 +42,8 @@ fn patch(model: &str) -> Patch {
         *X += 0.07 * random.vector();
     }
     fem_mesh::check(&body.shape.mesh, Path::new("patch")).unwrap();
-    let material = Material::new(&scene.material).unwrap();
-    let system = System::new(&scene, body, material, SolverChoice::Cholesky);
+    let law = AnyLaw::new(&scene.material).unwrap();
+    let system = System::new(&scene, body, law, SolverChoice::Cholesky);
     let inner = system.rest.iter().map(is_inner).collect();
     Patch { system, inner }
 }

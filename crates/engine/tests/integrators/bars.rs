@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem_engine::materials::Material;
+use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::solvers::SolverChoice;
 use fem_scene::simulation::Simulation;
@@ -51,8 +51,8 @@ integrator = "verlet"
 fn lowest_frequency(cells_per_metre: usize, mass: &str) -> f64 {
     let scene = scene(&bar(cells_per_metre, mass));
     let body = fem_scene::body(&scene, Path::new("no data")).unwrap();
-    let material = Material::<f64>::new(&scene.material).unwrap();
-    let system = System::new(&scene, body, material, SolverChoice::Cholesky);
+    let law = AnyLaw::new(&scene.material).unwrap();
+    let system = System::<f64>::new(&scene, body, law, SolverChoice::Cholesky);
     let free: Vec<usize> = (0..system.nodes()).filter(|&node| system.rest[node].x > 0.0).collect();
     let rest = vec![[0.0; 3]; system.nodes()];
     let (mut K, mut M) = (DMatrix::zeros(free.len(), free.len()), DMatrix::zeros(free.len(), free.len()));

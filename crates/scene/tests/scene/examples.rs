@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use fem_scene::{Axis, Cuboid, Drag, DragVertex, Integrator, Mass, Model, Newton, Pipeline, Plane, Solver, SolverKind};
+use fem_scene::{Axis, Cuboid, Drag, DragVertex, Integrator, Mass, Newton, Pipeline, Plane, Solver, SolverKind};
 
 use crate::{LEAST, edit, read};
 
@@ -49,7 +49,7 @@ fn a_scene_with_every_table_says_what_its_file_says() {
     assert_eq!(scene.mesh.cuboid, Some(Cuboid { size: [4.0, 1.0, 1.0], cells_per_unit: 6 }));
     assert_eq!((scene.mesh.file, scene.mesh.display, scene.mesh.scale), (None, Some("meshes/x.obj".into()), 0.5));
     let material = scene.material;
-    assert_eq!((material.model, material.c, material.d), (Model::NeoHookean, Some(2e5), Some(1e6)));
+    assert_eq!((material.model.as_str(), material.C, material.D), ("neo_hookean", Some(2e5), Some(1e6)));
     assert_eq!((material.young, material.poisson, material.density), (None, None, 1000.0));
     assert_eq!(scene.mass, Mass { lumped: true });
     assert_eq!(scene.gravity.unwrap().acceleration, [0.0, 0.0, -9.81]);

@@ -4,7 +4,7 @@
 
 use fem_engine::forces::acting::Acting;
 use fem_engine::forces::pulls::{AnchorSpring, Pulls};
-use fem_engine::materials::Material;
+use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::solvers::SolverChoice;
 use fem_scene::{Body, Scene};
@@ -37,8 +37,8 @@ pub struct Scratch {
 impl Equations {
     /// Builds the equations of a scene. The error says why the scene has none.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, String> {
-        let material = Material::<f64>::new(&scene.material).ok_or("the material lacks its moduli")?;
-        let system = System::new(scene, body, material, SolverChoice::Cholesky);
+        let law = AnyLaw::new(&scene.material).ok_or("the material lacks its parameters")?;
+        let system = System::new(scene, body, law, SolverChoice::Cholesky);
         let mass = MassInverse::new(scene, &system)?;
         let drag_stiffness = scene.drag.as_ref().map_or(0.0, |drag| drag.stiffness);
         let has_prescribed_motion = scene.prescribed.iter().any(moves);

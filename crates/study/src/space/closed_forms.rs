@@ -3,7 +3,7 @@
 use crate::space::norms;
 use fem_scene::cantilever::{expected_tip_displacement, tip_displacement};
 use fem_scene::simulation::Simulation;
-use fem_scene::{Axis, Integrator, Model, Prescribed, Scene, Side};
+use fem_scene::{Axis, Integrator, Prescribed, Scene, Side};
 
 /// Distance of a simulation at its horizon from the scene's closed form, relative; `None` for a scene without one.
 ///
@@ -25,7 +25,7 @@ pub fn error(scene: &Scene, simulation: &dyn Simulation) -> Option<f64> {
 
 /// Stretch along x and across it, of a neo-Hookean box between three rollers that a dead traction pulls along x.
 pub fn uniaxial(scene: &Scene) -> Option<(f64, f64)> {
-    let is_neo_hookean = scene.material.model == Model::NeoHookean && scene.time.integrator == Integrator::Static;
+    let is_neo_hookean = scene.material.model == "neo_hookean" && scene.time.integrator == Integrator::Static;
     let is_alone =
         scene.gravity.is_none() && scene.body_force.is_none() && scene.springs.is_empty() && scene.drag.is_none();
     let [traction] = &scene.traction[..] else { return None };

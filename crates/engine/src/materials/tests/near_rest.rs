@@ -3,17 +3,17 @@
 use super::*;
 use crate::tensor::zero;
 
-fn is_at_rest(name: &str, law: impl Law<f64>) {
+fn is_at_rest(name: &str, law: &dyn Law<f64>) {
     assert_eq!(law.energy(&zero()), 0.0, "{name}");
     assert_eq!(largest(&law.stress(&zero())), 0.0, "{name}");
 }
 
 #[test]
 fn at_rest_there_is_neither_energy_nor_stress_not_even_round_off() {
-    for_all_laws!(f64, is_at_rest);
+    for_all_laws(is_at_rest);
 }
 
-fn has_moduli(name: &str, law: impl Law<f64>) {
+fn has_moduli(name: &str, law: &dyn Law<f64>) {
     let hooke = linear::<f64>().derivative(&zero());
     let H = law.derivative(&zero());
     assert!(distance(&H, &hooke) < 1e-14, "{name}: {H:?}");
@@ -21,10 +21,10 @@ fn has_moduli(name: &str, law: impl Law<f64>) {
 
 #[test]
 fn the_derivative_at_rest_is_that_of_hookes_law_with_the_same_constants() {
-    for_all_laws!(f64, has_moduli);
+    for_all_laws(has_moduli);
 }
 
-fn keeps_digits(name: &str, law: impl Law<f64>) {
+fn keeps_digits(name: &str, law: &dyn Law<f64>) {
     let mut random = Random(6);
     for _ in 0..200 {
         let G = random.tensor(1e-7);
@@ -36,10 +36,10 @@ fn keeps_digits(name: &str, law: impl Law<f64>) {
 
 #[test]
 fn the_energy_of_a_strain_of_a_ten_millionth_is_right_to_a_millionth() {
-    for_all_laws!(f64, keeps_digits);
+    for_all_laws(keeps_digits);
 }
 
-fn keeps_single_digits(name: &str, law: impl Law<f32>) {
+fn keeps_single_digits(name: &str, law: &dyn Law<f32>) {
     let mut random = Random(7);
     for _ in 0..200 {
         let double = random.tensor(1e-3);
@@ -54,11 +54,11 @@ fn keeps_single_digits(name: &str, law: impl Law<f32>) {
 
 #[test]
 fn in_single_precision_energy_and_stress_of_a_strain_of_a_thousandth_are_right_to_a_hundredth() {
-    for_all_laws!(f32, keeps_single_digits);
+    laws().iter().for_each(|law| keeps_single_digits(law.name(), law.as_law()));
 }
 
 /// The terms of third order are right, too: of the energy, half the work of the stress along a straight path is left.
-fn agrees_with_work(name: &str, law: impl Law<f64>) {
+fn agrees_with_work(name: &str, law: &dyn Law<f64>) {
     let mut random = Random(8);
     for _ in 0..50 {
         let G = random.tensor(1e-4);
@@ -72,7 +72,7 @@ fn agrees_with_work(name: &str, law: impl Law<f64>) {
 
 #[test]
 fn the_energy_of_a_small_strain_is_the_work_of_the_stress() {
-    for_all_laws!(f64, agrees_with_work);
+    for_all_laws(agrees_with_work);
 }
 
 #[test]

@@ -1,0 +1,84 @@
+//! The list of all laws, and the law that a scene asks for.
+
+use super::{Corotated, Law, Linear, NamedLaw, NeoHookean, StVenantKirchhoff, StableNeoHookean};
+use crate::number::{Number, Real};
+
+/// Defines [`AnyLaw`] and all that depends on which law it is.
+macro_rules! laws {
+    ($($Law:ident),* $(,)?) => {
+        /// One of the laws, with its parameters.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[allow(missing_docs)] // the names are those of the laws
+        pub enum AnyLaw<T> {
+            $($Law($Law<T>),)*
+        }
+
+        #[cfg(test)]
+        impl AnyLaw<f64> {
+            /// The names of all laws.
+            pub const NAMES: &'static [&'static str] = &[$($Law::<f64>::NAME),*];
+        }
+
+        impl<T: Number> AnyLaw<T> {
+            /// The law of a scene's table; `None` if the table lacks a known name or its parameters, as a checked table
+            /// never does.
+            pub fn new(table: &fem_scene::Material) -> Option<Self> {
+                $(if table.model == $Law::<T>::NAME {
+                    return $Law::from_scene(table).map(Self::$Law);
+                })*
+                None
+            }
+
+            /// The law itself.
+            pub fn as_law(&self) -> &dyn Law<T> {
+                match self {
+                    $(Self::$Law(law) => law,)*
+                }
+            }
+
+            /// The name in scene files.
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$Law(_) => $Law::<T>::NAME,)*
+                }
+            }
+
+            /// Whether the stress is a linear function of the displacement gradient.
+            pub fn is_linear(&self) -> bool {
+                match self {
+                    $(Self::$Law(_) => $Law::<T>::IS_LINEAR,)*
+                }
+            }
+
+            /// Whether the energy is finite for J = det F ≤ 0 too. If it is not, a step must keep J > 0 in every element.
+            pub fn allows_inversion(&self) -> bool {
+                match self {
+                    $(Self::$Law(_) => $Law::<T>::ALLOWS_INVERSION,)*
+                }
+            }
+
+            /// Shear modulus and bulk modulus of small strain, Pa.
+            pub fn moduli(&self) -> [f64; 2] {
+                let of_all_lanes = match self {
+                    $(Self::$Law(law) => law.moduli(),)*
+                };
+                of_all_lanes.map(|modulus| modulus.extract(0).as_f64())
+            }
+        }
+    };
+}
+
+laws! {
+    Linear,
+    Corotated,
+    StVenantKirchhoff,
+    NeoHookean,
+    StableNeoHookean,
+}
+
+impl<T: Number> AnyLaw<T> {
+    /// The sum of its moduli, Pa: the size of its stress where strain is 1.
+    pub fn size(&self) -> f64 {
+        self.moduli().iter().sum()
+    }
+}

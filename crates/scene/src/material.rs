@@ -1,0 +1,131 @@
+//! `[material]`: the constitutive law by its name, its parameters, and the density.
+
+use crate::check::{Problem, check_positive, problem};
+
+/// The laws: the name of each, and the sets of parameters of which a scene gives one.
+pub const MODELS: [(&str, &[&[&str]]); 5] = [
+    ("linear", &[ELASTIC]),
+    ("corotated", &[ELASTIC]),
+    ("st_venant_kirchhoff", &[ELASTIC]),
+    ("neo_hookean", &[&["C", "D"], ELASTIC]),
+    ("stable_neo_hookean", &[ELASTIC]),
+];
+
+/// Young's modulus and Poisson's ratio of small strain.
+const ELASTIC: &[&str] = &["young", "poisson"];
+
+/// The table as a struct, with a list of its parameters: `name: range`, where `range` is a function that checks a number.
+macro_rules! material {
+    ($($(#[$doc:meta])* $name:ident: $range:ident),* $(,)?) => {
+        /// `[material]`
+        #[derive(Clone, Debug, serde::Deserialize, PartialEq)]
+        #[serde(deny_unknown_fields)]
+        pub struct Material {
+            /// Name of the law, one of [`MODELS`].
+            pub model: String,
+            /// Density, kg/m³.
+            pub density: f64,
+            $($(#[$doc])* pub $name: Option<f64>,)*
+        }
+
+        impl Material {
+            /// The parameters that the table gives, in the order of its fields.
+            pub fn parameters(&self) -> impl Iterator<Item = (&'static str, f64)> {
+                let all = [$((stringify!($name), self.$name)),*];
+                all.into_iter().filter_map(|(name, value)| Some((name, value?)))
+            }
+
+            fn check_ranges(&self) -> Result<(), Problem> {
+                $(if let Some(value) = self.$name {
+                    $range(concat!("material.", stringify!($name)), value)?;
+                })*
+                Ok(())
+            }
+        }
+    };
+}
+
+material! {
+    /// Young's modulus at small strain, Pa.
+    young: positive,
+    /// Poisson's ratio at small strain.
+    poisson: poissons_ratio,
+    /// Neo-Hookean: half the shear modulus at small strain, Pa.
+    C: positive,
+    /// Half the bulk modulus at small strain, Pa.
+    D: positive,
+}
+
+impl Material {
+    /// Lamé's constants μ = E/(2(1+ν)) and λ = Eν/((1+ν)(1−2ν)), Pa, of `young` and `poisson`.
+    pub fn lame(&self) -> Option<(f64, f64)> {
+        let (E, nu) = (self.young?, self.poisson?);
+        Some((E / (2.0 * (1.0 + nu)), E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))))
+    }
+
+    /// C and D, Pa: as given, or those with the same small-strain moduli as `young` and `poisson`,
+    /// C = E/(4(1+ν)) and D = E/(6(1−2ν)).
+    pub fn neo_hookean(&self) -> Option<(f64, f64)> {
+        match (self.C, self.D, self.young, self.poisson) {
+            (Some(C), Some(D), _, _) => Some((C, D)),
+            (_, _, Some(E), Some(nu)) => Some((E / (4.0 * (1.0 + nu)), E / (6.0 * (1.0 - 2.0 * nu)))),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn check(&self) -> Result<(), Problem> {
+        check_positive("material.density", self.density, " of kg/m³")?;
+        let Some((_, sets)) = MODELS.iter().find(|(name, _)| *name == self.model) else {
+            let known: Vec<_> = MODELS.iter().map(|(name, _)| *name).collect();
+            let text = format!("is `{}`, which is no law; write one of {}", self.model, known.join(", "));
+            return problem("material.model", text);
+        };
+        let given: Vec<&str> = self.parameters().map(|(name, _)| name).collect();
+        let foreign: Vec<&str> =
+            given.iter().copied().filter(|name| !sets.iter().any(|set| set.contains(name))).collect();
+        if let [first, rest @ ..] = &foreign[..] {
+            let rest: String = rest.iter().map(|name| format!("and {name} ")).collect();
+            let verb = if rest.is_empty() { "belongs" } else { "belong" };
+            let (owners, own) = (models_with(&foreign), alternatives(sets));
+            return problem(&format!("material.{first}"), format!("{rest}{verb} to {owners}; give this model {own}"));
+        }
+        if !sets.iter().any(|set| set.len() == given.len() && is_subset(&given, set)) {
+            let own = alternatives(sets);
+            return match sets {
+                [_] => problem("material", format!("needs {own}; give these and no others")),
+                _ => problem("material", format!("needs either {own}; give one pair and only one")),
+            };
+        }
+        self.check_ranges()
+    }
+}
+
+fn is_subset(names: &[&str], of: &[&str]) -> bool {
+    names.iter().all(|name| of.contains(name))
+}
+
+/// `C and D or young and poisson`
+fn alternatives(sets: &[&[&str]]) -> String {
+    sets.iter().map(|set| set.join(" and ")).collect::<Vec<_>>().join(" or ")
+}
+
+/// The models that take all these parameters together, or else the first of them.
+fn models_with(names: &[&str]) -> String {
+    let with = |names: &[&str]| -> Vec<&str> {
+        let takes = |sets: &[&[&str]]| sets.iter().any(|set| is_subset(names, set));
+        MODELS.iter().filter(|(_, sets)| takes(sets)).map(|(name, _)| *name).collect()
+    };
+    let all = with(names);
+    if all.is_empty() { with(&names[..1]).join(", ") } else { all.join(", ") }
+}
+
+fn positive(field: &str, value: f64) -> Result<(), Problem> {
+    check_positive(field, value, " of Pa")
+}
+
+fn poissons_ratio(field: &str, value: f64) -> Result<(), Problem> {
+    if value > -1.0 && value < 0.5 {
+        return Ok(());
+    }
+    problem(field, format!("is {value}; Poisson's ratio lies above -1 and below 0.5"))
+}
