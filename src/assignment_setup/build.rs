@@ -80,8 +80,8 @@ fn smallest_height(V: &[Vector3<f64>], T: &[[usize; 4]]) -> f64 {
 
 /// Longest edge of the bounding box, m.
 pub(super) fn extent(V: &[Vector3<f64>]) -> f64 {
-    let (low, high) = V.iter().fold((V[0], V[0]), |(low, high), x| (low.inf(x), high.sup(x)));
-    (high - low).max()
+    let (least, most) = V.iter().fold((V[0], V[0]), |(least, most), x| (least.inf(x), most.sup(x)));
+    (most - least).max()
 }
 
 fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
