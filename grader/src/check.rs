@@ -16,7 +16,7 @@ use crate::compile::prebuilt::{PrebuildError, Prebuilt};
 use crate::compile::{BuildError, Plan, build};
 use crate::implementation::Trouble;
 use crate::implementation::sandboxed::Sandboxed;
-use crate::properties::outcome::{Mistake, told};
+use crate::properties::outcome::{Mistake, message_of};
 use crate::properties::{Check, Course, FUNCTIONS};
 use crate::sandbox::{Confined, Limits, Profile, Sandbox};
 use crate::status::Status;
@@ -202,8 +202,8 @@ fn held_to(name: &str, checks: &[Check], course: &Course, missing: &[&str]) -> (
         status = if status == Status::Passed { found } else { status.min(found) };
         let message = match &mistake {
             Mistake::Trouble(Trouble::Missing) if !missing.is_empty() => format!("waits for {}", missing.join(", ")),
-            Mistake::Trouble(Trouble::Panicked { message, .. }) => format!("{}: {message}", told(name, &mistake)),
-            _ => told(name, &mistake),
+            Mistake::Trouble(Trouble::Panicked { message, .. }) => format!("{}: {message}", message_of(name, &mistake)),
+            _ => message_of(name, &mistake),
         };
         if !messages.contains(&message) && messages.len() < MOST_MESSAGES {
             messages.push(message);

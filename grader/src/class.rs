@@ -3,9 +3,9 @@
 //! A finished grade lies complete in `OUT/grades/KEY`, so that grading may be killed at any time and started again.
 
 mod find;
+mod folders;
 mod key;
 mod merge;
-mod places;
 mod process;
 mod schedule;
 mod store;
@@ -19,8 +19,8 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use crate::grade::Grade;
+pub use folders::{apart, distinct};
 pub use key::Identity;
-pub use places::{apart, distinct};
 pub use process::end_with;
 
 /// Writes what is known of a class into a folder; called again and again as a run goes on.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 
-use crate::pack::Engine;
+use crate::pack::Platform;
 
 /// Hands out the exercises, checks them, grades submissions and whole classes.
 #[derive(Parser)]
@@ -56,9 +56,9 @@ pub enum Command {
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
     },
-    /// Write what an engine that instructors already use needs to run the grader.
+    /// Write the files with which a platform runs the grader.
     Pack {
-        engine: Engine,
+        platform: Platform,
         /// A new or empty folder.
         #[arg(long, value_name = "DIR")]
         out: PathBuf,

@@ -1,15 +1,15 @@
 //! Grades one submission: builds its functions level by level, holds each to its checks, and asks which mistake explains a failure.
 
-mod clock;
 mod groups;
 mod judge;
 mod level;
 mod load;
 mod programs;
 mod study;
+mod timer;
 mod truth;
 mod whole;
-mod work;
+mod workspace;
 
 use std::collections::BTreeMap;
 use std::io;
@@ -26,9 +26,9 @@ use thiserror::Error;
 
 use crate::grade::{FORMAT_VERSION, FunctionGrade, Grade};
 use crate::rubric::{Function, Rubric};
-use clock::Clock;
 use programs::Programs;
-use work::Work;
+use timer::CpuTimer;
+use workspace::Workspace;
 
 /// Trouble of the grader or its machine; never a grade.
 #[derive(Debug, Error)]
@@ -52,7 +52,7 @@ pub struct Grading {
     /// All functions of the reference, to take their times.
     reference: Sandboxed,
     seed: u64,
-    work: Work,
+    workspace: Workspace,
     /// Whether to run the simulation at several time steps.
     studies: bool,
 }
@@ -67,7 +67,7 @@ impl Grading {
         let programs = Programs::new(root, &rubric, &prebuilt)?;
         let limit = Duration::from_secs_f64(rubric.seconds);
         let reference = Sandboxed::new(programs.start_reference(&sandbox), limit);
-        Ok(Self { rubric, prebuilt, sandbox, programs, reference, seed, work: Work::new()?, studies: false })
+        Ok(Self { rubric, prebuilt, sandbox, programs, reference, seed, workspace: Workspace::new()?, studies: false })
     }
 
     /// The same, and each grade holds a study of error against run time.
@@ -80,7 +80,7 @@ impl Grading {
     /// # Errors
     /// Trouble of the grader, not of the submission.
     pub fn grade(&self, submission: &Submission) -> Result<Grade, GradingError> {
-        let clock = Clock::start();
+        let timer = CpuTimer::start();
         let mut graded = BTreeMap::new();
         for function in &self.rubric.functions {
             if let Some(grade) = without_running(function, submission) {
@@ -115,7 +115,7 @@ impl Grading {
             functions,
             simulation,
             study,
-            seconds: clock.seconds(),
+            seconds: timer.seconds(),
         })
     }
 

@@ -13,7 +13,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::place::{self, PlaceError};
+use crate::new_folder::{self, FolderError};
 pub use leak::{Leak, leaks};
 pub use stub::stub;
 
@@ -26,7 +26,7 @@ pub enum HandoutError {
     #[error("{}: {error}", .path.display())]
     Io { path: PathBuf, error: io::Error },
     #[error(transparent)]
-    Place(#[from] PlaceError),
+    Folder(#[from] FolderError),
     #[error("{}: lies inside this repository, where it would be built as a part of it; name a folder outside", .0.display())]
     Inside(PathBuf),
     #[error("{}: {problem}", .path.display())]
@@ -53,7 +53,7 @@ pub fn write(root: &Path, to: &Path) -> Result<(), HandoutError> {
     if !found.is_empty() {
         return Err(HandoutError::Leaks(found));
     }
-    place::filled(to, |to| {
+    new_folder::create(to, |to| {
         for (path, bytes) in &files {
             let path = to.join(path);
             let folder = path.parent().unwrap_or(to);
@@ -66,7 +66,7 @@ pub fn write(root: &Path, to: &Path) -> Result<(), HandoutError> {
 
 /// Refuses folders that hold something, and such in the repository other than in its build products.
 fn check_place(root: &Path, to: &Path) -> Result<(), HandoutError> {
-    place::free(to)?;
+    new_folder::check(to)?;
     let root = root.canonicalize().map_err(HandoutError::io(root))?;
     let absolute = std::path::absolute(to).map_err(HandoutError::io(to))?;
     let there = absolute.ancestors().find_map(|folder| folder.canonicalize().ok());

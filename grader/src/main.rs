@@ -10,8 +10,8 @@ mod diagnosis;
 mod grade;
 mod grading;
 mod handout;
+mod new_folder;
 mod pack;
-mod place;
 mod reference;
 mod reports;
 mod rubric;
@@ -41,8 +41,8 @@ fn main() -> ExitCode {
         Command::Grade { submission, options, ends_with } => commands::grade(&submission, &options, ends_with),
         Command::Class { folder, options, jobs, shard } => commands::class(&folder, &options, jobs, shard),
         Command::Merge { folders, out } => commands::merge(&folders, &out),
-        Command::Pack { engine, out, seed, vendor } => {
-            commands::pack(PackOptions { engine, out, repository: grading::repository(), seed, vendor })
+        Command::Pack { platform, out, seed, vendor } => {
+            commands::pack(PackOptions { platform, out, repository: grading::repository(), seed, vendor })
         }
     });
     match done {

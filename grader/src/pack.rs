@@ -1,4 +1,4 @@
-//! Packs what the engines that instructors already use need: Gradescope, Classroom 50, Slurm.
+//! Packs the files that the platforms of instructors need: Gradescope, Classroom 50, Slurm.
 
 mod sources;
 #[cfg(test)]
@@ -11,11 +11,11 @@ use std::process::Command;
 
 use clap::ValueEnum;
 
-use crate::place::{self, PlaceError};
+use crate::new_folder::{self, FolderError};
 
-/// An engine that grades classes.
+/// A platform that grades classes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Engine {
+pub enum Platform {
     Gradescope,
     Classroom50,
     Slurm,
@@ -24,7 +24,7 @@ pub enum Engine {
 /// Options of `pack`.
 #[derive(Clone, Debug)]
 pub struct PackOptions {
-    pub engine: Engine,
+    pub platform: Platform,
     /// New or empty.
     pub out: PathBuf,
     /// The solved repository.
@@ -40,7 +40,7 @@ pub enum PackError {
     #[error("{path}: {source}", path = .path.display())]
     File { path: PathBuf, source: io::Error },
     #[error(transparent)]
-    Place(#[from] PlaceError),
+    Folder(#[from] FolderError),
     #[error("{path}: is not the repository; Cargo.toml, Cargo.lock, src and grader belong there", path = .0.display())]
     NotTheRepository(PathBuf),
     #[error("{path}: {message}", path = .path.display())]
@@ -79,10 +79,10 @@ fn at(path: &Path) -> impl FnOnce(io::Error) -> PackError {
 
 /// Writes the package into `options.out`.
 pub fn pack(options: &PackOptions) -> Result<(), PackError> {
-    place::filled(&options.out, |out| match options.engine {
-        Engine::Gradescope => gradescope(options, out),
-        Engine::Classroom50 => write(out, &CLASSROOM50, &fields(options)?),
-        Engine::Slurm => write(out, &SLURM, &fields(options)?),
+    new_folder::create(&options.out, |out| match options.platform {
+        Platform::Gradescope => gradescope(options, out),
+        Platform::Classroom50 => write(out, &CLASSROOM50, &fields(options)?),
+        Platform::Slurm => write(out, &SLURM, &fields(options)?),
     })
 }
 

@@ -13,18 +13,18 @@ mod confine;
 mod enter;
 #[cfg(target_os = "linux")]
 mod files;
-#[cfg(target_os = "linux")]
-mod keep;
+mod output;
 #[cfg(target_os = "linux")]
 mod owner;
 #[cfg(target_os = "linux")]
 mod probe;
 #[cfg(target_os = "linux")]
 mod root;
-mod run;
 mod running;
 #[cfg(target_os = "linux")]
 mod spec;
+#[cfg(target_os = "linux")]
+mod supervise;
 
 use std::collections::BTreeMap;
 use std::io;
@@ -85,16 +85,16 @@ pub struct Confined {
     pub limits: Limits,
 }
 
-/// How a program ended that ran to its end.
+/// The end of a program that ran to its end.
 #[derive(Clone, Debug)]
 pub struct Ended {
-    /// Exit code; none if a signal ended it.
+    /// Exit code; `None` if a signal ended it.
     pub code: Option<i32>,
     /// Signal that ended it.
     pub signal: Option<i32>,
     /// Whether it was killed because its time was over.
     pub timed_out: bool,
-    /// Processor time of the whole process tree, s. Zero where nothing measures it: outside a sandbox.
+    /// Processor time of the whole process tree, s. Zero outside a sandbox, which measures it.
     pub seconds: f64,
     /// Start of what it printed.
     pub stdout: Vec<u8>,
@@ -155,9 +155,9 @@ impl Sandbox {
     pub fn run(&self, confined: &Confined) -> io::Result<Ended> {
         #[cfg(target_os = "linux")]
         if self.launcher.is_some() {
-            return run::launched(self, confined);
+            return output::launched(self, confined);
         }
-        run::plain(confined)
+        output::plain(confined)
     }
 
     /// Starts a program that finds a socket to its parent ([`grader_child::socket`]), and whose output goes nowhere.

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use finite_elements_3d as course;
 use grader::implementation::Local;
-use grader::properties::outcome::told;
+use grader::properties::outcome::message_of;
 use grader::properties::{Check, Course, FUNCTIONS};
 use grader_child::{Functions, functions_of};
 use libtest_mimic::{Arguments, Trial};
@@ -26,7 +26,7 @@ fn trial(function: &'static str, check: &Check) -> Trial {
     Trial::test(format!("{function}::{}", check.name), move || {
         let written = Local(WRITTEN);
         run(&Course { subject: &written, trusted: &written, seed: SEED })
-            .map_err(|mistake| told(function, &mistake).into())
+            .map_err(|mistake| message_of(function, &mistake).into())
     })
 }
 

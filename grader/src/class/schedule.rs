@@ -20,7 +20,7 @@ const TICK: Duration = Duration::from_millis(20);
 const REFRESH: Duration = Duration::from_secs(3);
 
 /// State of the grading of a class.
-struct Run<'a> {
+struct Schedule<'a> {
     options: &'a ClassOptions,
     store: &'a Store,
     submissions: &'a [Submission],
@@ -42,28 +42,28 @@ struct Job {
 /// Grades until nothing waits or the user stops it.
 pub fn grade(options: &ClassOptions, class: Class, identity: Identity, store: &Store) -> Result<Summary, ClassError> {
     let mut interrupt = Interrupt::watch().map_err(at(&options.out))?;
-    let mut run = Run::new(options, &class.submissions, class.remarks, identity, store);
-    store.publish(&run.summary, options.report)?;
-    let mut published = (run.summary.graded_now, Instant::now());
-    while !(run.waiting.is_empty() && run.running.is_empty()) {
+    let mut schedule = Schedule::new(options, &class.submissions, class.remarks, identity, store);
+    store.publish(&schedule.summary, options.report)?;
+    let mut published = (schedule.summary.graded_now, Instant::now());
+    while !(schedule.waiting.is_empty() && schedule.running.is_empty()) {
         if interrupt.has_come().map_err(at(&options.out))? {
-            run.stop();
+            schedule.stop();
             break;
         }
-        run.start();
-        run.collect();
-        if published.1.elapsed() >= REFRESH && published.0 != run.done() {
-            store.publish(&run.summary, options.report)?;
-            published = (run.done(), Instant::now());
+        schedule.start();
+        schedule.collect();
+        if published.1.elapsed() >= REFRESH && published.0 != schedule.done() {
+            store.publish(&schedule.summary, options.report)?;
+            published = (schedule.done(), Instant::now());
         }
         sleep(TICK);
     }
-    run.bar.finish_and_clear();
-    store.publish(&run.summary, options.report)?;
-    Ok(run.summary)
+    schedule.bar.finish_and_clear();
+    store.publish(&schedule.summary, options.report)?;
+    Ok(schedule.summary)
 }
 
-impl<'a> Run<'a> {
+impl<'a> Schedule<'a> {
     fn new(
         options: &'a ClassOptions,
         submissions: &'a [Submission],
@@ -81,15 +81,17 @@ impl<'a> Run<'a> {
             interrupted: false,
         };
         let bar = ProgressBar::hidden();
-        let mut run = Self { options, store, submissions, summary, waiting: VecDeque::new(), running: Vec::new(), bar };
+        let mut schedule =
+            Self { options, store, submissions, summary, waiting: VecDeque::new(), running: Vec::new(), bar };
         for (index, submission) in submissions.iter().enumerate() {
-            let outcome = run.first_look(index, submission);
+            let outcome = schedule.first_look(index, submission);
             let entry = Entry { submission: submission.name.clone(), student: submission.student.clone(), outcome };
-            run.summary.entries.push(entry);
+            schedule.summary.entries.push(entry);
         }
         let style = ProgressStyle::with_template("{bar:30} {pos}/{len} graded, {eta} left");
-        run.bar = ProgressBar::new(run.waiting.len() as u64).with_style(style.unwrap_or(ProgressStyle::default_bar()));
-        run
+        schedule.bar =
+            ProgressBar::new(schedule.waiting.len() as u64).with_style(style.unwrap_or(ProgressStyle::default_bar()));
+        schedule
     }
 
     /// Outcome of a submission before any process is started: kept, superseded, unreadable or waiting.
@@ -109,7 +111,7 @@ impl<'a> Run<'a> {
         Outcome::Waiting
     }
 
-    /// How many submissions got their outcome in this run.
+    /// Number of submissions that got their outcome since the start.
     fn done(&self) -> usize {
         self.bar.position() as usize
     }
@@ -137,7 +139,7 @@ impl<'a> Run<'a> {
         Ok((partial, process))
     }
 
-    /// Takes what has ended out of the running ones.
+    /// Collects the processes that have ended.
     fn collect(&mut self) {
         for mut job in std::mem::take(&mut self.running) {
             let ended = match job.process.state() {
@@ -158,7 +160,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Makes a grade count, if it is one.
+    /// Keeps a grade if it is valid.
     fn accept(&self, index: usize, key: &str, partial: &Path) -> Result<Outcome, String> {
         let submission = &self.submissions[index];
         let grade = store::read_grade(partial)?;
@@ -197,7 +199,7 @@ impl<'a> Run<'a> {
         self.bar.suspend(|| eprintln!("{line}"));
     }
 
-    /// Ends what runs. It is as if it had not been started.
+    /// Kills the running processes and removes their files.
     fn stop(&mut self) {
         self.summary.interrupted = true;
         for job in std::mem::take(&mut self.running) {

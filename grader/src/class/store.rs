@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::places::FOLDERS;
+use super::folders::FOLDERS;
 use super::{ClassError, Entry, Identity, Outcome, Report, Shard, Summary, at};
 use crate::grade::{FORMAT_VERSION, Grade};
 

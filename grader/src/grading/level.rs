@@ -39,7 +39,7 @@ impl Grading {
                 continue;
             }
             // Not one folder: the student's program may read its own, and no reference lies there.
-            let (folder, beside) = (self.work.folder()?, self.work.folder()?);
+            let (folder, beside) = (self.workspace.folder()?, self.workspace.folder()?);
             let library = if group.reference == below {
                 self.programs.below(level)
             } else {
@@ -90,7 +90,7 @@ impl Grading {
             plan.own.get_key_value(name).map(|(name, text)| (*name, text.clone())).into_iter().collect();
         let helpers = helpers(name, plan, submission);
         if !helpers.is_empty() {
-            let folder = self.work.folder()?;
+            let folder = self.workspace.folder()?;
             let alone = Plan { own, helpers, ..plan.clone() };
             let built = build(&self.prebuilt, &self.sandbox, &alone, folder.path())?;
             if built.faults.is_empty() {

@@ -60,7 +60,7 @@ impl Grading {
             Some(Source::Written(text)) => Some((name, text.clone())),
             _ => None,
         });
-        let folder = self.work.folder()?;
+        let folder = self.workspace.folder()?;
         let limit = self.compile_limit();
         let plan = Plan { own: own.collect(), reference: None, helpers: BTreeMap::new(), limit };
         let attempt = attempt(&self.prebuilt, &self.sandbox, &plan, folder.path())?;

@@ -1,4 +1,4 @@
-//! Packages as their engines would use them, with a grader that does what a test wants.
+//! Packages as their platforms would use them, with a grader that does what a test wants.
 
 use std::process::Output;
 
@@ -65,7 +65,7 @@ version = "0.0.0"
     ("target/x", ""),
 ];
 
-fn packed(engine: Engine) -> tempfile::TempDir {
+fn packed(platform: Platform) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let repository = folder.path().join("repository");
     for (name, text) in REPOSITORY {
@@ -75,7 +75,7 @@ fn packed(engine: Engine) -> tempfile::TempDir {
     }
     // Inside the repository, as users will do: it must not be packed into itself.
     let out = repository.join("out");
-    pack(&PackOptions { engine, out, repository, seed: 42, vendor: false }).unwrap();
+    pack(&PackOptions { platform, out, repository, seed: 42, vendor: false }).unwrap();
     folder
 }
 
@@ -88,7 +88,7 @@ fn program(path: &Path, text: &str) {
 
 /// Runs `run_autograder` with a grader; gives what it did and the results that it left.
 fn run_autograder(grader: &str) -> (Output, Option<String>) {
-    let folder = packed(Engine::Gradescope);
+    let folder = packed(Platform::Gradescope);
     let root = folder.path().join("autograder");
     fs::create_dir_all(root.join("results")).unwrap();
     fs::write(root.join("results/results.json"), "of another submission").unwrap();
@@ -100,7 +100,7 @@ fn run_autograder(grader: &str) -> (Output, Option<String>) {
 
 #[test]
 fn the_archive_for_gradescope_has_its_scripts_at_the_top_and_the_sources() {
-    let folder = packed(Engine::Gradescope);
+    let folder = packed(Platform::Gradescope);
     let mut zip =
         zip::ZipArchive::new(File::open(folder.path().join("repository/out/autograder.zip")).unwrap()).unwrap();
     let names: Vec<String> = zip.file_names().map(|name| name.unwrap().into_owned()).collect();
@@ -145,7 +145,7 @@ fn is_whole(files: &Path) -> bool {
 
 #[test]
 fn a_package_asks_for_no_window() {
-    let folder = packed(Engine::Gradescope);
+    let folder = packed(Platform::Gradescope);
     let files = folder.path().join("repository/out/autograder");
     assert_eq!(locked(&files.join("Cargo.lock")), ["course", "grader"]);
     assert!(is_whole(&files));
@@ -156,7 +156,8 @@ fn this_repository_packs_into_two_megabytes_without_the_window() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let repository = crate::grading::repository();
-    pack(&PackOptions { engine: Engine::Gradescope, out: out.clone(), repository, seed: 1, vendor: false }).unwrap();
+    pack(&PackOptions { platform: Platform::Gradescope, out: out.clone(), repository, seed: 1, vendor: false })
+        .unwrap();
     let names = locked(&out.join("autograder/Cargo.lock"));
     for name in ["nalgebra", "grader", "grader-child", "finite-elements-3d"] {
         assert!(names.iter().any(|found| found == name), "{name} is missing");
@@ -193,7 +194,7 @@ fn gradescope_gets_no_score_from_a_grader_that_failed() {
 
 #[test]
 fn classroom_50_gets_the_graders_result_and_nothing_from_a_grader_that_failed() {
-    let folder = packed(Engine::Classroom50);
+    let folder = packed(Platform::Classroom50);
     let out = folder.path().join("repository/out");
     assert!(!out.join("src").exists(), "students can read what is published there");
     let grader = folder.path().join("grader");
@@ -213,13 +214,13 @@ fn classroom_50_gets_the_graders_result_and_nothing_from_a_grader_that_failed() 
 
 #[test]
 fn no_mark_is_left_in_a_package_and_a_full_folder_is_refused() {
-    for engine in [Engine::Gradescope, Engine::Classroom50, Engine::Slurm] {
-        let folder = packed(engine);
+    for platform in [Platform::Gradescope, Platform::Classroom50, Platform::Slurm] {
+        let folder = packed(platform);
         let repository = folder.path().join("repository");
         let mut out = repository.join("out");
-        let again = PackOptions { engine, out: out.clone(), repository, seed: 1, vendor: false };
-        assert!(matches!(pack(&again), Err(PackError::Place(PlaceError::NotEmpty(_)))));
-        if engine == Engine::Gradescope {
+        let again = PackOptions { platform, out: out.clone(), repository, seed: 1, vendor: false };
+        assert!(matches!(pack(&again), Err(PackError::Folder(FolderError::NotEmpty(_)))));
+        if platform == Platform::Gradescope {
             out.push("autograder");
         }
         for path in fs::read_dir(out).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_file()) {

@@ -6,7 +6,7 @@ use grader_child::{
 use nalgebra::{DVector, Matrix3, Matrix4, SMatrix, Vector3, Vector4};
 use nalgebra_sparse::CsrMatrix;
 
-use super::outcome::{Mistake, told};
+use super::outcome::{Mistake, message_of};
 use super::{Check, Course, FUNCTIONS};
 use crate::implementation::{Local, Trouble};
 
@@ -149,7 +149,7 @@ fn a_function_that_a_check_needs_is_named_where_it_is_not_there() {
 
 #[test]
 fn a_student_is_told_the_page() {
-    let text = told("psi_neo_hookean", &Mistake::Trouble(Trouble::Missing));
+    let text = message_of("psi_neo_hookean", &Mistake::Trouble(Trouble::Missing));
     assert!(text.ends_with("Read include-docs/psi_neo_hookean.md"), "{text}");
 }
 

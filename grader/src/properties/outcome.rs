@@ -60,7 +60,7 @@ impl fmt::Debug for Mistake {
 }
 
 /// The message for the author of a mistake: the broken rule and the page to read.
-pub fn told(function: &str, mistake: &Mistake) -> String {
+pub fn message_of(function: &str, mistake: &Mistake) -> String {
     format!("{mistake:?}\nRead include-docs/{function}.md")
 }
 

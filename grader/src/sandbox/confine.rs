@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use super::spec::Spec;
-use super::{enter, keep};
+use super::{enter, supervise};
 
 /// The arguments of `confine`.
 ///
@@ -11,7 +11,9 @@ use super::{enter, keep};
 pub fn confine(arguments: &[String]) -> ExitCode {
     let outcome = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["nothing"] => Ok(()),
-        ["keep", spec] => serde_json::from_str::<Spec>(spec).map_err(|error| error.to_string()).and_then(keep::keep),
+        ["keep", spec] => {
+            serde_json::from_str::<Spec>(spec).map_err(|error| error.to_string()).and_then(supervise::supervise)
+        }
         ["enter", pipe, spec] => enter::enter(pipe, spec),
         _ => Err("`confine` is for the grader's own use".to_string()),
     };

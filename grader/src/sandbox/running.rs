@@ -1,4 +1,4 @@
-//! A program that runs, as the grader sees it.
+//! A running program, as the grader sees it.
 
 #[cfg(target_os = "linux")]
 mod launch;
@@ -17,9 +17,9 @@ pub use launch::launched;
 /// How long a killed process tree may take to vanish, and a launcher to begin.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// A program that runs. Dropping it kills the whole process tree.
+/// A running program. Dropping it kills the whole process tree.
 pub struct Running {
-    /// The way to the program.
+    /// Connection to the program.
     pub socket: Socket,
     tree: Tree,
 }
@@ -85,13 +85,13 @@ impl std::fmt::Display for End {
         match (self.timed_out, self.code, self.signal) {
             (true, ..) => f.write_str("its time was over"),
             (_, Some(code), _) => match code.cast_unsigned() {
-                // How Windows says it.
+                // Exit codes of Windows.
                 0xC000_00FD => f.write_str("stack overflow"),
                 0xC000_0409 => f.write_str("abort"),
                 _ => write!(f, "exit code {code}"),
             },
             (_, _, Some(signal)) => write!(f, "signal {signal} ({})", meaning(signal)),
-            _ => f.write_str("nobody knows how"),
+            _ => f.write_str("for an unknown reason"),
         }
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::{DVector, dmatrix, dvector};
 
 use super::super::Course;
 use super::super::outcome::{Mistake, Outcome, holds, near, near_number};
-use super::objectives::{Asked, Objective, Run, bowl, line, log_barrier, overshooting, rosenbrock};
+use super::objectives::{Asked, NewtonRun, Objective, bowl, line, log_barrier, overshooting, rosenbrock};
 
 /// Two questions about the same point, but for round-off.
 fn is_same(a: &DVector<f64>, b: &DVector<f64>) -> bool {
@@ -13,7 +13,7 @@ fn is_same(a: &DVector<f64>, b: &DVector<f64>) -> bool {
 
 /// The α at which f was asked along each direction. Questions about the point that is left do not count, nor do those that ask
 /// again about the point that was reached.
-fn alphas(run: &Run, start: &[f64]) -> Result<Vec<Vec<f64>>, Mistake> {
+fn alphas(run: &NewtonRun, start: &[f64]) -> Result<Vec<Vec<f64>>, Mistake> {
     let mut x = DVector::from_column_slice(start);
     let mut all = Vec::new();
     for (direction, trials) in run.directions().into_iter().zip(run.trials()) {

@@ -30,13 +30,13 @@ pub enum Asked {
     Solve(DVector<f64>, DVector<f64>),
 }
 
-pub struct Run {
+pub struct NewtonRun {
     pub x: DVector<f64>,
     pub f: f64,
     pub asked: Vec<Asked>,
 }
 
-impl Run {
+impl NewtonRun {
     pub fn hessians(&self) -> usize {
         self.asked.iter().filter(|asked| matches!(asked, Asked::Hessian)).count()
     }
@@ -77,7 +77,7 @@ impl Objective {
     }
 
     /// Newton's method from `start`. What it asks is kept up to a number of questions that no check comes near.
-    pub fn minimise(&self, course: &Course, start: &[f64], max_steps: usize) -> Result<Run, Mistake> {
+    pub fn minimise(&self, course: &Course, start: &[f64], max_steps: usize) -> Result<NewtonRun, Mistake> {
         let (n, asked, misfits) = (start.len(), RefCell::new(Vec::new()), Cell::new(0));
         let note = |what| {
             let mut asked = asked.borrow_mut();
@@ -112,7 +112,7 @@ impl Objective {
         let mut x = DVector::from_column_slice(start);
         let f = course.subject.newtons_method(&mut x, &value, &gradient, &hessian, &solve, max_steps)?;
         holds("f, g, H and solve are asked with vectors as long as x0", misfits.get() == 0)?;
-        Ok(Run { x: long(n, x)?, f, asked: asked.take() })
+        Ok(NewtonRun { x: long(n, x)?, f, asked: asked.take() })
     }
 }
 

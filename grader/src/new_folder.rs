@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf, absolute};
 
 use thiserror::Error;
 
-/// Why a folder cannot be written.
+/// Reason why a folder cannot be written.
 #[derive(Debug, Error)]
-pub enum PlaceError {
+pub enum FolderError {
     #[error("{}: the folder is not empty; name a new one", .0.display())]
     NotEmpty(PathBuf),
     #[error("{}: is a file; name a new folder", .0.display())]
@@ -17,27 +17,27 @@ pub enum PlaceError {
     Io { path: PathBuf, error: io::Error },
 }
 
-fn at(path: &Path) -> impl FnOnce(io::Error) -> PlaceError {
-    move |error| PlaceError::Io { path: path.to_owned(), error }
+fn at(path: &Path) -> impl FnOnce(io::Error) -> FolderError {
+    move |error| FolderError::Io { path: path.to_owned(), error }
 }
 
-/// Refuses a place that holds something.
-pub fn free(to: &Path) -> Result<(), PlaceError> {
+/// Refuses a path at which a file or a folder with content exists.
+pub fn check(to: &Path) -> Result<(), FolderError> {
     match fs::read_dir(to).map(|mut entries| entries.next().is_none()) {
         Ok(true) => Ok(()),
-        Ok(false) => Err(PlaceError::NotEmpty(to.to_owned())),
+        Ok(false) => Err(FolderError::NotEmpty(to.to_owned())),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
-        Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(PlaceError::NotAFolder(to.to_owned())),
+        Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(FolderError::NotAFolder(to.to_owned())),
         Err(error) => Err(at(to)(error)),
     }
 }
 
-/// Has `fill` write into a folder beside `to`, which takes the place of `to` when all is there. What fails leaves nothing.
+/// Has `fill` write into a folder beside `to`, which is renamed to `to` when it is complete. A failure leaves no folder.
 ///
 /// # Errors
-/// Those of `fill`, and where there is something at `to` or nothing can be written there.
-pub fn filled<E: From<PlaceError>>(to: &Path, fill: impl FnOnce(&Path) -> Result<(), E>) -> Result<(), E> {
-    free(to)?;
+/// Those of `fill`, and the reason if `to` exists with content or is not writable.
+pub fn create<E: From<FolderError>>(to: &Path, fill: impl FnOnce(&Path) -> Result<(), E>) -> Result<(), E> {
+    check(to)?;
     let to = &absolute(to).map_err(at(to))?;
     let beside = to.parent().unwrap_or(to);
     fs::create_dir_all(beside).map_err(at(to))?;
@@ -71,11 +71,11 @@ mod tests {
                 assert_ne!(folder, to);
                 fs::write(folder.join("file"), "").map_err(at(folder))
             };
-            filled(&to, fill).unwrap();
+            create(&to, fill).unwrap();
             assert_eq!(names(&to), ["file"]);
         }
         let lost = base.path().join("lost");
-        assert!(filled(&lost, |folder| Err(PlaceError::NotEmpty(folder.to_owned()))).is_err());
+        assert!(create(&lost, |folder| Err(FolderError::NotEmpty(folder.to_owned()))).is_err());
         let mut left = names(base.path());
         left.sort();
         assert_eq!(left, ["deep", "empty", "new"]);
@@ -87,7 +87,7 @@ mod tests {
         let file = base.path().join("file");
         fs::write(&file, "mine").unwrap();
         for (to, word) in [(file.as_path(), "is a file"), (base.path(), "not empty")] {
-            let problem = filled(to, |_| -> Result<(), PlaceError> { panic!("nothing is written") }).unwrap_err();
+            let problem = create(to, |_| -> Result<(), FolderError> { panic!("nothing is written") }).unwrap_err();
             assert!(problem.to_string().contains(word) && problem.to_string().contains("name a new"), "{problem}");
         }
         assert_eq!((names(base.path()), fs::read_to_string(&file).unwrap()), (vec!["file".to_owned()], "mine".into()));

@@ -1,4 +1,4 @@
-//! The folder that a grader works in: gone with the grader, or, where that was killed, with the next one.
+//! The folder that a grader works in. It is removed with the grader, or, if that was killed, by the next one.
 
 use std::env;
 use std::fs::{self, File};
@@ -13,13 +13,13 @@ const PREFIX: &str = "grader-";
 const LOCK: &str = "lock";
 
 /// Holds a folder for each program.
-pub struct Work {
+pub struct Workspace {
     folder: TempDir,
     /// Released by the system when this process ends, however it ends.
     _lock: File,
 }
 
-impl Work {
+impl Workspace {
     /// Makes the folder, and removes those of graders that are gone.
     pub fn new() -> io::Result<Self> {
         let place = env::temp_dir();
@@ -32,7 +32,7 @@ impl Work {
         // Under its name there is never a file that its owner has not locked yet.
         let early = folder.path().join("early");
         let lock = File::create(&early)?;
-        // Some network file systems know no locks; there nobody removes what another one left.
+        // Some network file systems have no locks; there no grader removes the folder of another.
         let _ = lock.try_lock();
         fs::rename(early, folder.path().join(LOCK))?;
         Ok(Self { folder, _lock: lock })
@@ -81,7 +81,7 @@ fn remove(folder: &Path) -> io::Result<()> {
 #[cfg(unix)]
 fn is_own_folder(path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
-    // Nobody else's lock is waited for, and no link followed.
+    // Only this user's locks are waited for, and no link is followed.
     fs::symlink_metadata(path).is_ok_and(|found| found.is_dir() && found.uid() == nix::unistd::geteuid().as_raw())
 }
 
@@ -95,13 +95,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_killed_grader_left_goes_and_what_a_living_one_has_stays() {
+    fn the_folder_of_a_killed_grader_is_removed_and_that_of_a_living_one_stays() {
         let place = tempfile::tempdir().unwrap();
-        let living = Work::new_in(place.path()).unwrap();
+        let living = Workspace::new_in(place.path()).unwrap();
         let program = living.folder().unwrap();
-        let left = Work::new_in(place.path()).unwrap();
+        let left = Workspace::new_in(place.path()).unwrap();
         fs::write(left.folder().unwrap().keep().join("program"), "").unwrap();
-        let Work { folder, _lock: lock } = left;
+        let Workspace { folder, _lock: lock } = left;
         let left = folder.keep();
         drop(lock);
         for other in ["grader-notes", "mine"] {

@@ -21,7 +21,7 @@ use super::owner;
 use super::spec::{Control, News, Spec};
 
 /// Runs the program of a spec and tells the grader about it, until the program ends, its time is over or the grader is gone.
-pub fn keep(spec: Spec) -> Result<(), String> {
+pub fn supervise(spec: Spec) -> Result<(), String> {
     let control = control(spec.control).map_err(|error| format!("no way to the grader: {error}"))?;
     if let Err(why) = separate(&spec) {
         return tell(&control, &News::Refused(why));

@@ -1,4 +1,4 @@
-//! A program that runs to its end, with what it prints.
+//! Runs a program to its end and keeps the start of its output.
 
 use std::io::{self, Read};
 use std::process::Stdio;

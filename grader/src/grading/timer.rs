@@ -2,22 +2,22 @@
 
 use std::time::Instant;
 
-/// Counts from its start.
-pub struct Clock {
+/// Processor time since its start.
+pub struct CpuTimer {
     begin: Instant,
     used_before: Option<f64>,
 }
 
-impl Clock {
-    /// Starts to count.
+impl CpuTimer {
+    /// Starts the timer.
     pub fn start() -> Self {
-        Self { begin: Instant::now(), used_before: used() }
+        Self { begin: Instant::now(), used_before: cpu_seconds() }
     }
 
     /// Processor time since the start, of this process and of those that it has started and that have ended, s. On a system
     /// that does not tell, the time that has passed.
     pub fn seconds(&self) -> f64 {
-        match (self.used_before, used()) {
+        match (self.used_before, cpu_seconds()) {
             (Some(before), Some(now)) => now - before,
             _ => self.begin.elapsed().as_secs_f64(),
         }
@@ -25,7 +25,7 @@ impl Clock {
 }
 
 #[cfg(target_os = "linux")]
-fn used() -> Option<f64> {
+fn cpu_seconds() -> Option<f64> {
     use nix::sys::resource::{UsageWho, getrusage};
     let of = |who| {
         let usage = getrusage(who).ok()?;
@@ -36,20 +36,20 @@ fn used() -> Option<f64> {
 }
 
 #[cfg(not(target_os = "linux"))]
-fn used() -> Option<f64> {
+fn cpu_seconds() -> Option<f64> {
     None
 }
 
 #[cfg(all(test, target_os = "linux"))]
 mod tests {
-    use super::Clock;
+    use super::CpuTimer;
     use std::process::Command;
 
     #[test]
-    fn the_work_of_another_process_counts() {
-        let clock = Clock::start();
+    fn the_processor_time_of_another_process_counts() {
+        let timer = CpuTimer::start();
         let work = "i=0; while [ $i -lt 200000 ]; do i=$((i + 1)); done";
         assert!(Command::new("sh").args(["-c", work]).status().unwrap().success());
-        assert!(clock.seconds() > 0.02, "{} s of work", clock.seconds());
+        assert!(timer.seconds() > 0.02, "{} s of work", timer.seconds());
     }
 }
