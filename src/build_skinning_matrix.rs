@@ -3,7 +3,7 @@ use nalgebra_sparse::CsrMatrix;
 
 use crate::phi_linear_tetrahedron;
 
-/// How far outside an element, as a shape function's value, a point still counts as inside.
+/// A point counts as inside an element if no shape function is below −`TOLERANCE` there.
 const TOLERANCE: f64 = 1e-6;
 
 /// Weights N with which display vertices follow the mesh: x_skin = N x, one row per display vertex.
@@ -24,7 +24,7 @@ pub fn build_skinning_matrix(V: &[Vector3<f64>], T: &[[usize; 4]], V_skin: &[Vec
         .expect("an element has four different vertices of the mesh")
 }
 
-/// The first element that holds `x`, and its shape functions there. Most elements are ruled out by their box.
+/// The first element that contains `x`, and its shape functions there. Bounding boxes rule out most elements.
 fn first_that_holds(
     V: &[Vector3<f64>],
     T: &[[usize; 4]],
@@ -38,7 +38,7 @@ fn first_that_holds(
         .find(|(_, phi)| phi.min() >= -TOLERANCE)
 }
 
-/// The element from whose inside `x` is least far, as its smallest shape function tells.
+/// The element whose smallest shape function at `x` is largest, and its shape functions there.
 fn nearest(V: &[Vector3<f64>], T: &[[usize; 4]], x: &Vector3<f64>) -> (usize, Vector4<f64>) {
     let candidates = (0..T.len()).map(|element| (element, phi_linear_tetrahedron(V, &T[element], x)));
     let first = (0, phi_linear_tetrahedron(V, &T[0], x));

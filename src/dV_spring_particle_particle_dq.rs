@@ -9,7 +9,7 @@ pub fn dV_spring_particle_particle_dq(
 ) -> SVector<f64, 6> {
     let d = q1 - q0;
     let length = d.norm();
-    // A spring of no length has no direction to push in, whatever its rest length.
+    // A spring of zero length has no direction; the mean over all directions is zero.
     let direction = if length > 0.0 { d / length } else { Vector3::zeros() };
 
     let on_q1 = (d - direction * l0) * stiffness;

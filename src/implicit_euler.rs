@@ -21,7 +21,7 @@ pub fn implicit_euler(
     let g = |v: &DVector<f64>| mass * (v - &*qdot) - force(&(&*q + v * dt), v) * dt;
     let H = |v: &DVector<f64>| add_scaled(mass, -dt * dt, &stiffness(&(&*q + v * dt), v));
 
-    // Where the old velocity would turn an element inside out, the old positions are the only feasible start.
+    // If the old velocity would invert an element, zero velocity, which keeps the old positions, is a feasible initial guess.
     let mut v = qdot.clone();
     if !energy(&v).is_finite() {
         v.fill(0.0);

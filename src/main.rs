@@ -1,6 +1,6 @@
-//! The demo: `cargo run -- arma`. Reads the arguments, runs what they ask for, and ends with the right exit code.
+//! The demo: `cargo run -- arma`. Reads the arguments, runs the command, and returns its exit code.
 
-/// Prints a line of results. Who closes our standard output early (`| head`) has seen enough; that is no failure.
+/// Prints a line of results. A reader that closes standard output early, such as `| head`, is no failure.
 macro_rules! say {
     ($($line:tt)*) => {{
         use std::io::Write;

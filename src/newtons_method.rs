@@ -32,12 +32,12 @@ pub fn newtons_method(
     f_x
 }
 
-/// The first of the steps 1, ½, ¼ … that decreases f enough, and f there; none where even the smallest does not.
+/// The point after the first of the steps 1, ½, ¼ … that decreases f sufficiently, and f there; `None` if no step does.
 fn line_search(
     x0: &DVector<f64>,
     f_x0: f64,
     direction: &DVector<f64>,
-    slope: f64,
+    directional_derivative: f64,
     f: impl Fn(&DVector<f64>) -> f64,
 ) -> Option<(DVector<f64>, f64)> {
     let mut alpha = 1.0;
@@ -45,7 +45,7 @@ fn line_search(
         let x = x0 + direction * alpha;
         let f_x = f(&x);
         // NaN fails the comparison; ∞ ≤ ∞ would pass it.
-        if f_x.is_finite() && f_x <= f_x0 + SUFFICIENT_DECREASE * alpha * slope {
+        if f_x.is_finite() && f_x <= f_x0 + SUFFICIENT_DECREASE * alpha * directional_derivative {
             return Some((x, f_x));
         }
         alpha *= BACKTRACKING;

@@ -1,6 +1,6 @@
 use nalgebra::{Matrix4, Point3, Vector3, Vector4};
 
-/// Vertices within `radius` (m) of the point of the surface under a pixel, ascending; none where the pixel shows none.
+/// Vertices within `radius` (m) of the point of the surface under a pixel, ascending; empty if the ray misses the surface.
 pub fn pick_nearest_vertices(
     win: &Vector3<f64>,
     view: &Matrix4<f32>,
@@ -37,7 +37,8 @@ fn ray_through(
     Some((near.coords, far - near))
 }
 
-/// Where a ray meets a triangle, in units of its direction (Möller and Trumbore 1997); either side of it counts.
+/// Distance to the point at which a ray meets a triangle, in units of its direction (Möller and Trumbore 1997). Both sides of
+/// the triangle count.
 fn hit(origin: &Vector3<f64>, direction: &Vector3<f64>, [a, b, c]: &[Vector3<f64>; 3]) -> Option<f64> {
     let (ab, ac, ao) = (b - a, c - a, origin - a);
     let p = direction.cross(&ac);

@@ -8,7 +8,7 @@ pub fn psi_neo_hookean(F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
     }
 
     // Near rest J^(−2/3) I − 3 is a small difference of large numbers, so I − 3 and J − 1 are computed from E = F − 1.
-    // Elsewhere nothing is gained by that, and under strong compression digits are lost.
+    // Far from rest this gains no digits, and loses some under strong compression.
     let E = F - Matrix3::identity();
     if E.norm() > 0.5 {
         return C * (J.powf(-2.0 / 3.0) * F.norm_squared() - 3.0) + D * (J - 1.0).powi(2);

@@ -1,4 +1,4 @@
-//! The arguments, as types.
+//! Command line arguments as types.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -25,7 +25,7 @@ Exit codes: 0 done, 1 the simulation failed, 2 unusable arguments or scene.";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// The scenes, one line each, with what each builds
+    /// Lists the scenes, one line each, with the parts that each builds
     List,
     /// Reads, checks, measures and converts meshes
     Mesh {
@@ -85,7 +85,7 @@ pub struct RunArguments {
     /// Take 30 pictures a second of simulated time
     #[arg(long, value_name = "DIR")]
     pub record: Option<PathBuf>,
-    /// Print what the scene builds and what it leaves out, and why, then exit
+    /// Print the parts that the scene builds and those that it leaves out, and why, then exit
     #[arg(long)]
     pub explain: bool,
 }

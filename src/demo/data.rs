@@ -1,8 +1,8 @@
-//! Where the scenes and meshes are.
+//! The folder of scenes and meshes.
 
 use std::path::{Path, PathBuf};
 
-/// The folder `data`: of the current folder, of the repository that this program was built in, or else beside the program.
+/// The folder `data`: in the current folder, in the repository that this program was built in, or beside the program.
 pub fn folder() -> PathBuf {
     let has_scenes = |folder: &PathBuf| folder.join("scenes").is_dir();
     let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");

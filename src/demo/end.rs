@@ -1,28 +1,28 @@
-//! How the program ends: exit codes and the last message.
+//! Exit codes and the last message of the program.
 
 use std::fmt;
 use std::process::ExitCode;
 
 use fem_scene::simulation::Failure;
 
-/// Why it ends before everything is done.
+/// A reason for which the program ends early.
 #[derive(Debug)]
 pub enum End {
     /// The simulation failed: exit code 1.
     Failed(Failure),
-    /// The simulation stopped for a reason of its own, told in words: exit code 1.
+    /// The simulation stopped with this message: exit code 1.
     Stopped(String),
     /// Arguments, scene or output files cannot be used: exit code 2.
     Unusable(String),
 }
 
 impl End {
-    /// An error whose text names file, line or field, and the remedy.
+    /// Exit code 2. The text of `error` names file, line or field, and the remedy.
     pub fn unusable(error: impl fmt::Display) -> Self {
         Self::Unusable(error.to_string())
     }
 
-    /// What it says.
+    /// The message for the user.
     pub fn message(&self) -> String {
         match self {
             Self::Failed(failure) => failure.to_string(),
@@ -30,7 +30,7 @@ impl End {
         }
     }
 
-    /// Says it on stderr and gives the exit code.
+    /// Prints the message to stderr and returns the exit code.
     pub fn report(&self) -> ExitCode {
         let code = match self {
             Self::Failed(_) | Self::Stopped(_) => 1,

@@ -1,4 +1,4 @@
-//! `--explain`: what a scene builds and what it leaves out.
+//! `--explain`: the parts that a scene builds and those that it leaves out.
 
 use fem_scene::simulation::{Part, Simulation};
 use fem_scene::{Pipeline, Scene};

@@ -15,7 +15,7 @@ use super::run::Ready;
 /// Frames of an animated export in a second of simulated time.
 const EXPORTED_FRAMES_PER_SECOND: f64 = 30.0;
 
-/// Steps, shows progress on a terminal, and writes what the options ask for, after a failure as well.
+/// Runs all steps, shows progress on a terminal, and writes the files that the options name, also after a failure.
 pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
     let Ready { mut simulation, seconds_setup, steps, up, expected_tip } = ready;
     let mut camera = Camera::for_run(arguments, &up);
@@ -40,13 +40,13 @@ pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
     )
 }
 
-/// Not drawn where stderr is no terminal.
+/// The progress bar; hidden if stderr is not a terminal.
 fn progress_bar(steps: usize) -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:40} step {pos} of {len}, {eta} left").expect("a valid template");
     ProgressBar::new(steps as u64).with_style(style)
 }
 
-/// What is noted down after each step, where an option asks for it.
+/// Energies, frames and files of the steps, as far as the options ask for them.
 struct Log {
     wants_energies: bool,
     wants_frames: bool,
@@ -79,7 +79,7 @@ impl Log {
         self.series.as_mut().map_or(Ok(()), |series| series.add(simulation)).map_err(End::unusable)
     }
 
-    /// Writes the list of the series, where there is one.
+    /// Writes the `.pvd` of the series, if an option asks for it.
     fn finish(&self, simulation: &dyn Simulation) -> Result<(), End> {
         let listed = self.series.as_ref().map(|series| series.finish(simulation)).transpose().map_err(End::unusable)?;
         if let Some(path) = listed {

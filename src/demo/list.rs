@@ -3,7 +3,7 @@
 use super::end::End;
 use super::{data, explain, run};
 
-/// Prints a line for each scene: its name, what it is about, and what it builds.
+/// Prints a line for each scene: its name, its line `about`, and the parts that it builds.
 pub fn print_scenes() -> Result<(), End> {
     let data = data::folder();
     let names = fem_scene::names(&data);
@@ -16,7 +16,7 @@ pub fn print_scenes() -> Result<(), End> {
         // One scene that cannot be built does not hide the others.
         match run::build(&scene) {
             Ok(ready) => say!("{name:<width$} {} [{}]", scene.about, explain::built(&ready.simulation.parts())),
-            Err(end) => say!("{name:<width$} {} [not to be run: {}]", scene.about, end.message()),
+            Err(end) => say!("{name:<width$} {} [cannot be built: {}]", scene.about, end.message()),
         }
     }
     Ok(())

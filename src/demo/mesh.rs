@@ -1,11 +1,11 @@
-//! `mesh`: looks at meshes and converts them.
+//! `mesh`: measures meshes and converts them.
 
 use std::path::Path;
 
 use super::cli::MeshAction;
 use super::end::End;
 
-/// Does what is asked of a mesh file.
+/// Runs a subcommand of `mesh`.
 pub fn run(action: &MeshAction) -> Result<(), End> {
     match action {
         MeshAction::Info { file } => info(file),

@@ -1,4 +1,4 @@
-//! Functions that are not written yet: one message that lists them, where a scene needs one.
+//! Functions that are not written yet: one message lists them when a scene needs one.
 
 use std::any::Any;
 use std::fs;
@@ -10,10 +10,11 @@ use super::end::End;
 /// The course's first page, whose table lists the functions in teaching order.
 const COURSE: &str = include_str!("../../include-docs/course.md");
 
-/// How the message of the handout's functions begins.
+/// Start of the panic message of a function of the handout.
 const NOT_WRITTEN: &str = "not yet implemented";
 
-/// Runs what calls the exercises. Where one of them is not written, says so and which others are not; any other panic goes on.
+/// Runs code that calls the exercises. Turns the panic of a function that is not written yet into an error that lists all such
+/// functions; any other panic goes on.
 pub fn caught(run: impl FnOnce() -> Result<(), End>) -> Result<(), End> {
     let default_hook = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
@@ -34,19 +35,19 @@ fn text(payload: &(dyn Any + Send)) -> &str {
     payload.downcast_ref::<String>().map(String::as_str).or_else(|| payload.downcast_ref().copied()).unwrap_or_default()
 }
 
-/// The list of missing functions where the sources are at hand, else what the one that was called said.
+/// An error with the list of missing functions, or with the panic message if the sources are not at hand.
 fn explained(message: &str) -> End {
     let names = unwritten(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"));
     let Some(first) = names.first() else { return End::Stopped(message.to_owned()) };
     let width = names.iter().map(String::len).max().unwrap_or_default();
     let lines: String = names.iter().map(|name| format!("\n  {name:width$}  include-docs/{name}.md")).collect();
     End::Stopped(format!(
-        "the scene needs a function that is not written yet; these are left, each with its page:{lines}\n\
+        "the scene needs a function that is not written yet; these functions are missing, each with its page:{lines}\n\
          begin with src/{first}.rs; `cargo run -p grader -- check --only {first}` tells when it is right"
     ))
 }
 
-/// Exercises whose file still holds the handout's line, in teaching order.
+/// Exercises whose file still contains the handout's `todo!`, in teaching order.
 fn unwritten(src: &Path) -> Vec<String> {
     let stub = |path: &Path| {
         let text = fs::read_to_string(path).unwrap_or_default();
@@ -61,7 +62,7 @@ fn unwritten(src: &Path) -> Vec<String> {
     names
 }
 
-/// Where the course's table has a function; what it does not list comes last.
+/// Position of a function in the course's table; functions that it does not list come last.
 fn place(name: &str) -> usize {
     COURSE.find(&format!("[{name}](")).unwrap_or(usize::MAX)
 }
@@ -71,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_left_is_listed_in_teaching_order() {
+    fn missing_functions_are_listed_in_teaching_order() {
         let src = tempfile::tempdir().unwrap();
         for name in ["assemble_forces", "newtons_method", "phi_linear_tetrahedron", "psi_neo_hookean"] {
             fs::write(src.path().join(format!("{name}.rs")), "    todo!(\"read the page\")\n").unwrap();

@@ -1,4 +1,4 @@
-//! The files that a run leaves behind, and its last words.
+//! Output files and the summary of a run.
 
 use std::path::Path;
 
@@ -13,18 +13,18 @@ use nalgebra::Vector3;
 use super::cli::RunArguments;
 use super::end::End;
 
-/// A run that has ended, well or not.
+/// A run that has ended, with or without a failure.
 pub struct Finished<'a> {
     pub simulation: &'a dyn Simulation,
     pub run: Run,
     pub seconds_setup: f64,
     pub energies: Vec<(f64, Energies)>,
     pub frames: Vec<Frame>,
-    /// Timoshenko's displacement of the tip, m, where the scene is a cantilever.
+    /// Timoshenko's displacement of the tip, m, if the scene is a cantilever.
     pub expected_tip: Option<Vector3<f64>>,
 }
 
-/// Refuses output files that could not be written, before any work is done for them.
+/// Returns an error for output files that could not be written, before the first step.
 pub fn check(arguments: &RunArguments) -> Result<(), End> {
     let files = [
         ("--state", &arguments.state),
@@ -64,7 +64,7 @@ fn check_file(option: &str, file: &Path) -> Result<(), End> {
     Ok(())
 }
 
-/// Writes the files that the options name, then says how the run went.
+/// Writes the files that the options name and prints the summary.
 pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
     let Finished { simulation, run, seconds_setup, energies, frames, expected_tip } = finished;
     if let Some(path) = &arguments.state {
@@ -88,18 +88,18 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
 }
 
 fn print_summary(simulation: &dyn Simulation, run: &Run) {
-    let (energies, (smallest, _)) = (simulation.energies(), simulation.min_J());
-    let median =
-        quantile(&run.step_seconds, 0.5).map_or("none".to_owned(), |seconds| format!("{:.3} ms", 1e3 * seconds));
+    let (energies, (min_J, _)) = (simulation.energies(), simulation.min_J());
+    let median = quantile(&run.step_seconds, 0.5)
+        .map_or(String::new(), |seconds| format!(", {:.3} ms a step (median)", 1e3 * seconds));
     say!(
-        "{}, {}: {} steps to t = {:.4} s, {median} a step (median)",
+        "{}, {}: {} steps to t = {:.4} s{median}",
         simulation.name(),
         simulation.integrator(),
         simulation.counters().steps,
         simulation.time(),
     );
     say!(
-        "kinetic {:.4e} J, potential {:.4e} J, total {:.4e} J, smallest J {smallest:.4}",
+        "kinetic {:.4e} J, potential {:.4e} J, total {:.4e} J, minimum of det F {min_J:.4}",
         energies.kinetic,
         energies.potential,
         energies.total(),
@@ -109,15 +109,15 @@ fn print_summary(simulation: &dyn Simulation, run: &Run) {
         say!("{unconverged} steps ended before Newton's method had converged");
     }
     for Reaction { name, force: [x, y, z] } in simulation.reactions() {
-        say!("{name} holds the body with ({x:.4e}, {y:.4e}, {z:.4e}) N");
+        say!("reaction force of {name}: ({x:.4e}, {y:.4e}, {z:.4e}) N");
     }
 }
 
-/// A cantilever beside the theory.
+/// Prints the tip displacement of a cantilever beside that of Timoshenko's theory.
 fn print_tip(simulation: &dyn Simulation, expected: Option<Vector3<f64>>) {
     let Some(expected) = expected else { return };
     let (found, size) = (cantilever::tip_displacement(simulation), expected.norm());
     let along = if size > 0.0 { found.dot(&expected) / size } else { found.norm() };
-    let part = if size > 0.0 { format!(", {:.4} of it", along / size) } else { String::new() };
-    say!("the tip moves {along:.6e} m; Timoshenko's beam {size:.6e} m{part}");
+    let ratio = if size > 0.0 { format!(", ratio {:.4}", along / size) } else { String::new() };
+    say!("tip displacement {along:.6e} m, by Timoshenko's theory {size:.6e} m{ratio}");
 }

@@ -1,4 +1,4 @@
-//! Runs a scene: in a window where one can be opened, else without.
+//! Runs a scene, in a window if one can be opened.
 
 use std::time::Instant;
 
@@ -12,7 +12,7 @@ use super::cli::RunArguments;
 use super::end::End;
 use super::{data, engine, explain, headless, results, window};
 
-/// Steps without a window, where neither the scene nor the arguments say how many.
+/// Number of steps without a window, if neither the scene nor the arguments give one.
 const DEFAULT_STEPS: usize = 100;
 
 /// A simulation that is ready to start.
@@ -20,13 +20,13 @@ pub struct Ready {
     pub simulation: Box<dyn Simulation>,
     pub seconds_setup: f64,
     pub steps: usize,
-    /// The direction that is up in a picture: against gravity, or against a cantilever's load; y where there is neither.
+    /// Upward direction of pictures: against gravity, or against a cantilever's load; y without either.
     pub up: Vector3<f64>,
-    /// Timoshenko's displacement of the tip, m, where the scene is a cantilever.
+    /// Timoshenko's displacement of the tip, m, if the scene is a cantilever.
     pub expected_tip: Option<Vector3<f64>>,
 }
 
-/// Everything that a scene's name and the options ask for.
+/// Runs the scene with the options.
 pub fn run(arguments: &RunArguments) -> Result<(), End> {
     results::check(arguments)?;
     let scene = scene_with_overrides(arguments)?;
@@ -73,7 +73,7 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
     Ok(Ready { simulation, seconds_setup, steps: steps(scene), up, expected_tip })
 }
 
-/// Those that the scene says; else its load steps where it is static.
+/// The scene's number of steps, or that of its load steps if it is static.
 fn steps(scene: &Scene) -> usize {
     let load_steps = match scene.time.integrator {
         Integrator::Static => Some(scene.statics.as_ref().map_or(1, |statics| statics.load_steps)),

@@ -3,8 +3,8 @@
 use nalgebra::Matrix3;
 use nalgebra_sparse::CsrMatrix;
 
-/// A `q_size × q_size` matrix of zeros with room for what the elements `T` will add: a 3×3 block for each pair of
-/// vertices of the same element.
+/// A `q_size × q_size` matrix of zeros with the pattern of the elements `T`: a 3×3 block for each pair of vertices of the
+/// same element.
 pub fn sparsity(q_size: usize, T: &[[usize; 4]]) -> CsrMatrix<f64> {
     let (starts, neighbours) = neighbours(q_size / 3, T);
     let mut offsets = Vec::with_capacity(q_size + 1);
@@ -23,7 +23,7 @@ pub fn sparsity(q_size: usize, T: &[[usize; 4]]) -> CsrMatrix<f64> {
         .expect("neighbours are sorted and belong to the mesh")
 }
 
-/// The vertices of each vertex's elements, itself among them, ascending: `neighbours[starts[i]..starts[i + 1]]`.
+/// The vertices that share an element with vertex i, and i itself, ascending: `neighbours[starts[i]..starts[i + 1]]`.
 fn neighbours(vertices: usize, T: &[[usize; 4]]) -> (Vec<usize>, Vec<usize>) {
     let mut elements_of = vec![Vec::with_capacity(32); vertices];
     for (index, element) in T.iter().enumerate() {
@@ -33,7 +33,7 @@ fn neighbours(vertices: usize, T: &[[usize; 4]]) -> (Vec<usize>, Vec<usize>) {
         }
     }
     let (mut starts, mut neighbours) = (vec![0], Vec::with_capacity(16 * vertices));
-    // The last vertex whose list each vertex has entered.
+    // `entered[other]` is the last vertex whose list `other` has entered.
     let mut entered = vec![usize::MAX; vertices];
     for (vertex, elements) in elements_of.iter().enumerate() {
         let start = neighbours.len();
@@ -51,7 +51,7 @@ fn neighbours(vertices: usize, T: &[[usize; 4]]) -> (Vec<usize>, Vec<usize>) {
 
 /// Adds a 3×3 block to the rows of vertex `row` and the columns of vertex `column`.
 ///
-/// Panics where [`sparsity`] left no room for it.
+/// Panics if the pattern has no such block.
 #[inline]
 pub fn add_block(matrix: &mut CsrMatrix<f64>, row: usize, column: usize, block: &Matrix3<f64>) {
     let (offsets, columns, values) = matrix.csr_data_mut();

@@ -5,21 +5,21 @@ use nalgebra_sparse::{CsrMatrix, pattern::SparsityPattern};
 
 use super::ordering::minimum_degree;
 
-/// Why a matrix has no Cholesky factor: a pivot is not positive (or NaN).
+/// The error of a matrix that has no Cholesky factor: a pivot is not positive (or NaN).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotPositiveDefinite;
 
-/// Factorisation `Π A Πᵀ = L Lᵀ` of a symmetric matrix, Π an order of elimination that keeps L sparse.
+/// Factorisation `Π A Πᵀ = L Lᵀ` of a symmetric matrix, Π a fill-reducing permutation.
 ///
-/// What depends on the places of the entries alone is computed once, by [`analyze`](Self::analyze); what depends on
-/// their values each time, by [`factor`](Self::factor), which allocates nothing. Unknowns are taken in threes, as
+/// [`analyze`](Self::analyze) does the symbolic factorisation, which depends on the pattern alone, once;
+/// [`factor`](Self::factor) computes L for given values and allocates nothing. Unknowns are grouped in threes, as
 /// vertices have them; a size that three does not divide is filled up with rows of the identity.
 /// The algorithm is left-looking (T. Davis, Direct Methods for Sparse Linear Systems, SIAM 2006, chapter 4).
 pub struct Cholesky {
     pattern: SparsityPattern,
-    /// `place[old]` is where a vertex stands in the order of elimination.
+    /// `place[vertex]` is the position of a vertex in the elimination order.
     place: Vec<usize>,
-    /// Where each entry of A goes: block of `values`, row and column in it. Entries above the diagonal go nowhere.
+    /// The block of `values`, and the row and column in it, to which each entry of A is added; `None` above the diagonal.
     targets: Vec<Option<(usize, usize, usize)>>,
     /// Block columns of L: `rows[starts[j]..starts[j + 1]]` are the rows of column j, ascending, the diagonal first.
     starts: Vec<usize>,
@@ -28,14 +28,14 @@ pub struct Cholesky {
     scratch: Scratch,
 }
 
-/// Buffers of a factorisation under way.
+/// Work arrays of a factorisation.
 struct Scratch {
     /// The column being computed, by row.
     column: Vec<Matrix3<f64>>,
-    /// Columns that still have an entry in a row to come: `next[k]` follows k in the list that starts at `heads[row]`.
+    /// Lists of the columns that have an entry in a later row: `next[k]` follows k in the list that starts at `heads[row]`.
     heads: Vec<usize>,
     next: Vec<usize>,
-    /// For each column the position of its first entry that no column has used yet.
+    /// `cursor[k]` is the position of the first entry of column k that no later column has used yet.
     cursor: Vec<usize>,
 }
 
@@ -43,9 +43,9 @@ struct Scratch {
 const NONE: usize = usize::MAX;
 
 impl Cholesky {
-    /// Chooses the order and finds the entries of L.
+    /// Chooses the elimination order and finds the pattern of L.
     ///
-    /// `pattern  (n×n)` places of the entries of A, symmetric.
+    /// `pattern  (n×n)` of A, symmetric.
     pub fn analyze(pattern: &SparsityPattern) -> Self {
         let neighbours = block_neighbours(pattern);
         let vertices = neighbours.len();
@@ -72,7 +72,7 @@ impl Cholesky {
         cholesky
     }
 
-    /// Whether [`analyze`](Self::analyze) was made for this pattern.
+    /// Returns whether this is the pattern that was analysed.
     pub fn fits(&self, pattern: &SparsityPattern) -> bool {
         self.pattern == *pattern
     }
@@ -98,7 +98,7 @@ impl Cholesky {
     ///
     /// `A  (n×n)` symmetric, with the pattern that was analysed.
     pub fn factor(&mut self, A: &CsrMatrix<f64>, shift: f64) -> Result<(), NotPositiveDefinite> {
-        assert!(self.fits(A.pattern()), "the matrix has other entries than the one that was analysed");
+        assert!(self.fits(A.pattern()), "the matrix has another pattern than the one that was analysed");
         self.values.fill(Matrix3::zeros());
         for (&value, target) in A.values().iter().zip(&self.targets) {
             if let Some((block, i, j)) = *target {
@@ -153,7 +153,7 @@ impl Cholesky {
         Ok(())
     }
 
-    /// Solves `A x = b` with the factor that is there.
+    /// Solves `A x = b` with the last factor.
     ///
     /// `b  (n)`; returns `x  (n)`.
     pub fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
@@ -178,7 +178,7 @@ impl Cholesky {
     }
 }
 
-/// For each group of three unknowns the groups with which it shares an entry, ascending.
+/// For every group of three unknowns, the groups that share an entry with it, ascending.
 fn block_neighbours(pattern: &SparsityPattern) -> Vec<Vec<usize>> {
     assert_eq!(pattern.major_dim(), pattern.minor_dim(), "only a square matrix has a Cholesky factor");
     let mut neighbours = vec![Vec::new(); pattern.major_dim().div_ceil(3)];
@@ -192,7 +192,7 @@ fn block_neighbours(pattern: &SparsityPattern) -> Vec<Vec<usize>> {
     neighbours
 }
 
-/// Block columns of L: eliminating a column adds its rows to the column of the first of them.
+/// Block columns of L by symbolic elimination: a column passes its rows on to the column of the first of them.
 fn fill(neighbours: &[Vec<usize>], place: &[usize]) -> (Vec<usize>, Vec<usize>) {
     let mut columns: Vec<Vec<usize>> = (0..place.len()).map(|j| vec![j]).collect();
     for (vertex, list) in neighbours.iter().enumerate() {

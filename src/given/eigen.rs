@@ -7,7 +7,7 @@
 
 /// Calls `visit(λ, v)` for every eigenvalue λ < −`tolerance` · ‖A‖ with its eigenvector of length one.
 ///
-/// `rows  (N×N)` symmetric, of which the lower triangle is read. Visits nothing where the matrix is not finite.
+/// `rows  (N×N)` symmetric, of which the lower triangle is read. Visits no eigenvalue of a matrix that is not finite.
 pub(super) fn visit_negative<const N: usize>(
     rows: &[[f64; N]; N],
     tolerance: f64,
@@ -83,8 +83,8 @@ impl<const N: usize> Tridiagonal<N> {
     }
 
     /// Turns the beginning of T into eigenvalues, and the rows of `vectors` into their eigenvectors, by QL steps with
-    /// implicit shifts, until as many as `wanted` below `threshold` are found. Returns how many there are in all: none
-    /// where it does not converge, which takes a T that is not finite.
+    /// implicit shifts, until `wanted` eigenvalues below `threshold` are found. Returns the number of all eigenvalues found:
+    /// 0 if it does not converge, which happens only if T is not finite.
     fn diagonalize(&mut self, vectors: &mut [[f64; N]; N], threshold: f64, mut wanted: usize) -> usize {
         const MAX_STEPS: usize = 60;
         for first in 0..N {
@@ -155,7 +155,7 @@ impl<const N: usize> Tridiagonal<N> {
         e[last] = 0.0;
     }
 
-    /// From an eigenvector of T to one of A.
+    /// Transforms an eigenvector of T into one of A.
     #[inline]
     fn transform_back(&self, vector: &mut [f64; N]) {
         for u in self.reflectors[..N.saturating_sub(2)].iter().rev() {
@@ -204,7 +204,7 @@ fn reflector<const N: usize>(row: &[f64; N], start: usize) -> [f64; N] {
     u.map(|entry| entry * factor)
 }
 
-/// `(1 − u uᵀ) A (1 − u uᵀ)`, of which rows before `first` are done with.
+/// `(1 − u uᵀ) A (1 − u uᵀ)`; rows before `first` are tridiagonal already and stay.
 #[inline]
 fn reflect<const N: usize>(rows: &mut [[f64; N]; N], u: &[f64; N], first: usize) {
     // A is symmetric, so A u is a sum of its rows, which needs no sum across a vector.

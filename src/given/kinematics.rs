@@ -15,7 +15,7 @@ pub fn deformation_gradient(q: &DVector<f64>, element: &[usize; 4], dphi: &Matri
     edges * dphi.fixed_rows::<3>(1)
 }
 
-/// Undeformed volume of each element, m³; negative for an element that is turned inside out.
+/// Undeformed volume of each element, m³; negative for an inverted element.
 pub fn volumes(V: &[Vector3<f64>], T: &[[usize; 4]]) -> Vec<f64> {
     let volume = |element: &[usize; 4]| {
         let [a, b, c, d] = element.map(|vertex| V[vertex]);

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 /// Minimum degree order of a graph: `order[k]` is the node that is eliminated as the k-th.
 ///
-/// `neighbours[i]` are the nodes that share an entry with node i (i itself may be among them); the relation is
+/// `neighbours[i]` are the nodes that share an entry with node i, which may include i itself; the relation is
 /// symmetric. Eliminating a node joins all of its remaining neighbours, which is the fill that the order keeps small.
 /// The cliques that arise are kept as lists, never as edges, so memory stays that of the graph
 /// (A. George and J. Liu, The evolution of the minimum degree ordering algorithm, SIAM Review 31, 1989, section 4).
@@ -27,15 +27,15 @@ pub(super) fn minimum_degree(neighbours: &[Vec<usize>]) -> Vec<usize> {
     order
 }
 
-/// What is left of the graph: edges that were there from the start, and cliques that eliminations have made.
+/// The graph after some eliminations: original edges, and the cliques that eliminations have created.
 struct QuotientGraph {
     edges: Vec<Vec<usize>>,
-    /// For each node the cliques that it belongs to.
+    /// `memberships[i]` are the cliques that node i belongs to.
     memberships: Vec<Vec<usize>>,
     cliques: Vec<Vec<usize>>,
     eliminated: Vec<bool>,
     current_degree: Vec<usize>,
-    /// `mark[i] == stamp` says that node i was met in the walk under way.
+    /// `mark[i] == stamp` if the current traversal has visited node i.
     mark: Vec<usize>,
     stamp: usize,
 }
@@ -75,14 +75,14 @@ impl QuotientGraph {
         self.current_degree[node]
     }
 
-    /// Takes `node` out and joins its neighbours; returns them, for their degrees have changed.
+    /// Eliminates `node` and joins its neighbours; returns them, since their degrees have changed.
     fn eliminate(&mut self, node: usize) -> Vec<usize> {
         let joined = self.reachable(node);
         self.eliminated[node] = true;
         let absorbed = std::mem::take(&mut self.memberships[node]);
         let clique = self.cliques.len();
         for &other in &joined {
-            // Edges and cliques inside the new clique say nothing that it does not.
+            // The new clique contains these edges and cliques.
             self.memberships[other].retain(|old| !absorbed.contains(old));
             self.memberships[other].push(clique);
             self.edges[other].retain(|&end| self.mark[end] != self.stamp);

@@ -10,7 +10,7 @@ const TOLERANCE: f64 = 1e-14;
 /// The positive semi-definite matrix nearest to a symmetric one (in the Frobenius norm): negative eigenvalues become zero,
 /// zeros and positives stay.
 ///
-/// `H  (12×12)` symmetric, any unit; returned as it is where it has no negative eigenvalue or is not finite.
+/// `H  (12×12)` symmetric, any unit; returned unchanged if it has no negative eigenvalue or is not finite.
 pub fn project(H: &SMatrix<f64, 12, 12>) -> SMatrix<f64, 12, 12> {
     let mut projected = *H;
     match without_translations(H) {
@@ -35,11 +35,11 @@ fn raise(H: &mut SMatrix<f64, 12, 12>, eigenvalue: f64, vector: &[f64; 12]) {
     }
 }
 
-/// Largest force that a translation may meet, relative to the largest stiffness, to count as none.
+/// Largest force of a translation, relative to the largest stiffness, that counts as zero.
 const NO_FORCE: f64 = 1e-14;
 
-/// H in a basis without the three translations, where H has nothing to do with them (as for any element): nine rows take
-/// half the time of twelve.
+/// H in a basis without the three translations, if they lie in its null space (as for any element): nine rows take half the
+/// time of twelve.
 ///
 /// The basis is (x0 − x1)/√2, (x2 − x3)/√2 and (x0 + x1 − x2 − x3)/2; it is orthonormal, so eigenvalues are the same.
 fn without_translations(H: &SMatrix<f64, 12, 12>) -> Option<[[f64; 9]; 9]> {
@@ -67,7 +67,7 @@ fn without_translations(H: &SMatrix<f64, 12, 12>) -> Option<[[f64; 9]; 9]> {
     (force <= NO_FORCE * stiffest).then_some(rows)
 }
 
-/// Back from the basis of [`without_translations`].
+/// Transforms a vector back from the basis of [`without_translations`].
 fn with_translations(v: &[f64; 9]) -> [f64; 12] {
     let mut x = [0.0; 12];
     for i in 0..3 {

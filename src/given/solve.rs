@@ -4,23 +4,23 @@ use nalgebra_sparse::CsrMatrix;
 use super::Cholesky;
 
 /// Solves `A x = b` by sparse Cholesky factorisation; where A is not positive definite, a multiple of the identity is
-/// added, ten times more each time, until it is. See [`Solver`] for many systems with entries in the same places.
+/// added, ten times more each time, until it is. See [`Solver`] for many systems of the same pattern.
 ///
 /// `A  (n×n)` symmetric, `b  (n)`; returns `x  (n)`, NaN where A or b is not finite or too large to compute with.
 pub fn solve(A: &CsrMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
     Solver::default().solve(A, b)
 }
 
-/// [`solve`](fn@solve) with a memory: systems with entries in the same places are analysed once, and the
-/// same matrix is factorised once.
+/// [`solve`](fn@solve) for a sequence of systems: one symbolic factorisation serves all matrices of the same pattern, and an
+/// unchanged matrix is factorised once.
 #[derive(Default)]
 pub struct Solver {
     cholesky: Option<Cholesky>,
-    /// Values that the factor belongs to, once there is one.
+    /// Values of the matrix that was factorised, if there is a factor.
     factored: Option<Vec<f64>>,
-    /// How often an order of elimination was chosen.
+    /// Number of symbolic factorisations.
     pub symbolic_factorizations: usize,
-    /// How often values were factorised, shifted attempts included.
+    /// Number of numeric factorisations, shifted attempts included.
     pub factorizations: usize,
 }
 
@@ -28,7 +28,7 @@ pub struct Solver {
 const FIRST_SHIFT: f64 = 1e-10;
 
 impl Solver {
-    /// Memory that the factor holds, bytes.
+    /// Memory of the factor, bytes.
     pub fn bytes(&self) -> usize {
         self.cholesky.as_ref().map_or(0, |cholesky| 8 * cholesky.nnz())
     }

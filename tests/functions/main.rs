@@ -1,4 +1,4 @@
-//! The checks that an implementation of the 22 functions is held to; they are written in grader/src/properties.
+//! The checks of the 22 functions; they are written in grader/src/properties.
 //!
 //! `cargo test --no-default-features --test functions psi_neo_hookean` runs those of one function and of the functions
 //! whose names contain its name. A message says what is wrong and which page to read.
@@ -31,7 +31,7 @@ fn trial(function: &'static str, check: &Check) -> Trial {
 }
 
 fn main() -> ExitCode {
-    // The message of a check tells of a panic; a second report would stand between the results.
+    // The message of a check reports a panic; a second report would stand between the results.
     panic::set_hook(Box::new(|_| {}));
     let trials =
         FUNCTIONS.iter().flat_map(|(function, checks)| checks.iter().map(|check| trial(function, check))).collect();

@@ -11,7 +11,7 @@ use grader::properties::meshes::Mesh;
 use grader::properties::outcome::{Outcome, holds, near};
 
 #[test]
-fn room_is_made_for_the_vertices_that_share_an_element_and_for_no_others() -> Outcome {
+fn sparsity_has_a_block_for_every_pair_of_vertices_that_share_an_element() -> Outcome {
     let mesh = Mesh::uneven_box([2, 1, 1], 1.0);
     let matrix = given::sparsity(3 * mesh.V.len(), &mesh.T);
     let mut room = DMatrix::<f64>::zeros(matrix.nrows(), matrix.ncols());
@@ -25,7 +25,7 @@ fn room_is_made_for_the_vertices_that_share_an_element_and_for_no_others() -> Ou
 }
 
 #[test]
-fn blocks_are_added_where_they_belong() -> Outcome {
+fn add_block_adds_to_the_block_of_its_vertices() -> Outcome {
     let mut matrix = given::sparsity(15, &[[3, 0, 4, 1]]);
     let block = Matrix3::from_fn(|i, j| 1.0 + 3.0 * i as f64 + j as f64);
     let mut expected = DMatrix::zeros(15, 15);
@@ -39,7 +39,7 @@ fn blocks_are_added_where_they_belong() -> Outcome {
 
 #[test]
 #[should_panic(expected = "vertices 0 and 2 share no element")]
-fn a_block_without_room_is_an_error() {
+fn adding_a_block_outside_the_pattern_panics() {
     given::add_block(&mut given::sparsity(15, &[[3, 0, 4, 1]]), 0, 2, &Matrix3::identity());
 }
 
@@ -50,7 +50,7 @@ fn matrix(n: usize) -> impl Strategy<Value = DMatrix<f64>> {
 }
 
 #[test]
-fn a_scaled_matrix_is_added_whatever_the_places_of_its_entries() -> Outcome {
+fn add_scaled_works_for_equal_and_for_different_patterns() -> Outcome {
     for_all((matrix(7), matrix(7), -3.0..3.0), |(A, B, factor)| {
         let sum = given::add_scaled(&sparse(&A), factor, &sparse(&B));
         near("A + factor B", &DMatrix::from(&sum), &(&A + &B * factor), 1e-15)?;
@@ -60,7 +60,7 @@ fn a_scaled_matrix_is_added_whatever_the_places_of_its_entries() -> Outcome {
 }
 
 #[test]
-fn selecting_is_a_product_with_p_from_both_sides() -> Outcome {
+fn select_is_the_product_p_k_p_transposed() -> Outcome {
     for_all((matrix(12), prop::collection::vec(0..4usize, 0..4)), |(K, fixed)| {
         let P = fixed_point_constraints(12, &fixed);
         let dense_P = DMatrix::from(&P);

@@ -12,7 +12,7 @@ use grader::properties::outcome::Outcome;
 use grader::properties::random;
 use proptest::strategy::Strategy;
 
-/// Holds a property to random inputs, the same ones in every run.
+/// Checks a property with random inputs, the same ones in every run.
 fn for_all<S: Strategy>(inputs: S, property: impl Fn(S::Value) -> Outcome) -> Outcome {
     random::for_all(2024, inputs, property)
 }

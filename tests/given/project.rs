@@ -44,7 +44,7 @@ fn negative_eigenvalues_become_zero_and_the_others_stay() -> Outcome {
 }
 
 #[test]
-fn the_scale_does_not_matter() -> Outcome {
+fn the_unit_does_not_matter() -> Outcome {
     for_all((frame(), spectrum()), |(frame, spectrum)| {
         let H = with_spectrum(&frame, &spectrum);
         for scale in [1e-20, 1e-6, 1e6, 1e20] {

@@ -1,6 +1,6 @@
-//! Properties of the reference solution that the pages do not ask of a student: energies near rest to the digits that F has, and the
-//! first element of those that hold a display vertex, numbers so large that a norm overflows, and time steps whose old velocity
-//! leads where the energy is infinite.
+//! Properties of our own solution that the pages do not ask of students: energies near rest to the digits that F has, the first
+//! of several elements that contain a display vertex, gradients whose norm overflows, and time steps whose old velocity has an
+//! infinite energy.
 
 use std::cell::RefCell;
 
@@ -56,7 +56,7 @@ fn a_shared_face_belongs_to_the_first_element() -> Outcome {
 }
 
 #[test]
-fn a_point_within_a_millionth_outside_still_counts_as_inside() -> Outcome {
+fn a_point_less_than_a_millionth_outside_counts_as_inside() -> Outcome {
     let (V, [small, large]) = overlapping();
     // Just below the face z = 0 of both; then just past the slanted face, which the large element covers.
     let below = |depth: f64| Vector3::new(0.25, 0.25, -depth);

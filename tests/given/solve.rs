@@ -26,7 +26,7 @@ fn right_hand_side(n: usize) -> DVector<f64> {
 }
 
 #[test]
-fn positive_definite_systems_are_solved_like_by_elimination() -> Outcome {
+fn positive_definite_systems_agree_with_elimination() -> Outcome {
     for_all(positive_definite(), |A| {
         let b = right_hand_side(A.nrows());
         let A = sparse(&A);
@@ -44,7 +44,7 @@ fn the_unit_of_the_matrix_does_not_matter() -> Outcome {
 }
 
 #[test]
-fn indefinite_systems_have_a_finite_answer_that_goes_downhill() -> Outcome {
+fn indefinite_systems_have_a_finite_solution_in_a_descent_direction() -> Outcome {
     for_all((positive_definite(), 0.0..20.0), |(A, shift)| {
         let n = A.nrows();
         let (A, b) = (A - DMatrix::identity(n, n) * shift, right_hand_side(n));
@@ -57,12 +57,6 @@ fn indefinite_systems_have_a_finite_answer_that_goes_downhill() -> Outcome {
         holds("finite for mixed and negative matrices", x.iter().all(|entry| entry.is_finite()))?;
     }
     Ok(())
-}
-
-#[test]
-fn a_matrix_of_zeros_ends_too() -> Outcome {
-    let x = given::solve(&sparse(&DMatrix::zeros(2, 2)), &dvector![1.0, -2.0]);
-    holds("two unknowns, two answers", x.len() == 2)
 }
 
 #[test]
@@ -85,11 +79,11 @@ fn no_unknowns_have_an_empty_solution() -> Outcome {
 #[test]
 fn a_matrix_of_zeros_has_a_finite_answer() -> Outcome {
     let x = given::solve(&sparse(&DMatrix::zeros(3, 3)), &dvector![1.0, 2.0, 3.0]);
-    holds("the answer is finite", x.iter().all(|value| value.is_finite()))
+    holds("three finite unknowns", x.len() == 3 && x.iter().all(|value| value.is_finite()))
 }
 
 #[test]
-fn a_solver_notices_new_values_and_new_places() -> Outcome {
+fn a_solver_notices_new_values_and_new_patterns() -> Outcome {
     let mut solver = given::Solver::default();
     let b = dvector![1.0, 2.0];
     let systems = [dmatrix![4.0, 1.0; 1.0, 3.0], dmatrix![5.0, 1.0; 1.0, 3.0], dmatrix![5.0, 0.0; 0.0, 3.0]];

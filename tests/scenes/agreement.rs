@@ -1,4 +1,4 @@
-//! The course's pipeline and the engine compute the same motion, though they share no element, no assembly and no solver.
+//! The course's pipeline and the engine compute the same motion, although they share no element, assembly or solver code.
 
 use fem_scene::simulation::Simulation;
 use fem_scene::{Integrator, body};
@@ -20,7 +20,7 @@ fn largest_distance(name: &str, integrator: Integrator, amplitude: f64) -> f64 {
     let engine_body = body(&engine_scene, &data()).unwrap();
     let mut engine = fem_engine::simulator::build(&engine_scene, engine_body).unwrap();
     let V = &course.shape().mesh.vertices;
-    let (least, most) = V.iter().fold((V[0], V[0]), |(least, most), x| (least.inf(x), most.sup(x)));
+    let (low, high) = V.iter().fold((V[0], V[0]), |(low, high), x| (low.inf(x), high.sup(x)));
     let mut largest: f64 = 0.0;
     for step in 1..=STEPS {
         course.step().unwrap_or_else(|failure| panic!("{name}, course: {failure}"));
@@ -30,23 +30,23 @@ fn largest_distance(name: &str, integrator: Integrator, amplitude: f64) -> f64 {
         largest = largest.max(distance);
     }
     assert_eq!(engine.counters().unconverged_steps, 0);
-    largest / (most - least).max()
+    largest / (high - low).max()
 }
 
 /// The course's Newton method ends after five steps, converged or not. With the scene's pull of 0.2 m it leaves the stiff bunny
-/// 2.2e-7 of its size from where the engine and another program, both converged, have it; with a gentler one it converges.
+/// 2.2e-7 of its size away from the converged solution of the engine and of another program; with a gentler pull it converges.
 #[test]
-fn by_implicit_euler_the_course_and_the_engine_move_armadillo_and_bunny_alike() {
+fn course_and_engine_agree_under_implicit_euler() {
     for (name, amplitude) in [("arma", 0.2), ("bunny", 0.02)] {
         let distance = largest_distance(name, Integrator::ImplicitEuler, amplitude);
         assert!(distance <= 1e-8, "{name}: {distance:.2e} of the body's size");
     }
 }
 
-/// Linearly implicit Euler solves with the stiffness once, so what the stiffness is changes the motion: the course projects
-/// every element's, the engine takes it as it is while it can be factorised.
+/// Linearly implicit Euler solves with the stiffness once, so its projection changes the motion: the course projects every
+/// element, the engine uses the exact matrix as long as it can be factorised.
 #[test]
-fn by_linearly_implicit_euler_they_differ_by_the_projection_of_the_stiffness() {
+fn course_and_engine_differ_by_the_projection_under_linearly_implicit_euler() {
     let distance = largest_distance("bunny", Integrator::LinearlyImplicitEuler, 0.2);
     assert!((1e-6..1e-3).contains(&distance), "{distance:.2e} of the body's size");
 }

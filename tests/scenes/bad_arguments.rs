@@ -1,15 +1,15 @@
-//! Arguments that cannot be used: exit code 2 and one message that tells the remedy.
+//! Arguments that cannot be used: exit code 2 and one message with the remedy.
 
 use crate::program::{Desk, assert_names, course_scenes};
 use crate::scene_text::CUBE;
 
-/// Refused with a message that holds these parts.
+/// Asserts exit code 2 and a message that contains these parts.
 fn assert_refused(desk: &Desk, arguments: &str, parts: &[&str]) {
     assert_names(&desk.refused(arguments), parts);
 }
 
 #[test]
-fn a_scene_that_does_not_exist_is_refused_with_those_that_do() {
+fn an_unknown_scene_is_refused_with_a_list_of_the_known_ones() {
     let message = Desk::new().refused("nosuch --headless");
     assert_names(&message, &["`nosuch`", ".toml"]);
     for name in course_scenes() {
@@ -18,7 +18,7 @@ fn a_scene_that_does_not_exist_is_refused_with_those_that_do() {
 }
 
 #[test]
-fn a_path_that_is_no_scene_file_is_refused() {
+fn a_path_to_no_scene_file_is_refused() {
     let desk = Desk::with("folder/x", "");
     assert_refused(&desk, "nosuch.toml --headless", &["nosuch.toml", "cannot be read", "check the path"]);
     assert_refused(&desk, "./nosuch --headless", &["./nosuch", "check the path"]);
@@ -43,7 +43,7 @@ fn flags_out_of_range_are_refused() {
 }
 
 #[test]
-fn an_integrator_that_the_course_does_not_have_is_refused_with_those_that_it_has() {
+fn an_integrator_of_the_engine_is_refused_in_a_course_scene() {
     let desk = Desk::with("cube.toml", CUBE);
     for value in ["explicit_euler", "semi_implicit_euler", "rk2", "rk4", "verlet", "static"] {
         let parts = ["cube.toml", "time.integrator", value, "use linearly_implicit_euler or implicit_euler"];
@@ -77,7 +77,7 @@ fn output_files_that_cannot_be_written_are_refused_before_the_first_step() {
 }
 
 #[test]
-fn an_export_of_an_unknown_kind_is_refused_with_the_known_kinds() {
+fn an_unknown_export_format_is_refused_with_the_known_ones() {
     let desk = Desk::with("cube.toml", CUBE);
     for name in ["x.stl", "x", "x.OBJX", "obj", ".obj"] {
         assert_refused(&desk, &format!("cube.toml --headless --export {name}"), &["--export", ".obj, .vtu, .glb"]);
@@ -103,7 +103,7 @@ fn meshes_that_cannot_be_read_or_written_are_refused() {
 }
 
 #[test]
-fn two_results_do_not_share_a_file() {
+fn two_options_with_the_same_output_file_are_refused() {
     let desk = Desk::with("cube.toml", CUBE);
     let arguments = "cube.toml --headless --state x.json --stats x.json";
     assert_refused(&desk, arguments, &["--state and --stats", "x.json", "give each its own"]);

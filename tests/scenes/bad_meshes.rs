@@ -14,7 +14,7 @@ fn desk(mesh_table: &str, nodes: &str, elements: &str) -> Desk {
     desk
 }
 
-/// Refused at the line of the mesh table in one line that holds these parts.
+/// Asserts a message of one line that names this line of the scene and contains these parts.
 fn assert_refused(desk: &Desk, line: usize, parts: &[&str]) {
     let message = desk.refused("bad.toml --headless");
     assert_eq!(message.lines().count(), 1, "{message}");
@@ -27,7 +27,7 @@ fn assert_mesh_refused(nodes: &str, elements: &str, line: usize, parts: &[&str])
 }
 
 #[test]
-fn the_mesh_of_these_tests_is_good_as_it_is() {
+fn the_mesh_of_these_tests_runs_without_changes() {
     desk("file = \"m.node\"", NODES, ELEMENTS).run_well("bad.toml --headless");
 }
 
@@ -39,7 +39,7 @@ fn a_scene_needs_one_source_of_tetrahedra_and_only_one() {
 }
 
 #[test]
-fn files_that_are_not_there_are_named() {
+fn missing_files_are_refused_with_their_names() {
     let file = |name: &str| desk(&format!("file = \"{name}\""), NODES, ELEMENTS);
     assert_refused(&file("no.node"), 4, &["mesh.file", "no.node: there is no such file", "check the path"]);
     assert_refused(&file("m.stl"), 4, &["mesh.file", "`.stl` is unknown", ".node with .ele"]);
@@ -51,7 +51,7 @@ fn files_that_are_not_there_are_named() {
 }
 
 #[test]
-fn a_display_surface_that_is_none_is_refused() {
+fn an_unusable_display_surface_is_refused() {
     let desk = desk("file = \"m.node\"\ndisplay = \"s.obj\"", NODES, ELEMENTS);
     desk.write("s.obj", b"\xff\x00\xfe garbage");
     assert_refused(&desk, 5, &["mesh.display", "s.obj"]);
@@ -72,7 +72,7 @@ fn wrong_counts_and_indices_are_refused() {
 }
 
 #[test]
-fn coordinates_that_are_no_numbers_are_refused() {
+fn coordinates_that_are_not_finite_numbers_are_refused() {
     for word in ["nan", "inf", "1e999"] {
         let nodes = NODES.replacen("2 0 1 0", &format!("2 0 {word} 0"), 1);
         assert_mesh_refused(&nodes, ELEMENTS, 4, &["m.node, line 4", &format!("`{word}` is not finite")]);
@@ -81,7 +81,7 @@ fn coordinates_that_are_no_numbers_are_refused() {
 }
 
 #[test]
-fn elements_without_a_positive_volume_are_named() {
+fn elements_without_positive_volume_are_refused_with_their_number() {
     let flat = NODES.replacen("4 1 1 1", "4 0.5 0.5 0", 1);
     assert_mesh_refused(&flat, ELEMENTS, 3, &["m.node: element 1", "no volume", "remove it or move its vertices"]);
     let swapped = "2 4 0\n0 0 1 2 3\n1 2 1 3 4\n";
@@ -96,13 +96,13 @@ fn a_vertex_without_an_element_is_refused() {
 }
 
 #[test]
-fn a_mesh_of_nothing_is_refused() {
+fn an_empty_mesh_is_refused() {
     assert_mesh_refused("0 3 0 0\n", "0 4 0\n", 3, &["m.node", "the mesh has no "]);
     assert_mesh_refused("", "", 4, &["m.node", "the mesh has no "]);
 }
 
 #[test]
-fn a_scale_that_leaves_no_volume_or_too_much_of_it_is_refused() {
+fn a_scale_out_of_range_is_refused() {
     let scaled = |scale: &str| desk(&format!("file = \"m.node\"\nscale = {scale}"), NODES, ELEMENTS);
     assert_refused(&scaled("1e-200"), 5, &["mesh.scale is 1e-200", "too small", "give 1e-60 or more"]);
     assert_refused(&scaled("1e200"), 5, &["mesh.scale is 1e200", "too large", "give at most 1e60"]);

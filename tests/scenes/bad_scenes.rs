@@ -3,7 +3,8 @@
 use crate::program::{Desk, assert_names};
 use crate::scene_text::{CUBE, edit, without};
 
-/// The cube's scene with a passage replaced is refused at this line, in one line that holds these parts.
+/// Asserts that the cube's scene with a passage replaced is refused with a message of one line that names this line of the file
+/// and contains these parts.
 fn assert_refused(from: &str, to: &str, line: usize, parts: &[&str]) {
     assert_text_refused(&edit(CUBE, from, to), line, parts);
 }
@@ -16,7 +17,7 @@ fn assert_text_refused(text: &str, line: usize, parts: &[&str]) {
 }
 
 #[test]
-fn files_that_are_no_text_are_refused() {
+fn files_that_are_not_text_are_refused() {
     let garbage: Vec<u8> = (0..400_u32).map(|i| (i * i * 31 + 128) as u8).collect();
     let message = Desk::with("bad.toml", garbage).refused("bad.toml --headless");
     assert_names(&message, &["bad.toml: cannot be read: it is not UTF-8 text; check"]);
@@ -131,7 +132,7 @@ fn numbers_out_of_range_are_refused_with_their_field() {
 }
 
 #[test]
-fn a_material_needs_one_pair_of_moduli_and_only_one() {
+fn a_material_without_exactly_one_pair_of_moduli_is_refused() {
     let pair = "give one pair and only one";
     assert_refused("D = 4e5\n", "", 5, &["material needs either C and D or young and poisson", pair]);
     assert_refused("C = 1e5\n", "", 5, &[pair]);
@@ -142,7 +143,7 @@ fn a_material_needs_one_pair_of_moduli_and_only_one() {
 }
 
 #[test]
-fn moduli_that_no_material_has_are_refused() {
+fn moduli_out_of_range_are_refused() {
     for value in ["0", "-1e5", "nan", "inf"] {
         let moduli = format!("young = {value}\npoisson = 0.3\n");
         assert_refused("C = 1e5\nD = 4e5\n", &moduli, 7, &["material.young is ", "a positive number of Pa"]);
@@ -154,7 +155,7 @@ fn moduli_that_no_material_has_are_refused() {
 }
 
 #[test]
-fn fixed_nodes_are_given_in_one_way_and_only_one() {
+fn fixed_with_both_plane_and_nodes_or_neither_is_refused() {
     let plane = "plane = { axis = \"y\", below = 0.1 }\n";
     assert_refused(plane, "", 12, &["fixed needs either plane or nodes", "give one and only one"]);
     assert_refused(plane, &format!("{plane}nodes = [0]\n"), 12, &["fixed needs either plane or nodes"]);
@@ -168,7 +169,7 @@ fn nodes_that_the_mesh_does_not_have_are_refused() {
 }
 
 #[test]
-fn a_box_that_is_no_whole_number_of_cells_is_refused() {
+fn a_box_of_no_whole_number_of_cells_is_refused() {
     assert_refused("[1, 1, 1]", "[1, 1.3, 1]", 4, &["mesh.box", "1.3 m along y", "not a whole number of cells"]);
     assert_refused("[1, 1, 1]", "[1, 1, 0]", 4, &["mesh.box", "0 m along z"]);
     assert_refused("[1, 1, 1]", "[-1, 1, 1]", 4, &["mesh.box", "-1 m along x"]);
@@ -179,7 +180,7 @@ fn a_box_that_is_no_whole_number_of_cells_is_refused() {
 }
 
 #[test]
-fn what_only_the_engine_has_is_refused_in_a_scene_of_the_course() {
+fn keys_of_the_engine_are_refused_in_a_course_scene() {
     let on = "on = { axis = \"y\", side = \"max\", within = 0 }\n";
     let tables = [
         "[newton]\n".to_owned(),

@@ -1,4 +1,4 @@
-//! What a person can do to a running simulation.
+//! Interaction with a running simulation: reset, parameters, integrators, clicks.
 
 use fem_scene::simulation::{Click, Pull, Simulation};
 use nalgebra::{Matrix4, Perspective3, Point3, Vector3, Vector4};
@@ -25,7 +25,7 @@ fn a_reset_returns_to_the_start_and_the_same_motion_follows() {
 }
 
 #[test]
-fn a_failed_step_leaves_the_last_good_state_and_a_reset_goes_on() {
+fn a_failed_step_keeps_the_last_good_state_and_a_reset_restarts() {
     let mut simulation = build_with(&edit(CUBE, "dt = 0.01", "dt = 1.0"), INTEGRATORS[0]);
     let pull = Pull { anchors: vec![(26, Vector3::new(1.0, 1.0, 1.0))], offset: Vector3::new(-3.0, -3.0, -3.0) };
     simulation.pull(Some(pull));
@@ -39,7 +39,7 @@ fn a_failed_step_leaves_the_last_good_state_and_a_reset_goes_on() {
 }
 
 #[test]
-fn every_parameter_takes_its_whole_range_and_nothing_beyond() {
+fn every_parameter_accepts_its_range_and_refuses_values_outside() {
     let mut simulation = build(&parse(CUBE));
     let parameters = simulation.parameters();
     assert_eq!(parameters.iter().map(|p| p.key).collect::<Vec<_>>(), ["dt", "C", "D", "density", "gravity", "drag"]);
@@ -70,7 +70,7 @@ fn a_parameter_that_the_scene_does_not_have_is_refused() {
 }
 
 #[test]
-fn a_parameter_that_is_set_moves_the_body_as_one_that_the_scene_names() {
+fn a_parameter_that_is_set_acts_like_the_same_number_in_the_scene() {
     let edits = [
         ("dt", 0.02, "dt = 0.01", "dt = 0.02"),
         ("C", 2e5, "C = 1e5", "C = 2e5"),
@@ -92,7 +92,7 @@ fn a_parameter_that_is_set_moves_the_body_as_one_that_the_scene_names() {
 }
 
 #[test]
-fn the_next_integrator_is_the_other_one_and_then_the_first_again() {
+fn next_integrator_cycles_through_both_integrators() {
     let mut simulation = build(&parse(CUBE));
     assert_eq!(simulation.integrator(), "implicit_euler");
     for expected in ["linearly_implicit_euler", "implicit_euler", "linearly_implicit_euler"] {
@@ -115,7 +115,7 @@ fn click(x: f64, y: f64) -> Click {
 }
 
 #[test]
-fn a_click_hits_the_front_of_the_body_and_a_click_beside_it_nothing() {
+fn a_click_picks_the_front_of_the_body_and_a_click_beside_it_no_node() {
     let simulation = build(&parse(CUBE));
     let picked = simulation.pick(&click(400.0, 300.0));
     // The middle of the front of 27 nodes is node 22; those of the back are 0 to 8.
@@ -126,7 +126,7 @@ fn a_click_hits_the_front_of_the_body_and_a_click_beside_it_nothing() {
 }
 
 #[test]
-fn a_click_meets_the_body_where_it_is_now() {
+fn a_click_picks_the_deformed_body() {
     let text = edit(&free_cube(), "[time]", "[gravity]\nacceleration = [0, -9.81, 0]\n[time]");
     let mut simulation = build(&parse(&text));
     assert!(!simulation.pick(&click(400.0, 300.0)).is_empty());

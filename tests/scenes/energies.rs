@@ -1,4 +1,4 @@
-//! Energy: who may gain it, and from where.
+//! Energy balances: a body without external forces stays at rest, and implicit Euler gains no energy.
 
 use fem_scene::simulation::Simulation;
 use fem_scene::{Integrator, Scene, body};
@@ -28,7 +28,7 @@ fn a_body_without_gravity_and_drag_stays_at_rest() {
 }
 
 #[test]
-fn under_gravity_alone_implicit_euler_never_gains_energy() {
+fn implicit_euler_gains_no_energy_under_gravity_alone() {
     for name in course_scenes() {
         let mut scene = with(shipped(&name), Integrator::ImplicitEuler);
         scene.drag = None;
@@ -46,13 +46,13 @@ fn under_gravity_alone_implicit_euler_never_gains_energy() {
 }
 
 #[test]
-fn implicit_euler_never_has_more_energy_than_the_drag_has_put_in() {
+fn implicit_euler_gains_no_more_energy_than_the_work_of_the_drag() {
     for name in course_scenes() {
         assert_gains_no_more_than_work(&with(shipped(&name), Integrator::ImplicitEuler));
     }
 }
 
-/// When the target jumps to where it will be at the end of a step, the spring's energy changes by the work of the drag; the step
+/// When the target jumps to its place at the end of a step, the energy of the spring changes by the work of the drag; the step
 /// itself can only lose energy.
 fn assert_gains_no_more_than_work(scene: &Scene) {
     let drag = scene.drag.clone().unwrap();
@@ -76,7 +76,7 @@ fn assert_gains_no_more_than_work(scene: &Scene) {
 }
 
 #[test]
-fn a_steady_body_under_gravity_has_come_to_rest_below_where_it_began() {
+fn a_body_under_gravity_comes_to_rest_at_a_lower_energy() {
     for integrator in INTEGRATORS {
         let mut scene = with(shipped("bunny"), integrator);
         scene.drag = None;

@@ -1,4 +1,4 @@
-//! The final mesh as other programs read it.
+//! Exports of the final mesh and of series.
 
 use std::fs;
 
@@ -9,7 +9,7 @@ use crate::program::{Desk, course_scenes};
 use crate::scene_text::{CUBE, build, parse, shipped};
 
 #[test]
-fn an_obj_of_a_shipped_scene_holds_its_display_surface_where_it_is_at_the_end() {
+fn an_obj_export_contains_the_deformed_display_surface() {
     for name in course_scenes() {
         let desk = Desk::new();
         desk.run_well(&format!("{name} --headless --steps 3 --export x.obj"));
@@ -22,7 +22,7 @@ fn an_obj_of_a_shipped_scene_holds_its_display_surface_where_it_is_at_the_end() 
 }
 
 #[test]
-fn a_scene_without_a_display_surface_exports_the_boundary_of_its_mesh() {
+fn an_obj_export_without_a_display_surface_contains_the_boundary_of_the_mesh() {
     let desk = Desk::with("cube.toml", CUBE);
     desk.run_well("cube.toml --headless --export x.obj");
     let found = read_surface(&desk.path("x.obj")).unwrap();
@@ -33,7 +33,7 @@ fn a_scene_without_a_display_surface_exports_the_boundary_of_its_mesh() {
 }
 
 #[test]
-fn a_vtu_of_a_shipped_scene_holds_its_simulation_mesh_and_the_fields() {
+fn a_vtu_export_contains_the_simulation_mesh_and_its_fields() {
     for name in course_scenes() {
         let desk = Desk::new();
         desk.run_well(&format!("{name} --headless --steps 3 --export x.vtu"));
@@ -46,7 +46,7 @@ fn a_vtu_of_a_shipped_scene_holds_its_simulation_mesh_and_the_fields() {
 }
 
 #[test]
-fn a_glb_of_a_shipped_scene_is_a_complete_file_of_gltf_2() {
+fn a_glb_export_is_a_complete_gltf_2_file_with_animation() {
     for name in course_scenes() {
         let desk = Desk::new();
         desk.run_well(&format!("{name} --headless --steps 8 --export x.glb"));
@@ -69,7 +69,7 @@ fn an_export_leaves_no_unfinished_file_behind() {
 }
 
 #[test]
-fn a_series_holds_the_state_at_rest_and_after_every_nth_step_with_a_list_of_their_times() {
+fn a_series_contains_every_nth_state_and_a_list_of_their_times() {
     let desk = Desk::with("cube.toml", CUBE);
     desk.run_well("cube.toml --headless --steps 5 --vtu-series out/cube --every 2 --export last.vtu");
     let mut names: Vec<_> =
@@ -90,7 +90,7 @@ fn a_series_holds_the_state_at_rest_and_after_every_nth_step_with_a_list_of_thei
 }
 
 #[test]
-fn a_series_of_every_step_is_the_default_and_needs_no_word_about_the_window() {
+fn a_series_writes_every_step_by_default_and_opens_no_window() {
     let desk = Desk::with("cube.toml", CUBE);
     desk.run_well("cube.toml --steps 2 --vtu-series out");
     assert_eq!(fs::read_dir(desk.path("out")).unwrap().count(), 4);

@@ -1,10 +1,10 @@
-//! Options that override a scene, and those that tell about it.
+//! Options that override a scene or describe it.
 
 use crate::program::{Desk, course_scenes, data, shipped_scenes};
 use crate::scene_text::{CUBE, edit, shipped};
 
 #[test]
-fn without_a_scene_the_bunny_runs() {
+fn the_bunny_is_the_default_scene() {
     let outcome = Desk::new().run_well("--headless --steps 1");
     assert!(outcome.stdout.starts_with("bunny, linearly_implicit_euler: 1 steps"), "{}", outcome.stdout);
 }
@@ -26,7 +26,7 @@ fn an_override_gives_the_same_motion_as_the_number_in_the_scene() {
 }
 
 #[test]
-fn a_scene_runs_for_its_own_number_of_steps_or_for_100() {
+fn the_default_number_of_steps_is_the_scenes_or_100() {
     let desk = Desk::with("cube.toml", CUBE);
     assert!(desk.run_well("cube.toml --headless").stdout.contains(": 4 steps to t = 0.0400 s"));
     desk.write("cube.toml", edit(CUBE, "steps = 4\n", ""));
@@ -39,10 +39,10 @@ fn options_may_stand_before_the_scene() {
     assert!(desk.run_well("--headless --steps 2 cube.toml").stdout.starts_with("cube, implicit_euler: 2 steps"));
 }
 
-// Elsewhere than on Linux a window needs no variable that could be taken away.
+// On other systems no environment variable prevents a window.
 #[cfg(any(target_os = "linux", not(feature = "viewer")))]
 #[test]
-fn where_no_window_can_open_the_scene_runs_without_one_and_one_line_says_so() {
+fn a_scene_runs_headless_with_a_message_if_no_window_can_be_opened() {
     let desk = Desk::with("cube.toml", CUBE);
     let outcome = desk.run("cube.toml");
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
@@ -52,7 +52,7 @@ fn where_no_window_can_open_the_scene_runs_without_one_and_one_line_says_so() {
 }
 
 #[test]
-fn a_scene_in_the_current_folder_is_found_by_its_path_and_one_in_its_data_by_its_name() {
+fn scenes_are_found_by_path_and_in_the_current_data_folder_by_name() {
     let desk = Desk::with("data/scenes/mine.toml", CUBE);
     assert!(desk.run_well("mine --headless").stdout.starts_with("mine, "));
     assert!(desk.run_well("./data/scenes/mine.toml --headless").stdout.starts_with("mine, "));
@@ -60,7 +60,7 @@ fn a_scene_in_the_current_folder_is_found_by_its_path_and_one_in_its_data_by_its
 }
 
 #[test]
-fn explain_tells_every_part_with_its_reason_and_takes_no_step() {
+fn explain_lists_every_part_with_its_reason_and_takes_no_step() {
     for name in course_scenes() {
         let desk = Desk::new();
         let text = desk.run_well(&format!("{name} --explain --headless --state q.json")).stdout;
@@ -77,7 +77,7 @@ fn explain_tells_every_part_with_its_reason_and_takes_no_step() {
 }
 
 #[test]
-fn explain_tells_what_a_scene_leaves_out() {
+fn explain_lists_the_parts_that_a_scene_leaves_out() {
     let desk = Desk::with("cube.toml", crate::scene_text::free_cube());
     let text = desk.run_well("cube.toml --explain --integrator linearly_implicit_euler").stdout;
     let left_out: Vec<_> = text.lines().filter_map(|line| line.trim_start().strip_prefix("leaves out ")).collect();
@@ -86,7 +86,7 @@ fn explain_tells_what_a_scene_leaves_out() {
 }
 
 #[test]
-fn explain_tells_of_every_scene_of_the_engine_what_it_builds_and_leaves_out_and_why() {
+fn explain_lists_every_part_of_every_engine_scene_with_its_reason() {
     let all = [
         "mesh material state mass forces dead_load fixed prescribed springs pressure damping drag stiffness projection",
         "solver preconditioner line_search skinning reactions",
@@ -105,7 +105,7 @@ fn explain_tells_of_every_scene_of_the_engine_what_it_builds_and_leaves_out_and_
 }
 
 #[test]
-fn explain_says_where_elements_lock() {
+fn explain_warns_of_locking() {
     let scene = std::fs::read_to_string(data().join("scenes/cantilever.toml")).unwrap();
     let desk = Desk::with("beam.toml", edit(&scene, "poisson = 0.3", "poisson = 0.4999"));
     let text = desk.run_well("beam.toml --explain").stdout;
@@ -125,7 +125,7 @@ fn the_list_has_one_line_for_each_scene() {
 }
 
 #[test]
-fn help_and_version_are_results_not_errors() {
+fn help_and_version_go_to_stdout_with_exit_code_0() {
     let desk = Desk::new();
     assert!(desk.run_well("--help").stdout.contains("Exit codes: 0 done"));
     assert!(desk.run_well("--version").stdout.contains(env!("CARGO_PKG_VERSION")));
@@ -140,7 +140,7 @@ fn the_data_of_the_repository_is_found_from_any_folder() {
 
 #[cfg(unix)]
 #[test]
-fn an_output_file_never_takes_the_place_of_a_link_or_a_device() {
+fn an_output_file_does_not_replace_a_link_or_a_device() {
     use std::os::unix::fs::FileTypeExt;
 
     let desk = Desk::with("cube.toml", CUBE);

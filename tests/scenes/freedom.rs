@@ -1,4 +1,4 @@
-//! Free fall: the one motion that is known exactly.
+//! Free fall, a motion that is known exactly.
 
 use fem_scene::simulation::Simulation;
 
@@ -28,7 +28,7 @@ fn assert_falls_freely(simulation: &mut dyn Simulation, g: [f64; 3], name: &str)
 }
 
 #[test]
-fn a_cube_that_nothing_holds_falls_as_galilei_says() {
+fn a_free_cube_falls_with_constant_acceleration() {
     let text = edit(&free_cube(), "[time]", "[gravity]\nacceleration = [1.0, -9.81, 0.25]\n[time]");
     for integrator in INTEGRATORS {
         let name = integrator.name();
@@ -37,7 +37,7 @@ fn a_cube_that_nothing_holds_falls_as_galilei_says() {
 }
 
 #[test]
-fn every_shipped_body_falls_freely_when_nothing_holds_it() {
+fn every_shipped_body_falls_freely_without_constraints() {
     for name in course_scenes() {
         for integrator in INTEGRATORS {
             let mut scene = shipped(&name);

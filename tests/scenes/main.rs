@@ -1,5 +1,5 @@
-//! The scenes: each shipped one runs, moves as mechanics says, and leaves files behind that others can read; whatever cannot
-//! be used is refused in one message.
+//! The scenes: each shipped one runs, moves by the laws of mechanics, and writes files that other programs can read; unusable
+//! arguments, scenes and meshes are refused with one message.
 //!
 //! `cargo test --no-default-features --features demo --test scenes` runs them without the window.
 

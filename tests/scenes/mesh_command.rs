@@ -1,11 +1,11 @@
-//! `mesh`: what it tells of a mesh, and that nothing is lost between formats.
+//! `mesh info` and `mesh convert`.
 
 use fem_mesh::{read_tetrahedra, volumes};
 
 use crate::program::{Desk, data};
 
 #[test]
-fn info_counts_vertices_and_tetrahedra_and_adds_up_the_volume() {
+fn info_prints_the_numbers_of_vertices_and_tetrahedra_and_the_volume() {
     let path = data().join("stanford/bunny_coarse.node");
     let mesh = read_tetrahedra(&path).unwrap();
     let text = Desk::new().run_well(&format!("mesh info {}", path.display())).stdout;
@@ -21,7 +21,7 @@ fn info_counts_vertices_and_tetrahedra_and_adds_up_the_volume() {
 }
 
 #[test]
-fn a_mesh_survives_the_way_through_every_format() {
+fn a_mesh_is_the_same_after_conversion_through_every_format() {
     let desk = Desk::new();
     let original = data().join("own/armadillo_own_coarse.node");
     let mut from = original.display().to_string();

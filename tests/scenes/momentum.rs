@@ -1,4 +1,4 @@
-//! The momentum of a free body, at every size: without forces from outside it stays what it is.
+//! Momentum of a free body: without external forces it is conserved, at every size.
 
 use fem_mesh::volumes;
 use fem_scene::Integrator;
@@ -10,7 +10,7 @@ use crate::scene_text::{INTEGRATORS, build_with, edit, free_cube};
 
 const DENSITY: f64 = 1000.0;
 
-/// A second of them.
+/// Steps of one second.
 const STEPS: usize = 100;
 
 /// 1ᵀ M v, kg m/s.
@@ -22,7 +22,7 @@ fn momentum(simulation: &dyn Simulation) -> Vector3<f64> {
     (0..p.len() / 3).map(|node| Vector3::new(p[3 * node], p[3 * node + 1], p[3 * node + 2])).sum()
 }
 
-/// Pulls a corner by a tenth of the edge for a few steps, so that the cube flies off, turns and wobbles.
+/// Drags a corner by a tenth of the edge for a few steps, so that the cube flies off, turns and wobbles.
 fn throw(simulation: &mut dyn Simulation, edge: f64) {
     let corner = (26, simulation.shape().mesh.vertices[26]);
     simulation.pull(Some(Pull { anchors: vec![corner], offset: Vector3::new(0.1, 0.05, -0.02) * edge }));
@@ -41,7 +41,7 @@ fn lost_in_a_second(text: &str, edge: f64, integrator: Integrator) -> f64 {
 }
 
 #[test]
-fn a_free_body_of_any_size_keeps_its_momentum_for_a_second() {
+fn a_free_body_of_any_size_conserves_momentum_for_a_second() {
     for edge in [1.0, 1e-2, 1e-3] {
         // As soft as it is small, it moves like the large one.
         let (C, D) = (1e5 * edge * edge, 4e5 * edge * edge);
@@ -54,7 +54,7 @@ fn a_free_body_of_any_size_keeps_its_momentum_for_a_second() {
 }
 
 #[test]
-fn a_small_body_of_the_same_rubber_keeps_its_momentum_as_well() {
+fn a_small_body_of_the_same_material_conserves_momentum() {
     for edge in [1.0, 1e-2, 1e-3] {
         for integrator in INTEGRATORS {
             let lost = lost_in_a_second(&free_cube(), edge, integrator);

@@ -1,5 +1,5 @@
-//! The moral of the course: the bunny is stiff and pulled gently, so linearly implicit Euler is enough; the armadillo is soft,
-//! and a harsh pull needs implicit Euler.
+//! The two integrators of the course: linearly implicit Euler is enough for the stiff bunny under a gentle pull; the soft
+//! armadillo under a harsh pull needs implicit Euler.
 
 use crate::program::{Desk, assert_names, assert_one_message, data, numbers};
 use crate::scene_text::{edit, shipped};
@@ -36,7 +36,7 @@ fn the_armadillo_survives_a_harsh_pull_under_implicit_euler() {
 }
 
 #[test]
-fn under_linearly_implicit_euler_the_harsh_pull_fails_and_the_message_says_where_and_what_to_do() {
+fn the_harsh_pull_fails_under_linearly_implicit_euler_with_step_element_and_remedy() {
     let desk = Desk::with("harsh.toml", harsh_pull());
     let files = "--stats s.json --state q.json --energies e.csv --export x.vtu";
     let outcome = desk.run(&format!("harsh.toml --headless --steps 50 --integrator linearly_implicit_euler {files}"));
@@ -51,7 +51,7 @@ fn under_linearly_implicit_euler_the_harsh_pull_fails_and_the_message_says_where
     let finished = stats["steps"].as_u64().unwrap();
     assert!(finished < 50 && outcome.stderr.contains(&format!("step {} ", finished + 1)), "{finished}");
 
-    // What is left behind is the last good state.
+    // The files contain the last good state.
     assert!(stats["min_J"].as_f64().unwrap() > 0.0);
     let state = desk.json("q.json");
     assert!((state["time"].as_f64().unwrap() - 0.02 * finished as f64).abs() < 1e-12);
@@ -63,7 +63,7 @@ fn under_linearly_implicit_euler_the_harsh_pull_fails_and_the_message_says_where
 }
 
 #[test]
-fn a_pull_that_no_method_follows_is_told_and_not_passed_over() {
+fn a_pull_that_no_method_can_follow_ends_the_run_with_a_message() {
     let far = edit(&harsh_pull(), "amplitude = 1.0", "amplitude = 1e9");
     let desk = Desk::with("far.toml", far);
     let outcome = desk.run("far.toml --headless --steps 5 --stats s.json");

@@ -1,11 +1,11 @@
-//! The whole step against one that is implemented a second time, in another way.
+//! Whole steps beside those of a second, independent implementation.
 
 use fem_scene::simulation::Simulation;
 use fem_scene::{Scene, body};
 use nalgebra::{DVector, Vector3};
 
 use crate::program::data;
-use crate::reference::{Model, Spring};
+use crate::reference::{AnchorSpring, Model};
 use crate::scene_text::{CUBE, build, edit, free_cube, parse};
 
 fn model_of(scene: &Scene) -> Model {
@@ -22,12 +22,12 @@ fn model_of(scene: &Scene) -> Model {
     }
 }
 
-fn springs_at(scene: &Scene, time: f64, model: &Model) -> Vec<Spring> {
+fn springs_at(scene: &Scene, time: f64, model: &Model) -> Vec<AnchorSpring> {
     let spring = |drag: &fem_scene::Drag| {
         let node = body(scene, &data()).unwrap().dragged.unwrap();
         let swing = drag.amplitude * (std::f64::consts::TAU * drag.frequency * time).sin();
         let target = model.V[node] + Vector3::from(drag.direction) * swing;
-        Spring { node, stiffness: drag.stiffness, target }
+        AnchorSpring { node, stiffness: drag.stiffness, target }
     };
     scene.drag.as_ref().map(spring).into_iter().collect()
 }
@@ -57,24 +57,24 @@ fn small(text: &str) -> String {
 }
 
 #[test]
-fn a_cube_of_six_elements_under_weight_and_drag_moves_as_the_reference_says() {
+fn a_cube_of_six_elements_under_weight_and_drag_agrees_with_the_reference() {
     assert_agrees(&edit(&small(CUBE), "vertex = \"highest\"", "vertex = 7"), 8);
 }
 
 #[test]
-fn a_free_cube_that_is_pulled_by_a_corner_moves_as_the_reference_says() {
+fn a_free_cube_dragged_by_a_corner_agrees_with_the_reference() {
     let drag = "[drag]\nvertex = 7\nstiffness = 1e5\ndirection = [1, 0.5, -0.2]\namplitude = 0.2\nfrequency = 1.0\n";
     assert_agrees(&format!("{}{drag}", small(&free_cube())), 8);
 }
 
 #[test]
-fn a_cube_of_given_young_and_poisson_moves_as_the_reference_says() {
+fn a_cube_of_given_young_and_poisson_agrees_with_the_reference() {
     let text = edit(&small(CUBE), "C = 1e5\nD = 4e5\n", "young = 3e5\npoisson = 0.3\n");
     assert_agrees(&edit(&text, "vertex = \"highest\"", "vertex = 6"), 5);
 }
 
 #[test]
-fn a_small_cube_moves_as_the_reference_says() {
+fn a_small_cube_agrees_with_the_reference() {
     // A centimetre: a tolerance in metres or newtons would show here.
     let text = edit(&small(CUBE), "[material]", "scale = 0.01\n[material]");
     let text = edit(&edit(&text, "stiffness = 1e5", "stiffness = 1e2"), "amplitude = 0.2", "amplitude = 0.002");

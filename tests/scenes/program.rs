@@ -1,4 +1,4 @@
-//! Runs the program as a person would, in a folder that lasts as long as the test.
+//! Runs the program in a temporary folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use fem_scene::Pipeline;
 use serde_json::Value;
 use tempfile::TempDir;
 
-/// What the program said and how it ended.
+/// Exit code and output of the program.
 #[derive(Debug)]
 pub struct Outcome {
     pub code: Option<i32>,
@@ -61,7 +61,7 @@ impl Desk {
         Outcome { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
     }
 
-    /// Runs the program, which must do what is asked without a word on stderr.
+    /// Runs the program; asserts exit code 0 and no output on stderr.
     pub fn run_well(&self, arguments: &str) -> Outcome {
         let outcome = self.run(arguments);
         assert_eq!(outcome.code, Some(0), "{arguments}: {outcome:?}");
@@ -69,7 +69,7 @@ impl Desk {
         outcome
     }
 
-    /// Runs the program, which must refuse: exit code 2, nothing on stdout, one message. Returns the message.
+    /// Runs the program; asserts exit code 2, no output on stdout and one message, and returns the message.
     pub fn refused(&self, arguments: &str) -> String {
         let outcome = self.run(arguments);
         assert_eq!(outcome.code, Some(2), "{arguments}: {outcome:?}");
@@ -79,14 +79,14 @@ impl Desk {
     }
 }
 
-/// One message, at the start, and no trace of a panic.
+/// Asserts that stderr is one message without a trace of a panic.
 pub fn assert_one_message(stderr: &str) {
     assert!(stderr.starts_with("error: "), "{stderr}");
     assert_eq!(stderr.matches("error: ").count(), 1, "{stderr}");
     assert!(!stderr.contains("panicked") && !stderr.contains("RUST_BACKTRACE"), "{stderr}");
 }
 
-/// All of the parts are in the message.
+/// Asserts that the message contains all parts.
 pub fn assert_names(message: &str, parts: &[&str]) {
     for part in parts {
         assert!(message.contains(part), "`{part}` is not in: {message}");

@@ -1,4 +1,4 @@
-//! Fixed nodes and pulled ones.
+//! Fixed nodes, the drag of a scene, and the pull of the mouse.
 
 use fem_scene::body;
 use fem_scene::simulation::{Pull, Simulation};
@@ -12,7 +12,7 @@ fn node(q: &DVector<f64>, node: usize) -> Vector3<f64> {
 }
 
 #[test]
-fn fixed_nodes_never_move_by_a_single_bit() {
+fn fixed_nodes_stay_bit_for_bit() {
     for name in course_scenes() {
         let scene = shipped(&name);
         let fixed = body(&scene, &data()).unwrap().fixed.unwrap();
@@ -34,7 +34,7 @@ fn fixed_nodes_never_move_by_a_single_bit() {
 }
 
 #[test]
-fn a_very_stiff_drag_puts_its_node_where_the_target_is_at_the_end_of_the_step() {
+fn a_very_stiff_drag_puts_its_node_at_the_target_at_the_end_of_the_step() {
     let text = edit(CUBE, "stiffness = 1e5", "stiffness = 1e13");
     let text = edit(&text, "vertex = \"highest\"", "vertex = 26");
     let text =
@@ -54,7 +54,7 @@ fn a_very_stiff_drag_puts_its_node_where_the_target_is_at_the_end_of_the_step() 
 }
 
 #[test]
-fn the_dragged_node_stays_as_near_to_its_target_as_the_energy_of_the_spring_allows() {
+fn the_dragged_node_stays_near_its_target() {
     for name in course_scenes() {
         let scene = shipped(&name);
         let (drag, dragged) = (scene.drag.clone().unwrap(), body(&scene, &data()).unwrap().dragged.unwrap());
@@ -72,29 +72,29 @@ fn the_dragged_node_stays_as_near_to_its_target_as_the_energy_of_the_spring_allo
 }
 
 #[test]
-fn a_hand_replaces_the_scripted_drag_and_letting_go_brings_it_back() {
+fn a_pull_replaces_the_drag_and_its_end_brings_the_drag_back() {
     for integrator in INTEGRATORS {
-        let (mut held, mut alone) = (build_with(CUBE, integrator), build_with(CUBE, integrator));
-        held.pull(Some(Pull { anchors: vec![], offset: Vector3::zeros() }));
-        held.pull(None);
+        let (mut pulled, mut alone) = (build_with(CUBE, integrator), build_with(CUBE, integrator));
+        pulled.pull(Some(Pull { anchors: vec![], offset: Vector3::zeros() }));
+        pulled.pull(None);
         for _ in 0..3 {
-            held.step().unwrap();
+            pulled.step().unwrap();
             alone.step().unwrap();
         }
-        assert_eq!(held.positions(), alone.positions(), "{}", integrator.name());
+        assert_eq!(pulled.positions(), alone.positions(), "{}", integrator.name());
 
-        // A hand that holds nothing leaves the cube to its weight alone, which pulls no node along x.
-        held.reset();
-        held.pull(Some(Pull { anchors: vec![], offset: Vector3::zeros() }));
-        (0..3).for_each(|_| held.step().unwrap());
+        // An empty pull leaves the cube to its weight alone, which moves no node along x.
+        pulled.reset();
+        pulled.pull(Some(Pull { anchors: vec![], offset: Vector3::zeros() }));
+        (0..3).for_each(|_| pulled.step().unwrap());
         assert!((0..3).all(|_| alone.step().is_ok()));
         let sideways = |q: &DVector<f64>| q[3 * 26] - 1.0;
-        assert!(sideways(&alone.positions()).abs() > sideways(&held.positions()).abs());
+        assert!(sideways(&alone.positions()).abs() > sideways(&pulled.positions()).abs());
     }
 }
 
 #[test]
-fn a_hand_pulls_the_nodes_that_it_holds_towards_itself() {
+fn a_pull_moves_its_nodes_to_their_targets() {
     for integrator in INTEGRATORS {
         let mut simulation = build_with(&free_cube(), integrator);
         let place = simulation.shape().mesh.vertices[13];
@@ -107,7 +107,7 @@ fn a_hand_pulls_the_nodes_that_it_holds_towards_itself() {
 }
 
 #[test]
-fn several_nodes_can_be_held_at_once() {
+fn several_nodes_can_be_pulled_at_once() {
     let mut simulation = build_with(&free_cube(), INTEGRATORS[1]);
     let V = simulation.shape().mesh.vertices.clone();
     simulation.pull(Some(Pull { anchors: vec![(0, V[0]), (26, V[26])], offset: Vector3::x() * 0.01 }));

@@ -44,14 +44,14 @@ impl Dual {
     }
 }
 
-/// A spring of no rest length from a node to a place.
-pub struct Spring {
+/// A spring of zero rest length from a node to a fixed point.
+pub struct AnchorSpring {
     pub node: usize,
     pub stiffness: f64,
     pub target: Vector3<f64>,
 }
 
-/// A body, its material and what acts on it.
+/// A body with its material, gravity and fixed nodes.
 pub struct Model {
     pub V: Vec<Vector3<f64>>,
     pub T: Vec<[usize; 4]>,
@@ -90,7 +90,7 @@ impl Model {
     }
 
     /// Elastic energy and springs; the weight is linear and comes in with the mass.
-    fn potential(&self, x: &[Dual], springs: &[Spring]) -> Dual {
+    fn potential(&self, x: &[Dual], springs: &[AnchorSpring]) -> Dual {
         let elastic = self.T.iter().fold(constant(0.0), |sum, &element| sum + self.elastic(x, element));
         springs.iter().fold(elastic, |sum, spring| {
             (0..3).fold(sum, |sum, i| {
@@ -101,7 +101,7 @@ impl Model {
     }
 
     /// ∂V/∂x, one direction after the other.
-    fn gradient(&self, x: &DVector<f64>, springs: &[Spring]) -> DVector<f64> {
+    fn gradient(&self, x: &DVector<f64>, springs: &[AnchorSpring]) -> DVector<f64> {
         let slope = |i: usize| {
             let seeded: Vec<_> =
                 x.iter().enumerate().map(|(k, &value)| Dual { value, slope: f64::from(k == i) }).collect();
@@ -129,7 +129,7 @@ impl Model {
     }
 
     /// The velocity at the end of a step of implicit Euler from (q, v), by Newton's method until nothing changes any more.
-    pub fn step(&self, q: &mut DVector<f64>, v: &mut DVector<f64>, dt: f64, springs: &[Spring]) {
+    pub fn step(&self, q: &mut DVector<f64>, v: &mut DVector<f64>, dt: f64, springs: &[AnchorSpring]) {
         let M = self.mass();
         let weight = &M * DVector::from_fn(q.len(), |i, _| self.gravity[i % 3]);
         let residual = |u: &DVector<f64>| {

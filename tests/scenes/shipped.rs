@@ -1,4 +1,4 @@
-//! Every scene of `data/scenes`, through the program and through the library.
+//! Every course scene of `data/scenes`, run by the program and by the library.
 
 use fem_scene::simulation::Simulation;
 
@@ -20,7 +20,7 @@ fn every_shipped_scene_runs_by_name_and_by_path() {
 }
 
 #[test]
-fn every_shipped_scene_says_what_it_is_about_and_runs_as_long_as_it_says() {
+fn every_shipped_scene_has_about_and_steps() {
     for name in course_scenes() {
         let scene = shipped(&name);
         assert!(!scene.about.is_empty() && !scene.about.contains('\n'), "{name} has no line `about`");
@@ -29,7 +29,7 @@ fn every_shipped_scene_says_what_it_is_about_and_runs_as_long_as_it_says() {
 }
 
 #[test]
-fn no_element_of_a_shipped_scene_is_inverted_in_any_step() {
+fn no_element_of_a_shipped_scene_is_inverted_at_any_step() {
     for name in course_scenes() {
         let mut simulation = build(&shipped(&name));
         for step in 1..=4 * STEPS {
@@ -96,7 +96,7 @@ fn the_program_writes_the_energies_of_every_step() {
 }
 
 #[test]
-fn at_the_start_every_shipped_scene_has_no_energy() {
+fn every_shipped_scene_starts_with_zero_energy() {
     for name in course_scenes() {
         let energies = build(&shipped(&name)).energies();
         assert_eq!(energies.kinetic, 0.0, "{name}");

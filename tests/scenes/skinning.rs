@@ -8,7 +8,7 @@ use crate::program::{Desk, course_scenes, data};
 use crate::scene_text::{CUBE, build, edit, shipped};
 
 #[test]
-fn at_rest_every_display_vertex_of_a_shipped_scene_is_where_its_file_says() {
+fn display_positions_at_rest_are_those_of_the_file() {
     for name in course_scenes() {
         let simulation = build(&shipped(&name));
         let shape = simulation.shape();
@@ -20,7 +20,7 @@ fn at_rest_every_display_vertex_of_a_shipped_scene_is_where_its_file_says() {
 }
 
 #[test]
-fn the_weights_of_every_shipped_scene_are_not_negative_and_add_up_to_one() {
+fn skinning_weights_of_shipped_scenes_are_not_negative_and_sum_to_one() {
     for name in course_scenes() {
         let shape = body(&shipped(&name), &data()).unwrap().shape;
         let display = &shape.display.as_ref().unwrap().vertices;
@@ -36,7 +36,7 @@ fn the_weights_of_every_shipped_scene_are_not_negative_and_add_up_to_one() {
 }
 
 #[test]
-fn display_vertices_outside_the_tetrahedra_are_counted_and_warned_about() {
+fn a_warning_counts_display_vertices_outside_the_tetrahedra() {
     let desk = Desk::with("cube.toml", edit(CUBE, "[mesh]\n", "[mesh]\ndisplay = \"surface.obj\"\n"));
     desk.write("surface.obj", "v 0.5 0.5 0.5\nv 1.5 0.5 0.5\nv 0.5 -0.2 0.5\nv 1 1 1\nf 1 2 3\nf 1 3 4\n");
     let outcome = desk.run("cube.toml --headless --export x.obj");

@@ -1,4 +1,4 @@
-//! `--stats`: its keys are promised, and its counts prove what a scene builds and what it leaves out.
+//! `--stats`: its keys are fixed, and its counts prove which parts a scene builds and which it leaves out.
 
 use fem_scene::simulation::Simulation;
 use serde_json::Value;
@@ -96,7 +96,7 @@ fn implicit_euler_counts_its_iterations_energies_and_assemblies() {
         assert!((STEPS..=iterations).contains(&assemblies), "{name}: {assemblies} assemblies");
         assert_eq!(count(&stats, "projections"), assemblies * count(&stats, "elements"), "{name}");
         assert!((assemblies..=2 * iterations).contains(&count(&stats, "factorizations")), "{name}");
-        // One energy where a step starts or two, and one for each trial of a line search.
+        // One or two energies at the start of a step, and one for each trial of a line search.
         let energies = count(&stats, "energy_evaluations");
         let trials = iterations + count(&stats, "line_search_backtracks");
         assert!((trials + STEPS..=trials + 2 * STEPS).contains(&energies), "{name}: {energies} energies");
@@ -105,7 +105,7 @@ fn implicit_euler_counts_its_iterations_energies_and_assemblies() {
 }
 
 #[test]
-fn a_part_that_a_scene_leaves_out_has_no_key() {
+fn a_part_that_the_scene_leaves_out_has_no_key() {
     let surface = "v 0.2 0.2 0.5\nv 0.8 0.2 0.5\nv 0.5 0.8 0.5\nf 1 2 3\n";
     let full = edit(CUBE, "[mesh]\n", "[mesh]\ndisplay = \"surface.obj\"\n");
     let variants = [
@@ -130,7 +130,7 @@ fn a_part_that_a_scene_leaves_out_has_no_key() {
 }
 
 #[test]
-fn nothing_is_skinned_unless_somebody_looks() {
+fn only_exports_of_the_surface_skin_it() {
     for name in course_scenes() {
         let rows = build(&shipped(&name)).shape().display.as_ref().unwrap().vertices.len();
         let desk = Desk::new();
@@ -145,21 +145,21 @@ fn nothing_is_skinned_unless_somebody_looks() {
 }
 
 #[test]
-fn the_forces_at_the_constraints_of_an_engine_scene_are_told_and_stand_in_the_statistics() {
+fn reaction_forces_of_an_engine_scene_are_printed_and_in_the_statistics() {
     let desk = Desk::new();
     let said = desk.run_well("bar --headless --stats s.json").stdout;
     let stats = desk.json("s.json");
     let names: Vec<_> = stats["reactions"].as_object().unwrap().keys().collect();
     assert_eq!(names, ["prescribed[0]", "prescribed[1]", "prescribed[2]"]);
-    // The traction of the scene on 0.25 m², held at the other end.
+    // The traction of the scene on 0.25 m², balanced at the other end.
     let along = stats["reactions"]["prescribed[0]"][0].as_f64().unwrap();
     assert!((along / -(0.25 * 3.842394e5) - 1.0).abs() < 1e-8, "{along} N");
-    assert!(said.contains("prescribed[0] holds the body with (-9.6060e4, "), "{said}");
+    assert!(said.contains("reaction force of prescribed[0]: (-9.6060e4, "), "{said}");
     assert_eq!(count(&stats, "unconverged_steps"), 0);
 }
 
 #[test]
-fn steps_that_have_not_converged_are_counted_and_told() {
+fn unconverged_steps_are_counted_and_printed() {
     let scene = std::fs::read_to_string(crate::program::data().join("scenes/beam.toml")).unwrap();
     let desk = Desk::with("beam.toml", format!("{scene}[newton]\nmax_iterations = 1\n"));
     let said = desk.run_well("beam.toml --headless --steps 3 --stats s.json").stdout;

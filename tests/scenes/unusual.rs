@@ -1,4 +1,4 @@
-//! Scenes at the edge of what makes sense, which must work all the same.
+//! Unusual scenes that must work.
 
 use fem_scene::simulation::Simulation;
 
@@ -25,7 +25,7 @@ fn assert_runs(desk: &Desk) {
 }
 
 #[test]
-fn where_every_node_is_fixed_nothing_moves() {
+fn a_body_of_fixed_nodes_does_not_move() {
     let text = edit(CUBE, "below = 0.1", "below = 1.0");
     assert_runs(&Desk::with("scene.toml", &text));
     for integrator in INTEGRATORS {
@@ -40,7 +40,7 @@ fn where_every_node_is_fixed_nothing_moves() {
 }
 
 #[test]
-fn an_empty_list_of_fixed_nodes_fixes_none() {
+fn an_empty_list_of_fixed_nodes_is_accepted() {
     let text = edit(CUBE, "plane = { axis = \"y\", below = 0.1 }", "nodes = []");
     let (mut empty, mut left_out) =
         (build_with(&text, INTEGRATORS[1]), build_with(&without(CUBE, "fixed"), INTEGRATORS[1]));
@@ -53,7 +53,7 @@ fn an_empty_list_of_fixed_nodes_fixes_none() {
 }
 
 #[test]
-fn nodes_that_are_fixed_twice_and_in_any_order_are_fixed_once() {
+fn repeated_and_unsorted_fixed_nodes_count_once() {
     let build = |list: &str| {
         let text = edit(CUBE, "plane = { axis = \"y\", below = 0.1 }", &format!("nodes = {list}"));
         build_with(&text, INTEGRATORS[0])
@@ -65,24 +65,24 @@ fn nodes_that_are_fixed_twice_and_in_any_order_are_fixed_once() {
 }
 
 #[test]
-fn a_drag_may_pull_a_fixed_node_in_vain() {
+fn a_drag_does_not_move_a_fixed_node() {
     let mut simulation = build_with(&edit(CUBE, "vertex = \"highest\"", "vertex = 0"), INTEGRATORS[1]);
     (0..4).for_each(|_| simulation.step().unwrap());
     assert_eq!(simulation.positions().as_slice()[..3], [0.0; 3]);
 }
 
 #[test]
-fn a_single_tetrahedron_is_a_body() {
+fn a_single_tetrahedron_runs() {
     assert_runs(&desk_with_mesh(CUBE, "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n", "1 4 0\n0 0 1 2 3\n"));
 }
 
 #[test]
-fn the_smallest_box_is_a_body() {
+fn the_smallest_box_runs() {
     assert_runs(&Desk::with("scene.toml", edit(CUBE, "cells_per_unit = 2", "cells_per_unit = 1")));
 }
 
 #[test]
-fn parts_that_do_not_touch_move_each_for_itself() {
+fn disconnected_parts_run() {
     let nodes = "8 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 5 0 0\n5 6 0 0\n6 5 1 0\n7 5 0 1\n";
     let elements = "2 4 0\n0 0 1 2 3\n1 4 5 6 7\n";
     for text in [CUBE.to_owned(), without(CUBE, "fixed")] {
@@ -91,20 +91,20 @@ fn parts_that_do_not_touch_move_each_for_itself() {
 }
 
 #[test]
-fn vertices_may_lie_in_one_place() {
+fn coincident_vertices_run() {
     // Two tetrahedra with a common face, each with its own copy of that face's vertices.
     let nodes = "8 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 0 0 0\n5 0 1 0\n6 1 0 0\n7 0 0 -1\n";
     assert_runs(&desk_with_mesh(CUBE, nodes, "2 4 0\n0 0 1 2 3\n1 4 5 6 7\n"));
 }
 
 #[test]
-fn a_scene_with_a_byte_order_mark_and_the_line_ends_of_windows_is_read() {
+fn a_scene_with_a_byte_order_mark_and_windows_line_ends_is_read() {
     let text = format!("\u{feff}{}", CUBE.replace('\n', "\r\n"));
     assert_runs(&Desk::with("scene.toml", text));
 }
 
 #[test]
-fn a_pull_of_no_amplitude_or_no_frequency_holds_its_node_at_rest() {
+fn a_drag_of_zero_amplitude_or_zero_frequency_runs() {
     for (from, to) in [("amplitude = 0.2", "amplitude = 0"), ("frequency = 1.0", "frequency = 0")] {
         assert_runs(&Desk::with("scene.toml", edit(CUBE, from, to)));
     }
