@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use fem_scene::{Preconditioner, Scene, Solver, SolverKind};
+use fem_scene::tables::SolverTable;
+use fem_scene::{Preconditioner, Scene, SolverKind};
 
 /// Times the engine: beside its peers, part by part, by size and by solver.
 #[derive(Debug, Parser)]
@@ -109,7 +110,7 @@ pub enum SolverName {
 
 impl SolverName {
     /// The table `[solver]` of a scene.
-    pub fn table(self) -> Solver {
+    pub fn table(self) -> SolverTable {
         let (kind, preconditioner) = match self {
             Self::Cholesky => (SolverKind::Cholesky, None),
             Self::BlockJacobi => (SolverKind::Pcg, Some(Preconditioner::BlockJacobi)),
@@ -117,7 +118,7 @@ impl SolverName {
             Self::Multigrid => (SolverKind::Pcg, Some(Preconditioner::Multigrid)),
             Self::Ssor => (SolverKind::Pcg, Some(Preconditioner::Ssor)),
         };
-        Solver { kind, tolerance: None, preconditioner }
+        SolverTable { kind, tolerance: None, preconditioner }
     }
 
     /// As the command line spells it.

@@ -23,7 +23,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), End> {
         return Err(End::unusable(scene.refuse("material", "lacks the parameters of its model")));
     };
     let name = arguments.solver.unwrap_or(SolverName::Cholesky);
-    let system = System::<f64>::new(&scene, body, law, choice(name));
+    let system = System::<f64>::new(body, law, choice(name));
     let (nodes, free, elements) = (system.nodes(), system.free(), system.elements.count);
     println!("{}\n", Machine::this().line());
     println!("{}: {nodes} nodes, {free} free, {elements} elements, {} blocks\n", scene.name, system.pattern.blocks());

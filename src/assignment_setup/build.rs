@@ -22,23 +22,22 @@ impl AssignmentSetup {
             unreachable!("a material without moduli is refused when the scene is read")
         };
         let (V, T) = (&body.shape.mesh.vertices, &body.shape.mesh.elements);
-        let constraints = Constraints::new(V, body.fixed.as_deref());
+        let constraints = Constraints::new(V, body.fixed_nodes());
         let q = constraints.free_coordinates(stack(V));
-        let gravity = scene.gravity.as_ref().map(|gravity| Vector3::from(gravity.acceleration));
         let skinning = body.shape.display.as_ref().map(|display| build_skinning_matrix(V, T, &display.vertices));
 
         let mut setup = Self {
-            name: scene.name.clone(),
+            name: body.name,
             v0: volumes(V, T),
             C,
             D,
             density: scene.material.density,
-            gravity: gravity.map(|g| (g.try_normalize(0.0).unwrap_or_default(), g.norm())),
+            gravity: body.gravity.map(|g| (g.try_normalize(0.0).unwrap_or_default(), g.norm())),
             M: mass_matrix_mesh(0, &[], 0.0, &[]),
             weight: DVector::zeros(0),
             constraints,
             skinning,
-            interaction: Interaction::new(scene, &body, C * extent(V)),
+            interaction: Interaction::new(body.drag, C * extent(V)),
             reuse_distance: REUSE * smallest_height(V, T),
             integrator: scene.time.integrator,
             dt: scene.time.dt,

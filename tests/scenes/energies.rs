@@ -55,17 +55,16 @@ fn implicit_euler_gains_no_more_energy_than_the_work_of_the_drag() {
 /// When the target jumps to its place at the end of a step, the energy of the spring changes by the work of the drag; the step
 /// itself can only lose energy.
 fn assert_gains_no_more_than_work(scene: &Scene) {
-    let drag = scene.drag.clone().unwrap();
-    let dragged = body(scene, &data()).unwrap().dragged.unwrap();
+    let drag = body(scene, &data()).unwrap().drag.unwrap();
     let mut simulation = build(scene);
-    let rest = simulation.shape().mesh.vertices[dragged];
+    let rest = simulation.shape().mesh.vertices[drag.node];
     let spring = |x: &Vector3<f64>, time: f64| {
         let swing = drag.amplitude * (std::f64::consts::TAU * drag.frequency * time).sin();
-        0.5 * drag.stiffness * (x - rest - Vector3::from(drag.direction) * swing).norm_squared()
+        0.5 * drag.stiffness * (x - rest - drag.direction * swing).norm_squared()
     };
     let mut work = 0.0;
     for step in 1..=STEPS {
-        let x = Vector3::from_column_slice(&simulation.positions().as_slice()[3 * dragged..3 * dragged + 3]);
+        let x = Vector3::from_column_slice(&simulation.positions().as_slice()[3 * drag.node..3 * drag.node + 3]);
         let t = simulation.time();
         work += spring(&x, t + simulation.dt()) - spring(&x, t);
         simulation.step().unwrap();

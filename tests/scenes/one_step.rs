@@ -11,6 +11,7 @@ use crate::scene_text::{CUBE, build, edit, free_cube, parse};
 fn model_of(scene: &Scene) -> Model {
     let body = body(scene, &data()).unwrap();
     let (C, D) = scene.material.neo_hookean().unwrap();
+    let fixed = body.fixed_nodes().unwrap_or_default().to_vec();
     Model {
         V: body.shape.mesh.vertices,
         T: body.shape.mesh.elements,
@@ -18,18 +19,18 @@ fn model_of(scene: &Scene) -> Model {
         D,
         density: scene.material.density,
         gravity: scene.gravity.as_ref().map_or(Vector3::zeros(), |gravity| gravity.acceleration.into()),
-        fixed: body.fixed.unwrap_or_default(),
+        fixed,
     }
 }
 
 fn springs_at(scene: &Scene, time: f64, model: &Model) -> Vec<AnchorSpring> {
-    let spring = |drag: &fem_scene::Drag| {
-        let node = body(scene, &data()).unwrap().dragged.unwrap();
+    let drag = body(scene, &data()).unwrap().drag;
+    let spring = drag.map(|drag| {
         let swing = drag.amplitude * (std::f64::consts::TAU * drag.frequency * time).sin();
-        let target = model.V[node] + Vector3::from(drag.direction) * swing;
-        AnchorSpring { node, stiffness: drag.stiffness, target }
-    };
-    scene.drag.as_ref().map(spring).into_iter().collect()
+        let target = model.V[drag.node] + drag.direction * swing;
+        AnchorSpring { node: drag.node, stiffness: drag.stiffness, target }
+    });
+    spring.into_iter().collect()
 }
 
 /// Steps both and compares positions and velocities after each step.

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use fem_scene::{Axis, DragVertex, Scene};
+use fem_scene::tables::DragVertex;
+use fem_scene::{Axis, Scene};
 
 use crate::end::End;
 use crate::race::Time;

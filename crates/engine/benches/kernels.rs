@@ -30,7 +30,7 @@ fn beam(law: &str, cells: usize) -> Scene {
 fn system<T: Real>(scene: &Scene, choice: SolverChoice) -> System<T> {
     let body = body(scene, Path::new("")).expect("a box needs no files");
     let law = AnyLaw::new(&scene.material).expect("a known law with its parameters");
-    System::new(scene, body, law, choice)
+    System::new(body, law, choice)
 }
 
 /// Displacements that bend and twist a little, m.

@@ -16,14 +16,20 @@ use crate::profile::Timer;
 use crate::skinning::Skinning;
 use crate::solvers::SolverChoice;
 use fem_scene::simulation::{Counters, Pull, Simulation};
-use fem_scene::{Body, Integrator, Precision, Scene, SceneError};
+use fem_scene::{Body, Integrator, Material, Method, Precision, Scene, SceneError};
 use stepper::Stepper;
 
 pub use build::integrators;
 
+/// The field of a scene that cannot be simulated, and the problem with its remedy.
+type Refusal = (&'static str, String);
+
 /// A body that the engine moves, in one float type.
 pub struct Simulator<T: Real> {
-    scene: Scene,
+    method: Method,
+    /// The scene's `[material]`.
+    material: Material,
+    lumped_mass: bool,
     system: System<T>,
     state: State<T>,
     /// Where a step that fails returns to.

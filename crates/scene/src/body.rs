@@ -1,52 +1,85 @@
-//! The meshes that a scene names.
+//! The body of a scene: its meshes, and what its tables mean on them.
 
 use std::path::{Path, PathBuf};
 
-use super::load::line_of;
-use super::{Scene, SceneError, nodes};
+use nalgebra::Vector3;
+
+use crate::load::line_of;
 use crate::simulation::Shape;
+use crate::values::{
+    DirichletCondition, Drag, Pressure, RayleighDamping, Spring, Traction, damping, dirichlet_conditions, drag,
+    springs, surface_loads,
+};
+use crate::{Material, Scene, SceneError};
 use fem_mesh::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
-/// A scene's meshes, scaled, checked, and what the scene says of their nodes.
+/// A body as a pipeline simulates it: checked meshes, material, constraints and external forces, in the mesh's node numbers and
+/// SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
+    /// Name of the scene.
+    pub name: String,
     /// Nodes, tetrahedra and surfaces.
     pub shape: Shape,
-    /// Nodes that never move, ascending, each once; `None` where the scene fixes none.
-    pub fixed: Option<Vec<usize>>,
-    /// Nodes of each `[[prescribed]]`, ascending. No coordinate is prescribed twice, none of a fixed node at all.
-    pub prescribed: Vec<Vec<usize>>,
-    /// Boundary triangles of each `[[traction]]`, outward.
-    pub loaded_faces: Vec<Vec<[usize; 3]>>,
-    /// Rest length of each of `[[springs]]`, m.
-    pub rest_lengths: Vec<f64>,
-    /// The node that the scripted drag pulls.
-    pub dragged: Option<usize>,
-    /// Factor of the moduli of each element; empty where the scene's are those of all. No scene file has it.
-    pub stiffer: Vec<f64>,
-    /// The same of the density.
-    pub denser: Vec<f64>,
+    /// Constitutive law and density.
+    pub material: Material,
+    /// Whether the mass matrix is lumped instead of consistent.
+    pub lumped_mass: bool,
+    /// Factor on the moduli of each element; empty for a uniform body. Scene files have no key for it.
+    pub stiffness_factors: Vec<f64>,
+    /// Factor on the density of each element; empty for a uniform body. Scene files have no key for it.
+    pub density_factors: Vec<f64>,
+    /// Acceleration of gravity, m/s².
+    pub gravity: Option<Vector3<f64>>,
+    /// Body force per undeformed volume, N/m³.
+    pub body_force: Option<Vector3<f64>>,
+    /// `[fixed]` first if there is one, then each `[[prescribed]]` in order. No two of them prescribe the same coordinate.
+    pub dirichlet: Vec<DirichletCondition>,
+    /// Dead loads on the surface.
+    pub tractions: Vec<Traction>,
+    /// Follower loads on the surface.
+    pub pressures: Vec<Pressure>,
+    /// Springs between nodes.
+    pub springs: Vec<Spring>,
+    /// The scripted drag.
+    pub drag: Option<Drag>,
+    /// Rayleigh damping; `None` if both coefficients are zero.
+    pub damping: Option<RayleighDamping>,
 }
 
-/// Reads and checks the meshes of a scene. Files are looked for beside the scene and then in `data`.
+impl Body {
+    /// The nodes of `[fixed]`, ascending and without repeats; `None` if the scene has no such table.
+    pub fn fixed_nodes(&self) -> Option<&[usize]> {
+        self.dirichlet.iter().find(|condition| condition.motion.is_none()).map(|condition| &condition.nodes[..])
+    }
+}
+
+/// Reads and checks the meshes of a scene, and builds the body. A mesh file is searched beside the scene, then in `data`.
 pub fn body(scene: &Scene, data: &Path) -> Result<Body, SceneError> {
     body_of(scene, tetrahedra(scene, data)?, data)
 }
 
-/// The same with tetrahedra that are in memory already, in place of those that the scene names.
+/// Builds the body on tetrahedra in memory, in place of those that the scene names.
 pub fn body_of(scene: &Scene, mesh: TetrahedralMesh, data: &Path) -> Result<Body, SceneError> {
     let mesh = checked(scene, mesh)?;
     let display = scene.mesh.display.as_ref().map(|file| surface(scene, data, file)).transpose()?;
     let boundary = fem_mesh::boundary(&mesh);
-    let fixed = scene.fixed.as_ref().map(|fixed| nodes::fixed(scene, fixed, &mesh)).transpose()?;
+    let dirichlet = dirichlet_conditions(scene, &mesh)?;
+    let (tractions, pressures) = surface_loads(scene, &mesh, &boundary)?;
     Ok(Body {
-        prescribed: nodes::prescribed(scene, fixed.as_deref(), &mesh)?,
-        loaded_faces: nodes::loaded_faces(scene, &mesh, &boundary)?,
-        rest_lengths: nodes::rest_lengths(scene, &mesh)?,
-        dragged: scene.drag.as_ref().map(|drag| nodes::dragged(scene, drag, &mesh)).transpose()?,
-        stiffer: Vec::new(),
-        denser: Vec::new(),
-        fixed,
+        name: scene.name.clone(),
+        material: scene.material.clone(),
+        lumped_mass: scene.mass.lumped,
+        stiffness_factors: Vec::new(),
+        density_factors: Vec::new(),
+        gravity: scene.gravity.as_ref().map(|gravity| gravity.acceleration.into()),
+        body_force: scene.body_force.as_ref().map(|force| force.density.into()),
+        dirichlet,
+        tractions,
+        pressures,
+        springs: springs(scene, &mesh)?,
+        drag: drag(scene, &mesh)?,
+        damping: damping(scene),
         shape: Shape { mesh, boundary, display },
     })
 }

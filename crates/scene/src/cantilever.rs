@@ -3,7 +3,8 @@
 use nalgebra::Vector3;
 
 use crate::simulation::Simulation;
-use crate::{Integrator, Material, Scene, Traction};
+use crate::tables::TractionTable;
+use crate::{Integrator, Material, Scene};
 use fem_mesh::{Side, nodes_on_side};
 
 /// A beam of rectangular cross-section, clamped at one end, that bends in one plane.
@@ -97,8 +98,8 @@ fn force_density(scene: &Scene) -> Vector3<f64> {
 }
 
 /// The sum of all tractions where they are dead loads on the end where x is largest, Pa.
-fn end_traction(tractions: &[Traction], length: f64) -> Option<Vector3<f64>> {
-    let of = |traction: &Traction| {
+fn end_traction(tractions: &[TractionTable], length: f64) -> Option<Vector3<f64>> {
+    let of = |traction: &TractionTable| {
         let on = traction.on.as_ref()?;
         let is_end = on.axis as usize == 0 && on.side == Side::Max && on.within <= END * length;
         traction.force_per_area.filter(|_| is_end).map(Vector3::from)

@@ -1,11 +1,9 @@
 //! Springs by which a scene or a user pulls a running body: those of `[drag]`, or those of the mouse, which replace them.
 
-use std::f64::consts::TAU;
-
 use nalgebra::Vector3;
 
+use crate::Drag;
 use crate::simulation::Pull;
-use crate::{Body, Drag, Scene};
 
 /// A spring of zero rest length between a node and a point of space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,18 +14,11 @@ pub struct Anchor {
     pub displacement: Vector3<f64>,
 }
 
-impl Drag {
-    /// Displacement of the target at a time (s), m: direction · amplitude · sin(2π · frequency · time).
-    pub fn displacement(&self, time: f64) -> Vector3<f64> {
-        Vector3::from(self.direction) * (self.amplitude * (TAU * self.frequency * time).sin())
-    }
-}
-
 /// The anchor springs of a simulation at any time, and their common stiffness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interaction {
-    /// The scene's drag and its node.
-    drag: Option<(Drag, usize)>,
+    /// The scene's drag.
+    drag: Option<Drag>,
     /// The user's pull.
     pull: Option<Pull>,
     /// Stiffness of every spring, N/m.
@@ -36,9 +27,8 @@ pub struct Interaction {
 
 impl Interaction {
     /// The scene's drag. `stiffness` (N/m) is that of a pull if the scene has no drag.
-    pub fn new(scene: &Scene, body: &Body, stiffness: f64) -> Self {
-        let drag = scene.drag.clone().zip(body.dragged);
-        Self { stiffness: drag.as_ref().map_or(stiffness, |(drag, _)| drag.stiffness), drag, pull: None }
+    pub fn new(drag: Option<Drag>, stiffness: f64) -> Self {
+        Self { stiffness: drag.map_or(stiffness, |drag| drag.stiffness), drag, pull: None }
     }
 
     /// Whether the scene has a drag.
@@ -58,24 +48,18 @@ impl Interaction {
             pull.anchors.iter().map(move |&(node, place)| Anchor { node, displacement: displacement(node, place) })
         });
         let dragged = self.drag.iter().filter(|_| self.pull.is_none());
-        pulled.chain(dragged.map(move |(drag, node)| Anchor { node: *node, displacement: drag.displacement(time) }))
+        pulled.chain(dragged.map(move |drag| Anchor { node: drag.node, displacement: drag.displacement(time) }))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::DragVertex;
 
     fn dragged() -> Interaction {
-        let drag = Drag {
-            vertex: DragVertex::Index(1),
-            stiffness: 5.0,
-            direction: [0.0, 2.0, 0.0],
-            amplitude: 0.5,
-            frequency: 0.25,
-        };
-        Interaction { stiffness: drag.stiffness, drag: Some((drag, 1)), pull: None }
+        let direction = Vector3::new(0.0, 2.0, 0.0);
+        let drag = Drag { node: 1, stiffness: 5.0, direction, amplitude: 0.5, frequency: 0.25 };
+        Interaction::new(Some(drag), 0.0)
     }
 
     const VERTICES: [Vector3<f64>; 2] = [Vector3::new(0.0, 0.0, 0.0), Vector3::new(1.0, 0.0, 0.0)];

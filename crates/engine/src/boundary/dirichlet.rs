@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::model::numbering::Numbering;
 use crate::number::Real;
 use crate::sparse::{Block, Pattern, Stored};
-use fem_scene::{Body, Prescribed, Scene};
+use fem_scene::{Body, DirichletCondition, Motion};
 
 /// What holds a body. The engine's nodes from `free` on are held wholly.
 #[derive(Clone, Debug, Default)]
@@ -14,21 +14,16 @@ pub struct DirichletConditions {
     pub free: usize,
     /// Nodes below `free` that are held in some directions.
     partly: Vec<(usize, [bool; 3])>,
-    /// Nodes of `[fixed]`; `None` where the scene has none.
-    fixed: Option<Vec<usize>>,
-    /// Motions, with the nodes that they lead.
-    motions: Vec<(Prescribed, Vec<usize>)>,
+    /// The scene's conditions, in the engine's numbers of the nodes.
+    conditions: Vec<DirichletCondition>,
 }
 
 /// Which nodes of the mesh are held wholly; they come last in the engine's order.
-pub fn fully_constrained_nodes(scene: &Scene, body: &Body) -> Vec<bool> {
+pub fn fully_constrained_nodes(body: &Body) -> Vec<bool> {
     let mut directions = vec![[false; 3]; body.shape.mesh.vertices.len()];
-    for &node in body.fixed.iter().flatten() {
-        directions[node] = [true; 3];
-    }
-    for (motion, nodes) in scene.prescribed.iter().zip(&body.prescribed) {
-        for &node in nodes {
-            for (held, holds) in directions[node].iter_mut().zip(motion.holds()) {
+    for condition in &body.dirichlet {
+        for &node in &condition.nodes {
+            for (held, holds) in directions[node].iter_mut().zip(condition.components) {
                 *held |= holds;
             }
         }
@@ -38,20 +33,22 @@ pub fn fully_constrained_nodes(scene: &Scene, body: &Body) -> Vec<bool> {
 
 impl DirichletConditions {
     /// What the scene holds, in the engine's order.
-    pub fn new(scene: &Scene, body: &Body, order: &Numbering) -> Self {
-        let engine =
-            |nodes: &Vec<usize>| nodes.iter().map(|&node| order.engine_node[node] as usize).collect::<Vec<_>>();
-        let motions: Vec<_> = scene.prescribed.iter().cloned().zip(body.prescribed.iter().map(engine)).collect();
+    pub fn new(body: &Body, order: &Numbering) -> Self {
+        let engine = |condition: &DirichletCondition| DirichletCondition {
+            nodes: condition.nodes.iter().map(|&node| order.engine_node[node] as usize).collect(),
+            ..condition.clone()
+        };
+        let conditions: Vec<_> = body.dirichlet.iter().map(engine).collect();
         let mut directions = vec![[false; 3]; order.free];
-        for (motion, nodes) in &motions {
-            for &node in nodes.iter().filter(|&&node| node < order.free) {
-                for (held, holds) in directions[node].iter_mut().zip(motion.holds()) {
+        for condition in &conditions {
+            for &node in condition.nodes.iter().filter(|&&node| node < order.free) {
+                for (held, holds) in directions[node].iter_mut().zip(condition.components) {
                     *held |= holds;
                 }
             }
         }
         let partly = directions.into_iter().enumerate().filter(|(_, held)| *held != [false; 3]).collect();
-        Self { free: order.free, partly, fixed: body.fixed.as_ref().map(engine), motions }
+        Self { free: order.free, partly, conditions }
     }
 
     /// Whether nothing is held at all.
@@ -59,27 +56,24 @@ impl DirichletConditions {
         self.free == nodes && self.partly.is_empty()
     }
 
-    /// Each table that holds nodes: its name, the nodes, and the directions.
-    pub fn tables(&self) -> impl Iterator<Item = (String, &[usize], [bool; 3])> {
-        let fixed = self.fixed.iter().map(|nodes| ("fixed".to_owned(), &nodes[..], [true; 3]));
-        let led = self.motions.iter().enumerate();
-        let led = led.map(|(number, (motion, nodes))| (format!("prescribed[{number}]"), &nodes[..], motion.holds()));
-        fixed.chain(led)
+    /// The scene's conditions, in the engine's numbers of the nodes.
+    pub fn conditions(&self) -> &[DirichletCondition] {
+        &self.conditions
     }
 
-    /// Each motion, and the nodes that it leads.
-    pub fn motions(&self) -> &[(Prescribed, Vec<usize>)] {
-        &self.motions
+    /// Conditions with a prescribed motion.
+    pub fn motions(&self) -> impl Iterator<Item = (&DirichletCondition, &Motion)> {
+        self.conditions.iter().filter_map(|condition| Some((condition, condition.motion.as_ref()?)))
     }
 
     /// Nodes of `[fixed]`; `None` where the scene has none.
     pub fn fixed(&self) -> Option<&[usize]> {
-        self.fixed.as_deref()
+        self.conditions.iter().find(|condition| condition.motion.is_none()).map(|condition| &condition.nodes[..])
     }
 
     /// Whether some nodes are led.
     pub fn leads(&self) -> bool {
-        !self.motions.is_empty()
+        self.motions().next().is_some()
     }
 
     /// Sets the entries of held directions to zero.
@@ -117,17 +111,17 @@ impl DirichletConditions {
     pub fn lead<T: Real>(
         &self,
         rest: &[Vector3<f64>],
-        fraction: impl Fn(&Prescribed) -> f64,
+        fraction: impl Fn(&Motion) -> f64,
         start: &[[T; 3]],
         step: &mut [[T; 3]],
     ) {
         self.clear(step);
-        for (motion, nodes) in &self.motions {
-            let (holds, fraction) = (motion.holds(), fraction(motion));
-            for &node in nodes {
+        for (condition, motion) in self.motions() {
+            let fraction = fraction(motion);
+            for &node in &condition.nodes {
                 let target = motion.position(&rest[node], fraction) - rest[node];
                 for i in 0..3 {
-                    if holds[i] {
+                    if condition.components[i] {
                         step[node][i] = T::of(target[i] - start[node][i].as_f64());
                     }
                 }
@@ -168,7 +162,7 @@ impl DirichletConditions {
 
     /// Bytes that it holds.
     pub fn bytes(&self) -> usize {
-        let nodes: usize = self.tables().map(|(_, nodes, _)| size_of_val(nodes)).sum();
+        let nodes: usize = self.conditions.iter().map(|condition| size_of_val(&condition.nodes[..])).sum();
         size_of_val(&self.partly[..]) + nodes
     }
 }

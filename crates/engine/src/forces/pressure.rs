@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use crate::model::numbering::Numbering;
 use crate::number::Real;
-use fem_scene::{Body, Scene};
+use fem_scene::Body;
 
 /// A pressure on triangles of the surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,20 +32,19 @@ struct Face<T> {
 
 impl<T: Real> Pressure<T> {
     /// Every pressure of a scene.
-    pub fn all(scene: &Scene, body: &Body, order: &Numbering) -> Vec<Self> {
+    pub fn all(body: &Body, order: &Numbering) -> Vec<Self> {
         let vector = |v: Vector3<f64>| [T::of(v.x), T::of(v.y), T::of(v.z)];
         let face = |face: &[usize; 3]| {
             let [a, b, c] = face.map(|node| body.shape.mesh.vertices[node]);
             let nodes = face.map(|node| order.engine_node[node] as usize);
             Face { nodes, edges: [vector(b - a), vector(c - a)] }
         };
-        let tables = scene.traction.iter().zip(&body.loaded_faces);
-        let pressure = |pressure, faces: &[[usize; 3]]| Self {
-            pressure: T::of(pressure),
+        let pressure = |fem_scene::Pressure { faces, pressure }: &fem_scene::Pressure| Self {
+            pressure: T::of(*pressure),
             corners: edge_is_fixed(body, faces).then(|| corners(&body.shape.mesh.vertices, faces)),
             faces: faces.iter().map(face).collect(),
         };
-        tables.filter_map(|(traction, faces)| Some(pressure(traction.pressure?, faces))).collect()
+        body.pressures.iter().map(pressure).collect()
     }
 
     /// Adds `factor` times the force on each node, N: −p/6 (x_b − x_a) × (x_c − x_a) at every corner, which is −p n integrated
@@ -94,7 +93,7 @@ fn corners(vertices: &[Vector3<f64>], faces: &[[usize; 3]]) -> Vec<[Vector3<f64>
 
 /// Whether `[fixed]` holds all edges that only one triangle has.
 fn edge_is_fixed(body: &Body, faces: &[[usize; 3]]) -> bool {
-    let fixed: HashSet<usize> = body.fixed.iter().flatten().copied().collect();
+    let fixed: HashSet<usize> = body.fixed_nodes().into_iter().flatten().copied().collect();
     let edges: HashSet<[usize; 2]> = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
     // In two triangles that both look outward a common edge runs there and back.
     edges.iter().all(|&[a, b]| edges.contains(&[b, a]) || (fixed.contains(&a) && fixed.contains(&b)))

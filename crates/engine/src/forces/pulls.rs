@@ -32,9 +32,9 @@ impl<T: Real> Pulls<'_, T> {
         springs.clear();
         let stiffness = T::of(self.stiffness);
         let Some(hand) = self.hand else {
-            springs.extend(self.system.drag.iter().map(|(drag, node)| {
-                let swing = drag.amplitude * (std::f64::consts::TAU * drag.frequency * time).sin();
-                AnchorSpring { node: *node, target: drag.direction.map(|d| T::of(d * swing)), stiffness }
+            springs.extend(self.system.drag.iter().map(|drag| {
+                let target = drag.displacement(time);
+                AnchorSpring { node: drag.node, target: [T::of(target.x), T::of(target.y), T::of(target.z)], stiffness }
             }));
             return;
         };

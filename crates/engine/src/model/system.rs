@@ -19,7 +19,7 @@ use crate::profile::Work;
 use crate::solvers::SolverChoice;
 use crate::sparse::{Block, Pattern};
 use fem_scene::simulation::Shape;
-use fem_scene::{Body, Damping, Drag, Prescribed, Scene};
+use fem_scene::{Body, Drag, Motion, RayleighDamping};
 
 /// A body in the engine's order of nodes: free ones first, those that are held wholly last.
 pub struct System<T: Real> {
@@ -54,9 +54,9 @@ pub struct System<T: Real> {
     /// Pressures that follow the surface.
     pub pressures: Vec<Pressure<T>>,
     /// Rayleigh's damping; `None` where the scene names none, or none that is not zero.
-    pub damping: Option<Damping>,
-    /// The scene's scripted pull, and the engine's number of its node.
-    pub drag: Option<(Drag, usize)>,
+    pub damping: Option<RayleighDamping>,
+    /// The scene's scripted drag, with the engine's number of its node.
+    pub drag: Option<Drag>,
     /// Longest edge of the undeformed body's bounding box, m.
     pub length: f64,
     /// What its parts have done so far.
@@ -89,30 +89,29 @@ impl std::ops::Add for Energy {
 
 impl<T: Real> System<T> {
     /// Builds what the scene names, and nothing else; rows and blocks as the solver wants them.
-    pub fn new(scene: &Scene, body: Body, law: AnyLaw<T::Lanes>, choice: SolverChoice) -> Self {
+    pub fn new(body: Body, law: AnyLaw<T::Lanes>, choice: SolverChoice) -> Self {
         let mesh = &body.shape.mesh;
-        let order =
-            Numbering::new(choice.numbering(), &mesh.vertices, &mesh.elements, &fully_constrained_nodes(scene, &body));
+        let order = Numbering::new(choice.numbering(), &mesh.vertices, &mesh.elements, &fully_constrained_nodes(&body));
         let corners = order.elements(&mesh.elements);
         let rest: Vec<_> = order.mesh_node.iter().map(|&node| mesh.vertices[node as usize]).collect();
-        let springs = node_springs(scene, &body, &order);
+        let springs = node_springs(&body, &order);
         let joined: Vec<[u32; 2]> = springs.iter().map(|spring| spring.nodes.map(|node| node as u32)).collect();
         let pattern = Pattern::joined(order.free, &corners, &joined, choice.stored());
         let volumes = fem_mesh::volumes(mesh);
         // Of the scene's density.
-        let denser = |element: usize| body.denser.get(element).copied().unwrap_or(1.0);
+        let denser = |element: usize| body.density_factors.get(element).copied().unwrap_or(1.0);
         let filled: Vec<f64> = volumes.iter().enumerate().map(|(element, volume)| denser(element) * volume).collect();
-        let mass = Mass::new(rest.len(), &corners, &filled, scene.material.density, scene.mass.lumped);
-        let dead_load = dead_load::dead(scene, &body, &order, &mass, &corners, &volumes);
-        let pressures = Pressure::all(scene, &body, &order);
-        let held = DirichletConditions::new(scene, &body, &order);
-        let drag = scene.drag.clone().zip(body.dragged.map(|node| order.engine_node[node] as usize));
+        let mass = Mass::new(rest.len(), &corners, &filled, body.material.density, body.lumped_mass);
+        let dead_load = dead_load::dead(&body, &order, &mass, &corners, &volumes);
+        let pressures = Pressure::all(&body, &order);
+        let held = DirichletConditions::new(&body, &order);
+        let drag = body.drag.map(|drag| Drag { node: order.engine_node[drag.node] as usize, ..drag });
         Self {
-            name: scene.name.clone(),
-            elements: Elements::stiffened(&rest, &corners, &body.stiffer, &pattern),
+            name: body.name,
+            elements: Elements::stiffened(&rest, &corners, &body.stiffness_factors, &pattern),
             length: length(&rest),
-            total_mass: scene.material.density * filled.iter().sum::<f64>(),
-            stiffer: body.stiffer,
+            total_mass: body.material.density * filled.iter().sum::<f64>(),
+            stiffer: body.stiffness_factors,
             node_masses: if held.is_nothing(rest.len()) { mass.lumped() } else { Vec::new() },
             held,
             shape: Arc::new(body.shape),
@@ -124,7 +123,7 @@ impl<T: Real> System<T> {
             dead_load,
             springs,
             pressures,
-            damping: scene.damping.clone().filter(|damping| damping.alpha > 0.0 || damping.beta > 0.0),
+            damping: body.damping,
             drag,
             work: Work::default(),
         }
@@ -211,7 +210,7 @@ impl<T: Real> System<T> {
     }
 
     /// Writes the step that held directions make, and leaves the others: see [`DirichletConditions::lead`].
-    pub fn lead(&self, fraction: impl Fn(&Prescribed) -> f64, start: &[[T; 3]], step: &mut [[T; 3]]) {
+    pub fn lead(&self, fraction: impl Fn(&Motion) -> f64, start: &[[T; 3]], step: &mut [[T; 3]]) {
         if !self.held.leads() {
             return self.held.clear(step);
         }
@@ -250,20 +249,24 @@ impl<T: Real> System<T> {
     }
 }
 
-fn node_springs<T: Real>(scene: &Scene, body: &Body, order: &Numbering) -> Vec<Spring<T>> {
-    let spring = |(table, &length): (&fem_scene::Spring, &f64)| {
+fn node_springs<T: Real>(body: &Body, order: &Numbering) -> Vec<Spring<T>> {
+    let spring = |table: &fem_scene::Spring| {
         let [a, b] = table.nodes.map(|node| body.shape.mesh.vertices[node]);
         let edge = b - a;
         Spring {
             nodes: table.nodes.map(|node| order.engine_node[node] as usize),
             edge: [T::of(edge.x), T::of(edge.y), T::of(edge.z)],
             stiffness: T::of(table.stiffness),
-            length: T::of(length),
+            length: T::of(table.rest_length),
             // Rounding of the length that the scene leaves out is no stretch.
-            excess: T::of(if table.rest_length.is_some() { edge.norm_squared() - length * length } else { 0.0 }),
+            excess: T::of(if table.is_initially_relaxed {
+                0.0
+            } else {
+                edge.norm_squared() - table.rest_length * table.rest_length
+            }),
         }
     };
-    scene.springs.iter().zip(&body.rest_lengths).map(spring).collect()
+    body.springs.iter().map(spring).collect()
 }
 
 /// a · b, in double.

@@ -35,7 +35,7 @@ pub struct Motion<'a, T> {
 impl<'a, T: Real> Motion<'a, T> {
     /// That of a step of `dt` seconds.
     pub fn new(system: &System<T>, inertial: &'a [[T; 3]], dt: f64) -> Self {
-        let rates = |damping: &fem_scene::Damping| (T::of(damping.alpha / dt), T::of(damping.beta / dt));
+        let rates = |damping: &fem_scene::RayleighDamping| (T::of(damping.alpha / dt), T::of(damping.beta / dt));
         Self { inertial, over_dt2: T::of(1.0 / (dt * dt)), damping: system.damping.as_ref().map(rates) }
     }
 }

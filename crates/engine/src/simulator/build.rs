@@ -6,14 +6,14 @@ use crate::model::system::System;
 use crate::number::Real;
 use crate::skinning::Skinning;
 use crate::solvers::{Preconditioner, SolverChoice};
-use fem_scene::{Body, Integrator, Scene, SceneError, Solver, SolverKind};
+use fem_scene::{Body, Integrator, Method, Scene, SceneError, SolverKind, SolverSettings};
 
 use super::stepper::Stepper;
-use super::{Simulator, range, rigid};
+use super::{Refusal, Simulator, range, rigid};
 
 /// Methods that a running simulation can be switched to.
-pub fn integrators(scene: &Scene) -> &'static [Integrator] {
-    match scene.time.integrator {
+pub fn integrators(integrator: Integrator) -> &'static [Integrator] {
+    match integrator {
         Integrator::Static => &[Integrator::Static],
         Integrator::LinearlyImplicitEuler | Integrator::ImplicitEuler => {
             &[Integrator::LinearlyImplicitEuler, Integrator::ImplicitEuler]
@@ -36,15 +36,15 @@ pub fn integrators(scene: &Scene) -> &'static [Integrator] {
 const DIRECT: (usize, usize) = (2000, 20_000);
 
 /// The solver that the scene names, or the one that suits its size.
-pub(super) fn solver_choice(scene: &Scene, nodes: usize) -> SolverChoice {
-    let preconditioner = |solver: &Solver| match solver.preconditioner {
-        None | Some(fem_scene::Preconditioner::BlockJacobi) => Preconditioner::BlockJacobi,
-        Some(fem_scene::Preconditioner::IncompleteCholesky) => Preconditioner::IncompleteCholesky,
-        Some(fem_scene::Preconditioner::Multigrid) => Preconditioner::Multigrid,
-        Some(fem_scene::Preconditioner::Ssor) => Preconditioner::Ssor,
+pub(super) fn solver_choice(method: &Method, nodes: usize) -> SolverChoice {
+    let preconditioner = |solver: &SolverSettings| match solver.preconditioner {
+        fem_scene::Preconditioner::BlockJacobi => Preconditioner::BlockJacobi,
+        fem_scene::Preconditioner::IncompleteCholesky => Preconditioner::IncompleteCholesky,
+        fem_scene::Preconditioner::Multigrid => Preconditioner::Multigrid,
+        fem_scene::Preconditioner::Ssor => Preconditioner::Ssor,
     };
-    let most_direct = if scene.time.integrator == Integrator::Static { DIRECT.1 } else { DIRECT.0 };
-    match &scene.solver {
+    let most_direct = if method.integrator == Integrator::Static { DIRECT.1 } else { DIRECT.0 };
+    match &method.solver {
         Some(solver) => match solver.kind {
             SolverKind::Cholesky => SolverChoice::Cholesky,
             SolverKind::Lu => SolverChoice::Lu,
@@ -53,7 +53,7 @@ pub(super) fn solver_choice(scene: &Scene, nodes: usize) -> SolverChoice {
         },
         None if nodes <= most_direct => SolverChoice::Cholesky,
         // Inertia keeps the iterations of the cheapest one few; equilibrium has none.
-        None if scene.time.integrator == Integrator::Static => SolverChoice::Pcg(Preconditioner::Multigrid),
+        None if method.integrator == Integrator::Static => SolverChoice::Pcg(Preconditioner::Multigrid),
         None => SolverChoice::Pcg(Preconditioner::Ssor),
     }
 }
@@ -61,24 +61,27 @@ pub(super) fn solver_choice(scene: &Scene, nodes: usize) -> SolverChoice {
 impl<T: Real> Simulator<T> {
     /// Builds what the scene names, and nothing else.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
-        let Some(law) = AnyLaw::new(&scene.material) else {
+        let Some(law) = AnyLaw::new(&body.material) else {
             return Err(scene.refuse("material", "lacks the parameters of its model; give those that README.md names"));
         };
-        if scene.time.integrator == Integrator::Static {
-            rigid::check(scene, &body)?;
+        let refuse = |(field, problem): Refusal| scene.refuse(field, &problem);
+        let method = scene.method();
+        if method.integrator == Integrator::Static {
+            rigid::check(&body).map_err(refuse)?;
         }
         let skinning = body.shape.display.as_ref().map(|display| Skinning::new(&body.shape.mesh, &display.vertices));
-        let choice = solver_choice(scene, body.shape.mesh.vertices.len());
-        let system = System::new(scene, body, law, choice);
-        range::check(scene, &system)?;
+        let choice = solver_choice(&method, body.shape.mesh.vertices.len());
+        let (material, lumped_mass, drag) = (body.material.clone(), body.lumped_mass, body.drag);
+        let system = System::new(body, law, choice);
+        range::check(&method, &system).map_err(refuse)?;
         let state = State::at_rest(system.nodes());
         Ok(Self {
-            stepper: Stepper::new(scene, &system, scene.time.integrator, choice),
-            integrator: scene.time.integrator,
+            stepper: Stepper::new(&method, &system, method.integrator, choice),
+            integrator: method.integrator,
             choice,
-            dt: scene.time.dt,
+            dt: method.dt,
             skinning,
-            drag_stiffness: scene.drag.as_ref().map_or(hand_stiffness(&system), |drag| drag.stiffness),
+            drag_stiffness: drag.map_or(hand_stiffness(&system), |drag| drag.stiffness),
             pull: None,
             springs: Vec::new(),
             counters: Default::default(),
@@ -88,7 +91,9 @@ impl<T: Real> Simulator<T> {
             last_good: state.clone(),
             state,
             system,
-            scene: scene.clone(),
+            method,
+            material,
+            lumped_mass,
         })
     }
 }

@@ -26,15 +26,15 @@ pub(super) fn parts<T: Real>(engine: &Simulator<T>) -> Vec<Part> {
 
 /// What every scene has.
 fn body<T: Real>(engine: &Simulator<T>) -> Vec<Part> {
-    let Simulator { scene, system, .. } = engine;
+    let Simulator { material: table, system, .. } = engine;
     let (nodes, elements, work) = (system.nodes(), system.elements.count, &system.work);
     let state = engine.state.bytes() + engine.last_good.bytes();
     let mesh = system.elements.bytes() + system.pattern.bytes();
-    let mass = if scene.mass.lumped { "lumped: [mass]" } else { "consistent: every element joins its nodes" };
+    let mass = if engine.lumped_mass { "lumped: [mass]" } else { "consistent: every element joins its nodes" };
     vec![
         // Which nodes are neighbours is learnt with the mesh, whether or not a matrix is made of it.
         built("mesh", format!("[mesh]: {nodes} nodes, {elements} tetrahedra"), (mesh, NO_WORK)),
-        built("material", material(&scene.material), (0, NO_WORK)),
+        built("material", material(table), (0, NO_WORK)),
         built("state", format!("displacements and velocities in {}", std::any::type_name::<T>()), (state, NO_WORK)),
         built("mass", mass.to_owned(), (system.mass.bytes(), work.mass.read())),
         built("forces", "stress of every element, where no energy is asked for".to_owned(), (0, work.forces.read())),
@@ -92,11 +92,11 @@ fn acting<T: Real>(system: &System<T>) -> Vec<Part> {
 
 /// What the integrator needs.
 fn methods<T: Real>(engine: &Simulator<T>) -> Vec<Part> {
-    let Simulator { scene, system, integrator, counters, .. } = engine;
+    let Simulator { method, system, integrator, counters, .. } = engine;
     let (name, work, solver) = (integrator.name(), &system.work, engine.stepper.solver());
     let matrix = 9 * size_of::<T>() * system.pattern.blocks();
     let searches = engine.stepper.searches();
-    let never = scene.newton.as_ref().is_some_and(|newton| newton.projection == Some(Projection::Never));
+    let never = method.newton.projection == Projection::Never;
     let no_matrix = || format!("{name} needs no matrix");
     let projects = solver.is_some() && !never && (searches || *integrator != Integrator::Static);
     let (prepared, solved, bytes) = solver.map_or((NO_WORK, NO_WORK, 0), |solver| {

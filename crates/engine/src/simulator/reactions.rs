@@ -12,8 +12,8 @@ pub(super) fn reactions<T: Real>(engine: &Simulator<T>) -> Vec<Reaction> {
         let along = |i: usize| nodes.iter().map(|&node| force[node][i].as_f64()).sum();
         std::array::from_fn(|i| if holds[i] { along(i) } else { 0.0 })
     };
-    let tables = engine.system.held.tables();
-    tables.map(|(name, nodes, holds)| Reaction { name, force: sum(nodes, holds) }).collect()
+    let conditions = engine.system.held.conditions().iter();
+    conditions.map(|c| Reaction { name: c.name.clone(), force: sum(&c.nodes, c.components) }).collect()
 }
 
 fn nodal_forces<T: Real>(engine: &Simulator<T>) -> Vec<[T; 3]> {

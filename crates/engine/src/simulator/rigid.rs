@@ -2,16 +2,17 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use fem_scene::{Body, Scene, SceneError};
+use super::Refusal;
+use fem_scene::Body;
 
 /// A motion is held where its stiffness is more than this part of the largest.
 const LEAST: f64 = 1e-9;
 
 /// Refuses a body of which a part can move or turn without deforming. Parts that springs join are left to the solver.
-pub(super) fn check(scene: &Scene, body: &Body) -> Result<(), SceneError> {
+pub(super) fn check(body: &Body) -> Result<(), Refusal> {
     let part = parts(body);
-    let grams = grams(&body.shape.mesh.vertices, &part, &held(scene, body));
-    let joined: Vec<usize> = scene.springs.iter().flat_map(|spring| spring.nodes).map(|node| part[node]).collect();
+    let grams = grams(&body.shape.mesh.vertices, &part, &held(body));
+    let joined: Vec<usize> = body.springs.iter().flat_map(|spring| spring.nodes).map(|node| part[node]).collect();
     for root in (0..part.len()).filter(|&node| part[node] == node && !joined.contains(&node)) {
         let values = grams[root].symmetric_eigenvalues();
         // NaN is no hold either.
@@ -21,21 +22,21 @@ pub(super) fn check(scene: &Scene, body: &Body) -> Result<(), SceneError> {
                 "is static, and nothing keeps the part of the body with node {root} from moving or turning as a whole; hold it \
                  by [fixed] or [[prescribed]]"
             );
-            return Err(scene.refuse("time.integrator", &text));
+            return Err(("time.integrator", text));
         }
     }
     Ok(())
 }
 
 /// Which directions of each node something holds.
-fn held(scene: &Scene, body: &Body) -> Vec<[bool; 3]> {
+fn held(body: &Body) -> Vec<[bool; 3]> {
     let mut held = vec![[false; 3]; body.shape.mesh.vertices.len()];
-    for &node in body.fixed.iter().flatten().chain(&body.dragged) {
-        held[node] = [true; 3];
+    if let Some(drag) = &body.drag {
+        held[drag.node] = [true; 3];
     }
-    for (motion, nodes) in scene.prescribed.iter().zip(&body.prescribed) {
-        for &node in nodes {
-            held[node] = std::array::from_fn(|i| held[node][i] || motion.holds()[i]);
+    for condition in &body.dirichlet {
+        for &node in &condition.nodes {
+            held[node] = std::array::from_fn(|i| held[node][i] || condition.components[i]);
         }
     }
     held

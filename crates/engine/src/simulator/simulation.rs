@@ -98,7 +98,7 @@ impl<T: Real> Simulation for Simulator<T> {
 
     fn stresses(&self) -> Vec<Matrix3<f64>> {
         let (mesh, x) = (&self.system.shape.mesh, self.nodes_now());
-        let Some(law) = AnyLaw::<f64>::new(&self.scene.material) else { return Vec::new() };
+        let Some(law) = AnyLaw::<f64>::new(&self.material) else { return Vec::new() };
         let stress = |(number, element): (usize, &[usize; 4])| {
             let edges = |of: &[Vector3<f64>]| {
                 let [a, b, c, d] = element.map(|node| of[node]);
@@ -118,10 +118,10 @@ impl<T: Real> Simulation for Simulator<T> {
     }
 
     fn next_integrator(&mut self) -> &'static str {
-        let all = integrators(&self.scene);
+        let all = integrators(self.method.integrator);
         self.integrator = self.integrator.next_in(all);
-        let choice = solver_choice(&self.scene, self.system.nodes());
-        self.stepper = Stepper::new(&self.scene, &self.system, self.integrator, choice);
+        let choice = solver_choice(&self.method, self.system.nodes());
+        self.stepper = Stepper::new(&self.method, &self.system, self.integrator, choice);
         self.integrator.name()
     }
 

@@ -12,7 +12,7 @@ use crate::newton::{Limits, Newton};
 use crate::number::Real;
 use crate::solvers::{Solver, SolverChoice};
 use fem_scene::simulation::{Cause, Counters};
-use fem_scene::{Integrator, Scene};
+use fem_scene::{Integrator, Method};
 
 /// Relative residuals that a linear solver always reaches, in roundings.
 const ROUNDINGS: f64 = 8.0;
@@ -34,16 +34,16 @@ pub(super) enum Stepper<T: Real> {
 
 impl<T: Real> Stepper<T> {
     /// What the integrator needs, and nothing else.
-    pub(super) fn new(scene: &Scene, system: &System<T>, integrator: Integrator, choice: SolverChoice) -> Self {
+    pub(super) fn new(method: &Method, system: &System<T>, integrator: Integrator, choice: SolverChoice) -> Self {
         let solver = || {
             let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
             Solver::new(choice, &Arc::clone(&system.pattern), &rest)
         };
-        let tolerance = scene.solver.as_ref().and_then(|solver| solver.tolerance).unwrap_or(1e-12);
+        let tolerance = method.solver.as_ref().and_then(|solver| solver.tolerance).unwrap_or(1e-12);
         // No residual is below round-off, whatever the scene asks for.
         let tolerance = tolerance.max(ROUNDINGS * T::EPSILON.as_f64());
         let newton =
-            || Newton::new(limits(scene, integrator, tolerance), solver(), system.nodes(), system.pattern.blocks());
+            || Newton::new(limits(method, integrator, tolerance), solver(), system.nodes(), system.pattern.blocks());
         match integrator {
             Integrator::ExplicitEuler => Self::ExplicitEuler(ExplicitEuler::new(system)),
             Integrator::SemiImplicitEuler => Self::SemiImplicitEuler(SemiImplicitEuler::new(system)),
@@ -54,10 +54,7 @@ impl<T: Real> Stepper<T> {
                 Self::LinearlyImplicitEuler(LinearlyImplicitEuler::new(solver(), tolerance, system))
             }
             Integrator::ImplicitEuler => Self::ImplicitEuler(ImplicitEuler::new(newton(), system)),
-            Integrator::Static => {
-                let load_steps = scene.statics.as_ref().map_or(1, |statics| statics.load_steps);
-                Self::Static(Statics::new(newton(), system, load_steps))
-            }
+            Integrator::Static => Self::Static(Statics::new(newton(), system, method.load_steps)),
         }
     }
 
@@ -124,13 +121,13 @@ impl<T: Real> Stepper<T> {
 const MOST_ITERATIONS: (usize, usize) = (50, 2000);
 
 /// The scene's, or those that suit most.
-fn limits(scene: &Scene, integrator: Integrator, solver_tolerance: f64) -> Limits {
-    let newton = scene.newton.as_ref();
+fn limits(method: &Method, integrator: Integrator, solver_tolerance: f64) -> Limits {
+    let newton = &method.newton;
     let most = if integrator == Integrator::Static { MOST_ITERATIONS.1 } else { MOST_ITERATIONS.0 };
     Limits {
-        max_iterations: newton.and_then(|newton| newton.max_iterations).unwrap_or(most),
-        tolerance: newton.and_then(|newton| newton.tolerance).unwrap_or(1e-10),
-        projection: newton.and_then(|newton| newton.projection).unwrap_or_default(),
+        max_iterations: newton.max_iterations.unwrap_or(most),
+        tolerance: newton.tolerance.unwrap_or(1e-10),
+        projection: newton.projection,
         solver_tolerance: solver_tolerance.min(COARSEST),
     }
 }

@@ -43,7 +43,7 @@ fn patch(model: &str) -> Patch {
     }
     fem_mesh::check(&body.shape.mesh, Path::new("patch")).unwrap();
     let law = AnyLaw::new(&scene.material).unwrap();
-    let system = System::new(&scene, body, law, SolverChoice::Cholesky);
+    let system = System::new(body, law, SolverChoice::Cholesky);
     let inner = system.rest.iter().map(is_inner).collect();
     Patch { system, inner }
 }

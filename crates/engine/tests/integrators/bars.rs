@@ -52,7 +52,7 @@ fn lowest_frequency(cells_per_metre: usize, mass: &str) -> f64 {
     let scene = scene(&bar(cells_per_metre, mass));
     let body = fem_scene::body(&scene, Path::new("no data")).unwrap();
     let law = AnyLaw::new(&scene.material).unwrap();
-    let system = System::<f64>::new(&scene, body, law, SolverChoice::Cholesky);
+    let system = System::<f64>::new(body, law, SolverChoice::Cholesky);
     let free: Vec<usize> = (0..system.nodes()).filter(|&node| system.rest[node].x > 0.0).collect();
     let rest = vec![[0.0; 3]; system.nodes()];
     let (mut K, mut M) = (DMatrix::zeros(free.len(), free.len()), DMatrix::zeros(free.len(), free.len()));

@@ -90,8 +90,8 @@ fn the_half_that_is_stiffer_and_denser_moves_less_and_weighs_more() {
     let scene = parse(&text, Path::new("case.toml")).unwrap();
     let mut body = body(&scene, Path::new("")).unwrap();
     // The first six elements are those of the cell at x < 1.
-    body.stiffer = (0..12).map(|element| if element < 6 { 1.0 } else { 1e6 }).collect();
-    body.denser = (0..12).map(|element| if element < 6 { 1.0 } else { 3.0 }).collect();
+    body.stiffness_factors = (0..12).map(|element| if element < 6 { 1.0 } else { 1e6 }).collect();
+    body.density_factors = (0..12).map(|element| if element < 6 { 1.0 } else { 3.0 }).collect();
     let mut simulation = fem_engine::simulator::Simulator::<f64>::new(&scene, body).unwrap();
     run(&mut simulation, 1);
     let sunk = |node: usize| 1.0 - simulation.positions()[3 * node + 2];

@@ -1,7 +1,8 @@
 //! What the tables of loads must keep.
 
 use super::{Problem, check_finite, check_not_negative, check_positive, check_vector, problem};
-use crate::{Drag, Scene, SidePlane, Spring, Traction};
+use crate::Scene;
+use crate::tables::{DragTable, SidePlane, SpringTable, TractionTable};
 
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     if let Some(gravity) = &scene.gravity {
@@ -19,7 +20,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     scene.drag.as_ref().map_or(Ok(()), check_drag)
 }
 
-fn check_traction(table: &str, traction: &Traction) -> Result<(), Problem> {
+fn check_traction(table: &str, traction: &TractionTable) -> Result<(), Problem> {
     match (&traction.on, &traction.faces) {
         (Some(plane), None) => check_side(&format!("{table}.on"), plane)?,
         (None, Some(_)) => {}
@@ -44,7 +45,7 @@ pub(super) fn check_distance(field: &str, key: &str, distance: f64) -> Result<()
     problem(field, format!("has {key} = {distance}; give a distance of 0 m or more"))
 }
 
-fn check_spring(table: &str, spring: &Spring) -> Result<(), Problem> {
+fn check_spring(table: &str, spring: &SpringTable) -> Result<(), Problem> {
     check_positive(&format!("{table}.stiffness"), spring.stiffness, " of N/m")?;
     if spring.nodes[0] == spring.nodes[1] {
         let text = format!("names node {} twice; a spring joins two nodes", spring.nodes[0]);
@@ -54,7 +55,7 @@ fn check_spring(table: &str, spring: &Spring) -> Result<(), Problem> {
     length.map_or(Ok(()), |length| check_not_negative(&format!("{table}.rest_length"), length, "m"))
 }
 
-fn check_drag(drag: &Drag) -> Result<(), Problem> {
+fn check_drag(drag: &DragTable) -> Result<(), Problem> {
     check_positive("drag.stiffness", drag.stiffness, " of N/m")?;
     check_vector("drag.direction", &drag.direction)?;
     if drag.direction == [0.0; 3] {

@@ -13,7 +13,7 @@ fn a_body_has_the_mesh_and_its_boundary_and_nothing_that_the_scene_does_not_name
     let body = body(LEAST).unwrap();
     assert_eq!((body.shape.mesh.vertices.len(), body.shape.mesh.elements.len()), (12, 12));
     assert_eq!(body.shape.boundary, boundary(&body.shape.mesh));
-    assert_eq!((body.shape.display, body.fixed, body.dragged), (None, None, None));
+    assert_eq!((body.fixed_nodes(), body.drag, &body.shape.display), (None, None, &None));
 }
 
 #[test]
@@ -41,7 +41,11 @@ fn fixed_by(axis: &str, below: f64) -> Vec<usize> {
         "size = [2, 1, 1], cells_per_unit = 1",
         "size = [1.3333333333333333, 0.3333333333333333, 0.3333333333333333], cells_per_unit = 3",
     );
-    body(&format!("{text}[fixed]\nplane = {{ axis = \"{axis}\", below = {below:e} }}\n")).unwrap().fixed.unwrap()
+    body(&format!("{text}[fixed]\nplane = {{ axis = \"{axis}\", below = {below:e} }}\n"))
+        .unwrap()
+        .fixed_nodes()
+        .unwrap()
+        .to_vec()
 }
 
 #[test]
@@ -67,7 +71,7 @@ fn the_plane_counts_from_the_lowest_node_of_the_scaled_mesh() {
         let text = edit(LEAST, source, &format!("file = \"m.node\"\nscale = {scale}"));
         fs::write(folder.path().join("a.toml"), text + &plane).unwrap();
         let scene = load(folder.path().join("a.toml").to_str().unwrap(), folder.path()).unwrap();
-        fem_scene::body(&scene, folder.path()).unwrap().fixed.unwrap()
+        fem_scene::body(&scene, folder.path()).unwrap().fixed_nodes().unwrap().to_vec()
     };
     assert_eq!(fixed(1.0, 0.05), [0, 1]);
     assert_eq!(fixed(1.0, 0.2), [0, 1, 3]);
@@ -76,7 +80,8 @@ fn the_plane_counts_from_the_lowest_node_of_the_scaled_mesh() {
 
 #[test]
 fn listed_nodes_are_sorted_and_counted_once() {
-    let fixed = |list: &str| body(&format!("{LEAST}[fixed]\nnodes = {list}\n")).unwrap().fixed;
+    let fixed =
+        |list: &str| body(&format!("{LEAST}[fixed]\nnodes = {list}\n")).unwrap().fixed_nodes().map(<[usize]>::to_vec);
     assert_eq!(fixed("[7, 0, 3, 7, 0]"), Some(vec![0, 3, 7]));
     assert_eq!(fixed("[]"), Some(vec![]));
 }
@@ -85,5 +90,5 @@ fn listed_nodes_are_sorted_and_counted_once() {
 fn the_highest_vertex_is_the_first_of_largest_y() {
     let drag = "[drag]\nvertex = \"highest\"\nstiffness = 1\ndirection = [0, 1, 0]\namplitude = 1\nfrequency = 1\n";
     // Nodes 3, 4, 5 and 9, 10, 11 of the box have y = 1.
-    assert_eq!(body(&format!("{LEAST}{drag}")).unwrap().dragged, Some(3));
+    assert_eq!(body(&format!("{LEAST}{drag}")).unwrap().drag.unwrap().node, 3);
 }

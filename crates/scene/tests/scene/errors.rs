@@ -99,13 +99,13 @@ fn a_pipeline_can_refuse_a_field_at_its_line() {
 #[test]
 fn nodes_beyond_the_mesh_are_refused_and_the_last_one_is_not() {
     let fixed = |node: usize| body(&format!("{LEAST}[fixed]\nnodes = [{node}]\n"));
-    assert_eq!(fixed(11).unwrap().fixed, Some(vec![11]));
+    assert_eq!(fixed(11).unwrap().fixed_nodes(), Some(&[11][..]));
     assert!(fixed(12).unwrap_err().to_string().ends_with("fixed.nodes names node 12; the mesh has nodes 0 to 11"));
     let drag = |node: usize| {
         let numbers = "stiffness = 1\ndirection = [0, 1, 0]\namplitude = 1\nfrequency = 1";
         body(&format!("{LEAST}[drag]\nvertex = {node}\n{numbers}\n"))
     };
-    assert_eq!(drag(11).unwrap().dragged, Some(11));
+    assert_eq!(drag(11).unwrap().drag.unwrap().node, 11);
     assert!(drag(12).unwrap_err().to_string().ends_with("drag.vertex names node 12; the mesh has nodes 0 to 11"));
 }
 

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use fem_scene::{Axis, Cuboid, Drag, DragVertex, Integrator, Mass, Newton, Pipeline, Plane, Solver, SolverKind};
+use fem_scene::tables::{Cuboid, DragTable, DragVertex, MassTable, NewtonTable, Plane, SolverTable};
+use fem_scene::{Axis, Integrator, Pipeline, SolverKind};
 
 use crate::{LEAST, edit, read};
 
@@ -51,14 +52,17 @@ fn a_scene_with_every_table_says_what_its_file_says() {
     let material = scene.material;
     assert_eq!((material.model.as_str(), material.C, material.D), ("neo_hookean", Some(2e5), Some(1e6)));
     assert_eq!((material.young, material.poisson, material.density), (None, None, 1000.0));
-    assert_eq!(scene.mass, Mass { lumped: true });
+    assert_eq!(scene.mass, MassTable { lumped: true });
     assert_eq!(scene.gravity.unwrap().acceleration, [0.0, 0.0, -9.81]);
     let fixed = scene.fixed.unwrap();
     assert_eq!((fixed.plane, fixed.nodes), (Some(Plane { axis: Axis::X, below: 1e-9 }), None));
     assert_eq!((scene.time.dt, scene.time.integrator, scene.time.steps), (0.01, Integrator::ImplicitEuler, Some(50)));
-    assert_eq!(scene.newton, Some(Newton { max_iterations: Some(50), tolerance: Some(1e-10), projection: None }));
-    assert_eq!(scene.solver, Some(Solver { kind: SolverKind::Cholesky, tolerance: Some(1e-12), preconditioner: None }));
-    let drag = Drag {
+    assert_eq!(scene.newton, Some(NewtonTable { max_iterations: Some(50), tolerance: Some(1e-10), projection: None }));
+    assert_eq!(
+        scene.solver,
+        Some(SolverTable { kind: SolverKind::Cholesky, tolerance: Some(1e-12), preconditioner: None })
+    );
+    let drag = DragTable {
         vertex: DragVertex::Highest,
         stiffness: 1e5,
         direction: [1.0, 0.0, 0.0],
@@ -127,6 +131,6 @@ fn a_drag_may_name_its_vertex_by_index_and_fixed_nodes_may_be_listed() {
 #[test]
 fn tables_of_newton_and_solver_may_leave_out_their_numbers() {
     let scene = read(&format!("{LEAST}[newton]\n[solver]\nkind = \"pcg\"\n"));
-    assert_eq!(scene.newton, Some(Newton { max_iterations: None, tolerance: None, projection: None }));
-    assert_eq!(scene.solver, Some(Solver { kind: SolverKind::Pcg, tolerance: None, preconditioner: None }));
+    assert_eq!(scene.newton, Some(NewtonTable { max_iterations: None, tolerance: None, projection: None }));
+    assert_eq!(scene.solver, Some(SolverTable { kind: SolverKind::Pcg, tolerance: None, preconditioner: None }));
 }

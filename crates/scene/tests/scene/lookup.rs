@@ -113,8 +113,8 @@ fn every_shipped_scene_is_found_with_its_meshes() {
         let scene = load(&name, &data()).unwrap();
         let body = body(&scene, &data()).unwrap();
         assert_eq!(body.shape.display.is_some(), scene.mesh.display.is_some(), "{name}");
-        assert_eq!(body.fixed.is_some(), scene.fixed.is_some(), "{name}");
-        assert_eq!(body.dragged.is_some(), scene.drag.is_some(), "{name}");
+        assert_eq!(body.fixed_nodes().is_some(), scene.fixed.is_some(), "{name}");
+        assert_eq!(body.drag.is_some(), scene.drag.is_some(), "{name}");
     }
 }
 

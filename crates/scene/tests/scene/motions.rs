@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use fem_scene::Prescribed;
+use fem_scene::{DirichletCondition, Motion};
 use nalgebra::Vector3;
 
 use crate::errors::assert_refused;
@@ -11,8 +11,17 @@ use crate::{LEAST, body, edit, read};
 const ON: &str = "on = { axis = \"x\", side = \"max\", within = 1e-9 }";
 
 /// The first `[[prescribed]]` of the smallest scene, with these lines in it.
-fn motion(lines: &str) -> Prescribed {
-    read(&format!("{LEAST}[[prescribed]]\n{ON}\n{lines}\n")).prescribed.remove(0)
+fn condition(lines: &str) -> DirichletCondition {
+    body(&format!("{LEAST}[[prescribed]]\n{ON}\n{lines}\n")).unwrap().dirichlet.remove(0)
+}
+
+fn motion(lines: &str) -> Motion {
+    condition(lines).motion.unwrap()
+}
+
+/// The nodes of every condition of a scene.
+fn nodes(text: &str) -> Vec<Vec<usize>> {
+    body(text).unwrap().dirichlet.into_iter().map(|condition| condition.nodes).collect()
 }
 
 #[test]
@@ -54,8 +63,8 @@ fn a_rotation_and_a_displacement_make_a_screw() {
 
 #[test]
 fn free_components_are_not_held() {
-    assert_eq!(motion("displacement = [0, 0, 0]\ncomponents = [\"x\", \"z\"]").holds(), [true, false, true]);
-    assert_eq!(motion("displacement = [0, 0, 0]").holds(), [true; 3]);
+    assert_eq!(condition("displacement = [0, 0, 0]\ncomponents = [\"x\", \"z\"]").components, [true, false, true]);
+    assert_eq!(condition("displacement = [0, 0, 0]").components, [true; 3]);
 }
 
 #[test]
@@ -63,7 +72,7 @@ fn prescribed_nodes_are_those_of_a_side_or_of_a_list() {
     let text = format!(
         "{LEAST}[[prescribed]]\n{ON}\ndisplacement = [1, 0, 0]\n[[prescribed]]\nnodes = [4, 0, 4]\ndisplacement = [0, 0, 0]\n"
     );
-    assert_eq!(body(&text).unwrap().prescribed, [vec![2, 5, 8, 11], vec![0, 4]]);
+    assert_eq!(nodes(&text), [vec![2, 5, 8, 11], vec![0, 4]]);
 }
 
 #[test]
@@ -72,8 +81,8 @@ fn symmetry_planes_may_share_an_edge() {
         let on = format!("on = {{ axis = \"{axis}\", side = \"min\", within = 0 }}");
         format!("[[prescribed]]\n{on}\ndisplacement = [0, 0, 0]\ncomponents = [\"{axis}\"]\n")
     };
-    let body = body(&format!("{LEAST}{}{}", plane("x"), plane("y"))).unwrap();
-    assert_eq!(body.prescribed, [vec![0, 3, 6, 9], vec![0, 1, 2, 6, 7, 8]]);
+    let text = format!("{LEAST}{}{}", plane("x"), plane("y"));
+    assert_eq!(nodes(&text), [vec![0, 3, 6, 9], vec![0, 1, 2, 6, 7, 8]]);
 }
 
 #[test]

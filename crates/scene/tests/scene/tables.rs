@@ -1,8 +1,7 @@
 //! The tables of the engine: what they say, and what is refused at which line.
 
-use fem_scene::{
-    Axis, BodyForce, Damping, Precision, Preconditioner, Projection, Side, SidePlane, Spring, Static, Traction,
-};
+use fem_scene::tables::{BodyForceTable, DampingTable, SidePlane, SpringTable, StaticTable, TractionTable};
+use fem_scene::{Axis, Precision, Preconditioner, Projection, Side};
 
 use crate::errors::assert_refused;
 use crate::{LEAST, body, edit, read};
@@ -43,14 +42,14 @@ fn the_tables_of_the_engine_say_what_the_file_says() {
     assert_eq!(scene.time.precision, Precision::F32);
     assert_eq!(scene.newton.unwrap().projection, Some(Projection::Always));
     assert_eq!(scene.solver.unwrap().preconditioner, Some(Preconditioner::Multigrid));
-    assert_eq!(scene.damping, Some(Damping { alpha: 0.5, beta: 1e-3 }));
-    assert_eq!(scene.statics, Some(Static { load_steps: 4 }));
-    assert_eq!(scene.body_force, Some(BodyForce { density: [0.0, 0.0, -9810.0] }));
+    assert_eq!(scene.damping, Some(DampingTable { alpha: 0.5, beta: 1e-3 }));
+    assert_eq!(scene.statics, Some(StaticTable { load_steps: 4 }));
+    assert_eq!(scene.body_force, Some(BodyForceTable { density: [0.0, 0.0, -9810.0] }));
     let on = Some(SidePlane { axis: Axis::X, side: Side::Max, within: 1e-9 });
-    let dead = Traction { on, faces: None, force_per_area: Some([1.0, 2.0, 3.0]), pressure: None };
-    let follower = Traction { on: None, faces: Some(vec![[4, 0, 1]]), force_per_area: None, pressure: Some(-5.0) };
+    let dead = TractionTable { on, faces: None, force_per_area: Some([1.0, 2.0, 3.0]), pressure: None };
+    let follower = TractionTable { on: None, faces: Some(vec![[4, 0, 1]]), force_per_area: None, pressure: Some(-5.0) };
     assert_eq!(scene.traction, [dead, follower]);
-    assert_eq!(scene.springs, [Spring { nodes: [0, 11], stiffness: 100.0, rest_length: Some(0.0) }]);
+    assert_eq!(scene.springs, [SpringTable { nodes: [0, 11], stiffness: 100.0, rest_length: Some(0.0) }]);
 }
 
 #[test]
@@ -59,7 +58,7 @@ fn what_a_scene_does_not_say_of_the_engine_has_its_default() {
     assert_eq!((scene.time.precision, scene.mesh.refine), (Precision::F64, 0));
     assert_eq!(scene.newton.unwrap().projection.unwrap_or_default(), Projection::WhenNeeded);
     assert_eq!(Preconditioner::default(), Preconditioner::BlockJacobi);
-    assert_eq!(scene.damping, Some(Damping { alpha: 0.0, beta: 2.0 }));
+    assert_eq!(scene.damping, Some(DampingTable { alpha: 0.0, beta: 2.0 }));
     assert!(scene.traction.is_empty() && scene.springs.is_empty() && scene.prescribed.is_empty());
     assert!(scene.statics.is_none() && scene.body_force.is_none());
 }
@@ -126,18 +125,18 @@ fn a_preconditioner_belongs_to_the_preconditioned_solver() {
 #[test]
 fn a_traction_on_a_side_loads_its_triangles_and_listed_ones_are_looked_up_in_any_order() {
     let body = body(&with_tables()).unwrap();
-    let [side, listed] = &body.loaded_faces[..] else { panic!("{:?}", body.loaded_faces) };
+    let (side, listed) = (&body.tractions[0].faces, &body.pressures[0].faces);
     assert_eq!(side.len(), 2);
     assert!(side.iter().flatten().all(|&node| body.shape.mesh.vertices[node].x == 2.0), "{side:?}");
     assert_eq!(listed.len(), 1);
     assert!(body.shape.boundary.contains(&listed[0]), "as the boundary has it, so that it looks outward");
-    assert_eq!(body.rest_lengths, [0.0]);
+    assert_eq!((body.springs[0].rest_length, body.springs[0].is_initially_relaxed), (0.0, false));
 }
 
 #[test]
 fn a_spring_without_a_rest_length_is_at_rest_in_the_undeformed_body() {
-    let lengths = body(&edit(&with_tables(), "rest_length = 0\n", "")).unwrap().rest_lengths;
-    assert_eq!(lengths, [6f64.sqrt()]);
+    let spring = body(&edit(&with_tables(), "rest_length = 0\n", "")).unwrap().springs[0];
+    assert_eq!((spring.rest_length, spring.is_initially_relaxed), (6f64.sqrt(), true));
 }
 
 #[test]

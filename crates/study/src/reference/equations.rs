@@ -38,10 +38,10 @@ impl Equations {
     /// Builds the equations of a scene. The error says why the scene has none.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, String> {
         let law = AnyLaw::new(&scene.material).ok_or("the material lacks its parameters")?;
-        let system = System::new(scene, body, law, SolverChoice::Cholesky);
+        let system = System::new(body, law, SolverChoice::Cholesky);
         let mass = MassInverse::new(scene, &system)?;
-        let drag_stiffness = scene.drag.as_ref().map_or(0.0, |drag| drag.stiffness);
-        let has_prescribed_motion = scene.prescribed.iter().any(moves);
+        let drag_stiffness = system.drag.map_or(0.0, |drag| drag.stiffness);
+        let has_prescribed_motion = system.held.motions().any(|(_, motion)| moves(motion));
         Ok(Self { system, mass, drag_stiffness, has_prescribed_motion })
     }
 
@@ -73,7 +73,7 @@ impl Equations {
     /// Times at which prescribed velocities may jump, including 0 and the horizon, s. A displacement that jumps is an error.
     pub fn jumps(&self, horizon: f64) -> Result<Vec<f64>, String> {
         let mut jumps = vec![0.0, horizon];
-        for (motion, _) in self.system.held.motions().iter().filter(|(motion, _)| moves(motion)) {
+        for (_, motion) in self.system.held.motions().filter(|(_, motion)| moves(motion)) {
             let Some(over) = motion.over else {
                 return Err("[[prescribed]] without `over` moves nodes at once, which no time step resolves".to_owned());
             };
@@ -90,12 +90,11 @@ impl Equations {
             return;
         }
         scratch.prescribed.resize(self.nodes(), [0.0; 3]);
-        for (motion, nodes) in self.system.held.motions() {
-            let holds = motion.holds();
-            for &node in nodes {
+        for (condition, motion) in self.system.held.motions() {
+            for &node in &condition.nodes {
                 let rest = &self.system.rest[node];
                 let [x, velocity, acceleration] = kinematics(motion, rest, begin, time);
-                for i in (0..3).filter(|&i| holds[i]) {
+                for i in (0..3).filter(|&i| condition.components[i]) {
                     u[node][i] = x[i] - rest[i];
                     v[node][i] = velocity[i];
                     scratch.prescribed[node][i] = acceleration[i];
@@ -138,9 +137,9 @@ impl Equations {
             scratch.force.clear();
             scratch.force.resize(n, [0.0; 3]);
             self.system.add_stiffness_times(1.0, &rest, &d, &mut scratch.force);
-            if let Some((_, node)) = &self.system.drag {
+            if let Some(drag) = &self.system.drag {
                 for i in 0..3 {
-                    scratch.force[*node][i] += self.drag_stiffness * d[*node][i];
+                    scratch.force[drag.node][i] += self.drag_stiffness * d[drag.node][i];
                 }
             }
             let mut next = vec![[0.0; 3]; n];

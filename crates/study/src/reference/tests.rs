@@ -101,7 +101,7 @@ fn prescribed_velocities_and_accelerations_match_finite_differences() {
         "[[prescribed]]\nnodes = [4]\ndisplacement = [0.2, -0.1, 0.4]\nover = 2.0\n\
          rotation = { axis = \"y\", center = [0.3, 0.1, 0.2], turns = 0.7 }\n",
     );
-    let motion = &equations.system.held.motions()[0].0;
+    let motion = &equations.system.held.motions().next().unwrap().1;
     let at = |time: f64| kinematics(motion, &Vector3::new(1.0, 2.0, -1.0), 0.0, time);
     let (h, [_, v, a]) = (1e-4, at(0.8));
     let (before, after) = (at(0.8 - h), at(0.8 + h));

@@ -4,7 +4,8 @@
 //! so that the failure is seen. What belongs to one method only (tolerance, solver, projection, precision, mesh) is varied
 //! around one point of its ladder.
 
-use fem_scene::{Integrator, Newton, Pipeline, Precision, Preconditioner, Projection, Scene, Solver, SolverKind};
+use fem_scene::tables::{NewtonTable, SolverTable, TimeTable};
+use fem_scene::{Integrator, Pipeline, Precision, Preconditioner, Projection, Scene, SolverKind};
 
 /// One run.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,18 +89,18 @@ fn variants(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     let tolerances: &[f64] = if extent.is_quick { &[1e-3, 1e-12] } else { &[1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12] };
     for &tolerance in tolerances {
         let mut scene = base.clone();
-        scene.newton = Some(Newton { tolerance: Some(tolerance), ..newton(&scene) });
+        scene.newton = Some(NewtonTable { tolerance: Some(tolerance), ..newton(&scene) });
         ladders.push(ladder("tolerance", &format!("implicit Euler to {tolerance:e}"), &scene, &at, extent));
     }
     for (kind, preconditioner) in SOLVERS {
         let mut scene = base.clone();
-        scene.solver = Some(Solver { kind, tolerance: None, preconditioner });
+        scene.solver = Some(SolverTable { kind, tolerance: None, preconditioner });
         let method = format!("implicit Euler by {}", solver_name(&scene));
         ladders.push(ladder("solver", &method, &scene, &at, extent));
     }
     for (projection, word) in [(Projection::Always, "always"), (Projection::Never, "never")] {
         let mut scene = base.clone();
-        scene.newton = Some(Newton { projection: Some(projection), ..newton(&scene) });
+        scene.newton = Some(NewtonTable { projection: Some(projection), ..newton(&scene) });
         ladders.push(ladder("projection", &format!("implicit Euler, projected {word}"), &scene, &at, extent));
     }
     let explicit = (extent.horizon * extent.fastest / ABOVE_THE_LIMIT).ceil() as usize;
@@ -195,12 +196,12 @@ pub fn equilibrium(scene: &Scene, load_steps: usize) -> Vec<Ladder> {
     let mut ladders = vec![run("method", "static".to_owned(), scene)];
     for (kind, preconditioner) in SOLVERS {
         let mut scene = scene.clone();
-        scene.solver = Some(Solver { kind, tolerance: None, preconditioner });
+        scene.solver = Some(SolverTable { kind, tolerance: None, preconditioner });
         ladders.push(run("solver", format!("static by {}", solver_name(&scene)), &scene));
     }
     ladders.push(run("precision", "static in f32".to_owned(), &single(scene)));
     for scene in meshes(scene) {
-        let scene = Scene { time: fem_scene::Time { integrator: Integrator::Static, ..scene.time }, ..scene };
+        let scene = Scene { time: TimeTable { integrator: Integrator::Static, ..scene.time }, ..scene };
         let cells = scene.mesh.cuboid.as_ref().map_or(0, |cuboid| cuboid.cells_per_unit);
         ladders.push(run("mesh", format!("static, {cells} cells per metre"), &scene));
     }
@@ -211,7 +212,7 @@ pub fn equilibrium(scene: &Scene, load_steps: usize) -> Vec<Ladder> {
 fn single(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     scene.time.precision = Precision::F32;
-    scene.newton = Some(Newton { tolerance: Some(1e-6), ..newton(&scene) });
+    scene.newton = Some(NewtonTable { tolerance: Some(1e-6), ..newton(&scene) });
     scene
 }
 
@@ -239,8 +240,8 @@ fn ladder(group: &'static str, method: &str, scene: &Scene, steps: &[usize], ext
     steps.iter().map(run).collect()
 }
 
-fn newton(scene: &Scene) -> Newton {
-    scene.newton.clone().unwrap_or(Newton { max_iterations: None, tolerance: None, projection: None })
+fn newton(scene: &Scene) -> NewtonTable {
+    scene.newton.clone().unwrap_or(NewtonTable { max_iterations: None, tolerance: None, projection: None })
 }
 
 /// A method as people call it.

@@ -3,7 +3,8 @@
 use crate::space::norms;
 use fem_scene::cantilever::{expected_tip_displacement, tip_displacement};
 use fem_scene::simulation::Simulation;
-use fem_scene::{Axis, Integrator, Prescribed, Scene, Side};
+use fem_scene::tables::PrescribedTable;
+use fem_scene::{Axis, Integrator, Scene, Side};
 
 /// Distance of a simulation at its horizon from the scene's closed form, relative; `None` for a scene without one.
 ///
@@ -43,7 +44,7 @@ pub fn uniaxial(scene: &Scene) -> Option<(f64, f64)> {
 }
 
 /// A plane of symmetry: the side of the smallest coordinate keeps that coordinate.
-fn is_roller(held: &Prescribed, axis: Axis) -> bool {
+fn is_roller(held: &PrescribedTable, axis: Axis) -> bool {
     let on_side = held.on.as_ref().is_some_and(|on| on.axis == axis && on.side == Side::Min);
     let stays = held.rotation.is_none() && held.displacement == Some([0.0; 3]);
     on_side && stays && held.components.as_deref() == Some(&[axis])

@@ -18,7 +18,8 @@ use fem_engine::solvers::{Solver, SolverChoice};
 use fem_engine::tensor::{Tensor, from_fn};
 use fem_mesh::{TetrahedralMesh, volumes};
 use fem_scene::simulation::Counters;
-use fem_scene::{Body, Fixed, Projection, Scene, body, parse};
+use fem_scene::tables::FixedTable;
+use fem_scene::{Body, Projection, Scene, body, parse};
 
 /// a, m: large enough that the neo-Hookean law is far from linear.
 pub const AMPLITUDE: [f64; 3] = [0.06, -0.05, 0.04];
@@ -93,7 +94,7 @@ pub fn solve(model: &str, cells: usize) -> Result<Solved, String> {
     let lacks = "the material lacks its parameters";
     let load = nodal_load(&AnyLaw::new(&scene.material).ok_or(lacks)?, &mesh);
     let law = AnyLaw::new(&scene.material).ok_or(lacks)?;
-    let mut system = System::<f64>::new(&scene, body, law, SolverChoice::Cholesky);
+    let mut system = System::<f64>::new(body, law, SolverChoice::Cholesky);
     system.dead_load = Some(system.order.mesh_node.iter().map(|&node| load[node as usize]).collect());
     let mut counters = Counters::default();
     let mut state = State::at_rest(system.nodes());
@@ -130,7 +131,7 @@ fn cube(model: &str, cells: usize) -> Result<(Scene, Body), String> {
         [node % per_edge, node / per_edge % per_edge, node / per_edge / per_edge].iter().all(|&i| i > 0 && i < cells)
     };
     let sides = (0..per_edge.pow(3)).filter(|&node| !is_inside(node)).collect();
-    scene.fixed = Some(Fixed { plane: None, nodes: Some(sides) });
+    scene.fixed = Some(FixedTable { plane: None, nodes: Some(sides) });
     let body = body(&scene, Path::new("")).map_err(|error| error.to_string())?;
     Ok((scene, body))
 }

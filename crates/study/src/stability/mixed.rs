@@ -90,6 +90,6 @@ fn build(text: &Text, mixture: Factors) -> Result<Simulator<f64>, Finding> {
     let is_beyond = |element: &[usize; 4]| element.iter().map(|&node| mesh.vertices[node].x).sum::<f64>() > 4.0;
     let beyond: Vec<bool> = mesh.elements.iter().map(is_beyond).collect();
     let factors = |factor: f64| beyond.iter().map(|&beyond| if beyond { factor } else { 1.0 }).collect();
-    (body.stiffer, body.denser) = (factors(mixture.young), factors(mixture.density));
+    (body.stiffness_factors, body.density_factors) = (factors(mixture.young), factors(mixture.density));
     Simulator::new(&scene, body).map_err(refused)
 }

@@ -1,13 +1,13 @@
-//! Tables that say how a scene is computed: time steps, Newton's method, the linear solver, damping, statics.
+//! The tables of the numerical method: time steps, load steps, Newton's method, the linear solver, damping.
 
 use serde::Deserialize;
 
-use super::Integrator;
+use crate::Integrator;
 
 /// `[time]`
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub struct Time {
+pub struct TimeTable {
     /// Time step, s.
     pub dt: f64,
     /// Method that advances a step.
@@ -33,7 +33,7 @@ pub enum Precision {
 /// `[newton]`
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub struct Newton {
+pub struct NewtonTable {
     /// Largest number of iterations in a step.
     pub max_iterations: Option<usize>,
     /// Relative tolerance on the velocity update.
@@ -58,7 +58,7 @@ pub enum Projection {
 /// `[solver]`
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub struct Solver {
+pub struct SolverTable {
     /// Which solver.
     pub kind: SolverKind,
     /// Relative residual of the iterative ones.
@@ -96,7 +96,7 @@ pub enum Preconditioner {
 /// `[damping]`: Rayleigh's, a force −(α M + β K) v.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub struct Damping {
+pub struct DampingTable {
     /// α of the mass, 1/s: damps slow motions most.
     #[serde(default)]
     pub alpha: f64,
@@ -108,7 +108,7 @@ pub struct Damping {
 /// `[static]`: equilibrium by the integrator `static`.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-pub struct Static {
+pub struct StaticTable {
     /// Equal parts in which loads and prescribed motions are applied, a step each.
     pub load_steps: usize,
 }

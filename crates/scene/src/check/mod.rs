@@ -1,9 +1,10 @@
 //! What a scene's numbers must keep, beyond what its types do.
 
+mod constraints;
 mod loads;
-mod motion;
 
-use super::{Damping, MeshTable, Newton, Scene, Solver, SolverKind, Static, Time};
+use crate::tables::{DampingTable, MeshTable, NewtonTable, SolverTable, StaticTable, TimeTable};
+use crate::{Scene, SolverKind};
 
 /// The field that is wrong, and what is wrong with it together with the remedy.
 pub(super) type Problem = (String, String);
@@ -17,7 +18,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     scene.material.check()?;
     check_time(&scene.time)?;
     loads::check(scene)?;
-    motion::check(scene)?;
+    constraints::check(scene)?;
     scene.damping.as_ref().map_or(Ok(()), check_damping)?;
     scene.statics.as_ref().map_or(Ok(()), check_static)?;
     scene.newton.as_ref().map_or(Ok(()), check_newton)?;
@@ -88,24 +89,24 @@ fn check_mesh(mesh: &MeshTable) -> Result<(), Problem> {
     }
 }
 
-fn check_time(time: &Time) -> Result<(), Problem> {
+fn check_time(time: &TimeTable) -> Result<(), Problem> {
     check_positive("time.dt", time.dt, " of seconds")?;
     if time.steps == Some(0) { problem("time.steps", "is 0; give at least one step") } else { Ok(()) }
 }
 
-fn check_damping(damping: &Damping) -> Result<(), Problem> {
+fn check_damping(damping: &DampingTable) -> Result<(), Problem> {
     check_not_negative("damping.alpha", damping.alpha, "1/s")?;
     check_not_negative("damping.beta", damping.beta, "s")
 }
 
-fn check_static(statics: &Static) -> Result<(), Problem> {
+fn check_static(statics: &StaticTable) -> Result<(), Problem> {
     match statics.load_steps {
         0 => problem("static.load_steps", "is 0; give at least one load step"),
         _ => Ok(()),
     }
 }
 
-fn check_newton(newton: &Newton) -> Result<(), Problem> {
+fn check_newton(newton: &NewtonTable) -> Result<(), Problem> {
     if newton.max_iterations == Some(0) {
         return problem("newton.max_iterations", "is 0; give at least one iteration");
     }
@@ -118,7 +119,7 @@ fn check_tolerance(field: &str, tolerance: f64) -> Result<(), Problem> {
     if tolerance < 1.0 { Ok(()) } else { problem(field, format!("is {tolerance}; give a number below 1")) }
 }
 
-fn check_solver(solver: &Solver) -> Result<(), Problem> {
+fn check_solver(solver: &SolverTable) -> Result<(), Problem> {
     solver.tolerance.map_or(Ok(()), |tolerance| check_tolerance("solver.tolerance", tolerance))?;
     if solver.preconditioner.is_some() && solver.kind != SolverKind::Pcg {
         return problem("solver.preconditioner", "belongs to the kind \"pcg\"; write that kind or remove it");

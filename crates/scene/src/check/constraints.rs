@@ -2,7 +2,8 @@
 
 use super::loads::{check_distance, check_side};
 use super::{Problem, check_finite, check_positive, check_vector, problem};
-use crate::{Axis, Fixed, Prescribed, Rotation, Scene};
+use crate::tables::{FixedTable, PrescribedTable, RotationTable};
+use crate::{Axis, Scene};
 
 /// An angle of that many turns still has ten digits.
 const MOST_TURNS: f64 = 1e6;
@@ -13,7 +14,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     tables.into_iter().try_for_each(|(number, motion)| check_prescribed(&format!("prescribed[{number}]"), motion))
 }
 
-fn check_fixed(fixed: &Fixed) -> Result<(), Problem> {
+fn check_fixed(fixed: &FixedTable) -> Result<(), Problem> {
     match (&fixed.plane, &fixed.nodes) {
         (Some(plane), None) => check_distance("fixed.plane", "below", plane.below),
         (None, Some(_)) => Ok(()),
@@ -21,7 +22,7 @@ fn check_fixed(fixed: &Fixed) -> Result<(), Problem> {
     }
 }
 
-fn check_prescribed(table: &str, motion: &Prescribed) -> Result<(), Problem> {
+fn check_prescribed(table: &str, motion: &PrescribedTable) -> Result<(), Problem> {
     match (&motion.on, &motion.nodes) {
         (Some(plane), None) => check_side(&format!("{table}.on"), plane)?,
         (None, Some(_)) => {}
@@ -36,7 +37,7 @@ fn check_prescribed(table: &str, motion: &Prescribed) -> Result<(), Problem> {
     motion.components.as_ref().map_or(Ok(()), |components| check_components(table, motion, components))
 }
 
-fn check_rotation(table: &str, rotation: &Rotation) -> Result<(), Problem> {
+fn check_rotation(table: &str, rotation: &RotationTable) -> Result<(), Problem> {
     check_vector(&format!("{table}.rotation.center"), &rotation.center)?;
     let (field, turns) = (format!("{table}.rotation.turns"), rotation.turns);
     check_finite(&field, &[turns])?;
@@ -46,7 +47,7 @@ fn check_rotation(table: &str, rotation: &Rotation) -> Result<(), Problem> {
     problem(&field, format!("is {turns:e}; give at most {MOST_TURNS:e}, beyond which an angle has few digits left"))
 }
 
-fn check_components(table: &str, motion: &Prescribed, components: &[Axis]) -> Result<(), Problem> {
+fn check_components(table: &str, motion: &PrescribedTable, components: &[Axis]) -> Result<(), Problem> {
     let field = format!("{table}.components");
     if components.is_empty() {
         return problem(&field, "is empty; name at least one of \"x\", \"y\" and \"z\", or leave it out for all");

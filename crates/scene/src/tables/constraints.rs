@@ -1,0 +1,67 @@
+//! The tables of Dirichlet conditions: `[fixed]` and `[[prescribed]]`.
+
+use serde::Deserialize;
+
+use super::vectors::{three_numbers, three_numbers_if_any};
+use super::{Axis, SidePlane};
+
+/// `[fixed]`: nodes by a plane or by index.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct FixedTable {
+    /// All nodes on one side of a plane.
+    pub plane: Option<Plane>,
+    /// These nodes.
+    pub nodes: Option<Vec<usize>>,
+}
+
+/// All nodes whose coordinate is at most the mesh's smallest plus `below`.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Plane {
+    /// The coordinate that is constant on the plane.
+    pub axis: Axis,
+    /// Distance from the smallest coordinate of the mesh, m.
+    pub below: f64,
+}
+
+/// `[[prescribed]]`: nodes with a prescribed motion. `on` or `nodes`, and a displacement, a rotation, or both.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct PrescribedTable {
+    /// All nodes on one side of the mesh.
+    pub on: Option<SidePlane>,
+    /// These nodes.
+    pub nodes: Option<Vec<usize>>,
+    /// Displacement from the undeformed position at the end of the motion, m.
+    #[serde(default, deserialize_with = "three_numbers_if_any")]
+    pub displacement: Option<[f64; 3]>,
+    /// The prescribed coordinates; the others are free. All three by default.
+    pub components: Option<Vec<Axis>>,
+    /// A rotation about an axis, before the displacement.
+    pub rotation: Option<RotationTable>,
+    /// Time in which the motion grows linearly from zero to its full size, s; the nodes keep their place afterwards. Without it,
+    /// the full motion applies from the first step on. A static scene applies the motion in its load steps instead.
+    pub over: Option<f64>,
+}
+
+/// A rotation about a line parallel to a coordinate axis.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct RotationTable {
+    /// The direction of the line.
+    pub axis: Axis,
+    /// A point of the line, m.
+    #[serde(deserialize_with = "three_numbers")]
+    pub center: [f64; 3],
+    /// Full turns, counter-clockwise seen against the direction of the axis.
+    pub turns: f64,
+}
+
+impl PrescribedTable {
+    /// Whether x, y and z are prescribed.
+    pub(crate) fn is_prescribed(&self) -> [bool; 3] {
+        let named = |axis| self.components.as_ref().is_none_or(|components| components.contains(&axis));
+        [Axis::X, Axis::Y, Axis::Z].map(named)
+    }
+}

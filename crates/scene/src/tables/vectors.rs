@@ -1,0 +1,56 @@
+//! Values of fixed length, read with messages that name the expected length.
+
+use serde::de::{Deserialize, Deserializer, Error, Visitor};
+
+use super::DragVertex;
+
+/// Reads `vertex = "highest"` or `vertex = 12`.
+pub(super) struct DragVertexVisitor;
+
+impl Visitor<'_> for DragVertexVisitor {
+    type Value = DragVertex;
+
+    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str("\"highest\" or the index of a vertex")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<DragVertex, E> {
+        if text == "highest" {
+            Ok(DragVertex::Highest)
+        } else {
+            Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
+        }
+    }
+
+    fn visit_i64<E: Error>(self, index: i64) -> Result<DragVertex, E> {
+        let valid = usize::try_from(index).map(DragVertex::Index);
+        valid.map_err(|_| E::invalid_value(serde::de::Unexpected::Signed(index), &self))
+    }
+}
+
+/// Reads a vector. Serde's own arrays would accept further numbers silently.
+pub(super) fn three_numbers<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {
+    exactly(Vec::deserialize(deserializer)?, "three numbers")
+}
+
+/// Reads a vector that a table may leave out.
+pub(super) fn three_numbers_if_any<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f64; 3]>, D::Error> {
+    three_numbers(deserializer).map(Some)
+}
+
+/// Reads the two ends of a spring.
+pub(super) fn two_nodes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[usize; 2], D::Error> {
+    exactly(Vec::deserialize(deserializer)?, "two nodes")
+}
+
+/// Reads triangles that a table may leave out.
+pub(super) fn triangles_if_any<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Vec<[usize; 3]>>, D::Error> {
+    let faces = Vec::<Vec<usize>>::deserialize(deserializer)?;
+    faces.into_iter().map(|nodes| exactly(nodes, "three nodes")).collect::<Result<_, _>>().map(Some)
+}
+
+fn exactly<T, const N: usize, E: Error>(list: Vec<T>, expected: &str) -> Result<[T; N], E> {
+    <[T; N]>::try_from(list).map_err(|list| E::invalid_length(list.len(), &expected))
+}

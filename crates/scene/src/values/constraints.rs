@@ -1,0 +1,137 @@
+//! Dirichlet conditions: nodes that are fixed, or that follow a prescribed motion.
+
+use std::collections::HashSet;
+use std::f64::consts::TAU;
+
+use nalgebra::{Rotation3, Unit, Vector3};
+
+use super::listed;
+use crate::tables::{FixedTable, PrescribedTable, RotationTable, SidePlane};
+use crate::{Scene, SceneError};
+use fem_mesh::{Side, TetrahedralMesh, nodes_on_side};
+
+/// Prescribed coordinates of some nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DirichletCondition {
+    /// The scene's table: `fixed`, or such as `prescribed[0]`.
+    pub name: String,
+    /// Nodes, ascending and without repeats.
+    pub nodes: Vec<usize>,
+    /// Whether x, y and z are prescribed.
+    pub components: [bool; 3],
+    /// Prescribed motion; `None` if the nodes keep their undeformed positions.
+    pub motion: Option<Motion>,
+}
+
+/// A rotation followed by a displacement, which grow linearly in time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// Displacement at the end of the motion, m.
+    pub displacement: Vector3<f64>,
+    /// Rotation before the displacement.
+    pub rotation: Option<Rotation>,
+    /// Duration, s; `None` if the full motion applies from the first step on.
+    pub over: Option<f64>,
+}
+
+/// A rotation about a line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rotation {
+    /// Direction of the line.
+    pub axis: Unit<Vector3<f64>>,
+    /// A point of the line, m.
+    pub center: Vector3<f64>,
+    /// Full turns, counter-clockwise seen against `axis`.
+    pub turns: f64,
+}
+
+impl Motion {
+    /// Fraction of the motion that is reached at a time (s), from 0 at the start to 1 at the end.
+    pub fn fraction(&self, time: f64) -> f64 {
+        self.over.map_or(1.0, |over| (time / over).clamp(0.0, 1.0))
+    }
+
+    /// Position of a node at a fraction of the motion, m. `X` is its undeformed position, m.
+    ///
+    /// x = c + R(2π · turns · fraction) (X − c) + fraction · displacement
+    pub fn position(&self, X: &Vector3<f64>, fraction: f64) -> Vector3<f64> {
+        let rotated = self.rotation.as_ref().map_or(*X, |rotation| {
+            let angle = TAU * rotation.turns * fraction;
+            rotation.center + Rotation3::from_axis_angle(&rotation.axis, angle) * (X - rotation.center)
+        });
+        rotated + fraction * self.displacement
+    }
+
+    fn new(table: &PrescribedTable) -> Self {
+        let rotation = |rotation: &RotationTable| Rotation {
+            axis: [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()][rotation.axis as usize],
+            center: rotation.center.into(),
+            turns: rotation.turns,
+        };
+        Self {
+            displacement: table.displacement.unwrap_or_default().into(),
+            rotation: table.rotation.as_ref().map(rotation),
+            over: table.over,
+        }
+    }
+}
+
+/// The conditions of `[fixed]` and of every `[[prescribed]]`. Refuses a coordinate that two of them prescribe.
+pub(crate) fn dirichlet_conditions(
+    scene: &Scene,
+    mesh: &TetrahedralMesh,
+) -> Result<Vec<DirichletCondition>, SceneError> {
+    let fixed = scene.fixed.iter().map(|table| {
+        let nodes = fixed_nodes(scene, table, mesh)?;
+        Ok(DirichletCondition { name: "fixed".to_owned(), nodes, components: [true; 3], motion: None })
+    });
+    let prescribed = scene.prescribed.iter().enumerate().map(|(number, table)| {
+        let name = format!("prescribed[{number}]");
+        let nodes = prescribed_nodes(scene, &name, table, mesh)?;
+        Ok(DirichletCondition { name, nodes, components: table.is_prescribed(), motion: Some(Motion::new(table)) })
+    });
+    let conditions = fixed.chain(prescribed).collect::<Result<Vec<_>, _>>()?;
+    check_disjoint(scene, &conditions, mesh.vertices.len())?;
+    Ok(conditions)
+}
+
+fn fixed_nodes(scene: &Scene, table: &FixedTable, mesh: &TetrahedralMesh) -> Result<Vec<usize>, SceneError> {
+    match &table.plane {
+        Some(plane) => Ok(nodes_on_side(&mesh.vertices, plane.axis as usize, Side::Min, plane.below)),
+        None => listed(scene, "fixed.nodes", table.nodes.as_deref().unwrap_or_default(), mesh),
+    }
+}
+
+fn prescribed_nodes(
+    scene: &Scene,
+    name: &str,
+    table: &PrescribedTable,
+    mesh: &TetrahedralMesh,
+) -> Result<Vec<usize>, SceneError> {
+    match &table.on {
+        Some(SidePlane { axis, side, within }) => Ok(nodes_on_side(&mesh.vertices, *axis as usize, *side, *within)),
+        None => listed(scene, &format!("{name}.nodes"), table.nodes.as_deref().unwrap_or_default(), mesh),
+    }
+}
+
+fn check_disjoint(scene: &Scene, conditions: &[DirichletCondition], nodes: usize) -> Result<(), SceneError> {
+    let (fixed, prescribed): (Vec<_>, Vec<_>) = conditions.iter().partition(|condition| condition.motion.is_none());
+    let fixed: HashSet<usize> = fixed.iter().flat_map(|condition| &condition.nodes).copied().collect();
+    let mut owner = vec![[None; 3]; nodes];
+    for condition in prescribed {
+        for &node in &condition.nodes {
+            if fixed.contains(&node) {
+                let text = format!("moves node {node}, which [fixed] holds; name each node in one of the two");
+                return Err(scene.refuse(&condition.name, &text));
+            }
+            for axis in (0..3).filter(|&axis| condition.components[axis]) {
+                if let Some(other) = owner[node][axis].replace(&condition.name) {
+                    let axis = ["x", "y", "z"][axis];
+                    let text = format!("moves {axis} of node {node}, and so does {other}; name each coordinate once");
+                    return Err(scene.refuse(&condition.name, &text));
+                }
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,147 @@
+//! External forces: tractions, pressures, springs, the scripted drag.
+
+use std::collections::HashSet;
+use std::f64::consts::TAU;
+
+use nalgebra::Vector3;
+
+use super::listed;
+use crate::tables::{DragTable, DragVertex, SidePlane, SpringTable, TractionTable};
+use crate::{Scene, SceneError};
+use fem_mesh::{TetrahedralMesh, faces_on_side};
+
+/// Dead load on a part of the surface: it keeps its direction and its sum.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Traction {
+    /// Boundary triangles, counter-clockwise from outside.
+    pub faces: Vec<[usize; 3]>,
+    /// Force per undeformed area, Pa.
+    pub force_per_area: Vector3<f64>,
+}
+
+/// Follower load on a part of the surface: it acts along the normal of the deformed triangles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pressure {
+    /// Boundary triangles, counter-clockwise from outside.
+    pub faces: Vec<[usize; 3]>,
+    /// Force per deformed area, Pa; positive pushes inward.
+    pub pressure: f64,
+}
+
+/// A spring between two nodes, ½ k (|x_b − x_a| − l)².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring {
+    /// The nodes a and b at its ends.
+    pub nodes: [usize; 2],
+    /// k, N/m.
+    pub stiffness: f64,
+    /// l, m.
+    pub rest_length: f64,
+    /// Whether l is by definition the undeformed distance of the nodes: any difference is round-off and no strain.
+    pub is_initially_relaxed: bool,
+}
+
+/// A spring of zero rest length from a node to a target that oscillates about the node's undeformed position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drag {
+    /// The node that the spring pulls.
+    pub node: usize,
+    /// N/m
+    pub stiffness: f64,
+    /// Used as given, not normalised.
+    pub direction: Vector3<f64>,
+    /// m
+    pub amplitude: f64,
+    /// Hz
+    pub frequency: f64,
+}
+
+impl Drag {
+    /// Displacement of the target from the node's undeformed position at a time (s), m: direction · amplitude · sin 2π f t.
+    pub fn displacement(&self, time: f64) -> Vector3<f64> {
+        self.direction * (self.amplitude * (TAU * self.frequency * time).sin())
+    }
+}
+
+/// Tractions and pressures.
+type SurfaceLoads = (Vec<Traction>, Vec<Pressure>);
+
+/// The loads of every `[[traction]]`. Refuses a table without triangles.
+pub(crate) fn surface_loads(
+    scene: &Scene,
+    mesh: &TetrahedralMesh,
+    boundary: &[[usize; 3]],
+) -> Result<SurfaceLoads, SceneError> {
+    let (mut tractions, mut pressures) = (Vec::new(), Vec::new());
+    for (number, table) in scene.traction.iter().enumerate() {
+        let faces = faces(scene, &format!("traction[{number}]"), table, mesh, boundary)?;
+        match (table.force_per_area, table.pressure) {
+            (Some(force), _) => tractions.push(Traction { faces, force_per_area: force.into() }),
+            (None, Some(pressure)) => pressures.push(Pressure { faces, pressure }),
+            (None, None) => unreachable!("a traction without a force is refused when the scene is read"),
+        }
+    }
+    Ok((tractions, pressures))
+}
+
+fn faces(
+    scene: &Scene,
+    name: &str,
+    table: &TractionTable,
+    mesh: &TetrahedralMesh,
+    boundary: &[[usize; 3]],
+) -> Result<Vec<[usize; 3]>, SceneError> {
+    if let Some(SidePlane { axis, side, within }) = &table.on {
+        let faces = faces_on_side(&mesh.vertices, boundary, *axis as usize, *side, *within);
+        if faces.is_empty() {
+            return Err(scene.refuse(&format!("{name}.on"), "meets no boundary triangle; enlarge within"));
+        }
+        return Ok(faces);
+    }
+    let wanted: HashSet<_> = table.faces.iter().flatten().map(sorted).collect();
+    let faces: Vec<_> = boundary.iter().filter(|face| wanted.contains(&sorted(face))).copied().collect();
+    let known: HashSet<_> = faces.iter().map(sorted).collect();
+    let field = format!("{name}.faces");
+    match table.faces.iter().flatten().find(|face| !known.contains(&sorted(face))) {
+        Some(face) => {
+            Err(scene.refuse(&field, &format!("names {face:?}, which is no triangle of the boundary; correct it")))
+        }
+        None if faces.is_empty() => Err(scene.refuse(&field, "is empty; name a triangle of the boundary or use on")),
+        None => Ok(faces),
+    }
+}
+
+fn sorted(face: &[usize; 3]) -> [usize; 3] {
+    let mut key = *face;
+    key.sort_unstable();
+    key
+}
+
+/// The spring of every `[[springs]]`.
+pub(crate) fn springs(scene: &Scene, mesh: &TetrahedralMesh) -> Result<Vec<Spring>, SceneError> {
+    let spring = |(number, table): (usize, &SpringTable)| {
+        let SpringTable { nodes, stiffness, rest_length } = *table;
+        listed(scene, &format!("springs[{number}].nodes"), &nodes, mesh)?;
+        let [a, b] = nodes.map(|node| mesh.vertices[node]);
+        let is_initially_relaxed = rest_length.is_none();
+        Ok(Spring { nodes, stiffness, rest_length: rest_length.unwrap_or((b - a).norm()), is_initially_relaxed })
+    };
+    scene.springs.iter().enumerate().map(spring).collect()
+}
+
+/// The spring of `[drag]`.
+pub(crate) fn drag(scene: &Scene, mesh: &TetrahedralMesh) -> Result<Option<Drag>, SceneError> {
+    let Some(DragTable { vertex, stiffness, direction, amplitude, frequency }) = scene.drag else { return Ok(None) };
+    let node = match vertex {
+        DragVertex::Index(node) => listed(scene, "drag.vertex", &[node], mesh).map(|_| node)?,
+        DragVertex::Highest => highest(mesh),
+    };
+    Ok(Some(Drag { node, stiffness, direction: direction.into(), amplitude, frequency }))
+}
+
+/// The first node of largest y.
+fn highest(mesh: &TetrahedralMesh) -> usize {
+    let heights = mesh.vertices.iter().map(|vertex| vertex.y).enumerate();
+    let higher = |best: (usize, f64), next: (usize, f64)| if next.1 > best.1 { next } else { best };
+    heights.fold((0, f64::NEG_INFINITY), higher).0
+}

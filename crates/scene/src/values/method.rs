@@ -1,0 +1,82 @@
+//! The numerical method of a scene, and the damping of a body.
+
+use crate::tables::{NewtonTable, SolverTable};
+use crate::{Integrator, Precision, Preconditioner, Projection, Scene, SolverKind};
+
+/// Settings of `[time]`, `[static]`, `[newton]` and `[solver]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Method {
+    /// Time integration method.
+    pub integrator: Integrator,
+    /// Time step, s.
+    pub dt: f64,
+    /// Number type.
+    pub precision: Precision,
+    /// Equal parts in which `static` applies loads and prescribed motions.
+    pub load_steps: usize,
+    /// Newton's method.
+    pub newton: NewtonSettings,
+    /// Linear solver; `None` if the scene leaves the choice to the pipeline.
+    pub solver: Option<SolverSettings>,
+}
+
+/// Settings of Newton's method; those that are `None` have a default that depends on the integrator.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NewtonSettings {
+    /// Largest number of iterations in a step.
+    pub max_iterations: Option<usize>,
+    /// Relative tolerance on the velocity update.
+    pub tolerance: Option<f64>,
+    /// Projection of element stiffnesses.
+    pub projection: Projection,
+}
+
+/// Settings of the linear solver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolverSettings {
+    /// The solver.
+    pub kind: SolverKind,
+    /// Relative residual of the iterative solvers; `None` for the pipeline's default.
+    pub tolerance: Option<f64>,
+    /// Preconditioner of `pcg`.
+    pub preconditioner: Preconditioner,
+}
+
+/// Rayleigh damping: the force −(α M + β K) v.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayleighDamping {
+    /// α of the mass, 1/s.
+    pub alpha: f64,
+    /// β of the stiffness, s.
+    pub beta: f64,
+}
+
+impl Scene {
+    /// The numerical method, defaults filled in.
+    pub fn method(&self) -> Method {
+        let newton = |&NewtonTable { max_iterations, tolerance, projection }: &NewtonTable| NewtonSettings {
+            max_iterations,
+            tolerance,
+            projection: projection.unwrap_or_default(),
+        };
+        let solver = |&SolverTable { kind, tolerance, preconditioner }: &SolverTable| SolverSettings {
+            kind,
+            tolerance,
+            preconditioner: preconditioner.unwrap_or_default(),
+        };
+        Method {
+            integrator: self.time.integrator,
+            dt: self.time.dt,
+            precision: self.time.precision,
+            load_steps: self.statics.as_ref().map_or(1, |statics| statics.load_steps),
+            newton: self.newton.as_ref().map(newton).unwrap_or_default(),
+            solver: self.solver.as_ref().map(solver),
+        }
+    }
+}
+
+/// The damping of `[damping]`; `None` if both coefficients are zero.
+pub(crate) fn damping(scene: &Scene) -> Option<RayleighDamping> {
+    let damping = scene.damping.as_ref().map(|table| RayleighDamping { alpha: table.alpha, beta: table.beta });
+    damping.filter(|damping| damping.alpha > 0.0 || damping.beta > 0.0)
+}
