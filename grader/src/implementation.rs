@@ -44,7 +44,7 @@ impl fmt::Display for Trouble {
             Self::Crashed(how) => write!(f, "the program with the function ended: {how}"),
             Self::TimedOut(limit) => write!(f, "no answer within {:.0} s", limit.as_secs_f64()),
             Self::Malformed => f.write_str("the answer is not of the promised type"),
-            Self::GivenUp => f.write_str("not tried any more after what came before"),
+            Self::GivenUp => f.write_str("not called again after the earlier failure"),
         }
     }
 }

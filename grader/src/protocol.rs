@@ -58,7 +58,7 @@ pub fn call(
             _ => return Err(Trouble::Malformed),
         }
     }
-    Err(Trouble::Crashed("it asks its closures without end".to_owned()))
+    Err(Trouble::Crashed("it calls its closures without end".to_owned()))
 }
 
 /// Waits until a process is ready.
@@ -103,7 +103,7 @@ fn lost(running: &mut Running, error: &io::Error, limit: Duration) -> Trouble {
         running.kill();
         return Trouble::Malformed;
     }
-    Trouble::Crashed(running.ended(END).unwrap_or_else(|| "it closed its answers".to_owned()))
+    Trouble::Crashed(running.ended(END).unwrap_or_else(|| "it closed the connection".to_owned()))
 }
 
 /// Reads until a point in time, however the bytes trickle.

@@ -65,10 +65,9 @@ const FORMULAS: &[(&str, &str, &str, Formula)] = &[
     ),
 ];
 
-const LUMPED: &str =
-    "All of the mass is at the vertices. Which integral of two shape functions does a consistent mass matrix hold?";
+const LUMPED: &str = "The mass is concentrated at the vertices. Which integral of two shape functions does a consistent mass matrix hold?";
 const OVERWRITTEN: &str =
-    "A vertex keeps only what its last element says. What happens to what the elements before it contributed?";
+    "A vertex keeps the contribution of its last element alone. What happens to those of the elements before it?";
 const NOT_MOVED: &str = "The positions are those at the start of the step. What else does a step change?";
 const OLD_VELOCITY: &str =
     "The positions move with the velocity at the start of the step. Which velocity does the method ask for?";

@@ -12,9 +12,9 @@ use crate::implementation::Answer;
 pub const CHECKS: &[Check] = checks![
     a_translating_element_has_half_m_v_squared,
     one_moving_vertex_carries_a_tenth_of_the_mass,
-    two_vertices_that_move_apart_subtract,
+    opposite_velocities_of_two_vertices_subtract,
     it_is_the_integral_of_half_density_times_speed_squared,
-    the_volume_that_is_given_counts,
+    the_given_volume_is_used,
     the_order_of_the_vertices_does_not_matter,
 ];
 
@@ -43,7 +43,7 @@ fn one_moving_vertex_carries_a_tenth_of_the_mass(course: &Course) -> Outcome {
     Ok(())
 }
 
-fn two_vertices_that_move_apart_subtract(course: &Course) -> Outcome {
+fn opposite_velocities_of_two_vertices_subtract(course: &Course) -> Outcome {
     // ∫ (φ_a − φ_b)² = volume (1/10 + 1/10 − 2/20).
     let t = Tetrahedron::new([5, 1, 8, 2], &Matrix3::identity(), &Vector3::zeros());
     let mut entries = DVector::zeros(12);
@@ -72,13 +72,13 @@ fn it_is_the_integral_of_half_density_times_speed_squared(course: &Course) -> Ou
     })
 }
 
-fn the_volume_that_is_given_counts(course: &Course) -> Outcome {
+fn the_given_volume_is_used(course: &Course) -> Outcome {
     let t = Tetrahedron::unit();
     let found =
         course.subject.T_linear_tetrahedron(&t.moved(&Matrix3::zeros(), &Vector3::y()), &t.element, 2.0, 5.0)?;
     with_input(
         "ρ = 2 kg/m³, a volume of 5 m³, all vertices at 1 m/s",
-        near_number("T = ½ ρ volume |v|² with the volume that is given", found, 5.0, 1e-13),
+        near_number("T = ½ ρ volume |v|² with the given volume", found, 5.0, 1e-13),
     )
 }
 
@@ -89,6 +89,6 @@ fn the_order_of_the_vertices_does_not_matter(course: &Course) -> Outcome {
             let found = energy(course, &t.reordered(order), &slope, &Vector3::zeros(), 1.0)?;
             near_number("T of the same element", found, expected, 1e-13 * expected)?;
         }
-        holds("whatever moves has kinetic energy", expected > 0.0)
+        holds("a moving element has kinetic energy", expected > 0.0)
     })
 }

@@ -11,14 +11,14 @@ use crate::implementation::Answer;
 
 /// The properties of the function.
 pub const CHECKS: &[Check] = checks![
-    an_element_that_only_moves_stores_nothing,
-    uniform_stretch_costs_volume_times_d,
-    simple_shear_costs_volume_times_c,
-    any_deformation_has_the_energy_of_its_gradient,
-    the_volume_that_is_given_counts,
-    an_element_turned_inside_out_costs_infinitely_much,
+    a_rigid_motion_stores_no_energy,
+    a_uniform_stretch_has_the_energy_of_its_change_of_volume,
+    a_simple_shear_has_the_energy_of_the_closed_form,
+    the_energy_is_volume_times_psi,
+    the_given_volume_is_used,
+    an_inverted_element_has_infinite_energy,
     the_order_of_the_vertices_does_not_matter,
-    an_element_far_from_the_origin_stores_the_same,
+    an_element_far_from_the_origin_stores_the_same_energy,
 ];
 
 /// Energy of the element after X → F X + shift.
@@ -31,14 +31,14 @@ fn allowed(t: &Tetrahedron, F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
     1e-11 * t.volume * energy_terms(F, C, D) * t.size() / t.height()
 }
 
-fn an_element_that_only_moves_stores_nothing(course: &Course) -> Outcome {
+fn a_rigid_motion_stores_no_energy(course: &Course) -> Outcome {
     for_all(course.seed, (tetrahedron(), rotation(), vector(-3.0..3.0), constants()), |(t, R, shift, (C, D))| {
         let found = energy(course, &t, &R, &(shift * t.size()), C, D)?;
         near_number("V of a moved and rotated element", found, 0.0, allowed(&t, &R, C, D))
     })
 }
 
-fn uniform_stretch_costs_volume_times_d(course: &Course) -> Outcome {
+fn a_uniform_stretch_has_the_energy_of_its_change_of_volume(course: &Course) -> Outcome {
     for_all(course.seed, (tetrahedron(), -1.0..1.0, constants()), |(t, power, (C, D))| {
         let (s, F) = (f64::exp(power), Matrix3::identity() * f64::exp(power));
         let expected = t.volume * D * (s.powi(3) - 1.0).powi(2);
@@ -47,7 +47,7 @@ fn uniform_stretch_costs_volume_times_d(course: &Course) -> Outcome {
     })
 }
 
-fn simple_shear_costs_volume_times_c(course: &Course) -> Outcome {
+fn a_simple_shear_has_the_energy_of_the_closed_form(course: &Course) -> Outcome {
     for_all(course.seed, (tetrahedron(), -2.0..2.0, constants()), |(t, gamma, (C, D))| {
         for (i, j) in [(0, 1), (1, 0), (0, 2), (2, 0), (1, 2), (2, 1)] {
             let mut F = Matrix3::identity();
@@ -60,7 +60,7 @@ fn simple_shear_costs_volume_times_c(course: &Course) -> Outcome {
     })
 }
 
-fn any_deformation_has_the_energy_of_its_gradient(course: &Course) -> Outcome {
+fn the_energy_is_volume_times_psi(course: &Course) -> Outcome {
     for_all(course.seed, (deformed_tetrahedron(), constants()), |((t, F, shift), (C, D))| {
         let density = course.trusted.psi_neo_hookean(&F, C, D).map_err(waits("psi_neo_hookean"))?;
         let found = energy(course, &t, &F, &shift, C, D)?;
@@ -68,15 +68,15 @@ fn any_deformation_has_the_energy_of_its_gradient(course: &Course) -> Outcome {
     })
 }
 
-fn the_volume_that_is_given_counts(course: &Course) -> Outcome {
+fn the_given_volume_is_used(course: &Course) -> Outcome {
     let t = Tetrahedron::unit();
     let q = t.moved(&(Matrix3::identity() * 2.0), &Vector3::zeros());
     let found = course.subject.V_linear_tetrahedron(&q, &t.V, &t.element, 3.0, 1.0, 1.0)?;
-    let rule = "V = volume · psi(F) with the volume that is given";
+    let rule = "V = volume · psi(F) with the given volume";
     with_input("q = 2 X of the unit tetrahedron, a volume of 3 m³, C = D = 1", near_number(rule, found, 147.0, 1e-11))
 }
 
-fn an_element_turned_inside_out_costs_infinitely_much(course: &Course) -> Outcome {
+fn an_inverted_element_has_infinite_energy(course: &Course) -> Outcome {
     for_all(course.seed, (deformed_tetrahedron(), constants()), |((t, F, shift), (C, D))| {
         near_number("V of a mirrored element", energy(course, &t, &-F, &shift, C, D)?, f64::INFINITY, 0.0)
     })
@@ -93,7 +93,7 @@ fn the_order_of_the_vertices_does_not_matter(course: &Course) -> Outcome {
     })
 }
 
-fn an_element_far_from_the_origin_stores_the_same(course: &Course) -> Outcome {
+fn an_element_far_from_the_origin_stores_the_same_energy(course: &Course) -> Outcome {
     let offset = Vector3::new(1048576.0, -2097152.0, 524288.0);
     let t = Tetrahedron::new([3, 0, 6, 2], &Matrix3::identity(), &offset);
     let found = energy(course, &t, &(Matrix3::identity() * 2.0), &Vector3::zeros(), 1.0, 1.0)?;

@@ -9,7 +9,7 @@ use super::{Check, Course};
 /// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     stretched_and_squeezed_springs_store_half_k_times_the_square,
-    a_spring_of_no_length_stores_the_energy_of_its_rest_length,
+    a_spring_of_zero_length_stores_the_energy_of_its_rest_length,
     only_the_distance_counts,
 ];
 
@@ -24,12 +24,12 @@ fn stretched_and_squeezed_springs_store_half_k_times_the_square(course: &Course)
     Ok(())
 }
 
-fn a_spring_of_no_length_stores_the_energy_of_its_rest_length(course: &Course) -> Outcome {
+fn a_spring_of_zero_length_stores_the_energy_of_its_rest_length(course: &Course) -> Outcome {
     let q = Vector3::new(1.0, 2.0, 3.0);
     let found = course.subject.V_spring_particle_particle(&q, &q, 2.0, 3.0)?;
-    let rule = "a spring whose ends meet is squeezed by its whole rest length";
+    let rule = "a spring of zero length is compressed by its whole rest length";
     with_input("l0 = 2 m, stiffness = 3 N/m", near_number(rule, found, 6.0, 1e-15))?;
-    near_number("a spring without any length", course.subject.V_spring_particle_particle(&q, &q, 0.0, 3.0)?, 0.0, 0.0)
+    near_number("a spring of zero length", course.subject.V_spring_particle_particle(&q, &q, 0.0, 3.0)?, 0.0, 0.0)
 }
 
 fn only_the_distance_counts(course: &Course) -> Outcome {

@@ -12,10 +12,10 @@ use super::{Check, Course};
 pub const CHECKS: &[Check] = checks![
     every_element_subtracts_its_gradient_at_its_vertices,
     it_is_minus_the_gradient_of_the_total_energy,
-    a_body_that_only_moves_feels_no_force,
-    inner_forces_add_up_to_nothing,
-    an_affine_state_leaves_the_inside_in_balance,
-    each_element_has_its_own_volume_and_the_rest_feels_nothing,
+    a_rigid_motion_causes_no_force,
+    internal_forces_and_torques_balance,
+    an_affine_deformation_leaves_interior_vertices_in_equilibrium,
+    each_element_has_its_own_volume_and_other_vertices_no_force,
 ];
 
 const C: f64 = 2e5;
@@ -63,7 +63,7 @@ fn it_is_minus_the_gradient_of_the_total_energy(course: &Course) -> Outcome {
     near("differences of the total energy", &force(course, &mesh, &q)?, &expected, 1e-9 * (C + D) * 0.09)
 }
 
-fn a_body_that_only_moves_feels_no_force(course: &Course) -> Outcome {
+fn a_rigid_motion_causes_no_force(course: &Course) -> Outcome {
     let mesh = Mesh::uneven_box([2, 2, 2], 1.0);
     for_all(course.seed, (rotation(), vector(-5.0..5.0)), |(R, shift)| {
         let found = force(course, &mesh, &mesh.placed(|X| R * X + shift))?;
@@ -71,7 +71,7 @@ fn a_body_that_only_moves_feels_no_force(course: &Course) -> Outcome {
     })
 }
 
-fn inner_forces_add_up_to_nothing(course: &Course) -> Outcome {
+fn internal_forces_and_torques_balance(course: &Course) -> Outcome {
     let mesh = Mesh::uneven_box([2, 2, 1], 1.0);
     for_all(course.seed, proptest::collection::vec(vector(-0.05..0.05), mesh.V.len()), |noise| {
         let q = deformed(&mesh, 1.0) + stacked(&noise);
@@ -82,13 +82,13 @@ fn inner_forces_add_up_to_nothing(course: &Course) -> Outcome {
             sum += f;
             torque += x.cross(&f);
         }
-        holds("a deformed body feels forces", f.amax() > 1e-3 * (C + D))?;
-        near("the resultant of the inner forces", &sum, &Vector3::zeros(), 1e-12 * (C + D) * 10.0)?;
-        near("the torque of the inner forces", &torque, &Vector3::zeros(), 1e-12 * (C + D) * 10.0)
+        holds("a deformed body has forces", f.amax() > 1e-3 * (C + D))?;
+        near("the resultant of the internal forces", &sum, &Vector3::zeros(), 1e-12 * (C + D) * 10.0)?;
+        near("the resultant torque of the internal forces", &torque, &Vector3::zeros(), 1e-12 * (C + D) * 10.0)
     })
 }
 
-fn an_affine_state_leaves_the_inside_in_balance(course: &Course) -> Outcome {
+fn an_affine_deformation_leaves_interior_vertices_in_equilibrium(course: &Course) -> Outcome {
     // The patch test: the same stress everywhere, so nothing pulls at a vertex inside. Two cells a side have one.
     let mesh = Mesh::uneven_box([2, 2, 2], 1.0);
     let F = Matrix3::new(1.2, 0.4, 0.0, -0.2, 0.8, 0.1, 0.1, 0.0, 1.5);
@@ -102,7 +102,7 @@ fn an_affine_state_leaves_the_inside_in_balance(course: &Course) -> Outcome {
     near("the force inside", &f.fixed_rows::<3>(3 * inside), &Vector3::zeros(), 1e-12 * (C + D) * 10.0)
 }
 
-fn each_element_has_its_own_volume_and_the_rest_feels_nothing(course: &Course) -> Outcome {
+fn each_element_has_its_own_volume_and_other_vertices_no_force(course: &Course) -> Outcome {
     let t = Tetrahedron::new([7, 1, 4, 2], &Matrix3::identity(), &Vector3::zeros());
     let mut q = t.moved(&(Matrix3::identity() * 2.0), &Vector3::zeros());
     q.iter_mut().filter(|entry| entry.is_nan()).for_each(|entry| *entry = 0.0);

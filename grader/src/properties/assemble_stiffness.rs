@@ -14,8 +14,8 @@ use crate::implementation::Trouble;
 pub const CHECKS: &[Check] = checks![
     every_element_subtracts_its_projected_hessian,
     near_rest_it_is_the_derivative_of_the_forces,
-    no_motion_is_pushed_on,
-    at_rest_exactly_the_six_rigid_motions_are_free,
+    it_is_negative_semi_definite,
+    at_rest_only_the_six_rigid_motions_have_no_stiffness,
     a_squeezed_element_is_projected_and_not_flipped,
     vertices_without_elements_have_no_stiffness_and_the_matrix_keeps_its_size,
 ];
@@ -82,7 +82,7 @@ fn near_rest_it_is_the_derivative_of_the_forces(course: &Course) -> Outcome {
     )
 }
 
-fn no_motion_is_pushed_on(course: &Course) -> Outcome {
+fn it_is_negative_semi_definite(course: &Course) -> Outcome {
     let mesh = Mesh::uneven_box([1, 1, 1], 1.0);
     for_all(course.seed, proptest::collection::vec(vector(-0.1..0.1), mesh.V.len()), |noise| {
         let q = squeezed(&mesh) + stacked(&noise) * 0.5;
@@ -96,7 +96,7 @@ fn no_motion_is_pushed_on(course: &Course) -> Outcome {
     })
 }
 
-fn at_rest_exactly_the_six_rigid_motions_are_free(course: &Course) -> Outcome {
+fn at_rest_only_the_six_rigid_motions_have_no_stiffness(course: &Course) -> Outcome {
     let mesh = Mesh::uneven_box([2, 1, 1], 1.0);
     let K = stiffness(course, &mesh, &mesh.placed(|X| *X))?;
     for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {

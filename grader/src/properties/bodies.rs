@@ -125,7 +125,7 @@ impl<'a> FreeBody<'a> {
     }
 
     fn checked(&self, x: &DVector<f64>) -> Outcome {
-        holds("energy, force and stiffness are asked with vectors as long as q", x.len() == self.size())
+        holds("energy, force and stiffness are called with vectors as long as q", x.len() == self.size())
     }
 
     /// `energy(v)` of a step of implicit Euler from the present state.

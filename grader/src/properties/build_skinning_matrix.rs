@@ -11,13 +11,13 @@ use super::{Check, Course};
 pub const CHECKS: &[Check] = checks![
     every_row_is_that_of_a_search_through_all_elements,
     each_display_vertex_has_its_own_row_in_order,
-    at_rest_the_display_stands_where_it_was_and_follows_affine_motions,
+    the_display_is_in_place_at_rest_and_follows_affine_motions,
     a_row_has_the_four_weights_of_one_element,
     vertices_edges_and_faces_belong_to_the_elements_that_they_bound,
     a_point_just_outside_an_element_belongs_to_the_neighbour_that_holds_it,
-    a_point_in_no_element_goes_to_the_one_that_misses_it_least,
-    vertices_without_elements_move_nothing,
-    nothing_to_skin_gives_a_matrix_without_rows,
+    a_point_in_no_element_goes_to_the_one_with_the_largest_smallest_weight,
+    vertices_without_elements_have_no_weight,
+    no_display_vertices_give_a_matrix_without_rows,
     far_from_the_origin_the_display_still_follows,
 ];
 
@@ -83,7 +83,7 @@ fn each_display_vertex_has_its_own_row_in_order(course: &Course) -> Outcome {
     Ok(())
 }
 
-fn at_rest_the_display_stands_where_it_was_and_follows_affine_motions(course: &Course) -> Outcome {
+fn the_display_is_in_place_at_rest_and_follows_affine_motions(course: &Course) -> Outcome {
     let mesh = Mesh::uneven_box([2, 2, 1], 1.0);
     let F = Matrix3::new(1.2, 0.4, 0.0, -0.2, 0.8, 0.1, 0.1, 0.0, 1.5);
     for_all(course.seed, vector(-0.5..2.5), |x| {
@@ -148,7 +148,7 @@ pub fn overlapping() -> (Vec<Vector3<f64>>, [[usize; 4]; 2]) {
     ([&small.V[..4], &large.V[4..8]].concat(), [small.element, large.element])
 }
 
-fn a_point_in_no_element_goes_to_the_one_that_misses_it_least(course: &Course) -> Outcome {
+fn a_point_in_no_element_goes_to_the_one_with_the_largest_smallest_weight(course: &Course) -> Outcome {
     let V = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z(), Vector3::new(2.0, 2.0, 2.0)];
     let (near_origin, far) = ([0, 1, 2, 3], [1, 2, 3, 4]);
     // Shape functions by hand; the second point is misjudged by who compares distances.
@@ -162,7 +162,7 @@ fn a_point_in_no_element_goes_to_the_one_that_misses_it_least(course: &Course) -
     Ok(())
 }
 
-fn vertices_without_elements_move_nothing(course: &Course) -> Outcome {
+fn vertices_without_elements_have_no_weight(course: &Course) -> Outcome {
     let t = Tetrahedron::new([7, 1, 4, 2], &Matrix3::identity(), &Vector3::zeros());
     let expected = row(9, t.element, [0.4, 0.1, 0.2, 0.3]);
     near(
@@ -173,7 +173,7 @@ fn vertices_without_elements_move_nothing(course: &Course) -> Outcome {
     )
 }
 
-fn nothing_to_skin_gives_a_matrix_without_rows(course: &Course) -> Outcome {
+fn no_display_vertices_give_a_matrix_without_rows(course: &Course) -> Outcome {
     let t = Tetrahedron::unit();
     near("no display vertex", &dense(course, &t.V[..4], &[t.element], &[])?, &DMatrix::zeros(0, 4), 0.0)?;
     near("no display vertex and no mesh", &dense(course, &[], &[], &[])?, &DMatrix::zeros(0, 0), 0.0)

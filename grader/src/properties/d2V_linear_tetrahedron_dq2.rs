@@ -16,11 +16,11 @@ pub const CHECKS: &[Check] = checks![
     the_unit_tetrahedron_at_rest_agrees_with_a_calculation_by_hand,
     it_is_symmetric,
     translations_meet_no_resistance_in_any_state,
-    at_rest_exactly_six_motions_are_free,
+    at_rest_only_the_six_rigid_motions_have_no_stiffness,
     negative_curvature_is_returned_as_it_is,
     rows_and_columns_turn_with_the_body,
     rows_and_columns_follow_the_order_of_the_element,
-    the_volume_that_is_given_counts,
+    the_given_volume_is_used,
 ];
 
 type Hessian = SMatrix<f64, 12, 12>;
@@ -63,9 +63,9 @@ fn the_unit_tetrahedron_at_rest_agrees_with_a_calculation_by_hand(course: &Cours
     let (C, D) = (3.0, 10.0);
     let (shear, lambda) = (2.0 * C, 2.0 * D - 4.0 / 3.0 * C);
     let H = d2V(course, &Tetrahedron::unit(), &Matrix3::identity(), &Vector3::zeros(), C, D)? * 6.0;
-    near_number("a vertex that moves along its edge pulls at itself along it", H[(3, 3)], lambda + 2.0 * shear, 1e-12)?;
-    near_number("a vertex that moves across its edge pulls at itself across it", H[(4, 4)], shear, 1e-12)?;
-    near_number("a vertex that moves along its edge does not pull at itself across it", H[(3, 4)], 0.0, 1e-12)?;
+    near_number("the stiffness of a vertex along its edge", H[(3, 3)], lambda + 2.0 * shear, 1e-12)?;
+    near_number("the stiffness of a vertex across its edge", H[(4, 4)], shear, 1e-12)?;
+    near_number("no coupling of a vertex along its edge with itself across it", H[(3, 4)], 0.0, 1e-12)?;
     near_number("vertex 1 along x, vertex 2 along y", H[(3, 7)], lambda, 1e-12)?;
     near_number("vertex 1 along y, vertex 2 along x", H[(4, 6)], shear, 1e-12)
 }
@@ -89,7 +89,7 @@ fn translations_meet_no_resistance_in_any_state(course: &Course) -> Outcome {
     })
 }
 
-fn at_rest_exactly_six_motions_are_free(course: &Course) -> Outcome {
+fn at_rest_only_the_six_rigid_motions_have_no_stiffness(course: &Course) -> Outcome {
     for_all(course.seed, (tetrahedron(), constants()), |(t, (C, D))| {
         let H = d2V(course, &t, &Matrix3::identity(), &Vector3::zeros(), C, D)?;
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
@@ -139,7 +139,7 @@ fn rows_and_columns_follow_the_order_of_the_element(course: &Course) -> Outcome 
     })
 }
 
-fn the_volume_that_is_given_counts(course: &Course) -> Outcome {
+fn the_given_volume_is_used(course: &Course) -> Outcome {
     let t = Tetrahedron::unit();
     let q = t.moved(&Matrix3::new(1.2, 0.3, 0.0, -0.1, 0.9, 0.2, 0.0, 0.1, 1.1), &Vector3::zeros());
     let one = course.subject.d2V_linear_tetrahedron_dq2(&q, &t.V, &t.element, 1.0, 2.0, 3.0)?;

@@ -67,7 +67,7 @@ fn at_rest_the_moduli_are_those_of_hookes_law(course: &Course) -> Outcome {
         let poisson = (3.0 * D - 2.0 * C) / (6.0 * D + 2.0 * C);
         let sides_free = rows_of(&Matrix3::from_diagonal(&Vector3::new(1.0, -poisson, -poisson)));
         let pull = rows_of(&Matrix3::from_diagonal(&Vector3::new(young, 0.0, 0.0)));
-        near("pulling a bar: Young's modulus and Poisson's ratio", &(H * sides_free), &pull, 1e-12 * (C + D))
+        near("a bar under tension: Young's modulus and Poisson's ratio", &(H * sides_free), &pull, 1e-12 * (C + D))
     })
 }
 
@@ -75,7 +75,7 @@ fn at_rest_infinitesimal_rotations_meet_no_resistance(course: &Course) -> Outcom
     let H = course.subject.d2psi_neo_hookean_dF2(&Matrix3::identity(), 2e5, 7e5)?;
     for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
         let spin = rows_of(&axis.cross_matrix());
-        near("H times a spin at rest", &(H * spin), &SVector::<f64, 9>::zeros(), 1e-12 * 9e5)?;
+        near("H times an infinitesimal rotation at rest", &(H * spin), &SVector::<f64, 9>::zeros(), 1e-12 * 9e5)?;
     }
     let eigenvalues = eigenvalues_of(&H)?;
     let zeros = eigenvalues.iter().filter(|value| value.abs() < 1e-9 * eigenvalues.max()).count();

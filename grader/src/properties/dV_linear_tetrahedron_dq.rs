@@ -15,11 +15,11 @@ pub const CHECKS: &[Check] = checks![
     a_uniformly_stretched_unit_tetrahedron_agrees_with_a_calculation_by_hand,
     a_sheared_unit_tetrahedron_agrees_with_a_calculation_by_hand,
     it_is_the_gradient_of_the_energy,
-    an_element_that_only_moves_meets_no_force,
+    a_rigid_motion_causes_no_force,
     forces_and_torques_of_an_element_cancel,
     the_forces_turn_with_the_body,
     entries_follow_the_order_of_the_element,
-    an_element_far_from_the_origin_meets_the_same_force,
+    an_element_far_from_the_origin_has_the_same_force,
 ];
 
 fn dV(
@@ -85,7 +85,7 @@ fn it_is_the_gradient_of_the_energy(course: &Course) -> Outcome {
     })
 }
 
-fn an_element_that_only_moves_meets_no_force(course: &Course) -> Outcome {
+fn a_rigid_motion_causes_no_force(course: &Course) -> Outcome {
     for_all(course.seed, (tetrahedron(), rotation(), vector(-3.0..3.0), constants()), |(t, R, shift, (C, D))| {
         let found = dV(course, &t, &R, &(shift * t.size()), C, D)?;
         near("dV of a moved and rotated element", &found, &SVector::<f64, 12>::zeros(), allowed(&t, &R, C, D))
@@ -130,7 +130,7 @@ fn entries_follow_the_order_of_the_element(course: &Course) -> Outcome {
     })
 }
 
-fn an_element_far_from_the_origin_meets_the_same_force(course: &Course) -> Outcome {
+fn an_element_far_from_the_origin_has_the_same_force(course: &Course) -> Outcome {
     let p = 56.0 / 6.0;
     let expected = SVector::<f64, 12>::from([-p, -p, -p, p, 0.0, 0.0, 0.0, p, 0.0, 0.0, 0.0, p]);
     let offset = Vector3::new(1048576.0, -2097152.0, 524288.0);

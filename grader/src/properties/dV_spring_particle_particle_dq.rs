@@ -12,7 +12,7 @@ pub const CHECKS: &[Check] = checks![
     a_spring_agrees_with_a_calculation_by_hand,
     it_is_the_gradient_of_the_energy,
     a_spring_without_rest_length_is_linear,
-    a_spring_of_no_length_has_no_gradient,
+    a_spring_of_zero_length_has_a_zero_gradient,
     a_very_short_spring_still_pushes,
     a_spring_shorter_than_any_square_is_finite,
 ];
@@ -53,7 +53,7 @@ fn a_spring_without_rest_length_is_linear(course: &Course) -> Outcome {
     })
 }
 
-fn a_spring_of_no_length_has_no_gradient(course: &Course) -> Outcome {
+fn a_spring_of_zero_length_has_a_zero_gradient(course: &Course) -> Outcome {
     let q = Vector3::new(1.0, 2.0, 3.0);
     let found = course.subject.dV_spring_particle_particle_dq(&q, &q, 2.0, 3.0)?;
     near("zero, never NaN, at zero length", &found, &SVector::<f64, 6>::zeros(), 0.0)
@@ -77,6 +77,6 @@ fn a_spring_shorter_than_any_square_is_finite(course: &Course) -> Outcome {
         let found = course.subject.dV_spring_particle_particle_dq(&Vector3::zeros(), &d, l0, 3.0)?;
         holds("at any length, however short, the gradient is finite", found.iter().all(|entry| entry.is_finite()))?;
         holds("and not larger than k l0 (but for round-off)", found.amax() <= 3.0 * l0 * 1.5 + 1e-100)?;
-        near("the two ends pull against each other", &found.fixed_rows::<3>(0), &-found.fixed_rows::<3>(3), 0.0)
+        near("the gradients at the two ends are opposite", &found.fixed_rows::<3>(0), &-found.fixed_rows::<3>(3), 0.0)
     })
 }

@@ -11,9 +11,9 @@ use super::{Check, Course};
 pub const CHECKS: &[Check] = checks![
     fixing_the_middle_of_three_vertices_agrees_with_a_matrix_by_hand,
     p_q_is_q_without_the_fixed_vertices_in_the_old_order,
-    nothing_fixed_is_the_identity,
+    no_fixed_vertices_give_the_identity,
     repeats_count_once_and_order_does_not_matter,
-    everything_fixed_leaves_a_matrix_without_rows,
+    all_vertices_fixed_give_a_matrix_without_rows,
 ];
 
 fn P(course: &Course, q_size: usize, indices: &[usize]) -> Result<DMatrix<f64>, Mistake> {
@@ -46,7 +46,7 @@ fn p_q_is_q_without_the_fixed_vertices_in_the_old_order(course: &Course) -> Outc
     })
 }
 
-fn nothing_fixed_is_the_identity(course: &Course) -> Outcome {
+fn no_fixed_vertices_give_the_identity(course: &Course) -> Outcome {
     near("P for no index", &P(course, 12, &[])?, &DMatrix::<f64>::identity(12, 12), 0.0)
 }
 
@@ -59,7 +59,7 @@ fn repeats_count_once_and_order_does_not_matter(course: &Course) -> Outcome {
     )
 }
 
-fn everything_fixed_leaves_a_matrix_without_rows(course: &Course) -> Outcome {
+fn all_vertices_fixed_give_a_matrix_without_rows(course: &Course) -> Outcome {
     near("P, all vertices fixed", &P(course, 9, &[2, 0, 1])?, &DMatrix::<f64>::zeros(0, 9), 0.0)?;
     near("P of an empty mesh", &P(course, 0, &[])?, &DMatrix::<f64>::zeros(0, 0), 0.0)
 }

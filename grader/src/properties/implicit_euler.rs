@@ -16,10 +16,10 @@ pub const CHECKS: &[Check] = checks![
     the_force_is_that_at_the_end_of_the_step,
     newton_starts_from_the_old_velocity_at_the_positions_it_leads_to,
     the_linear_systems_are_those_of_the_page,
-    at_most_five_hessians_are_asked_for,
-    energies_are_asked_for_velocities,
+    at_most_five_hessians_are_evaluated,
+    the_energy_is_evaluated_at_velocities,
     free_fall_is_the_sum_of_its_steps,
-    a_body_at_rest_stays_and_nothing_is_solved,
+    a_body_at_rest_stays_without_a_solve,
     a_step_that_would_go_through_a_wall_stays_before_it,
     a_step_of_an_elastic_body_minimises_its_energy,
     a_free_body_keeps_its_momentum,
@@ -87,7 +87,7 @@ fn step(
         by_elimination(A, b)
     };
     course.subject.implicit_euler(q, v, dt, M, &energy, &force, &stiffness, &solve)?;
-    holds("closures are asked with vectors as long as q", asked.misfits.get() == 0)?;
+    holds("closures are called with vectors as long as q", asked.misfits.get() == 0)?;
     holds("q and qdot keep their lengths", (q.len(), v.len()) == (n, n))?;
     Ok(asked)
 }
@@ -153,11 +153,11 @@ fn newton_starts_from_the_old_velocity_at_the_positions_it_leads_to(course: &Cou
     let expected = &q0 + &v0 * dt;
     for (rule, states) in [("force", asked.forces.borrow()), ("stiffness", asked.stiffnesses.borrow())] {
         let (at, with) = states.first().cloned().unwrap_or_default();
-        near(&format!("the first {rule} is asked at q + dt v"), &at, &expected, 1e-15)?;
-        near(&format!("the first {rule} is told v"), &with, &v0, 0.0)?;
+        near(&format!("the first {rule} is evaluated at q + dt v"), &at, &expected, 1e-15)?;
+        near(&format!("the first {rule} receives v"), &with, &v0, 0.0)?;
     }
     for (at, with) in asked.forces.borrow().iter().chain(asked.stiffnesses.borrow().iter()) {
-        near("q and v that are asked for belong together", at, &(&q0 + with * dt), 1e-14)?;
+        near("q and v of a call belong together", at, &(&q0 + with * dt), 1e-14)?;
     }
     Ok(())
 }
@@ -177,7 +177,7 @@ fn the_linear_systems_are_those_of_the_page(course: &Course) -> Outcome {
     Ok(())
 }
 
-fn at_most_five_hessians_are_asked_for(course: &Course) -> Outcome {
+fn at_most_five_hessians_are_evaluated(course: &Course) -> Outcome {
     // Far out on ¼ |x|⁴ each Newton step goes a third of the way, so five do not get to the bottom.
     let M = sparse(&dmatrix![1.0]);
     let (mut q, mut v) = (dvector![1e6], dvector![0.0]);
@@ -187,7 +187,7 @@ fn at_most_five_hessians_are_asked_for(course: &Course) -> Outcome {
     near_number("each of them goes as far as Newton's method does", ratio, (2.0f64 / 3.0).powi(5), 1e-6)
 }
 
-fn energies_are_asked_for_velocities(course: &Course) -> Outcome {
+fn the_energy_is_evaluated_at_velocities(course: &Course) -> Outcome {
     let M = sparse(&dmatrix![1.0]);
     let (mut q, mut v) = (dvector![100.0], dvector![0.25]);
     let spring = Potential { V: |q| 0.5 * q[0] * q[0], f: |q| -q, K: |_| dmatrix![-1.0] };
@@ -208,13 +208,13 @@ fn free_fall_is_the_sum_of_its_steps(course: &Course) -> Outcome {
     near_number("x_n after free fall", q[0], 5.0 + n * dt * 2.0 - 9.81 * dt * dt * n * (n + 1.0) / 2.0, 1e-8)
 }
 
-fn a_body_at_rest_stays_and_nothing_is_solved(course: &Course) -> Outcome {
+fn a_body_at_rest_stays_without_a_solve(course: &Course) -> Outcome {
     let M = sparse(&DMatrix::identity(2, 2));
     let (mut q, mut v) = (dvector![0.0, 0.0], dvector![0.0, 0.0]);
     let asked = step(course, &mut q, &mut v, 0.1, &M, &coupled())?;
     near("q", &q, &dvector![0.0, 0.0], 0.0)?;
     near("v", &v, &dvector![0.0, 0.0], 0.0)?;
-    holds("g = 0 asks for no Hessian", asked.stiffnesses.borrow().is_empty())
+    holds("g = 0 needs no Hessian", asked.stiffnesses.borrow().is_empty())
 }
 
 fn a_step_that_would_go_through_a_wall_stays_before_it(course: &Course) -> Outcome {

@@ -14,7 +14,7 @@ use super::{Check, Course};
 pub const CHECKS: &[Check] = checks![
     a_spring_follows_the_exact_recurrence,
     coupled_unknowns_solve_the_system_of_the_page,
-    force_stiffness_and_solve_are_asked_once_each_at_the_old_state,
+    force_stiffness_and_solve_are_called_once_each_at_the_old_state,
     mass_and_stiffness_may_have_entries_in_different_places,
     free_fall_is_the_sum_of_its_steps,
     a_free_body_keeps_its_momentum,
@@ -33,7 +33,7 @@ fn step(course: &Course, q: &mut DVector<f64>, v: &mut DVector<f64>, dt: f64, sy
     };
     let stiffness = |_: &DVector<f64>, _: &DVector<f64>| sparse(&system.K);
     course.subject.linearly_implicit_euler(q, v, dt, &sparse(&system.M), &force, &stiffness, &by_elimination)?;
-    holds("force and stiffness are asked with vectors as long as q", fits.get())?;
+    holds("force and stiffness are called with vectors as long as q", fits.get())?;
     holds("q and qdot keep their lengths", (q.len(), v.len()) == (n, n))
 }
 
@@ -78,7 +78,7 @@ fn coupled_unknowns_solve_the_system_of_the_page(course: &Course) -> Outcome {
     near("q⁺ = q + dt v⁺", &q, &(q0 + v * dt), 1e-14)
 }
 
-fn force_stiffness_and_solve_are_asked_once_each_at_the_old_state(course: &Course) -> Outcome {
+fn force_stiffness_and_solve_are_called_once_each_at_the_old_state(course: &Course) -> Outcome {
     let (q0, v0) = (dvector![1.0, 2.0], dvector![3.0, -4.0]);
     let (mut q, mut v) = (q0.clone(), v0.clone());
     let M = sparse(&DMatrix::identity(2, 2));
@@ -104,8 +104,8 @@ fn force_stiffness_and_solve_are_asked_once_each_at_the_old_state(course: &Cours
     holds("one force and one stiffness in a step", names == ["force", "stiffness"])?;
     holds("one linear solve in a step", solves.get() == 1)?;
     for (_, q, v) in states.borrow().iter() {
-        near("force and stiffness are asked at the old positions", q, &q0, 0.0)?;
-        near("force and stiffness are told the old velocity", v, &v0, 0.0)?;
+        near("force and stiffness are evaluated at the old positions", q, &q0, 0.0)?;
+        near("force and stiffness receive the old velocity", v, &v0, 0.0)?;
     }
     Ok(())
 }

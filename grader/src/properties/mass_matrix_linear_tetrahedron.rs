@@ -40,7 +40,7 @@ fn the_mass_along_each_axis_is_density_times_volume(course: &Course) -> Outcome 
         for axis in 0..3 {
             let along = SVector::<f64, 12>::from_fn(|row, _| if row % 3 == axis { 1.0 } else { 0.0 });
             let mass = along.dot(&(M * along));
-            near_number("mass felt by a translation", mass, density * volume, 1e-13 * density * volume)?;
+            near_number("mass of a translation", mass, density * volume, 1e-13 * density * volume)?;
         }
         near("a mass matrix is symmetric", &M, &M.transpose(), 0.0)
     })

@@ -57,7 +57,7 @@ fn elements_add_up_where_they_share_vertices(course: &Course) -> Outcome {
     for (row, column) in (0..M.nrows()).flat_map(|row| (0..M.ncols()).map(move |column| (row, column))) {
         let (u, v) = (at(row / 3, axes[row % 3]), at(column / 3, axes[column % 3]));
         let expected = of_all(&elements, &mesh, &u, &v);
-        near_number("what one vertex feels of another", M[(row, column)], expected, 1e-13 * M.amax())?;
+        near_number("the coupling of two vertices", M[(row, column)], expected, 1e-13 * M.amax())?;
     }
     Ok(())
 }
@@ -102,7 +102,7 @@ fn the_total_mass_is_density_times_volume(course: &Course) -> Outcome {
     let mass = DENSITY * mesh.v0.iter().sum::<f64>();
     for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
         let along = mesh.placed(|_| axis);
-        near_number("mass felt by a translation", along.dot(&(&M * &along)), mass, 1e-12 * mass)?;
+        near_number("mass of a translation", along.dot(&(&M * &along)), mass, 1e-12 * mass)?;
     }
     Ok(())
 }

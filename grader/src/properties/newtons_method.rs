@@ -6,9 +6,9 @@ mod objectives;
 use nalgebra::{DVector, dmatrix, dvector};
 
 use self::line_search::{
-    a_decrease_must_be_at_least_1e_8_of_what_the_slope_promises, a_direction_without_an_answer_leaves_x_as_it_was,
-    an_infinite_start_takes_the_first_finite_step_and_no_other, every_direction_is_tried_in_full_first_and_then_halved,
-    infinite_and_undefined_values_are_never_accepted, it_gives_up_below_1e_8_and_leaves_x_as_it_was,
+    a_direction_without_an_answer_leaves_x_as_it_was, an_infinite_start_takes_the_first_finite_step_and_no_other,
+    every_direction_is_tried_in_full_first_and_then_halved, infinite_and_undefined_values_are_never_accepted,
+    it_gives_up_below_1e_8_and_leaves_x_as_it_was, the_decrease_is_at_least_1e_8_of_that_of_the_linear_model,
     the_direction_solves_the_hessian_against_minus_the_gradient, the_smallest_step_above_1e_8_is_still_tried,
 };
 use self::objectives::{Objective, bowl, halving, ill_conditioned, log_barrier, overshooting, rosenbrock};
@@ -25,14 +25,14 @@ pub const CHECKS: &[Check] = checks![
     conditioning_of_1e12_does_no_harm,
     the_value_returned_is_f_at_the_x_that_is_left,
     f_never_rises,
-    no_steps_leave_the_start_and_return_f_there,
-    a_start_at_the_minimum_asks_for_no_hessian,
+    zero_steps_leave_the_start_and_return_f_there,
+    a_start_at_the_minimum_needs_no_hessian,
     at_most_max_steps_directions_are_followed,
     it_ends_when_the_gradient_is_1e_10_of_that_at_the_start,
-    the_gradient_at_the_start_is_the_measure_not_the_one_before,
+    the_gradient_is_compared_with_that_at_the_start,
     every_direction_is_tried_in_full_first_and_then_halved,
     the_direction_solves_the_hessian_against_minus_the_gradient,
-    a_decrease_must_be_at_least_1e_8_of_what_the_slope_promises,
+    the_decrease_is_at_least_1e_8_of_that_of_the_linear_model,
     it_gives_up_below_1e_8_and_leaves_x_as_it_was,
     the_smallest_step_above_1e_8_is_still_tried,
     infinite_and_undefined_values_are_never_accepted,
@@ -111,14 +111,14 @@ fn f_never_rises(course: &Course) -> Outcome {
     })
 }
 
-fn no_steps_leave_the_start_and_return_f_there(course: &Course) -> Outcome {
+fn zero_steps_leave_the_start_and_return_f_there(course: &Course) -> Outcome {
     let run = rosenbrock().minimise(course, &[-1.2, 1.0], 0)?;
     near("max_steps = 0 leaves x0", &run.x, &dvector![-1.2, 1.0], 0.0)?;
     near_number("and returns f(x0)", run.f, (rosenbrock().f)(&dvector![-1.2, 1.0]), 0.0)?;
     holds("and needs neither Hessian nor solve", run.hessians() == 0 && run.directions().is_empty())
 }
 
-fn a_start_at_the_minimum_asks_for_no_hessian(course: &Course) -> Outcome {
+fn a_start_at_the_minimum_needs_no_hessian(course: &Course) -> Outcome {
     let run = bowl().minimise(course, &[0.0, 0.0], 10)?;
     holds("g = 0 at the start: nothing to solve", run.hessians() == 0 && run.directions().is_empty())?;
     near("x0 stays", &run.x, &dvector![0.0, 0.0], 0.0)?;
@@ -147,7 +147,7 @@ fn it_ends_when_the_gradient_is_1e_10_of_that_at_the_start(course: &Course) -> O
     Ok(())
 }
 
-fn the_gradient_at_the_start_is_the_measure_not_the_one_before(course: &Course) -> Outcome {
+fn the_gradient_is_compared_with_that_at_the_start(course: &Course) -> Outcome {
     // Full steps that divide the gradient by a million each: two are enough.
     let run = objectives::shrinking(1e-6).minimise(course, &[1.0], 100)?;
     holds("the gradient is measured against that at the start, not against the one before", run.directions().len() == 2)

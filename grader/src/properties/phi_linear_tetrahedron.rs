@@ -40,7 +40,7 @@ fn a_tetrahedron_without_symmetry_agrees_with_a_calculation_by_hand(course: &Cou
     let (phi3, phi2) = (0.25, (1.0 - 0.25) / 3.0);
     let phi1 = (1.0 - phi2 - phi3) / 2.0;
     let expected = Vector4::new(1.0 - phi1 - phi2 - phi3, phi1, phi2, phi3);
-    near("edges belong into the columns of the matrix", &phi(course, &t, &x)?, &expected, 1e-14)
+    near("edges belong in the columns of the matrix", &phi(course, &t, &x)?, &expected, 1e-14)
 }
 
 fn each_function_is_one_at_its_own_vertex_and_zero_at_the_others(course: &Course) -> Outcome {
@@ -66,7 +66,7 @@ fn blending_the_vertices_gives_the_point_back(course: &Course) -> Outcome {
         let x = X[0] + (X[1] - X[0]) * weights.x + (X[2] - X[0]) * weights.y + (X[3] - X[0]) * weights.z;
         let values = phi(course, &t, &x)?;
         let expected = Vector4::new(1.0 - weights.sum(), weights.x, weights.y, weights.z);
-        near("the weights with which the vertices were blended", &values, &expected, 1e-12 * t.size() / t.height())?;
+        near("the weights of the combination of the vertices", &values, &expected, 1e-12 * t.size() / t.height())?;
         let blend: Vector3<f64> = (0..4).map(|a| X[a] * values[a]).sum();
         near("the sum of phi_a X_a must be the point", &blend, &x, 1e-11 * t.size())
     })

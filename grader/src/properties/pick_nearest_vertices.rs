@@ -10,17 +10,17 @@ use crate::implementation::Answer;
 /// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     a_pixel_over_a_corner_picks_that_corner,
-    the_first_hit_counts_not_the_back_of_the_body,
+    the_first_hit_counts_and_not_the_back_of_the_body,
     all_vertices_within_the_radius_are_returned_in_ascending_order,
-    a_pixel_beside_the_body_picks_nothing,
-    what_lies_behind_the_camera_is_not_picked,
-    what_is_too_near_to_be_shown_is_not_picked,
+    a_pixel_beside_the_body_picks_no_vertex,
+    vertices_behind_the_camera_are_not_picked,
+    vertices_in_front_of_the_near_plane_are_not_picked,
     depth_of_the_pixel_does_not_matter,
     the_window_may_lie_anywhere,
     triangles_are_hit_from_either_side,
     no_ray_slips_through_between_two_triangles,
     just_outside_an_edge_is_a_miss,
-    a_triangle_seen_edge_on_shows_nothing,
+    a_triangle_seen_edge_on_is_not_hit,
     a_sphere_is_hit_where_geometry_says,
 ];
 
@@ -84,7 +84,7 @@ fn a_pixel_over_a_corner_picks_that_corner(course: &Course) -> Outcome {
     Ok(())
 }
 
-fn the_first_hit_counts_not_the_back_of_the_body(course: &Course) -> Outcome {
+fn the_first_hit_counts_and_not_the_back_of_the_body(course: &Course) -> Outcome {
     let (V, F) = cube();
     let reversed: Vec<_> = F.iter().rev().copied().collect();
     for camera in [Camera::perspective(), Camera::parallel()] {
@@ -113,7 +113,7 @@ fn all_vertices_within_the_radius_are_returned_in_ascending_order(course: &Cours
     Ok(())
 }
 
-fn a_pixel_beside_the_body_picks_nothing(course: &Course) -> Outcome {
+fn a_pixel_beside_the_body_picks_no_vertex(course: &Course) -> Outcome {
     let (V, F) = cube();
     for camera in [Camera::perspective(), Camera::parallel()] {
         for beside in [Vector3::new(1.4, 0.0, 1.0), Vector3::new(0.0, -1.4, 1.0), Vector3::new(1.1, 1.1, 1.0)] {
@@ -127,7 +127,7 @@ fn a_pixel_beside_the_body_picks_nothing(course: &Course) -> Outcome {
     Ok(())
 }
 
-fn what_lies_behind_the_camera_is_not_picked(course: &Course) -> Outcome {
+fn vertices_behind_the_camera_are_not_picked(course: &Course) -> Outcome {
     let (V, F) = cube();
     let behind: Vec<_> = V.iter().map(|v| v + Vector3::z() * 10.0).collect();
     let camera = Camera::perspective();
@@ -135,10 +135,10 @@ fn what_lies_behind_the_camera_is_not_picked(course: &Course) -> Outcome {
     holds("the box is behind the eye", camera.pick(course, &win, &behind, &F, 100.0)?.is_empty())?;
     let both: Vec<_> = behind.iter().chain(&V).copied().collect();
     let faces: Vec<_> = F.iter().copied().chain(F.iter().map(|face| face.map(|vertex| vertex + 8))).collect();
-    holds("the box before the eye is hit", camera.pick(course, &win, &both, &faces, 1.5)? == [12, 13, 14, 15])
+    holds("the box in front of the eye is hit", camera.pick(course, &win, &both, &faces, 1.5)? == [12, 13, 14, 15])
 }
 
-fn what_is_too_near_to_be_shown_is_not_picked(course: &Course) -> Outcome {
+fn vertices_in_front_of_the_near_plane_are_not_picked(course: &Course) -> Outcome {
     let (mut V, mut F) = cube();
     F.push([8, 9, 10]);
     // The nearest depth that is shown is at z = 4.9 in perspective and at z = 4 in parallel projection.
@@ -217,7 +217,7 @@ fn just_outside_an_edge_is_a_miss(course: &Course) -> Outcome {
     Ok(())
 }
 
-fn a_triangle_seen_edge_on_shows_nothing(course: &Course) -> Outcome {
+fn a_triangle_seen_edge_on_is_not_hit(course: &Course) -> Outcome {
     let V = [Vector3::new(0.0, -1.0, 1.0), Vector3::new(0.0, 1.0, 1.0), Vector3::new(0.0, 0.0, -1.0)];
     let camera = Camera::parallel();
     let found = camera.pick(course, &Vector3::new(400.0, 300.0, 0.0), &V, &[[0, 1, 2]], 9.0)?;

@@ -10,21 +10,21 @@ use super::{Check, Course};
 
 /// The properties of the function.
 pub const CHECKS: &[Check] = checks![
-    a_body_at_rest_or_rotated_stores_nothing,
-    blowing_up_uniformly_costs_d_alone,
-    simple_shear_costs_c_alone,
+    a_body_at_rest_or_rotated_stores_no_energy,
+    a_uniform_expansion_depends_on_d_alone,
+    a_simple_shear_depends_on_c_alone,
     the_table_of_the_page_holds,
-    only_the_principal_stretches_count,
-    known_stretches_cost_what_was_computed_by_hand,
-    one_term_knows_only_the_shape_and_the_other_only_the_volume,
+    the_energy_depends_on_the_principal_stretches_alone,
+    known_stretches_agree_with_a_calculation_by_hand,
+    one_term_depends_on_the_shape_alone_and_the_other_on_the_volume,
     the_energy_is_the_same_in_every_rotated_frame,
     the_energy_is_never_negative,
-    flat_and_inverted_states_cost_infinitely_much,
+    flat_and_inverted_states_have_infinite_energy,
     strong_but_possible_states_have_a_finite_energy,
     near_rest_the_error_is_round_off_of_the_terms,
 ];
 
-fn a_body_at_rest_or_rotated_stores_nothing(course: &Course) -> Outcome {
+fn a_body_at_rest_or_rotated_stores_no_energy(course: &Course) -> Outcome {
     let at_rest = course.subject.psi_neo_hookean(&Matrix3::identity(), 2e5, 7e5)?;
     near_number("psi at rest (subtract 3 after the product)", at_rest, 0.0, 1e-14 * 9e5)?;
     for_all(course.seed, (rotation(), constants()), |(R, (C, D))| {
@@ -32,7 +32,7 @@ fn a_body_at_rest_or_rotated_stores_nothing(course: &Course) -> Outcome {
     })
 }
 
-fn blowing_up_uniformly_costs_d_alone(course: &Course) -> Outcome {
+fn a_uniform_expansion_depends_on_d_alone(course: &Course) -> Outcome {
     for_all(course.seed, (-1.0..1.0, constants()), |(power, (C, D))| {
         let s = f64::exp(power);
         let F = Matrix3::identity() * s;
@@ -46,7 +46,7 @@ fn blowing_up_uniformly_costs_d_alone(course: &Course) -> Outcome {
     })
 }
 
-fn simple_shear_costs_c_alone(course: &Course) -> Outcome {
+fn a_simple_shear_depends_on_c_alone(course: &Course) -> Outcome {
     for_all(course.seed, (-3.0..3.0, constants()), |(gamma, (C, D))| {
         for (i, j) in [(0, 1), (1, 0), (0, 2), (2, 0), (1, 2), (2, 1)] {
             let mut F = Matrix3::identity();
@@ -65,7 +65,7 @@ fn the_table_of_the_page_holds(course: &Course) -> Outcome {
     with_input("F = diag(2, 1, ½), C = 4, D = 7", near_number("the table of the page", found, 9.0, 1e-12))
 }
 
-fn only_the_principal_stretches_count(course: &Course) -> Outcome {
+fn the_energy_depends_on_the_principal_stretches_alone(course: &Course) -> Outcome {
     for_all(course.seed, (rotation(), stretches(), rotation(), constants()), |(U, sigma, W, (C, D))| {
         let along_the_axes = Matrix3::from_diagonal(&sigma);
         let F = U * along_the_axes * W.transpose();
@@ -77,7 +77,7 @@ fn only_the_principal_stretches_count(course: &Course) -> Outcome {
     })
 }
 
-fn known_stretches_cost_what_was_computed_by_hand(course: &Course) -> Outcome {
+fn known_stretches_agree_with_a_calculation_by_hand(course: &Course) -> Outcome {
     // Stretches whose product is the cube of a number, and what they cost with C = 1, D = 0 and with C = 0, D = 1.
     let known = [
         ([8.0, 1.0, 1.0], 13.5, 49.0),
@@ -91,22 +91,22 @@ fn known_stretches_cost_what_was_computed_by_hand(course: &Course) -> Outcome {
         let (sigma, shape, volume) = known[row];
         let F = U * Matrix3::from_diagonal(&sigma.into()) * W;
         let found = course.subject.psi_neo_hookean(&F, C, D)?;
-        let rule = "psi of stretches that were computed by hand";
+        let rule = "psi of known stretches";
         near_number(rule, found, C * shape + D * volume, 1e-12 * energy_terms(&F, C, D))
     })
 }
 
-fn one_term_knows_only_the_shape_and_the_other_only_the_volume(course: &Course) -> Outcome {
+fn one_term_depends_on_the_shape_alone_and_the_other_on_the_volume(course: &Course) -> Outcome {
     for_all(course.seed, (deformation(), -1.0..1.0, constants()), |(F, power, (C, D))| {
         let blown_up = F * f64::exp(power);
         let (found, expected) =
             (course.subject.psi_neo_hookean(&blown_up, C, 0.0)?, course.subject.psi_neo_hookean(&F, C, 0.0)?);
-        let rule = "blowing a body up evenly does not change what its shape costs";
+        let rule = "a uniform expansion does not change the first term";
         near_number(rule, found, expected, 2e-12 * energy_terms(&F, C, 0.0))?;
         let as_even = Matrix3::identity() * F.determinant().cbrt();
         let (found, expected) =
             (course.subject.psi_neo_hookean(&F, 0.0, D)?, course.subject.psi_neo_hookean(&as_even, 0.0, D)?);
-        let rule = "the same volume costs the same in every shape";
+        let rule = "the second term is the same for all shapes of one volume";
         near_number(rule, found, expected, 2e-12 * energy_terms(&F, 0.0, D))
     })
 }
@@ -123,11 +123,11 @@ fn the_energy_is_the_same_in_every_rotated_frame(course: &Course) -> Outcome {
 fn the_energy_is_never_negative(course: &Course) -> Outcome {
     for_all(course.seed, (deformation(), constants()), |(F, (C, D))| {
         let is_positive = course.subject.psi_neo_hookean(&F, C, D)? >= -1e-13 * energy_terms(&F, C, D);
-        holds("deforming a body cannot yield energy", is_positive)
+        holds("the energy is never negative", is_positive)
     })
 }
 
-fn flat_and_inverted_states_cost_infinitely_much(course: &Course) -> Outcome {
+fn flat_and_inverted_states_have_infinite_energy(course: &Course) -> Outcome {
     let mirror = |x: f64, y: f64, z: f64| Matrix3::from_diagonal(&Vector3::new(x, y, z));
     let dependent = Matrix3::new(1.0, 2.0, 3.0, 2.0, 4.0, 6.0, 1.0, 0.0, 1.0);
     let states = [Matrix3::zeros(), mirror(1.0, 0.0, 1.0), dependent, mirror(-1.0, 1.0, 1.0), -Matrix3::identity()];

@@ -13,11 +13,11 @@ use crate::implementation::{Answer, Trouble};
 /// The properties of the function.
 pub const CHECKS: &[Check] = checks![
     a_constant_integrates_to_itself_times_the_volume,
-    the_volume_that_is_given_counts,
+    the_given_volume_is_used,
     linear_functions_are_integrated_exactly,
     the_point_is_the_undeformed_centroid,
     a_quadratic_is_taken_at_the_centroid,
-    the_integrand_is_asked_once,
+    the_integrand_is_evaluated_once,
     vectors_and_matrices_are_integrated_like_numbers,
 ];
 
@@ -35,10 +35,10 @@ fn a_constant_integrates_to_itself_times_the_volume(course: &Course) -> Outcome 
     })
 }
 
-fn the_volume_that_is_given_counts(course: &Course) -> Outcome {
+fn the_given_volume_is_used(course: &Course) -> Outcome {
     let t = Tetrahedron::unit();
     let integral = number(course, &t, 7.0, &|_| 2.0)?;
-    let rule = "the volume that is given counts, whatever the vertices are";
+    let rule = "the given volume is used, whatever the vertices are";
     with_input("the constant 2, a volume of 7 m³", near_number(rule, integral, 14.0, 1e-14))
 }
 
@@ -60,7 +60,7 @@ fn the_point_is_the_undeformed_centroid(course: &Course) -> Outcome {
             0.0
         })?;
         let scale = t.X().iter().map(|X| X.norm()).sum::<f64>();
-        near("the point at which the integrand is asked", &seen.get(), &centroid, 1e-14 * scale)
+        near("the point at which the integrand is evaluated", &seen.get(), &centroid, 1e-14 * scale)
     })
 }
 
@@ -71,7 +71,7 @@ fn a_quadratic_is_taken_at_the_centroid(course: &Course) -> Outcome {
     with_input("|X|² over the unit tetrahedron", near_number(rule, integral, 3.0 / 16.0 / 6.0, 1e-15))
 }
 
-fn the_integrand_is_asked_once(course: &Course) -> Outcome {
+fn the_integrand_is_evaluated_once(course: &Course) -> Outcome {
     let calls = Cell::new(0);
     let t = Tetrahedron::unit();
     number(course, &t, t.volume, &|_| {

@@ -105,19 +105,19 @@ fn judged(name: &str, content: Content) -> Source {
 /// Tells about a file that is not taken, where its author may think that it is.
 fn remark(path: &str) -> Option<String> {
     if let Some(name) = LEFT_ASIDE.iter().find(|name| path == **name || path.starts_with(&format!("{name}/"))) {
-        return Some(format!("{name} is not taken: everyone's functions are built in the same way"));
+        return Some(format!("{name} is ignored: all submissions are built in the same way"));
     }
     let file = path.rsplit('/').next().unwrap_or(path);
     if let Some(name) = NAMES.iter().find(|name| file.eq_ignore_ascii_case(&format!("{name}.rs"))) {
         let in_src = path.strip_prefix("src/").is_some_and(|rest| rest == file);
         let in_tests = path.starts_with("tests/") || path.starts_with("grader/");
-        let cause = if in_src { "capitals count, so its name must be" } else { "its place must be" };
-        return (!in_tests).then(|| format!("{} is not taken: {cause} src/{name}.rs", shown(path)));
+        let cause = if in_src { "with the same capitals its name must be" } else { "the file must be" };
+        return (!in_tests).then(|| format!("{} is ignored: {cause} src/{name}.rs", shown(path)));
     }
     let given = ["src/lib.rs", "src/main.rs", "src/assignment_setup.rs"];
     let stray = path.strip_prefix("src/").is_some_and(|rest| !rest.contains('/') && rest.ends_with(".rs"));
     (stray && !given.contains(&path))
-        .then(|| format!("{} is not taken: put helpers into the function's own file", shown(path)))
+        .then(|| format!("{} is ignored: put helpers into the function's own file", shown(path)))
 }
 
 /// A path as it may stand in a report: no control characters, no book.

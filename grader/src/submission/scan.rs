@@ -34,7 +34,7 @@ pub fn scan(text: &str) -> Option<Found> {
         return Some(found(1, "the first line is for a shell; remove it"));
     }
     if let Some(line) = too_deep(text) {
-        return Some(found(line, "brackets are nested more than 256 deep; part the expression"));
+        return Some(found(line, "brackets are nested more than 256 deep; split the expression"));
     }
     with_tokens(text, |tokens| {
         let mut walk = Walk { has_macros: contains(&tokens, "macro_rules"), first: None };
@@ -126,7 +126,7 @@ impl Walk {
             return Some(format!("`{word}` is not allowed; do without it"));
         }
         if word == "mod" && !has_body(after) {
-            return Some("a `mod` without a body asks for another file; write it out here".to_owned());
+            return Some("a `mod` without a body needs another file; write its body here".to_owned());
         }
         let (is_macro, is_attribute) = (AS_MACROS.contains(&word), IN_ATTRIBUTES.contains(&word));
         if is_macro && (is_called(after) || place.in_use) {

@@ -16,7 +16,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         T_linear_tetrahedron,
         "lumped",
-        "Right for a flying brick, too much for a spinning one: the mass is not sitting in the vertices.",
+        "Right for a translating element, too large for a spinning one: the mass is not concentrated at the vertices.",
         |qdot, element, density, volume| {
             let squares: f64 = velocities(qdot, element).iter().map(Vector3::norm_squared).sum();
             0.5 * density * volume / 4.0 * squares
@@ -25,7 +25,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         T_linear_tetrahedron,
         "only the centroid",
-        "An element that spins about its centroid has kinetic energy. One velocity cannot speak for all points.",
+        "An element that spins about its centroid has kinetic energy. One velocity does not describe all points.",
         |qdot, element, density, volume| {
             let mean = velocities(qdot, element).iter().sum::<Vector3<f64>>() / 4.0;
             0.5 * density * volume * mean.norm_squared()

@@ -56,7 +56,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         V_linear_tetrahedron,
         "zero for inverted",
-        "An inverted element must not be free of energy: a line search would walk right into that state.",
+        "An inverted element must not have zero energy: a line search would step right into that state.",
         |q, V, element, volume, C, D| {
             let energy = solved::V_linear_tetrahedron(q, V, element, volume, C, D);
             if energy.is_finite() { energy } else { 0.0 }

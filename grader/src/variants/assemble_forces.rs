@@ -16,7 +16,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         assemble_forces,
         "overwritten instead of added",
-        "A single element is right, elements that share a vertex are not: what happens to what is there already?",
+        "A single element is right, elements that share a vertex are not: what happens to the entries that are there already?",
         |q, V, T, v0, C, D| {
             let mut f = DVector::zeros(q.len());
             for (element, &volume) in T.iter().zip(v0) {

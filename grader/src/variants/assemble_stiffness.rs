@@ -50,13 +50,13 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         assemble_stiffness,
         "overwritten instead of added",
-        "A single element is right, elements that share a vertex are not: what happens to what is there already?",
+        "A single element is right, elements that share a vertex are not: what happens to the entries that are there already?",
         |q, V, T, v0, C, D| scatter::overwriting(q.len(), T, |e| -project(&hessian(q, V, &T[e], v0[e], C, D)))
     ),
     variant!(
         assemble_stiffness,
         "local for global indices",
-        "All elements pile up in the first twelve rows: at which vertices of the mesh does an element sit?",
+        "All elements are added to the first twelve rows: which vertices of the mesh does an element have?",
         |q, V, T, v0, C, D| {
             let piled = vec![[0, 1, 2, 3]; T.len()];
             plain(q.len(), &piled, |e| -project(&hessian(q, V, &T[e], v0[e], C, D)))

@@ -17,7 +17,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         d2V_linear_tetrahedron_dq2,
         "negated",
-        "The sign is reversed: asked for is the second derivative of an energy, not of a force.",
+        "The sign is reversed: the page asks for the second derivative of an energy, not of a force.",
         |q, V, element, volume, C, D| -solved::d2V_linear_tetrahedron_dq2(q, V, element, volume, C, D)
     ),
     variant!(

@@ -64,7 +64,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         d2psi_neo_hookean_dF2,
         "negated",
-        "The sign is reversed: asked for is the second derivative of an energy, which is stiff at rest.",
+        "The sign is reversed: the page asks for the second derivative of an energy, which is stiff at rest.",
         |F, C, D| -solved::d2psi_neo_hookean_dF2(F, C, D)
     ),
     variant!(

@@ -11,7 +11,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         dV_linear_tetrahedron_dq,
         "negated",
-        "The sign is reversed: asked for is the gradient of the energy, not the force.",
+        "The sign is reversed: the page asks for the gradient of the energy, not the force.",
         |q, V, element, volume, C, D| -solved::dV_linear_tetrahedron_dq(q, V, element, volume, C, D)
     ),
     variant!(

@@ -10,7 +10,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         dV_spring_particle_particle_dq,
         "negated",
-        "The sign is reversed: asked for is the gradient of the energy, not the force. Or are the ends exchanged?",
+        "The sign is reversed: the page asks for the gradient of the energy, not the force. Or are the ends exchanged?",
         |q0, q1, l0, stiffness| -solved::dV_spring_particle_particle_dq(q0, q1, l0, stiffness)
     ),
     variant!(

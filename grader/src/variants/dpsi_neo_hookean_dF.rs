@@ -55,7 +55,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         dpsi_neo_hookean_dF,
         "negated",
-        "The sign is reversed: asked for is the derivative of the energy, not a force.",
+        "The sign is reversed: the page asks for the derivative of the energy, not a force.",
         |F, C, D| -solved::dpsi_neo_hookean_dF(F, C, D)
     ),
     variant!(

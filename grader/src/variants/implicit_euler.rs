@@ -67,7 +67,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         implicit_euler,
         "missing term",
-        "The change of momentum is missing from the gradient: what does the body bring along from the step before?",
+        "The change of momentum is missing from the gradient: which momentum does the body have from the step before?",
         |q, qdot, dt, mass, energy, force, stiffness, solve| {
             let momentum = mass * &*qdot;
             let without = |q: &_, v: &_| force(q, v) - &momentum / dt;

@@ -23,7 +23,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         linearly_implicit_euler,
         "stiffness with the wrong sign",
-        "The stiffness is the derivative of the force here, negative for a stiff body. The system must gain by it.",
+        "The stiffness is the derivative of the force here, negative for a stiff body. The system's matrix must become stiffer by it.",
         |q, qdot, dt, mass, force, stiffness, solve| {
             step(q, qdot, dt, mass, force, &|q, v| stiffness(q, v) * -1.0, solve)
         }
@@ -39,7 +39,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         linearly_implicit_euler,
         "missing dt",
-        "Look at the units on the right-hand side: a force acts for a while before it is a momentum.",
+        "Look at the units on the right-hand side: a force times a duration is a momentum.",
         |q, qdot, dt, mass, force, stiffness, solve| step(
             q,
             qdot,
@@ -67,7 +67,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         linearly_implicit_euler,
         "missing term",
-        "Each step starts from rest: what does the body bring along from the step before?",
+        "Each step starts from rest: which momentum does the body have from the step before?",
         |q, qdot, dt, mass, force, stiffness, solve| {
             let momentum = mass * &*qdot;
             step(q, qdot, dt, mass, &|q, v| force(q, v) - &momentum / dt, stiffness, solve)

@@ -10,7 +10,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         mass_matrix_linear_tetrahedron,
         "lumped",
-        "The total mass is right, but the mass is not sitting in the vertices: shape functions overlap.",
+        "The total mass is right, but the mass is not concentrated at the vertices: shape functions overlap.",
         |density, volume| SMatrix::from_diagonal_element(density * volume / 4.0)
     ),
     variant!(

@@ -11,7 +11,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         mass_matrix_mesh,
         "overwritten instead of added",
-        "A single element is right, elements that share a vertex are not: what happens to what is there already?",
+        "A single element is right, elements that share a vertex are not: what happens to the entries that are there already?",
         |q_size, T, density, v0| {
             scatter::overwriting(q_size, T, |e| solved::mass_matrix_linear_tetrahedron(density, v0[e]))
         }
@@ -19,7 +19,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         mass_matrix_mesh,
         "local for global indices",
-        "All elements pile up in the first twelve rows: at which vertices of the mesh does an element sit?",
+        "All elements are added to the first twelve rows: which vertices of the mesh does an element have?",
         |q_size, T, density, v0| {
             let piled = vec![[0, 1, 2, 3]; T.len()];
             solved::mass_matrix_mesh(q_size, &piled, density, v0)

@@ -78,7 +78,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         pick_nearest_vertices,
         "no radius",
-        "The corners of the triangle that was hit were returned. Asked for is what lies within the radius.",
+        "The corners of the triangle that was hit were returned. The page asks for the vertices within the radius.",
         |win, view, proj, viewport, V, F, _| {
             let [origin, end] = line(win, view, proj, viewport, -1.0);
             let first = F.iter().filter_map(|triangle| Some((hit(&origin, &(end - origin), V, triangle)?, triangle)));
@@ -91,7 +91,7 @@ pub const VARIANTS: &[Variant] = &[
     variant!(
         pick_nearest_vertices,
         "only the nearest vertex",
-        "One vertex was returned. Asked for are all that lie within the radius.",
+        "One vertex was returned. The page asks for all vertices within the radius.",
         |win, view, proj, viewport, V, F, radius| {
             let [origin, end] = line(win, view, proj, viewport, -1.0);
             let Some(t) = hits(&origin, &(end - origin), V, F, |t| t >= 0.0).into_iter().reduce(f64::min) else {

@@ -22,7 +22,7 @@ fn alphas(run: &NewtonRun, start: &[f64]) -> Result<Vec<Vec<f64>>, Mistake> {
         let alpha = |trial: &&DVector<f64>| (*trial - &x).dot(direction) / direction.norm_squared();
         all.push(along.iter().map(alpha).collect());
         let Some(last) = along.last() else {
-            holds("f is asked along every direction", false)?;
+            holds("f is evaluated along every direction", false)?;
             break;
         };
         x.clone_from(last);
@@ -53,7 +53,7 @@ pub(super) fn the_direction_solves_the_hessian_against_minus_the_gradient(course
     near("the right-hand side of the solve is −g", &solve.unwrap_or_default(), &expected, 1e-14)
 }
 
-pub(super) fn a_decrease_must_be_at_least_1e_8_of_what_the_slope_promises(course: &Course) -> Outcome {
+pub(super) fn the_decrease_is_at_least_1e_8_of_that_of_the_linear_model(course: &Course) -> Outcome {
     // The slope is −1, so the full step must gain 1e-8 and the half step 0.5e-8.
     let enough = |t: f64| if t == 1.0 { -1.5e-8 } else { 0.0 };
     let rule = "a decrease a little above the bound is enough";
@@ -127,7 +127,7 @@ pub(super) fn an_infinite_start_takes_the_first_finite_step_and_no_other(course:
     near("∞ ≤ ∞ is true, but no reason to move", &run.x, &dvector![0.0], 0.0)?;
     near_number("f stays infinite", run.f, f64::INFINITY, 0.0)?;
     let run = log_barrier(f64::NAN).minimise(course, &[0.5], 20)?;
-    near("a start inside is not disturbed", &run.x, &dvector![1.0], 1e-7)
+    near("a start with a finite f is not affected", &run.x, &dvector![1.0], 1e-7)
 }
 
 pub(super) fn a_direction_without_an_answer_leaves_x_as_it_was(course: &Course) -> Outcome {

@@ -111,7 +111,7 @@ impl Objective {
         };
         let mut x = DVector::from_column_slice(start);
         let f = course.subject.newtons_method(&mut x, &value, &gradient, &hessian, &solve, max_steps)?;
-        holds("f, g, H and solve are asked with vectors as long as x0", misfits.get() == 0)?;
+        holds("f, g, H and solve are called with vectors as long as x0", misfits.get() == 0)?;
         Ok(NewtonRun { x: long(n, x)?, f, asked: asked.take() })
     }
 }

@@ -64,11 +64,11 @@ fn what_is_left_aside_and_may_surprise_is_remarked() {
     assert_eq!(
         submission.remarks,
         [
-            ".cargo is not taken: everyone's functions are built in the same way",
-            "assemble_forces.rs is not taken: its place must be src/assemble_forces.rs",
-            "build.rs is not taken: everyone's functions are built in the same way",
-            "src/Newtons_Method.rs is not taken: capitals count, so its name must be src/newtons_method.rs",
-            "src/helpers.rs is not taken: put helpers into the function's own file",
+            ".cargo is ignored: all submissions are built in the same way",
+            "assemble_forces.rs is ignored: the file must be src/assemble_forces.rs",
+            "build.rs is ignored: all submissions are built in the same way",
+            "src/Newtons_Method.rs is ignored: with the same capitals its name must be src/newtons_method.rs",
+            "src/helpers.rs is ignored: put helpers into the function's own file",
         ]
     );
 }

@@ -45,7 +45,7 @@ pub fn as_text(text: &str) -> Option<Found> {
         let word = line.split(|c: char| !c.is_alphanumeric() && c != '_').find(is_refused)?;
         Some(Found {
             line: index + 1,
-            reason: format!("this is no Rust, and `{word}` is not allowed; correct the file"),
+            reason: format!("this is not valid Rust, and `{word}` is not allowed; correct the file"),
         })
     })
 }
