@@ -1,0 +1,42 @@
+//! The programs of `examples/` compute the results that they print.
+
+use std::path::Path;
+
+#[path = "../examples/01_patch_test.rs"]
+mod patch_test;
+
+#[path = "../examples/04_mesh_in_stress_out.rs"]
+mod mesh_in_stress_out;
+
+#[path = "../examples/05_own_study.rs"]
+mod own_study;
+
+#[test]
+fn every_law_passes_the_patch_test() {
+    for (law, stress, difference) in patch_test::run().unwrap() {
+        assert!(difference < 1e-8, "{law}: {difference:e}");
+        // Young's modulus times 20 %, within the nonlinearity of the laws.
+        assert!((1e5..4e5).contains(&stress), "{law}: {stress:e} Pa");
+    }
+}
+
+#[test]
+fn the_stress_of_a_mesh_balances_its_weight_and_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("stress.vtu");
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/own/armadillo_own_coarse.node");
+    let found = mesh_in_stress_out::run(&mesh, &out).unwrap();
+    assert!(found.von_mises > 1e3 && found.von_mises.is_finite(), "{:e} Pa", found.von_mises);
+    assert!((found.reaction[1] / found.weight - 1.0).abs() < 1e-7, "{:?} N, {} N", found.reaction, found.weight);
+    let written = fem_mesh::read_tetrahedra(&out).unwrap();
+    assert_eq!(written, fem_mesh::read_tetrahedra(&mesh).unwrap());
+    assert!(found.element < written.elements.len());
+}
+
+#[test]
+fn the_methods_of_the_study_have_their_orders() {
+    for row in own_study::run().unwrap() {
+        let order = row.observed_order();
+        assert!((order - row.expected_order).abs() < 0.1, "{}: {order}, errors {:?}", row.method, row.errors);
+    }
+}
