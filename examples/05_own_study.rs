@@ -52,7 +52,7 @@ impl Row {
 pub fn run() -> Result<Vec<Row>, Box<dyn Error>> {
     let reference = positions("rk4", 2048)?;
     let error = |method, steps| Ok::<_, Box<dyn Error>>((positions(method, steps)? - &reference).amax());
-    let row = |(method, expected_order)| {
+    let row = |(method, expected_order)| -> Result<Row, Box<dyn Error>> {
         let errors = [error(method, 64)?, error(method, 128)?, error(method, 256)?];
         Ok(Row { method, expected_order, errors })
     };
