@@ -6,7 +6,6 @@ use std::error::Error;
 use std::path::Path;
 
 use fem_mesh::{TetrahedralMesh, box_mesh};
-use fem_scene::simulation::Simulation;
 use nalgebra::Vector3;
 
 const LAWS: [&str; 5] = ["linear", "corotated", "st_venant_kirchhoff", "neo_hookean", "stable_neo_hookean"];

@@ -6,7 +6,6 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use fem_scene::output::{export, von_mises};
-use fem_scene::simulation::Simulation;
 
 /// The largest von Mises stress, its element, and the reaction force at the feet.
 pub struct Found {

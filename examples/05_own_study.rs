@@ -5,7 +5,6 @@
 use std::error::Error;
 use std::path::Path;
 
-use fem_scene::simulation::Simulation;
 use nalgebra::DVector;
 
 /// Simulated time, s.

@@ -88,7 +88,7 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
 }
 
 fn print_summary(simulation: &dyn Simulation, run: &Run) {
-    let (energies, (min_J, _)) = (simulation.energies(), simulation.min_J());
+    let (energies, (minimum, _)) = (simulation.energies(), simulation.min_J());
     let median = quantile(&run.step_seconds, 0.5)
         .map_or(String::new(), |seconds| format!(", {:.3} ms a step (median)", 1e3 * seconds));
     say!(
@@ -99,7 +99,7 @@ fn print_summary(simulation: &dyn Simulation, run: &Run) {
         simulation.time(),
     );
     say!(
-        "kinetic {:.4e} J, potential {:.4e} J, total {:.4e} J, minimum of det F {min_J:.4}",
+        "kinetic {:.4e} J, potential {:.4e} J, total {:.4e} J, minimum of det F {minimum:.4}",
         energies.kinetic,
         energies.potential,
         energies.total(),
