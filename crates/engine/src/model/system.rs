@@ -91,7 +91,7 @@ impl<T: Real> System<T> {
     /// Builds what the scene names, and nothing else; rows and blocks as the solver wants them.
     pub fn new(body: Body, law: AnyLaw<T::Lanes>, choice: SolverChoice) -> Self {
         let mesh = &body.shape.mesh;
-        let order = Numbering::new(choice.numbering(), &mesh.vertices, &mesh.elements, &fully_constrained_nodes(&body));
+        let order = Numbering::new(choice.ordering(), &mesh.vertices, &mesh.elements, &fully_constrained_nodes(&body));
         let corners = order.elements(&mesh.elements);
         let rest: Vec<_> = order.mesh_node.iter().map(|&node| mesh.vertices[node as usize]).collect();
         let springs = node_springs(&body, &order);

@@ -2,7 +2,7 @@
 
 use super::{Factor, Iterate, Newton};
 use crate::number::Real;
-use crate::solvers::Breakdown;
+use fem_scene::simulation::Breakdown;
 
 /// The most that a direction leaves of the gradient.
 const ROUGHEST: f64 = 0.05;
@@ -41,8 +41,8 @@ impl<T: Real> Newton<T> {
     pub(super) fn solve(&mut self, forcing: f64) -> bool {
         self.direction.fill([T::default(); 3]);
         match self.solver.solve(&self.values, &self.right, &mut self.direction, forcing) {
-            Ok(solved) => {
-                self.wear(solved.iterations);
+            Ok(iterations) => {
+                self.wear(iterations);
                 true
             }
             // What was reached leads downhill too.

@@ -18,10 +18,10 @@ use crate::model::system::Energy;
 use crate::newton::incremental_potential::{IncrementalPotential, Scratch};
 use crate::newton::lbfgs::Lbfgs;
 use crate::number::Real;
-use crate::solvers::{Breakdown, Solver};
+use crate::solvers::Solver;
 use crate::sparse::Block;
 use crate::vector::{dot, max_norm, norm};
-use fem_scene::simulation::{Cause, Counters};
+use fem_scene::simulation::{Breakdown, Cause, Counters};
 
 /// Newton's method, with all that it keeps.
 pub struct Newton<T: Real> {

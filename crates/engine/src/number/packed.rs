@@ -1,20 +1,20 @@
-//! As many floats as one register of this processor holds, for kernels that must be compiled to exactly those instructions.
+//! Packs: as many floats as one register of this processor holds, for kernels that must compile to exactly those instructions.
 
 use pulp::Simd;
 
 /// A float of which a register holds a pack.
 pub trait Packed: Copy {
-    /// As many as a register holds.
+    /// As many floats as a register holds.
     type Pack<S: Simd>: Copy;
 
-    /// A slice as whole packs; what is left over is dropped.
+    /// A slice as whole packs, without the floats that fill no pack.
     fn packs<S: Simd>(x: &[Self]) -> &[Self::Pack<S>];
 
-    /// The same, to write to.
+    /// A mutable slice as whole packs, without the floats that fill no pack.
     fn packs_mut<S: Simd>(x: &mut [Self]) -> &mut [Self::Pack<S>];
 
-    /// The same number in each place.
-    fn same<S: Simd>(simd: S, x: Self) -> Self::Pack<S>;
+    /// The same number in every lane.
+    fn broadcast<S: Simd>(simd: S, x: Self) -> Self::Pack<S>;
 
     /// a·b + c
     fn multiply_add<S: Simd>(simd: S, a: Self::Pack<S>, b: Self::Pack<S>, c: Self::Pack<S>) -> Self::Pack<S>;
@@ -25,8 +25,8 @@ pub trait Packed: Copy {
     /// a − b
     fn subtract<S: Simd>(simd: S, a: Self::Pack<S>, b: Self::Pack<S>) -> Self::Pack<S>;
 
-    /// Sum over the places.
-    fn total<S: Simd>(simd: S, a: Self::Pack<S>) -> Self;
+    /// Sum over the lanes.
+    fn reduce_sum<S: Simd>(simd: S, a: Self::Pack<S>) -> Self;
 }
 
 macro_rules! packed {
@@ -46,7 +46,7 @@ macro_rules! packed {
             }
 
             #[inline(always)]
-            fn same<S: Simd>(simd: S, x: Self) -> S::$pack {
+            fn broadcast<S: Simd>(simd: S, x: Self) -> S::$pack {
                 simd.$splat(x)
             }
 
@@ -66,7 +66,7 @@ macro_rules! packed {
             }
 
             #[inline(always)]
-            fn total<S: Simd>(simd: S, a: S::$pack) -> Self {
+            fn reduce_sum<S: Simd>(simd: S, a: S::$pack) -> Self {
                 simd.$sum(a)
             }
         }

@@ -100,7 +100,7 @@ fn methods<T: Real>(engine: &Simulator<T>) -> Vec<Part> {
     let no_matrix = || format!("{name} needs no matrix");
     let projects = solver.is_some() && !never && (searches || *integrator != Integrator::Static);
     let (prepared, solved, bytes) = solver.map_or((NO_WORK, NO_WORK, 0), |solver| {
-        let (preparing, solving) = solver.meters();
+        let (preparing, solving) = solver.timers();
         (preparing.read(), solving.read(), solver.bytes())
     });
     let preconditioned = solver.filter(|solver| solver.has_preconditioner());

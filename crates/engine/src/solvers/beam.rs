@@ -1,4 +1,4 @@
-//! Matrices to test with: K + M/dt² of a clamped beam of linear elasticity, 4 m × 1 m × 1 m.
+//! Test matrices: K + M/dt² of a clamped beam of linear elasticity, 4 m × 1 m × 1 m.
 
 use std::sync::Arc;
 
@@ -7,38 +7,34 @@ use nalgebra::{Matrix3, Vector3};
 use crate::model::numbering::{Numbering, Ordering};
 use crate::number::Real;
 use crate::sparse::{Pattern, Stored};
-use fem_mesh::{TetrahedralMesh, box_mesh};
+use fem_mesh::box_mesh;
 
 /// Young's modulus in Pa, Poisson's ratio, density in kg/m³.
 const MATERIAL: (f64, f64, f64) = (6e5, 0.4, 1000.0);
 
-/// A beam's mesh in the engine's order.
+/// A beam's mesh in the engine's numbering.
 pub struct Beam {
     pub pattern: Arc<Pattern>,
-    /// Of the free nodes.
+    /// Positions of the free nodes, m.
     pub rest: Vec<[f64; 3]>,
     vertices: Vec<Vector3<f64>>,
     elements: Vec<[u32; 4]>,
 }
 
 impl Beam {
-    /// Its face x = 0 is held.
+    /// A beam with its face x = 0 constrained.
     pub fn new(cells_per_unit: usize, stored: Stored) -> Self {
-        Self::held_where(cells_per_unit, stored, |x| x.x == 0.0)
+        Self::constrained_where(cells_per_unit, stored, |x| x.x == 0.0)
     }
 
-    pub fn held_where(cells_per_unit: usize, stored: Stored, hold: impl Fn(&Vector3<f64>) -> bool) -> Self {
+    pub fn constrained_where(cells_per_unit: usize, stored: Stored, is_in: impl Fn(&Vector3<f64>) -> bool) -> Self {
         let mesh = box_mesh([4.0, 1.0, 1.0], cells_per_unit).unwrap();
-        let held: Vec<bool> = mesh.vertices.iter().map(hold).collect();
-        let order = Numbering::new(Ordering::Dissected, &mesh.vertices, &mesh.elements, &held);
-        Self::ordered(&mesh, &order, stored)
-    }
-
-    pub fn ordered(mesh: &TetrahedralMesh, order: &Numbering, stored: Stored) -> Self {
-        let elements = order.elements(&mesh.elements);
-        let vertices: Vec<Vector3<f64>> = order.mesh_node.iter().map(|&node| mesh.vertices[node as usize]).collect();
-        let rest = vertices[..order.free].iter().map(|x| [x.x, x.y, x.z]).collect();
-        Self { pattern: Arc::new(Pattern::new(order.free, &elements, stored)), rest, vertices, elements }
+        let constrained: Vec<bool> = mesh.vertices.iter().map(is_in).collect();
+        let numbering = Numbering::new(Ordering::FillReducing, &mesh.vertices, &mesh.elements, &constrained);
+        let elements = numbering.elements(&mesh.elements);
+        let vertices: Vec<_> = numbering.mesh_node.iter().map(|&node| mesh.vertices[node as usize]).collect();
+        let rest = vertices[..numbering.free].iter().map(|x| [x.x, x.y, x.z]).collect();
+        Self { pattern: Arc::new(Pattern::new(numbering.free, &elements, stored)), rest, vertices, elements }
     }
 
     /// K + M/dt² for dt = 0.01 s.
@@ -85,14 +81,14 @@ fn shape(x: &[Vector3<f64>; 4]) -> ([Vector3<f64>; 4], f64) {
     ([-(rows[0] + rows[1] + rows[2]), rows[0], rows[1], rows[2]], edges.determinant() / 6.0)
 }
 
-/// λ a bᵀ + μ (b aᵀ + a·b 1): how a node's force depends on another's place, per volume.
+/// λ a bᵀ + μ (b aᵀ + a·b 1): the stiffness block of two nodes with shape function gradients a and b, per volume.
 fn stiffness(a: &Vector3<f64>, b: &Vector3<f64>) -> Matrix3<f64> {
     let (young, poisson, _) = MATERIAL;
     let (lambda, mu) = (young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson)));
     lambda * a * b.transpose() + mu * (b * a.transpose() + Matrix3::identity() * a.dot(b))
 }
 
-/// Numbers in −1..1 from a seed (Marsaglia's xorshift).
+/// Random numbers in −1..1 from a seed (Marsaglia's xorshift).
 pub fn random<T: Real>(nodes: usize, seed: u64) -> Vec<[T; 3]> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut number = || {

@@ -1,0 +1,138 @@
+//! The fill-reducing ordering: nested dissection, and minimum degree for small bodies.
+
+use nalgebra::Vector3;
+
+use super::extent;
+use super::minimum_degree::minimum_degree;
+
+/// Up to this many nodes minimum degree is tried as well. For larger bodies, rows that are near in memory should belong to nodes
+/// that are near in space.
+const NODES_FOR_MINIMUM_DEGREE: usize = 4000;
+
+/// Sets of nodes up to this size are not dissected further.
+const LEAF: usize = 8;
+
+/// The nodes in the order of nested dissection or, for small bodies, in that of minimum degree where its factor is cheaper.
+pub(super) fn fill_reducing<const N: usize>(
+    mut nodes: Vec<u32>,
+    vertices: &[Vector3<f64>],
+    elements: &[[usize; N]],
+) -> Vec<u32> {
+    let adjacency = adjacency(vertices.len(), elements);
+    dissect(&mut nodes, vertices, &adjacency, &mut vec![Side::Outside; vertices.len()]);
+    if nodes.len() <= NODES_FOR_MINIMUM_DEGREE {
+        let mut position = vec![u32::MAX; vertices.len()];
+        let by_degree = by_minimum_degree(&nodes, &adjacency, &mut position);
+        let mut cost = |nodes: &[u32]| factorization_cost(nodes, &adjacency, &mut position);
+        if let Some(by_degree) = by_degree
+            && cost(&by_degree) < cost(&nodes)
+        {
+            return by_degree;
+        }
+    }
+    nodes
+}
+
+/// The other nodes of each node's elements, ascending.
+fn adjacency<const N: usize>(nodes: usize, elements: &[[usize; N]]) -> Vec<Vec<u32>> {
+    let mut adjacency = vec![Vec::new(); nodes];
+    for element in elements {
+        for &node in element {
+            adjacency[node].extend(element.iter().filter(|&&other| other != node).map(|&other| other as u32));
+        }
+    }
+    for list in &mut adjacency {
+        list.sort_unstable();
+        list.dedup();
+    }
+    adjacency
+}
+
+/// Sets the position of each node in the list.
+fn set_positions(nodes: &[u32], position: &mut [u32]) {
+    for (i, &node) in nodes.iter().enumerate() {
+        position[node as usize] = i as u32;
+    }
+}
+
+/// These nodes in the order of minimum degree. Nodes that are not in the list have `position` [`u32::MAX`].
+fn by_minimum_degree(nodes: &[u32], adjacency: &[Vec<u32>], position: &mut [u32]) -> Option<Vec<u32>> {
+    set_positions(nodes, position);
+    let graph: Vec<Vec<u32>> = nodes
+        .iter()
+        .map(|&node| {
+            let positions = adjacency[node as usize].iter().map(|&other| position[other as usize]);
+            let mut list: Vec<u32> = positions.filter(|&position| position != u32::MAX).collect();
+            list.sort_unstable();
+            list
+        })
+        .collect();
+    Some(minimum_degree(&graph)?.into_iter().map(|i| nodes[i as usize]).collect())
+}
+
+/// Multiplications of a Cholesky factorization in this order, up to a constant: the sum of the squares of the column lengths.
+fn factorization_cost(nodes: &[u32], adjacency: &[Vec<u32>], position: &mut [u32]) -> usize {
+    set_positions(nodes, position);
+    // A column holds its own neighbours below it, and the rows of its children in the elimination tree.
+    let mut columns: Vec<Vec<u32>> = vec![Vec::new(); nodes.len()];
+    let mut cost = 0;
+    for (i, &node) in nodes.iter().enumerate() {
+        let mut column = std::mem::take(&mut columns[i]);
+        let below = adjacency[node as usize].iter().map(|&other| position[other as usize]);
+        column.extend(below.filter(|&position| position != u32::MAX && position as usize > i));
+        column.sort_unstable();
+        column.dedup();
+        cost += (column.len() + 1).pow(2);
+        if let Some((&parent, rest)) = column.split_first() {
+            columns[parent as usize].extend(rest);
+        }
+    }
+    cost
+}
+
+/// The half of the present bisection in which a node is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Outside,
+    Left,
+    Right,
+}
+
+/// Nested dissection by coordinates: first the two halves, then the separator between them. George, Nested Dissection of a Regular
+/// Finite Element Mesh (1973).
+fn dissect(nodes: &mut [u32], x: &[Vector3<f64>], adjacency: &[Vec<u32>], side: &mut [Side]) {
+    if nodes.len() <= LEAF {
+        return;
+    }
+    let axis = extent(nodes, x).imax();
+    let middle = nodes.len() / 2;
+    // Ties are broken by number, so that the ordering depends on the mesh alone.
+    nodes.select_nth_unstable_by(middle, |&a, &b| x[a as usize][axis].total_cmp(&x[b as usize][axis]).then(a.cmp(&b)));
+    for (place, &node) in nodes.iter().enumerate() {
+        side[node as usize] = if place < middle { Side::Left } else { Side::Right };
+    }
+    let is_separator = |node: u32, side: &[Side]| {
+        side[node as usize] == Side::Left
+            && adjacency[node as usize].iter().any(|&other| side[other as usize] == Side::Right)
+    };
+    let rank = |node: u32, side: &[Side]| match (is_separator(node, side), side[node as usize]) {
+        (true, _) => 2,
+        (false, Side::Left) => 0,
+        (false, _) => 1,
+    };
+    let mut ranked: Vec<(u8, u32)> = nodes.iter().map(|&node| (rank(node, side), node)).collect();
+    ranked.sort_unstable();
+    let left = ranked.iter().filter(|&&(rank, _)| rank == 0).count();
+    let halves = ranked.iter().filter(|&&(rank, _)| rank < 2).count();
+    for (place, &(_, node)) in nodes.iter_mut().zip(&ranked) {
+        *place = node;
+        side[node as usize] = Side::Outside;
+    }
+    let (first, rest) = nodes.split_at_mut(left);
+    let (second, _) = rest.split_at_mut(halves - left);
+    // A half that holds all nodes would be cut in the same way again, without end.
+    if first.len() < ranked.len() && second.len() < ranked.len() {
+        dissect(first, x, adjacency, side);
+        dissect(second, x, adjacency, side);
+    }
+}

@@ -1,0 +1,122 @@
+//! Node numbering of the engine: free nodes first, then the fully constrained ones, which have no row in any matrix.
+
+mod fill_reducing;
+mod minimum_degree;
+
+use nalgebra::Vector3;
+
+use fill_reducing::fill_reducing;
+
+/// The engine's numbers of a mesh's nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Numbering {
+    /// Number in the mesh of each of the engine's nodes.
+    pub mesh_node: Vec<u32>,
+    /// Number in the engine of each of the mesh's nodes.
+    pub engine_node: Vec<u32>,
+    /// Number of nodes that are free in at least one direction. The engine numbers them from 0.
+    pub free: usize,
+}
+
+/// The ordering of the free nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ordering {
+    /// Keeps the fill-in of a factor small: for direct solvers.
+    FillReducing,
+    /// Along the longest axis of the body, then along the next: for sweeps over the rows, whose neighbours are near in memory.
+    LongestAxis,
+}
+
+impl Numbering {
+    /// Numbers the free nodes by an ordering, then the constrained ones. `constrained` tells which nodes are constrained in all
+    /// directions.
+    pub fn new<const N: usize>(
+        ordering: Ordering,
+        vertices: &[Vector3<f64>],
+        elements: &[[usize; N]],
+        constrained: &[bool],
+    ) -> Self {
+        let mut mesh_node: Vec<u32> = (0..vertices.len() as u32).filter(|&node| !constrained[node as usize]).collect();
+        let free = mesh_node.len();
+        match ordering {
+            Ordering::FillReducing => mesh_node = fill_reducing(mesh_node, vertices, elements),
+            Ordering::LongestAxis => sort_along_longest_axis(&mut mesh_node, vertices),
+        }
+        mesh_node.extend((0..vertices.len() as u32).filter(|&node| constrained[node as usize]));
+        let mut engine_node = vec![0; mesh_node.len()];
+        for (engine, &mesh) in mesh_node.iter().enumerate() {
+            engine_node[mesh as usize] = engine as u32;
+        }
+        Self { mesh_node, engine_node, free }
+    }
+
+    /// Elements with the engine's node numbers.
+    pub fn elements<const N: usize>(&self, elements: &[[usize; N]]) -> Vec<[u32; N]> {
+        elements.iter().map(|element| element.map(|node| self.engine_node[node])).collect()
+    }
+
+    /// Nodal values in the mesh's numbering, from those in the engine's.
+    pub fn to_mesh<V: Copy>(&self, values: &[V]) -> Vec<V> {
+        self.engine_node.iter().map(|&node| values[node as usize]).collect()
+    }
+}
+
+/// Sorts along the longest axis; ties along the next axes, and at last by number.
+fn sort_along_longest_axis(nodes: &mut [u32], vertices: &[Vector3<f64>]) {
+    if nodes.is_empty() {
+        return;
+    }
+    let extent = extent(nodes, vertices);
+    let mut axes = [0, 1, 2];
+    axes.sort_by(|&a, &b| extent[b].total_cmp(&extent[a]));
+    nodes.sort_unstable_by(|&a, &b| {
+        let (x, y) = (&vertices[a as usize], &vertices[b as usize]);
+        let along = |axis: usize| x[axis].total_cmp(&y[axis]);
+        along(axes[0]).then(along(axes[1])).then(along(axes[2])).then(a.cmp(&b))
+    });
+}
+
+/// Edge lengths of the bounding box of these nodes, of which there is at least one.
+fn extent(nodes: &[u32], vertices: &[Vector3<f64>]) -> Vector3<f64> {
+    let first = vertices[nodes[0] as usize];
+    let (lower, upper) = nodes.iter().fold((first, first), |(lower, upper), &node| {
+        (lower.inf(&vertices[node as usize]), upper.sup(&vertices[node as usize]))
+    });
+    upper - lower
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Numbering, Ordering};
+    use fem_mesh::box_mesh;
+
+    #[test]
+    fn every_node_has_one_number_and_constrained_nodes_come_last() {
+        let mesh = box_mesh([2.0, 1.0, 1.0], 3).unwrap();
+        let constrained: Vec<bool> = mesh.vertices.iter().map(|x| x.x == 0.0).collect();
+        let numbering = Numbering::new(Ordering::FillReducing, &mesh.vertices, &mesh.elements, &constrained);
+        let mut all = numbering.mesh_node.clone();
+        all.sort_unstable();
+        assert!(all.iter().enumerate().all(|(i, &node)| i == node as usize));
+        for (engine, &node) in numbering.mesh_node.iter().enumerate() {
+            assert_eq!(numbering.engine_node[node as usize] as usize, engine);
+            assert_eq!(constrained[node as usize], engine >= numbering.free);
+        }
+    }
+
+    #[test]
+    fn nodes_are_sorted_along_the_longest_axis_first() {
+        let mesh = box_mesh([1.0, 3.0, 2.0], 2).unwrap();
+        let constrained = vec![false; mesh.vertices.len()];
+        let numbering = Numbering::new(Ordering::LongestAxis, &mesh.vertices, &mesh.elements, &constrained);
+        let x = numbering.mesh_node.iter().map(|&node| mesh.vertices[node as usize]).collect::<Vec<_>>();
+        assert!(x.windows(2).all(|x| (x[0].y, x[0].z, x[0].x) < (x[1].y, x[1].z, x[1].x)));
+    }
+
+    #[test]
+    fn dissection_ends_where_all_nodes_are_at_one_place() {
+        let vertices = vec![nalgebra::Vector3::zeros(); 100];
+        let elements: Vec<[usize; 4]> = (0..97).map(|i| [i, i + 1, i + 2, i + 3]).collect();
+        assert_eq!(Numbering::new(Ordering::FillReducing, &vertices, &elements, &[false; 100]).mesh_node.len(), 100);
+    }
+}

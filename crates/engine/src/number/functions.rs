@@ -1,0 +1,95 @@
+//! Elementary functions of kernel numbers, without branches.
+
+use super::{Number, Real};
+
+/// The same constant in every lane.
+#[inline(always)]
+pub fn constant<T: Number>(x: f64) -> T {
+    T::splat(T::Element::of(x))
+}
+
+/// x^(−1/3) for x > 0; NaN or a meaningless number in lanes with x ≤ 0.
+///
+/// Newton's iteration for y⁻³ = x from a rough start, without division or branch. Each of four steps doubles the number of digits.
+#[inline(always)]
+pub fn inverse_cube_root<T: Number>(x: T) -> T {
+    let mut y = x.map_lanes(
+        #[inline(always)]
+        |x| x.rough_inverse_cube_root(),
+    );
+    for _ in 0..4 {
+        y *= (constant::<T>(4.0) - x * y * y * y) * constant(1.0 / 3.0);
+    }
+    y
+}
+
+/// x − ln(1 + x) for x > −1, to full relative accuracy also near zero, where it is x²/2.
+///
+/// 1 + x = 2^k (1 + y) leaves a small y, and with s = y/(2 + y), ln(1 + y) = 2 (s + s³/3 + s⁵/5 + …), y − 2s = y s.
+#[inline(always)]
+pub fn minus_ln_1p<T: Number>(x: T) -> T {
+    let z = T::one() + x;
+    let k = z.map_lanes(
+        #[inline(always)]
+        |z| z.binary_exponent(),
+    );
+    let m = z.map_lanes(
+        #[inline(always)]
+        |z| z.significand(),
+    );
+    // The sum z has lost digits of a small x.
+    let y = x.select(k.simd_eq(T::zero()), m - T::one());
+    let s = y / (constant::<T>(2.0) + y);
+    let squared = s * s;
+    // |s| < 0.172: eleven terms are enough for f64.
+    let mut series = T::zero();
+    for n in (1..=11).rev() {
+        series = series * squared + constant(1.0 / f64::from(2 * n + 1));
+    }
+    s * (y - constant::<T>(2.0) * squared * series) + ((x - y) - k * constant(std::f64::consts::LN_2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{inverse_cube_root, minus_ln_1p};
+
+    #[test]
+    fn x_minus_the_logarithm_of_1_plus_x_is_accurate_near_zero() {
+        for exponent in -60..=60 {
+            for factor in [1.0, -1.0, 1.7, -1.9, 0.7, -0.55] {
+                let x: f64 = factor * 2f64.powi(exponent);
+                if x <= -0.95 {
+                    continue;
+                }
+                // The series for small x; the library where it loses no digits.
+                let series = x * x / 2.0 - x.powi(3) / 3.0 + x.powi(4) / 4.0 - x.powi(5) / 5.0 + x.powi(6) / 6.0;
+                let expected = if x.abs() < 1e-3 { series } else { x - x.ln_1p() };
+                let tolerance = 1e-15 + 4e-16 / x.abs().min(1.0);
+                let (y, y32) = (minus_ln_1p(x), f64::from(minus_ln_1p(x as f32)));
+                assert!((y / expected - 1.0).abs() < if x.abs() < 1e-3 { 2e-15 } else { 4.0 * tolerance }, "{x}: {y}");
+                assert!((y32 / expected - 1.0).abs() < 1e-6, "{x}: {y32}");
+            }
+        }
+        assert_eq!(minus_ln_1p(0.0), 0.0);
+    }
+
+    #[test]
+    fn arguments_outside_the_domain_give_no_finite_value() {
+        for x in [f64::NAN, -f64::NAN, -f64::INFINITY] {
+            assert!(!inverse_cube_root(x).is_finite() && !inverse_cube_root(x as f32).is_finite(), "{x}");
+            assert!(!minus_ln_1p(x).is_finite() && !minus_ln_1p(x as f32).is_finite(), "{x}");
+        }
+    }
+
+    #[test]
+    fn inverse_cube_roots_are_accurate_to_a_few_units_in_the_last_place() {
+        for exponent in -30..=30 {
+            for mantissa in [1.0, 1.3, 1.9, 2.5, 7.7] {
+                let x: f64 = mantissa * 10f64.powi(exponent);
+                let (y, y32) = (inverse_cube_root(x), inverse_cube_root(x as f32));
+                assert!((y * x.cbrt() - 1.0).abs() < 1e-15, "{x}: {y}");
+                assert!((y32 * (x as f32).cbrt() - 1.0).abs() < 1e-6, "{x}: {y32}");
+            }
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Cholesky factors and inverses of dense D×D blocks.
+
+use crate::number::Real;
+use crate::sparse::Block;
+use fem_scene::simulation::Breakdown;
+
+/// Inverse L⁻ᵀ L⁻¹ of a symmetric positive definite block, from its lower triangle.
+pub(crate) fn invert<T: Real, const D: usize>(A: &Block<T, D>) -> Result<Block<T, D>, Breakdown> {
+    let inverse_L = invert_lower(&factor(A)?);
+    let mut inverse = [[T::default(); D]; D];
+    for i in 0..D {
+        for j in 0..D {
+            for k in i.max(j)..D {
+                inverse[i][j] += inverse_L[k][i] * inverse_L[k][j];
+            }
+        }
+    }
+    Ok(inverse)
+}
+
+/// The factor L of A = L Lᵀ, from the lower triangle of A.
+pub(crate) fn factor<T: Real, const D: usize>(A: &Block<T, D>) -> Result<Block<T, D>, Breakdown> {
+    let mut L = [[T::default(); D]; D];
+    for j in 0..D {
+        let mut pivot = A[j][j];
+        for k in 0..j {
+            pivot -= L[j][k] * L[j][k];
+        }
+        L[j][j] = sqrt_pivot(pivot, A[j][j])?;
+        for i in j + 1..D {
+            let mut entry = A[i][j];
+            for k in 0..j {
+                entry -= L[i][k] * L[j][k];
+            }
+            L[i][j] = entry / L[j][j];
+        }
+    }
+    Ok(L)
+}
+
+/// √pivot. Fails unless the pivot exceeds the round-off of the diagonal entry from which contributions were subtracted.
+pub(crate) fn sqrt_pivot<T: Real>(pivot: T, entry: T) -> Result<T, Breakdown> {
+    if !pivot.is_finite() || !entry.is_finite() {
+        return Err(Breakdown::Singular);
+    }
+    let round_off = T::EPSILON * entry.abs();
+    match pivot {
+        _ if pivot < -round_off => Err(Breakdown::NotPositiveDefinite),
+        _ if pivot <= round_off => Err(Breakdown::Singular),
+        _ => Ok(pivot.sqrt()),
+    }
+}
+
+/// Inverse of a lower triangular block.
+pub(crate) fn invert_lower<T: Real, const D: usize>(L: &Block<T, D>) -> Block<T, D> {
+    let mut inverse = [[T::default(); D]; D];
+    for j in 0..D {
+        inverse[j][j] = T::one() / L[j][j];
+        for i in j + 1..D {
+            let mut sum = T::default();
+            for k in j..i {
+                sum += L[i][k] * inverse[k][j];
+            }
+            inverse[i][j] = -sum / L[i][i];
+        }
+    }
+    inverse
+}
+
+#[cfg(test)]
+mod tests {
+    use super::invert;
+    use fem_scene::simulation::Breakdown;
+
+    #[test]
+    fn a_block_times_its_inverse_is_the_identity() {
+        let A = [[4.0, 1.0, -0.5], [1.0, 3.0, 0.2], [-0.5, 0.2, 2.0]];
+        let inverse = invert(&A).unwrap();
+        for i in 0..3 {
+            for j in 0..3 {
+                let entry: f64 = (0..3).map(|k| A[i][k] * inverse[k][j]).sum();
+                assert!((entry - f64::from(u8::from(i == j))).abs() < 1e-15, "({i}, {j}): {entry}");
+            }
+        }
+    }
+
+    #[test]
+    fn blocks_that_are_not_positive_definite_are_refused() {
+        assert_eq!(invert(&[[-1.0, 0.0], [0.0, 1.0]]), Err(Breakdown::NotPositiveDefinite));
+        assert_eq!(invert(&[[1.0, 1.0], [1.0, 1.0]]), Err(Breakdown::Singular));
+        assert_eq!(invert(&[[f64::NAN, 0.0], [0.0, 1.0]]), Err(Breakdown::Singular));
+    }
+}

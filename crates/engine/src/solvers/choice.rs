@@ -1,0 +1,79 @@
+//! The linear solvers that a simulation can choose from, and the facts about each.
+
+use std::fmt;
+
+use crate::model::numbering::Ordering;
+use crate::sparse::Stored;
+
+/// A method to solve linear systems.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SolverChoice {
+    /// Cholesky factorisation A = L Lᵀ.
+    Cholesky,
+    /// LU factorisation with partial pivoting.
+    Lu,
+    /// Conjugate gradients.
+    Cg,
+    /// Preconditioned conjugate gradients.
+    Pcg(Preconditioner),
+}
+
+/// The preconditioner of conjugate gradients.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Preconditioner {
+    /// The inverses of the diagonal blocks.
+    BlockJacobi,
+    /// A Cholesky factor with the sparsity pattern of the matrix.
+    IncompleteCholesky,
+    /// Multigrid by smoothed aggregation.
+    Multigrid,
+    /// Symmetric successive over-relaxation with a coarse grid; the iteration itself runs in single precision.
+    Ssor,
+}
+
+impl SolverChoice {
+    /// The blocks that the pattern of its matrices must store.
+    pub fn stored(self) -> Stored {
+        match self {
+            Self::Cholesky | Self::Pcg(Preconditioner::Ssor) => Stored::Lower,
+            Self::Lu | Self::Cg | Self::Pcg(_) => Stored::Full,
+        }
+    }
+
+    /// The ordering of the rows that suits it.
+    pub fn ordering(self) -> Ordering {
+        match self {
+            Self::Cholesky | Self::Lu => Ordering::FillReducing,
+            Self::Cg | Self::Pcg(_) => Ordering::LongestAxis,
+        }
+    }
+
+    /// Whether a solve iterates with the matrix that it is given.
+    pub fn is_iterative(self) -> bool {
+        matches!(self, Self::Cg | Self::Pcg(_))
+    }
+
+    /// Whether it prepares a preconditioner.
+    pub fn has_preconditioner(self) -> bool {
+        matches!(self, Self::Pcg(_))
+    }
+
+    /// Whether its iteration runs on a copy of the matrix in single precision, inside an iterative refinement.
+    pub(crate) fn copies_matrix(self) -> bool {
+        self == Self::Pcg(Preconditioner::Ssor)
+    }
+}
+
+impl fmt::Display for SolverChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Cholesky => "Cholesky factorisation, the symbolic part once",
+            Self::Lu => "LU factorisation with partial pivoting",
+            Self::Cg => "conjugate gradients",
+            Self::Pcg(Preconditioner::BlockJacobi) => "conjugate gradients with a block Jacobi preconditioner",
+            Self::Pcg(Preconditioner::IncompleteCholesky) => "conjugate gradients with an incomplete Cholesky factor",
+            Self::Pcg(Preconditioner::Multigrid) => "conjugate gradients with a multigrid cycle",
+            Self::Pcg(Preconditioner::Ssor) => "conjugate gradients with SSOR and a coarse grid, in single precision",
+        })
+    }
+}

@@ -1,0 +1,72 @@
+//! Sparse LU factorisation with partial pivoting, by faer. The matrix need not be positive definite; it takes twice the operations
+//! of a Cholesky factorisation.
+
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::sparse::linalg::lu::{LuRef, NumericLu, SymbolicLu, factorize_symbolic_lu};
+use faer::{Conj, MatMut, Par, Spec};
+
+use super::csc::CscMatrix;
+use crate::number::Real;
+use crate::solvers::ApproximateInverse;
+use crate::sparse::{Block, Pattern};
+use fem_scene::simulation::Breakdown;
+
+/// The factors with their workspace.
+pub(crate) struct Lu<T> {
+    matrix: CscMatrix<T>,
+    /// `None` if the factors would not fit into memory.
+    symbolic: Option<SymbolicLu<u32>>,
+    numeric: NumericLu<u32, T>,
+    workspace: MemBuffer,
+    workspace_bytes: usize,
+    is_factorised: bool,
+}
+
+impl<T: Real> Lu<T> {
+    /// Symbolic factorisation with a column ordering by faer; `pattern` stores all blocks.
+    pub(crate) fn new(pattern: &Pattern) -> Self {
+        let matrix = CscMatrix::new(pattern);
+        let symbolic = factorize_symbolic_lu(matrix.symbolic(), Default::default()).ok();
+        let need = match &symbolic {
+            Some(symbolic) => {
+                let factor = symbolic.factorize_numeric_lu_scratch::<T>(Par::Seq, Spec::default());
+                factor.or(symbolic.solve_in_place_scratch::<T>(1, Par::Seq))
+            }
+            None => StackReq::EMPTY,
+        };
+        let (numeric, workspace) = (NumericLu::new(), MemBuffer::new(need));
+        Self { matrix, symbolic, numeric, workspace, workspace_bytes: need.size_bytes(), is_factorised: false }
+    }
+}
+
+impl<T: Real> ApproximateInverse<T> for Lu<T> {
+    fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        self.is_factorised = false;
+        let symbolic = self.symbolic.as_ref().ok_or(Breakdown::TooLarge)?;
+        self.matrix.set_values(values);
+        if !self.matrix.is_finite() {
+            return Err(Breakdown::Singular);
+        }
+        let stack = MemStack::new(&mut self.workspace);
+        symbolic
+            .factorize_numeric_lu(&mut self.numeric, self.matrix.view(), Par::Seq, stack, Spec::default())
+            .map_err(|_| Breakdown::Singular)?;
+        self.is_factorised = true;
+        Ok(())
+    }
+
+    fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
+        z.copy_from_slice(r);
+        let Some(symbolic) = self.symbolic.as_ref().filter(|_| self.is_factorised) else { return };
+        let z = z.as_flattened_mut();
+        let rows = z.len();
+        let z = MatMut::from_column_major_slice_mut(z, rows, 1);
+        let stack = MemStack::new(&mut self.workspace);
+        LuRef::new_unchecked(symbolic, &self.numeric).solve_in_place_with_conj(Conj::No, z, Par::Seq, stack);
+    }
+
+    /// Bytes without the numeric factors, whose size faer does not tell.
+    fn bytes(&self) -> usize {
+        self.matrix.bytes() + self.workspace_bytes
+    }
+}

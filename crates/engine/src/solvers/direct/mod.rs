@@ -1,0 +1,29 @@
+//! Factorisations of sparse symmetric matrices.
+
+mod csc;
+mod faer_cholesky;
+mod lu;
+mod supernodal;
+
+#[cfg(test)]
+mod tests;
+
+pub(crate) use lu::Lu;
+pub(crate) use supernodal::SupernodalCholesky;
+
+use super::ApproximateInverse;
+use crate::number::Real;
+use crate::sparse::Pattern;
+use faer_cholesky::FaerCholesky;
+
+/// Up to this many rows [`SupernodalCholesky`] is faster. On beams of 8 000 rows faer with two threads takes the same time.
+const ROWS_FOR_ONE_THREAD: usize = 5_000;
+
+/// The Cholesky factorisation that suits the size of the matrix; `pattern` stores the lower half.
+pub(super) fn cholesky<T: Real>(pattern: &Pattern) -> Box<dyn ApproximateInverse<T>> {
+    if pattern.rows() <= ROWS_FOR_ONE_THREAD {
+        Box::new(SupernodalCholesky::new(pattern))
+    } else {
+        Box::new(FaerCholesky::new(pattern))
+    }
+}

@@ -1,0 +1,292 @@
+//! Symbolic factorisation: the supernodes of a factor and the assembly of their fronts, found once from the pattern.
+//!
+//! A supernode is a set of consecutive columns of L with the same rows below them, stored as one dense matrix (Ashcraft and Grimes,
+//! The Influence of Relaxed Supernode Partitions on the Multifrontal Method, 1989). Its contribution to later columns is gathered
+//! in a dense update matrix, which is assembled into the front of its parent, the supernode of its first row below (Duff and
+//! Reid, The Multifrontal Solution of Indefinite Sparse Symmetric Linear Equations, 1983).
+
+use std::ops::Range;
+
+use crate::sparse::Pattern;
+
+/// Consecutive nodes that are eliminated together. Sizes are in nodes unless they say scalars.
+pub struct Supernode {
+    pub nodes: Range<usize>,
+    /// Rows below its nodes, in [`SymbolicFactor::rows`].
+    pub rows: Range<usize>,
+    /// Blocks of the matrix in its columns, in [`SymbolicFactor::blocks`].
+    pub blocks: Range<usize>,
+    /// Its rows in the parent's front, in [`SymbolicFactor::ranges`].
+    pub ranges: Range<usize>,
+    /// Its columns in L, scalars.
+    pub columns: Range<usize>,
+    /// Scalars from one column of L to the next.
+    pub stride: usize,
+    /// Scalars from one column of its update matrix to the next.
+    pub update_stride: usize,
+    /// Supernodes whose update matrices are assembled into its front, in [`SymbolicFactor::children`].
+    pub children: Range<usize>,
+}
+
+/// `count` rows that are contiguous both in a supernode's update matrix, at `from`, and in its parent's front, at `to`.
+#[derive(Clone, Copy)]
+pub struct RowRange {
+    pub from: u32,
+    pub to: u32,
+    pub count: u32,
+}
+
+/// The symbolic factorisation of a pattern.
+pub struct SymbolicFactor {
+    /// In postorder: children before parents, the update matrices of one parent's children on top of the stack.
+    pub supernodes: Vec<Supernode>,
+    pub rows: Vec<u32>,
+    /// Number of a block of the matrix, and the index in L of its first scalar.
+    pub blocks: Vec<(u32, usize)>,
+    pub ranges: Vec<RowRange>,
+    /// Numbers of supernodes.
+    pub children: Vec<usize>,
+    /// Scalars of L.
+    pub len_L: usize,
+    /// Scalars of the stack of update matrices at its largest.
+    pub len_updates: usize,
+}
+
+impl Supernode {
+    /// Number of rows below its nodes.
+    pub fn below(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Scalars of its update matrix.
+    pub fn len_update(&self) -> usize {
+        3 * self.below() * self.update_stride
+    }
+}
+
+/// A supernode before it has its place in postorder.
+struct Draft {
+    nodes: Range<usize>,
+    rows: Vec<u32>,
+    /// Zero blocks that are stored because supernodes were merged.
+    zeros: usize,
+}
+
+impl SymbolicFactor {
+    /// Symbolic factorisation of a pattern that stores the lower half. Columns of L are padded to a multiple of `lanes` scalars.
+    pub fn new(pattern: &Pattern, lanes: usize) -> Self {
+        let drafts = merge(fundamental_supernodes(pattern));
+        let parents = parents(&drafts, pattern.rows());
+        let postorder = postorder(&parents);
+        let mut symbolic = Self {
+            supernodes: vec![],
+            rows: vec![],
+            blocks: vec![],
+            ranges: vec![],
+            children: vec![],
+            len_L: 0,
+            len_updates: 0,
+        };
+        for &draft in &postorder {
+            symbolic.push(&drafts[draft], parents[draft].map(|parent| &drafts[parent]), lanes);
+        }
+        symbolic.find_children(&parents, &postorder);
+        symbolic.place_blocks(pattern);
+        symbolic
+    }
+
+    /// The children of a supernode, in the order of their update matrices on the stack.
+    pub fn children(&self, supernode: usize) -> std::iter::Copied<std::slice::Iter<'_, usize>> {
+        self.children[self.supernodes[supernode].children.clone()].iter().copied()
+    }
+
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.supernodes.as_slice())
+            + size_of_val(self.children.as_slice())
+            + size_of_val(self.rows.as_slice())
+            + size_of_val(self.blocks.as_slice())
+            + size_of_val(self.ranges.as_slice())
+    }
+
+    fn push(&mut self, draft: &Draft, parent: Option<&Draft>, lanes: usize) {
+        let (width, below) = (3 * draft.nodes.len(), 3 * draft.rows.len());
+        let update_stride = below.next_multiple_of(lanes);
+        let stride = (width + update_stride).next_multiple_of(lanes);
+        let rows = self.rows.len()..self.rows.len() + draft.rows.len();
+        self.rows.extend(&draft.rows);
+        let ranges = self.ranges.len();
+        if let Some(parent) = parent {
+            self.ranges.extend(row_ranges(&draft.rows, parent));
+        }
+        let columns = self.len_L..self.len_L + width * stride;
+        self.len_L = columns.end;
+        let (nodes, ranges) = (draft.nodes.clone(), ranges..self.ranges.len());
+        let (blocks, children) = (0..0, 0..0);
+        self.supernodes.push(Supernode { nodes, rows, blocks, ranges, columns, stride, update_stride, children });
+    }
+
+    /// Finds the place in L of each block of the matrix.
+    fn place_blocks(&mut self, pattern: &Pattern) {
+        let mut supernode_of = vec![0u32; pattern.rows()];
+        for (number, supernode) in self.supernodes.iter().enumerate() {
+            supernode_of[supernode.nodes.clone()].fill(number as u32);
+        }
+        let blocks = (0..pattern.rows()).flat_map(|row| pattern.row(row).map(move |block| (row, block)));
+        let mut placed: Vec<(u32, u32, usize)> = blocks
+            .map(|(row, block)| {
+                let column = pattern.columns[block] as usize;
+                let number = supernode_of[column];
+                let Supernode { nodes, rows, columns, stride, .. } = &self.supernodes[number as usize];
+                let place = columns.start + 3 * (column - nodes.start) * stride;
+                (number, block as u32, place + 3 * front_row(row as u32, nodes, &self.rows[rows.clone()]))
+            })
+            .collect();
+        placed.sort_unstable();
+        let mut start = 0;
+        for (number, supernode) in self.supernodes.iter_mut().enumerate() {
+            let count = placed[start..].iter().take_while(|place| place.0 as usize == number).count();
+            supernode.blocks = start..start + count;
+            start += count;
+        }
+        self.blocks = placed.into_iter().map(|(_, block, place)| (block, place)).collect();
+    }
+
+    /// Finds the children of each supernode and the largest size of the stack of update matrices. A supernode's own update matrix is
+    /// computed above those of its children, then moved down to where theirs began.
+    fn find_children(&mut self, parents: &[Option<usize>], postorder: &[usize]) {
+        let mut number_of = vec![0; postorder.len()];
+        postorder.iter().enumerate().for_each(|(number, &draft)| number_of[draft] = number);
+        let parents: Vec<Option<usize>> =
+            postorder.iter().map(|&draft| parents[draft].map(|parent| number_of[parent])).collect();
+        let (mut stack, mut len): (Vec<usize>, usize) = (Vec::new(), 0);
+        for number in 0..self.supernodes.len() {
+            let own = self.supernodes[number].len_update();
+            self.len_updates = self.len_updates.max(len + own);
+            let first = stack.iter().rposition(|&child| parents[child] != Some(number)).map_or(0, |last| last + 1);
+            let start = self.children.len();
+            self.children.extend(stack.drain(first..));
+            len -= self.children[start..].iter().map(|&child| self.supernodes[child].len_update()).sum::<usize>();
+            self.supernodes[number].children = start..self.children.len();
+            stack.push(number);
+            len += own;
+        }
+    }
+}
+
+/// The position of a row in the front of a supernode, which lists its nodes first, then the rows below.
+fn front_row(row: u32, nodes: &Range<usize>, rows: &[u32]) -> usize {
+    if nodes.contains(&(row as usize)) {
+        row as usize - nodes.start
+    } else {
+        nodes.len() + rows.partition_point(|&below| below < row)
+    }
+}
+
+/// The rows of an update matrix in the front of its parent.
+fn row_ranges(rows: &[u32], parent: &Draft) -> Vec<RowRange> {
+    let mut ranges: Vec<RowRange> = Vec::new();
+    for (from, &row) in rows.iter().enumerate() {
+        let to = front_row(row, &parent.nodes, &parent.rows) as u32;
+        match ranges.last_mut() {
+            // A range ends where the parent's own columns end and its update matrix begins.
+            Some(range) if range.to + range.count == to && to as usize != parent.nodes.len() => range.count += 1,
+            _ => ranges.push(RowRange { from: from as u32, to, count: 1 }),
+        }
+    }
+    ranges
+}
+
+/// Fundamental supernodes: consecutive columns of L with the same rows below them.
+fn fundamental_supernodes(pattern: &Pattern) -> Vec<Draft> {
+    let mut below: Vec<Vec<u32>> = vec![Vec::new(); pattern.rows()];
+    for row in 0..pattern.rows() {
+        for &column in &pattern.columns[pattern.row(row)] {
+            if (column as usize) < row {
+                below[column as usize].push(row as u32);
+            }
+        }
+    }
+    let mut drafts: Vec<Draft> = Vec::new();
+    // The drafts whose first row below is each node: their other rows are rows of the node as well.
+    let mut children: Vec<Vec<usize>> = vec![Vec::new(); pattern.rows()];
+    for node in 0..pattern.rows() {
+        let mut rows = std::mem::take(&mut below[node]);
+        for &child in &children[node] {
+            rows.extend(drafts[child].rows.iter().filter(|&&row| row as usize > node));
+        }
+        rows.sort_unstable();
+        rows.dedup();
+        // The node joins the last draft if that has this node and the node's rows below it.
+        match drafts.last_mut() {
+            Some(last) if last.rows.first() == Some(&(node as u32)) && last.rows.len() == rows.len() + 1 => {
+                last.nodes.end = node + 1;
+                last.rows = rows;
+            }
+            _ => drafts.push(Draft { nodes: node..node + 1, rows, zeros: 0 }),
+        }
+        let last = drafts.len() - 1;
+        if let Some(&parent) = drafts[last].rows.first() {
+            children[parent as usize].push(last);
+        }
+    }
+    drafts
+}
+
+/// Merges a supernode with the one after it, its parent, where few zeros are stored for it: fewer and larger supernodes are faster.
+fn merge(drafts: Vec<Draft>) -> Vec<Draft> {
+    let mut merged: Vec<Draft> = Vec::new();
+    for draft in drafts {
+        let mut current = draft;
+        while let Some(last) = merged.last() {
+            let Some(zeros) = zeros_if_worthwhile(last, &current) else { break };
+            let nodes = last.nodes.start..current.nodes.end;
+            merged.pop();
+            current = Draft { nodes, zeros, ..current };
+        }
+        merged.push(current);
+    }
+    merged
+}
+
+/// Zero blocks that the merged supernode would store; `None` if it would not be faster.
+fn zeros_if_worthwhile(child: &Draft, parent: &Draft) -> Option<usize> {
+    if child.rows.first() != Some(&(parent.nodes.start as u32)) {
+        return None;
+    }
+    let width = child.nodes.len() + parent.nodes.len();
+    let added = child.nodes.len() * (parent.nodes.len() + parent.rows.len() - child.rows.len());
+    let zeros = child.zeros + parent.zeros + added;
+    let all = width * (width + 1) / 2 + width * parent.rows.len();
+    let share = zeros as f64 / all as f64;
+    let worth = width <= 2 || (width <= 6 && share < 0.5) || (width <= 16 && share < 0.15) || share < 0.05;
+    worth.then_some(zeros)
+}
+
+/// Parent of each draft: the draft that contains its first row below.
+fn parents(drafts: &[Draft], nodes: usize) -> Vec<Option<usize>> {
+    let mut draft_of = vec![0; nodes];
+    for (number, draft) in drafts.iter().enumerate() {
+        draft_of[draft.nodes.clone()].fill(number);
+    }
+    drafts.iter().map(|draft| draft.rows.first().map(|&row| draft_of[row as usize])).collect()
+}
+
+/// Numbers in postorder: each parent directly after the subtrees of its children.
+fn postorder(parents: &[Option<usize>]) -> Vec<usize> {
+    let mut children: Vec<Vec<usize>> = vec![Vec::new(); parents.len()];
+    for (number, parent) in parents.iter().enumerate() {
+        if let Some(parent) = *parent {
+            children[parent].push(number);
+        }
+    }
+    let roots = (0..parents.len()).filter(|&number| parents[number].is_none());
+    let mut stack: Vec<usize> = roots.collect();
+    // A preorder backwards is a postorder.
+    let mut order = Vec::with_capacity(parents.len());
+    while let Some(number) = stack.pop() {
+        order.push(number);
+        stack.extend(&children[number]);
+    }
+    order.reverse();
+    order
+}

@@ -1,0 +1,24 @@
+//! The trait behind which every method of the solver stands.
+
+use crate::number::Real;
+use crate::sparse::Block;
+use fem_scene::simulation::Breakdown;
+
+/// An approximate inverse P⁻¹ of a matrix A: a factor, which is exact up to round-off, or a preconditioner. It is created for one
+/// sparsity pattern and prepared for the values of a matrix. Neither `prepare` nor `apply` allocates after the first time.
+pub(crate) trait ApproximateInverse<T: Real>: Send + Sync {
+    /// Computes P for the values of a matrix. After an error P must be prepared again before it is applied.
+    fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown>;
+
+    /// z = P⁻¹ r
+    fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]);
+
+    /// Solves A d = r to a relative residual `tolerance` by an iteration of its own, and adds d to x. Returns the number of
+    /// iterations. Only methods that [copy the matrix](super::SolverChoice::copies_matrix) have such an iteration.
+    fn correct(&mut self, _r: &[[T; 3]], _x: &mut [[T; 3]], _tolerance: f64) -> Result<usize, Breakdown> {
+        Err(Breakdown::NotConverged { residual: 1.0 })
+    }
+
+    /// Allocated bytes.
+    fn bytes(&self) -> usize;
+}

@@ -1,0 +1,10 @@
+//! Conjugate gradients, iterative refinement, and the matrix–vector product that both need.
+
+mod cg;
+mod product;
+mod refine;
+
+pub use product::product;
+
+pub(super) use cg::{Workspace, conjugate_gradients};
+pub(super) use refine::refine;

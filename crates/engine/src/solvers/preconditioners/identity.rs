@@ -1,0 +1,23 @@
+//! No preconditioner: P = 1.
+
+use crate::number::Real;
+use crate::solvers::ApproximateInverse;
+use crate::sparse::Block;
+use fem_scene::simulation::Breakdown;
+
+/// P = 1.
+pub(crate) struct Identity;
+
+impl<T: Real> ApproximateInverse<T> for Identity {
+    fn prepare(&mut self, _values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        Ok(())
+    }
+
+    fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
+        z.copy_from_slice(r);
+    }
+
+    fn bytes(&self) -> usize {
+        0
+    }
+}

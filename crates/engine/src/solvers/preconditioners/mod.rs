@@ -1,0 +1,25 @@
+//! Preconditioners of conjugate gradients.
+
+mod block_jacobi;
+mod identity;
+mod incomplete_cholesky;
+mod multigrid;
+mod ssor;
+
+pub(super) use block_jacobi::BlockJacobi;
+pub(super) use identity::Identity;
+pub(super) use incomplete_cholesky::IncompleteCholesky;
+pub(super) use multigrid::Multigrid;
+pub(super) use ssor::Ssor;
+
+use crate::number::Real;
+use crate::sparse::Block;
+use fem_scene::simulation::Breakdown;
+
+/// The factor that scales the largest diagonal entry of a positive definite matrix to 1, into the range of single precision.
+/// `diagonal` holds the number of each diagonal block.
+fn single_precision_scale<T: Real>(values: &[Block<T, 3>], diagonal: &[u32]) -> Result<f64, Breakdown> {
+    let entries = diagonal.iter().flat_map(|&block| (0..3).map(move |i| values[block as usize][i][i].as_f64()));
+    let largest = entries.fold(0.0, f64::max);
+    if largest > 0.0 && largest.is_finite() { Ok(1.0 / largest) } else { Err(Breakdown::Singular) }
+}

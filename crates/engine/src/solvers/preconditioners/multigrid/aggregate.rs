@@ -1,0 +1,61 @@
+//! Aggregates, the coarse nodes: neighbourhoods of nodes, each of which moves like a rigid body.
+
+use super::blocks::Blocks;
+
+/// Marks a node without an aggregate.
+const NONE: u32 = u32::MAX;
+
+/// The aggregate of each node, and the number of aggregates. First whole neighbourhoods become aggregates, then each remaining node
+/// joins an adjacent one (Vaněk, Mandel and Brezina, Algebraic Multigrid by Smoothed Aggregation for Second and Fourth Order
+/// Elliptic Problems, 1996).
+pub fn aggregate<const D: usize>(A: &Blocks<D, D>) -> (Vec<u32>, usize) {
+    let mut aggregates = vec![NONE; A.rows()];
+    let mut count = 0;
+    for node in 0..A.rows() {
+        let neighbours = A.row(node).0;
+        if neighbours.iter().all(|&other| aggregates[other as usize] == NONE) {
+            neighbours.iter().for_each(|&other| aggregates[other as usize] = count);
+            count += 1;
+        }
+    }
+    // Nodes join aggregates of the first pass only, so that no aggregate grows across the body.
+    let first = aggregates.clone();
+    for node in 0..A.rows() {
+        let near = A.row(node).0.iter().map(|&other| first[other as usize]).find(|&near| near != NONE);
+        if let (NONE, Some(near)) = (aggregates[node], near) {
+            aggregates[node] = near;
+        }
+    }
+    (aggregates, count as usize)
+}
+
+/// Mean position of the nodes of each aggregate.
+pub fn centres(aggregates: &[u32], count: usize, positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let mut sums = vec![[0.0f32; 4]; count];
+    for (&aggregate, position) in aggregates.iter().zip(positions) {
+        let sum = &mut sums[aggregate as usize];
+        (0..3).for_each(|i| sum[i] += position[i]);
+        sum[3] += 1.0;
+    }
+    sums.iter().map(|sum| [sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]]).collect()
+}
+
+/// Rigid motions of the aggregates: a displacement u and a rotation ω about the centre c give a node at x the displacement
+/// u + ω × (x − c), and the rotation ω if the node has rotations (D = 6).
+pub fn rigid<const D: usize>(aggregates: &[u32], centres: &[[f32; 3]], positions: &[[f32; 3]]) -> Blocks<D, 6> {
+    let mut motion = Blocks::zeros((0..=aggregates.len()).collect(), aggregates.to_vec());
+    for ((block, &aggregate), x) in motion.values.iter_mut().zip(aggregates).zip(positions) {
+        let c = &centres[aggregate as usize];
+        let [x, y, z] = [x[0] - c[0], x[1] - c[1], x[2] - c[2]];
+        let rows = [
+            [1.0, 0.0, 0.0, 0.0, z, -y],
+            [0.0, 1.0, 0.0, -z, 0.0, x],
+            [0.0, 0.0, 1.0, y, -x, 0.0],
+            [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
+            [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+        ];
+        block.copy_from_slice(&rows[..D]);
+    }
+    motion
+}

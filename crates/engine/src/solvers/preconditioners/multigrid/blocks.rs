@@ -1,0 +1,153 @@
+//! Sparse matrices of R×C blocks in single precision, and their products with fixed sparsity patterns.
+
+use pulp::{Simd, WithSimd};
+
+use crate::number::vectorized;
+
+/// A matrix in block compressed sparse rows.
+#[derive(Clone)]
+pub struct Blocks<const R: usize, const C: usize> {
+    /// `starts[i]..starts[i + 1]` are the blocks of row i.
+    pub starts: Vec<usize>,
+    /// Column of each block, ascending within a row.
+    pub columns: Vec<u32>,
+    pub values: Vec<[[f32; C]; R]>,
+}
+
+impl<const R: usize, const C: usize> Blocks<R, C> {
+    /// A zero matrix with this sparsity pattern.
+    pub fn zeros(starts: Vec<usize>, columns: Vec<u32>) -> Self {
+        let values = vec![[[0.0; C]; R]; columns.len()];
+        Self { starts, columns, values }
+    }
+
+    /// A zero matrix with the sparsity pattern of A B.
+    pub fn product<const K: usize>(A: &Blocks<R, K>, B: &Blocks<K, C>) -> Self {
+        let (mut starts, mut columns, mut row) = (vec![0], Vec::new(), Vec::new());
+        for i in 0..A.rows() {
+            row.clear();
+            for &k in A.row(i).0 {
+                row.extend(B.row(k as usize).0);
+            }
+            row.sort_unstable();
+            row.dedup();
+            columns.extend(&row);
+            starts.push(columns.len());
+        }
+        Self::zeros(starts, columns)
+    }
+
+    /// A zero matrix with the sparsity pattern of Aᵀ, for A of `columns` columns, and the number in A of each block's transpose.
+    pub fn transpose(A: &Blocks<C, R>, columns: usize) -> (Self, Vec<u32>) {
+        let mut starts = vec![0; columns + 1];
+        A.columns.iter().for_each(|&column| starts[column as usize + 1] += 1);
+        for column in 0..columns {
+            starts[column + 1] += starts[column];
+        }
+        let mut next = starts.clone();
+        let (mut rows, mut sources) = (vec![0; A.columns.len()], vec![0; A.columns.len()]);
+        for row in 0..A.rows() {
+            for block in A.starts[row]..A.starts[row + 1] {
+                let place = &mut next[A.columns[block] as usize];
+                rows[*place] = row as u32;
+                sources[*place] = block as u32;
+                *place += 1;
+            }
+        }
+        (Self::zeros(starts, rows), sources)
+    }
+
+    pub fn rows(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Columns and values of a row.
+    pub fn row(&self, row: usize) -> (&[u32], &[[[f32; C]; R]]) {
+        let blocks = self.starts[row]..self.starts[row + 1];
+        (&self.columns[blocks.clone()], &self.values[blocks])
+    }
+
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.starts.as_slice()) + size_of_val(self.columns.as_slice()) + size_of_val(self.values.as_slice())
+    }
+}
+
+/// C = A B for a C from [`Blocks::product`]. `slots` is workspace with an entry for each column of C.
+pub struct Product<'a, const R: usize, const K: usize, const C: usize> {
+    pub A: &'a Blocks<R, K>,
+    pub B: &'a Blocks<K, C>,
+    pub C: &'a mut Blocks<R, C>,
+    pub slots: &'a mut [u32],
+}
+
+impl<const R: usize, const K: usize, const C: usize> Product<'_, R, K, C> {
+    pub fn compute(self) {
+        vectorized(self);
+    }
+}
+
+impl<const R: usize, const K: usize, const C: usize> WithSimd for Product<'_, R, K, C> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) {
+        let Self { A, B, C: product, slots } = self;
+        for i in 0..A.rows() {
+            let first = product.starts[i];
+            let row = &mut product.values[first..product.starts[i + 1]];
+            row.fill([[0.0; C]; R]);
+            for (place, &column) in product.columns[first..][..row.len()].iter().enumerate() {
+                slots[column as usize] = place as u32;
+            }
+            let (columns, values) = A.row(i);
+            for (&k, a) in columns.iter().zip(values) {
+                let (columns, values) = B.row(k as usize);
+                for (&column, b) in columns.iter().zip(values) {
+                    add_product(a, b, &mut row[slots[column as usize] as usize]);
+                }
+            }
+        }
+    }
+}
+
+/// c += a b
+#[inline(always)]
+pub fn add_product<const R: usize, const K: usize, const C: usize>(
+    a: &[[f32; K]; R],
+    b: &[[f32; C]; K],
+    c: &mut [[f32; C]; R],
+) {
+    for i in 0..R {
+        for k in 0..K {
+            for j in 0..C {
+                c[i][j] += a[i][k] * b[k][j];
+            }
+        }
+    }
+}
+
+/// Row i of A x.
+#[inline(always)]
+pub fn row_times<const R: usize, const C: usize>(A: &Blocks<R, C>, row: usize, x: &[[f32; C]]) -> [f32; R] {
+    let (columns, values) = A.row(row);
+    sum_products(columns, values, x)
+}
+
+/// Sum of blocks times entries of x. Each entry of a block has a sum of its own, so that no addition waits for another.
+#[inline(always)]
+pub fn sum_products<const R: usize, const C: usize>(
+    columns: &[u32],
+    values: &[[[f32; C]; R]],
+    x: &[[f32; C]],
+) -> [f32; R] {
+    let mut sums = [[0.0; C]; R];
+    for (&column, block) in columns.iter().zip(values) {
+        let x = &x[column as usize];
+        for i in 0..R {
+            for j in 0..C {
+                sums[i][j] += block[i][j] * x[j];
+            }
+        }
+    }
+    sums.map(|sums| sums.iter().sum())
+}

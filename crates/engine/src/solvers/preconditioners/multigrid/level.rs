@@ -1,0 +1,211 @@
+//! One level: a matrix, its smoother, and the prolongation from the next coarser level.
+
+use pulp::{Simd, WithSimd};
+
+use super::aggregate::{aggregate, centres, rigid};
+use super::blocks::{Blocks, Product, add_product, row_times, sum_products};
+use crate::number::vectorized;
+use crate::solvers::block::invert;
+use fem_scene::simulation::Breakdown;
+
+/// Steps of the power iteration for the largest eigenvalue of D⁻¹A. It starts from the vector of the last preparation.
+const POWER_STEPS: usize = 4;
+
+/// Relative shift of the coarse diagonal: the rotations of an aggregate of one or two nodes are not independent.
+const SHIFT: f32 = 1e-5;
+
+/// A level whose nodes have D unknowns.
+pub struct Level<const D: usize> {
+    pub A: Blocks<D, D>,
+    /// Number of each diagonal block.
+    diagonal: Vec<usize>,
+    inverses: Vec<[[f32; D]; D]>,
+    /// Tentative prolongation: rigid motions of the aggregates.
+    rigid: Blocks<D, 6>,
+    /// Smoothed prolongation.
+    P: Blocks<D, 6>,
+    /// Restriction Pᵀ.
+    R: Blocks<6, D>,
+    /// Number in P of the transpose of each block of R.
+    R_sources: Vec<u32>,
+    AP: Blocks<D, 6>,
+    slots: Vec<u32>,
+    /// Vector of the power iteration.
+    power: Vec<[f32; D]>,
+    pub b: Vec<[f32; D]>,
+    pub x: Vec<[f32; D]>,
+    r: Vec<[f32; D]>,
+}
+
+impl<const D: usize> Level<D> {
+    /// From the pattern of A and the positions of its nodes: the level, the pattern of the coarse matrix and the coarse positions.
+    pub fn new(A: Blocks<D, D>, positions: &[[f32; 3]]) -> (Self, Blocks<6, 6>, Vec<[f32; 3]>) {
+        let (aggregates, count) = aggregate(&A);
+        let coarse_positions = centres(&aggregates, count, positions);
+        let rigid = rigid(&aggregates, &coarse_positions, positions);
+        let P = Blocks::product(&A, &rigid);
+        let (R, R_sources) = Blocks::transpose(&P, count);
+        let AP = Blocks::product(&A, &P);
+        let coarse = Blocks::product(&R, &AP);
+        let rows = A.rows();
+        let vector = || vec![[0.0; D]; rows];
+        let mut level = Self {
+            diagonal: (0..rows).map(|row| diagonal(&A, row)).collect(),
+            inverses: vec![[[0.0; D]; D]; rows],
+            slots: vec![0; count],
+            power: vector(),
+            b: vector(),
+            x: vector(),
+            r: vector(),
+            A,
+            rigid,
+            P,
+            R,
+            R_sources,
+            AP,
+        };
+        level.restart_power();
+        (level, coarse, coarse_positions)
+    }
+
+    /// Computes the smoother, the prolongation and the coarse matrix Pᵀ A P from the values of A.
+    pub fn prepare(&mut self, coarse: &mut Blocks<6, 6>) -> Result<(), Breakdown> {
+        for (inverse, &block) in self.inverses.iter_mut().zip(&self.diagonal) {
+            *inverse = invert(&self.A.values[block])?;
+        }
+        let largest = self.largest_eigenvalue();
+        if !largest.is_finite() {
+            self.restart_power();
+            return Err(Breakdown::Singular);
+        }
+        self.smooth_prolongation(4.0 / (3.0 * largest));
+        for (transpose, &source) in self.R.values.iter_mut().zip(&self.R_sources) {
+            let block = &self.P.values[source as usize];
+            *transpose = std::array::from_fn(|i| std::array::from_fn(|j| block[j][i]));
+        }
+        Product { A: &self.A, B: &self.P, C: &mut self.AP, slots: &mut self.slots }.compute();
+        Product { A: &self.R, B: &self.AP, C: coarse, slots: &mut self.slots }.compute();
+        for row in 0..coarse.rows() {
+            let block = diagonal(coarse, row);
+            let block = &mut coarse.values[block];
+            let most = (0..6).map(|i| block[i][i]).fold(0.0, f32::max);
+            (0..6).for_each(|i| block[i][i] += SHIFT * if block[i][i] > SHIFT * most { block[i][i] } else { most });
+        }
+        Ok(())
+    }
+
+    /// Sets an oscillating start vector, at first and after a matrix that was not finite.
+    fn restart_power(&mut self) {
+        for (number, entry) in self.power.as_flattened_mut().iter_mut().enumerate() {
+            *entry = (number * 7 % 11) as f32 - 5.0;
+        }
+    }
+
+    /// P = (1 − ω D⁻¹ A) P̂, with P̂ the tentative prolongation.
+    fn smooth_prolongation(&mut self, omega: f32) {
+        Product { A: &self.A, B: &self.rigid, C: &mut self.P, slots: &mut self.slots }.compute();
+        for row in 0..self.A.rows() {
+            let mut scaled = self.inverses[row];
+            scaled.as_flattened_mut().iter_mut().for_each(|entry| *entry *= -omega);
+            let (own, motion) = (self.rigid.columns[row], &self.rigid.values[row]);
+            for block in self.P.starts[row]..self.P.starts[row + 1] {
+                let mut smoothed = if self.P.columns[block] == own { *motion } else { [[0.0; 6]; D] };
+                add_product(&scaled, &self.P.values[block], &mut smoothed);
+                self.P.values[block] = smoothed;
+            }
+        }
+    }
+
+    /// Estimate of the largest eigenvalue of D⁻¹A.
+    fn largest_eigenvalue(&mut self) -> f32 {
+        let mut largest = 1.0;
+        for _ in 0..POWER_STEPS {
+            for row in 0..self.A.rows() {
+                self.r[row] = times(&self.inverses[row], &row_times(&self.A, row, &self.power));
+            }
+            let size = |x: &[[f32; D]]| x.as_flattened().iter().map(|x| f64::from(x * x)).sum::<f64>().sqrt();
+            let (before, after) = (size(&self.power), size(&self.r));
+            largest = (after / before) as f32;
+            for (power, r) in self.power.as_flattened_mut().iter_mut().zip(self.r.as_flattened()) {
+                *power = r / largest;
+            }
+        }
+        largest
+    }
+
+    /// Smooths from x = 0 and restricts the residual: `coarse` = Pᵀ (b − A x).
+    pub fn descend(&mut self, coarse: &mut [[f32; 6]]) {
+        vectorized(Descend { level: self, coarse });
+    }
+
+    /// Adds the coarse correction and smooths in the reverse order, so that the whole cycle is symmetric.
+    pub fn ascend(&mut self, coarse: &[[f32; 6]]) {
+        vectorized(Ascend { level: self, coarse });
+    }
+
+    pub fn bytes(&self) -> usize {
+        let vectors = 4 * size_of_val(self.x.as_slice()) + size_of_val(self.inverses.as_slice());
+        self.A.bytes() + self.rigid.bytes() + self.P.bytes() + self.R.bytes() + self.AP.bytes() + vectors
+    }
+}
+
+/// Number of the diagonal block of a row.
+fn diagonal<const D: usize>(A: &Blocks<D, D>, row: usize) -> usize {
+    A.starts[row] + A.row(row).0.partition_point(|&column| (column as usize) < row)
+}
+
+#[inline(always)]
+fn times<const D: usize>(A: &[[f32; D]; D], x: &[f32; D]) -> [f32; D] {
+    std::array::from_fn(|i| (0..D).map(|j| A[i][j] * x[j]).sum())
+}
+
+struct Descend<'a, const D: usize> {
+    level: &'a mut Level<D>,
+    coarse: &'a mut [[f32; 6]],
+}
+
+impl<const D: usize> WithSimd for Descend<'_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) {
+        let Self { level: Level { A, diagonal, inverses, R, b, x, r, .. }, coarse } = self;
+        // Forward Gauss–Seidel from x = 0: blocks right of the diagonal meet zeros.
+        for row in 0..A.rows() {
+            let before = A.starts[row]..diagonal[row];
+            let product = sum_products(&A.columns[before.clone()], &A.values[before], x);
+            x[row] = times(&inverses[row], &std::array::from_fn(|i| b[row][i] - product[i]));
+        }
+        // The residual is then −(blocks right of the diagonal) x.
+        for row in 0..A.rows() {
+            let after = diagonal[row] + 1..A.starts[row + 1];
+            r[row] = sum_products(&A.columns[after.clone()], &A.values[after], x).map(|product| -product);
+        }
+        for (row, coarse) in coarse.iter_mut().enumerate() {
+            *coarse = row_times(R, row, r);
+        }
+    }
+}
+
+struct Ascend<'a, const D: usize> {
+    level: &'a mut Level<D>,
+    coarse: &'a [[f32; 6]],
+}
+
+impl<const D: usize> WithSimd for Ascend<'_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) {
+        let Self { level: Level { A, inverses, P, b, x, .. }, coarse } = self;
+        for row in 0..A.rows() {
+            let correction = row_times(P, row, coarse);
+            (0..D).for_each(|i| x[row][i] += correction[i]);
+        }
+        for row in (0..A.rows()).rev() {
+            let product = row_times(A, row, x);
+            let change = times(&inverses[row], &std::array::from_fn(|i| b[row][i] - product[i]));
+            (0..D).for_each(|i| x[row][i] += change[i]);
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Multigrid by smoothed aggregation with the six rigid motions: Vaněk, Mandel and Brezina, Algebraic Multigrid by Smoothed
+//! Aggregation for Second and Fourth Order Elliptic Problems (1996). In single precision, which is enough for a preconditioner.
+
+mod aggregate;
+mod blocks;
+mod level;
+
+use blocks::Blocks;
+use level::Level;
+
+use super::single_precision_scale;
+use crate::number::Real;
+use crate::solvers::ApproximateInverse;
+use crate::solvers::direct::SupernodalCholesky;
+use crate::sparse::{Block, Pattern, Stored};
+use crate::vector::norm;
+use fem_scene::simulation::Breakdown;
+
+/// Coarse matrices of up to this many nodes are factorised.
+const MAX_COARSEST: usize = 150;
+
+/// A symmetric V-cycle.
+pub(crate) struct Multigrid {
+    fine: Level<3>,
+    coarser: Vec<Level<6>>,
+    coarsest: Blocks<6, 6>,
+    /// Right-hand side and solution on the coarsest level.
+    b: Vec<[f32; 6]>,
+    x: Vec<[f32; 6]>,
+    direct: SupernodalCholesky<f32>,
+    direct_values: Vec<[[f32; 3]; 3]>,
+    diagonal: Vec<u32>,
+    /// Factor by which the matrix is scaled into the range of single precision.
+    scale: f64,
+}
+
+impl Multigrid {
+    /// Finds the levels from a pattern that stores all blocks, and the undeformed positions of its nodes, m.
+    pub(crate) fn new(pattern: &Pattern, rest: &[[f64; 3]]) -> Self {
+        let fine = Blocks::zeros(pattern.starts.clone(), pattern.columns.clone());
+        let (fine, mut coarsest, mut positions) = Level::new(fine, &scaled_positions(rest));
+        let mut coarser = Vec::new();
+        while coarsest.rows() > MAX_COARSEST {
+            let before = coarsest.rows();
+            let (level, next, next_positions) = Level::new(coarsest.clone(), &positions);
+            if 2 * next.rows() > before {
+                break;
+            }
+            coarser.push(level);
+            (coarsest, positions) = (next, next_positions);
+        }
+        let lower = lower_pattern(&coarsest);
+        let vector = vec![[0.0; 6]; coarsest.rows()];
+        Self {
+            fine,
+            coarser,
+            direct: SupernodalCholesky::new(&lower),
+            direct_values: vec![Default::default(); lower.blocks()],
+            b: vector.clone(),
+            x: vector,
+            coarsest,
+            diagonal: pattern.diagonal().map(|block| block as u32).collect(),
+            scale: 1.0,
+        }
+    }
+
+    /// Solves for `fine.x` from `fine.b`.
+    fn cycle(&mut self) {
+        let coarsest = &mut self.b;
+        self.fine.descend(self.coarser.first_mut().map_or(coarsest, |level| &mut level.b));
+        for number in 0..self.coarser.len() {
+            let (levels, coarser) = self.coarser.split_at_mut(number + 1);
+            levels[number].descend(coarser.first_mut().map_or(&mut self.b, |level| &mut level.b));
+        }
+        let (b, _) = self.b.as_flattened().as_chunks::<3>();
+        let (x, _) = self.x.as_flattened_mut().as_chunks_mut::<3>();
+        self.direct.apply(b, x);
+        for number in (0..self.coarser.len()).rev() {
+            let (levels, coarser) = self.coarser.split_at_mut(number + 1);
+            levels[number].ascend(coarser.first().map_or(&self.x, |level| &level.x));
+        }
+        self.fine.ascend(self.coarser.first().map_or(&self.x, |level| &level.x));
+    }
+}
+
+impl<T: Real> ApproximateInverse<T> for Multigrid {
+    fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        self.scale = single_precision_scale(values, &self.diagonal)?;
+        for (single, block) in self.fine.A.values.iter_mut().zip(values) {
+            *single = block.map(|row| row.map(|entry| (entry.as_f64() * self.scale) as f32));
+        }
+        let first = self.coarser.first_mut().map_or(&mut self.coarsest, |level| &mut level.A);
+        self.fine.prepare(first)?;
+        for number in 0..self.coarser.len() {
+            let (levels, coarser) = self.coarser.split_at_mut(number + 1);
+            let next = coarser.first_mut().map_or(&mut self.coarsest, |level| &mut level.A);
+            levels[number].prepare(next)?;
+        }
+        copy_lower(&self.coarsest, &mut self.direct_values);
+        self.direct.prepare(&self.direct_values)
+    }
+
+    /// One cycle from x = 0.
+    fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
+        let size = norm(r);
+        if !(size > 0.0 && size.is_finite()) {
+            z.copy_from_slice(r);
+            return;
+        }
+        for (b, r) in self.fine.b.iter_mut().zip(r) {
+            *b = r.map(|r| (r.as_f64() / size) as f32);
+        }
+        self.cycle();
+        let scale = size * self.scale;
+        for (z, x) in z.iter_mut().zip(&self.fine.x) {
+            *z = x.map(|x| T::of(f64::from(x) * scale));
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        let levels: usize = self.coarser.iter().map(Level::bytes).sum();
+        let direct = self.direct.bytes() + size_of_val(self.direct_values.as_slice());
+        self.fine.bytes() + levels + self.coarsest.bytes() + direct + size_of_val(self.diagonal.as_slice())
+    }
+}
+
+/// Positions relative to the first node, scaled to coordinates of at most 1.
+fn scaled_positions(rest: &[[f64; 3]]) -> Vec<[f32; 3]> {
+    let Some(&origin) = rest.first() else { return Vec::new() };
+    let relative = |x: &[f64; 3]| [x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]];
+    let largest = rest.iter().flat_map(relative).fold(0.0, |most: f64, x| most.max(x.abs()));
+    let unit = if largest > 0.0 { largest } else { 1.0 };
+    rest.iter().map(|x| relative(x).map(|x| (x / unit) as f32)).collect()
+}
+
+/// The pattern of the lower half of a matrix of 6×6 blocks, as 3×3 blocks.
+fn lower_pattern(A: &Blocks<6, 6>) -> Pattern {
+    let (mut starts, mut columns) = (vec![0], Vec::new());
+    for row in 0..2 * A.rows() {
+        let all = A.row(row / 2).0.iter().flat_map(|&column| [2 * column, 2 * column + 1]);
+        columns.extend(all.filter(|&column| column as usize <= row));
+        starts.push(columns.len());
+    }
+    Pattern { stored: Stored::Lower, starts, columns }
+}
+
+/// Copies the lower half of a matrix of 6×6 blocks to the 3×3 blocks of its [`lower_pattern`].
+fn copy_lower(A: &Blocks<6, 6>, values: &mut [[[f32; 3]; 3]]) {
+    let mut places = values.iter_mut();
+    for row in 0..2 * A.rows() {
+        let (columns, blocks) = A.row(row / 2);
+        for (&column, block) in columns.iter().zip(blocks) {
+            for half in (0..2).filter(|half| 2 * column as usize + half <= row) {
+                let Some(place) = places.next() else { return };
+                *place = std::array::from_fn(|i| std::array::from_fn(|j| block[3 * (row % 2) + i][3 * half + j]));
+            }
+        }
+    }
+}

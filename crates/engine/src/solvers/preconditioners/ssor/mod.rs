@@ -1,0 +1,219 @@
+//! Conjugate gradients preconditioned by SSOR, a forward and a backward Gauss–Seidel sweep, with Eisenstat's trick: an iteration
+//! takes the two sweeps and no product with the matrix. Eisenstat, Efficient Implementation of a Class of Preconditioned Conjugate
+//! Gradient Methods (1981). The iteration runs in single precision, inside an iterative refinement.
+//!
+//! With A = L + D + Lᵀ, the preconditioner is (L + W) W⁻¹ (W + Lᵀ), where W = G Gᵀ is D minus a fraction of the change that an
+//! incomplete factorisation would make to the diagonal blocks. Scaled by G, the matrix is L̃ + K + 2 + L̃ᵀ with L̃ = G⁻¹ L G⁻ᵀ and
+//! K = G⁻¹ D G⁻ᵀ − 2, and the preconditioner is (L̃ + 1)(1 + L̃ᵀ). It reduces oscillating errors well and smooth errors badly, so the
+//! inverse of the matrix on a coarse grid is added.
+
+mod coarse;
+mod grid;
+mod scaled;
+mod sweeps;
+
+use std::array::from_fn;
+
+use super::single_precision_scale;
+use crate::number::{Real, vectorized};
+use crate::solvers::ApproximateInverse;
+use crate::sparse::{Block, Pattern};
+use crate::vector::norm;
+use coarse::Coarse;
+use fem_scene::simulation::Breakdown;
+use scaled::Scaled;
+use sweeps::{Backward, Forward};
+
+/// The largest number of iterations of one correction.
+const MAX_ITERATIONS: usize = 2000;
+
+/// Iterations without a smaller residual after which single precision is exhausted.
+const MAX_STAGNATION: usize = 50;
+
+/// Round-off in a curvature: the largest eigenvalue of the preconditioned matrix is about 1.
+const ROUND_OFF: f64 = 1e-5;
+
+/// Rows whose terms are summed in single precision before they are added to a sum in double.
+const CHUNK: usize = 64;
+
+/// A row of three numbers, and a zero that fills a register.
+type Row = [f32; 4];
+
+/// Rows of two vectors together.
+type Pair = [Row; 2];
+
+/// The preconditioned matrix, and the vectors of the iteration.
+pub(crate) struct Ssor {
+    matrix: Scaled,
+    coarse: Coarse,
+    x: Vec<Row>,
+    r: Vec<Row>,
+    p: Vec<Row>,
+    /// Results of the sweeps for the direction: s of the forward sweep, t of the backward sweep.
+    st: Vec<Pair>,
+    /// Sums of the backward sweep for rows that it has not reached.
+    sums: Vec<Pair>,
+}
+
+impl Ssor {
+    /// Takes the lower half of a pattern, which may store all blocks, and the undeformed positions of its nodes, m.
+    pub(crate) fn new(pattern: &Pattern, rest: &[[f64; 3]]) -> Self {
+        let rows = pattern.rows();
+        let (vector, pairs) = (vec![[0.0; 4]; rows], vec![[[0.0; 4]; 2]; rows]);
+        Self {
+            matrix: Scaled::new(pattern),
+            coarse: Coarse::new(pattern, rest),
+            x: vector.clone(),
+            r: vector.clone(),
+            p: vector,
+            st: pairs.clone(),
+            sums: pairs,
+        }
+    }
+
+    /// Starts an iteration: x = 0, r̃ = (L̃ + 1)⁻¹ G⁻¹ r and the coarse residual Pᵀ r, with r scaled by `factor`, and no direction.
+    fn start<T: Real>(&mut self, r: &[[T; 3]], factor: f64) {
+        let Scaled { places, L, inverses, .. } = &self.matrix;
+        self.coarse.residual.fill([0.0; 4]);
+        for (row, r) in r.iter().enumerate() {
+            let r = r.map(|r| (r.as_f64() * factor) as f32);
+            self.coarse.restrict(row, &r);
+            let mut scaled: [f32; 3] = from_fn(|i| (0..=i).map(|j| inverses[row][i][j] * r[j]).sum());
+            for block in places.row(row) {
+                let known = &self.r[places.columns[block] as usize];
+                (0..3).for_each(|i| scaled[i] -= (0..3).map(|k| L[9 * block + 3 * i + k] * known[k]).sum::<f32>());
+            }
+            self.r[row] = [scaled[0], scaled[1], scaled[2], 0.0];
+        }
+        self.x.fill([0.0; 4]);
+        self.p.fill([0.0; 4]);
+        self.st.fill([[0.0; 4]; 2]);
+    }
+
+    /// The next direction, and the backward sweep for it.
+    fn next_direction(&mut self, beta: f32) {
+        let Self { matrix, coarse, r, p, st, sums, .. } = self;
+        vectorized(Backward { matrix, coarse, beta, r, p, st, sums });
+    }
+
+    /// x += factor G⁻ᵀ x̃
+    fn add_solution<T: Real>(&self, x: &mut [[T; 3]], factor: f64) {
+        for ((x, y), inverse) in x.iter_mut().zip(&self.x).zip(&self.matrix.inverses) {
+            for i in 0..3 {
+                let sum: f32 = (i..3).map(|k| inverse[k][i] * y[k]).sum();
+                x[i] += T::of(f64::from(sum) * factor);
+            }
+        }
+    }
+
+    /// Conjugate gradients until r̃·r̃ has fallen by `tolerance`²; returns the number of iterations.
+    fn iterate(&mut self, tolerance: f64) -> Result<usize, Breakdown> {
+        let mut rr = square(&self.r);
+        let target = tolerance * tolerance * rr;
+        let (mut best, mut stagnation, mut before) = (f64::INFINITY, 0, f64::INFINITY);
+        for iteration in 1..=MAX_ITERATIONS {
+            // r·P⁻¹r: the sweeps contribute r̃·r̃.
+            let rz = rr + self.coarse.solve();
+            self.next_direction((rz / before) as f32);
+            before = rz;
+            let Self { matrix, coarse, p, st, .. } = self;
+            let curvature = vectorized(Forward { matrix, coarse, p, st });
+            if !(curvature > 0.0) {
+                return Err(self.no_curvature(curvature));
+            }
+            rr = self.advance((rz / curvature) as f32);
+            if !rr.is_finite() {
+                return Err(Breakdown::Singular);
+            }
+            if rr <= target {
+                return Ok(iteration);
+            }
+            stagnation += 1;
+            if rr < best {
+                (best, stagnation) = (rr, 0);
+            } else if stagnation > MAX_STAGNATION {
+                return Err(Breakdown::NotConverged { residual: (best / target).sqrt() * tolerance });
+            }
+        }
+        Err(Breakdown::NotConverged { residual: (best / target).sqrt() * tolerance })
+    }
+
+    /// x += α t, r −= α (t + s); returns r·r.
+    fn advance(&mut self, alpha: f32) -> f64 {
+        let Self { st, x, r, coarse, .. } = self;
+        let mut sum = 0.0;
+        let chunks = st.chunks(CHUNK).zip(x.chunks_mut(CHUNK)).zip(r.chunks_mut(CHUNK));
+        for ((st, x), r) in chunks {
+            let mut squares = [0.0; 4];
+            for (([s, t], x), r) in st.iter().zip(x).zip(r) {
+                for k in 0..4 {
+                    x[k] += alpha * t[k];
+                    r[k] -= alpha * (t[k] + s[k]);
+                    squares[k] += r[k] * r[k];
+                }
+            }
+            sum += f64::from(squares.iter().sum::<f32>());
+        }
+        for (residual, change) in coarse.residual.iter_mut().zip(&coarse.change) {
+            (0..4).for_each(|k| residual[k] -= alpha * change[k]);
+        }
+        sum
+    }
+
+    /// The cause of a curvature p·Ãp that is not positive.
+    fn no_curvature(&self, curvature: f64) -> Breakdown {
+        match curvature.abs() <= ROUND_OFF * square(&self.p) {
+            _ if curvature.is_nan() => Breakdown::Singular,
+            true => Breakdown::NotConverged { residual: 1.0 },
+            false => Breakdown::NotPositiveDefinite,
+        }
+    }
+}
+
+impl<T: Real> ApproximateInverse<T> for Ssor {
+    fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        let scale = single_precision_scale(values, &self.matrix.places.diagonal)?;
+        self.matrix.scale = scale;
+        self.coarse.prepare(&self.matrix.places, values, scale);
+        self.matrix.prepare(values, &self.coarse.free)
+    }
+
+    /// The residual is measured in the norm of the preconditioner.
+    fn correct(&mut self, r: &[[T; 3]], x: &mut [[T; 3]], tolerance: f64) -> Result<usize, Breakdown> {
+        let size = norm(r);
+        if !(size > 0.0 && size.is_finite()) {
+            return if size == 0.0 { Ok(0) } else { Err(Breakdown::Singular) };
+        }
+        self.start(r, 1.0 / size);
+        let outcome = self.iterate(tolerance);
+        self.coarse.record_effort(outcome.as_ref().ok().copied(), tolerance);
+        self.add_solution(x, size * self.matrix.scale);
+        outcome
+    }
+
+    fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
+        let size = norm(r);
+        if !(size > 0.0 && size.is_finite()) {
+            z.copy_from_slice(r);
+            return;
+        }
+        self.start(r, 1.0 / size);
+        self.coarse.correction.fill([0.0; 4]);
+        self.next_direction(0.0);
+        for (x, st) in self.x.iter_mut().zip(&self.st) {
+            *x = st[1];
+        }
+        z.fill([T::default(); 3]);
+        self.add_solution(z, size * self.matrix.scale);
+    }
+
+    fn bytes(&self) -> usize {
+        let vectors = 3 * size_of_val(self.x.as_slice()) + 2 * size_of_val(self.st.as_slice());
+        self.matrix.bytes() + self.coarse.bytes() + vectors
+    }
+}
+
+/// r·r, accumulated in double precision.
+fn square(r: &[Row]) -> f64 {
+    r.as_flattened().iter().map(|r| f64::from(*r).powi(2)).sum()
+}

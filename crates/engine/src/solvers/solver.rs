@@ -1,0 +1,154 @@
+//! A solver for matrices of one sparsity pattern.
+
+use std::sync::Arc;
+
+use super::ApproximateInverse;
+use super::choice::{Preconditioner, SolverChoice};
+use super::direct::{Lu, cholesky};
+use super::krylov::{Workspace, conjugate_gradients, product, refine};
+use super::preconditioners::{BlockJacobi, Identity, IncompleteCholesky, Multigrid, Ssor};
+use crate::number::Real;
+use crate::profile::Timer;
+use crate::sparse::{Block, Pattern};
+use fem_scene::simulation::Breakdown;
+
+/// Operations that a solver has carried out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SolverCounters {
+    /// Analyses of a sparsity pattern.
+    pub symbolic_factorizations: usize,
+    /// Computations of a factor or a preconditioner.
+    pub factorizations: usize,
+    /// Linear systems.
+    pub solves: usize,
+    /// Iterations of all solves.
+    pub iterations: usize,
+}
+
+/// A solver for matrices of one sparsity pattern. It allocates nothing after the first [`prepare`](Self::prepare) and
+/// [`solve`](Self::solve).
+pub struct Solver<T: Real> {
+    choice: SolverChoice,
+    pattern: Arc<Pattern>,
+    inverse: Box<dyn ApproximateInverse<T>>,
+    workspace: Workspace<T>,
+    counters: SolverCounters,
+    preparing: Timer,
+    solving: Timer,
+}
+
+impl<T: Real> Solver<T> {
+    /// Analyses a pattern that stores the blocks of [`SolverChoice::stored`]. `rest` holds the undeformed positions of the rows'
+    /// nodes, m.
+    pub fn new(choice: SolverChoice, pattern: &Arc<Pattern>, rest: &[[f64; 3]]) -> Self {
+        let inverse: Box<dyn ApproximateInverse<T>> = match choice {
+            SolverChoice::Cholesky => cholesky(pattern),
+            SolverChoice::Lu => Box::new(Lu::new(pattern)),
+            SolverChoice::Cg => Box::new(Identity),
+            SolverChoice::Pcg(Preconditioner::BlockJacobi) => Box::new(BlockJacobi::new(pattern)),
+            SolverChoice::Pcg(Preconditioner::IncompleteCholesky) => Box::new(IncompleteCholesky::new(pattern)),
+            SolverChoice::Pcg(Preconditioner::Multigrid) => Box::new(Multigrid::new(pattern, rest)),
+            SolverChoice::Pcg(Preconditioner::Ssor) => Box::new(Ssor::new(pattern, rest)),
+        };
+        Self {
+            choice,
+            pattern: Arc::clone(pattern),
+            inverse,
+            workspace: Workspace::new(pattern.rows()),
+            counters: SolverCounters { symbolic_factorizations: 1, ..SolverCounters::default() },
+            preparing: Timer::default(),
+            solving: Timer::default(),
+        }
+    }
+
+    /// Computes the factor or the preconditioner for the values of a matrix. After an error it must be called again before
+    /// [`solve`](Self::solve) and [`apply`](Self::apply).
+    pub fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        self.counters.factorizations += 1;
+        let Self { inverse, preparing, .. } = self;
+        preparing.time(|| inverse.prepare(values))
+    }
+
+    /// Solves A x = b to ‖b − A x‖ ≤ `tolerance` ‖b‖, with the factor or preconditioner of this matrix or of a similar one. Returns the
+    /// number of iterations, 0 if the factor's solution is accurate enough.
+    ///
+    /// Iterative methods start from the given x, direct ones from the factor's solution. Conjugate gradients reduce the residual
+    /// that remains, preconditioned by the factor or preconditioner. After an error x is the last iterate.
+    pub fn solve(
+        &mut self,
+        values: &[Block<T, 3>],
+        b: &[[T; 3]],
+        x: &mut [[T; 3]],
+        tolerance: f64,
+    ) -> Result<usize, Breakdown> {
+        self.counters.solves += 1;
+        let Self { choice, pattern, inverse, workspace, solving, .. } = self;
+        let (b, x) = (&b[..pattern.rows()], &mut x[..pattern.rows()]);
+        let iterations = solving.time(|| {
+            let A = |x: &[[T; 3]], y: &mut [[T; 3]]| product(pattern, values, x, y);
+            let mut corrections = 0;
+            if !choice.is_iterative() {
+                inverse.apply(b, x);
+            } else if choice.copies_matrix() {
+                let refined =
+                    refine(A, |r, x, tolerance| inverse.correct(r, x, tolerance), b, x, tolerance, workspace)?;
+                if refined.converged {
+                    return Ok(refined.iterations);
+                }
+                corrections = refined.iterations;
+            }
+            let P = |r: &[[T; 3]], z: &mut [[T; 3]]| inverse.apply(r, z);
+            let largest_entry = || largest_entry(pattern, values);
+            Ok(corrections + conjugate_gradients(A, P, largest_entry, b, x, tolerance, workspace)?)
+        })?;
+        self.counters.iterations += iterations;
+        Ok(iterations)
+    }
+
+    /// z = P⁻¹ r, with P the factorised matrix or the preconditioner.
+    pub fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
+        let Self { pattern, inverse, solving, .. } = self;
+        solving.time(|| inverse.apply(&r[..pattern.rows()], &mut z[..pattern.rows()]));
+    }
+
+    /// Whether a solve iterates with the matrix that it is given, so that the prepared matrix only preconditions.
+    pub fn is_iterative(&self) -> bool {
+        self.choice.is_iterative()
+    }
+
+    /// Whether [`prepare`](Self::prepare) copies the matrix, so that a solve with another matrix is slow.
+    pub fn copies_matrix(&self) -> bool {
+        self.choice.copies_matrix()
+    }
+
+    /// Whether [`prepare`](Self::prepare) computes a preconditioner.
+    pub fn has_preconditioner(&self) -> bool {
+        self.choice.has_preconditioner()
+    }
+
+    /// Operations so far.
+    pub fn counters(&self) -> SolverCounters {
+        self.counters
+    }
+
+    /// Calls and time of [`prepare`](Self::prepare), and of [`solve`](Self::solve) and [`apply`](Self::apply).
+    pub fn timers(&self) -> (&Timer, &Timer) {
+        (&self.preparing, &self.solving)
+    }
+
+    /// Bytes of the factor or the preconditioner.
+    pub fn prepared_bytes(&self) -> usize {
+        self.inverse.bytes()
+    }
+
+    /// Allocated bytes without the pattern. The factors of an LU factorisation are not counted: faer does not tell their size.
+    pub fn bytes(&self) -> usize {
+        self.inverse.bytes() + self.workspace.bytes()
+    }
+}
+
+/// The largest entry of a positive definite matrix, which is on its diagonal.
+fn largest_entry<T: Real>(pattern: &Pattern, values: &[Block<T, 3>]) -> f64 {
+    let entries = pattern.diagonal().flat_map(|block| (0..3).map(move |i| values[block][i][i].as_f64().abs()));
+    entries.fold(0.0, f64::max)
+}
