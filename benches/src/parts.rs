@@ -29,7 +29,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), End> {
     println!("{}: {nodes} nodes, {free} free, {elements} elements, {} blocks\n", scene.name, system.pattern.blocks());
     println!("| part | µs | fastest, µs | ns per element |\n|---|---:|---:|---:|");
     elastic(&system)?;
-    linear(&system, name, scene.time.dt)
+    linear(&system, name, scene.time.dt())
 }
 
 fn choice(name: SolverName) -> SolverChoice {

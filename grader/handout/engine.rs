@@ -1,8 +1,9 @@
 //! Scenes that the fast engine runs: it is not in this repository, since it holds what you are to write.
 
 use clap::Subcommand;
-use fem_scene::{Body, Scene};
 use fem_scene::simulation::Simulation;
+use fem_scene::{Body, Scene};
+use nalgebra::Vector3;
 
 use super::end::End;
 
@@ -22,3 +23,11 @@ pub fn build(scene: &Scene, _: Body) -> Result<Box<dyn Simulation>, End> {
     let problem = "is \"engine\", which this repository does not have; write \"course\"";
     Err(End::unusable(scene.refuse("pipeline", problem)))
 }
+
+/// Returns `None`: no scene of the course has a closed form.
+pub fn expected_tip_displacement(_: &Scene) -> Option<Vector3<f64>> {
+    None
+}
+
+/// Prints no line: no scene of the course is a cantilever.
+pub fn print_tip(_: &dyn Simulation, _: &Vector3<f64>) {}

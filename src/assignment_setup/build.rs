@@ -40,7 +40,7 @@ impl AssignmentSetup {
             interaction: Interaction::new(body.drag, C * extent(V)),
             reuse_distance: REUSE * smallest_height(V, T),
             integrator: scene.time.integrator,
-            dt: scene.time.dt,
+            dt: scene.time.dt(),
             time: 0.0,
             steps_since_reset: 0,
             qdot: DVector::zeros(q.len()),

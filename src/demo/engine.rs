@@ -4,8 +4,10 @@ pub mod report;
 pub mod stability;
 
 use clap::Subcommand;
+use fem_engine::cantilever;
 use fem_scene::simulation::Simulation;
 use fem_scene::{Body, Scene};
+use nalgebra::Vector3;
 
 use super::end::End;
 
@@ -31,4 +33,17 @@ impl Study {
 /// The engine's simulation of a scene.
 pub fn build(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, End> {
     fem_engine::simulator::build(scene, body).map_err(End::unusable)
+}
+
+/// Timoshenko's displacement of the tip, m, if the scene is a cantilever.
+pub fn expected_tip_displacement(scene: &Scene) -> Option<Vector3<f64>> {
+    cantilever::expected_tip_displacement(scene)
+}
+
+/// Prints the tip displacement of a cantilever beside that of Timoshenko's theory, m.
+pub fn print_tip(simulation: &dyn Simulation, expected: &Vector3<f64>) {
+    let (found, size) = (cantilever::tip_displacement(simulation), expected.norm());
+    let along = if size > 0.0 { found.dot(expected) / size } else { found.norm() };
+    let ratio = if size > 0.0 { format!(", ratio {:.4}", along / size) } else { String::new() };
+    say!("tip displacement {along:.6e} m, by Timoshenko's theory {size:.6e} m{ratio}");
 }

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use fem_mesh::write::Frame;
-use fem_scene::cantilever;
 use fem_scene::output::{self, EXPORTS, Stats};
 use fem_scene::simulate::{Run, quantile};
 use fem_scene::simulation::{Energies, Reaction, Simulation};
@@ -12,6 +11,7 @@ use nalgebra::Vector3;
 
 use super::cli::RunArguments;
 use super::end::End;
+use super::engine;
 
 /// A run that has ended, with or without a failure.
 pub struct Finished<'a> {
@@ -80,7 +80,9 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
         Stats::of(*simulation, run, *seconds_setup).write(path).map_err(End::unusable)?;
     }
     print_summary(*simulation, run);
-    print_tip(*simulation, *expected_tip);
+    if let Some(expected) = expected_tip {
+        engine::print_tip(*simulation, expected);
+    }
     match &run.failure {
         Some(failure) => Err(End::Failed(failure.clone())),
         None => Ok(()),
@@ -111,13 +113,4 @@ fn print_summary(simulation: &dyn Simulation, run: &Run) {
     for Reaction { name, force: [x, y, z] } in simulation.reactions() {
         say!("reaction force of {name}: ({x:.4e}, {y:.4e}, {z:.4e}) N");
     }
-}
-
-/// Prints the tip displacement of a cantilever beside that of Timoshenko's theory.
-fn print_tip(simulation: &dyn Simulation, expected: Option<Vector3<f64>>) {
-    let Some(expected) = expected else { return };
-    let (found, size) = (cantilever::tip_displacement(simulation), expected.norm());
-    let along = if size > 0.0 { found.dot(&expected) / size } else { found.norm() };
-    let ratio = if size > 0.0 { format!(", ratio {:.4}", along / size) } else { String::new() };
-    say!("tip displacement {along:.6e} m, by Timoshenko's theory {size:.6e} m{ratio}");
 }

@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use fem_scene::cantilever;
 use fem_scene::simulation::Simulation;
 use fem_scene::{Body, Integrator, Pipeline, Scene};
 use finite_elements_3d::assignment_setup::AssignmentSetup;
@@ -49,9 +48,10 @@ pub fn run(arguments: &RunArguments) -> Result<(), End> {
 
 fn scene_with_overrides(arguments: &RunArguments) -> Result<Scene, End> {
     let mut scene = fem_scene::load(&arguments.scene, &data::folder()).map_err(End::unusable)?;
-    scene.time.dt = arguments.dt.unwrap_or(scene.time.dt);
+    scene.time.dt = arguments.dt.or(scene.time.dt);
     scene.time.integrator = arguments.integrator.unwrap_or(scene.time.integrator);
     scene.time.steps = arguments.steps.or(scene.time.steps);
+    scene.check().map_err(End::unusable)?;
     Ok(scene)
 }
 
@@ -66,7 +66,7 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
     warn_of_vertices_outside(scene, &*simulation);
     let seconds_setup = start.elapsed().as_secs_f64();
     let down = scene.gravity.as_ref().and_then(|gravity| Vector3::from(gravity.acceleration).try_normalize(0.0));
-    let expected_tip = cantilever::expected_tip_displacement(scene);
+    let expected_tip = engine::expected_tip_displacement(scene);
     // Without gravity a cantilever bends downwards.
     let down = down.or_else(|| expected_tip.and_then(|tip| tip.try_normalize(0.0)));
     let up = down.map_or(Vector3::y(), |down| -down);

@@ -75,7 +75,12 @@ fn a_missing_table_or_key_is_named() {
     assert_refused("model = \"neo_hookean\"\n", "", 5, &["missing field `model`"]);
     assert_refused("density = 1000.0\n", "", 5, &["missing field `density`"]);
     assert_refused("acceleration = [0, -9.81, 0]\n", "", 10, &["missing field `acceleration`"]);
-    assert_refused("dt = 0.01\n", "", 14, &["missing field `dt`"]);
+    assert_refused(
+        "dt = 0.01\n",
+        "",
+        14,
+        &["time.dt is missing, and implicit_euler needs a time step; give it in seconds"],
+    );
     assert_refused("integrator = \"implicit_euler\"\n", "", 14, &["missing field `integrator`"]);
     assert_refused("axis = \"y\", ", "", 13, &["missing field `axis`"]);
     assert_refused(", cells_per_unit = 2", "", 4, &["missing field `cells_per_unit`"]);

@@ -79,7 +79,7 @@ fn a_body_under_gravity_comes_to_rest_at_a_lower_energy() {
     for integrator in INTEGRATORS {
         let mut scene = with(shipped("bunny"), integrator);
         scene.drag = None;
-        scene.time.dt = 0.1;
+        scene.time.dt = Some(0.1);
         let mut simulation = build(&scene);
         (0..100).for_each(|_| simulation.step().unwrap());
         let energies = simulation.energies();

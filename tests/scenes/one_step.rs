@@ -39,12 +39,12 @@ fn assert_agrees(text: &str, steps: usize) {
     let (model, mut simulation) = (model_of(&scene), build(&scene));
     let (mut q, mut v) = (simulation.positions(), DVector::zeros(3 * model.V.len()));
     for step in 1..=steps {
-        model.step(&mut q, &mut v, scene.time.dt, &springs_at(&scene, step as f64 * scene.time.dt, &model));
+        model.step(&mut q, &mut v, scene.time.dt(), &springs_at(&scene, step as f64 * scene.time.dt(), &model));
         simulation.step().unwrap();
         let apart = (simulation.positions() - &q).amax();
         assert!(apart <= 1e-8 * q.amax(), "step {step}: {apart:e} m apart");
         let apart = (simulation.velocities() - &v).amax();
-        assert!(apart <= 1e-8 * v.amax() + 1e-8 / scene.time.dt * q.amax(), "step {step}: {apart:e} m/s apart");
+        assert!(apart <= 1e-8 * v.amax() + 1e-8 / scene.time.dt() * q.amax(), "step {step}: {apart:e} m/s apart");
         assert!((&q - simulation.positions()).amax() < 1e-3 * (&q - rest(&model)).amax(), "nothing has moved");
     }
 }

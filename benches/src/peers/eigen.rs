@@ -25,7 +25,7 @@ impl Eigen {
         let refuse = || End::unusable(format!("{}: a3 does not know what this scene asks for", scene.name));
         let mut options = body(scene, data).ok_or_else(refuse)?;
         options.extend(acting(scene).ok_or_else(refuse)?);
-        options.extend(pair("--dt", scene.time.dt));
+        options.extend(pair("--dt", scene.time.dt()));
         options.extend(["--steps".to_owned(), steps.to_string()]);
         Ok(Self { program: program.to_owned(), options })
     }

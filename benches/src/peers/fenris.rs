@@ -56,7 +56,7 @@ fn is_its_beam(scene: &Scene) -> bool {
         && scene.gravity.as_ref().is_some_and(|gravity| gravity.acceleration == [0.0, 0.0, -9.81])
         && clamp.is_some_and(|plane| plane.axis == Axis::X && plane.below < 1e-6)
         && scene.drag.is_none()
-        && scene.time.dt == 0.01
+        && scene.time.dt() == 0.01
 }
 
 /// The nodes in the middle and at the upper corner of the face where x is largest.

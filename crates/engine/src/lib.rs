@@ -10,6 +10,7 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
 pub mod boundary;
+pub mod cantilever;
 pub mod elements;
 pub mod forces;
 pub mod integrators;

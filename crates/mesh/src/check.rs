@@ -5,8 +5,7 @@ use std::path::Path;
 use nalgebra::Vector3;
 
 use super::boundary::FACES;
-use super::volume::signed_volume;
-use super::{MeshError, Problem, TetrahedralMesh};
+use super::{MeshError, Problem, TetrahedralMesh, area_vector, signed_volume};
 
 /// A tetrahedron whose volume is below this part of its longest edge cubed is flat.
 ///
@@ -74,10 +73,7 @@ fn longest_edge(corners: [Vector3<f64>; 4]) -> f64 {
 }
 
 fn largest_face(corners: [Vector3<f64>; 4]) -> f64 {
-    let areas = FACES.map(|face| {
-        let [a, b, c] = face.map(|i| corners[i]);
-        0.5 * (b - a).cross(&(c - a)).norm()
-    });
+    let areas = FACES.map(|face| area_vector(face.map(|i| corners[i])).norm());
     areas.into_iter().fold(0.0, f64::max)
 }
 

@@ -11,24 +11,22 @@ mod boundary;
 mod box_mesh;
 mod check;
 mod error;
-mod faces;
+mod measures;
 mod quality;
 mod read;
 mod refine;
-mod volume;
+mod sides;
 pub mod write;
 
 pub use boundary::boundary;
 pub use box_mesh::box_mesh;
 pub use check::check;
 pub use error::{MeshError, Problem};
-pub use faces::{
-    Side, area_vector, faces_on_side, nodes_on_side, pressure_forces, pressure_stiffness, traction_forces,
-};
+pub use measures::{area_vector, signed_volume, volumes};
 pub use quality::{Extreme, Quality, quality};
 pub use read::{read_surface, read_tetrahedra};
 pub use refine::refine;
-pub use volume::{signed_volume, volumes};
+pub use sides::{Side, faces_on_side, nodes_on_side};
 pub use write::{write_surface, write_tetrahedra};
 
 /// Simplices of `N` nodes in `D` dimensions. Data without promises: [`check`] is what gives them.

@@ -6,7 +6,7 @@ use std::fmt;
 use nalgebra::Vector3;
 
 use super::boundary::FACES;
-use super::{TetrahedralMesh, boundary, signed_volume};
+use super::{TetrahedralMesh, area_vector, boundary, signed_volume};
 
 /// A worst value, and the element (counted from 0) that has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,17 +68,13 @@ struct Shape {
 
 fn measure(corners: [Vector3<f64>; 4]) -> Shape {
     let volume = signed_volume(corners);
-    // outward, and twice as long as the face's area
-    let normals = FACES.map(|face| {
-        let [a, b, c] = face.map(|i| corners[i]);
-        (b - a).cross(&(c - a))
-    });
+    let normals = FACES.map(|face| area_vector(face.map(|i| corners[i])));
     let areas = normals.map(|normal| normal.norm());
     let largest = areas.into_iter().fold(0.0, f64::max);
-    let inscribed = 6.0 * volume / areas.iter().sum::<f64>();
+    let inscribed = 3.0 * volume / areas.iter().sum::<f64>();
     Shape {
         volume,
-        height: 6.0 * volume / largest,
+        height: 3.0 * volume / largest,
         angles: dihedral_angles(normals),
         radius_ratio: 3.0 * inscribed / circumradius(corners, volume),
     }

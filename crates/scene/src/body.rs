@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::Vector3;
 
+use crate::check::check;
 use crate::load::line_of;
 use crate::simulation::Shape;
 use crate::values::{
@@ -143,6 +144,11 @@ fn mesh_error(scene: &Scene, field: &'static str, error: MeshError) -> SceneErro
 }
 
 impl Scene {
+    /// Checks the tables again after a change, such as another integrator. Returns the first problem.
+    pub fn check(&self) -> Result<(), SceneError> {
+        check(self).map_err(|(field, problem)| self.refuse(&field, &problem))
+    }
+
     /// The error of a pipeline that cannot run the scene because of this field, such as `time.integrator`.
     pub fn refuse(&self, field: &str, problem: &str) -> SceneError {
         SceneError::Line { file: self.path.clone(), line: line(self, field), problem: format!("{field} {problem}") }

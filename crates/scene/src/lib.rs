@@ -9,7 +9,6 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
 mod body;
-pub mod cantilever;
 mod check;
 mod error;
 mod integrator;

@@ -12,6 +12,7 @@ mod orders;
 mod parts;
 mod pressures;
 mod reactions;
+mod shipped_scenes;
 mod statics;
 mod twists;
 mod vibrations;

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 
 use super::save;
-use crate::{MeshError, Problem};
+use crate::{MeshError, Problem, area_vector};
 
 // Numbers that the specification gives to the types of its arrays and to what they are for.
 const FLOAT: u32 = 5126;
@@ -181,8 +181,7 @@ fn differences(to: &[Vector3<f32>], from: &[Vector3<f32>]) -> Vec<Vector3<f32>> 
 fn smooth_normals(places: &[Vector3<f64>], faces: &[[u32; 3]]) -> Vec<Vector3<f64>> {
     let mut normals = vec![Vector3::zeros(); places.len()];
     for face in faces {
-        let [a, b, c] = face.map(|i| places[i as usize]);
-        let normal = (b - a).cross(&(c - a));
+        let normal = area_vector(face.map(|i| places[i as usize]));
         for &vertex in face {
             normals[vertex as usize] += normal;
         }

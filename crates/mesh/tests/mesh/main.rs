@@ -3,12 +3,12 @@
 mod box_rule;
 mod checks;
 mod errors;
-mod faces;
 mod formats;
 mod garbage;
 mod refined;
 mod round_trip;
 mod shipped;
+mod sides;
 mod written;
 
 use std::fs;

@@ -4,7 +4,7 @@ mod constraints;
 mod loads;
 
 use crate::tables::{DampingTable, MeshTable, NewtonTable, SolverTable, StaticTable, TimeTable};
-use crate::{Scene, SolverKind};
+use crate::{Integrator, Scene, SolverKind};
 
 /// The field that is wrong, and what is wrong with it together with the remedy.
 pub(super) type Problem = (String, String);
@@ -90,7 +90,14 @@ fn check_mesh(mesh: &MeshTable) -> Result<(), Problem> {
 }
 
 fn check_time(time: &TimeTable) -> Result<(), Problem> {
-    check_positive("time.dt", time.dt, " of seconds")?;
+    match time.dt {
+        Some(dt) => check_positive("time.dt", dt, " of seconds")?,
+        None if time.integrator == Integrator::Static => {}
+        None => {
+            let text = format!("is missing, and {} needs a time step; give it in seconds", time.integrator.name());
+            return problem("time.dt", text);
+        }
+    }
     if time.steps == Some(0) { problem("time.steps", "is 0; give at least one step") } else { Ok(()) }
 }
 

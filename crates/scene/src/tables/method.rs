@@ -8,8 +8,8 @@ use crate::Integrator;
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct TimeTable {
-    /// Time step, s.
-    pub dt: f64,
+    /// Time step, s; optional for `static`.
+    pub dt: Option<f64>,
     /// Method that advances a step.
     pub integrator: Integrator,
     /// Steps of a run without a window.
@@ -17,6 +17,13 @@ pub struct TimeTable {
     /// Number type of the engine.
     #[serde(default)]
     pub precision: Precision,
+}
+
+impl TimeTable {
+    /// The time step, s; 1 if `static` has none, so that the time counts the load steps.
+    pub fn dt(&self) -> f64 {
+        self.dt.unwrap_or(1.0)
+    }
 }
 
 /// Number type that the engine computes with.

@@ -8,7 +8,7 @@ use crate::{Integrator, Precision, Preconditioner, Projection, Scene, SolverKind
 pub struct Method {
     /// Time integration method.
     pub integrator: Integrator,
-    /// Time step, s.
+    /// Time step, s; 1 for `static` without one.
     pub dt: f64,
     /// Number type.
     pub precision: Precision,
@@ -66,7 +66,7 @@ impl Scene {
         };
         Method {
             integrator: self.time.integrator,
-            dt: self.time.dt,
+            dt: self.time.dt(),
             precision: self.time.precision,
             load_steps: self.statics.as_ref().map_or(1, |statics| statics.load_steps),
             newton: self.newton.as_ref().map(newton).unwrap_or_default(),

@@ -40,7 +40,11 @@ fn a_field_is_found_however_the_file_writes_it() {
 
 #[test]
 fn a_key_that_is_missing_is_reported_at_its_table() {
-    assert_refused(&edit(LEAST, "dt = 0.01\n", ""), 9, "missing field `dt`");
+    assert_refused(
+        &edit(LEAST, "dt = 0.01\n", ""),
+        9,
+        "time.dt is missing, and implicit_euler needs a time step; give it in seconds",
+    );
     assert_refused(&edit(LEAST, "D = 4e5\n", ""), 4, "material needs either C and D or young and poisson");
     assert_refused(&edit(LEAST, "box = { size = [2, 1, 1], cells_per_unit = 1 }\n", ""), 2, "mesh names no tetrahedra");
     assert_refused(&format!("{LEAST}[fixed]\n"), 12, "fixed needs either plane or nodes");

@@ -3,7 +3,6 @@
 #![allow(non_snake_case)] // C, D and E are the names that the mathematics and the course use
 
 mod bodies;
-mod cantilevers;
 mod errors;
 mod examples;
 mod lookup;

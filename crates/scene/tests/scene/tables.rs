@@ -170,3 +170,17 @@ fn a_refinement_that_would_be_too_large_is_refused_with_its_size() {
     let message = body(&text).unwrap_err().to_string();
     assert!(message.contains("mesh.refine: box: refined 4 times the mesh would have 3.93216e8 elements"), "{message}");
 }
+
+#[test]
+fn a_static_scene_may_leave_out_its_time_step_and_no_other_may() {
+    let text = edit(LEAST, "dt = 0.01\nintegrator = \"implicit_euler\"", "integrator = \"static\"");
+    let scene = read(&text);
+    assert_eq!((scene.time.dt, scene.method().dt), (None, 1.0));
+    assert_eq!(read(&edit(&text, "[time]\n", "[time]\ndt = 0.5\n")).method().dt, 0.5);
+    let mut moving = scene;
+    moving.time.integrator = fem_scene::Integrator::Rk4;
+    let message = moving.check().unwrap_err().to_string();
+    assert!(message.ends_with("time.dt is missing, and rk4 needs a time step; give it in seconds"), "{message}");
+    moving.time.dt = Some(0.01);
+    moving.check().unwrap();
+}

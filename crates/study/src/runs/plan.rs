@@ -234,7 +234,7 @@ fn scaled(steps: usize, k: i32) -> usize {
 fn ladder(group: &'static str, method: &str, scene: &Scene, steps: &[usize], extent: Extent) -> Ladder {
     let run = |&steps: &usize| {
         let mut scene = scene.clone();
-        scene.time.dt = extent.horizon / steps as f64;
+        scene.time.dt = Some(extent.horizon / steps as f64);
         PlannedRun { group, method: method.to_owned(), scene, steps }
     };
     steps.iter().map(run).collect()

@@ -1,7 +1,7 @@
 //! Equilibria that are known in closed form: a scene's exact answer, where it has one.
 
 use crate::space::norms;
-use fem_scene::cantilever::{expected_tip_displacement, tip_displacement};
+use fem_engine::cantilever::{expected_tip_displacement, tip_displacement};
 use fem_scene::simulation::Simulation;
 use fem_scene::tables::PrescribedTable;
 use fem_scene::{Axis, Integrator, Scene, Side};

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
+use fem_engine::cantilever::{expected_tip_displacement, tip_displacement};
 use fem_engine::simulator;
-use fem_scene::cantilever::{expected_tip_displacement, tip_displacement};
 use fem_scene::{body, parse};
 
 /// Poisson's ratios.

@@ -3,7 +3,7 @@
 use super::case::{Case, Finding, Outcome};
 use super::march::{SMALLEST_J, march};
 use super::scene_text::{CLAMPED, LAWS, Text, gravity};
-use fem_scene::cantilever::{expected_tip_displacement, tip_displacement};
+use fem_engine::cantilever::{expected_tip_displacement, tip_displacement};
 use fem_scene::simulation::Simulation;
 
 const FAMILY: &str = "Poisson's ratio";

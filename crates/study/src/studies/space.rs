@@ -8,7 +8,7 @@ use crate::runs::states::{Snapshot, write_reference, write_state};
 use crate::space::locking::{self, TipDeflection};
 use crate::space::manufactured;
 use crate::space::norms;
-use fem_scene::cantilever::moduli;
+use fem_engine::cantilever::moduli;
 
 /// What was found.
 #[derive(Clone, Debug, Default)]

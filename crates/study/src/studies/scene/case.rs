@@ -8,7 +8,7 @@ use crate::runs::measure::RunResult;
 use crate::runs::plan::{self, PlannedRun};
 use crate::runs::row::{Configuration, Errors};
 use crate::space::norms;
-use fem_scene::cantilever::moduli;
+use fem_engine::cantilever::moduli;
 use fem_scene::{Integrator, Pipeline, Precision, Projection};
 
 /// Distances of a run that has come to its end.
@@ -71,7 +71,7 @@ pub(super) fn configuration(id: String, run: &PlannedRun, body: &StudyMesh) -> C
         integrator: scene.time.integrator.name(),
         projection: if has_matrix { projection } else { "none" },
         solver: if has_matrix { solver } else { "none".to_owned() },
-        dt: scene.time.dt,
+        dt: scene.time.dt(),
         steps: run.steps,
         tolerance: is_newton.then(|| newton.and_then(|newton| newton.tolerance).unwrap_or(1e-10)).and_then(engine),
         max_iterations: is_newton.then(|| match (is_course, newton.and_then(|newton| newton.max_iterations)) {

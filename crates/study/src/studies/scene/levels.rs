@@ -84,7 +84,7 @@ impl StudyMeshes<'_> {
             (horizon * fastest / EXPLICIT).ceil().max(1.0) as usize
         };
         if !is_static {
-            scene.time.dt = horizon / steps as f64;
+            scene.time.dt = Some(horizon / steps as f64);
         }
         let mut simulation = (self.settings.factory)(&scene)?;
         for _ in 0..steps {

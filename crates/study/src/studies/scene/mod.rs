@@ -72,7 +72,7 @@ pub fn study(settings: &Settings, scene: &Scene, question: Question) -> Result<S
     let steps = if is_short { own_steps.min(10) } else { own_steps };
     let mut study = SceneStudy { name: scene.name.clone(), about: scene.about.clone(), ..SceneStudy::default() };
     let is_static = base.time.integrator == Integrator::Static;
-    study.horizon = if is_static { 0.0 } else { base.time.dt * steps as f64 };
+    study.horizon = if is_static { 0.0 } else { base.time.dt() * steps as f64 };
     (settings.tell)(0, 1, &format!("{}: reference", study.name));
     let mut bodies = StudyMeshes { settings, scene: &base, known: HashMap::new() };
     bodies.add(&base, (!is_static).then_some(study.horizon), &mut study)?;
@@ -126,7 +126,7 @@ fn first_runs(
         let mut before: Option<(f64, usize)> = None;
         for run in ladder {
             count += 1;
-            (settings.tell)(count, all, &format!("{}: {}, dt = {:.1e} s", study.name, run.method, run.scene.time.dt));
+            (settings.tell)(count, all, &format!("{}: {}, dt = {:.1e} s", study.name, run.method, run.scene.time.dt()));
             let what = format!("{}, {} steps", run.method, run.steps);
             let expected = before.map(|(seconds, steps)| seconds * run.steps as f64 / steps as f64);
             if let Some(expected) = expected.filter(|&seconds| seconds > most_seconds(settings.is_quick)) {

@@ -1,11 +1,12 @@
-//! How far a clamped beam bends, by Timoshenko's theory: what a simulated one is held against.
+//! The tip displacement of a cantilever by Timoshenko's beam theory, for comparison with a simulated one.
 
 use nalgebra::Vector3;
 
-use crate::simulation::Simulation;
-use crate::tables::TractionTable;
-use crate::{Integrator, Material, Scene};
+use crate::materials::AnyLaw;
 use fem_mesh::{Side, nodes_on_side};
+use fem_scene::simulation::Simulation;
+use fem_scene::tables::TractionTable;
+use fem_scene::{Integrator, Material, Scene};
 
 /// A beam of rectangular cross-section, clamped at one end, that bends in one plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,8 +52,8 @@ impl Cantilever {
     }
 }
 
-/// Tip displacement of a scene that is a cantilever, m, by Timoshenko's theory: a box along x, clamped where x is smallest,
-/// in equilibrium (`static`) under dead loads across x, on all of it or on the opposite end. `None` for any other scene.
+/// Tip displacement of a cantilever by Timoshenko's theory, m. `None` if the scene is not one: a box along x, clamped at its end of
+/// smallest x, in equilibrium (`static`) under dead loads across x on the whole volume or on the other end.
 pub fn expected_tip_displacement(scene: &Scene) -> Option<Vector3<f64>> {
     let size = scene.mesh.cuboid.as_ref()?.size.map(|edge| edge * scene.mesh.scale);
     let is_clamped_alone = is_clamped_at_x_min(scene, size[0]) && scene.prescribed.is_empty();
@@ -73,7 +74,7 @@ pub fn expected_tip_displacement(scene: &Scene) -> Option<Vector3<f64>> {
     Some(Vector3::new(0.0, along(1), along(2)))
 }
 
-/// Mean displacement of the nodes at the end where x is largest, m.
+/// Mean displacement of the nodes of largest x, m.
 pub fn tip_displacement(simulation: &dyn Simulation) -> Vector3<f64> {
     let (shape, q) = (simulation.shape(), simulation.positions());
     let X = &shape.mesh.vertices;
@@ -82,7 +83,7 @@ pub fn tip_displacement(simulation: &dyn Simulation) -> Vector3<f64> {
     tip.iter().map(displacement).sum::<Vector3<f64>>() / tip.len() as f64
 }
 
-/// Part of the length that a plane may be thick and still count as an end.
+/// Largest distance from an end of the beam, as a part of its length, at which nodes and faces belong to that end.
 const END: f64 = 1e-3;
 
 fn is_clamped_at_x_min(scene: &Scene, length: f64) -> bool {
@@ -97,23 +98,24 @@ fn force_density(scene: &Scene) -> Vector3<f64> {
     scene.material.density * Vector3::from(gravity) + Vector3::from(force)
 }
 
-/// The sum of all tractions where they are dead loads on the end where x is largest, Pa.
+/// Sum of all tractions, Pa; `None` unless all are dead loads on the end of largest x.
 fn end_traction(tractions: &[TractionTable], length: f64) -> Option<Vector3<f64>> {
-    let of = |traction: &TractionTable| {
+    let end_load = |traction: &TractionTable| {
         let on = traction.on.as_ref()?;
         let is_end = on.axis as usize == 0 && on.side == Side::Max && on.within <= END * length;
         traction.force_per_area.filter(|_| is_end).map(Vector3::from)
     };
-    tractions.iter().map(of).sum()
+    tractions.iter().map(end_load).sum()
 }
 
-/// Young's modulus (Pa) and Poisson's ratio at small strain; `None` where the table lacks them.
+/// Young's modulus E (Pa) and Poisson's ratio ν at small strain: as the table gives them, or from the law's shear modulus G and
+/// bulk modulus K, E = 9 K G / (3 K + G) and ν = (3 K − 2 G) / (6 K + 2 G). `None` if the table lacks its parameters.
 pub fn moduli(material: &Material) -> Option<(f64, f64)> {
-    match (material.young, material.poisson, material.C, material.D) {
-        (Some(young), Some(poisson), _, _) => Some((young, poisson)),
-        (_, _, Some(C), Some(D)) => Some((18.0 * C * D / (3.0 * D + C), (3.0 * D - 2.0 * C) / (6.0 * D + 2.0 * C))),
-        _ => None,
+    if let (Some(young), Some(poisson)) = (material.young, material.poisson) {
+        return Some((young, poisson));
     }
+    let [G, K] = AnyLaw::<f64>::new(material)?.moduli();
+    Some((9.0 * K * G / (3.0 * K + G), (3.0 * K - 2.0 * G) / (6.0 * K + 2.0 * G)))
 }
 
 #[cfg(test)]
@@ -125,20 +127,20 @@ mod tests {
     const BEAM: Cantilever = Cantilever { length: 8.0, height: 1.0, width: 1.0, young: 1e6, poisson: 0.3 };
 
     #[test]
-    fn a_slender_beam_bends_as_euler_and_bernoulli_say() {
+    fn a_slender_beam_bends_as_euler_and_bernoulli_predict() {
         let slender = Cantilever { length: 1e4, ..BEAM };
         assert_relative_eq!(slender.under_end_load(1e-6), 4.0, max_relative = 1e-7);
         assert_relative_eq!(slender.under_even_load(1e-10), 1.5, max_relative = 1e-7);
     }
 
     #[test]
-    fn shear_adds_what_the_hand_computes() {
+    fn a_short_beam_has_a_shear_deflection_beside_its_bending() {
         // κ = 13/15.3, G = 1e6/2.6: P L³/(3 E I) = 0.1024 m and P L/(κ G A) = 400/326797.4 m
         assert_relative_eq!(BEAM.under_end_load(50.0), 0.1024 + 0.001224, max_relative = 1e-9);
     }
 
     #[test]
-    fn an_even_load_is_the_sum_of_its_pieces() {
+    fn an_even_load_is_the_sum_of_point_loads() {
         // By Betti's theorem a force at x moves the tip by P (x²(3L − x)/(6EI) + x/(κGA)).
         let (pieces, L) = (10_000, BEAM.length);
         let piece = L / f64::from(pieces);
