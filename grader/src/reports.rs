@@ -3,7 +3,6 @@
 //! `grade.json`, `grades.csv`, `errors.csv` and `class.html` are the instructor's. All other files may be read by students: they hold
 //! names, statuses, messages and hints, never an input, an expected value or a path.
 
-mod charts;
 mod class_html;
 pub mod classroom50;
 mod csv;

@@ -1,22 +1,22 @@
-//! Axes: from values to pixels, and which values are written beside them.
+//! Axes: pixels of values, and the values that are written beside them.
 
-/// How values are spread.
+/// The scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
-    /// Evenly.
+    /// Linear.
     Linear,
-    /// By their order of magnitude; only positive values have a place.
+    /// Logarithmic; shows positive values only.
     Log,
 }
 
 /// An axis with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// What it shows, with its unit.
+    /// Quantity and unit.
     pub name: String,
-    /// How.
+    /// Linear or logarithmic.
     pub scale: Scale,
-    /// Smallest and largest value; those of the data where none are given.
+    /// Smallest and largest value; `None` takes those of the data.
     pub range: Option<(f64, f64)>,
 }
 
@@ -31,13 +31,13 @@ impl Axis {
         Self { name: name.into(), scale: Scale::Linear, range: None }
     }
 
-    /// Whether a value has a place.
+    /// Returns true if the axis can show a value.
     pub fn shows(&self, value: f64) -> bool {
         value.is_finite() && (self.scale == Scale::Linear || value > 0.0)
     }
 
-    /// The axis between two pixels, over these values and a little beyond.
-    pub(super) fn between(&self, from: f64, to: f64, values: impl Iterator<Item = f64>) -> Placed {
+    /// Places the axis between two pixels, with a margin around these values.
+    pub(crate) fn between(&self, from: f64, to: f64, values: impl Iterator<Item = f64>) -> Placed {
         let values = values.filter(|&value| self.shows(value)).map(|value| self.measure(value));
         let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
         let given = self.range.map(|(a, b)| (self.measure(a), self.measure(b))).filter(|(a, b)| b > a);
@@ -56,9 +56,9 @@ impl Axis {
     }
 }
 
-/// An axis on the paper.
+/// An axis with its pixels.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placed {
+pub(crate) struct Placed {
     scale: Scale,
     low: f64,
     high: f64,
@@ -79,7 +79,7 @@ impl Placed {
         (of(self.low), of(self.high))
     }
 
-    /// Values that are written beside it, with their text.
+    /// Values to write beside the axis, with their text.
     pub fn ticks(&self) -> Vec<(f64, String)> {
         match self.scale {
             Scale::Log => self.log_ticks(),
@@ -108,7 +108,7 @@ impl Placed {
     }
 }
 
-/// A number of a linear axis, with as many digits as its step needs.
+/// A number of a linear axis, with as many digits as the step of its ticks needs.
 fn plain(value: f64, step: f64) -> String {
     let size = value.abs().max(step);
     if !(1e-3..1e5).contains(&size) {
@@ -118,8 +118,8 @@ fn plain(value: f64, step: f64) -> String {
     format!("{value:.digits$}").replace('-', "−")
 }
 
-/// A number as people write it: `0.02`, `10⁻⁵`, `2·10⁻⁵`.
-pub(super) fn power(value: f64) -> String {
+/// A number of a logarithmic axis: `0.02`, `10⁻⁵`, `2·10⁻⁵`.
+fn power(value: f64) -> String {
     let decade = value.abs().log10().floor();
     let factor = value / 10f64.powf(decade);
     if (-2.0..3.0).contains(&decade) {

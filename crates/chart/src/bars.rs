@@ -1,41 +1,61 @@
-//! Bars of shares, one below the other.
+//! Stacked bars, one below the other.
 
-use super::{COLOURS, Picture, line, rectangle, text};
+use maud::html;
 
-/// A bar: lengths that follow each other from left to right.
+use crate::svg::{line, rectangle, text};
+use crate::{COLOURS, Picture};
+
+/// A bar: shares that follow each other from left to right.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bar {
-    /// Beside it.
+    /// Written on the left.
     pub name: String,
-    /// The lengths, in the order of the names of their kinds.
+    /// Lengths, in the order of the kinds.
     pub shares: Vec<f64>,
-    /// Behind its end.
+    /// Written on the right.
     pub figure: String,
 }
 
-/// Pixels of a row.
-const ROW: f64 = 26.0;
+/// Width of the picture and height of a row, pixels.
+pub(crate) const SIZE: (f64, f64) = (540.0, 24.0);
 
-/// Bars of these kinds of shares. The longest bar fills the width.
-pub fn bars(label: impl Into<String>, kinds: &[&str], bars: &[Bar]) -> Picture {
-    let (left, length) = (170.0, 270.0);
+/// Bars of shares. `kinds` names each kind of share and the number of its colour. The longest bar fills the width. `tell` writes a
+/// share, given the whole of its bar, for the reader who points at it.
+pub fn bars(label: &str, kinds: &[(&str, usize)], bars: &[Bar], tell: impl Fn(f64, f64) -> String) -> Picture {
+    let (width, row) = SIZE;
+    let left = room(bars.iter().map(|bar| bar.name.as_str()));
+    let length = width - left - room(bars.iter().map(|bar| bar.figure.as_str()));
     let size = |bar: &Bar| bar.shares.iter().filter(|share| share.is_finite()).sum::<f64>();
     let longest = bars.iter().map(size).fold(0.0, f64::max);
-    let mut inner = line("axis", (left, 0.0), (left, ROW * bars.len() as f64));
-    for (i, bar) in bars.iter().enumerate() {
-        let y = ROW * i as f64;
-        inner.push_str(&text("", "end", (left - 8.0, y + 17.0), &bar.name));
-        let mut x = left;
-        for (kind, &share) in bar.shares.iter().enumerate().filter(|(_, share)| share.is_finite() && **share > 0.0) {
-            let width = length * share / longest;
-            let name = kinds.get(kind).copied().unwrap_or_default();
-            let title = format!("{}: {name} {:.0} %", bar.name, 100.0 * share / size(bar));
-            inner.push_str(&rectangle(&format!("share k{}", kind % COLOURS), (x, y + 5.0), (width, ROW - 9.0), &title));
-            x += width;
+    let height = row * bars.len() as f64;
+    let draw = |(i, bar): (usize, &Bar)| {
+        let (y, mut x) = (row * i as f64, left);
+        let shares = bar.shares.iter().zip(kinds).filter(|(share, _)| share.is_finite() && **share > 0.0);
+        let parts: Vec<_> = shares
+            .map(|(&share, (kind, colour))| {
+                let tip = format!("{}: {kind} {}", bar.name, tell(share, size(bar)));
+                let (at, extent) = ((x, y + 4.0), (length * share / longest, row - 8.0));
+                x += extent.0;
+                rectangle(&format!("share k{}", colour % COLOURS), at, extent, &tip)
+            })
+            .collect();
+        html! {
+            (text("", "end", (left - 8.0, y + 16.0), &bar.name))
+            @for part in parts { (part) }
+            (text("", "start", (x + 6.0, y + 16.0), &bar.figure))
         }
-        inner.push_str(&text("", "start", (x + 6.0, y + 17.0), &bar.figure));
-    }
-    let mark = |kind: usize| format!("<rect class=\"share k{kind}\" x=\"-6\" y=\"-5\" width=\"12\" height=\"10\"/>");
-    let legend = kinds.iter().enumerate().map(|(kind, name)| ((*name).to_owned(), mark(kind % COLOURS))).collect();
-    Picture { size: (600.0, ROW * bars.len() as f64 + 4.0), label: label.into(), inner, legend }
+    };
+    let inner = html! {
+        (line("axis", (left, 0.0), (left, height)))
+        @for bar in bars.iter().enumerate() { (draw(bar)) }
+    };
+    let mark =
+        |colour: usize| html! { rect class={ "share k" (colour % COLOURS) } x="-6" y="-5" width="12" height="10" {} };
+    let legend = kinds.iter().map(|(kind, colour)| ((*kind).to_owned(), mark(*colour))).collect();
+    Picture { size: (width, height + 4.0), label: label.to_owned(), inner, legend }
+}
+
+/// Pixels for the longest of some texts, with a margin.
+pub(crate) fn room<'a>(texts: impl Iterator<Item = &'a str>) -> f64 {
+    14.0 + 6.4 * texts.map(|text| text.chars().count()).max().unwrap_or(0) as f64
 }

@@ -1,49 +1,69 @@
-//! HTML pages that hold all they need and ask nothing of any other place: in the light, in the dark, on a phone, on paper.
+//! HTML pages without external resources: in the light, in the dark, on a phone, on paper.
 
-use crate::{Picture, STYLE, escape};
+use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
 
-/// A whole page. `body` is HTML, `title` is text.
-pub fn page(title: &str, body: &str) -> String {
-    let policy = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{}</title>\n<style>\n{STYLE}{PAGE}</style>\n</head>\n\
-         <body>\n<main>\n{body}</main>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n",
-        escape(title)
-    )
+use crate::{Picture, STYLE};
+
+/// A page with the style of reports. A script shows the titles of dots, cells and bars at once, under a finger too.
+pub fn page(title: &str, body: Markup) -> String {
+    document(title, PAGE, Some(SCRIPT), body)
 }
 
-/// A picture with its legend below it and a caption, which is HTML.
-pub fn figure(picture: &Picture, caption: &str) -> String {
-    let drawing = picture.inline();
-    format!("<figure>\n{drawing}{}<figcaption>{caption}</figcaption>\n</figure>\n", picture.legend_html())
+/// A page with a style of its own, and without scripts.
+pub fn static_page(title: &str, style: &str, body: Markup) -> String {
+    document(title, style, None, body)
 }
 
-/// A table. A head that begins with `>` is that of a column of numbers, aligned to the right. Cells are text; one that begins
-/// with `<` is HTML.
-pub fn table(head: &[&str], rows: &[Vec<String>]) -> String {
-    let class = |column: usize| {
-        if head.get(column).is_some_and(|name| name.starts_with('>')) { " class=\"right\"" } else { "" }
+fn document(title: &str, style: &str, script: Option<&str>, body: Markup) -> String {
+    let scripts = if script.is_some() { "; script-src 'unsafe-inline'" } else { "" };
+    let page = html! {
+        (DOCTYPE) "\n"
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta http-equiv="Content-Security-Policy" content={ "default-src 'none'; style-src 'unsafe-inline'" (scripts) };
+                meta name="referrer" content="no-referrer";
+                meta name="color-scheme" content="light dark";
+                title { (title) } "\n"
+                style { (PreEscaped(STYLE)) (PreEscaped(style)) } "\n"
+            }
+            body {
+                main { "\n" (body) "\n" }
+                @if let Some(script) = script { script { "\n" (PreEscaped(script)) } }
+            }
+        }
     };
-    let cell = |tag: &str, column: usize, content: &str| {
-        let content = if content.starts_with('<') { content.to_owned() } else { escape(content) };
-        format!("<{tag}{}>{content}</{tag}>", class(column))
-    };
-    let names: String =
-        head.iter().enumerate().map(|(column, name)| cell("th", column, name.trim_start_matches('>'))).collect();
-    let line = |row: &Vec<String>| {
-        let cells: String = row.iter().enumerate().map(|(column, text)| cell("td", column, text)).collect();
-        format!("<tr>{cells}</tr>\n")
-    };
-    let body: String = rows.iter().map(line).collect();
-    format!("<div class=\"scroll\"><table>\n<thead><tr>{names}</tr></thead>\n<tbody>\n{body}</tbody>\n</table></div>\n")
+    page.into_string() + "\n"
 }
 
-/// What is shown when a reader asks for it; on paper always. `inside` is HTML.
-pub fn details(summary: &str, inside: &str) -> String {
-    format!("<details>\n<summary>{}</summary>\n{inside}</details>\n", escape(summary))
+/// A picture with its legend and its caption.
+pub fn figure(picture: &Picture, caption: impl Render) -> Markup {
+    html! { figure { (picture.inline()) (picture.legend()) figcaption { (caption) } } "\n" }
+}
+
+/// A table. A head that begins with `>` aligns its column to the right, for numbers. Cells that are text are escaped.
+pub fn table<R: Render>(head: &[&str], rows: &[Vec<R>]) -> Markup {
+    let class = |column: usize| head.get(column).is_some_and(|name| name.starts_with('>')).then_some("right");
+    html! {
+        div class="scroll" {
+            table { "\n"
+                thead { tr {
+                    @for (column, name) in head.iter().enumerate() { th class=[class(column)] { (name.trim_start_matches('>')) } }
+                } } "\n"
+                tbody { "\n"
+                    @for row in rows {
+                        tr { @for (column, cell) in row.iter().enumerate() { td class=[class(column)] { (cell) } } } "\n"
+                    }
+                }
+            }
+        } "\n"
+    }
+}
+
+/// A part that opens when the reader asks for it, and is always open on paper.
+pub fn details(summary: &str, contents: Markup) -> Markup {
+    html! { details { summary { (summary) } "\n" (contents) } "\n" }
 }
 
 const PAGE: &str = include_str!("page.css");
@@ -55,17 +75,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_page_asks_nothing_of_any_other_place() {
-        let page = page("a <page>", "<p>text</p>");
-        assert!(page.contains("<title>a &lt;page&gt;</title>"));
-        for word in ["http://", "https://", "src=", "@import", "url("] {
-            assert!(!page.contains(word), "{word}");
+    fn pages_load_no_external_resource() {
+        for page in [page("a <page>", html! { p { "text" } }), static_page("a <page>", "", html! { p { "text" } })] {
+            assert!(page.contains("<title>a &lt;page&gt;</title>") && page.contains("default-src 'none'"));
+            for word in ["http://", "https://", "src=", "@import", "url("] {
+                assert!(!page.contains(word), "{word}");
+            }
         }
+        assert!(!static_page("", "", html! {}).contains("script"));
     }
 
     #[test]
-    fn cells_are_text_unless_they_are_markup() {
-        let table = table(&["a", ">b"], &[vec!["1 & 2".to_owned(), "<b>3</b>".to_owned()]]);
-        assert!(table.contains("<td>1 &amp; 2</td><td class=\"right\"><b>3</b></td>"), "{table}");
+    fn cells_of_text_are_escaped() {
+        let cells = table(&["a", ">b"], &[vec![html! { "1 & 2" }, html! { b { "3" } }]]).into_string();
+        assert!(cells.contains("<td>1 &amp; 2</td><td class=\"right\"><b>3</b></td>"), "{cells}");
+        assert!(table(&["a"], &[vec!["<i>"]]).into_string().contains("<td>&lt;i&gt;</td>"));
     }
 }

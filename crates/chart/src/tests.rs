@@ -21,26 +21,25 @@ fn assert_finite(text: &str) {
 }
 
 #[test]
-fn a_chart_leaves_out_what_has_no_place_on_its_axes() {
+fn a_chart_omits_values_that_its_axes_cannot_show() {
     let picture = chart(&[1.0, f64::NAN, 0.0, -3.0, f64::INFINITY, 1e-9]).draw();
-    assert_finite(&picture.inline());
+    assert_finite(&picture.inline().into_string());
     assert_finite(&picture.standalone());
-    assert_eq!(picture.inner.matches("<g class=\"dot").count(), 2);
+    assert_eq!(picture.inner.0.matches("<g class=\"dot").count(), 2);
 }
 
 #[test]
-fn a_chart_of_one_point_and_one_of_none_have_axes_too() {
+fn charts_of_one_point_and_of_no_point_have_axes() {
     for y in [&[1e-3][..], &[]] {
         let picture = chart(y).draw();
-        assert_finite(&picture.inner);
-        assert!(picture.inner.contains("class=\"grid\""));
+        assert_finite(&picture.inner.0);
+        assert!(picture.inner.0.contains("class=\"grid\""));
     }
 }
 
 #[test]
-fn marks_of_markup_are_spelt_out() {
-    assert!(chart(&[1.0]).draw().inner.contains("<title>a &lt; b</title>"));
-    assert_eq!(escape("\"&<>"), "&quot;&amp;&lt;&gt;");
+fn titles_are_escaped() {
+    assert!(chart(&[1.0]).draw().inner.0.contains("<title>a &lt; b</title>"));
 }
 
 #[test]
@@ -54,26 +53,52 @@ fn ticks_are_powers_of_ten_or_round_numbers() {
 }
 
 #[test]
-fn a_map_has_its_cells_and_its_curves() {
+fn a_map_shows_its_cells_and_curves() {
     let cell = |column, shade| Cell { column, row: 0, shade, text: String::new(), title: "t".to_owned() };
     let map = HeatMap {
         label: "a map".to_owned(),
         columns: ("dt".to_owned(), vec!["1".to_owned(), "2".to_owned()]),
         rows: ("E".to_owned(), vec!["3".to_owned()]),
-        cells: vec![cell(0, Shade::Good), cell(1, Shade::Strength(f64::NAN))],
+        cells: vec![cell(0, Shade::Good), cell(1, Shade::Bad)],
         curves: vec![("limit".to_owned(), vec![(0.0, 0.0), (1.0, f64::NAN), (1.0, 0.0)])],
         cell: (60.0, 30.0),
     };
     let picture = map.draw();
     assert_finite(&picture.standalone());
-    assert_eq!(picture.inner.matches("class=\"cell").count(), 2);
+    assert_eq!(picture.inner.0.matches("class=\"cell").count(), 2);
     assert_eq!(picture.legend.len(), 1);
 }
 
 #[test]
 fn the_longest_bar_fills_the_width() {
     let bar = |shares: &[f64]| Bar { name: "b".to_owned(), shares: shares.to_vec(), figure: String::new() };
-    let picture = bars("some bars", &["x", "y"], &[bar(&[1.0, 3.0]), bar(&[2.0, f64::NAN])]);
-    assert_finite(&picture.inner);
-    assert!(picture.inner.contains("width=\"202.5\""), "{}", picture.inner);
+    let picture =
+        bars("some bars", &[("x", 0), ("y", 1)], &[bar(&[1.0, 3.0]), bar(&[2.0, f64::NAN])], |part, whole| {
+            format!("{part}/{whole}")
+        });
+    assert_finite(&picture.inner.0);
+    assert!(picture.inner.0.contains("width=\"379.2\"") && picture.inner.0.contains("b: y 3/4"), "{}", picture.inner.0);
+}
+
+#[test]
+fn rows_of_dots_omit_values_that_are_not_positive() {
+    let dot = |x: f64| (Dot { x, title: "<t>".to_owned(), ..Dot::default() }, 7);
+    let row = |name: &str, xs: &[f64]| DotRow {
+        name: name.to_owned(),
+        dots: xs.iter().copied().map(dot).collect(),
+        figure: String::new(),
+    };
+    let picture = dot_rows("rows", &Axis::log("error"), &[row("a", &[1e-3, 1.0]), row("b", &[0.0, f64::NAN])]);
+    assert_finite(&picture.standalone());
+    assert_eq!(picture.inner.0.matches("<g class=\"dot k7\">").count(), 2);
+    assert_eq!(picture.inner.0.matches("<title>&lt;t&gt;</title>").count(), 2);
+}
+
+#[test]
+fn the_last_tenth_of_a_histogram_includes_one() {
+    let inner = histogram("shares", &[0.0, 0.95, 1.0, f64::NAN]).inner.0;
+    assert!(
+        inner.contains("<title>0 to 10 %: 1</title>") && inner.contains("<title>90 to 100 %: 2</title>"),
+        "{inner}"
+    );
 }

@@ -10,7 +10,8 @@ use toml::{Table, Value};
 use super::{PackError, at, output};
 
 /// Files that the grader is built from and works with.
-const PARTS: [&str; 7] = ["Cargo.toml", "Cargo.lock", "LICENSE-APACHE", "LICENSE-MIT", "grader", "include-docs", "src"];
+const PARTS: [&str; 8] =
+    ["Cargo.toml", "Cargo.lock", "LICENSE-APACHE", "LICENSE-MIT", "crates/chart", "grader", "include-docs", "src"];
 
 /// Copies the sources of the repository `root` into the folder `to`, with a manifest and a lock file that ask for no more.
 pub fn copy(root: &Path, to: &Path) -> Result<(), PackError> {
@@ -40,7 +41,7 @@ fn copy_one(from: &Path, to: &Path) -> Result<(), PackError> {
     if !from.is_dir() {
         return fs::copy(from, to).map(drop).map_err(at(from));
     }
-    fs::create_dir(to).map_err(at(to))?;
+    fs::create_dir_all(to).map_err(at(to))?;
     for entry in fs::read_dir(from).map_err(at(from))? {
         let entry = entry.map_err(at(from))?;
         let name = entry.file_name();

@@ -23,27 +23,6 @@ pub fn line(text: &str) -> String {
     plain(text).split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// For HTML, in text and in quoted attributes.
-pub fn html(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in plain(text).chars() {
-        match c {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&#39;"),
-            _ => escaped.push(c),
-        }
-    }
-    escaped
-}
-
-/// The name of a function for HTML: a narrow screen breaks it at its underscores.
-pub fn name(name: &str) -> String {
-    html(&line(name)).replace('_', "_<wbr>")
-}
-
 /// A relative link: no part of it can name another site or a script.
 pub fn link(path: &str) -> String {
     let mut escaped = String::from("./");

@@ -1,22 +1,30 @@
-//! The frame of an HTML page: it holds all it needs and asks nothing of any other place.
+//! Parts that the student's page and the class page share. Text of a submission goes through [`escape`](super::escape) first.
+
+use fem_chart::page::static_page;
+use maud::{Markup, html};
 
 use super::escape;
 
-/// A whole page. `body` is HTML, `title` is text.
-pub fn page(title: &str, body: &str) -> String {
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n\
-         <meta name=\"referrer\" content=\"no-referrer\">\n<meta name=\"color-scheme\" content=\"light dark\">\n\
-         <title>{}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n",
-        escape::html(title)
-    )
+/// A whole page, without scripts.
+pub fn page(title: &str, body: Markup) -> String {
+    static_page(&escape::plain(title), include_str!("page.css"), body)
 }
 
-/// A figure with its caption, as the head of a page shows them.
-pub fn figure(value: &str, caption: &str) -> String {
-    format!("<div><b>{}</b><span>{}</span></div>\n", escape::html(value), escape::html(caption))
+/// A figure with its caption, for the head of a page.
+pub fn figure(value: &str, caption: &str) -> Markup {
+    html! { div { b { (value) } span { (caption) } } "\n" }
 }
 
-const STYLE: &str = include_str!("page.css");
+/// A chart with its heading.
+pub fn chart(heading: &str, picture: &fem_chart::Picture, caption: impl maud::Render) -> Markup {
+    html! {
+        figure { h2 { (heading) } (picture.inline()) (picture.legend()) figcaption { (caption) } } "\n"
+    }
+}
+
+/// The name of a function. A narrow screen breaks it at its underscores.
+pub fn name(name: &str) -> Markup {
+    html! {
+        @for (i, part) in escape::line(name).split('_').enumerate() { @if i > 0 { "_" wbr; } (part) }
+    }
+}

@@ -104,13 +104,21 @@ pub fn error_against_time(study: &SceneStudy) -> Picture {
         let (colour, shape) = look(&method);
         let dots: Vec<Dot> = rows(&method).into_iter().filter_map(dot).collect();
         let name = if dots.is_empty() { format!("{method} (none ended)") } else { method };
-        chart.series.push(Series { name, colour, shape, is_joined: true, has_dots: true, dots });
+        chart.series.push(Series { name, colour, shape, is_joined: true, has_dots: true, dots, ..Series::default() });
     }
     let others = study.rows.iter().filter(own).filter(|row| row.config.group != "method");
     let dots: Vec<Dot> = others.filter_map(dot).collect();
     if !dots.is_empty() {
         let name = "variants: tolerance, solver, projection, precision".to_owned();
-        chart.series.push(Series { name, colour: 8, shape: 4, is_joined: false, has_dots: true, dots });
+        chart.series.push(Series {
+            name,
+            colour: 8,
+            shape: 4,
+            is_joined: false,
+            has_dots: true,
+            dots,
+            ..Series::default()
+        });
     }
     if is_moving {
         chart.guides.push(Guide::Vertical(4.0, "4 ms".to_owned()));
@@ -148,7 +156,7 @@ pub fn convergence(study: &SceneStudy) -> Picture {
         let order = asymptotic(&pairs, super::FINEST, super::FLOOR).filter(|order| order.points > 2);
         let name = order.map_or(method.clone(), |order| format!("{method}: {:.2}", order.value));
         let (colour, shape) = look(&method);
-        chart.series.push(Series { name, colour, shape, is_joined: true, has_dots: true, dots });
+        chart.series.push(Series { name, colour, shape, is_joined: true, has_dots: true, dots, ..Series::default() });
     }
     chart.draw()
 }
@@ -170,13 +178,21 @@ pub fn drift(study: &SceneStudy) -> Option<Picture> {
         let (colour, _) = look(method);
         let name = format!("{method}, dt = {}", step(study.rows[place].config.dt));
         let dots = dots.collect();
-        chart.series.push(Series { name, colour, shape: 0, is_joined: true, has_dots: false, dots });
+        chart.series.push(Series {
+            name,
+            colour,
+            shape: 0,
+            is_joined: true,
+            has_dots: false,
+            dots,
+            ..Series::default()
+        });
     }
     (study.energy_scale > 0.0).then(|| chart.draw())
 }
 
 /// Milliseconds of a step by kinds of work, for the finest run of each method.
-pub fn where_time_goes(study: &SceneStudy) -> Option<Picture> {
+pub fn costs_of_a_step(study: &SceneStudy) -> Option<Picture> {
     let costs = study.costs.as_ref()?;
     let bar = |method: String| {
         let rows: Vec<&Row> = study.rows.iter().filter(|row| row.config.method == method && row.is_done()).collect();
@@ -187,7 +203,10 @@ pub fn where_time_goes(study: &SceneStudy) -> Option<Picture> {
         Some(Bar { name: method, shares: shares.to_vec(), figure })
     };
     let all: Vec<Bar> = methods(study).into_iter().filter_map(bar).collect();
-    (!all.is_empty()).then(|| bars(format!("{}: where the time of a step goes", study.name), &KINDS, &all))
+    let kinds: Vec<(&str, usize)> = KINDS.into_iter().zip(0..).collect();
+    let label = format!("{}: costs of a step", study.name);
+    let percent = |share: f64, whole: f64| format!("{:.0} %", 100.0 * share / whole);
+    (!all.is_empty()).then(|| bars(&label, &kinds, &all, percent))
 }
 
 /// Errors of the manufactured solution over the cells' edge.
@@ -207,7 +226,15 @@ pub fn in_space(space: &SpaceStudy) -> Picture {
             let name =
                 format!("{law}, {norm}: {}", order.map_or("–".to_owned(), |order| format!("{:.2}", order.value)));
             let dots = rows.filter_map(dot).collect();
-            chart.series.push(Series { name, colour: place, shape, is_joined: true, has_dots: true, dots });
+            chart.series.push(Series {
+                name,
+                colour: place,
+                shape,
+                is_joined: true,
+                has_dots: true,
+                dots,
+                ..Series::default()
+            });
         }
     }
     chart.draw()
@@ -229,7 +256,15 @@ pub fn locking(space: &SpaceStudy) -> Picture {
         };
         let dots = beams.map(dot).collect();
         let name = format!("ν = {poisson}");
-        chart.series.push(Series { name, colour: place, shape: place, is_joined: true, has_dots: true, dots });
+        chart.series.push(Series {
+            name,
+            colour: place,
+            shape: place,
+            is_joined: true,
+            has_dots: true,
+            dots,
+            ..Series::default()
+        });
     }
     chart.draw()
 }

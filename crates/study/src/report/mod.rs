@@ -9,6 +9,7 @@ mod text;
 
 use std::path::{Path, PathBuf};
 
+use maud::{Markup, html};
 use serde_json::{Value, json};
 
 use crate::csv_table::csv_text;
@@ -166,18 +167,19 @@ fn write(report: &Report, out: &Path) -> Result<(), String> {
     for (name, picture) in charts::files(report) {
         write(&name, picture.standalone())?;
     }
-    write("report.html", page("Error against run time", &body(report)))
+    write("report.html", page("Error against run time", body(report)))
 }
 
-/// The page's body.
-fn body(report: &Report) -> String {
-    let mut html = notes::head(report);
-    html.push_str(&answer::html(report));
-    html.extend(report.scenes.iter().map(scene_page::html));
-    html.push_str(&space_page::orders(report));
-    html.push_str(&space_page::space(report));
-    html.push_str(&notes::method(report));
-    html
+/// The body of the page.
+fn body(report: &Report) -> Markup {
+    html! {
+        (notes::head(report))
+        (answer::html(report))
+        @for study in &report.scenes { (scene_page::html(study)) }
+        (space_page::orders(report))
+        (space_page::space(&report.space))
+        (notes::method(report))
+    }
 }
 
 fn orders_csv(report: &Report) -> Result<String, csv::Error> {

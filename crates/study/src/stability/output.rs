@@ -116,5 +116,5 @@ pub fn write(table: &Table, folder: &Path) -> io::Result<()> {
         let picture = page::picture(map).standalone();
         std::fs::write(folder.join(format!("stability-{}.svg", map.integrator)), picture)?;
     }
-    std::fs::write(folder.join("stability.html"), page::page(table))
+    std::fs::write(folder.join("stability.html"), page::render(table))
 }

@@ -1,100 +1,92 @@
-//! The page: the answer first, then the maps, then every row.
+//! The page of a stability study: the answer, the maps, recovery and locking, every case.
+
+use fem_chart::page::{details, figure, page, table};
+use fem_chart::{Cell, HeatMap, Picture, Shade};
+use maud::{Markup, html};
 
 use super::case::{Outcome, Row};
 use super::map::{EXPONENTS_OF_YOUNG, Map, PARTS_OF_DT, TIME_STEPS};
 use super::output::Table;
 use super::poisson::CANTILEVER;
-use fem_chart::page;
-use fem_chart::{Cell, HeatMap, Picture, Shade, escape};
 
 /// The whole page.
-pub fn page(table: &Table) -> String {
-    let mut body = head(table);
-    body.push_str(&failures(table));
-    body.push_str(&maps(table));
-    body.push_str(&recovery(table));
-    body.push_str(&locking(table));
-    body.push_str("<h2>Every case</h2>\n");
-    let mut families: Vec<&str> = table.rows.iter().map(|row| row.family).collect();
+pub fn render(study: &Table) -> String {
+    let mut families: Vec<&str> = study.rows.iter().map(|row| row.family).collect();
     families.dedup();
-    for family in families {
-        let rows: Vec<&Row> = table.rows.iter().filter(|row| row.family == family).collect();
-        body.push_str(&chapter(family, &rows));
-    }
-    page::page("Stiff and extreme cases", &body)
+    let failed: Vec<&Row> = study.rows.iter().filter(|row| !row.pass).collect();
+    let body = html! {
+        (head(study))
+        @if !failed.is_empty() { h2 { "Unexpected outcomes" } (rows(&failed)) }
+        (maps(&study.maps))
+        (recovery(study))
+        (locking(study))
+        h2 { "All cases" }
+        @for family in families { (chapter(family, study)) }
+    };
+    page("Stiff and extreme cases", body)
 }
 
-fn head(table: &Table) -> String {
-    let counts = table.counts;
-    let failed = counts.rows - counts.pass;
-    let answer = if failed == 0 {
-        format!("All <b>{}</b> cases end as they must.", counts.rows)
-    } else {
-        format!("<b>{failed}</b> of {} cases do not end as they must.", counts.rows)
-    };
-    let of = |outcome: Outcome| table.rows.iter().filter(|row| row.outcome == outcome).count();
+fn head(study: &Table) -> Markup {
+    let counts = study.counts;
+    let of = |outcome: Outcome| study.rows.iter().filter(|row| row.outcome == outcome).count();
     let ends = [
         (Outcome::Survives, "survive"),
-        (Outcome::Recovers, "return to the shape of rest"),
-        (Outcome::Untangles, "untangle into another balance"),
-        (Outcome::Explodes, "explode with an error that names the step"),
-        (Outcome::Refused, "are refused with an error that names the element or field"),
-        (Outcome::Inverts, "fold where their law allows it"),
+        (Outcome::Recovers, "return to the undeformed shape"),
+        (Outcome::Untangles, "untangle into another equilibrium"),
+        (Outcome::Explodes, "diverge with an error that names the step"),
+        (Outcome::Refused, "are refused with an error that names the element or the key"),
+        (Outcome::Inverts, "invert elements, which their material allows"),
         (Outcome::Locks, "lock"),
+        (Outcome::Panics, "panic"),
+        (Outcome::Hangs, "hang"),
+        (Outcome::NotFinite, "return NaN"),
     ];
     let ends: Vec<String> = ends.iter().map(|(outcome, words)| format!("{} {words}", of(*outcome))).collect();
-    format!(
-        "<h1>Stiff and extreme cases</h1>\n<p class=\"soft\">What the engine does with bodies and steps that an adversary would \
-         choose.</p>\n<div class=\"answer\">{answer} {}; {} panics, {} hangs, {} NaN handed on. For stiff bodies and long \
-         steps take <b>implicit Euler</b>, which survives all of its map; explicit methods end with an error that names the \
-         step as soon as dt passes the line that theory draws.</div>\n<p class=\"soft\">{} rows start from random numbers, {} \
-         seeds; the maps hold {} more runs. {}{:.0} s on the clock. {}.</p>\n",
-        ends.join(", "),
-        of(Outcome::Panics),
-        of(Outcome::Hangs),
-        of(Outcome::NotFinite),
-        counts.seeded_rows,
-        counts.seeds,
-        counts.map_cells,
-        if table.quick { "This is the reduced study. " } else { "" },
-        table.seconds,
-        escape(&table.machine.line()),
-    )
+    html! {
+        h1 { "Stiff and extreme cases" }
+        p class="soft" { "The engine's behaviour for extreme bodies, materials, loads and time steps." }
+        div class="answer" {
+            @if counts.pass == counts.rows {
+                "All " b { (counts.rows) } " cases end as expected: "
+            } @else {
+                b { (counts.rows - counts.pass) } " of " (counts.rows) " cases do not end as expected. In all: "
+            }
+            (ends.join(", ")) ". For stiff bodies and long time steps use " b { "implicit Euler" } ", which survives its whole map. Explicit \
+             integrators end with an error that names the step when dt exceeds the stability limit."
+        } "\n"
+        p class="soft" {
+            (counts.seeded_rows) " cases start from random states with " (counts.seeds) " seeds; the maps contain " (counts.map_cells)
+            " more runs. " @if study.quick { "This is the short study. " }
+            "Wall-clock time: " (format!("{:.0}", study.seconds)) " s. " (study.machine.line()) "."
+        } "\n"
+    }
 }
 
-fn failures(table: &Table) -> String {
-    let failed: Vec<&Row> = table.rows.iter().filter(|row| !row.pass).collect();
-    if failed.is_empty() {
-        return String::new();
-    }
-    format!("<h2>Not as expected</h2>\n{}", rows(&failed))
-}
-
-fn maps(table: &Table) -> String {
-    if table.maps.is_empty() {
-        return String::new();
-    }
-    let mut text = "<h2>Stiffness and time step</h2>\n<p>A clamped neo-Hookean box of 2 × 1 × 1 m in cells of 1 m, ρ = 1000 kg/m³, \
-        starts in the shape of its fastest vibration, 0.1 mm large. The line is the largest stable step, \
-        dt = limit / ω<sub>max</sub>, with ω<sub>max</sub> of M⁻¹K at rest by power iteration. Explicit Euler and RK2 have no \
-        stable step for what vibrates without damping: their line is where the growth shows within the run. × explodes.</p>\n\
-        <div class=\"charts\">\n"
-        .to_owned();
-    for map in &table.maps {
+fn maps(maps: &[Map]) -> Markup {
+    let caption = |map: &Map| {
         let exploded = map.cells.iter().filter(|cell| cell.outcome == Outcome::Explodes).count();
-        let wrong = map.cells.iter().filter(|cell| cell.outcome != cell.expected).count();
-        let caption = format!(
-            "<b>{}</b>: {exploded} of {} pairs explode, {wrong} against the forecast; up to {} steps.",
-            words(map.integrator),
-            map.cells.len(),
-            map.cells.iter().map(|cell| cell.steps).max().unwrap_or_default()
-        );
-        text.push_str(&page::figure(&picture(map), &caption));
+        let unexpected = map.cells.iter().filter(|cell| cell.outcome != cell.expected).count();
+        let steps = map.cells.iter().map(|cell| cell.steps).max().unwrap_or_default();
+        html! {
+            b { (words(map.integrator)) } ": " (exploded) " of " (map.cells.len()) " runs diverge, " (unexpected)
+            " against the prediction; up to " (steps) " steps."
+        }
+    };
+    html! {
+        @if !maps.is_empty() {
+            h2 { "Stiffness and time step" }
+            p {
+                "A clamped neo-Hookean box of 2 × 1 × 1 m with cells of 1 m and ρ = 1000 kg/m³ starts in the mode of the highest natural frequency with an \
+                 amplitude of 0.1 mm. The line is the stability limit dt = limit / ω" sub { "max" } "; ω" sub { "max" } " is computed from M⁻¹K at rest by \
+                 power iteration. Explicit Euler and RK2 have no stable step for undamped vibrations; their line marks where the growth becomes visible \
+                 within the run. × marks divergence."
+            }
+            div class="charts" { @for map in maps { (figure(&picture(map), caption(map))) } } "\n"
+        }
     }
-    text + "</div>\n"
 }
 
-/// The name of a method for people.
+/// The name of an integrator in prose.
 fn words(name: &str) -> &str {
     match name {
         "explicit_euler" => "Explicit Euler",
@@ -108,7 +100,7 @@ fn words(name: &str) -> &str {
     }
 }
 
-/// The map of a method.
+/// The map of an integrator.
 pub fn picture(map: &Map) -> Picture {
     let cell = |(i, cell): (usize, &super::map::Cell)| {
         let shade = match cell.outcome {
@@ -127,27 +119,22 @@ pub fn picture(map: &Map) -> Picture {
         0 => format!("1e{}", column as i32 / PARTS_OF_DT - 5),
         _ => String::new(),
     };
-    let curves = map.limit.map(|limit| (limit_is(map), line(limit))).into_iter().collect();
+    let limit = match map.integrator {
+        "explicit_euler" | "rk2" => format!("growth by e¹⁸ in {} steps", map.most_steps),
+        _ => "dt = limit / ω_max".to_owned(),
+    };
     HeatMap {
-        label: format!("{}: what survives, and what explodes (×)", words(map.integrator)),
+        label: format!("{}: stable and diverging (×) runs", words(map.integrator)),
         columns: ("time step dt (s)".to_owned(), (0..TIME_STEPS).map(dt).collect()),
         rows: (
             "Young's modulus E (Pa)".to_owned(),
             EXPONENTS_OF_YOUNG.map(|exponent| format!("1e{exponent}")).collect(),
         ),
         cells: map.cells.iter().enumerate().map(cell).collect(),
-        curves,
+        curves: map.limit.map(|value| (limit, line(value))).into_iter().collect(),
         cell: (46.0, 26.0),
     }
     .draw()
-}
-
-/// What the line of a map is.
-fn limit_is(map: &Map) -> String {
-    match map.integrator {
-        "explicit_euler" | "rk2" => format!("growth by e¹⁸ in {} steps", map.most_steps),
-        _ => "dt = limit / ω max".to_owned(),
-    }
 }
 
 /// E dt² = limit, from the bottom of the map to its top, in columns and rows.
@@ -160,36 +147,34 @@ fn line(limit: f64) -> Vec<(f64, f64)> {
     vec![place(first - 0.5), place(last + 0.5)]
 }
 
-/// How many of each tangle come back, and how far.
-fn recovery(table: &Table) -> String {
-    let rows: Vec<&Row> = table.rows.iter().filter(|row| row.family == "recovery").collect();
-    let mut kinds: Vec<&str> = Vec::new();
-    for row in &rows {
-        if !kinds.contains(&row.case.as_str()) {
-            kinds.push(&row.case);
-        }
-    }
+/// Numbers of recoveries for each initial state.
+fn recovery(study: &Table) -> Markup {
+    let rows: Vec<&Row> = study.rows.iter().filter(|row| row.family == "recovery").collect();
+    let mut kinds: Vec<&str> = rows.iter().map(|row| row.case.as_str()).collect();
+    let mut seen = std::collections::HashSet::new();
+    kinds.retain(|kind| seen.insert(*kind));
     let line = |kind: &&str| {
-        let of = |outcome: Option<Outcome>| {
-            let same =
-                rows.iter().filter(|row| row.case == *kind && outcome.is_none_or(|outcome| row.outcome == outcome));
-            same.count().to_string()
+        let of = |wanted: Option<Outcome>| {
+            let is_wanted = |row: &&&Row| row.case == *kind && wanted.is_none_or(|outcome| row.outcome == outcome);
+            rows.iter().filter(is_wanted).count().to_string()
         };
         vec![(*kind).to_owned(), of(None), of(Some(Outcome::Recovers)), of(Some(Outcome::Untangles))]
     };
-    let lines: Vec<Vec<String>> = kinds.iter().map(line).collect();
-    format!(
-        "<h2>Recovery</h2>\n<p>A stable neo-Hookean box of 2 × 1 × 1 m, ν = 0.4, starts from a tangle and moves by implicit Euler, \
-         lightly damped. Mirrored and flattened to a plane it must return to the shape of rest. Where nodes have passed through \
-         each other it must end upright and in balance: elements may then surround an inner edge twice, which no energy of \
-         single elements can tell from rest.</p>\n{}",
-        page::table(&["from", ">seeds", ">in the shape of rest", ">upright, in another balance"], &lines)
-    )
+    let head = ["initial state", ">seeds", ">undeformed shape", ">another equilibrium"];
+    html! {
+        h2 { "Recovery" }
+        p {
+            "A stable neo-Hookean box of 2 × 1 × 1 m with ν = 0.4 starts from an inverted or degenerate state and moves by implicit Euler with light damping. \
+             From a reflection and from a plane it must return to the undeformed shape. From the other states it must reach an equilibrium with J > 0 in all \
+             elements; elements may then surround an inner edge twice, which the energies of single elements cannot distinguish from the undeformed state."
+        }
+        (table(&head, &kinds.iter().map(line).collect::<Vec<_>>()))
+    }
 }
 
-/// What is known to be wrong, with its figures.
-fn locking(table: &Table) -> String {
-    let beams: Vec<&Row> = table.rows.iter().filter(|row| row.case == CANTILEVER).collect();
+/// Tip deflections of the cantilever, by Poisson's ratio and mesh.
+fn locking(study: &Table) -> Markup {
+    let beams: Vec<&Row> = study.rows.iter().filter(|row| row.case == CANTILEVER).collect();
     // Poisson's ratio and cells, as the rows write them.
     let parts = |row: &Row| -> [String; 2] {
         let mut parts = row.parameters.split(", ").map(str::to_owned);
@@ -207,49 +192,54 @@ fn locking(table: &Table) -> String {
     let cell = |ratio: &String, mesh: &String| {
         let row = beams.iter().find(|row| parts(row) == [ratio.clone(), mesh.clone()]);
         let margin = row.and_then(|row| row.margin).map_or(String::new(), |margin| format!("{margin:.3}"));
-        if row.is_some_and(|row| row.outcome == Outcome::Locks) { format!("<b>{margin}</b>") } else { margin }
+        let locks = row.is_some_and(|row| row.outcome == Outcome::Locks);
+        html! { @if locks { b { (margin) } } @else { (margin) } }
     };
-    let line =
-        |ratio: &String| [ratio.clone()].into_iter().chain(meshes.iter().map(|mesh| cell(ratio, mesh))).collect();
-    let lines: Vec<Vec<String>> = ratios.iter().map(line).collect();
-    let head: Vec<String> =
-        ["Poisson's ratio".to_owned()].into_iter().chain(meshes.iter().map(|mesh| format!(">{mesh}"))).collect();
-    let head: Vec<&str> = head.iter().map(String::as_str).collect();
-    format!(
-        "<h2>Locking</h2>\n<p>Linear tetrahedra bend too little, and near ν = ½ hardly at all: every element keeps its own volume, \
-         and the mesh has more elements than directions to move in. A finer mesh helps little there. Nothing in the engine mends \
-         this yet; trust no bending of nearly incompressible bodies. The tip of a cantilever of 8 × 1 × 1 m moves by these parts \
-         of what Timoshenko's theory says; what is locked, below one half, is bold:</p>\n{}",
-        page::table(&head, &lines)
-    )
+    let line = |ratio: &String| {
+        std::iter::once(html! { (ratio) }).chain(meshes.iter().map(|mesh| cell(ratio, mesh))).collect::<Vec<_>>()
+    };
+    let names: Vec<String> = meshes.iter().map(|mesh| format!(">{mesh}")).collect();
+    let head: Vec<&str> = std::iter::once("Poisson's ratio").chain(names.iter().map(String::as_str)).collect();
+    html! {
+        h2 { "Volumetric locking" }
+        p {
+            "Linear tetrahedra lock when the material is nearly incompressible: each element keeps its volume, and the mesh has more elements than degrees of \
+             freedom that are left. Refinement helps little. The engine has no remedy yet; do not trust the bending of nearly incompressible bodies. The table gives \
+             the tip deflection of a cantilever of 8 × 1 × 1 m relative to Timoshenko's beam theory; values below one half, which count as locked, are bold."
+        }
+        (table(&head, &ratios.iter().map(line).collect::<Vec<_>>()))
+    }
 }
 
-fn chapter(family: &str, all: &[&Row]) -> String {
+fn chapter(family: &str, study: &Table) -> Markup {
+    let all: Vec<&Row> = study.rows.iter().filter(|row| row.family == family).collect();
     let pass = all.iter().filter(|row| row.pass).count();
-    page::details(&format!("{family}: {pass} of {} as expected", all.len()), &rows(all))
+    details(&format!("{family}: {pass} of {} as expected", all.len()), rows(&all))
 }
 
-fn rows(all: &[&Row]) -> String {
+fn rows(all: &[&Row]) -> Markup {
     let line = |row: &&Row| {
         let margin = row.margin.map_or(String::new(), |margin| format!("{margin:.3e}"));
         let of = if margin.is_empty() { "" } else { row.margin_is };
         let seed = row.seed.map_or(String::new(), |seed| format!(", seed {seed}"));
-        let must = if row.pass { String::new() } else { format!("must: {}", row.expected) };
+        let expected = if row.pass { String::new() } else { format!("expected: {}", row.expected) };
         vec![
-            stacked("", row.outcome.name(), &must),
+            stacked("", row.outcome.name(), &expected),
             stacked("wide", &row.case, &row.parameters),
             stacked("", &row.integrator, &format!("{}{seed}", row.material)),
             stacked("wide", &margin, of),
             stacked("wide", "", &row.note),
         ]
     };
-    let lines: Vec<Vec<String>> = all.iter().map(line).collect();
-    page::table(&["outcome", "case and parameters", "integrator and material", "margin", "note"], &lines)
+    let lines: Vec<Vec<Markup>> = all.iter().map(line).collect();
+    table(&["outcome", "case and parameters", "integrator and material", "margin", "note"], &lines)
 }
 
 /// A cell of two texts, one below the other.
-fn stacked(class: &str, above: &str, below: &str) -> String {
-    let (above, below) = (escape(above), escape(below));
-    let line = if above.is_empty() || below.is_empty() { "" } else { "<br>" };
-    format!("<div class=\"{class}\">{above}{line}<span class=\"soft\">{below}</span></div>")
+fn stacked(class: &str, above: &str, below: &str) -> Markup {
+    html! {
+        div class=(class) {
+            (above) @if !above.is_empty() && !below.is_empty() { br; } span class="soft" { (below) }
+        }
+    }
 }

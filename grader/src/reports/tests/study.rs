@@ -14,12 +14,12 @@ fn each_function_and_each_run_is_drawn_beside_the_reference() {
     let with =
         |wanted: fn(&crate::grade::FunctionGrade) -> bool| view::parts(&grade).filter(|part| wanted(part)).count();
     let (errors, times) = (with(|part| part.error.is_some()), with(|part| part.seconds.is_some()));
-    let circles = |class: &str| page.matches(&format!("<circle class=\"{class}\"")).count();
+    let dots = |class: &str| page.matches(&format!("<g class=\"{class}\">")).count();
     assert!(errors > 10 && errors < 23, "some functions of the sample have no answer");
-    // Of the eight runs, four are hollow; of the last two there is no answer.
-    assert_eq!((circles("dot"), circles("reference")), (errors + times + 2, times + 4));
-    assert_eq!((circles("dot part"), circles("reference part")), (4, 4));
-    assert!(page.contains("2 of 8 runs of the submission gave no positions"));
+    // Of the eight runs, four are hollow; the last two have no answer. The legend shows each of the four curves once more.
+    assert_eq!((dots("dot k0"), dots("dot k7")), (errors + times + 2 + 1, times + 4 + 1));
+    assert_eq!((dots("dot hollow k0"), dots("dot hollow k7")), (4 + 1, 4 + 1));
+    assert!(page.contains("2 of 8 runs of the submission gave no finite positions"));
     assert!(page.contains("submission, linearly implicit euler, time step 0.01 s: 5.0e-2 m, 60.0 ms"));
     assert!(page.contains("<td>implicit euler</td><td class=\"right\">2.5 ms</td><td class=\"right\">–</td>"));
 }
@@ -30,7 +30,7 @@ fn without_being_asked_for_nothing_is_drawn_and_without_a_run_it_is_said() {
     let mut grade = sample::grade(0);
     grade.study = Some(Study { runs: Vec::new(), ..sample::study() });
     let page = html::render(&grade, true);
-    assert!(page.contains("There is none: it needs") && page.contains("Run time"));
+    assert!(page.contains("has no runs of the simulation") && page.contains("Run time"));
 }
 
 #[test]
