@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use fem_engine::forces::acting::Acting;
+use fem_engine::forces::{HessianKind, Moment};
 use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::solvers::{Preconditioner, Solver, SolverChoice};
@@ -50,27 +50,27 @@ fn bent(system: &System<f64>) -> Vec<[f64; 3]> {
 
 /// Sums over all elements.
 fn elastic(system: &System<f64>) -> Result<(), End> {
-    let (u, acting, count) = (bent(system), Acting { pulls: &[], load: None }, system.elements.count);
+    let (u, moment, count) = (bent(system), Moment::at(0.0), system.elements.count);
     let mut gradient = vec![[0.0; 3]; system.nodes()];
     let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
     time("energy", count, || {
-        std::hint::black_box(system.potential(&u, acting));
+        std::hint::black_box(system.potential(&u, moment));
         Ok(())
     })?;
     time("gradient", count, || {
-        system.gradient(&u, acting, &mut gradient);
+        system.gradient(&u, moment, &mut gradient);
         Ok(())
     })?;
     time("energy and gradient", count, || {
-        std::hint::black_box(system.potential_and_gradient(&u, acting, &mut gradient));
+        std::hint::black_box(system.potential_and_gradient(&u, moment, &mut gradient));
         Ok(())
     })?;
     time("stiffness", count, || {
-        system.add_stiffness(1.0, &u, &mut values);
+        system.add_stiffness(1.0, &u, HessianKind::Exact, &mut values);
         Ok(())
     })?;
     time("projected stiffness", count, || {
-        system.add_projected_stiffness(1.0, &u, &mut values);
+        system.add_stiffness(1.0, &u, HessianKind::Projected, &mut values);
         Ok(())
     })?;
     time("stiffness times vector, without a matrix", count, || {
@@ -96,7 +96,7 @@ fn linear(system: &System<f64>, name: SolverName, dt: f64) -> Result<(), End> {
         system.mass.add_to(0.0, &system.pattern, &mut values);
         Ok(())
     })?;
-    system.add_stiffness(1.0, &u, &mut values);
+    system.add_stiffness(1.0, &u, HessianKind::Exact, &mut values);
     system.mass.add_to(1.0 / (dt * dt), &system.pattern, &mut values);
     let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
     let mut solver = Solver::<f64>::new(choice(name), &system.pattern, &rest);

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
-use fem_engine::forces::acting::Acting;
+use fem_engine::forces::{HessianKind, Moment};
 use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::number::Real;
@@ -42,17 +42,18 @@ fn bent<T: Real>(system: &System<T>) -> Vec<[T; 3]> {
 /// Sums over elements, for one law in one precision.
 fn sums<T: Real>(group: &mut BenchmarkGroup<WallTime>, law: &str, precision: &str) {
     let system = system::<T>(&beam(law, 10), SolverChoice::Cholesky);
-    let (u, acting) = (bent(&system), Acting { pulls: &[], load: None });
+    let (u, moment) = (bent(&system), Moment::at(0.0));
     let mut gradient = vec![[T::default(); 3]; system.nodes()];
     let mut values = vec![[[T::default(); 3]; 3]; system.pattern.blocks()];
     group.throughput(Throughput::Elements(system.elements.count as u64));
     let name = |part: &str| format!("{part}/{law}/{precision}");
-    group.bench_function(name("gradient"), |b| b.iter(|| system.gradient(&u, acting, black_box(&mut gradient))));
+    group.bench_function(name("gradient"), |b| b.iter(|| system.gradient(&u, moment, black_box(&mut gradient))));
     group.bench_function(name("energy and gradient"), |b| {
-        b.iter(|| system.potential_and_gradient(&u, acting, black_box(&mut gradient)))
+        b.iter(|| system.potential_and_gradient(&u, moment, black_box(&mut gradient)))
     });
-    group
-        .bench_function(name("stiffness"), |b| b.iter(|| system.add_stiffness(T::of(1.0), &u, black_box(&mut values))));
+    group.bench_function(name("stiffness"), |b| {
+        b.iter(|| system.add_stiffness(T::of(1.0), &u, HessianKind::Exact, black_box(&mut values)))
+    });
 }
 
 fn elements(criterion: &mut Criterion) {
@@ -79,7 +80,7 @@ fn solvers(criterion: &mut Criterion) {
             let system = system::<f64>(&beam("neo_hookean", cells), choice);
             let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
             let u = bent(&system);
-            system.add_stiffness(1.0, &u, &mut values);
+            system.add_stiffness(1.0, &u, HessianKind::Exact, &mut values);
             system.mass.add_to(1e4, &system.pattern, &mut values);
             let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
             let mut solver = Solver::<f64>::new(choice, &system.pattern, &rest);

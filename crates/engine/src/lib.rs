@@ -1,8 +1,9 @@
-//! Deformable solids by the finite element method: scene files, meshes, the loop and its counters.
+//! The engine: deformable solids by the finite element method.
 //!
-//! A scene file becomes a [`Scene`](scene::Scene), a pipeline turns that into a [`Simulation`](simulation::Simulation),
-//! and whoever drives it (window, headless loop) sees nothing but that trait. A [`run`](simulate::run) ends in the files of
-//! [`output`].
+//! A [`Body`](fem_scene::Body) becomes a [`System`](model::system::System), which never changes in a run, and a
+//! [`State`](model::state::State), which an [`Integrator`](integrators::Integrator) advances. A
+//! [`Simulator`](simulator::Simulator) holds both and implements [`Simulation`](fem_scene::simulation::Simulation), all that the
+//! window, the headless loop and the reports see.
 
 #![deny(missing_docs)]
 #![allow(non_snake_case)] // J, F, C and D are the names that the mathematics and the course use
@@ -18,7 +19,7 @@ pub mod materials;
 pub mod model;
 pub mod newton;
 pub mod number;
-pub mod pick;
+mod pick;
 pub mod profile;
 pub mod simulator;
 pub mod skinning;

@@ -1,23 +1,22 @@
-//! How often each part of a body is used, and for how long. A part that a scene leaves out has a meter that never turns.
+//! Timers of the parts of a body.
 
-pub use fem_scene::Timer;
+use fem_scene::Timer;
 
-/// The meters of a body's parts. Their times do not overlap.
+/// Timers of a body's parts; their times do not overlap. Each force has a timer of its own beside it.
 #[derive(Debug, Default)]
-#[allow(missing_docs)] // the names are those of the parts
-pub struct Work {
+pub struct Profile {
+    /// Elastic forces without their energy.
     pub forces: Timer,
-    /// Energies, each with the forces of the same state.
+    /// Elastic energies, each with the forces of the same state.
     pub energies: Timer,
-    /// Element stiffnesses as they are.
+    /// Assembly of the exact stiffness.
     pub stiffness: Timer,
-    /// Element stiffnesses with their projection.
+    /// Assembly of the projected stiffness.
     pub projection: Timer,
+    /// Products with the mass matrix.
     pub mass: Timer,
-    pub dead_load: Timer,
+    /// Prescribed motions.
     pub prescribed: Timer,
-    pub springs: Timer,
-    pub pressure: Timer,
+    /// Damping forces.
     pub damping: Timer,
-    pub drag: Timer,
 }

@@ -1,82 +1,114 @@
-//! The engine's simulation of one scene: what drives [`System`] and [`State`] as a [`Simulation`].
+//! The engine's simulation of one scene: a [`System`] and its [`State`], advanced by an integrator, as a [`Simulation`].
 
-mod build;
+mod integrator;
 mod parts;
-mod range;
-mod reactions;
-mod rigid;
+mod range_check;
 mod simulation;
-mod stepper;
 
-use crate::forces::pulls::AnchorSpring;
+use std::sync::atomic::AtomicUsize;
+
+use fem_scene::simulation::{Counters, Simulation};
+use fem_scene::{Body, Integrator as IntegratorKind, Material, Method, Precision, Scene, SceneError, Timer};
+
+use crate::boundary::rigid_modes;
+use crate::integrators::Integrator;
+use crate::materials::AnyLaw;
 use crate::model::state::State;
-use crate::model::system::System;
+use crate::model::system::{OwnForces, System};
 use crate::number::Real;
-use crate::profile::Timer;
 use crate::skinning::Skinning;
 use crate::solvers::SolverChoice;
-use fem_scene::simulation::{Counters, Pull, Simulation};
-use fem_scene::{Body, Integrator, Material, Method, Precision, Scene, SceneError};
-use stepper::Stepper;
 
-pub use build::integrators;
+pub use integrator::integrators;
 
-/// The field of a scene that cannot be simulated, and the problem with its remedy.
-type Refusal = (&'static str, String);
-
-/// A body that the engine moves, in one float type.
+/// A body that the engine moves, in one number type.
 pub struct Simulator<T: Real> {
     method: Method,
-    /// The scene's `[material]`.
     material: Material,
-    lumped_mass: bool,
     system: System<T>,
     state: State<T>,
-    /// Where a step that fails returns to.
+    /// The state before the last step, to which a failed step returns.
     last_good: State<T>,
-    stepper: Stepper<T>,
-    integrator: Integrator,
-    choice: SolverChoice,
+    integrator: Box<dyn Integrator<T>>,
+    kind: IntegratorKind,
+    solver: SolverChoice,
     dt: f64,
     skinning: Option<Skinning>,
-    /// Stiffness of every pull, N/m.
-    drag_stiffness: f64,
-    /// A person's pull, which takes the place of the scene's.
-    pull: Option<Pull>,
-    springs: Vec<AnchorSpring<T>>,
     counters: Counters,
     /// Display vertices that were computed; pictures are asked for through `&self`.
-    skinned_rows: std::sync::atomic::AtomicUsize,
-    /// Display surfaces and reactions that somebody has asked for.
-    skinned: Timer,
-    reacted: Timer,
+    skinned_rows: AtomicUsize,
+    skinning_timer: Timer,
+    reactions_timer: Timer,
+}
+
+/// A field of the scene that the engine refuses: its name, and the problem with its remedy.
+pub(crate) type Refusal = (&'static str, String);
+
+/// Builds the simulation of a scene in the precision that it names. Returns an error that names the field if the scene asks for
+/// something impossible.
+pub fn build(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, SceneError> {
+    Ok(match scene.method().precision {
+        Precision::F64 => Box::new(Simulator::<f64>::new(scene, body)?),
+        Precision::F32 => Box::new(Simulator::<f32>::new(scene, body)?),
+    })
 }
 
 impl<T: Real> Simulator<T> {
-    /// What never changes.
+    /// Builds what the scene names, and nothing else, at rest.
+    pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
+        Self::with_forces(scene, body, &|_| Vec::new())
+    }
+
+    /// The same with forces of one's own beside those that the scene names.
+    pub fn with_forces(scene: &Scene, body: Body, own: OwnForces<T>) -> Result<Self, SceneError> {
+        let refuse = |(field, problem): Refusal| scene.refuse(field, &problem);
+        let Some(law) = AnyLaw::<T::Lanes>::new(&body.material) else {
+            return Err(refuse(("material", "lacks the moduli of its model; give young and poisson".to_owned())));
+        };
+        let method = scene.method();
+        if method.integrator == IntegratorKind::Static {
+            rigid_modes::check(&body).map_err(refuse)?;
+        }
+        let skinning = body.shape.display.as_ref().map(|display| Skinning::new(&body.shape.mesh, &display.vertices));
+        let solver = integrator::solver_choice(&method, body.shape.mesh.vertices.len());
+        let material = body.material.clone();
+        let system = System::with_forces(body, law, solver, own);
+        range_check::check(&method, &system).map_err(refuse)?;
+        let state = State::at_rest(system.nodes());
+        Ok(Self {
+            integrator: integrator::build(method.integrator, &method, &system, solver),
+            kind: method.integrator,
+            solver,
+            dt: method.dt,
+            skinning,
+            counters: Counters::default(),
+            skinned_rows: AtomicUsize::default(),
+            skinning_timer: Timer::default(),
+            reactions_timer: Timer::default(),
+            last_good: state.clone(),
+            state,
+            system,
+            material,
+            method,
+        })
+    }
+
+    /// The body.
     pub fn system(&self) -> &System<T> {
         &self.system
     }
 
-    /// Where the body is, in the engine's order of nodes.
+    /// Its state, in the engine's numbering.
     pub fn state(&self) -> &State<T> {
         &self.state
     }
 
-    /// Puts the nodes anywhere: displacements from rest (m) and velocities (m/s), in the mesh's order. Time goes on as it is.
-    pub fn place(&mut self, displacements: &[[f64; 3]], velocities: &[[f64; 3]]) {
-        for (node, &mesh_node) in self.system.order.mesh_node.iter().enumerate() {
+    /// Sets the state: displacements (m) and velocities (m/s) in the mesh's numbering. Time stays.
+    pub fn set_state(&mut self, displacements: &[[f64; 3]], velocities: &[[f64; 3]]) {
+        for (node, &mesh_node) in self.system.numbering.mesh_node.iter().enumerate() {
             self.state.u[node] = displacements[mesh_node as usize].map(T::of);
             self.state.v[node] = velocities[mesh_node as usize].map(T::of);
         }
-        self.stepper.forget();
+        self.integrator.forget();
     }
-}
-
-/// Builds what the scene names, in the precision that it names.
-pub fn build(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, SceneError> {
-    Ok(match scene.time.precision {
-        Precision::F64 => Box::new(Simulator::<f64>::new(scene, body)?),
-        Precision::F32 => Box::new(Simulator::<f32>::new(scene, body)?),
-    })
 }

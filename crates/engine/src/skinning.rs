@@ -1,4 +1,4 @@
-//! A display surface that follows the tetrahedra.
+//! Linear skinning: a display surface that follows the tetrahedra.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -10,12 +10,12 @@ pub struct Skinning {
     rows: Vec<([u32; 4], [f64; 4])>,
 }
 
-/// How far outside an element, as a shape function's value, a vertex still counts as inside.
+/// A vertex belongs to an element if none of its shape functions is smaller than minus this.
 const TOLERANCE: f64 = 1e-6;
 
 impl Skinning {
-    /// Each vertex goes to the first element that holds it; one that lies in none to the element from whose inside it is least
-    /// far, as its smallest shape function tells.
+    /// Assigns each vertex to the first element that contains it; a vertex outside all elements, to the one in which its smallest
+    /// shape function is largest.
     pub fn new(mesh: &TetrahedralMesh, vertices: &[Vector3<f64>]) -> Self {
         let shapes: Vec<_> = mesh.elements.iter().map(|element| shape(mesh, element)).collect();
         let weights = |element: usize, x: &Vector3<f64>| {
@@ -50,7 +50,7 @@ impl Skinning {
         self.rows.iter().filter(|(_, weights)| weights.iter().any(|&weight| weight < -TOLERANCE)).count()
     }
 
-    /// Where the display vertices are when the nodes are at `x`, m.
+    /// Positions of the display vertices for nodes at `x`, m.
     pub fn apply(&self, x: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
         let position = |(nodes, weights): &([u32; 4], [f64; 4])| {
             nodes.iter().zip(weights).map(|(&node, &weight)| weight * x[node as usize]).sum()
@@ -58,7 +58,7 @@ impl Skinning {
         self.rows.iter().map(position).collect()
     }
 
-    /// Bytes that it holds.
+    /// Memory, bytes.
     pub fn bytes(&self) -> usize {
         size_of_val(&self.rows[..])
     }
@@ -67,6 +67,6 @@ impl Skinning {
 /// First corner, and the inverse of the edge matrix.
 fn shape(mesh: &TetrahedralMesh, element: &[usize; 4]) -> (Vector3<f64>, Matrix3<f64>) {
     let [a, b, c, d] = element.map(|node| mesh.vertices[node]);
-    // Meshes are checked: no element is without volume.
+    // Meshes are checked: every element has a volume.
     (a, Matrix3::from_columns(&[b - a, c - a, d - a]).try_inverse().unwrap_or_default())
 }

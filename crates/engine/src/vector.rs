@@ -26,6 +26,11 @@ pub fn norm<T: Real>(x: &[[T; 3]]) -> f64 {
     dot(x, x).sqrt()
 }
 
+/// a · b of one node, in double precision.
+pub(crate) fn dot3<T: Real>(a: &[T; 3], b: &[T; 3]) -> f64 {
+    a.iter().zip(b).map(|(&a, &b)| a.as_f64() * b.as_f64()).sum()
+}
+
 /// Maximum norm ‖x‖∞, the largest absolute value of an entry.
 pub(crate) fn max_norm<T: Real>(x: &[[T; 3]]) -> f64 {
     x.as_flattened().iter().map(|x| x.as_f64().abs()).fold(0.0, f64::max)

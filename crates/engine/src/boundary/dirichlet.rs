@@ -1,146 +1,140 @@
-//! Nodes that do not move by themselves: held where they are, or led as the scene says, wholly or in some directions.
+//! Dirichlet conditions: nodes that are fixed or follow a prescribed motion, in all directions or in some.
+//!
+//! Fully constrained nodes come last in the engine's numbering and have no rows in any matrix. Partly constrained nodes keep their
+//! rows; their constrained degrees of freedom are eliminated from the matrix.
 
+use fem_scene::{Body, DirichletCondition, Motion};
 use nalgebra::Vector3;
 
+use crate::forces::Moment;
 use crate::model::numbering::Numbering;
 use crate::number::Real;
 use crate::sparse::{Block, Pattern, Stored};
-use fem_scene::{Body, DirichletCondition, Motion};
 
-/// What holds a body. The engine's nodes from `free` on are held wholly.
+/// The Dirichlet conditions of a body. Nodes have the engine's numbers; those from `free` on are fully constrained.
 #[derive(Clone, Debug, Default)]
 pub struct DirichletConditions {
-    /// First node that is held wholly.
+    /// First fully constrained node.
     pub free: usize,
-    /// Nodes below `free` that are held in some directions.
+    /// Nodes below `free` with their constrained directions, ascending.
     partly: Vec<(usize, [bool; 3])>,
-    /// The scene's conditions, in the engine's numbers of the nodes.
     conditions: Vec<DirichletCondition>,
 }
 
-/// Which nodes of the mesh are held wholly; they come last in the engine's order.
+/// Whether each node of the mesh is constrained in all directions.
 pub fn fully_constrained_nodes(body: &Body) -> Vec<bool> {
     let mut directions = vec![[false; 3]; body.shape.mesh.vertices.len()];
-    for condition in &body.dirichlet {
+    constrain(&body.dirichlet, &mut directions);
+    directions.into_iter().map(|constrained| constrained == [true; 3]).collect()
+}
+
+fn constrain(conditions: &[DirichletCondition], directions: &mut [[bool; 3]]) {
+    for condition in conditions {
         for &node in &condition.nodes {
-            for (held, holds) in directions[node].iter_mut().zip(condition.components) {
-                *held |= holds;
-            }
+            let constrained = directions[node];
+            directions[node] = std::array::from_fn(|i| constrained[i] || condition.components[i]);
         }
     }
-    directions.into_iter().map(|held| held == [true; 3]).collect()
 }
 
 impl DirichletConditions {
-    /// What the scene holds, in the engine's order.
-    pub fn new(body: &Body, order: &Numbering) -> Self {
-        let engine = |condition: &DirichletCondition| DirichletCondition {
-            nodes: condition.nodes.iter().map(|&node| order.engine_node[node] as usize).collect(),
+    /// The conditions of a body in the engine's numbering.
+    pub fn new(body: &Body, numbering: &Numbering) -> Self {
+        let engine_nodes = |condition: &DirichletCondition| DirichletCondition {
+            nodes: condition.nodes.iter().map(|&node| numbering.engine_node[node] as usize).collect(),
             ..condition.clone()
         };
-        let conditions: Vec<_> = body.dirichlet.iter().map(engine).collect();
-        let mut directions = vec![[false; 3]; order.free];
-        for condition in &conditions {
-            for &node in condition.nodes.iter().filter(|&&node| node < order.free) {
-                for (held, holds) in directions[node].iter_mut().zip(condition.components) {
-                    *held |= holds;
-                }
-            }
-        }
-        let partly = directions.into_iter().enumerate().filter(|(_, held)| *held != [false; 3]).collect();
-        Self { free: order.free, partly, conditions }
+        let conditions: Vec<_> = body.dirichlet.iter().map(engine_nodes).collect();
+        let mut directions = vec![[false; 3]; body.shape.mesh.vertices.len()];
+        constrain(&conditions, &mut directions);
+        directions.truncate(numbering.free);
+        let partly = directions.into_iter().enumerate().filter(|(_, constrained)| *constrained != [false; 3]).collect();
+        Self { free: numbering.free, partly, conditions }
     }
 
-    /// Whether nothing is held at all.
-    pub fn is_nothing(&self, nodes: usize) -> bool {
+    /// Whether no degree of freedom of a body with so many nodes is constrained.
+    pub fn is_empty(&self, nodes: usize) -> bool {
         self.free == nodes && self.partly.is_empty()
     }
 
-    /// The scene's conditions, in the engine's numbers of the nodes.
+    /// Every condition, with the engine's numbers of its nodes.
     pub fn conditions(&self) -> &[DirichletCondition] {
         &self.conditions
     }
 
-    /// Conditions with a prescribed motion.
+    /// The conditions that prescribe a motion.
     pub fn motions(&self) -> impl Iterator<Item = (&DirichletCondition, &Motion)> {
         self.conditions.iter().filter_map(|condition| Some((condition, condition.motion.as_ref()?)))
     }
 
-    /// Nodes of `[fixed]`; `None` where the scene has none.
-    pub fn fixed(&self) -> Option<&[usize]> {
-        self.conditions.iter().find(|condition| condition.motion.is_none()).map(|condition| &condition.nodes[..])
-    }
-
-    /// Whether some nodes are led.
-    pub fn leads(&self) -> bool {
+    /// Whether a motion is prescribed.
+    pub fn has_motion(&self) -> bool {
         self.motions().next().is_some()
     }
 
-    /// Sets the entries of held directions to zero.
-    pub fn clear<T: Real>(&self, x: &mut [[T; 3]]) {
+    /// Sets the constrained entries to zero.
+    pub fn clear_constrained<T: Real>(&self, x: &mut [[T; 3]]) {
         x[self.free..].fill([T::default(); 3]);
-        for &(node, held) in &self.partly {
-            for i in 0..3 {
-                if held[i] {
-                    x[node][i] = T::default();
-                }
+        for &(node, constrained) in &self.partly {
+            for i in (0..3).filter(|&i| constrained[i]) {
+                x[node][i] = T::default();
             }
         }
     }
 
-    /// Copies the entries of held directions.
-    pub fn copy<T: Real>(&self, from: &[[T; 3]], to: &mut [[T; 3]]) {
+    /// Sets the free entries to zero.
+    pub fn clear_free<T: Real>(&self, x: &mut [[T; 3]]) {
+        let mut partly = self.partly.iter().peekable();
+        for (node, x) in x[..self.free].iter_mut().enumerate() {
+            let constrained =
+                partly.next_if(|(partly, _)| *partly == node).map_or([false; 3], |(_, directions)| *directions);
+            *x = std::array::from_fn(|i| if constrained[i] { x[i] } else { T::default() });
+        }
+    }
+
+    /// Copies the constrained entries.
+    pub fn copy_constrained<T: Real>(&self, from: &[[T; 3]], to: &mut [[T; 3]]) {
         to[self.free..].copy_from_slice(&from[self.free..]);
-        for &(node, held) in &self.partly {
-            for i in (0..3).filter(|&i| held[i]) {
+        for &(node, constrained) in &self.partly {
+            for i in (0..3).filter(|&i| constrained[i]) {
                 to[node][i] = from[node][i];
             }
         }
     }
 
-    /// Keeps the entries of held directions, and sets the others to zero.
-    pub fn keep<T: Real>(&self, x: &mut [[T; 3]]) {
-        let mut partly = self.partly.iter().peekable();
-        for (node, x) in x[..self.free].iter_mut().enumerate() {
-            let held = partly.next_if(|(held, _)| *held == node).map_or([false; 3], |(_, held)| *held);
-            *x = std::array::from_fn(|i| if held[i] { x[i] } else { T::default() });
-        }
-    }
-
-    /// Writes the step that held directions make, and leaves the others: none, or to where a motion leads them when `fraction(motion)` of it is done.
-    pub fn lead<T: Real>(
+    /// Overwrites the constrained entries of an increment, m: it leads from the displacements `start` to the prescribed ones at a
+    /// moment. `rest` are the undeformed positions, m.
+    pub fn prescribe<T: Real>(
         &self,
         rest: &[Vector3<f64>],
-        fraction: impl Fn(&Motion) -> f64,
+        moment: Moment,
         start: &[[T; 3]],
-        step: &mut [[T; 3]],
+        increment: &mut [[T; 3]],
     ) {
-        self.clear(step);
-        for (condition, motion) in self.motions() {
-            let fraction = fraction(motion);
-            for &node in &condition.nodes {
+        self.clear_constrained(increment);
+        for (DirichletCondition { nodes, components, .. }, motion) in self.motions() {
+            let fraction = moment.load_factor.unwrap_or_else(|| motion.fraction(moment.time));
+            for &node in nodes {
                 let target = motion.position(&rest[node], fraction) - rest[node];
-                for i in 0..3 {
-                    if condition.components[i] {
-                        step[node][i] = T::of(target[i] - start[node][i].as_f64());
-                    }
+                for i in (0..3).filter(|&i| components[i]) {
+                    increment[node][i] = T::of(target[i] - start[node][i].as_f64());
                 }
             }
         }
     }
 
-    /// Takes held directions out of a matrix: zero beside the diagonal, the diagonal's own size on it.
-    pub fn take_out<T: Real>(&self, pattern: &Pattern, values: &mut [Block<T, 3>]) {
-        for &(node, held) in &self.partly {
+    /// Eliminates the constrained degrees of freedom from a matrix: zero beside the diagonal, the diagonal entry as it is.
+    pub fn eliminate<T: Real>(&self, pattern: &Pattern, values: &mut [Block<T, 3>]) {
+        for &(node, constrained) in &self.partly {
             for block in pattern.row(node) {
                 let column = pattern.columns[block] as usize;
-                clear_rows(&mut values[block], held, column == node);
-                let mirrored = pattern.stored == Stored::Full;
+                clear_rows(&mut values[block], constrained, column == node);
+                let is_mirrored = pattern.stored == Stored::Full;
                 if column != node
-                    && mirrored
+                    && is_mirrored
                     && let Some(block) = pattern.find(column, node)
                 {
-                    clear_columns(&mut values[block], held);
+                    clear_columns(&mut values[block], constrained);
                 }
             }
         }
@@ -160,29 +154,27 @@ impl DirichletConditions {
         }
     }
 
-    /// Bytes that it holds.
+    /// Memory, bytes.
     pub fn bytes(&self) -> usize {
         let nodes: usize = self.conditions.iter().map(|condition| size_of_val(&condition.nodes[..])).sum();
         size_of_val(&self.partly[..]) + nodes
     }
 }
 
-fn clear_rows<T: Real>(block: &mut Block<T, 3>, held: [bool; 3], is_diagonal: bool) {
+fn clear_rows<T: Real>(block: &mut Block<T, 3>, constrained: [bool; 3], is_diagonal: bool) {
     for i in 0..3 {
         for j in 0..3 {
-            if (held[i] || (is_diagonal && held[j])) && !(is_diagonal && i == j) {
+            if (constrained[i] || (is_diagonal && constrained[j])) && !(is_diagonal && i == j) {
                 block[i][j] = T::default();
             }
         }
     }
 }
 
-fn clear_columns<T: Real>(block: &mut Block<T, 3>, held: [bool; 3]) {
+fn clear_columns<T: Real>(block: &mut Block<T, 3>, constrained: [bool; 3]) {
     for row in block {
-        for j in 0..3 {
-            if held[j] {
-                row[j] = T::default();
-            }
+        for j in (0..3).filter(|&j| constrained[j]) {
+            row[j] = T::default();
         }
     }
 }

@@ -1,3 +1,5 @@
 //! Dirichlet conditions: fixed nodes, prescribed motions, and the reactions at both.
 
 pub mod dirichlet;
+pub mod reactions;
+pub mod rigid_modes;

@@ -1,4 +1,4 @@
-//! The passes over all elements.
+//! Assembly: loops over all elements that sum up energy, gradient and Hessian.
 
 use super::build::NONE;
 use super::kernel::{
@@ -18,14 +18,14 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     /// Elastic energy at displacements `u` of all nodes, J; not finite where the law does not allow an element.
     pub fn energy(&self, law: &dyn Law<T::Lanes>, u: &[[T; D]]) -> f64 {
         let of_chunk = |chunk: &Chunk<T, D, N>, _: &mut [()]| energy_of(chunk, law, u);
-        over_chunks(&self.chunks, &mut [], |_| 0, of_chunk)
+        over_chunks(&self.chunks, &mut [], |_| 0, &of_chunk)
     }
 
-    /// Σ V G:G, m³: what rounding in the energies of elements that have turned is measured by. It grows with the turn, where
-    /// their energies do not.
+    /// Σ V G:G, m³: a measure of the rounding error in the energies of rotated elements. It grows with the rotation, their energies
+    /// do not.
     pub fn squares(&self, u: &[[T; D]]) -> f64 {
         let of_chunk = |chunk: &Chunk<T, D, N>, _: &mut [()]| squares_of(chunk, u);
-        over_chunks(&self.chunks, &mut [], |_| 0, of_chunk)
+        over_chunks(&self.chunks, &mut [], |_| 0, &of_chunk)
     }
 
     /// Adds the gradient of the energy by the nodes' positions, N.
@@ -34,13 +34,13 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
             add_gradient_of(chunk, law, u, sums);
             0.0
         };
-        over_chunks(&self.chunks, gradient, |chunk| chunk.nodes.end, of_chunk);
+        over_chunks(&self.chunks, gradient, |chunk| chunk.nodes.end, &of_chunk);
     }
 
     /// Energy and gradient in one pass.
     pub fn add_energy_and_gradient(&self, law: &dyn Law<T::Lanes>, u: &[[T; D]], gradient: &mut [[T; D]]) -> f64 {
         let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; D]]| add_energy_and_gradient_of(chunk, law, u, sums);
-        over_chunks(&self.chunks, gradient, |chunk| chunk.nodes.end, of_chunk)
+        over_chunks(&self.chunks, gradient, |chunk| chunk.nodes.end, &of_chunk)
     }
 
     /// Adds `factor` times the Hessian of the energy to the values of the pattern that the elements were made for, N/m.
@@ -49,7 +49,7 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
             add_stiffness_of(chunk, law, factor, u, values);
             0.0
         };
-        over_chunks(&self.chunks, values, |chunk| chunk.blocks.end, of_chunk);
+        over_chunks(&self.chunks, values, |chunk| chunk.blocks.end, &of_chunk);
     }
 
     /// Adds `factor` K(u) d, the change of the gradient along a direction, without a matrix, N.
@@ -65,10 +65,10 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
             add_stiffness_times_of(chunk, law, factor, u, d, sums);
             0.0
         };
-        over_chunks(&self.chunks, product, |chunk| chunk.nodes.end, of_chunk);
+        over_chunks(&self.chunks, product, |chunk| chunk.nodes.end, &of_chunk);
     }
 
-    /// The smallest J = det F, and the element of the mesh that has it.
+    /// Minimum of det F, and its element in the mesh.
     pub fn min_det_F(&self, u: &[[T; D]]) -> (T, usize) {
         let mut least = (T::of(f64::INFINITY), 0);
         for chunk in &self.chunks {

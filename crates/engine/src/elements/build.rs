@@ -1,4 +1,4 @@
-//! From a mesh to batches of elements.
+//! Builds batches of elements from a mesh.
 
 use std::ops::Range;
 
@@ -9,11 +9,11 @@ use super::{Batch, Chunk, Elements};
 use crate::number::Real;
 use crate::sparse::Pattern;
 
-/// Nodes of a chunk: enough that few elements lie between chunks. From eight chunks on they become larger, not more, up to the
-/// second number: the ends of a body that is cut across would lie closer and closer together.
+/// Smallest and largest number of nodes of a chunk: with the smallest, few elements lie between chunks. Beyond eight chunks their
+/// size grows before their number, because the cuts across a body would lie closer and closer together.
 const CHUNK: (usize, usize) = (4096, 16_384);
 
-/// A place that is beyond all others.
+/// A target beyond every block.
 pub(super) const NONE: u32 = u32::MAX;
 
 impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
@@ -23,7 +23,7 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
         Self::stiffened(positions, elements, &[], pattern)
     }
 
-    /// The same with a factor for the energy of each element, or with none for any.
+    /// The same with a factor on the energy of each element; `factors` is empty where all are 1.
     pub fn stiffened(positions: &[SVector<f64, D>], elements: &[[u32; N]], factors: &[f64], pattern: &Pattern) -> Self {
         assert_eq!(N, D + 1, "a simplex in {D} dimensions has {} corners", D + 1);
         let chunk = |nodes| chunk(nodes, positions, elements, factors, pattern);

@@ -1,4 +1,4 @@
-//! What is computed for one batch of elements.
+//! Kernels: computations for one batch of elements, one element in each SIMD lane.
 
 use simba::simd::{SimdPartialOrd, SimdValue};
 
@@ -11,7 +11,7 @@ use crate::tensor::{Tensor, Tensor4, dot, zero};
 pub(super) type LaneBlock<T, const D: usize> = [[<T as Real>::Lanes; D]; D];
 
 /// Displacement gradients G_ij = Σ_e (u_{e+1} − u_0)_i (∇φ_{e+1})_j of the elements with these corners. In the plane the third
-/// direction stays as it is: plane strain.
+/// direction does not deform: plane strain.
 #[inline(always)]
 pub(super) fn displacement_gradient<T: Real, const D: usize, const N: usize>(
     batch: &Batch<T, D>,
@@ -151,8 +151,8 @@ pub(super) fn invariant_blocks<T: Real, const D: usize>(
     blocks
 }
 
-/// All blocks with row ≥ column of an element's Hessian, from those of all corners but the first: a translation costs nothing, so
-/// the first corner's are what makes each row of blocks sum up to zero.
+/// All blocks with row ≥ column of an element's Hessian, from those of all corners but the first: the energy does not change
+/// under translation, so each row of blocks adds up to zero, which gives the blocks of the first corner.
 #[inline(always)]
 pub(super) fn element_hessian<T: Real, const D: usize, const N: usize>(
     inner: &[[LaneBlock<T, D>; D]; D],

@@ -1,4 +1,4 @@
-//! Sums over all elements: energy, its gradient, and its Hessian as a sparse matrix.
+//! Assembly over all elements: energy, its gradient, its Hessian as a sparse matrix, and stresses.
 //!
 //! Elements lie side by side in batches, one in each lane of a register, and are written for D dimensions: tetrahedra in
 //! space, triangles in plane strain. Nodes are divided into chunks; each chunk computes all elements that touch its nodes and
@@ -9,6 +9,7 @@ mod assembly;
 mod build;
 mod kernel;
 mod parallel;
+mod stress;
 
 #[cfg(test)]
 mod tests;
@@ -17,7 +18,7 @@ use std::ops::Range;
 
 use crate::number::Real;
 
-/// All elements of a mesh of simplices with `N = D + 1` corners, in batches, and where their sums go.
+/// All elements of a mesh of simplices with `N = D + 1` corners, in batches, with the targets of their scatter.
 #[derive(Clone, Debug)]
 pub struct Elements<T: Real, const D: usize, const N: usize> {
     chunks: Vec<Chunk<T, D, N>>,
@@ -25,16 +26,17 @@ pub struct Elements<T: Real, const D: usize, const N: usize> {
     pub count: usize,
 }
 
-/// Nodes that are summed up together, and the elements that touch them.
+/// Nodes whose rows are assembled together, and the elements that touch them.
 #[derive(Clone, Debug)]
 struct Chunk<T: Real, const D: usize, const N: usize> {
-    /// Nodes whose sums are made here.
+    /// Nodes whose rows are assembled here.
     nodes: Range<usize>,
     /// Blocks of their rows.
     blocks: Range<usize>,
     /// Corners of each element, lane after lane; the last batch is filled up with elements of no volume.
     corners: Vec<[u32; N]>,
-    /// For each pair of corners the block that it is added to, counted from the first of `blocks`; beyond the last for none.
+    /// For each pair of corners the block that it is added to, counted from the first of `blocks`; pairs without a block have a target
+    /// beyond the last.
     targets: Vec<[[u32; N]; N]>,
     batches: Vec<Batch<T, D>>,
     /// Number of each element in the mesh.
@@ -48,12 +50,12 @@ struct Batch<T: Real, const D: usize> {
     inverse: [[T::Lanes; D]; D],
     /// Volume, m³ (area in the plane, m²).
     volume: T::Lanes,
-    /// The same where this chunk counts the element's energy, zero where another does.
+    /// The volume where this chunk counts the element's energy, zero where another does.
     counted: T::Lanes,
 }
 
 impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
-    /// Bytes that they hold.
+    /// Memory, bytes.
     pub fn bytes(&self) -> usize {
         let of_chunk = |chunk: &Chunk<T, D, N>| {
             size_of_val(&chunk.corners[..])

@@ -1,51 +1,89 @@
-//! What pulls and pushes a body, as forces on its nodes.
+//! Dead loads: nodal forces that keep their size and direction. Weight, body force, tractions.
 
+use fem_mesh::volumes;
+use fem_scene::Body;
 use nalgebra::Vector3;
 
-use crate::model::mass::Mass;
+use super::{Energy, Moment, Potential};
 use crate::model::numbering::Numbering;
 use crate::number::Real;
-use fem_scene::Body;
+use crate::vector::dot3;
 
-/// Forces that stay as they are, N, in the engine's order: weight, body force, dead traction. `None` where the scene names
-/// none of them.
-pub fn dead<T: Real>(
-    body: &Body,
-    order: &Numbering,
-    mass: &Mass<T>,
-    corners: &[[u32; 4]],
-    volumes: &[f64],
-) -> Option<Vec<[T; 3]>> {
+/// Key in the statistics.
+pub const NAME: &str = "dead_load";
+
+/// Nodal forces, N, in the engine's order.
+pub struct DeadLoad<T> {
+    force: Vec<[T; 3]>,
+}
+
+impl<T: Real> DeadLoad<T> {
+    /// These forces on the nodes, N.
+    pub fn new(force: Vec<[T; 3]>) -> Self {
+        Self { force }
+    }
+}
+
+/// Weight, body force and dead tractions of a body; `None` where it has none of them.
+pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Potential<T>>> {
     if body.gravity.is_none() && body.body_force.is_none() && body.tractions.is_empty() {
         return None;
     }
-    let mut load = vec![[T::default(); 3]; order.mesh_node.len()];
-    if let Some(gravity) = body.gravity {
-        let acceleration = vec![<[f64; 3]>::from(gravity).map(T::of); load.len()];
-        mass.add_times(T::of(1.0), &acceleration, &mut load);
-    }
-    if let Some(force) = body.body_force {
-        for (element, volume) in corners.iter().zip(volumes) {
-            for &node in element {
-                add(&mut load[node as usize], volume / 4.0, force);
-            }
-        }
+    let mesh = &body.shape.mesh;
+    let mut force = vec![Vector3::zeros(); mesh.vertices.len()];
+    let density = |element: usize| body.material.density * body.density_factors.get(element).copied().unwrap_or(1.0);
+    for (number, (element, volume)) in mesh.elements.iter().zip(volumes(mesh)).enumerate() {
+        // Each node of a linear tetrahedron carries a quarter of its load.
+        let weight = density(number) * body.gravity.unwrap_or_default();
+        let share = 0.25 * volume * (weight + body.body_force.unwrap_or_default());
+        element.iter().for_each(|&node| force[node] += share);
     }
     for traction in &body.tractions {
         for face in &traction.faces {
-            let [a, b, c] = face.map(|node| body.shape.mesh.vertices[node]);
-            let area = 0.5 * (b - a).cross(&(c - a)).norm();
-            for &node in face {
-                add(&mut load[order.engine_node[node] as usize], area / 3.0, traction.force_per_area);
+            let [a, b, c] = face.map(|node| mesh.vertices[node]);
+            let share = (b - a).cross(&(c - a)).norm() / 6.0 * traction.force_per_area;
+            face.iter().for_each(|&node| force[node] += share);
+        }
+    }
+    let in_order = numbering.mesh_node.iter().map(|&node| force[node as usize]);
+    Some(Box::new(DeadLoad::new(in_order.map(|f| [T::of(f.x), T::of(f.y), T::of(f.z)]).collect())))
+}
+
+impl<T: Real> Potential<T> for DeadLoad<T> {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn description(&self) -> String {
+        "[gravity], [body_force] or [[traction]] with force_per_area".to_owned()
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(&self.force[..])
+    }
+
+    fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy {
+        let factor = moment.load_factor.unwrap_or(1.0);
+        self.force.iter().zip(u).map(|(f, u)| Energy::of(-factor * dot3(f, u))).sum()
+    }
+
+    fn add_gradient(&self, _: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
+        let factor: T = moment.load();
+        for (sum, force) in gradient.iter_mut().zip(&self.force) {
+            for i in 0..3 {
+                sum[i] -= factor * force[i];
             }
         }
     }
-    Some(load)
-}
 
-fn add<T: Real>(sum: &mut [T; 3], share: f64, force: Vector3<f64>) {
-    let force = share * force;
-    for i in 0..3 {
-        sum[i] += T::of(force[i]);
+    fn resultant(&self, moment: Moment) -> Option<[f64; 3]> {
+        let factor = moment.load_factor.unwrap_or(1.0);
+        let along = |i: usize| self.force.iter().map(|force| force[i].as_f64()).sum::<f64>();
+        Some(std::array::from_fn(|i| factor * along(i)))
+    }
+
+    fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
+        let is_finite = self.force.as_flattened().iter().all(|force| force.as_f64().is_finite());
+        (!is_finite).then_some(("gravity", "a force on a node"))
     }
 }

@@ -1,7 +1,208 @@
-//! Forces on a body beside its own elasticity.
+//! Forces on the body beside its own elasticity: the trait [`Potential`], and one file for each force.
 
-pub mod acting;
+pub mod anchors;
 pub mod dead_load;
 pub mod pressure;
-pub mod pulls;
 pub mod springs;
+
+use fem_scene::{Body, Timer};
+
+use crate::model::numbering::Numbering;
+use crate::number::Real;
+use crate::sparse::{Block, Pattern};
+use anchors::Anchors;
+
+/// A force on the body. External forces are functions of time; a conservative one is minus the gradient of its energy.
+///
+/// Nodes have the engine's numbers ([`Numbering`]). `u` are the displacements of all nodes, m.
+pub trait Potential<T: Real>: Send + Sync {
+    /// Key in the statistics.
+    fn name(&self) -> &'static str;
+
+    /// One line for `--explain`: the table that asks for it, and what it comes to.
+    fn description(&self) -> String;
+
+    /// Memory of its data, bytes.
+    fn bytes(&self) -> usize;
+
+    /// Whether it has any effect now. An inactive force is skipped.
+    fn is_active(&self) -> bool {
+        true
+    }
+
+    /// Whether it belongs to the body itself: then its Hessian is part of the stiffness K in Rayleigh damping.
+    fn is_internal(&self) -> bool {
+        false
+    }
+
+    /// Whether the force is minus the gradient of [`energy`](Self::energy). A follower load is not conservative: implicit methods
+    /// keep its force fixed while Newton's method runs, and evaluate it again until it no longer changes.
+    fn is_conservative(&self) -> bool {
+        true
+    }
+
+    /// Pairs of nodes, beyond those that share an element, which its Hessian couples.
+    fn couplings(&self) -> Vec<[u32; 2]> {
+        Vec::new()
+    }
+
+    /// Called once before each step, with the displacements at its start.
+    fn begin_step(&mut self, _u: &[[T; 3]], _moment: Moment) {}
+
+    /// Energy, J: infinite where `u` is infeasible. A follower load without a potential returns zero.
+    fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy;
+
+    /// Adds minus the force on each node, N: the gradient of [`energy`](Self::energy) where it is conservative.
+    fn add_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]);
+
+    /// Adds `factor` times the Hessian of the energy, N/m; made positive semi-definite where `kind` asks for that.
+    fn add_hessian(
+        &self,
+        _factor: T,
+        _u: &[[T; 3]],
+        _kind: HessianKind,
+        _pattern: &Pattern,
+        _values: &mut [Block<T, 3>],
+    ) {
+    }
+
+    /// Adds `factor` times the exact Hessian times `d`, N.
+    fn add_hessian_times(&self, _factor: T, _u: &[[T; 3]], _d: &[[T; 3]], _product: &mut [[T; 3]]) {}
+
+    /// The largest multiple of `direction` up to which `u` plus it is certain to stay feasible.
+    fn largest_step(&self, _u: &[[T; 3]], _direction: &[[T; 3]]) -> f64 {
+        f64::INFINITY
+    }
+
+    /// Sum of the forces on all nodes where that does not depend on `u`, N; `None` where it does.
+    fn resultant(&self, _moment: Moment) -> Option<[f64; 3]> {
+        None
+    }
+
+    /// The scene's field and the quantity that do not fit into the number type, where that happens.
+    fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
+        None
+    }
+}
+
+/// The moment at which external forces and prescribed motions are evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    /// s
+    pub time: f64,
+    /// Load factor of a load step, 0 to 1: it scales loads and prescribed motions. `None` in dynamics, where loads act in full and
+    /// prescribed motions follow the time.
+    pub load_factor: Option<f64>,
+}
+
+impl Moment {
+    /// A moment of a motion, s.
+    pub fn at(time: f64) -> Self {
+        Self { time, load_factor: None }
+    }
+
+    /// Factor of the external loads.
+    pub fn load<T: Real>(self) -> T {
+        T::of(self.load_factor.unwrap_or(1.0))
+    }
+}
+
+/// Which Hessian is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HessianKind {
+    /// The second derivative as it is.
+    Exact,
+    /// Each element's and each force's part projected to positive semi-definite.
+    Projected,
+}
+
+/// An energy, and the size of its terms, which bounds its rounding error; J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// The sum.
+    pub value: f64,
+    /// Sum of the magnitudes of its terms.
+    pub terms: f64,
+}
+
+impl Energy {
+    /// A single term.
+    pub fn of(value: f64) -> Self {
+        Self { value, terms: value.abs() }
+    }
+}
+
+impl std::ops::Add for Energy {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { value: self.value + other.value, terms: self.terms + other.terms }
+    }
+}
+
+impl std::iter::Sum for Energy {
+    fn sum<I: Iterator<Item = Self>>(energies: I) -> Self {
+        energies.fold(Self::default(), std::ops::Add::add)
+    }
+}
+
+/// A force that is ready to be built where the scene asks for it.
+pub struct Kind<T: Real> {
+    /// Key in the statistics.
+    pub name: &'static str,
+    /// The scene's tables that ask for it.
+    pub tables: &'static str,
+    /// Builds it; `None` where the scene does not ask for it.
+    pub build: Builder<T>,
+}
+
+/// Builds a force of a body.
+pub type Builder<T> = fn(&Body, &Numbering) -> Option<Box<dyn Potential<T>>>;
+
+/// Every force that a scene can ask for; `[drag]` and the pull of a user are [`Anchors`].
+pub fn kinds<T: Real>() -> [Kind<T>; 3] {
+    [
+        Kind { name: springs::NAME, tables: "[[springs]]", build: springs::build },
+        Kind { name: dead_load::NAME, tables: "dead load", build: dead_load::build },
+        Kind { name: pressure::NAME, tables: "[[traction]] with pressure", build: pressure::build },
+    ]
+}
+
+/// All forces of a body, each with its timer.
+pub struct Forces<T: Real> {
+    potentials: Vec<(Box<dyn Potential<T>>, Timer)>,
+    /// Springs from nodes to points in space: `[drag]`, or the pull of a user.
+    pub anchors: Anchors,
+    /// Uses and time of these.
+    pub anchors_timer: Timer,
+}
+
+impl<T: Real> Forces<T> {
+    /// The forces that the scene asks for, the anchor springs, and `own` ones.
+    pub fn new(body: &Body, anchors: Anchors, numbering: &Numbering, own: Vec<Box<dyn Potential<T>>>) -> Self {
+        let named = kinds().into_iter().filter_map(|kind| (kind.build)(body, numbering));
+        let potentials = named.chain(own).map(|potential| (potential, Timer::default())).collect();
+        Self { potentials, anchors, anchors_timer: Timer::default() }
+    }
+
+    /// All forces that the scene asks for, active or not, and their timers.
+    pub fn all(&self) -> impl Iterator<Item = (&dyn Potential<T>, &Timer)> {
+        let own = self.potentials.iter().map(|(potential, timer)| (&**potential, timer));
+        own.chain(std::iter::once((&self.anchors as &dyn Potential<T>, &self.anchors_timer)))
+    }
+
+    /// The active ones.
+    pub fn active(&self) -> impl Iterator<Item = (&dyn Potential<T>, &Timer)> {
+        self.all().filter(|(potential, _)| potential.is_active())
+    }
+
+    /// Whether a follower load acts.
+    pub fn has_followers(&self) -> bool {
+        self.active().any(|(potential, _)| !potential.is_conservative())
+    }
+
+    /// Prepares every force for a step from the displacements `u`.
+    pub fn begin_step(&mut self, u: &[[T; 3]], moment: Moment) {
+        self.potentials.iter_mut().for_each(|(potential, _)| potential.begin_step(u, moment));
+    }
+}

@@ -1,55 +1,67 @@
-//! Pressure that follows the deformed surface.
+//! Follower pressures: forces along the normal of the deformed surface.
 
 use std::collections::HashSet;
 
+use fem_scene::Body;
 use nalgebra::Vector3;
 
+use super::{Energy, Moment, Potential};
 use crate::model::numbering::Numbering;
 use crate::number::Real;
-use fem_scene::Body;
+
+/// Key in the statistics.
+pub const NAME: &str = "pressure";
+
+/// All pressures of a body.
+struct Pressures<T>(Vec<Pressure<T>>);
 
 /// A pressure on triangles of the surface.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pressure<T> {
+struct Pressure<T> {
     /// Pa; positive pushes inward.
-    pub pressure: T,
+    pressure: T,
     faces: Vec<Face<T>>,
-    /// Undeformed corners of each triangle, from a point of the surface, m; `None` where the pressure has no potential.
+    /// Undeformed corners of each triangle, relative to a point of the surface, m; `None` where the pressure has no potential.
     ///
     /// A pressure is p times the gradient of the volume behind its surface. Where the surface has an edge that moves, that volume
-    /// depends on where one closes it, and the work of the pressure on the way there and back need not be zero.
+    /// depends on how the surface is closed, and the work of the pressure along a closed path need not be zero.
     corners: Option<Vec<[Vector3<f64>; 3]>>,
 }
 
-/// A triangle, outward.
+/// A triangle whose normal points outward.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Face<T> {
     /// The engine's numbers of its nodes.
     nodes: [usize; 3],
-    /// Edges from the first node to the others at rest, m.
+    /// Undeformed edges from the first node to the others, m.
     edges: [[T; 3]; 2],
 }
 
+/// The pressures of a body; `None` where it has none.
+pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Potential<T>>> {
+    let pressures: Vec<_> = body.pressures.iter().map(|pressure| Pressure::new(body, pressure, numbering)).collect();
+    (!pressures.is_empty()).then(|| Box::new(Pressures(pressures)) as Box<dyn Potential<T>>)
+}
+
 impl<T: Real> Pressure<T> {
-    /// Every pressure of a scene.
-    pub fn all(body: &Body, order: &Numbering) -> Vec<Self> {
+    fn new(body: &Body, pressure: &fem_scene::Pressure, numbering: &Numbering) -> Self {
+        let vertices = &body.shape.mesh.vertices;
         let vector = |v: Vector3<f64>| [T::of(v.x), T::of(v.y), T::of(v.z)];
         let face = |face: &[usize; 3]| {
-            let [a, b, c] = face.map(|node| body.shape.mesh.vertices[node]);
-            let nodes = face.map(|node| order.engine_node[node] as usize);
+            let [a, b, c] = face.map(|node| vertices[node]);
+            let nodes = face.map(|node| numbering.engine_node[node] as usize);
             Face { nodes, edges: [vector(b - a), vector(c - a)] }
         };
-        let pressure = |fem_scene::Pressure { faces, pressure }: &fem_scene::Pressure| Self {
-            pressure: T::of(*pressure),
-            corners: edge_is_fixed(body, faces).then(|| corners(&body.shape.mesh.vertices, faces)),
-            faces: faces.iter().map(face).collect(),
-        };
-        body.pressures.iter().map(pressure).collect()
+        Self {
+            pressure: T::of(pressure.pressure),
+            corners: edge_is_fixed(body, &pressure.faces).then(|| corners(vertices, &pressure.faces)),
+            faces: pressure.faces.iter().map(face).collect(),
+        }
     }
 
-    /// Adds `factor` times the force on each node, N: −p/6 (x_b − x_a) × (x_c − x_a) at every corner, which is −p n integrated
-    /// with its shape function over the deformed triangle.
-    pub fn add_force(&self, factor: T, u: &[[T; 3]], force: &mut [[T; 3]]) {
+    /// Adds `factor` times the nodal forces, N: −p/6 (x_b − x_a) × (x_c − x_a) at every corner, which is −p n integrated with the
+    /// corner's shape function over the deformed triangle.
+    fn add_force(&self, factor: T, u: &[[T; 3]], force: &mut [[T; 3]]) {
         let sixth = -factor * self.pressure * T::of(1.0 / 6.0);
         for Face { nodes: [a, b, c], edges } in &self.faces {
             let d: [T; 3] = std::array::from_fn(|i| edges[0][i] + (u[*b][i] - u[*a][i]));
@@ -63,13 +75,8 @@ impl<T: Real> Pressure<T> {
         }
     }
 
-    /// Whether it has a potential: its surface is closed, or every node of its edge is fixed.
-    pub fn has_potential(&self) -> bool {
-        self.corners.is_some()
-    }
-
-    /// Its potential, zero at rest: p times what the volume behind the surface has grown by, J. `None` where it has none.
-    pub fn potential(&self, u: &[[T; 3]]) -> Option<f64> {
+    /// p times the growth of the volume behind the surface, J; `None` where the pressure has no potential.
+    fn potential(&self, u: &[[T; 3]]) -> Option<f64> {
         let at = |node: usize| Vector3::from(u[node].map(T::as_f64));
         let growth = |(face, [A, B, C]): (&Face<T>, &[Vector3<f64>; 3])| {
             let [a, b, c] = face.nodes.map(at);
@@ -80,21 +87,55 @@ impl<T: Real> Pressure<T> {
         Some(self.pressure.as_f64() * sixfold / 6.0)
     }
 
-    /// Bytes that it holds.
-    pub fn bytes(&self) -> usize {
+    fn bytes(&self) -> usize {
         size_of_val(&self.faces[..]) + self.corners.as_ref().map_or(0, |corners| size_of_val(&corners[..]))
     }
 }
 
-/// Corners from the first node, m: near the body, so that they keep their digits far from the origin.
+impl<T: Real> Potential<T> for Pressures<T> {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn description(&self) -> String {
+        let has_potential = self.0.iter().all(|pressure| pressure.corners.is_some());
+        let note = if has_potential { "" } else { "; the edge of its surface moves, so no energy contains its work" };
+        format!("[[traction]] with pressure{note}")
+    }
+
+    fn bytes(&self) -> usize {
+        self.0.iter().map(Pressure::bytes).sum()
+    }
+
+    fn is_conservative(&self) -> bool {
+        false
+    }
+
+    fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy {
+        let factor = moment.load_factor.unwrap_or(1.0);
+        self.0.iter().filter_map(|pressure| pressure.potential(u)).map(|energy| Energy::of(factor * energy)).sum()
+    }
+
+    fn add_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
+        let factor: T = moment.load();
+        self.0.iter().for_each(|pressure| pressure.add_force(-factor, u, gradient));
+    }
+
+    fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
+        let is_finite = self.0.iter().all(|pressure| pressure.pressure.as_f64().is_finite());
+        (!is_finite).then_some(("traction", "a pressure"))
+    }
+}
+
+/// Corners relative to the first node, m: they keep their digits far from the origin.
 fn corners(vertices: &[Vector3<f64>], faces: &[[usize; 3]]) -> Vec<[Vector3<f64>; 3]> {
     faces.iter().map(|face| face.map(|node| vertices[node] - vertices[faces[0][0]])).collect()
 }
 
-/// Whether `[fixed]` holds all edges that only one triangle has.
+/// Whether every node on the edge of the surface is fixed; a closed surface has no edge.
 fn edge_is_fixed(body: &Body, faces: &[[usize; 3]]) -> bool {
-    let fixed: HashSet<usize> = body.fixed_nodes().into_iter().flatten().copied().collect();
+    let fixed: HashSet<usize> = body.fixed_nodes().unwrap_or_default().iter().copied().collect();
     let edges: HashSet<[usize; 2]> = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
-    // In two triangles that both look outward a common edge runs there and back.
+    // Two outward triangles run along a common edge in opposite directions.
     edges.iter().all(|&[a, b]| edges.contains(&[b, a]) || (fixed.contains(&a) && fixed.contains(&b)))
 }

@@ -1,32 +1,111 @@
 //! Springs between two nodes: ½ k (|x_b − x_a| − l)².
 
+use fem_scene::Body;
+
+use super::{Energy, HessianKind, Moment, Potential};
+use crate::model::numbering::Numbering;
 use crate::number::Real;
 use crate::sparse::{Block, Pattern};
 
+/// Key in the statistics.
+pub const NAME: &str = "springs";
+
+/// All springs of a body.
+struct Springs<T>(Vec<Spring<T>>);
+
+/// The springs of a body; `None` where it has none.
+pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Potential<T>>> {
+    let springs: Vec<_> = body.springs.iter().map(|spring| Spring::new(body, spring, numbering)).collect();
+    (!springs.is_empty()).then(|| Box::new(Springs(springs)) as Box<dyn Potential<T>>)
+}
+
+impl<T: Real> Potential<T> for Springs<T> {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn description(&self) -> String {
+        format!("[[springs]]: {} of them", self.0.len())
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(&self.0[..])
+    }
+
+    fn is_internal(&self) -> bool {
+        true
+    }
+
+    fn couplings(&self) -> Vec<[u32; 2]> {
+        self.0.iter().map(|spring| spring.nodes.map(|node| node as u32)).collect()
+    }
+
+    fn energy(&self, u: &[[T; 3]], _: Moment) -> Energy {
+        Energy::of(self.0.iter().map(|spring| spring.energy(u)).sum())
+    }
+
+    fn add_gradient(&self, u: &[[T; 3]], _: Moment, gradient: &mut [[T; 3]]) {
+        self.0.iter().for_each(|spring| spring.add_gradient(u, gradient));
+    }
+
+    fn add_hessian(&self, factor: T, u: &[[T; 3]], kind: HessianKind, pattern: &Pattern, values: &mut [Block<T, 3>]) {
+        self.0.iter().for_each(|spring| spring.add_hessian(factor, u, kind, pattern, values));
+    }
+
+    fn add_hessian_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
+        self.0.iter().for_each(|spring| spring.add_hessian_times(factor, u, d, product));
+    }
+
+    /// The two forces of a spring are equal and opposite.
+    fn resultant(&self, _: Moment) -> Option<[f64; 3]> {
+        Some([0.0; 3])
+    }
+
+    fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
+        let is_representable = self.0.iter().all(|spring| crate::number::is_positive(spring.stiffness));
+        (!is_representable).then_some(("springs", "a stiffness"))
+    }
+}
+
 /// A spring between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spring<T> {
+struct Spring<T> {
     /// The engine's numbers of its ends a and b.
-    pub nodes: [usize; 2],
+    nodes: [usize; 2],
     /// X_b − X_a at rest, m.
-    pub edge: [T; 3],
+    edge: [T; 3],
     /// k, N/m
-    pub stiffness: T,
+    stiffness: T,
     /// l, m
-    pub length: T,
+    length: T,
     /// |X_b − X_a|² − l², m²: zero where the spring is at rest with the body.
-    pub excess: T,
+    excess: T,
 }
 
 impl<T: Real> Spring<T> {
-    /// Its energy, J.
-    pub fn energy(&self, u: &[[T; 3]]) -> f64 {
+    fn new(body: &Body, spring: &fem_scene::Spring, numbering: &Numbering) -> Self {
+        let [a, b] = spring.nodes.map(|node| body.shape.mesh.vertices[node]);
+        let edge = b - a;
+        let length = spring.rest_length;
+        // Rounding of a length that is the undeformed distance must not stretch the spring.
+        let excess = if spring.is_initially_relaxed { 0.0 } else { edge.norm_squared() - length * length };
+        Self {
+            nodes: spring.nodes.map(|node| numbering.engine_node[node] as usize),
+            edge: [T::of(edge.x), T::of(edge.y), T::of(edge.z)],
+            stiffness: T::of(spring.stiffness),
+            length: T::of(length),
+            excess: T::of(excess),
+        }
+    }
+
+    /// Energy, J.
+    fn energy(&self, u: &[[T; 3]]) -> f64 {
         let stretch = self.now(u).stretch.as_f64();
         0.5 * self.stiffness.as_f64() * stretch * stretch
     }
 
     /// Adds the gradient of its energy, k (1 − l/|d|) d at b and the opposite at a, N; zero where both ends meet.
-    pub fn add_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
+    fn add_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
         let Now { d, length, stretch } = self.now(u);
         if length == T::zero() {
             return;
@@ -40,16 +119,16 @@ impl<T: Real> Spring<T> {
     }
 
     /// H of the Hessian (H, −H; −H, H): k (n nᵀ + (1 − l/|d|)(1 − n nᵀ)), N/m. A compressed spring pushes sideways, and its
-    /// second part is negative; `projected` leaves that out.
-    pub fn hessian(&self, u: &[[T; 3]], projected: bool) -> Block<T, 3> {
+    /// second part is negative; the projection leaves that out.
+    fn hessian(&self, u: &[[T; 3]], kind: HessianKind) -> Block<T, 3> {
         let Now { d, length, stretch } = self.now(u);
         let (n, mut across) = if length == T::zero() {
-            // There is no direction to be stiff along; that in all of them is the nearest.
+            // Without a direction to be stiff along, the spring is equally stiff in all of them.
             ([T::zero(); 3], T::one())
         } else {
             (d.map(|d| d / length), stretch / length)
         };
-        if projected && across < T::zero() {
+        if kind == HessianKind::Projected && across < T::zero() {
             across = T::zero();
         }
         std::array::from_fn(|i| {
@@ -61,15 +140,8 @@ impl<T: Real> Spring<T> {
     }
 
     /// Adds `factor` times its Hessian to a matrix.
-    pub fn add_stiffness(
-        &self,
-        factor: T,
-        u: &[[T; 3]],
-        projected: bool,
-        pattern: &Pattern,
-        values: &mut [Block<T, 3>],
-    ) {
-        let H = self.hessian(u, projected);
+    fn add_hessian(&self, factor: T, u: &[[T; 3]], kind: HessianKind, pattern: &Pattern, values: &mut [Block<T, 3>]) {
+        let H = self.hessian(u, kind);
         for (row, column, sign) in self.pairs() {
             if let Some(block) = pattern.find(row, column) {
                 for i in 0..3 {
@@ -82,8 +154,8 @@ impl<T: Real> Spring<T> {
     }
 
     /// Adds `factor` times its Hessian times d.
-    pub fn add_stiffness_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
-        let H = self.hessian(u, false);
+    fn add_hessian_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
+        let H = self.hessian(u, HessianKind::Exact);
         for (row, column, sign) in self.pairs() {
             for i in 0..3 {
                 for j in 0..3 {
@@ -99,7 +171,7 @@ impl<T: Real> Spring<T> {
     }
 
     /// With E = X_b − X_a and δ = u_b − u_a, |d| − l = (2 E·δ + δ·δ + |E|² − l²)/(|d| + l): it keeps its digits where the
-    /// difference of the lengths has none.
+    /// difference of the lengths cancels.
     fn now(&self, u: &[[T; 3]]) -> Now<T> {
         let [a, b] = self.nodes;
         let moved: [T; 3] = std::array::from_fn(|i| u[b][i] - u[a][i]);
@@ -115,7 +187,7 @@ impl<T: Real> Spring<T> {
     }
 }
 
-/// A spring as it is.
+/// A deformed spring.
 struct Now<T> {
     /// x_b − x_a, m.
     d: [T; 3],
@@ -127,7 +199,7 @@ struct Now<T> {
 
 #[cfg(test)]
 mod tests {
-    use super::Spring;
+    use super::{HessianKind, Spring};
 
     fn spring(length: f64) -> Spring<f64> {
         let edge = [1.0, 2.0, 2.0];
@@ -161,7 +233,7 @@ mod tests {
                 let mut direction = [[0.0; 3]; 2];
                 direction[c / 3][c % 3] = 1.0;
                 let mut product = [[0.0; 3]; 2];
-                spring.add_stiffness_times(1.0, &U, &direction, &mut product);
+                spring.add_hessian_times(1.0, &U, &direction, &mut product);
                 for r in 0..6 {
                     let slope = (ahead[r / 3][r % 3] - behind[r / 3][r % 3]) / 2e-6;
                     assert!((slope - product[r / 3][r % 3]).abs() < 1e-5, "l = {length}, {r} {c}");
@@ -172,10 +244,10 @@ mod tests {
 
     #[test]
     fn a_compressed_spring_is_projected_by_leaving_out_what_is_negative() {
-        let H = nalgebra::Matrix3::from_fn(|i, j| spring(5.0).hessian(&U, true)[i][j]);
+        let H = nalgebra::Matrix3::from_fn(|i, j| spring(5.0).hessian(&U, HessianKind::Projected)[i][j]);
         let values = H.symmetric_eigenvalues();
         assert!(values.min() > -1e-12 && (values.max() - 50.0).abs() < 1e-12, "{values}");
-        let exact = nalgebra::Matrix3::from_fn(|i, j| spring(5.0).hessian(&U, false)[i][j]);
+        let exact = nalgebra::Matrix3::from_fn(|i, j| spring(5.0).hessian(&U, HessianKind::Exact)[i][j]);
         assert!(exact.symmetric_eigenvalues().min() < -1.0);
     }
 
@@ -183,7 +255,7 @@ mod tests {
     fn a_spring_whose_ends_meet_has_no_force_and_a_finite_stiffness() {
         let u = [[1.0, 2.0, 2.0], [0.0; 3]];
         assert_eq!(gradient(&spring(3.0), &u), [[0.0; 3]; 2]);
-        assert_eq!(spring(3.0).hessian(&u, false)[1], [0.0, 50.0, 0.0]);
+        assert_eq!(spring(3.0).hessian(&u, HessianKind::Exact)[1], [0.0, 50.0, 0.0]);
     }
 
     #[test]

@@ -1,91 +1,71 @@
-//! What explicit methods ask for: accelerations, a(u, v, t) = M⁻¹ (f(u, t) − C v). No energy, no matrix.
+//! Accelerations for explicit methods: a(u, v, t) = M⁻¹ f(u, v, t). They need neither an energy nor a stiffness matrix.
+
+use fem_scene::simulation::{Cause, Counters};
 
 use super::mass_inverse::MassInverse;
-use crate::forces::pulls::{AnchorSpring, Pulls};
+use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
-use fem_scene::simulation::{Cause, Counters};
 
 /// Accelerations, with the vectors that they need.
 ///
-/// A prescribed motion has one velocity during a step, that which takes it to its place at the end; `begin` writes it into the
-/// state, and its change is felt by the neighbours of led nodes through a consistent mass.
+/// A prescribed motion has one velocity during a step, the one that reaches its place at the end. [`begin`](Self::begin) writes it
+/// into the state; through a consistent mass, its change also accelerates the neighbours of constrained nodes.
 #[derive(Clone, Debug)]
 pub struct Accelerations<T: Real> {
     mass: MassInverse<T>,
-    springs: Vec<AnchorSpring<T>>,
     force: Vec<[T; 3]>,
-    /// Accelerations of led directions, and their velocities; empty where nothing is led.
-    led: Vec<[T; 3]>,
+    /// Accelerations of the constrained degrees of freedom, m/s², and their velocities, m/s; empty without a prescribed motion.
+    prescribed: Vec<[T; 3]>,
     velocity: Vec<[T; 3]>,
 }
 
 impl<T: Real> Accelerations<T> {
-    /// For a body.
+    /// Allocates its vectors for a body.
     pub fn new(system: &System<T>) -> Self {
         let zero = |nodes: usize| vec![[T::default(); 3]; nodes];
-        let led = if system.held.leads() { system.nodes() } else { 0 };
+        let moving = if system.dirichlet.has_motion() { system.nodes() } else { 0 };
         Self {
             mass: MassInverse::new(&system.mass),
-            springs: Vec::new(),
             force: zero(system.nodes()),
-            led: zero(led),
-            velocity: zero(led),
+            prescribed: zero(moving),
+            velocity: zero(moving),
         }
     }
 
-    /// The pulls of the last evaluation.
-    pub fn springs(&self) -> &[AnchorSpring<T>] {
-        &self.springs
-    }
-
-    /// Starts a step: gives led directions their velocity.
+    /// Starts a step: gives constrained degrees of freedom the velocity of their prescribed motion.
     pub fn begin(&mut self, system: &System<T>, state: &mut State<T>, dt: f64) {
-        if !system.held.leads() {
+        if !system.dirichlet.has_motion() {
             return;
         }
-        let (end, over_dt) = (state.time + dt, T::of(1.0 / dt));
-        system.lead(|motion| motion.fraction(end), &state.u, &mut self.velocity);
-        for node in 0..self.led.len() {
+        let over_dt = T::of(1.0 / dt);
+        system.prescribe(&state.u, Moment::at(state.time + dt), &mut self.velocity);
+        for node in 0..self.prescribed.len() {
             for i in 0..3 {
                 self.velocity[node][i] *= over_dt;
-                self.led[node][i] = (self.velocity[node][i] - state.v[node][i]) * over_dt;
+                self.prescribed[node][i] = (self.velocity[node][i] - state.v[node][i]) * over_dt;
             }
         }
-        system.held.keep(&mut self.led);
-        system.held.copy(&self.velocity, &mut state.v);
+        system.dirichlet.clear_free(&mut self.prescribed);
+        system.dirichlet.copy_constrained(&self.velocity, &mut state.v);
     }
 
-    /// Accelerations at displacements `u`, velocities `v` and a time (s); zero where nodes are held, m/s².
+    /// Accelerations at displacements `u`, velocities `v` and a time (s); zero at constrained degrees of freedom, m/s².
     pub fn at(
         &mut self,
-        pulls: &Pulls<T>,
+        system: &System<T>,
         (u, v): (&[[T; 3]], &[[T; 3]]),
         time: f64,
         a: &mut [[T; 3]],
         counters: &mut Counters,
     ) -> Result<(), Cause> {
-        let system = pulls.system;
-        let force = &mut self.force;
+        let Self { mass, force, prescribed, .. } = self;
         counters.force_assemblies += 1;
-        pulls.at(time, &mut self.springs);
-        system.gradient(u, system.acting(&self.springs), force);
-        for force in force.as_flattened_mut() {
-            *force = -*force;
+        system.force(u, v, u, Moment::at(time), force);
+        if system.dirichlet.has_motion() {
+            system.profile.prescribed.time(|| system.mass.add_times(T::of(-1.0), prescribed, force));
         }
-        system.add_pressures(T::of(1.0), u, force);
-        if let Some(damping) = &system.damping {
-            system.work.damping.time(|| {
-                system.mass.add_times(T::of(-damping.alpha), v, force);
-                if damping.beta > 0.0 {
-                    system.add_stiffness_times(T::of(-damping.beta), u, v, force);
-                }
-            });
-        }
-        if system.held.leads() {
-            system.work.prescribed.time(|| system.mass.add_times(T::of(-1.0), &self.led, force));
-        }
-        system.work.mass.time(|| self.mass.solve(system, force, a))
+        system.profile.mass.time(|| mass.solve(system, force, a))
     }
 }

@@ -1,12 +1,12 @@
-//! Explicit Euler: u⁺ = u + dt v, v⁺ = v + dt a(u, v, t). First order; a motion without damping grows at any time step.
+//! Explicit Euler: u⁺ = u + dt v, v⁺ = v + dt a(u, v, t). First order; without damping a motion grows at any time step.
 
-use super::accelerations::Accelerations;
-use crate::forces::pulls::Pulls;
+use fem_scene::simulation::{Cause, Counters};
+
+use super::{Accelerations, Convergence, Integrator};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
 use crate::vector::axpy;
-use fem_scene::simulation::{Cause, Counters};
 
 /// Explicit Euler with its vectors.
 pub struct ExplicitEuler<T: Real> {
@@ -15,23 +15,24 @@ pub struct ExplicitEuler<T: Real> {
 }
 
 impl<T: Real> ExplicitEuler<T> {
-    /// For a body.
+    /// Allocates its vectors for a body.
     pub fn new(system: &System<T>) -> Self {
         Self { accelerations: Accelerations::new(system), a: vec![[T::default(); 3]; system.nodes()] }
     }
+}
 
-    /// One step. After an error the state is of no use.
-    pub fn step(
+impl<T: Real> Integrator<T> for ExplicitEuler<T> {
+    fn step(
         &mut self,
-        pulls: &Pulls<T>,
+        system: &System<T>,
         state: &mut State<T>,
         dt: f64,
         counters: &mut Counters,
-    ) -> Result<(), Cause> {
-        self.accelerations.begin(pulls.system, state, dt);
-        self.accelerations.at(pulls, (&state.u, &state.v), state.time, &mut self.a, counters)?;
+    ) -> Result<Convergence, Cause> {
+        self.accelerations.begin(system, state, dt);
+        self.accelerations.at(system, (&state.u, &state.v), state.time, &mut self.a, counters)?;
         axpy(dt, &state.v, &mut state.u);
         axpy(dt, &self.a, &mut state.v);
-        Ok(())
+        Ok(Convergence::Converged)
     }
 }

@@ -1,68 +1,74 @@
 //! Implicit Euler: M (v⁺ − v)/dt = f(u + dt v⁺), every force at the end of the step; first order, unconditionally stable.
 
-use super::follower::Loads;
-use super::initial_guess::Start;
-use super::momentum;
-use crate::forces::acting::Acting;
-use crate::forces::pulls::AnchorSpring;
+use fem_scene::simulation::{Cause, Counters};
+
+use super::followers::Followers;
+use super::initial_guess::InitialGuess;
+use super::{Convergence, Integrator, momentum};
+use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::Newton;
-use crate::newton::incremental_potential::{IncrementalPotential, Motion};
+use crate::newton::incremental_potential::{Increment, Inertia};
 use crate::number::Real;
-use fem_scene::simulation::{Cause, Counters};
+use crate::solvers::Solver;
 
-/// Implicit Euler as the minimisation of an energy, by [`Newton`]'s method.
+/// Implicit Euler as the minimum of the incremental potential, found by [`Newton`]'s method.
 pub struct ImplicitEuler<T: Real> {
-    /// The method that it is solved by.
-    pub newton: Newton<T>,
-    loads: Loads<T>,
+    newton: Newton<T>,
+    followers: Followers<T>,
     inertial: Vec<[T; 3]>,
     step: Vec<[T; 3]>,
-    /// Change of velocity in the last step, m/s: the next one starts as if it went on so.
+    /// Change of velocity in the last step, m/s; the initial guess of the next step assumes the same.
     last_change: Vec<[T; 3]>,
 }
 
 impl<T: Real> ImplicitEuler<T> {
-    /// For a body.
+    /// Allocates its vectors for a body.
     pub fn new(newton: Newton<T>, system: &System<T>) -> Self {
         let zero = || vec![[T::default(); 3]; system.nodes()];
-        Self { newton, loads: Loads::new(system, false), inertial: zero(), step: zero(), last_change: zero() }
+        Self { newton, followers: Followers::new(system), inertial: zero(), step: zero(), last_change: zero() }
+    }
+}
+
+impl<T: Real> Integrator<T> for ImplicitEuler<T> {
+    fn step(
+        &mut self,
+        system: &System<T>,
+        state: &mut State<T>,
+        dt: f64,
+        counters: &mut Counters,
+    ) -> Result<Convergence, Cause> {
+        let Self { newton, followers, inertial, step, last_change } = self;
+        for (inertial, v) in inertial.iter_mut().zip(&state.v) {
+            *inertial = v.map(|v| T::of(dt) * v);
+        }
+        let inertia = Inertia::new(system, inertial, dt);
+        let increment = Increment { start: &state.u, end: Moment::at(state.time + dt), inertia: Some(inertia) };
+        followers.evaluate(system, &increment, inertial);
+        extrapolate(step, inertial, last_change, T::of(dt));
+        InitialGuess { newton, followers, system, increment, inertia }.find(step, counters)?;
+        let convergence = followers.minimize(newton, system, increment, step, counters)?;
+        momentum::restore(&followers.potential(system, increment), dt, step);
+        finish(step, dt, state, last_change);
+        Ok(convergence)
     }
 
-    /// What is known from earlier steps is of no use any more.
-    pub fn forget(&mut self) {
+    fn forget(&mut self) {
         self.newton.forget();
         self.last_change.fill([T::default(); 3]);
     }
 
-    /// One step. After an error the state is what it was. Says whether Newton's method has converged.
-    pub fn step(
-        &mut self,
-        system: &System<T>,
-        state: &mut State<T>,
-        springs: &[AnchorSpring<T>],
-        dt: f64,
-        counters: &mut Counters,
-    ) -> Result<bool, Cause> {
-        let Self { newton, loads, inertial, step, last_change } = self;
-        for (inertial, v) in inertial.iter_mut().zip(&state.v) {
-            *inertial = v.map(|v| T::of(dt) * v);
-        }
-        let motion = Motion::new(system, inertial, dt);
-        let acting = Acting { pulls: springs, load: None };
-        let objective = IncrementalPotential { system, acting, start: &state.u, motion: Some(motion) };
-        loads.gather(system, 1.0, &state.u, inertial);
-        likely(step, inertial, last_change, T::of(dt));
-        Start { newton, loads, objective, motion, end: state.time + dt }.find(step, counters)?;
-        let converged = loads.minimize(newton, objective, 1.0, step, counters)?;
-        momentum::restore(&loads.on(objective), dt, step);
-        finish(step, dt, state, last_change);
-        Ok(converged)
+    fn solver(&self) -> Option<&Solver<T>> {
+        Some(self.newton.solver())
+    }
+
+    fn has_line_search(&self) -> bool {
+        true
     }
 }
 
-/// Takes the step.
+/// Adds the increment to the state.
 fn finish<T: Real>(step: &[[T; 3]], dt: f64, state: &mut State<T>, last_change: &mut [[T; 3]]) {
     let over_dt = T::of(1.0 / dt);
     for node in 0..step.len() {
@@ -75,8 +81,8 @@ fn finish<T: Real>(step: &[[T; 3]], dt: f64, state: &mut State<T>, last_change: 
     }
 }
 
-/// The step that is likely: velocities change as they did in the last one.
-fn likely<T: Real>(step: &mut [[T; 3]], inertial: &[[T; 3]], last_change: &[[T; 3]], dt: T) {
+/// The increment if velocities change as in the last step.
+fn extrapolate<T: Real>(step: &mut [[T; 3]], inertial: &[[T; 3]], last_change: &[[T; 3]], dt: T) {
     for ((step, inertial), change) in step.iter_mut().zip(inertial).zip(last_change) {
         *step = std::array::from_fn(|i| inertial[i] + dt * change[i]);
     }

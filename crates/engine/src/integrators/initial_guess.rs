@@ -1,90 +1,89 @@
-//! Where Newton's method starts a step of implicit Euler: at a finite energy, with held directions where they are led.
+//! The initial guess of a step of implicit Euler: an increment of finite energy that satisfies the Dirichlet conditions.
 
-use super::follower::Loads;
-use crate::model::system::System;
-use crate::newton::Newton;
-use crate::newton::incremental_potential::{IncrementalPotential, Motion};
-use crate::number::Real;
 use fem_scene::simulation::{Cause, Counters};
 
-/// What the search for a start works with.
-pub struct Start<'a, T: Real> {
+use super::followers::Followers;
+use crate::model::system::System;
+use crate::newton::Newton;
+use crate::newton::incremental_potential::{Increment, Inertia};
+use crate::number::Real;
+
+/// A step in need of an initial guess.
+pub struct InitialGuess<'a, T: Real> {
     /// The method that starts there.
     pub newton: &'a mut Newton<T>,
-    /// Loads, gathered for the step.
-    pub loads: &'a mut Loads<T>,
-    /// What the step minimises.
-    pub objective: IncrementalPotential<'a, T>,
-    /// What makes it a motion.
-    pub motion: Motion<'a, T>,
-    /// Seconds at the end of the step.
-    pub end: f64,
+    /// Follower loads, evaluated for the step.
+    pub followers: &'a mut Followers<T>,
+    /// The body.
+    pub system: &'a System<T>,
+    /// The step.
+    pub increment: Increment<'a, T>,
+    /// Its inertia.
+    pub inertia: Inertia<'a, T>,
 }
 
-/// A prescribed motion is cut into pieces of no less than this part of what it does in a step.
-const LEAST_PIECE: f64 = 1.0 / 1024.0;
+/// Smallest part of a prescribed motion within a step that is tried.
+const SMALLEST_PART: f64 = 1.0 / 1024.0;
 
-impl<T: Real> Start<'_, T> {
-    /// Finds a start, tried in this order: the likely step, which `step` holds; that without forces; that of a body that is
-    /// linear for as long as the step lasts; none. Where a prescribed motion squashes elements in all of them, it is done in
-    /// pieces, with the body in balance after each: no element is turned inside out on that way.
+impl<T: Real> InitialGuess<'_, T> {
+    /// Replaces `step`, an extrapolation, by a feasible increment. Candidates in this order: the extrapolation; the increment without
+    /// forces; that of a linear body; the prescribed increments alone. Where a prescribed motion inverts elements in all of them,
+    /// it is applied in parts, with the body in equilibrium after each.
     pub fn find(&mut self, step: &mut [[T; 3]], counters: &mut Counters) -> Result<(), Cause> {
-        let system = self.objective.system;
-        self.lead(step);
-        if self.can_start(step, counters) {
+        self.prescribe(step);
+        if self.is_feasible(step, counters) {
             return Ok(());
         }
-        step.copy_from_slice(self.motion.inertial);
-        self.lead(step);
-        if self.can_start(step, counters) {
+        step.copy_from_slice(self.inertia.inertial);
+        self.prescribe(step);
+        if self.is_feasible(step, counters) {
             return Ok(());
         }
-        // What follows is rare, and takes its memory only then.
-        let mut led = vec![[T::default(); 3]; system.nodes()];
-        self.lead(&mut led);
-        if system.held.leads() {
-            let Self { newton, loads, objective, .. } = self;
-            // Where that linear body has no stiffness, the others are left.
-            let predicted = newton.predict(&loads.on(*objective), &led, step, counters).is_ok();
-            if predicted && self.can_start(step, counters) {
-                return Ok(());
-            }
-        }
-        step.copy_from_slice(&led);
-        if self.can_start(step, counters) {
+        // The rest is rare, and allocates only then.
+        let mut prescribed = vec![[T::default(); 3]; self.system.nodes()];
+        self.prescribe(&mut prescribed);
+        // Where the linear body has no stiffness, the other candidates remain.
+        if self.system.dirichlet.has_motion()
+            && self.predict(self.increment, &prescribed, step, counters)
+            && self.is_feasible(step, counters)
+        {
             return Ok(());
         }
-        self.in_pieces(&led, step, counters)
+        step.copy_from_slice(&prescribed);
+        if self.is_feasible(step, counters) {
+            return Ok(());
+        }
+        self.in_parts(&prescribed, step, counters)
     }
 
-    /// The step at the end of the prescribed motion, found piece by piece.
-    fn in_pieces(&mut self, led: &[[T; 3]], step: &mut [[T; 3]], counters: &mut Counters) -> Result<(), Cause> {
-        let IncrementalPotential { system, start, .. } = self.objective;
+    /// Applies the prescribed motion in parts, as large as the elements allow.
+    fn in_parts(&mut self, prescribed: &[[T; 3]], step: &mut [[T; 3]], counters: &mut Counters) -> Result<(), Cause> {
+        let system = self.system;
         let mut found = vec![[T::default(); 3]; system.nodes()];
-        let (mut done, mut piece) = (0.0, 0.5);
-        while system.held.leads() && piece >= LEAST_PIECE {
-            let next = f64::min(done + piece, 1.0);
-            let is_start = self.go_on(&found, led, (done, next), step, counters);
-            let Self { newton, loads, objective, .. } = self;
-            if is_start && loads.minimize(newton, *objective, 1.0, step, counters).is_ok() {
+        let (mut done, mut part) = (0.0, 0.5);
+        while system.dirichlet.has_motion() && part >= SMALLEST_PART {
+            let next = f64::min(done + part, 1.0);
+            let is_start = self.continue_from(&found, prescribed, (done, next), step, counters);
+            let Self { newton, followers, increment, .. } = self;
+            if is_start && followers.minimize(newton, system, *increment, step, counters).is_ok() {
                 found.copy_from_slice(step);
-                (done, piece) = (next, 2.0 * piece);
+                (done, part) = (next, 2.0 * part);
             } else {
-                piece *= 0.5;
+                part *= 0.5;
             }
             if done == 1.0 {
                 return Ok(());
             }
         }
-        Err(no_start(system, start, led))
+        Err(infeasible(system, self.increment.start, prescribed))
     }
 
-    /// From balance at one part of the motion to a start at the next: as a linear body follows, or else by the held directions
-    /// alone. False where neither has a finite energy.
-    fn go_on(
+    /// From equilibrium at one part of the motion to a feasible increment at the next: the body follows as a linear one, or else only
+    /// the constrained degrees of freedom move. Returns false if neither is feasible.
+    fn continue_from(
         &mut self,
         found: &[[T; 3]],
-        led: &[[T; 3]],
+        prescribed: &[[T; 3]],
         (done, next): (f64, f64),
         step: &mut [[T; 3]],
         counters: &mut Counters,
@@ -93,47 +92,59 @@ impl<T: Real> Start<'_, T> {
             let add = |(a, b): (&[T; 3], &[T; 3])| std::array::from_fn(|i| a[i] + T::of(factor) * b[i]);
             a.iter().zip(b).map(add).collect()
         };
-        let still = vec![[T::default(); 3]; led.len()];
-        let (start, inertial) = (sum(self.objective.start, 1.0, found), sum(self.motion.inertial, -1.0, found));
-        let piece = sum(&still, next - done, led);
-        let motion = Some(Motion { inertial: &inertial, ..self.motion });
-        let from_here = IncrementalPotential { start: &start, motion, ..self.objective };
+        let zero = vec![[T::default(); 3]; prescribed.len()];
+        let (start, inertial) = (sum(self.increment.start, 1.0, found), sum(self.inertia.inertial, -1.0, found));
+        let part = sum(&zero, next - done, prescribed);
+        let inertia = Some(Inertia { inertial: &inertial, ..self.inertia });
+        let from_here = Increment { start: &start, inertia, end: self.increment.end };
         for follows in [true, false] {
-            let Self { newton, loads, .. } = self;
-            if follows && newton.predict(&loads.on(from_here), &piece, step, counters).is_err() {
+            if follows && !self.predict(from_here, &part, step, counters) {
                 continue;
             }
-            let added = if follows { &*step } else { &piece };
+            let added = if follows { &*step } else { &part };
             let total = sum(found, 1.0, added);
             step.copy_from_slice(&total);
             if next == 1.0 {
-                self.objective.system.held.copy(led, step);
+                self.system.dirichlet.copy_constrained(prescribed, step);
             }
-            if self.can_start(step, counters) {
+            if self.is_feasible(step, counters) {
                 return true;
             }
         }
         false
     }
 
-    /// Writes the step of held directions.
-    fn lead(&self, step: &mut [[T; 3]]) {
-        let IncrementalPotential { system, start, .. } = self.objective;
-        system.lead(|motion| motion.fraction(self.end), start, step);
+    /// Writes the increment of a linear body into `step`; returns false if its matrix cannot be factored.
+    fn predict(
+        &mut self,
+        increment: Increment<T>,
+        prescribed: &[[T; 3]],
+        step: &mut [[T; 3]],
+        counters: &mut Counters,
+    ) -> bool {
+        let Self { newton, followers, system, .. } = self;
+        newton.predict(&followers.potential(system, increment), prescribed, step, counters).is_ok()
     }
 
-    fn can_start(&mut self, step: &[[T; 3]], counters: &mut Counters) -> bool {
-        self.newton.can_start(&self.loads.on(self.objective), step, counters)
+    /// Overwrites the constrained entries.
+    fn prescribe(&self, step: &mut [[T; 3]]) {
+        self.system.prescribe(self.increment.start, self.increment.end, step);
+    }
+
+    fn is_feasible(&mut self, step: &[[T; 3]], counters: &mut Counters) -> bool {
+        let Self { newton, followers, system, increment, .. } = self;
+        newton.is_feasible(&followers.potential(system, *increment), step, counters)
     }
 }
 
-/// Why there is no start: an element that is inside out, where the body is or where held directions lead it, or else a number
-/// that is too large.
-pub fn no_start<T: Real>(system: &System<T>, u: &[[T; 3]], led: &[[T; 3]]) -> Cause {
-    let there: Vec<[T; 3]> = u.iter().zip(led).map(|(u, led)| std::array::from_fn(|i| u[i] + led[i])).collect();
-    for u in [u, &there] {
+/// The cause of an infeasible start: an element that is inverted at the displacements u or after the prescribed increments, or else
+/// a number that is too large.
+pub fn infeasible<T: Real>(system: &System<T>, u: &[[T; 3]], prescribed: &[[T; 3]]) -> Cause {
+    let add = |(u, prescribed): (&[T; 3], &[T; 3])| std::array::from_fn(|i| u[i] + prescribed[i]);
+    let end: Vec<[T; 3]> = u.iter().zip(prescribed).map(add).collect();
+    for u in [u, &end] {
         let (J, element) = system.elements.min_det_F(u);
-        // NaN is no volume either.
+        // NaN fails the comparison.
         if !(J > T::default()) {
             return Cause::Inverted { element, J: J.as_f64() };
         }

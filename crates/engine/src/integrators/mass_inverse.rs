@@ -1,4 +1,4 @@
-//! M⁻¹ f over the directions that are not held.
+//! M⁻¹ f over the free degrees of freedom.
 
 use crate::model::mass::Mass;
 use crate::model::system::System;
@@ -17,23 +17,23 @@ pub struct MassInverse<T> {
     work: [Vec<[T; 3]>; 4],
 }
 
-/// Relative residual that is small enough, or as many roundings.
+/// Relative residual to converge to, or this many machine epsilons.
 const TOLERANCE: (f64, f64) = (1e-13, 8.0);
 
-/// More iterations than any mesh needs.
+/// Largest number of iterations.
 const MOST: usize = 500;
 
 impl<T: Real> MassInverse<T> {
-    /// For the mass of a body.
+    /// Prepares the inverse of a mass matrix.
     pub fn new(mass: &Mass<T>) -> Self {
         let inverse: Vec<T> = mass.diagonal().into_iter().map(|mass| T::one() / mass).collect();
         let length = if matches!(mass, Mass::Lumped(_)) { 0 } else { inverse.len() };
         Self { inverse, work: std::array::from_fn(|_| vec![[T::default(); 3]; length]) }
     }
 
-    /// M a = f, with zeros in both where nodes are held; f is used up.
+    /// Solves M a = f with zero entries at constrained degrees of freedom; overwrites f.
     pub fn solve(&mut self, system: &System<T>, f: &mut [[T; 3]], a: &mut [[T; 3]]) -> Result<(), Cause> {
-        system.held.clear(f);
+        system.dirichlet.clear_constrained(f);
         self.divide(f, a);
         if matches!(system.mass, Mass::Lumped(_)) {
             return Ok(());
@@ -47,11 +47,11 @@ impl<T: Real> MassInverse<T> {
         }
     }
 
-    /// Hestenes and Stiefel (1952), from a first guess.
+    /// Conjugate gradients, Hestenes and Stiefel (1952), from the initial guess in `a`.
     fn iterate(&mut self, system: &System<T>, f: &[[T; 3]], a: &mut [[T; 3]]) -> Result<(), Breakdown> {
         let size = norm(f);
         if !size.is_finite() {
-            // The iteration would take its guess for the answer. An acceleration that is not finite ends the run.
+            // The iteration would accept its guess. An acceleration that is not finite ends the run.
             a.as_flattened_mut().fill(T::of(f64::NAN));
             return Ok(());
         }
@@ -59,7 +59,7 @@ impl<T: Real> MassInverse<T> {
         let times = |x: &[[T; 3]], y: &mut [[T; 3]]| {
             y.fill([T::default(); 3]);
             system.mass.add_times(T::one(), x, y);
-            system.held.clear(y);
+            system.dirichlet.clear_constrained(y);
         };
         times(a, &mut r);
         subtract_from(f, &mut r);

@@ -1,28 +1,70 @@
-//! Time integration methods, one file each. A step starts from a state, and either ends in a new one or says why it cannot.
+//! Time integration methods, one file each, behind the trait [`Integrator`].
 
 mod accelerations;
 mod explicit_euler;
-mod follower;
-
+mod followers;
 mod implicit_euler;
+mod initial_guess;
 mod linearly_implicit_euler;
 mod mass_inverse;
 mod momentum;
-
-mod initial_guess;
 mod rk2;
 mod rk4;
 mod semi_implicit_euler;
 mod statics;
 mod verlet;
 
+pub use accelerations::Accelerations;
 pub use explicit_euler::ExplicitEuler;
 pub use implicit_euler::ImplicitEuler;
 pub use linearly_implicit_euler::LinearlyImplicitEuler;
 pub use mass_inverse::MassInverse;
-
 pub use rk2::Rk2;
 pub use rk4::Rk4;
 pub use semi_implicit_euler::SemiImplicitEuler;
 pub use statics::Statics;
 pub use verlet::Verlet;
+
+pub use crate::newton::Convergence;
+
+use fem_scene::simulation::{Cause, Counters};
+
+use crate::forces::Moment;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::number::Real;
+use crate::solvers::Solver;
+
+/// A time integration method with the vectors and factors that it keeps from step to step.
+pub trait Integrator<T: Real>: Send {
+    /// Advances displacements and velocities of the state by one step of `dt` seconds; time and step number stay. After an error the
+    /// state must not be used.
+    fn step(
+        &mut self,
+        system: &System<T>,
+        state: &mut State<T>,
+        dt: f64,
+        counters: &mut Counters,
+    ) -> Result<Convergence, Cause>;
+
+    /// Drops everything kept from earlier steps: the state or a parameter has changed.
+    fn forget(&mut self) {}
+
+    /// Drops what depends on the external forces at the end of the last step: a user's pull has changed them.
+    fn forget_forces(&mut self) {}
+
+    /// The moment at which the forces of a state are evaluated.
+    fn moment(&self, state: &State<T>) -> Moment {
+        Moment::at(state.time)
+    }
+
+    /// The linear solver of an implicit method.
+    fn solver(&self) -> Option<&Solver<T>> {
+        None
+    }
+
+    /// Whether it searches along directions, and so evaluates energies.
+    fn has_line_search(&self) -> bool {
+        false
+    }
+}

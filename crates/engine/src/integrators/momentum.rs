@@ -3,23 +3,29 @@
 use crate::newton::incremental_potential::IncrementalPotential;
 use crate::number::Real;
 
-/// Puts the mean of a step right where nothing holds or pulls the body.
+/// Corrects the mean of an increment where the body is unconstrained and the sum of its external forces is known.
 ///
-/// Forces inside a body add up to zero, so the step's sum over all nodes, M-weighted, is what inertia, loads and the damping of
-/// the mass alone make it. In the matrix of a small stiff body M is far below dt² K, and a solution loses that. `w` is the step
-/// of `dt` seconds, m.
-pub fn restore<T: Real>(objective: &IncrementalPotential<T>, dt: f64, w: &mut [[T; 3]]) {
-    let IncrementalPotential { system, acting, motion: Some(motion), .. } = objective else { return };
-    if !system.is_unheld() || !acting.pulls.is_empty() {
+/// Internal forces add up to zero, so the M-weighted sum of the increment over all nodes follows from inertia, loads and mass damping
+/// alone. In the matrix of a small stiff body M is far below dt² K, and a solution loses that sum. `w` is the increment of `dt`
+/// seconds, m.
+pub fn restore<T: Real>(potential: &IncrementalPotential<T>, dt: f64, w: &mut [[T; 3]]) {
+    let IncrementalPotential { system, increment, followers } = potential;
+    let Some(inertia) = increment.inertia else { return };
+    if !system.is_unconstrained() {
         return;
     }
-    let load = acting.total_load();
+    let mut conservative = system.forces.active().filter(|(force, _)| force.is_conservative());
+    let add = |sum: [f64; 3], force: [f64; 3]| std::array::from_fn(|i| sum[i] + force[i]);
+    let resultant = conservative.try_fold([0.0; 3], |sum, (force, _)| Some(add(sum, force.resultant(increment.end)?)));
+    let Some(resultant) = resultant else { return };
     let damped = 1.0 + dt * system.damping.as_ref().map_or(0.0, |damping| damping.alpha);
     for i in 0..3 {
-        let difference = |node: usize| motion.inertial[node][i].as_f64() - damped * w[node][i].as_f64();
+        let follower_load: f64 = followers.iter().map(|gradient| -gradient[i].as_f64()).sum();
+        let load = follower_load + resultant[i];
+        let difference = |node: usize| inertia.inertial[node][i].as_f64() - damped * w[node][i].as_f64();
         let missing: f64 =
             system.node_masses.iter().enumerate().map(|(node, mass)| mass.as_f64() * difference(node)).sum();
-        let mean = T::of((missing + dt * dt * load[i]) / (damped * system.total_mass));
+        let mean = T::of((missing + dt * dt * load) / (damped * system.total_mass));
         for node in &mut *w {
             node[i] += mean;
         }

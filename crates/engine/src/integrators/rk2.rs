@@ -1,13 +1,13 @@
 //! The explicit midpoint rule, Runge (1895): a half step of explicit Euler, and a whole one with the slopes found there. Second
 //! order; a motion without damping grows, though slowly.
 
-use super::accelerations::Accelerations;
-use crate::forces::pulls::Pulls;
+use fem_scene::simulation::{Cause, Counters};
+
+use super::{Accelerations, Convergence, Integrator};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
 use crate::vector::axpy;
-use fem_scene::simulation::{Cause, Counters};
 
 /// The midpoint rule with its vectors.
 pub struct Rk2<T: Real> {
@@ -18,31 +18,32 @@ pub struct Rk2<T: Real> {
 }
 
 impl<T: Real> Rk2<T> {
-    /// For a body.
+    /// Allocates its vectors for a body.
     pub fn new(system: &System<T>) -> Self {
         let zero = || vec![[T::default(); 3]; system.nodes()];
         Self { accelerations: Accelerations::new(system), a: zero(), u: zero(), v: zero() }
     }
+}
 
-    /// One step. After an error the state is of no use.
-    pub fn step(
+impl<T: Real> Integrator<T> for Rk2<T> {
+    fn step(
         &mut self,
-        pulls: &Pulls<T>,
+        system: &System<T>,
         state: &mut State<T>,
         dt: f64,
         counters: &mut Counters,
-    ) -> Result<(), Cause> {
+    ) -> Result<Convergence, Cause> {
         let Self { accelerations, a, u, v } = self;
         let half = 0.5 * dt;
-        accelerations.begin(pulls.system, state, dt);
-        accelerations.at(pulls, (&state.u, &state.v), state.time, a, counters)?;
+        accelerations.begin(system, state, dt);
+        accelerations.at(system, (&state.u, &state.v), state.time, a, counters)?;
         u.copy_from_slice(&state.u);
         v.copy_from_slice(&state.v);
         axpy(half, &state.v, u);
         axpy(half, a, v);
-        accelerations.at(pulls, (u, v), state.time + 0.5 * dt, a, counters)?;
+        accelerations.at(system, (u, v), state.time + 0.5 * dt, a, counters)?;
         axpy(dt, v, &mut state.u);
         axpy(dt, a, &mut state.v);
-        Ok(())
+        Ok(Convergence::Converged)
     }
 }

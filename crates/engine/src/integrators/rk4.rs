@@ -1,12 +1,12 @@
 //! The classical Runge–Kutta method, Kutta (1901): fourth order; stable for ω dt < 2√2 of the fastest vibration.
 
-use super::accelerations::Accelerations;
-use crate::forces::pulls::Pulls;
+use fem_scene::simulation::{Cause, Counters};
+
+use super::{Accelerations, Convergence, Integrator};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
 use crate::vector::axpy;
-use fem_scene::simulation::{Cause, Counters};
 
 /// The classical method with its vectors.
 pub struct Rk4<T: Real> {
@@ -22,27 +22,28 @@ pub struct Rk4<T: Real> {
 const STAGES: [(f64, f64); 4] = [(0.0, 1.0 / 6.0), (0.5, 1.0 / 3.0), (0.5, 1.0 / 3.0), (1.0, 1.0 / 6.0)];
 
 impl<T: Real> Rk4<T> {
-    /// For a body.
+    /// Allocates its vectors for a body.
     pub fn new(system: &System<T>) -> Self {
         let zero = || vec![[T::default(); 3]; system.nodes()];
         Self { accelerations: Accelerations::new(system), a: zero(), u: zero(), v: zero(), start: [zero(), zero()] }
     }
+}
 
-    /// One step. After an error the state is of no use.
-    pub fn step(
+impl<T: Real> Integrator<T> for Rk4<T> {
+    fn step(
         &mut self,
-        pulls: &Pulls<T>,
+        system: &System<T>,
         state: &mut State<T>,
         dt: f64,
         counters: &mut Counters,
-    ) -> Result<(), Cause> {
+    ) -> Result<Convergence, Cause> {
         let Self { accelerations, a, u, v, start: [u0, v0] } = self;
-        accelerations.begin(pulls.system, state, dt);
+        accelerations.begin(system, state, dt);
         for (copy, of) in [(&mut *u, &state.u), (&mut *v, &state.v), (&mut *u0, &state.u), (&mut *v0, &state.v)] {
             copy.copy_from_slice(of);
         }
         for (stage, (after, weight)) in STAGES.into_iter().enumerate() {
-            accelerations.at(pulls, (u, v), state.time + after * dt, a, counters)?;
+            accelerations.at(system, (u, v), state.time + after * dt, a, counters)?;
             axpy(weight * dt, v, &mut state.u);
             axpy(weight * dt, a, &mut state.v);
             // Where the next stage is.
@@ -52,6 +53,6 @@ impl<T: Real> Rk4<T> {
             v.copy_from_slice(v0);
             axpy(after * dt, a, v);
         }
-        Ok(())
+        Ok(Convergence::Converged)
     }
 }

@@ -1,14 +1,14 @@
 //! Semi-implicit (symplectic) Euler: v⁺ = v + dt a(u, v, t), u⁺ = u + dt v⁺. First order; stable for ω dt < 2 of the fastest
-//! vibration, and its energy then swings about the right one for ever, Hairer, Lubich, Wanner, Geometric Numerical Integration
+//! vibration, where its energy oscillates about the exact one for all time, Hairer, Lubich, Wanner, Geometric Numerical Integration
 //! (2006), I.1.2.
 
-use super::accelerations::Accelerations;
-use crate::forces::pulls::Pulls;
+use fem_scene::simulation::{Cause, Counters};
+
+use super::{Accelerations, Convergence, Integrator};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
 use crate::vector::axpy;
-use fem_scene::simulation::{Cause, Counters};
 
 /// Semi-implicit Euler with its vectors.
 pub struct SemiImplicitEuler<T: Real> {
@@ -17,23 +17,24 @@ pub struct SemiImplicitEuler<T: Real> {
 }
 
 impl<T: Real> SemiImplicitEuler<T> {
-    /// For a body.
+    /// Allocates its vectors for a body.
     pub fn new(system: &System<T>) -> Self {
         Self { accelerations: Accelerations::new(system), a: vec![[T::default(); 3]; system.nodes()] }
     }
+}
 
-    /// One step. After an error the state is of no use.
-    pub fn step(
+impl<T: Real> Integrator<T> for SemiImplicitEuler<T> {
+    fn step(
         &mut self,
-        pulls: &Pulls<T>,
+        system: &System<T>,
         state: &mut State<T>,
         dt: f64,
         counters: &mut Counters,
-    ) -> Result<(), Cause> {
-        self.accelerations.begin(pulls.system, state, dt);
-        self.accelerations.at(pulls, (&state.u, &state.v), state.time, &mut self.a, counters)?;
+    ) -> Result<Convergence, Cause> {
+        self.accelerations.begin(system, state, dt);
+        self.accelerations.at(system, (&state.u, &state.v), state.time, &mut self.a, counters)?;
         axpy(dt, &self.a, &mut state.v);
         axpy(dt, &state.v, &mut state.u);
-        Ok(())
+        Ok(Convergence::Converged)
     }
 }

@@ -1,24 +1,26 @@
-//! Equilibrium: ∇V(u) = 0 at loads and prescribed motions that grow in equal parts, one in each step.
+//! Static equilibrium, ∇V(u) = 0, by load stepping: loads and prescribed motions grow in equal parts, one in each step.
 
-use super::follower::Loads;
-use super::initial_guess::no_start;
-use crate::forces::acting::Acting;
-use crate::forces::pulls::AnchorSpring;
+use fem_scene::simulation::{Cause, Counters};
+
+use super::followers::Followers;
+use super::initial_guess::infeasible;
+use super::{Convergence, Integrator};
+use crate::forces::{HessianKind, Moment};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::Newton;
-use crate::newton::incremental_potential::{IncrementalPotential, Scratch};
+use crate::newton::incremental_potential::{Increment, IncrementalPotential, Workspace};
 use crate::number::Real;
 use crate::solvers::Solver;
 use crate::sparse::Block;
-use fem_scene::simulation::{Cause, Counters};
+use crate::vector::axpy;
 
-/// The search for equilibrium, with its vectors.
+/// Load stepping with its solver and vectors.
 pub struct Statics<T: Real> {
     method: Method<T>,
-    loads: Loads<T>,
+    followers: Followers<T>,
     load_steps: usize,
-    led: Vec<[T; 3]>,
+    prescribed: Vec<[T; 3]>,
     step: Vec<[T; 3]>,
 }
 
@@ -27,176 +29,180 @@ enum Method<T: Real> {
     Newton(Box<Newton<T>>),
 }
 
-/// K u = f is the whole problem.
+/// K u = f with its solver and vectors.
 struct Linear<T: Real> {
     solver: Solver<T>,
     tolerance: f64,
     values: Vec<Block<T, 3>>,
-    scratch: Scratch<T>,
-    rest: Vec<[T; 3]>,
+    workspace: Workspace<T>,
+    undeformed: Vec<[T; 3]>,
     right: Vec<[T; 3]>,
-    free: Vec<[T; 3]>,
+    solution: Vec<[T; 3]>,
 }
 
-/// A load step is halved this often before it is given up.
+/// Largest number of times that a load step is halved.
 const HALVINGS: i32 = 10;
 
 impl<T: Real> Statics<T> {
-    /// For a body; a linear one keeps no more of `newton` than its solver.
+    /// For a body; a linear one keeps only the solver of `newton`.
     pub fn new(newton: Newton<T>, system: &System<T>, load_steps: usize) -> Self {
         let zero = || vec![[T::default(); 3]; system.nodes()];
-        let is_linear = system.law.is_linear() && system.springs.is_empty() && system.pressures.is_empty();
-        let method = if is_linear {
+        let method = if system.is_linear() {
             Method::Linear(Box::new(Linear {
                 tolerance: newton.limits().solver_tolerance,
                 solver: newton.into_solver(),
                 values: vec![[[T::default(); 3]; 3]; system.pattern.blocks()],
-                scratch: Scratch::new(system.nodes()),
-                rest: zero(),
+                workspace: Workspace::new(system.nodes()),
+                undeformed: zero(),
                 right: zero(),
-                free: zero(),
+                solution: zero(),
             }))
         } else {
             Method::Newton(Box::new(newton))
         };
-        Self { method, loads: Loads::new(system, true), load_steps, led: zero(), step: zero() }
+        Self { method, followers: Followers::new(system), load_steps, prescribed: zero(), step: zero() }
     }
 
-    /// The linear solver.
-    pub fn solver(&self) -> &Solver<T> {
-        match &self.method {
-            Method::Linear(linear) => &linear.solver,
-            Method::Newton(newton) => newton.solver(),
+    /// Load factor after so many steps; it stays at 1 after the last load step.
+    fn load_factor(&self, steps: usize) -> f64 {
+        steps.min(self.load_steps) as f64 / self.load_steps as f64
+    }
+}
+
+impl<T: Real> Integrator<T> for Statics<T> {
+    /// One load step.
+    fn step(
+        &mut self,
+        system: &System<T>,
+        state: &mut State<T>,
+        dt: f64,
+        counters: &mut Counters,
+    ) -> Result<Convergence, Cause> {
+        let (from, to) = (self.load_factor(state.steps), self.load_factor(state.steps + 1));
+        let time = state.time + dt;
+        let Self { method, followers, prescribed, step, .. } = self;
+        match method {
+            Method::Linear(linear) => {
+                linear.solve(system, Moment { time, load_factor: Some(to) }, &mut state.u, counters)?;
+                Ok(Convergence::Converged)
+            }
+            Method::Newton(newton) => {
+                let mut load_step = LoadStep { newton, system, time, followers, prescribed, step };
+                load_step.advance(&mut state.u, (from, to), counters)
+            }
         }
     }
 
-    /// Whether one solve is the whole of it.
-    pub fn is_linear(&self) -> bool {
-        matches!(self.method, Method::Linear(_))
-    }
-
-    /// Part of the loads that is applied after so many steps.
-    pub fn fraction(&self, steps: usize) -> f64 {
-        steps.min(self.load_steps) as f64 / self.load_steps as f64
-    }
-
-    /// What is known from earlier steps is of no use any more.
-    pub fn forget(&mut self) {
+    fn forget(&mut self) {
         if let Method::Newton(newton) = &mut self.method {
             newton.forget();
         }
     }
 
-    /// One load step. After an error the state is of no use. Says whether Newton's method has converged.
-    pub fn step(
-        &mut self,
-        system: &System<T>,
-        state: &mut State<T>,
-        pulls: &[AnchorSpring<T>],
-        counters: &mut Counters,
-    ) -> Result<bool, Cause> {
-        let (from, to) = (self.fraction(state.steps), self.fraction(state.steps + 1));
-        let acting = Acting { pulls, load: None };
-        let Self { method, loads, led, step, .. } = self;
-        match method {
-            Method::Linear(linear) => {
-                linear.solve(system, acting, loads, to, led, counters)?;
-                state.u.copy_from_slice(led);
-                Ok(true)
-            }
-            Method::Newton(newton) => {
-                let mut work = Work { newton, system, acting, loads, led, step };
-                work.advance(&mut state.u, (from, to), counters)
-            }
-        }
+    fn moment(&self, state: &State<T>) -> Moment {
+        Moment { time: state.time, load_factor: Some(self.load_factor(state.steps)) }
+    }
+
+    fn solver(&self) -> Option<&Solver<T>> {
+        Some(match &self.method {
+            Method::Linear(linear) => &linear.solver,
+            Method::Newton(newton) => newton.solver(),
+        })
+    }
+
+    fn has_line_search(&self) -> bool {
+        matches!(self.method, Method::Newton(_))
     }
 }
 
 impl<T: Real> Linear<T> {
-    /// Writes u into `u`: K u = f, where what is prescribed of u moves to the right-hand side.
+    /// Writes the solution of K u = f into `u`; prescribed displacements move to the right-hand side.
     fn solve(
         &mut self,
         system: &System<T>,
-        acting: Acting<T>,
-        loads: &mut Loads<T>,
-        fraction: f64,
+        moment: Moment,
         u: &mut [[T; 3]],
         counters: &mut Counters,
     ) -> Result<(), Cause> {
-        let Self { solver, tolerance, values, scratch, rest, right, free } = self;
-        loads.gather(system, fraction, rest, rest);
-        let objective = loads.on(IncrementalPotential { system, acting, start: rest, motion: None });
-        system.lead(|_| fraction, rest, u);
+        let Self { solver, tolerance, values, workspace, undeformed, right, solution } = self;
+        let increment = Increment { start: undeformed, end: moment, inertia: None };
+        let potential = IncrementalPotential { system, increment, followers: &[] };
+        u.fill([T::default(); 3]);
+        system.prescribe(undeformed, moment, u);
         counters.force_assemblies += 1;
-        objective.linear_slope(u, right, scratch);
+        potential.linearized_gradient(u, right, workspace);
         for right in right.as_flattened_mut() {
             *right = -*right;
         }
         counters.stiffness_assemblies += 1;
         counters.factorizations += 1;
-        objective.hessian(rest, false, values, scratch);
+        potential.hessian(undeformed, HessianKind::Exact, values, workspace);
         solver.prepare(values).map_err(Cause::Solver)?;
-        solver.solve(values, right, free, *tolerance).map_err(Cause::Solver)?;
-        system.held.clear(free);
-        for (u, free) in u.as_flattened_mut().iter_mut().zip(free.as_flattened()) {
-            *u += *free;
-        }
+        solver.solve(values, right, solution, *tolerance).map_err(Cause::Solver)?;
+        system.dirichlet.clear_constrained(solution);
+        axpy(1.0, solution, u);
         Ok(())
     }
 }
 
-/// What a load step works on.
-struct Work<'a, T: Real> {
+/// One load step of a nonlinear body.
+struct LoadStep<'a, T: Real> {
     newton: &'a mut Newton<T>,
     system: &'a System<T>,
-    acting: Acting<'a, T>,
-    loads: &'a mut Loads<T>,
-    led: &'a mut Vec<[T; 3]>,
+    time: f64,
+    followers: &'a mut Followers<T>,
+    prescribed: &'a mut Vec<[T; 3]>,
     step: &'a mut Vec<[T; 3]>,
 }
 
-impl<T: Real> Work<'_, T> {
-    /// From one part of the loads to another, in pieces where that is too far at once.
-    fn advance(&mut self, u: &mut [[T; 3]], (from, to): (f64, f64), counters: &mut Counters) -> Result<bool, Cause> {
+impl<T: Real> LoadStep<'_, T> {
+    /// From one load factor to another, in smaller parts where Newton's method fails.
+    fn advance(
+        &mut self,
+        u: &mut [[T; 3]],
+        (from, to): (f64, f64),
+        counters: &mut Counters,
+    ) -> Result<Convergence, Cause> {
         let whole = to - from;
-        let (mut at, mut piece) = (from, whole);
-        let mut converged = true;
+        let (mut at, mut part) = (from, whole);
+        let mut convergence = Convergence::Converged;
         loop {
-            let next = if at + piece >= to - 1e-9 * whole { to } else { at + piece };
+            let next = if at + part >= to - 1e-9 * whole { to } else { at + part };
             let outcome = self.equilibrate(u, next, counters);
-            let is_least = piece <= whole * 0.5f64.powi(HALVINGS);
+            let is_smallest = part <= whole * 0.5f64.powi(HALVINGS);
             match outcome {
-                Ok(reached) if reached || is_least => {
-                    for (u, step) in u.as_flattened_mut().iter_mut().zip(self.step.as_flattened()) {
-                        *u += *step;
+                Ok(reached) if reached == Convergence::Converged || is_smallest => {
+                    axpy(1.0, self.step, u);
+                    if reached == Convergence::NotConverged {
+                        convergence = reached;
                     }
-                    converged &= reached;
                     at = next;
-                    piece *= 2.0;
+                    part *= 2.0;
                 }
-                Err(cause) if is_least => return Err(cause),
-                _ => piece *= 0.5,
+                Err(cause) if is_smallest => return Err(cause),
+                _ => part *= 0.5,
             }
             if at >= to {
-                return Ok(converged);
+                return Ok(convergence);
             }
         }
     }
 
-    /// Writes into `step` what leads from u to equilibrium at a part of the loads.
-    fn equilibrate(&mut self, u: &[[T; 3]], fraction: f64, counters: &mut Counters) -> Result<bool, Cause> {
-        let Self { newton, system, acting, loads, led, step } = self;
+    /// Writes the increment from u to equilibrium at a load factor into `step`.
+    fn equilibrate(&mut self, u: &[[T; 3]], load_factor: f64, counters: &mut Counters) -> Result<Convergence, Cause> {
+        let Self { newton, system, time, followers, prescribed, step } = self;
+        let end = Moment { time: *time, load_factor: Some(load_factor) };
+        let increment = Increment { start: u, end, inertia: None };
         step.fill([T::default(); 3]);
-        loads.gather(system, fraction, u, step);
-        let objective = IncrementalPotential { system, acting: *acting, start: u, motion: None };
-        system.lead(|_| fraction, u, led);
-        newton.predict(&loads.on(objective), led, step, counters)?;
-        if !newton.can_start(&loads.on(objective), step, counters) {
-            step.copy_from_slice(led);
-            if !newton.can_start(&loads.on(objective), step, counters) {
-                return Err(no_start(system, u, led));
+        followers.evaluate(system, &increment, step);
+        system.prescribe(u, end, prescribed);
+        newton.predict(&followers.potential(system, increment), prescribed, step, counters)?;
+        if !newton.is_feasible(&followers.potential(system, increment), step, counters) {
+            step.copy_from_slice(prescribed);
+            if !newton.is_feasible(&followers.potential(system, increment), step, counters) {
+                return Err(infeasible(system, u, prescribed));
             }
         }
-        loads.minimize(newton, objective, fraction, step, counters)
+        followers.minimize(newton, system, increment, step, counters)
     }
 }

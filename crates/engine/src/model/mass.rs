@@ -6,7 +6,7 @@ use crate::sparse::{Block, Pattern, Stored};
 /// Mass of a body of simplices, kg.
 #[derive(Clone, Debug)]
 pub enum Mass<T> {
-    /// Each node carries its share of its elements: the row sums of the consistent mass.
+    /// Row sums of the consistent mass: each node carries its share of its elements.
     Lumped(Vec<T>),
     /// ∫ ρ φ_i φ_j: ρV/20 for each pair of corners of a tetrahedron, twice that on the diagonal.
     Consistent(Consistent<T>),
@@ -113,6 +113,11 @@ impl<T: Real> Mass<T> {
         }
     }
 
+    /// Whether the mass is lumped.
+    pub fn is_lumped(&self) -> bool {
+        matches!(self, Self::Lumped(_))
+    }
+
     /// The diagonal, kg.
     pub fn diagonal(&self) -> Vec<T> {
         match self {
@@ -121,7 +126,7 @@ impl<T: Real> Mass<T> {
         }
     }
 
-    /// Mass of each node with its share of its neighbours: the lumped mass.
+    /// Row sums: the lumped mass of each node, kg.
     pub fn lumped(&self) -> Vec<T> {
         match self {
             Self::Lumped(masses) => masses.clone(),
@@ -131,7 +136,7 @@ impl<T: Real> Mass<T> {
         }
     }
 
-    /// Bytes that it holds.
+    /// Memory, bytes.
     pub fn bytes(&self) -> usize {
         match self {
             Self::Lumped(masses) => size_of_val(&masses[..]),

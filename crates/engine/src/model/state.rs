@@ -1,13 +1,13 @@
-//! What changes in a run.
+//! The state of a body: everything that changes in a run.
 
 use crate::number::Real;
 
-/// Where a body is, node by node in the engine's order.
+/// Displacements and velocities of all nodes, in the engine's numbering.
 ///
-/// Displacements instead of positions: they lose no digits far from the origin, and few in single precision.
+/// Displacements keep their digits far from the origin, where positions would lose them, and most of them in single precision.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<T> {
-    /// Displacement of each node from where it is at rest, m.
+    /// Displacement of each node, m.
     pub u: Vec<[T; 3]>,
     /// Velocity of each node, m/s.
     pub v: Vec<[T; 3]>,
@@ -23,7 +23,7 @@ impl<T: Real> State<T> {
         Self { u: vec![[T::default(); 3]; nodes], v: vec![[T::default(); 3]; nodes], time: 0.0, steps: 0 }
     }
 
-    /// Becomes the same as another state of the body, without new memory.
+    /// Copies another state of the body without allocating.
     pub fn copy_from(&mut self, other: &Self) {
         self.u.copy_from_slice(&other.u);
         self.v.copy_from_slice(&other.v);
@@ -36,7 +36,7 @@ impl<T: Real> State<T> {
         self.u.iter().zip(&self.v).position(|(u, v)| !finite(u) || !finite(v))
     }
 
-    /// Bytes that it holds.
+    /// Memory, bytes.
     pub fn bytes(&self) -> usize {
         size_of_val(&self.u[..]) + size_of_val(&self.v[..])
     }

@@ -1,131 +1,108 @@
-//! What never changes in a run: the undeformed body, what it is made of, what holds it and what acts on it.
+//! A body as the engine computes with it: the undeformed body, its material, its constraints and the forces on it. None of this
+//! changes in a run, apart from a user's pull.
 
 use std::sync::Arc;
 
-use nalgebra::Vector3;
+use fem_scene::simulation::Shape;
+use fem_scene::{Body, Interaction, RayleighDamping};
+use nalgebra::{Matrix3, Vector3};
 
+use super::mass::Mass;
+use super::numbering::Numbering;
 use crate::boundary::dirichlet::{DirichletConditions, fully_constrained_nodes};
 use crate::elements::Elements;
-use crate::forces::acting::Acting;
-use crate::forces::dead_load;
-use crate::forces::pressure::Pressure;
-use crate::forces::pulls::AnchorSpring;
-use crate::forces::springs::Spring;
-use crate::materials::{AnyLaw, Projected};
-use crate::model::mass::Mass;
-use crate::model::numbering::Numbering;
+use crate::forces::anchors::Anchors;
+use crate::forces::{Energy, Forces, HessianKind, Moment, Potential};
+use crate::materials::{AnyLaw, Law, Projected};
 use crate::number::Real;
-use crate::profile::Work;
+use crate::profile::Profile;
 use crate::solvers::SolverChoice;
 use crate::sparse::{Block, Pattern};
-use fem_scene::simulation::Shape;
-use fem_scene::{Body, Drag, Motion, RayleighDamping};
+use crate::tensor::Tensor;
 
-/// A body in the engine's order of nodes: free ones first, those that are held wholly last.
+/// A body in the engine's numbering: free nodes first, fully constrained ones last.
 pub struct System<T: Real> {
     /// Name of the scene.
     pub name: String,
-    /// Undeformed meshes, in their own order.
+    /// Undeformed meshes, in their own numbering.
     pub shape: Arc<Shape>,
     /// The engine's numbers of the nodes.
-    pub order: Numbering,
-    /// Undeformed positions in the engine's order, m.
+    pub numbering: Numbering,
+    /// Undeformed positions in the engine's numbering, m.
     pub rest: Vec<Vector3<f64>>,
     /// Undeformed elements.
     pub elements: Elements<T, 3, 4>,
-    /// Where the blocks of the stiffness are; its rows are the free nodes.
+    /// Sparsity of the stiffness matrix; its rows are the nodes that are not fully constrained.
     pub pattern: Arc<Pattern>,
     /// Constitutive law.
     pub law: AnyLaw<T::Lanes>,
-    /// Factor of its moduli in each of the mesh's elements; empty for none.
-    pub stiffer: Vec<f64>,
+    /// Factor of the moduli of each of the mesh's elements; empty where all have the same.
+    pub stiffness_factors: Vec<f64>,
     /// Mass of all nodes.
     pub mass: Mass<T>,
-    /// Mass of each node with its share of its neighbours, kg; empty where something is held.
+    /// Row sums of the mass, kg; empty where a node is constrained.
     pub node_masses: Vec<T>,
-    /// Mass of all nodes together, kg.
+    /// Mass of the body, kg.
     pub total_mass: f64,
-    /// What holds nodes.
-    pub held: DirichletConditions,
-    /// Forces that stay as they are, such as weight, N; `None` where the scene names none.
-    pub dead_load: Option<Vec<[T; 3]>>,
-    /// Springs between nodes.
-    pub springs: Vec<Spring<T>>,
-    /// Pressures that follow the surface.
-    pub pressures: Vec<Pressure<T>>,
-    /// Rayleigh's damping; `None` where the scene names none, or none that is not zero.
+    /// Dirichlet conditions.
+    pub dirichlet: DirichletConditions,
+    /// Forces beside the body's own elasticity.
+    pub forces: Forces<T>,
+    /// Rayleigh damping, where the scene asks for some.
     pub damping: Option<RayleighDamping>,
-    /// The scene's scripted drag, with the engine's number of its node.
-    pub drag: Option<Drag>,
     /// Longest edge of the undeformed body's bounding box, m.
     pub length: f64,
-    /// What its parts have done so far.
-    pub work: Work,
+    /// Calls and time of its parts so far.
+    pub profile: Profile,
 }
 
-/// An energy, and the size of what was added up to it, which says how exact it is; J.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Energy {
-    /// The sum.
-    pub value: f64,
-    /// Sum of the magnitudes of its terms.
-    pub terms: f64,
-}
-
-impl Energy {
-    /// A single term.
-    pub fn of(value: f64) -> Self {
-        Self { value, terms: value.abs() }
-    }
-}
-
-impl std::ops::Add for Energy {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self { value: self.value + other.value, terms: self.terms + other.terms }
-    }
-}
+/// Forces of a user's own, given the engine's numbers of the nodes.
+pub type OwnForces<'a, T> = &'a dyn Fn(&Numbering) -> Vec<Box<dyn Potential<T>>>;
 
 impl<T: Real> System<T> {
     /// Builds what the scene names, and nothing else; rows and blocks as the solver wants them.
     pub fn new(body: Body, law: AnyLaw<T::Lanes>, choice: SolverChoice) -> Self {
+        Self::with_forces(body, law, choice, &|_| Vec::new())
+    }
+
+    /// The same with forces of one's own beside those that the scene names.
+    pub fn with_forces(body: Body, law: AnyLaw<T::Lanes>, choice: SolverChoice, own: OwnForces<T>) -> Self {
         let mesh = &body.shape.mesh;
-        let order = Numbering::new(choice.ordering(), &mesh.vertices, &mesh.elements, &fully_constrained_nodes(&body));
-        let corners = order.elements(&mesh.elements);
-        let rest: Vec<_> = order.mesh_node.iter().map(|&node| mesh.vertices[node as usize]).collect();
-        let springs = node_springs(&body, &order);
-        let joined: Vec<[u32; 2]> = springs.iter().map(|spring| spring.nodes.map(|node| node as u32)).collect();
-        let pattern = Pattern::joined(order.free, &corners, &joined, choice.stored());
+        let fully_constrained = fully_constrained_nodes(&body);
+        let numbering = Numbering::new(choice.ordering(), &mesh.vertices, &mesh.elements, &fully_constrained);
+        let corners = numbering.elements(&mesh.elements);
+        let rest: Vec<_> = numbering.mesh_node.iter().map(|&node| mesh.vertices[node as usize]).collect();
+        let own = own(&numbering);
+        let (name, shape) = (body.name.clone(), Arc::new(body.shape.clone()));
+        let anchors =
+            Anchors::new(Interaction::new(body.drag, pull_modulus(&body) * length(&rest)), &shape, &numbering);
+        let forces = Forces::new(&body, anchors, &numbering, own);
+        let couplings: Vec<[u32; 2]> = forces.all().flat_map(|(potential, _)| potential.couplings()).collect();
+        let pattern = Pattern::joined(numbering.free, &corners, &couplings, choice.stored());
         let volumes = fem_mesh::volumes(mesh);
-        // Of the scene's density.
-        let denser = |element: usize| body.density_factors.get(element).copied().unwrap_or(1.0);
-        let filled: Vec<f64> = volumes.iter().enumerate().map(|(element, volume)| denser(element) * volume).collect();
-        let mass = Mass::new(rest.len(), &corners, &filled, body.material.density, body.lumped_mass);
-        let dead_load = dead_load::dead(&body, &order, &mass, &corners, &volumes);
-        let pressures = Pressure::all(&body, &order);
-        let held = DirichletConditions::new(&body, &order);
-        let drag = body.drag.map(|drag| Drag { node: order.engine_node[drag.node] as usize, ..drag });
+        let relative_density = |element: usize| body.density_factors.get(element).copied().unwrap_or(1.0);
+        // Volumes that weigh as much at the scene's density.
+        let weighted: Vec<f64> =
+            volumes.iter().enumerate().map(|(element, volume)| relative_density(element) * volume).collect();
+        let mass = Mass::new(rest.len(), &corners, &weighted, body.material.density, body.lumped_mass);
+        let dirichlet = DirichletConditions::new(&body, &numbering);
         Self {
-            name: body.name,
             elements: Elements::stiffened(&rest, &corners, &body.stiffness_factors, &pattern),
             length: length(&rest),
-            total_mass: body.material.density * filled.iter().sum::<f64>(),
-            stiffer: body.stiffness_factors,
-            node_masses: if held.is_nothing(rest.len()) { mass.lumped() } else { Vec::new() },
-            held,
-            shape: Arc::new(body.shape),
+            total_mass: body.material.density * weighted.iter().sum::<f64>(),
+            node_masses: if dirichlet.is_empty(rest.len()) { mass.lumped() } else { Vec::new() },
+            name,
+            stiffness_factors: body.stiffness_factors,
+            damping: body.damping,
+            shape,
             pattern: Arc::new(pattern),
-            order,
+            dirichlet,
+            numbering,
             rest,
             law,
             mass,
-            dead_load,
-            springs,
-            pressures,
-            damping: body.damping,
-            drag,
-            work: Work::default(),
+            forces,
+            profile: Profile::default(),
         }
     }
 
@@ -134,144 +111,157 @@ impl<T: Real> System<T> {
         self.rest.len()
     }
 
-    /// Number of nodes that are not held wholly.
+    /// Number of nodes that are not fully constrained.
     pub fn free(&self) -> usize {
-        self.order.free
+        self.numbering.free
     }
 
-    /// Whether nothing is held.
-    pub fn is_unheld(&self) -> bool {
-        self.held.is_nothing(self.nodes())
+    /// Whether no degree of freedom is constrained.
+    pub fn is_unconstrained(&self) -> bool {
+        self.dirichlet.is_empty(self.nodes())
     }
 
-    /// What acts where loads are dead and applied in full.
-    pub fn acting<'a>(&'a self, pulls: &'a [AnchorSpring<T>]) -> Acting<'a, T> {
-        Acting { pulls, load: self.dead_load.as_deref() }
+    /// Whether the elastic energy is quadratic and no force depends on the displacements: then one linear solve finds equilibrium.
+    pub fn is_linear(&self) -> bool {
+        let depends = |(potential, _): (&dyn Potential<T>, _)| potential.is_internal() || !potential.is_conservative();
+        self.law.is_linear() && !self.forces.active().any(depends)
     }
 
-    /// Potential energy: elastic energy, that of springs, less the work of loads from rest on.
-    pub fn potential(&self, u: &[[T; 3]], acting: Acting<T>) -> Energy {
+    /// Potential energy: that of the elements and of all conservative forces, zero in the undeformed body.
+    pub fn potential(&self, u: &[[T; 3]], moment: Moment) -> Energy {
         let elastic = self.elements.energy(self.law.as_law(), u);
-        Energy::of(elastic) + Energy::of(self.spring_energy(u)) + acting.potential(u)
+        Energy::of(elastic) + self.energy_of_forces(u, moment)
     }
 
-    /// Size of what cancels in the elastic energy where the body has turned, J. A turn alone has no energy, but that of its
-    /// rounding.
-    pub fn cancelled(&self, u: &[[T; 3]]) -> f64 {
-        self.law.size() * self.elements.squares(u)
-    }
-
-    /// Energy and gradient of [`potential`](Self::potential), the latter in `gradient`, N.
-    pub fn potential_and_gradient(&self, u: &[[T; 3]], acting: Acting<T>, gradient: &mut [[T; 3]]) -> Energy {
+    /// Potential energy and its gradient (N) in one pass over the elements.
+    pub fn potential_and_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) -> Energy {
         gradient.fill([T::default(); 3]);
-        let elastic = self.work.energies.time(|| self.elements.add_energy_and_gradient(self.law.as_law(), u, gradient));
-        self.add_outer_gradient(u, acting, gradient);
-        Energy::of(elastic) + Energy::of(self.spring_energy(u)) + acting.potential(u)
+        let Self { profile, elements, law, .. } = self;
+        let elastic = profile.energies.time(|| elements.add_energy_and_gradient(law.as_law(), u, gradient));
+        self.add_gradient_of_forces(true, u, moment, gradient);
+        Energy::of(elastic) + self.energy_of_forces(u, moment)
     }
 
-    /// Gradient of the potential energy, N: minus the force on each node.
-    pub fn gradient(&self, u: &[[T; 3]], acting: Acting<T>, gradient: &mut [[T; 3]]) {
-        gradient.fill([T::default(); 3]);
-        self.work.forces.time(|| self.elements.add_gradient(self.law.as_law(), u, gradient));
-        self.add_outer_gradient(u, acting, gradient);
+    /// Gradient of [`potential`](Self::potential), N: minus the conservative forces on the nodes.
+    pub fn gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
+        self.elastic_gradient(u, gradient);
+        self.add_gradient_of_forces(true, u, moment, gradient);
     }
 
-    /// Adds `factor` K(u), the Hessian of the body's own energy, N/m.
-    pub fn add_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
-        self.work.stiffness.time(|| self.elements.add_stiffness(self.law.as_law(), factor, u, values));
-        self.add_spring_stiffness(factor, u, false, values);
+    /// All forces on the nodes, N: elastic, external, follower and damping forces. Damping takes its stiffness at `u_damping`.
+    pub fn force(&self, u: &[[T; 3]], v: &[[T; 3]], u_damping: &[[T; 3]], moment: Moment, force: &mut [[T; 3]]) {
+        self.elastic_gradient(u, force);
+        self.add_gradient_of_forces(true, u, moment, force);
+        self.add_gradient_of_forces(false, u, moment, force);
+        for force in force.as_flattened_mut() {
+            *force = -*force;
+        }
+        if let Some(damping) = &self.damping {
+            self.profile.damping.time(|| {
+                self.mass.add_times(T::of(-damping.alpha), v, force);
+                if damping.beta > 0.0 {
+                    self.add_stiffness_times(T::of(-damping.beta), u_damping, v, force);
+                }
+            });
+        }
     }
 
-    /// The same with each element and spring projected to positive semi-definite.
-    pub fn add_projected_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
-        self.work.projection.time(|| self.elements.add_stiffness(&Projected(self.law.as_law()), factor, u, values));
-        self.add_spring_stiffness(factor, u, true, values);
+    /// Adds minus the forces of follower loads on the deformed surface, N.
+    pub fn add_follower_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
+        self.add_gradient_of_forces(false, u, moment, gradient);
     }
 
-    /// Adds `factor` K(u) d, without a matrix, N.
+    /// Adds `factor` K(u), the Hessian of the body's own energy: elements and springs between its nodes, N/m.
+    pub fn add_stiffness(&self, factor: T, u: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>]) {
+        let Self { profile, elements, law, .. } = self;
+        let projected = Projected(law.as_law());
+        let (law, timer): (&dyn Law<T::Lanes>, _) = match kind {
+            HessianKind::Exact => (law.as_law(), &profile.stiffness),
+            HessianKind::Projected => (&projected, &profile.projection),
+        };
+        timer.time(|| elements.add_stiffness(law, factor, u, values));
+        for (potential, timer) in self.forces.active().filter(|(potential, _)| potential.is_internal()) {
+            timer.time(|| potential.add_hessian(factor, u, kind, &self.pattern, values));
+        }
+    }
+
+    /// Adds the Hessian of the external forces, N/m.
+    pub fn add_external_hessian(&self, u: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>]) {
+        let is_external = |potential: &dyn Potential<T>| potential.is_conservative() && !potential.is_internal();
+        for (potential, timer) in self.forces.active().filter(|(potential, _)| is_external(*potential)) {
+            timer.time(|| potential.add_hessian(T::one(), u, kind, &self.pattern, values));
+        }
+    }
+
+    /// Adds `factor` K(u) d without a matrix, N.
     pub fn add_stiffness_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
         self.elements.add_stiffness_times(self.law.as_law(), factor, u, d, product);
-        for spring in &self.springs {
-            spring.add_stiffness_times(factor, u, d, product);
+        for (potential, _) in self.forces.active().filter(|(potential, _)| potential.is_internal()) {
+            potential.add_hessian_times(factor, u, d, product);
         }
-    }
-
-    /// Adds `factor` times the forces of pressures on the surface as it is, N.
-    pub fn add_pressures(&self, factor: T, u: &[[T; 3]], force: &mut [[T; 3]]) {
-        if self.pressures.is_empty() {
-            return;
-        }
-        self.work.pressure.time(|| self.pressures.iter().for_each(|pressure| pressure.add_force(factor, u, force)));
     }
 
     /// Adds `factor` M x.
     pub fn add_mass_times(&self, factor: T, x: &[[T; 3]], product: &mut [[T; 3]]) {
-        self.work.mass.time(|| self.mass.add_times(factor, x, product));
+        self.profile.mass.time(|| self.mass.add_times(factor, x, product));
     }
 
-    /// Writes the step that held directions make, and leaves the others: see [`DirichletConditions::lead`].
-    pub fn lead(&self, fraction: impl Fn(&Motion) -> f64, start: &[[T; 3]], step: &mut [[T; 3]]) {
-        if !self.held.leads() {
-            return self.held.clear(step);
+    /// Overwrites the constrained entries of an increment, m: they lead from `start` to the prescribed places at a moment. Free
+    /// entries stay.
+    pub fn prescribe(&self, start: &[[T; 3]], moment: Moment, step: &mut [[T; 3]]) {
+        if self.dirichlet.has_motion() {
+            self.profile.prescribed.time(|| self.dirichlet.prescribe(&self.rest, moment, start, step));
+        } else {
+            self.dirichlet.clear_constrained(step);
         }
-        self.work.prescribed.time(|| self.held.lead(&self.rest, fraction, start, step));
     }
 
-    /// Potential of the pressures that have one, zero at rest, J.
-    pub fn pressure_potential(&self, u: &[[T; 3]]) -> f64 {
-        self.pressures.iter().filter_map(|pressure| pressure.potential(u)).sum()
+    /// Magnitude of the terms that cancel in the elastic energy of a rotated body, J: its rounding error is a part of this.
+    pub fn cancelled(&self, u: &[[T; 3]]) -> f64 {
+        self.law.size() * self.elements.squares(u)
     }
 
-    fn spring_energy(&self, u: &[[T; 3]]) -> f64 {
-        self.springs.iter().map(|spring| spring.energy(u)).sum()
+    /// Energy for reports: that of the elements and of all forces that have a potential, follower loads included, J.
+    pub fn reported_potential(&self, u: &[[T; 3]], moment: Moment) -> f64 {
+        let elastic = self.elements.energy(self.law.as_law(), u);
+        elastic + self.forces.active().map(|(potential, _)| potential.energy(u, moment).value).sum::<f64>()
     }
 
-    fn add_spring_stiffness(&self, factor: T, u: &[[T; 3]], projected: bool, values: &mut [Block<T, 3>]) {
-        if self.springs.is_empty() {
-            return;
-        }
-        let add = |spring: &Spring<T>| spring.add_stiffness(factor, u, projected, &self.pattern, &mut *values);
-        self.work.springs.time(|| self.springs.iter().for_each(add));
+    /// Cauchy stress of each element of the mesh, Pa.
+    pub fn stresses(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
+        let stresses = self.elements.cauchy_stresses(&self.law, u);
+        let factor = |element: usize| self.stiffness_factors.get(element).copied().unwrap_or(1.0);
+        let matrix = |(element, stress): (usize, Tensor<f64>)| factor(element) * Matrix3::from_fn(|i, j| stress[i][j]);
+        stresses.into_iter().enumerate().map(matrix).collect()
     }
 
-    fn add_outer_gradient(&self, u: &[[T; 3]], acting: Acting<T>, gradient: &mut [[T; 3]]) {
-        if !self.springs.is_empty() {
-            self.work.springs.time(|| self.springs.iter().for_each(|spring| spring.add_gradient(u, &mut *gradient)));
-        }
-        if acting.load.is_some() {
-            // Pressures without dead loads are gathered into loads all the same.
-            let meter = if self.dead_load.is_some() { &self.work.dead_load } else { &self.work.pressure };
-            meter.time(|| acting.add_load_gradient(gradient));
-        }
-        if !acting.pulls.is_empty() {
-            self.work.drag.time(|| acting.add_pull_gradient(u, gradient));
+    /// The largest multiple of `direction` up to which no force becomes infeasible.
+    pub fn largest_step(&self, u: &[[T; 3]], direction: &[[T; 3]]) -> f64 {
+        self.forces.active().map(|(potential, _)| potential.largest_step(u, direction)).fold(f64::INFINITY, f64::min)
+    }
+
+    fn elastic_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
+        gradient.fill([T::default(); 3]);
+        self.profile.forces.time(|| self.elements.add_gradient(self.law.as_law(), u, gradient));
+    }
+
+    fn energy_of_forces(&self, u: &[[T; 3]], moment: Moment) -> Energy {
+        let conservative = self.forces.active().filter(|(potential, _)| potential.is_conservative());
+        conservative.map(|(potential, _)| potential.energy(u, moment)).sum()
+    }
+
+    fn add_gradient_of_forces(&self, conservative: bool, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
+        for (potential, timer) in self.forces.active() {
+            if potential.is_conservative() == conservative {
+                timer.time(|| potential.add_gradient(u, moment, gradient));
+            }
         }
     }
 }
 
-fn node_springs<T: Real>(body: &Body, order: &Numbering) -> Vec<Spring<T>> {
-    let spring = |table: &fem_scene::Spring| {
-        let [a, b] = table.nodes.map(|node| body.shape.mesh.vertices[node]);
-        let edge = b - a;
-        Spring {
-            nodes: table.nodes.map(|node| order.engine_node[node] as usize),
-            edge: [T::of(edge.x), T::of(edge.y), T::of(edge.z)],
-            stiffness: T::of(table.stiffness),
-            length: T::of(table.rest_length),
-            // Rounding of the length that the scene leaves out is no stretch.
-            excess: T::of(if table.is_initially_relaxed {
-                0.0
-            } else {
-                edge.norm_squared() - table.rest_length * table.rest_length
-            }),
-        }
-    };
-    body.springs.iter().map(spring).collect()
-}
-
-/// a · b, in double.
-pub fn dot<T: Real>(a: &[T; 3], b: &[T; 3]) -> f64 {
-    a.iter().zip(b).map(|(&a, &b)| a.as_f64() * b.as_f64()).sum()
+/// Modulus of a user's pull, Pa: times the body's length it deforms the body visibly without tearing it.
+fn pull_modulus(body: &Body) -> f64 {
+    body.material.C.or(body.material.young.map(|young| young / 5.0)).unwrap_or(1e5)
 }
 
 /// Longest edge of the bounding box, m.

@@ -1,55 +1,64 @@
-//! What a step of implicit Euler or a search for equilibrium minimises.
+//! The incremental potential: its minimum is a step of implicit Euler, or equilibrium.
 
-use crate::forces::acting::Acting;
-use crate::model::system::{Energy, System};
+use crate::forces::{Energy, HessianKind, Moment};
+use crate::model::system::System;
 use crate::number::Real;
 use crate::sparse::Block;
 
-/// E(w) = ‖w − ŵ‖²_M / (2 dt²) + wᵀ C w / (2 dt) + V(u₀ + w), C = α M + β K(u₀): its minimum is the displacement w of a step of
-/// implicit Euler, M (w − ŵ)/dt² = f − C w/dt. Without the first two it is that of equilibrium.
+/// E(w) = ‖w − ŵ‖²_M / (2 dt²) + wᵀ C w / (2 dt) + V(u₀ + w), C = α M + β K(u₀), for the displacement increment w: its minimum is a
+/// step of implicit Euler, M (w − ŵ)/dt² = f − C w/dt. Without the first two terms it is equilibrium.
 ///
-/// The unknown is what the step adds, not where it ends, so that velocities w/dt keep their digits in single precision.
+/// The unknown is the increment instead of the new displacement, so that velocities w/dt keep their digits in single precision.
 #[derive(Clone, Copy)]
 pub struct IncrementalPotential<'a, T: Real> {
     /// The body.
     pub system: &'a System<T>,
-    /// Pulls and loads at the end of the step.
-    pub acting: Acting<'a, T>,
+    /// The increment.
+    pub increment: Increment<'a, T>,
+    /// Gradient of the follower loads, kept fixed, N; empty where there are none.
+    pub followers: &'a [[T; 3]],
+}
+
+/// The start and the end of a step.
+#[derive(Clone, Copy)]
+pub struct Increment<'a, T> {
     /// Displacements at its start, m.
     pub start: &'a [[T; 3]],
-    /// What makes it a motion; `None` for equilibrium.
-    pub motion: Option<Motion<'a, T>>,
+    /// Its end, at which forces are evaluated.
+    pub end: Moment,
+    /// Inertia and damping; `None` for equilibrium.
+    pub inertia: Option<Inertia<'a, T>>,
 }
 
 /// Inertia and damping of a step.
 #[derive(Clone, Copy)]
-pub struct Motion<'a, T> {
-    /// ŵ = dt v₀: what the step would add without forces, m.
+pub struct Inertia<'a, T> {
+    /// ŵ = dt v₀, the increment without forces, m.
     pub inertial: &'a [[T; 3]],
     /// 1/dt², 1/s².
     pub over_dt2: T,
-    /// α/dt, 1/s², and β/dt; `None` for no damping.
+    /// α/dt, 1/s², and β/dt; `None` without damping.
     pub damping: Option<(T, T)>,
 }
 
-impl<'a, T: Real> Motion<'a, T> {
-    /// That of a step of `dt` seconds.
+impl<'a, T: Real> Inertia<'a, T> {
+    /// Inertia of a step of `dt` seconds.
     pub fn new(system: &System<T>, inertial: &'a [[T; 3]], dt: f64) -> Self {
         let rates = |damping: &fem_scene::RayleighDamping| (T::of(damping.alpha / dt), T::of(damping.beta / dt));
         Self { inertial, over_dt2: T::of(1.0 / (dt * dt)), damping: system.damping.as_ref().map(rates) }
     }
 }
 
-/// Vectors that evaluations need; kept from step to step.
+/// Vectors for evaluations, kept from step to step.
 #[derive(Clone, Debug, Default)]
-pub struct Scratch<T> {
+pub struct Workspace<T> {
     u: Vec<[T; 3]>,
     difference: Vec<[T; 3]>,
     product: Vec<[T; 3]>,
 }
 
-impl<T: Real> Scratch<T> {
-    /// For so many nodes.
+impl<T: Real> Workspace<T> {
+    /// Allocates vectors for so many nodes.
     pub fn new(nodes: usize) -> Self {
         let zero = || vec![[T::default(); 3]; nodes];
         Self { u: zero(), difference: zero(), product: zero() }
@@ -63,107 +72,122 @@ impl<T: Real> Scratch<T> {
 }
 
 impl<T: Real> IncrementalPotential<'_, T> {
-    /// E(w), and its gradient with zeros where nodes are held, N.
-    pub fn energy_and_gradient(&self, w: &[[T; 3]], gradient: &mut [[T; 3]], scratch: &mut Scratch<T>) -> Energy {
-        scratch.set_u(self.start, w);
-        let potential = self.system.potential_and_gradient(&scratch.u, self.acting, gradient);
-        let moving = self.motion.map_or(Energy::default(), |motion| self.add_motion(&motion, w, gradient, scratch));
-        self.system.held.clear(gradient);
-        potential + moving
+    /// E(w), and its gradient with zero entries at constrained degrees of freedom, N.
+    pub fn energy_and_gradient(&self, w: &[[T; 3]], gradient: &mut [[T; 3]], workspace: &mut Workspace<T>) -> Energy {
+        let Increment { start, end, inertia } = self.increment;
+        workspace.set_u(start, w);
+        let potential = self.system.potential_and_gradient(&workspace.u, end, gradient);
+        let of_followers = self.add_followers(&workspace.u, gradient);
+        let kinetic = inertia.map_or(Energy::default(), |inertia| self.add_inertia(&inertia, w, gradient, workspace));
+        self.system.dirichlet.clear_constrained(gradient);
+        potential + of_followers + kinetic
     }
 
-    /// Smallest J of all elements.
-    pub fn min_det_F(&self, w: &[[T; 3]], scratch: &mut Scratch<T>) -> f64 {
-        scratch.set_u(self.start, w);
-        self.system.elements.min_det_F(&scratch.u).0.as_f64()
+    /// Minimum of det F over all elements.
+    pub fn min_det_F(&self, w: &[[T; 3]], workspace: &mut Workspace<T>) -> f64 {
+        workspace.set_u(self.increment.start, w);
+        self.system.elements.min_det_F(&workspace.u).0.as_f64()
     }
 
-    /// Size of what cancels in E(w) without being among its terms, J.
-    pub fn cancelled(&self, w: &[[T; 3]], scratch: &mut Scratch<T>) -> f64 {
-        scratch.set_u(self.start, w);
-        self.system.cancelled(&scratch.u)
+    /// Magnitude of the terms that cancel within E(w), J.
+    pub fn cancelled(&self, w: &[[T; 3]], workspace: &mut Workspace<T>) -> f64 {
+        workspace.set_u(self.increment.start, w);
+        self.system.cancelled(&workspace.u)
     }
 
-    /// Adds the gradient of inertia and damping, and returns their energy.
-    fn add_motion(
-        &self,
-        motion: &Motion<T>,
-        w: &[[T; 3]],
-        gradient: &mut [[T; 3]],
-        scratch: &mut Scratch<T>,
-    ) -> Energy {
-        let Scratch { difference, product, .. } = scratch;
-        for (difference, (w, inertial)) in difference.iter_mut().zip(w.iter().zip(motion.inertial)) {
-            *difference = std::array::from_fn(|i| w[i] - inertial[i]);
-        }
-        product.fill([T::default(); 3]);
-        self.system.add_mass_times(motion.over_dt2, difference, product);
-        let mut energy = Energy::of(add_and_multiply(difference, product, gradient));
-        if let Some((alpha, beta)) = motion.damping {
-            let damp = || {
-                product.fill([T::default(); 3]);
-                self.system.mass.add_times(alpha, w, product);
-                self.system.add_stiffness_times(beta, self.start, w, product);
-                Energy::of(add_and_multiply(w, product, gradient))
-            };
-            energy = energy + self.system.work.damping.time(damp);
+    /// The largest multiple of `direction` from w up to which every force stays feasible.
+    pub fn largest_step(&self, w: &[[T; 3]], direction: &[[T; 3]], workspace: &mut Workspace<T>) -> f64 {
+        workspace.set_u(self.increment.start, w);
+        self.system.largest_step(&workspace.u, direction)
+    }
+
+    /// Adds the fixed gradient of the follower loads, and returns the energy g·u that it is the gradient of.
+    fn add_followers(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) -> Energy {
+        let mut energy = Energy::default();
+        for ((sum, g), u) in gradient.iter_mut().zip(self.followers).zip(u) {
+            let mut work = 0.0;
+            for i in 0..3 {
+                sum[i] += g[i];
+                work += g[i].as_f64() * u[i].as_f64();
+            }
+            energy = energy + Energy::of(work);
         }
         energy
     }
 
-    /// The gradient at `led`, the step of held directions, of E to second order about w = 0; with zeros where nodes are held, N.
-    /// No energy, no matrix.
-    pub fn linear_slope(&self, led: &[[T; 3]], gradient: &mut [[T; 3]], scratch: &mut Scratch<T>) {
-        let system = self.system;
-        system.gradient(self.start, self.acting, gradient);
-        let mut stiffness = T::of(1.0);
-        if let Some(motion) = self.motion {
-            for (difference, (led, inertial)) in scratch.difference.iter_mut().zip(led.iter().zip(motion.inertial)) {
-                *difference = std::array::from_fn(|i| led[i] - inertial[i]);
-            }
-            system.add_mass_times(motion.over_dt2, &scratch.difference, gradient);
-            if let Some((alpha, beta)) = motion.damping {
-                stiffness += beta;
-                system.work.damping.time(|| system.mass.add_times(alpha, led, gradient));
-            }
+    /// Adds the gradient of inertia and damping, and returns their energy.
+    fn add_inertia(
+        &self,
+        inertia: &Inertia<T>,
+        w: &[[T; 3]],
+        gradient: &mut [[T; 3]],
+        workspace: &mut Workspace<T>,
+    ) -> Energy {
+        let Workspace { difference, product, .. } = workspace;
+        for (difference, (w, inertial)) in difference.iter_mut().zip(w.iter().zip(inertia.inertial)) {
+            *difference = std::array::from_fn(|i| w[i] - inertial[i]);
         }
-        if system.held.leads() {
-            system.work.prescribed.time(|| system.add_stiffness_times(stiffness, self.start, led, gradient));
+        product.fill([T::default(); 3]);
+        self.system.add_mass_times(inertia.over_dt2, difference, product);
+        let mut energy = Energy::of(add_and_multiply(difference, product, gradient));
+        if let Some((alpha, beta)) = inertia.damping {
+            let damp = || {
+                product.fill([T::default(); 3]);
+                self.system.mass.add_times(alpha, w, product);
+                self.system.add_stiffness_times(beta, self.increment.start, w, product);
+                Energy::of(add_and_multiply(w, product, gradient))
+            };
+            energy = energy + self.system.profile.damping.time(damp);
         }
-        system.held.clear(gradient);
+        energy
     }
 
-    /// ∂²E/∂w², N/m; each element's part projected, or as it is.
-    pub fn hessian(&self, w: &[[T; 3]], projected: bool, values: &mut [Block<T, 3>], scratch: &mut Scratch<T>) {
-        scratch.set_u(self.start, w);
-        let system = self.system;
-        values.fill([[T::default(); 3]; 3]);
-        let mut add = |factor: T, u: &[[T; 3]]| match projected {
-            true => system.add_projected_stiffness(factor, u, values),
-            false => system.add_stiffness(factor, u, values),
-        };
-        add(T::of(1.0), &scratch.u);
-        let mut mass = T::default();
-        if let Some(motion) = self.motion {
-            mass = motion.over_dt2;
-            if let Some((alpha, beta)) = motion.damping {
-                mass += alpha;
-                if beta > T::default() {
-                    add(beta, self.start);
-                }
+    /// The gradient at the increment `prescribed` of E to second order about w = 0, with zero entries at constrained degrees of
+    /// freedom, N. It needs neither an energy nor a matrix.
+    pub fn linearized_gradient(&self, prescribed: &[[T; 3]], gradient: &mut [[T; 3]], workspace: &mut Workspace<T>) {
+        let Self { system, increment: Increment { start, end, inertia }, .. } = *self;
+        system.gradient(start, end, gradient);
+        self.add_followers(start, gradient);
+        let mut stiffness = T::of(1.0);
+        if let Some(inertia) = inertia {
+            let increments = prescribed.iter().zip(inertia.inertial);
+            for (difference, (prescribed, inertial)) in workspace.difference.iter_mut().zip(increments) {
+                *difference = std::array::from_fn(|i| prescribed[i] - inertial[i]);
+            }
+            system.add_mass_times(inertia.over_dt2, &workspace.difference, gradient);
+            if let Some((alpha, beta)) = inertia.damping {
+                stiffness += beta;
+                system.profile.damping.time(|| system.mass.add_times(alpha, prescribed, gradient));
             }
         }
-        if !self.acting.pulls.is_empty() {
-            system.work.drag.time(|| self.acting.add_stiffness(&system.pattern, values));
+        if system.dirichlet.has_motion() {
+            let profile = &system.profile;
+            profile.prescribed.time(|| system.add_stiffness_times(stiffness, start, prescribed, gradient));
         }
-        if self.motion.is_some() {
-            system.work.mass.time(|| system.mass.add_to(mass, &system.pattern, values));
+        system.dirichlet.clear_constrained(gradient);
+    }
+
+    /// ∂²E/∂w², N/m.
+    pub fn hessian(&self, w: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>], workspace: &mut Workspace<T>) {
+        let Self { system, increment: Increment { start, inertia, .. }, .. } = *self;
+        workspace.set_u(start, w);
+        values.fill([[T::default(); 3]; 3]);
+        system.add_stiffness(T::of(1.0), &workspace.u, kind, values);
+        if let Some((_, beta)) = inertia.and_then(|inertia| inertia.damping)
+            && beta > T::default()
+        {
+            system.add_stiffness(beta, start, kind, values);
         }
-        system.held.take_out(&system.pattern, values);
+        system.add_external_hessian(&workspace.u, kind, values);
+        if let Some(inertia) = inertia {
+            let mass = inertia.over_dt2 + inertia.damping.map_or(T::default(), |(alpha, _)| alpha);
+            system.profile.mass.time(|| system.mass.add_to(mass, &system.pattern, values));
+        }
+        system.dirichlet.eliminate(&system.pattern, values);
     }
 }
 
-/// sum += y, and ½ x · y.
+/// sum += y; returns ½ x · y.
 fn add_and_multiply<T: Real>(x: &[[T; 3]], y: &[[T; 3]], sum: &mut [[T; 3]]) -> f64 {
     let mut twice = 0.0;
     for (sum, (x, y)) in sum.iter_mut().zip(x.iter().zip(y)) {

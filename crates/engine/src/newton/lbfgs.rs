@@ -1,15 +1,15 @@
-//! What earlier iterations tell about the Hessian.
+//! Limited-memory BFGS: updates of a kept inverse Hessian from the gradients.
 
 use std::collections::VecDeque;
 
 use crate::number::Real;
 use crate::vector::{axpy, dot};
 
-/// Pairs that are kept.
+/// Number of pairs of steps and gradient changes that are kept.
 const DEPTH: usize = 6;
 
 /// The last steps and the changes of the gradient along them: limited-memory BFGS, Nocedal, Updating Quasi-Newton Matrices with
-/// Limited Storage (1980), with a kept factor of the Hessian for its start, Liu, Bouaziz, Kavan, Quasi-Newton Methods for
+/// Limited Storage (1980), with a kept factor of the Hessian as initial matrix, Liu, Bouaziz, Kavan, Quasi-Newton Methods for
 /// Real-Time Simulation of Hyperelastic Materials (2017).
 #[derive(Clone, Debug)]
 pub struct Lbfgs<T> {
@@ -26,20 +26,20 @@ struct Pair<T> {
 }
 
 impl<T: Real> Lbfgs<T> {
-    /// For vectors of so many nodes.
+    /// Allocates pairs of vectors for so many nodes.
     pub fn new(nodes: usize) -> Self {
         let pair =
             || Pair { step: vec![[T::default(); 3]; nodes], change: vec![[T::default(); 3]; nodes], curvature: 0.0 };
         Self { pairs: VecDeque::with_capacity(DEPTH), spare: (0..DEPTH).map(|_| pair()).collect() }
     }
 
-    /// Forgets everything: the Hessian is known anew.
+    /// Drops all pairs: the Hessian has been factored again.
     pub fn clear(&mut self) {
         self.spare.extend(self.pairs.drain(..));
     }
 
-    /// Remembers `length` × `direction` and the change of the gradient along it. One of no positive curvature is left out: it
-    /// would lead uphill.
+    /// Keeps the step `length` × `direction` and the change of the gradient along it, unless its curvature is not positive: the
+    /// update would not be positive definite.
     pub fn push(&mut self, length: f64, direction: &[[T; 3]], before: &[[T; 3]], after: &[[T; 3]]) {
         let Some(mut pair) = self.spare.pop().or_else(|| self.pairs.pop_front()) else { return };
         for node in 0..direction.len() {
@@ -57,18 +57,17 @@ impl<T: Real> Lbfgs<T> {
         }
     }
 
-    /// x becomes H⁻¹ x, `solve` being the kept inverse: Nocedal's two loops.
-    pub fn apply<E>(&self, x: &mut [[T; 3]], solve: impl FnOnce(&mut [[T; 3]]) -> Result<(), E>) -> Result<(), E> {
+    /// Replaces x by H⁻¹ x by Nocedal's two-loop recursion; `solve` applies the kept inverse.
+    pub fn apply(&self, x: &mut [[T; 3]], solve: impl FnOnce(&mut [[T; 3]])) {
         let mut weights = [0.0; DEPTH];
         for (pair, weight) in self.pairs.iter().zip(&mut weights).rev() {
             *weight = dot(&pair.step, x) / pair.curvature;
             axpy(-*weight, &pair.change, x);
         }
-        solve(x)?;
+        solve(x);
         for (pair, weight) in self.pairs.iter().zip(weights) {
             let other = dot(&pair.change, x) / pair.curvature;
             axpy(weight - other, &pair.step, x);
         }
-        Ok(())
     }
 }

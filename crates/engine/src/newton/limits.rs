@@ -1,16 +1,16 @@
-//! What a scene asks of Newton's method.
+//! When Newton's method ends.
 
 use fem_scene::Projection;
 
-/// When Newton's method ends.
+/// When Newton's method ends, and how it assembles its Hessian.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
+pub struct NewtonLimits {
     /// Largest number of iterations in a step.
     pub max_iterations: usize,
-    /// Largest change of a coordinate that the last iteration may still make, in lengths of the body.
+    /// Largest change of a coordinate in the last iteration, as a part of the body's length.
     pub tolerance: f64,
     /// When elements are projected.
     pub projection: Projection,
-    /// Largest relative residual of an iterative solver.
+    /// Largest relative residual of an iterative linear solver.
     pub solver_tolerance: f64,
 }

@@ -1,53 +1,60 @@
-//! How far to go along a direction.
+//! Backtracking line search: sufficient decrease of the energy, and a minimum of det F.
+
+use fem_scene::simulation::Counters;
 
 use super::{Iterate, Newton};
 use crate::newton::incremental_potential::IncrementalPotential;
 use crate::number::Real;
 use crate::vector::{axpy, dot, max_norm};
-use fem_scene::simulation::Counters;
 
-/// Part of the energy's terms that is round-off.
+/// Part of the energy's terms that is rounding error, in units of the machine epsilon.
 const ROUND_OFF: f64 = 32.0;
 
 /// Sufficient decrease, Armijo (1966).
 const DECREASE: f64 = 1e-4;
 
-/// Part of its smallest J that a body keeps in a step longer than so many lengths of the body.
+/// Part of the minimum of det F that an update keeps where it is longer than so many lengths of the body.
 const KEPT: f64 = 0.1;
 const LONG: f64 = 1e-3;
 
-/// Smallest part of a direction that is tried.
+/// Smallest step length that is tried.
 const SHORTEST: f64 = 1e-8;
 
+/// Part of the largest feasible step that is tried first.
+const SAFETY: f64 = 0.9;
+
 impl<T: Real> Newton<T> {
-    /// The largest of 1, ½, ¼ … of the direction that goes downhill; what it leads to is in `next` and `next_gradient`.
-    pub(super) fn search(
+    /// Returns the largest step length 1, ½, ¼ … of the direction that decreases the energy, and leaves the point it leads to in
+    /// `next` and its gradient in `next_gradient`. `derivative` is the directional derivative.
+    pub(super) fn line_search(
         &mut self,
-        objective: &IncrementalPotential<T>,
+        potential: &IncrementalPotential<T>,
         w: &[[T; 3]],
         at: &mut Iterate,
-        slope: f64,
+        derivative: f64,
         counters: &mut Counters,
     ) -> Option<f64> {
-        let (mut length, mut cancelled) = (1.0, None);
-        let least_J = self.least_J(objective, w);
+        let feasible = SAFETY * potential.largest_step(w, &self.direction, &mut self.workspace);
+        let (mut length, mut cancelled) = (f64::min(1.0, feasible), None);
+        let lower_bound = self.lower_bound_of_det_F(potential, w);
         while length >= SHORTEST {
             self.next.copy_from_slice(w);
             axpy(length, &self.direction, &mut self.next);
             counters.energy_evaluations += 1;
             counters.force_assemblies += 1;
-            let energy = objective.energy_and_gradient(&self.next, &mut self.next_gradient, &mut self.scratch);
+            let energy = potential.energy_and_gradient(&self.next, &mut self.next_gradient, &mut self.workspace);
             let change = energy.value - at.energy.value;
-            // Where a change drowns in round-off, the slope has to have become flatter. An infinite energy is no round-off of its
-            // own, and NaN fails both.
+            // Where the change is within rounding error, the directional derivative has to decrease instead. An infinite energy is no
+            // rounding error, and NaN fails both tests.
             let mut is_flatter = || {
-                let cancelled = *cancelled.get_or_insert_with(|| objective.cancelled(w, &mut self.scratch));
+                let cancelled = *cancelled.get_or_insert_with(|| potential.cancelled(w, &mut self.workspace));
                 let round_off = ROUND_OFF * T::EPSILON.as_f64() * (at.energy.terms + energy.terms + cancelled);
-                let drowns = change.is_finite() && change.abs() <= round_off;
-                drowns && dot(&self.next_gradient, &self.direction).abs() <= 0.9 * slope.abs()
+                let is_rounding = change.is_finite() && change.abs() <= round_off;
+                is_rounding && dot(&self.next_gradient, &self.direction).abs() <= 0.9 * derivative.abs()
             };
-            let is_lower = change <= DECREASE * length * slope || is_flatter();
-            if is_lower && least_J.is_none_or(|least| objective.min_det_F(&self.next, &mut self.scratch) >= least) {
+            let is_lower = change <= DECREASE * length * derivative || is_flatter();
+            let keeps_volume = |bound: f64, workspace: &mut _| potential.min_det_F(&self.next, workspace) >= bound;
+            if is_lower && lower_bound.is_none_or(|bound| keeps_volume(bound, &mut self.workspace)) {
                 at.energy = energy;
                 return Some(length);
             }
@@ -57,13 +64,13 @@ impl<T: Real> Newton<T> {
         None
     }
 
-    /// The J that no element may come below along the direction; none where the step is too short to matter.
+    /// Lower bound of det F along the direction; `None` where the law allows inversion or the step is short.
     ///
-    /// A law that forbids J ≤ 0 may still have finite energy in a point: a long step must not leap across the forces that
-    /// would have stopped a shorter one.
-    fn least_J(&mut self, objective: &IncrementalPotential<T>, w: &[[T; 3]]) -> Option<f64> {
-        let is_long =
-            !objective.system.law.allows_inversion() && max_norm(&self.direction) > LONG * objective.system.length;
-        is_long.then(|| KEPT * objective.min_det_F(w, &mut self.scratch))
+    /// A law that forbids J ≤ 0 may still have a finite energy at a point: a long step must not cross the barrier that would have
+    /// stopped a shorter one.
+    fn lower_bound_of_det_F(&mut self, potential: &IncrementalPotential<T>, w: &[[T; 3]]) -> Option<f64> {
+        let system = potential.system;
+        let is_long = !system.law.allows_inversion() && max_norm(&self.direction) > LONG * system.length;
+        is_long.then(|| KEPT * potential.min_det_F(w, &mut self.workspace))
     }
 }

@@ -8,6 +8,14 @@ pub fn constant<T: Number>(x: f64) -> T {
     T::splat(T::Element::of(x))
 }
 
+/// Whether x is positive, finite and no subnormal number.
+pub fn is_positive<T: Real>(x: T) -> bool {
+    let x = x.as_f64();
+    // A number that is subnormal in single precision is normal in double.
+    let least = if size_of::<T>() == 4 { f64::from(f32::MIN_POSITIVE) } else { f64::MIN_POSITIVE };
+    x >= least && x.is_finite()
+}
+
 /// x^(−1/3) for x > 0; NaN or a meaningless number in lanes with x ≤ 0.
 ///
 /// Newton's iteration for y⁻³ = x from a rough start, without division or branch. Each of four steps doubles the number of digits.

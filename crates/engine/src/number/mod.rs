@@ -7,7 +7,7 @@ mod functions;
 mod packed;
 mod real;
 
-pub use functions::{constant, inverse_cube_root, minus_ln_1p};
+pub use functions::{constant, inverse_cube_root, is_positive, minus_ln_1p};
 pub use packed::Packed;
 pub use real::{Number, Real};
 

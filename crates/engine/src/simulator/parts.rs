@@ -1,50 +1,51 @@
-//! What a scene builds, what it leaves out, and why.
+//! The parts of a scene: which are built and which are left out, and why.
+
+use fem_scene::simulation::Part;
+use fem_scene::{Integrator as IntegratorKind, Material, Projection};
 
 use super::Simulator;
-use crate::model::system::System;
+use crate::forces::{self, anchors};
 use crate::number::Real;
-use fem_scene::simulation::Part;
-use fem_scene::{Integrator, Material, Projection};
 
-/// What a part costs: bytes, uses, seconds.
-type Cost = (usize, (usize, f64));
+/// Uses and seconds of a part that is made once.
+const MADE_ONCE: (usize, f64) = (0, 0.0);
 
-/// Nothing that changes: it is made once.
-const NO_WORK: (usize, f64) = (0, 0.0);
-
-/// Poisson's ratio above which displacements are far too small.
+/// Poisson's ratio above which linear tetrahedra lock.
 const LOCKS: f64 = 0.49;
 
 /// Every part that the engine can have.
-pub(super) fn parts<T: Real>(engine: &Simulator<T>) -> Vec<Part> {
-    let mut parts = body(engine);
-    parts.extend(acting(&engine.system));
-    parts.extend(methods(engine));
-    parts.extend(looks(engine));
+pub(super) fn parts<T: Real>(simulator: &Simulator<T>) -> Vec<Part> {
+    let mut parts = body(simulator);
+    parts.extend(constraints(simulator));
+    parts.extend(forces_on(simulator));
+    parts.extend(method(simulator));
+    parts.extend(outputs(simulator));
     parts
 }
 
-/// What every scene has.
-fn body<T: Real>(engine: &Simulator<T>) -> Vec<Part> {
-    let Simulator { material: table, system, .. } = engine;
-    let (nodes, elements, work) = (system.nodes(), system.elements.count, &system.work);
-    let state = engine.state.bytes() + engine.last_good.bytes();
+/// Parts of every scene.
+fn body<T: Real>(simulator: &Simulator<T>) -> Vec<Part> {
+    let Simulator { system, state, last_good, .. } = simulator;
+    let profile = &system.profile;
+    let number = std::any::type_name::<T>();
+    // The pattern is found with the mesh, whether or not a matrix is assembled.
     let mesh = system.elements.bytes() + system.pattern.bytes();
-    let mass = if engine.lumped_mass { "lumped: [mass]" } else { "consistent: every element joins its nodes" };
+    let mass = if system.mass.is_lumped() { "lumped: [mass]" } else { "consistent: couples the nodes of each element" };
+    let state = state.bytes() + last_good.bytes();
     vec![
-        // Which nodes are neighbours is learnt with the mesh, whether or not a matrix is made of it.
-        built("mesh", format!("[mesh]: {nodes} nodes, {elements} tetrahedra"), (mesh, NO_WORK)),
-        built("material", material(table), (0, NO_WORK)),
-        built("state", format!("displacements and velocities in {}", std::any::type_name::<T>()), (state, NO_WORK)),
-        built("mass", mass.to_owned(), (system.mass.bytes(), work.mass.read())),
-        built("forces", "stress of every element, where no energy is asked for".to_owned(), (0, work.forces.read())),
+        Part::mesh(system.nodes(), system.elements.count, mesh),
+        Part::built("material", material(&simulator.material), 0, MADE_ONCE),
+        Part::built("state", format!("displacements and velocities in {number}"), state, MADE_ONCE),
+        Part::built("mass", mass, system.mass.bytes(), profile.mass.read()),
+        Part::built("forces", "elastic forces, where no energy is needed", 0, profile.forces.read()),
     ]
 }
 
-/// The law with its parameters, and the warning that linear tetrahedra need.
+/// The law and its parameters, with a warning where linear tetrahedra lock.
 fn material(material: &Material) -> String {
     let locks = material.poisson.is_some_and(|poisson| poisson > LOCKS);
-    let note = if locks { "; linear tetrahedra lock so near to ½: displacements come out far too small" } else { "" };
+    let note =
+        if locks { "; linear tetrahedra lock so close to ν = ½: displacements come out far too small" } else { "" };
     let parameter = |(name, value)| match name {
         "young" => format!(", E = {value:.4e} Pa"),
         "poisson" => format!(", ν = {value}"),
@@ -54,107 +55,117 @@ fn material(material: &Material) -> String {
     format!("{}{parameters}{note}", material.model)
 }
 
-/// What holds the body and acts on it.
-fn acting<T: Real>(system: &System<T>) -> Vec<Part> {
-    let work = &system.work;
-    let load = 3 * size_of::<T>() * system.dead_load.as_ref().map_or(0, Vec::len);
-    let fixed = system.held.fixed().map_or(0, <[usize]>::len);
-    let springs = size_of_val(&system.springs[..]);
-    let pressure = system.pressures.iter().map(|pressure| pressure.bytes()).sum();
-    let has_potential = system.pressures.iter().all(|pressure| pressure.has_potential());
-    let potential = if has_potential { "" } else { "; its surface has an edge that moves: its work is in no energy" };
-    let no = |table: &str| format!("the scene has no {table}");
-    vec![
-        part("dead_load", system.dead_load.is_some(), (load, work.dead_load.read()), || {
-            ("[gravity], [body_force] or [[traction]] with force_per_area".into(), no("dead load"))
-        }),
-        part("fixed", system.held.fixed().is_some(), (size_of::<usize>() * fixed, NO_WORK), || {
-            (format!("[fixed]: {fixed} nodes have no row in any matrix"), no("[fixed]"))
-        }),
-        part("prescribed", system.held.leads(), (system.held.bytes(), work.prescribed.read()), || {
-            ("[[prescribed]]: nodes go where it leads them".into(), no("[[prescribed]]"))
-        }),
-        part("springs", !system.springs.is_empty(), (springs, work.springs.read()), || {
-            (format!("[[springs]]: {} of them", system.springs.len()), no("[[springs]]"))
-        }),
-        part("pressure", !system.pressures.is_empty(), (pressure, work.pressure.read()), || {
-            (format!("[[traction]] with pressure{potential}"), no("[[traction]] with pressure"))
-        }),
-        part("damping", system.damping.is_some(), (0, work.damping.read()), || {
-            ("[damping]: α M + β K in force and stiffness".into(), no("[damping]"))
-        }),
-        part("drag", system.drag.is_some(), (0, work.drag.read()), || {
-            let hand = "; a hand in the window pulls all the same";
-            ("[drag]: a spring in force and stiffness".into(), format!("{}{hand}", no("[drag]")))
-        }),
-    ]
-}
-
-/// What the integrator needs.
-fn methods<T: Real>(engine: &Simulator<T>) -> Vec<Part> {
-    let Simulator { method, system, integrator, counters, .. } = engine;
-    let (name, work, solver) = (integrator.name(), &system.work, engine.stepper.solver());
-    let matrix = 9 * size_of::<T>() * system.pattern.blocks();
-    let searches = engine.stepper.searches();
-    let never = method.newton.projection == Projection::Never;
-    let no_matrix = || format!("{name} needs no matrix");
-    let projects = solver.is_some() && !never && (searches || *integrator != Integrator::Static);
-    let (prepared, solved, bytes) = solver.map_or((NO_WORK, NO_WORK, 0), |solver| {
-        let (preparing, solving) = solver.timers();
-        (preparing.read(), solving.read(), solver.bytes())
-    });
-    let preconditioned = solver.filter(|solver| solver.has_preconditioner());
-    let preconditioner = preconditioned.map_or(0, |solver| solver.prepared_bytes());
-    // A factor is half of the solver; a preconditioner is a part of its own.
-    let (of_solver, of_preconditioner) = match preconditioned {
-        Some(_) => (solved, prepared),
-        None => ((solved.0, solved.1 + prepared.1), NO_WORK),
+fn constraints<T: Real>(simulator: &Simulator<T>) -> Vec<Part> {
+    let dirichlet = &simulator.system.dirichlet;
+    let fixed = dirichlet.conditions().iter().find(|condition| condition.motion.is_none());
+    let fixed = match fixed.map(|condition| condition.nodes.len()) {
+        Some(nodes) => {
+            let why = format!("[fixed]: {nodes} nodes have no row in any matrix");
+            Part::built("fixed", why, size_of::<usize>() * nodes, MADE_ONCE)
+        }
+        None => left_out_without("fixed", "[fixed]"),
     };
-    vec![
-        part("stiffness", solver.is_some(), (matrix, work.stiffness.read()), || {
-            (format!("{name} solves with it"), no_matrix())
-        }),
-        part("projection", projects, (0, (counters.projections, work.projection.read().1)), || {
-            let why = if never { "newton.projection is \"never\"".into() } else { format!("{name} does without") };
-            ("elements, where the matrix would not be positive definite".into(), why)
-        }),
-        part("solver", solver.is_some(), (bytes - preconditioner, of_solver), || {
-            (engine.choice.to_string(), no_matrix())
-        }),
-        part("preconditioner", preconditioned.is_some(), (preconditioner, of_preconditioner), || {
-            ("[solver] with kind \"pcg\", or a body of many nodes".into(), "no conjugate gradients to be led".into())
-        }),
-        part("line_search", searches, (0, (counters.energy_evaluations, work.energies.read().1)), || {
-            ("Newton's method lowers an energy along each direction".into(), format!("{name} needs no energy"))
-        }),
-    ]
+    let prescribed = if dirichlet.has_motion() {
+        let why = "[[prescribed]]: nodes follow a given motion";
+        Part::built("prescribed", why, dirichlet.bytes(), simulator.system.profile.prescribed.read())
+    } else {
+        left_out_without("prescribed", "[[prescribed]]")
+    };
+    vec![fixed, prescribed]
 }
 
-/// What is made only when somebody asks.
-fn looks<T: Real>(engine: &Simulator<T>) -> Vec<Part> {
-    let skinning = engine.skinning.as_ref();
-    let bytes = skinning.map_or(0, |skinning| skinning.bytes());
-    vec![
-        part("skinning", skinning.is_some(), (bytes, engine.skinned.read()), || {
-            let why = "mesh.display: four weights for each of its vertices, used when somebody looks";
-            (why.into(), "the scene has no mesh.display, so the tetrahedra are shown".into())
-        }),
-        part("reactions", !engine.system.is_unheld(), (0, engine.reacted.read()), || {
-            ("forces at what holds the body, when somebody asks".into(), "nothing holds the body".into())
-        }),
-    ]
-}
-
-/// `whys` are the reasons to build it and to leave it out. Without it there is nothing to count.
-fn part(name: &'static str, is_built: bool, cost: Cost, whys: impl FnOnce() -> (String, String)) -> Part {
-    let (why, why_not) = whys();
-    if is_built {
-        return built(name, why, cost);
+fn forces_on<T: Real>(simulator: &Simulator<T>) -> Vec<Part> {
+    let Simulator { system, .. } = simulator;
+    let forces = system.forces.all().filter(|(potential, _)| potential.name() != anchors::NAME);
+    let built =
+        forces.map(|(force, timer)| Part::built(force.name(), force.description(), force.bytes(), timer.read()));
+    let mut parts: Vec<Part> = built.collect();
+    for kind in forces::kinds::<T>() {
+        if parts.iter().all(|part| part.name != kind.name) {
+            parts.push(left_out_without(kind.name, kind.tables));
+        }
     }
-    let (uses, seconds) = cost.1;
-    Part { name, built: false, why: why_not, bytes: 0, uses, seconds }
+    parts.push(match system.damping {
+        Some(_) => {
+            Part::built("damping", "[damping]: α M + β K in force and stiffness", 0, system.profile.damping.read())
+        }
+        None => left_out_without("damping", "[damping]"),
+    });
+    parts.push(Part::drag(system.forces.anchors.interaction.has_drag(), system.forces.anchors_timer.read()));
+    parts
 }
 
-fn built(name: &'static str, why: String, (bytes, (uses, seconds)): Cost) -> Part {
-    Part { name, built: true, why, bytes, uses, seconds }
+/// Parts of the time integration method.
+fn method<T: Real>(simulator: &Simulator<T>) -> Vec<Part> {
+    let Simulator { method, system, kind, counters, integrator, .. } = simulator;
+    let (name, profile) = (kind.name(), &system.profile);
+    let mut parts = match integrator.solver() {
+        Some(_) => solver(simulator),
+        None => {
+            ["stiffness", "solver", "preconditioner"].map(|part| Part::left_out(part, needs_no(name, "matrix"))).into()
+        }
+    };
+    let has_matrix = integrator.solver().is_some();
+    let never = method.newton.projection == Projection::Never;
+    let is_linear = *kind == IntegratorKind::Static && !integrator.has_line_search();
+    parts.push(if !has_matrix || is_linear {
+        Part::left_out("projection", format!("{name} does without"))
+    } else if never {
+        Part::left_out("projection", "newton.projection is \"never\"")
+    } else {
+        let why = "elements, where the matrix would not be positive definite";
+        Part::built("projection", why, 0, (counters.projections, profile.projection.read().1))
+    });
+    parts.push(if integrator.has_line_search() {
+        let why = "Newton's method decreases an energy along each direction";
+        Part::built("line_search", why, 0, (counters.energy_evaluations, profile.energies.read().1))
+    } else {
+        Part::left_out("line_search", needs_no(name, "energy"))
+    });
+    parts
+}
+
+/// Parts of the linear solver. A factor belongs to the solver; a preconditioner is a part of its own.
+fn solver<T: Real>(simulator: &Simulator<T>) -> Vec<Part> {
+    let Simulator { system, kind, integrator, .. } = simulator;
+    let Some(solver) = integrator.solver() else { return Vec::new() };
+    let matrix = 9 * size_of::<T>() * system.pattern.blocks();
+    let why = format!("{} solves with it", kind.name());
+    let stiffness = Part::built("stiffness", why, matrix, system.profile.stiffness.read());
+    let (preparing, solving) = solver.timers();
+    let (prepared, solved) = (preparing.read(), solving.read());
+    let choice = simulator.solver.to_string();
+    if solver.has_preconditioner() {
+        let bytes = solver.prepared_bytes();
+        let why = "[solver] with kind \"pcg\", or a body of many nodes";
+        return vec![
+            stiffness,
+            Part::built("solver", choice, solver.bytes() - bytes, solved),
+            Part::built("preconditioner", why, bytes, prepared),
+        ];
+    }
+    vec![
+        stiffness,
+        Part::built("solver", choice, solver.bytes(), (solved.0, solved.1 + prepared.1)),
+        Part::left_out("preconditioner", format!("the solver is {}", simulator.solver)),
+    ]
+}
+
+/// Parts that are computed on request.
+fn outputs<T: Real>(simulator: &Simulator<T>) -> Vec<Part> {
+    let bytes = simulator.skinning.as_ref().map(|skinning| skinning.bytes());
+    let reactions = if simulator.system.is_unconstrained() {
+        Part::left_out("reactions", "the body is unconstrained")
+    } else {
+        Part::built("reactions", "forces of the constraints, on request", 0, simulator.reactions_timer.read())
+    };
+    vec![Part::skinning(bytes, simulator.skinning_timer.read()), reactions]
+}
+
+fn left_out_without(name: &'static str, table: &str) -> Part {
+    Part::left_out(name, format!("the scene has no {table}"))
+}
+
+fn needs_no(method: &str, thing: &str) -> String {
+    format!("{method} needs no {thing}")
 }

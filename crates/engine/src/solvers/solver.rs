@@ -8,8 +8,8 @@ use super::direct::{Lu, cholesky};
 use super::krylov::{Workspace, conjugate_gradients, product, refine};
 use super::preconditioners::{BlockJacobi, Identity, IncompleteCholesky, Multigrid, Ssor};
 use crate::number::Real;
-use crate::profile::Timer;
 use crate::sparse::{Block, Pattern};
+use fem_scene::Timer;
 use fem_scene::simulation::Breakdown;
 
 /// Operations that a solver has carried out.

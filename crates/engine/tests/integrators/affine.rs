@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem_engine::forces::acting::Acting;
+use fem_engine::forces::Moment;
 use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::solvers::SolverChoice;
@@ -57,12 +57,12 @@ impl Patch {
     /// Gradient of the energy by the nodes, N.
     fn gradient(&self, F: &Matrix3<f64>, t: &Vector3<f64>) -> Vec<[f64; 3]> {
         let mut gradient = vec![[0.0; 3]; self.system.nodes()];
-        self.system.gradient(&self.displacements(F, t), Acting { pulls: &[], load: None }, &mut gradient);
+        self.system.gradient(&self.displacements(F, t), Moment::at(0.0), &mut gradient);
         gradient
     }
 
     fn energy(&self, F: &Matrix3<f64>) -> f64 {
-        self.system.potential(&self.displacements(F, &Vector3::zeros()), Acting { pulls: &[], load: None }).value
+        self.system.potential(&self.displacements(F, &Vector3::zeros()), Moment::at(0.0)).value
     }
 }
 
@@ -99,7 +99,7 @@ fn a_state_that_is_not_affine_does_leave_a_force_inside() {
         let moved = patch.inner.iter().position(|&inner| inner).unwrap();
         u[moved][0] += 1e-9;
         let mut gradient = vec![[0.0; 3]; u.len()];
-        patch.system.gradient(&u, Acting { pulls: &[], load: None }, &mut gradient);
+        patch.system.gradient(&u, Moment::at(0.0), &mut gradient);
         assert!(gradient[moved][0] > 1e-11 * C_AREA, "{model}: {:e}", gradient[moved][0]);
     }
 }

@@ -146,7 +146,7 @@ fn a_body_that_can_move_as_a_whole_is_refused() {
     let refused = |rest: &str| {
         let error = try_build(&soft("static", 1.0, rest)).err().map(|error| error.to_string()).unwrap();
         assert!(
-            error.contains("time.integrator is static, and nothing keeps") && error.contains("hold it by"),
+            error.contains("time.integrator is static") && error.contains("rigid body; constrain it by"),
             "{error}"
         );
     };

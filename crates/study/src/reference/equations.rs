@@ -2,8 +2,7 @@
 //!
 //! Forces are the engine's. The mass is assembled and factorised here, by code that the engine's integrators do not use.
 
-use fem_engine::forces::acting::Acting;
-use fem_engine::forces::pulls::{AnchorSpring, Pulls};
+use fem_engine::forces::Moment;
 use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::solvers::SolverChoice;
@@ -20,14 +19,12 @@ pub struct Equations {
     /// The body.
     pub system: System<f64>,
     mass: MassInverse,
-    drag_stiffness: f64,
     has_prescribed_motion: bool,
 }
 
 /// Working memory of an evaluation.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
-    springs: Vec<AnchorSpring<f64>>,
     force: Vec<[f64; 3]>,
     right: Vec<[f64; 3]>,
     /// Accelerations of prescribed directions, zero elsewhere, m/s²; empty without prescribed motion.
@@ -40,9 +37,8 @@ impl Equations {
         let law = AnyLaw::new(&scene.material).ok_or("the material lacks its parameters")?;
         let system = System::new(body, law, SolverChoice::Cholesky);
         let mass = MassInverse::new(scene, &system)?;
-        let drag_stiffness = system.drag.map_or(0.0, |drag| drag.stiffness);
-        let has_prescribed_motion = system.held.motions().any(|(_, motion)| moves(motion));
-        Ok(Self { system, mass, drag_stiffness, has_prescribed_motion })
+        let has_prescribed_motion = system.dirichlet.motions().any(|(_, motion)| moves(motion));
+        Ok(Self { system, mass, has_prescribed_motion })
     }
 
     /// Number of nodes.
@@ -53,19 +49,11 @@ impl Equations {
     /// a = M⁻¹ f(u, v, t), m/s², zero in constrained directions. With prescribed motion, [`prescribe`](Self::prescribe) must
     /// come first.
     pub fn accelerations(&self, u: &[[f64; 3]], v: &[[f64; 3]], time: f64, a: &mut [[f64; 3]], scratch: &mut Scratch) {
-        let system = &self.system;
-        let Scratch { springs, force, prescribed, right } = scratch;
+        let Scratch { force, prescribed, right } = scratch;
         force.resize(self.nodes(), [0.0; 3]);
-        Pulls { system, hand: None, stiffness: self.drag_stiffness }.at(time, springs);
-        system.gradient(u, system.acting(springs), force);
-        force.as_flattened_mut().iter_mut().for_each(|force| *force = -*force);
-        system.add_pressures(1.0, u, force);
-        if let Some(damping) = &system.damping {
-            system.mass.add_times(-damping.alpha, v, force);
-            system.add_stiffness_times(-damping.beta, u, v, force);
-        }
+        self.system.force(u, v, u, Moment::at(time), force);
         if !prescribed.is_empty() {
-            system.mass.add_times(-1.0, prescribed, force);
+            self.system.mass.add_times(-1.0, prescribed, force);
         }
         self.mass.apply(force, a, right);
     }
@@ -73,7 +61,7 @@ impl Equations {
     /// Times at which prescribed velocities may jump, including 0 and the horizon, s. A displacement that jumps is an error.
     pub fn jumps(&self, horizon: f64) -> Result<Vec<f64>, String> {
         let mut jumps = vec![0.0, horizon];
-        for (_, motion) in self.system.held.motions().filter(|(_, motion)| moves(motion)) {
+        for (_, motion) in self.system.dirichlet.motions().filter(|(_, motion)| moves(motion)) {
             let Some(over) = motion.over else {
                 return Err("[[prescribed]] without `over` moves nodes at once, which no time step resolves".to_owned());
             };
@@ -90,7 +78,7 @@ impl Equations {
             return;
         }
         scratch.prescribed.resize(self.nodes(), [0.0; 3]);
-        for (condition, motion) in self.system.held.motions() {
+        for (condition, motion) in self.system.dirichlet.motions() {
             for &node in &condition.nodes {
                 let rest = &self.system.rest[node];
                 let [x, velocity, acceleration] = kinematics(motion, rest, begin, time);
@@ -131,16 +119,14 @@ impl Equations {
         // A rough start contains all modes, and is the same on every machine.
         let mut d: Vec<[f64; 3]> =
             (0..n).map(|i| [0, 1, 2].map(|c| ((7 * i + 3 * c) as f64 * 1.618_034).fract() - 0.5)).collect();
-        self.system.held.clear(&mut d);
+        self.system.dirichlet.clear_constrained(&mut d);
         let mut square = 0.0;
         for _ in 0..POWER_ITERATIONS {
             scratch.force.clear();
             scratch.force.resize(n, [0.0; 3]);
             self.system.add_stiffness_times(1.0, &rest, &d, &mut scratch.force);
-            if let Some(drag) = &self.system.drag {
-                for i in 0..3 {
-                    scratch.force[drag.node][i] += self.drag_stiffness * d[drag.node][i];
-                }
+            for (force, _) in self.system.forces.active().filter(|(force, _)| !force.is_internal()) {
+                force.add_hessian_times(1.0, &rest, &d, &mut scratch.force);
             }
             let mut next = vec![[0.0; 3]; n];
             self.mass.apply(&scratch.force, &mut next, &mut scratch.right);
@@ -155,10 +141,7 @@ impl Equations {
 
     /// Kinetic and potential energy, J.
     pub fn energies(&self, u: &[[f64; 3]], v: &[[f64; 3]], time: f64) -> (f64, f64) {
-        let mut springs = Vec::new();
-        Pulls { system: &self.system, hand: None, stiffness: self.drag_stiffness }.at(time, &mut springs);
-        let acting = Acting { pulls: &springs, load: self.system.dead_load.as_deref() };
-        (self.system.mass.kinetic_energy(v), self.system.potential(u, acting).value)
+        (self.system.mass.kinetic_energy(v), self.system.potential(u, Moment::at(time)).value)
     }
 }
 

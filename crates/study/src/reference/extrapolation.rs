@@ -93,7 +93,7 @@ fn seconds_of_one(equations: &Equations) -> f64 {
 fn finished(equations: &Equations, time: f64, [u, v]: Phase, check: (f64, f64), steps: usize) -> Reference {
     let (kinetic, potential) = equations.energies(&u, &v, time);
     let system = &equations.system;
-    let (u, v) = (system.order.to_mesh(&u), system.order.to_mesh(&v));
+    let (u, v) = (system.numbering.to_mesh(&u), system.numbering.to_mesh(&v));
     let rest = &system.shape.mesh.vertices;
     Reference {
         time,

@@ -20,7 +20,7 @@ impl MassInverse {
     /// Factorises the consistent mass, or the lumped one if the scene asks for it.
     pub fn new(scene: &Scene, system: &System<f64>) -> Result<Self, String> {
         let mut is_free = vec![[1.0; 3]; system.nodes()];
-        system.held.clear(&mut is_free);
+        system.dirichlet.clear_constrained(&mut is_free);
         let mut factors: Vec<Factor> = Vec::new();
         for axis in 0..3 {
             let nodes: Vec<usize> = (0..system.nodes()).filter(|&node| is_free[node][axis] > 0.0).collect();
@@ -55,7 +55,7 @@ fn mass(scene: &Scene, system: &System<f64>, nodes: &[usize]) -> Vec<Vec<(usize,
     let mesh = &system.shape.mesh;
     let mut place = vec![usize::MAX; mesh.vertices.len()];
     for (i, &node) in nodes.iter().enumerate() {
-        place[system.order.mesh_node[node] as usize] = i;
+        place[system.numbering.mesh_node[node] as usize] = i;
     }
     let mut columns: Vec<Vec<(usize, f64)>> = (0..nodes.len()).map(|i| vec![(i, 0.0)]).collect();
     let mut add = |row: usize, column: usize, mass: f64| {

@@ -82,7 +82,7 @@ fn a_towed_node_follows_the_sine_and_swings_after_the_tow() {
 fn a_velocity_jump_gives_neighbours_an_impulse_through_the_consistent_mass() {
     let equations = soft_box(TOWED);
     let (node, towed_node) =
-        (equations.system.order.engine_node[5] as usize, equations.system.order.engine_node[4] as usize);
+        (equations.system.numbering.engine_node[5] as usize, equations.system.numbering.engine_node[4] as usize);
     let mass = |from: usize| {
         let (mut unit, mut force) = (vec![[0.0; 3]; 12], vec![[0.0; 3]; 12]);
         unit[from][0] = 1.0;
@@ -101,7 +101,7 @@ fn prescribed_velocities_and_accelerations_match_finite_differences() {
         "[[prescribed]]\nnodes = [4]\ndisplacement = [0.2, -0.1, 0.4]\nover = 2.0\n\
          rotation = { axis = \"y\", center = [0.3, 0.1, 0.2], turns = 0.7 }\n",
     );
-    let motion = &equations.system.held.motions().next().unwrap().1;
+    let motion = &equations.system.dirichlet.motions().next().unwrap().1;
     let at = |time: f64| kinematics(motion, &Vector3::new(1.0, 2.0, -1.0), 0.0, time);
     let (h, [_, v, a]) = (1e-4, at(0.8));
     let (before, after) = (at(0.8 - h), at(0.8 + h));

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::reference::Equations;
 use crate::runs::row::Row;
-use fem_engine::forces::acting::Acting;
+use fem_engine::forces::{HessianKind, Moment};
 use fem_engine::solvers::{Solver, SolverChoice};
 use fem_scene::simulate::quantile;
 
@@ -33,20 +33,20 @@ pub fn measure(equations: &Equations) -> Costs {
     let u = vec![[0.0; 3]; system.nodes()];
     let mut gradient = u.clone();
     let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
-    let acting = Acting { pulls: &[], load: system.dead_load.as_deref() };
+    let moment = Moment::at(0.0);
     let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
     let mut solver = Solver::<f64>::new(SolverChoice::Cholesky, &Arc::clone(&system.pattern), &rest);
-    let force = median(|| system.gradient(&u, acting, &mut gradient));
+    let force = median(|| system.gradient(&u, moment, &mut gradient));
     let pass = median(|| {
-        system.potential_and_gradient(&u, acting, &mut gradient);
+        system.potential_and_gradient(&u, moment, &mut gradient);
     });
     let stiffness = median(|| {
         values.fill([[0.0; 3]; 3]);
-        system.add_stiffness(1.0, &u, &mut values);
+        system.add_stiffness(1.0, &u, HessianKind::Exact, &mut values);
     });
     // Inertia makes it positive definite, as it does in a step.
     system.mass.add_to(1e4, &system.pattern, &mut values);
-    system.held.take_out(&system.pattern, &mut values);
+    system.dirichlet.eliminate(&system.pattern, &mut values);
     let mut is_factor = false;
     let factor = median(|| is_factor = solver.prepare(&values).is_ok());
     let mut x = vec![[0.0; 3]; system.nodes()];

@@ -9,11 +9,13 @@ use std::path::Path;
 use nalgebra::{DVector, Vector3};
 
 use crate::space::quadrature::Rule;
-use fem_engine::integrators::Statics;
+use fem_engine::forces::dead_load::DeadLoad;
+use fem_engine::integrators::{Integrator, Statics};
 use fem_engine::materials::AnyLaw;
+use fem_engine::model::numbering::Numbering;
 use fem_engine::model::state::State;
 use fem_engine::model::system::System;
-use fem_engine::newton::{Limits, Newton};
+use fem_engine::newton::{Newton, NewtonLimits};
 use fem_engine::solvers::{Solver, SolverChoice};
 use fem_engine::tensor::{Tensor, from_fn};
 use fem_mesh::{TetrahedralMesh, volumes};
@@ -94,21 +96,23 @@ pub fn solve(model: &str, cells: usize) -> Result<Solved, String> {
     let lacks = "the material lacks its parameters";
     let load = nodal_load(&AnyLaw::new(&scene.material).ok_or(lacks)?, &mesh);
     let law = AnyLaw::new(&scene.material).ok_or(lacks)?;
-    let mut system = System::<f64>::new(body, law, SolverChoice::Cholesky);
-    system.dead_load = Some(system.order.mesh_node.iter().map(|&node| load[node as usize]).collect());
+    let in_order = |numbering: &Numbering| numbering.mesh_node.iter().map(|&node| load[node as usize]).collect();
+    let system = System::<f64>::with_forces(body, law, SolverChoice::Cholesky, &|numbering| {
+        vec![Box::new(DeadLoad::new(in_order(numbering)))]
+    });
     let mut counters = Counters::default();
     let mut state = State::at_rest(system.nodes());
-    let limits =
-        Limits { max_iterations: 50, tolerance: 1e-13, projection: Projection::WhenNeeded, solver_tolerance: 1e-12 };
+    let projection = Projection::WhenNeeded;
+    let limits = NewtonLimits { max_iterations: 50, tolerance: 1e-13, projection, solver_tolerance: 1e-12 };
     let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
     let solver = Solver::new(SolverChoice::Cholesky, &system.pattern, &rest);
     let newton = Newton::new(limits, solver, system.nodes(), system.pattern.blocks());
     let mut method = Statics::new(newton, &system, 1);
     let start = std::time::Instant::now();
-    method.step(&system, &mut state, &[], &mut counters).map_err(|cause| format!("no equilibrium: {cause:?}"))?;
+    method.step(&system, &mut state, 1.0, &mut counters).map_err(|cause| format!("no equilibrium: {cause:?}"))?;
     counters.steps = 1;
     let seconds = start.elapsed().as_secs_f64();
-    let u = system.order.to_mesh(&state.u);
+    let u = system.numbering.to_mesh(&state.u);
     let (l2, h1) = errors(&mesh, &u);
     let q = DVector::from_fn(3 * u.len(), |i, _| mesh.vertices[i / 3][i % 3] + u[i / 3][i % 3]);
     Ok(Solved { scene, mesh, q, l2, h1, counters, seconds })

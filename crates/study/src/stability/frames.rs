@@ -82,7 +82,7 @@ fn answer(text: &Text, mesh: TetrahedralMesh, steps: usize, clock: Clock) -> Res
 
 fn relative(simulation: &Simulator<f64>) -> Vec<Vector3<f64>> {
     let (system, u) = (simulation.system(), &simulation.state().u);
-    system.order.to_mesh(u).into_iter().map(|u| Vector3::from(u) / system.length).collect()
+    system.numbering.to_mesh(u).into_iter().map(|u| Vector3::from(u) / system.length).collect()
 }
 
 /// Whether two answers are the same.

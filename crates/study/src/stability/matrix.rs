@@ -79,10 +79,10 @@ pub fn unit_omega() -> f64 {
 pub fn excite(simulation: &mut Simulator<f64>, amplitude: f64) -> Result<Fastest, Finding> {
     let fastest = theory::fastest(simulation.system());
     let fastest = fastest.map_err(|cause| Finding::plain(Outcome::Deviates, format!("no frequency: {cause:?}")))?;
-    let order = &simulation.system().order;
-    let shape = order.to_mesh(&fastest.shape);
+    let numbering = &simulation.system().numbering;
+    let shape = numbering.to_mesh(&fastest.shape);
     let displacements: Vec<[f64; 3]> = shape.iter().map(|u| u.map(|u| amplitude * u)).collect();
-    simulation.place(&displacements, &vec![[0.0; 3]; shape.len()]);
+    simulation.set_state(&displacements, &vec![[0.0; 3]; shape.len()]);
     Ok(fastest)
 }
 

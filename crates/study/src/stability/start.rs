@@ -64,7 +64,7 @@ pub fn place_moving(
     mut place: impl FnMut(&Vector3<f64>) -> (Vector3<f64>, Vector3<f64>),
 ) {
     let system = simulation.system();
-    let free = |node: usize| (system.order.engine_node[node] as usize) < system.free();
+    let free = |node: usize| (system.numbering.engine_node[node] as usize) < system.free();
     let mut displacements = Vec::new();
     let mut velocities = Vec::new();
     for (node, X) in system.shape.mesh.vertices.iter().enumerate() {
@@ -72,7 +72,7 @@ pub fn place_moving(
         displacements.push((x - X).into());
         velocities.push(v.into());
     }
-    simulation.place(&displacements, &velocities);
+    simulation.set_state(&displacements, &velocities);
 }
 
 /// Largest distance of a node from where it is at rest, in lengths of the body.

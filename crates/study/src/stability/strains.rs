@@ -123,11 +123,11 @@ fn led_and_let_go(motion: &Motion, model: &'static str) -> Case {
                 if end.failure.is_some() || end.is_late || !end.is_finite {
                     return Err(end.survival());
                 }
-                let order = &simulation.system().order;
+                let numbering = &simulation.system().numbering;
                 let state = simulation.state();
-                let (u, v) = (order.to_mesh(&state.u), order.to_mesh(&state.v));
+                let (u, v) = (numbering.to_mesh(&state.u), numbering.to_mesh(&state.v));
                 let mut simulation = free.build()?;
-                simulation.place(&u, &v);
+                simulation.set_state(&u, &v);
                 Ok(back_at_rest(&mut simulation, rest, true, clock))
             };
             attempt().unwrap_or_else(|finding| finding)

@@ -59,7 +59,7 @@ pub fn fastest(system: &System<f64>) -> Result<Fastest, Cause> {
     let (mut force, mut next) = (rest.clone(), rest.clone());
     let mut omega2: f64 = 0.0;
     for _ in 0..MOST {
-        system.held.clear(&mut x);
+        system.dirichlet.clear_constrained(&mut x);
         let length = norm(&x);
         scale(&mut x, 1.0 / length);
         force.fill([0.0; 3]);

@@ -1,0 +1,37 @@
+//! Reactions: the forces of the constraints on the body, M a − f over the constrained degrees of freedom. A free node has none.
+
+use fem_scene::simulation::Reaction;
+
+use crate::forces::Moment;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::number::Real;
+
+/// One for each Dirichlet condition. The acceleration is the mean of the last step, which began at `before`; Rayleigh damping takes
+/// its stiffness there too.
+pub fn reactions<T: Real>(system: &System<T>, before: &State<T>, state: &State<T>, moment: Moment) -> Vec<Reaction> {
+    let force = unbalanced(system, before, state, moment);
+    let sum = |nodes: &[usize], components: [bool; 3]| {
+        let along = |i: usize| nodes.iter().map(|&node| force[node][i].as_f64()).sum();
+        std::array::from_fn(|i| if components[i] { along(i) } else { 0.0 })
+    };
+    let conditions = system.dirichlet.conditions().iter();
+    conditions.map(|c| Reaction { name: c.name.clone(), force: sum(&c.nodes, c.components) }).collect()
+}
+
+/// M a − f, N.
+fn unbalanced<T: Real>(system: &System<T>, before: &State<T>, state: &State<T>, moment: Moment) -> Vec<[T; 3]> {
+    let mut unbalanced = vec![[T::default(); 3]; system.nodes()];
+    system.force(&state.u, &state.v, &before.u, moment, &mut unbalanced);
+    for force in unbalanced.as_flattened_mut() {
+        *force = -*force;
+    }
+    // There is no acceleration at the start, nor in equilibrium.
+    if state.time > before.time {
+        let over_dt = T::of(1.0 / (state.time - before.time));
+        let change = |(v, before): (&[T; 3], &[T; 3])| std::array::from_fn(|i| v[i] - before[i]);
+        let change: Vec<[T; 3]> = state.v.iter().zip(&before.v).map(change).collect();
+        system.mass.add_times(over_dt, &change, &mut unbalanced);
+    }
+    unbalanced
+}

@@ -1,0 +1,92 @@
+//! Rigid modes: whether a body can move without deforming, in which case it has no static equilibrium.
+
+use fem_scene::Body;
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+use crate::simulator::Refusal;
+
+/// A rigid motion is constrained if its stiffness is more than this part of the largest.
+const LEAST: f64 = 1e-9;
+
+/// Refuses a body of which a connected part can move or rotate without deforming. Parts that springs join are left to the solver.
+pub(crate) fn check(body: &Body) -> Result<(), Refusal> {
+    let part = parts(body);
+    let grams = gram_matrices(&body.shape.mesh.vertices, &part, &constrained_directions(body));
+    let joined: Vec<usize> = body.springs.iter().flat_map(|spring| spring.nodes).map(|node| part[node]).collect();
+    for root in (0..part.len()).filter(|&node| part[node] == node && !joined.contains(&node)) {
+        let values = grams[root].symmetric_eigenvalues();
+        // NaN fails the comparison.
+        let is_constrained = values.min() > LEAST * values.max();
+        if !is_constrained {
+            let text = format!(
+                "is static, and the part of the body with node {root} can move or rotate as a rigid body; constrain it by \
+                 [fixed] or [[prescribed]]"
+            );
+            return Err(("time.integrator", text));
+        }
+    }
+    Ok(())
+}
+
+/// The constrained directions of each node. The anchor spring of a drag counts as one.
+fn constrained_directions(body: &Body) -> Vec<[bool; 3]> {
+    let mut constrained = vec![[false; 3]; body.shape.mesh.vertices.len()];
+    for condition in &body.dirichlet {
+        for &node in &condition.nodes {
+            let before = constrained[node];
+            constrained[node] = std::array::from_fn(|i| before[i] || condition.components[i]);
+        }
+    }
+    if let Some(drag) = &body.drag {
+        constrained[drag.node] = [true; 3];
+    }
+    constrained
+}
+
+/// For each part, at its first node, the Gram matrix Σ r rᵀ over its constrained degrees of freedom: a direction e at the arm a from
+/// the centre, in lengths of the part, moves by r · (t, ω) = e · t + (a × e) · ω under a translation t and a rotation ω.
+fn gram_matrices(vertices: &[Vector3<f64>], part: &[usize], constrained: &[[bool; 3]]) -> Vec<Matrix6<f64>> {
+    let mut centre = vec![(0.0, Vector3::zeros()); vertices.len()];
+    for (x, &root) in vertices.iter().zip(part) {
+        centre[root].0 += 1.0;
+        centre[root].1 += x;
+    }
+    let arm = |x: &Vector3<f64>, root: usize| x - centre[root].1 / centre[root].0;
+    let mut length = vec![0.0f64; vertices.len()];
+    for (x, &root) in vertices.iter().zip(part) {
+        length[root] = length[root].max(arm(x, root).norm());
+    }
+    let mut grams = vec![Matrix6::zeros(); vertices.len()];
+    for ((x, &root), constrained) in vertices.iter().zip(part).zip(constrained) {
+        let arm = arm(x, root) / length[root];
+        for i in (0..3).filter(|&i| constrained[i]) {
+            let axis = Vector3::ith(i, 1.0);
+            let moment = arm.cross(&axis);
+            let row = Vector6::new(axis.x, axis.y, axis.z, moment.x, moment.y, moment.z);
+            grams[root] += row * row.transpose();
+        }
+    }
+    grams
+}
+
+/// The first node of each node's connected part.
+fn parts(body: &Body) -> Vec<usize> {
+    let nodes = body.shape.mesh.vertices.len();
+    let mut parent: Vec<usize> = (0..nodes).collect();
+    fn root(parent: &mut [usize], mut node: usize) -> usize {
+        while parent[node] != node {
+            parent[node] = parent[parent[node]];
+            node = parent[node];
+        }
+        node
+    }
+    for element in &body.shape.mesh.elements {
+        for &node in &element[1..] {
+            let (a, b) = (root(&mut parent, element[0]), root(&mut parent, node));
+            let least = a.min(b);
+            parent[a] = least;
+            parent[b] = least;
+        }
+    }
+    (0..nodes).map(|node| root(&mut parent, node)).collect()
+}

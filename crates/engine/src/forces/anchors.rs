@@ -1,0 +1,99 @@
+//! Springs of zero rest length from nodes to points in space: ½ k |u − target|². `[drag]` moves its point along a sine; a user's
+//! pull takes its place.
+
+use std::sync::Arc;
+
+use fem_scene::simulation::Shape;
+use fem_scene::{Anchor, Interaction};
+
+use super::{Energy, HessianKind, Moment, Potential};
+use crate::model::numbering::Numbering;
+use crate::number::{Real, is_positive};
+use crate::sparse::{Block, Pattern};
+
+/// Key in the statistics.
+pub const NAME: &str = "drag";
+
+/// The anchor springs of a body.
+pub struct Anchors {
+    /// The scene's drag and the user's pull.
+    pub interaction: Interaction,
+    shape: Arc<Shape>,
+    engine_node: Vec<u32>,
+}
+
+impl Anchors {
+    /// The anchor springs of a body with these meshes.
+    pub fn new(interaction: Interaction, shape: &Arc<Shape>, numbering: &Numbering) -> Self {
+        Self { interaction, shape: Arc::clone(shape), engine_node: numbering.engine_node.clone() }
+    }
+
+    /// The engine's number of each spring's node, and the displacement at which the spring is at rest, m.
+    fn springs<T: Real>(&self, time: f64) -> impl Iterator<Item = (usize, [T; 3])> {
+        let anchors = self.interaction.anchors(&self.shape.mesh.vertices, time);
+        anchors.map(|Anchor { node, displacement: d }| {
+            (self.engine_node[node] as usize, [T::of(d.x), T::of(d.y), T::of(d.z)])
+        })
+    }
+}
+
+impl<T: Real> Potential<T> for Anchors {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn description(&self) -> String {
+        "[drag]: a spring in force and stiffness".to_owned()
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(&self.engine_node[..])
+    }
+
+    fn is_active(&self) -> bool {
+        self.interaction.anchors(&self.shape.mesh.vertices, 0.0).next().is_some()
+    }
+
+    fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy {
+        let energy = |(node, target): (usize, [T; 3])| {
+            let square = |i: usize| (u[node][i] - target[i]).as_f64().powi(2);
+            Energy::of(0.5 * self.interaction.stiffness * (square(0) + square(1) + square(2)))
+        };
+        self.springs::<T>(moment.time).map(energy).sum()
+    }
+
+    fn add_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
+        let stiffness = T::of(self.interaction.stiffness);
+        for (node, target) in self.springs::<T>(moment.time) {
+            for i in 0..3 {
+                gradient[node][i] += stiffness * (u[node][i] - target[i]);
+            }
+        }
+    }
+
+    /// Without it a stiff spring would be integrated explicitly and become unstable.
+    fn add_hessian(&self, factor: T, _: &[[T; 3]], _: HessianKind, pattern: &Pattern, values: &mut [Block<T, 3>]) {
+        let stiffness = factor * T::of(self.interaction.stiffness);
+        for (node, _) in self.springs::<T>(0.0) {
+            if let Some(block) = pattern.find(node, node) {
+                for i in 0..3 {
+                    values[block][i][i] += stiffness;
+                }
+            }
+        }
+    }
+
+    fn add_hessian_times(&self, factor: T, _: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
+        let stiffness = factor * T::of(self.interaction.stiffness);
+        for (node, _) in self.springs::<T>(0.0) {
+            for i in 0..3 {
+                product[node][i] += stiffness * d[node][i];
+            }
+        }
+    }
+
+    fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
+        let fits = !self.interaction.has_drag() || is_positive(T::of(self.interaction.stiffness));
+        (!fits).then_some(("drag", "a stiffness"))
+    }
+}

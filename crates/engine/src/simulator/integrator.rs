@@ -1,0 +1,108 @@
+//! The integrator that a scene names, with its limits and its linear solver.
+
+use std::sync::Arc;
+
+use fem_scene::{Integrator as IntegratorKind, Method, SolverKind, SolverSettings};
+
+use crate::integrators::{
+    ExplicitEuler, ImplicitEuler, Integrator, LinearlyImplicitEuler, Rk2, Rk4, SemiImplicitEuler, Statics, Verlet,
+};
+use crate::model::system::System;
+use crate::newton::{Newton, NewtonLimits};
+use crate::number::Real;
+use crate::solvers::{Preconditioner, Solver, SolverChoice};
+
+/// Smallest relative residual that a linear solver can be asked for, in units of the machine epsilon.
+const SMALLEST_RESIDUAL: f64 = 8.0;
+
+/// Largest relative residual of a useful direction of Newton's method.
+const LARGEST_RESIDUAL: f64 = 0.05;
+
+/// Largest number of Newton iterations in a time step, and in a load step: a body that buckles moves far.
+const MOST_ITERATIONS: (usize, usize) = (50, 2000);
+
+/// Number of nodes up to which a factor is cheaper than iterations where the scene names no solver: in motion, where inertia keeps
+/// iterations few, and in equilibrium, where one factor is enough.
+const DIRECT: (usize, usize) = (2000, 20_000);
+
+/// Methods that a running simulation can be switched to.
+pub fn integrators(kind: IntegratorKind) -> &'static [IntegratorKind] {
+    use IntegratorKind as Kind;
+    match kind {
+        Kind::Static => &[Kind::Static],
+        Kind::LinearlyImplicitEuler | Kind::ImplicitEuler => &[Kind::LinearlyImplicitEuler, Kind::ImplicitEuler],
+        // Where one explicit method is meant to be stable, all are.
+        Kind::ExplicitEuler | Kind::SemiImplicitEuler | Kind::Rk2 | Kind::Rk4 | Kind::Verlet => &[
+            Kind::ExplicitEuler,
+            Kind::SemiImplicitEuler,
+            Kind::Rk2,
+            Kind::Rk4,
+            Kind::Verlet,
+            Kind::LinearlyImplicitEuler,
+            Kind::ImplicitEuler,
+        ],
+    }
+}
+
+/// The solver that the scene names, or the one that suits its size.
+pub(super) fn solver_choice(method: &Method, nodes: usize) -> SolverChoice {
+    let is_static = method.integrator == IntegratorKind::Static;
+    match &method.solver {
+        Some(SolverSettings { kind: SolverKind::Cholesky, .. }) => SolverChoice::Cholesky,
+        Some(SolverSettings { kind: SolverKind::Lu, .. }) => SolverChoice::Lu,
+        Some(SolverSettings { kind: SolverKind::Cg, .. }) => SolverChoice::Cg,
+        Some(SolverSettings { kind: SolverKind::Pcg, preconditioner, .. }) => {
+            SolverChoice::Pcg(preconditioner_of(*preconditioner))
+        }
+        None if nodes <= if is_static { DIRECT.1 } else { DIRECT.0 } => SolverChoice::Cholesky,
+        // Inertia keeps the iterations of the cheapest preconditioner few; in equilibrium only multigrid does.
+        None if is_static => SolverChoice::Pcg(Preconditioner::Multigrid),
+        None => SolverChoice::Pcg(Preconditioner::Ssor),
+    }
+}
+
+fn preconditioner_of(named: fem_scene::Preconditioner) -> Preconditioner {
+    match named {
+        fem_scene::Preconditioner::BlockJacobi => Preconditioner::BlockJacobi,
+        fem_scene::Preconditioner::IncompleteCholesky => Preconditioner::IncompleteCholesky,
+        fem_scene::Preconditioner::Multigrid => Preconditioner::Multigrid,
+        fem_scene::Preconditioner::Ssor => Preconditioner::Ssor,
+    }
+}
+
+/// Builds an integrator with what it needs, and nothing else.
+pub(super) fn build<T: Real>(
+    kind: IntegratorKind,
+    method: &Method,
+    system: &System<T>,
+    choice: SolverChoice,
+) -> Box<dyn Integrator<T>> {
+    let solver = || {
+        let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
+        Solver::new(choice, &Arc::clone(&system.pattern), &rest)
+    };
+    let tolerance = method.solver.as_ref().and_then(|solver| solver.tolerance).unwrap_or(1e-12);
+    let tolerance = tolerance.max(SMALLEST_RESIDUAL * T::EPSILON.as_f64());
+    let newton = || Newton::new(limits(kind, method, tolerance), solver(), system.nodes(), system.pattern.blocks());
+    match kind {
+        IntegratorKind::ExplicitEuler => Box::new(ExplicitEuler::new(system)),
+        IntegratorKind::SemiImplicitEuler => Box::new(SemiImplicitEuler::new(system)),
+        IntegratorKind::Rk2 => Box::new(Rk2::new(system)),
+        IntegratorKind::Rk4 => Box::new(Rk4::new(system)),
+        IntegratorKind::Verlet => Box::new(Verlet::new(system)),
+        IntegratorKind::LinearlyImplicitEuler => Box::new(LinearlyImplicitEuler::new(solver(), tolerance, system)),
+        IntegratorKind::ImplicitEuler => Box::new(ImplicitEuler::new(newton(), system)),
+        IntegratorKind::Static => Box::new(Statics::new(newton(), system, method.load_steps)),
+    }
+}
+
+/// The scene's limits of Newton's method, or the defaults.
+fn limits(kind: IntegratorKind, method: &Method, solver_tolerance: f64) -> NewtonLimits {
+    let most = if kind == IntegratorKind::Static { MOST_ITERATIONS.1 } else { MOST_ITERATIONS.0 };
+    NewtonLimits {
+        max_iterations: method.newton.max_iterations.unwrap_or(most),
+        tolerance: method.newton.tolerance.unwrap_or(1e-10),
+        projection: method.newton.projection,
+        solver_tolerance: solver_tolerance.min(LARGEST_RESIDUAL),
+    }
+}

@@ -1,0 +1,43 @@
+//! Whether a scene's numbers, and the quantities derived from them, fit into the number type of the simulation.
+
+use fem_scene::{Method, Precision};
+
+use super::Refusal;
+use crate::model::system::System;
+use crate::number::{Real, is_positive};
+
+/// Refuses a scene with a derived quantity that would be zero or infinite. Each of its numbers has been checked when it was read;
+/// products of several can still be out of range, above all in single precision.
+pub(super) fn check<T: Real>(method: &Method, system: &System<T>) -> Result<(), Refusal> {
+    let [shear, bulk] = system.law.moduli().map(T::of);
+    let mass = system.mass.diagonal();
+    let rate = T::of(1.0 / (method.dt * method.dt));
+    let volumes = fem_mesh::volumes(&system.shape.mesh);
+    let has_range = |volume: &f64| is_positive(T::of(*volume)) && is_positive(T::of(1.0 / volume));
+    let derived = [
+        ("mesh", "a volume of an element", volumes.iter().all(has_range)),
+        ("material", "moduli", is_positive(shear) && is_positive(bulk)),
+        ("material.density", "a mass of a node", mass.iter().all(|&mass| is_positive(mass))),
+        ("time.dt", "a mass over the time step squared", mass.iter().all(|&mass| is_positive(mass * rate))),
+        ("material", "a stiffness of an element", volumes.iter().all(|volume| is_stiff(shear, *volume))),
+    ];
+    let derived = derived.into_iter().find(|(_, _, fits)| !fits).map(|(field, quantity, _)| (field, quantity));
+    let forces = || system.forces.all().find_map(|(potential, _)| potential.out_of_range());
+    match derived.or_else(forces) {
+        Some((field, quantity)) => Err((field, problem(method, quantity))),
+        None => Ok(()),
+    }
+}
+
+/// Whether μ V^(1/3), the stiffness of an element (N/m), is in range.
+fn is_stiff<T: Real>(modulus: T, volume: f64) -> bool {
+    is_positive(modulus * T::of(volume.cbrt()))
+}
+
+fn problem(method: &Method, quantity: &str) -> String {
+    let (name, remedy) = match method.precision {
+        Precision::F32 => ("single", ", or remove time.precision"),
+        Precision::F64 => ("double", ""),
+    };
+    format!("leads to {quantity} out of the range of {name} precision; give a more ordinary number{remedy}")
+}

@@ -1,0 +1,59 @@
+//! Reactions balance the loads, for every law and any number of load steps.
+
+use fem_scene::simulation::Simulation;
+
+use crate::{MODELS, block, build, run};
+
+/// Weight of the box, 2 m³ at 1000 kg/m³, in N.
+const WEIGHT: [f64; 3] = [2000.0, -6000.0, 4000.0];
+const GRAVITY: &str = "[gravity]\nacceleration = [1, -3, 2]\n";
+const TRACTION: [f64; 3] = [300.0, 50.0, -20.0];
+const TABLES: &str = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n\
+                      [[traction]]\non = { axis = \"x\", side = \"max\", within = 1e-9 }\nforce_per_area = [300, 50, -20]\n";
+const PRESCRIBED: &str = "[[prescribed]]\nnodes = [5]\ndisplacement = [0, 0.01, 0]\ncomponents = [\"y\"]\n";
+
+/// Σ reactions + Σ loads at the load factor, relative to the loads.
+fn imbalance(simulation: &dyn Simulation, load_factor: f64) -> f64 {
+    let reactions = simulation.reactions();
+    let along = |i: usize| -> f64 {
+        let load = load_factor * (WEIGHT[i] + TRACTION[i]);
+        reactions.iter().map(|reaction| reaction.force[i]).sum::<f64>() + load
+    };
+    (0..3).map(|i| along(i).abs()).fold(0.0, f64::max) / 6000.0
+}
+
+#[test]
+fn reactions_balance_the_loads_after_every_load_step_of_every_law() {
+    for model in MODELS {
+        for prescribed in ["", PRESCRIBED] {
+            for load_steps in [1, 2, 5, 10] {
+                let rest = format!("{GRAVITY}{TABLES}{prescribed}[static]\nload_steps = {load_steps}\n");
+                let mut simulation = build(&block(model, &rest));
+                // Further steps keep the full load.
+                for step in 1..=load_steps + 3 {
+                    run(&mut *simulation, 1);
+                    let load_factor = (f64::from(step) / f64::from(load_steps)).min(1.0);
+                    let error = imbalance(&*simulation, load_factor);
+                    assert!(error <= 1e-9, "{model}, step {step} of {load_steps} {prescribed:?}: {error:e}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn equilibrium_at_full_load_does_not_depend_on_the_number_of_load_steps() {
+    for model in MODELS {
+        let end = |load_steps: usize, steps: usize| {
+            let rest = format!("{GRAVITY}{TABLES}{PRESCRIBED}[static]\nload_steps = {load_steps}\n");
+            let mut simulation = build(&block(model, &rest));
+            run(&mut *simulation, steps);
+            simulation.positions()
+        };
+        let once = end(1, 1);
+        for (load_steps, steps) in [(1, 30), (4, 4), (4, 9), (10, 10)] {
+            let error = (end(load_steps, steps) - &once).amax();
+            assert!(error < 1e-11, "{model}, {steps} steps of {load_steps}: {error:e} m");
+        }
+    }
+}
