@@ -102,7 +102,7 @@ impl Unpacked {
 }
 
 /// A path in an archive with `/` between its parts and no `./`. Such as lead out of the archive are refused, together with it:
-/// nobody packs them by accident.
+/// they are not packed by accident.
 fn inner_path(path: &str) -> Result<String, Unreadable> {
     let path = path.replace('\\', "/");
     let has_drive = path.as_bytes().get(1) == Some(&b':');
@@ -143,7 +143,7 @@ fn zip_entries(file: File) -> Result<Vec<Entry>, Unreadable> {
 }
 
 fn tar_entries(stream: impl Read) -> Result<Vec<Entry>, Unreadable> {
-    // Whatever lies between the files that are taken must be unpacked to get past it, so the stream itself has an end.
+    // Everything between the files of a submission must be unpacked to get past it, so the stream itself has an end.
     let mut archive = tar::Archive::new(stream.take(MAX_BYTES));
     let mut unpacked = Unpacked::new();
     for entry in archive.entries().map_err(broken)? {

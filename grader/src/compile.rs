@@ -38,7 +38,7 @@ pub struct Plan {
 
 /// A program, and what could not become part of it.
 pub struct Built {
-    /// The program; `None` where nothing could be built.
+    /// The program; `None` if the build failed.
     pub program: Option<PathBuf>,
     /// Messages for the authors of functions that do not compile, by function.
     pub faults: BTreeMap<&'static str, String>,
@@ -93,7 +93,7 @@ pub fn build(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path)
             if let Some(why) = gave_up {
                 return Err(BuildError::GaveUp(why));
             }
-            // The compiler says no, and no file is to blame alone, so all of them are.
+            // The compiler fails although each file compiles alone, so all of them are to blame.
             let sentence = "the files compile one by one, but not together";
             found = plan.own.keys().map(|name| (*name, sentence.to_owned())).collect();
         }
@@ -146,7 +146,7 @@ pub fn attempt(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Pat
         environment: vec![
             ("PATH".to_owned(), "/usr/bin:/bin".to_owned()),
             ("TMPDIR".to_owned(), folder.display().to_string()),
-            // The compiler finds its own library by /proc, which there is none of in the sandbox.
+            // The compiler finds its own library by /proc, which the sandbox does not have.
             ("LD_LIBRARY_PATH".to_owned(), prebuilt.sysroot.join("lib").display().to_string()),
         ],
         folder: folder.to_owned(),

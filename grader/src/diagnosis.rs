@@ -51,7 +51,7 @@ struct Case {
 /// How far, relative to the numbers at hand, a mistake's answer may be from the one that it explains.
 const PRECISION: f64 = 1e-6;
 
-/// The simplest mistake that explains the answers of a function; `None` where they are right, or wrong in a way of their own.
+/// The simplest mistake that explains the answers of a function; `None` if they are right or if no known mistake explains them.
 pub fn diagnose(function: &str, seed: u64, subject: &dyn Implementation, variants: &[Variant]) -> Option<Diagnosis> {
     let cases = cases(function, seed, subject);
     let right = |case: &Case| compare(&case.trial, &case.observed, &case.expected, TOLERANCE).wrongs.is_empty();

@@ -29,7 +29,7 @@ pub struct Grade {
     pub functions: Vec<FunctionGrade>,
     /// The whole simulation with the submission's functions alone.
     pub simulation: FunctionGrade,
-    /// The whole simulation at several time steps, where that was asked for; says nothing about points.
+    /// The whole simulation at several time steps, with `--report`; it does not count for points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub study: Option<Study>,
     /// Processor time of this grading with all its processes, s; on a system that does not tell it, the time that passed.
@@ -41,7 +41,7 @@ pub struct Grade {
 pub struct Study {
     /// By integrator and time step, the submission's and the reference's runs in pairs.
     pub runs: Vec<Run>,
-    /// How exactly the motion is known that errors are counted from, m.
+    /// Uncertainty of the motion that errors are measured against, m.
     pub uncertainty: f64,
 }
 
@@ -52,7 +52,7 @@ pub struct Run {
     pub integrator: String,
     /// Time step, s.
     pub dt: f64,
-    /// `None` where the submission gave no answer.
+    /// `None` if the submission gave no answer.
     pub submission: Option<Outcome>,
     pub reference: Outcome,
 }
@@ -60,7 +60,7 @@ pub struct Run {
 /// Result of a simulation.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Outcome {
-    /// Largest distance of a vertex from where it should be at the end, m; the body is 1 m long.
+    /// Largest distance of a vertex from its true position at the end, m; the body is 1 m long.
     pub error: f64,
     /// Time by the clock on the wall, s: the fastest of a few.
     pub seconds: f64,
@@ -77,9 +77,9 @@ pub struct FunctionGrade {
     pub diagnosis: Option<String>,
     /// A sentence for the student: what the diagnosis means, why the file was refused, what the compiler says, …
     pub message: Option<String>,
-    /// A hint of the rubric, where the function does not pass.
+    /// The rubric's hint, if the function does not pass.
     pub hint: Option<String>,
-    /// Worst relative error against the reference; `None` where there is no answer to compare.
+    /// Worst relative error against the reference; `None` if there is no answer to compare.
     pub error: Option<f64>,
     /// Time of one call on a standard load by the clock on the wall, s: the fastest of a few series.
     pub seconds: Option<f64>,

@@ -96,7 +96,7 @@ impl Rubric {
         for (index, function) in self.functions.iter().enumerate() {
             let name = function.name.get_ref();
             if !NAMES.contains(&name.as_str()) {
-                let problem = format!("`{name}` is no function of the course; the README lists their names");
+                let problem = format!("`{name}` is not a function of the course; the README lists the names");
                 return Err(at(function.name.span(), problem));
             }
             if self.functions[..index].iter().any(|earlier| earlier.name.get_ref() == name) {
@@ -165,7 +165,7 @@ fn is_points(points: f64) -> bool {
     (0.0..=MOST_POINTS).contains(&points)
 }
 
-/// A file as text, or the line where it is none.
+/// A file as text, or the line that is not UTF-8.
 fn text(path: &Path) -> Result<String, RubricError> {
     let bytes = fs::read(path).map_err(|error| RubricError::Io(path.to_owned(), error))?;
     String::from_utf8(bytes).map_err(|error| {
@@ -199,7 +199,7 @@ mod tests {
         let unknown = OURS.replacen("name = \"psi_neo_hookean\"", "name = \"psi_neo_hooke\"", 1);
         let line = OURS.lines().position(|line| line == "name = \"psi_neo_hookean\"").unwrap() + 1;
         assert!(
-            problem(&unknown).contains(&format!("line {line}: `psi_neo_hooke` is no function")),
+            problem(&unknown).contains(&format!("line {line}: `psi_neo_hooke` is not a function")),
             "{}",
             problem(&unknown)
         );

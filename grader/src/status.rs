@@ -1,4 +1,4 @@
-//! How a function fared.
+//! The outcome of a function.
 
 use serde::{Deserialize, Serialize};
 

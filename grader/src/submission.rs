@@ -56,8 +56,7 @@ impl Submission {
         Self::from_entries(display_name(folder), entries)
     }
 
-    /// A hash of the files that are taken or refused for their text, in hexadecimal digits; equal for equal work, whatever
-    /// the submission is called.
+    /// A hash of the files that are written or refused, in hexadecimal digits. It does not depend on the submission's name.
     pub fn hash(&self) -> String {
         let mut hasher = Sha256::new();
         for (name, source) in &self.functions {
@@ -84,7 +83,7 @@ fn display_name(folder: &Path) -> String {
     path.file_name().map_or_else(|| "submission".to_owned(), |name| name.to_string_lossy().into_owned())
 }
 
-/// Judges the bytes of one file.
+/// Reads and scans one file.
 pub fn source(name: &str, bytes: &[u8]) -> Source {
     let refused = |line, reason: &str| Source::Refused { line, reason: reason.to_owned() };
     if bytes.len() as u64 > MAX_FILE_BYTES {

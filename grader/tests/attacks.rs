@@ -31,7 +31,7 @@ fn attacks_at_run_time_cost_their_own_function_alone() {
     attacked.shows_students_nothing_of("STOLEN");
     assert_eq!(fs::read_to_string(&sentinel).expect("it is still there"), "untouched");
     assert!(!left.exists());
-    assert!(listener.accept().is_err(), "nobody called");
+    assert!(listener.accept().is_err(), "no program called");
 }
 
 /// Puts an attack into every function but a few, each with what must become of it.

@@ -1,4 +1,4 @@
-//! A mistake costs its own function and no other, whoever calls whom.
+//! A mistake costs its own function alone, whichever functions call it.
 #![cfg(target_os = "linux")]
 
 #[path = "attacks/classroom.rs"]

@@ -8,6 +8,7 @@ mod layout;
 mod lists;
 mod modules;
 mod pages;
+mod readme;
 
 use std::fs;
 use std::path::{Path, PathBuf};

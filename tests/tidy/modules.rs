@@ -2,7 +2,7 @@
 //!
 //! A module is a file, or a `mod` with a body in one. A module needs another one when it names it or an item of it, by a path or
 //! by an import; a re-export leads to the module that it comes from. A module may name the modules that it lies in, and these may
-//! name it. Beyond that, whoever follows the names from module to module must never come back to where they started. Modules that
+//! name it. Beyond that, no chain of names from module to module may return to its start. Modules that
 //! stand under `#[cfg(test)]` may name anything.
 
 use std::collections::BTreeMap;

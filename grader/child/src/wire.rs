@@ -1,6 +1,6 @@
 //! How calls and answers travel: frames of bytes, each value as plain little-endian numbers.
 //!
-//! A frame is a length (u32), a kind (u8) and that many bytes. Whatever arrives is checked: a submission may write anything.
+//! A frame is a length (u32), a kind (u8) and that many bytes. Every frame is checked: a submission may write anything.
 
 use std::io::{self, Read, Write};
 

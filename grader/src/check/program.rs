@@ -35,7 +35,7 @@ pub struct Options {
     pub watch: bool,
 }
 
-/// The whole program: 0 checked (whatever came of it), 1 the checks themselves failed, 2 unusable arguments.
+/// The whole program: 0 checked (passed or not), 1 the checks themselves failed, 2 unusable arguments.
 pub fn main() -> ExitCode {
     let Command::Check(options) = Arguments::parse().command;
     // Panics of what is checked are told with its check.

@@ -50,7 +50,7 @@ impl Identity {
     }
 }
 
-/// The shard, from 1 to n, of a student: the same on every machine and whoever else is in the class.
+/// The shard, from 1 to n, of a student: the same on every machine and in every class.
 pub fn shard(student: &str, n: usize) -> usize {
     let digest = Sha256::digest(student.as_bytes());
     let rest = digest.iter().fold(0, |rest: u128, byte| (rest * 256 + u128::from(*byte)) % n as u128);

@@ -143,7 +143,7 @@ fn one_of(name: &str, before: Outcome, after: Outcome, remarks: &mut Vec<String>
             remarks.push(format!("{name}: {conflict}"));
             Outcome::NotGraded(conflict)
         }
-        // A conflict stays one, whatever comes third.
+        // A conflict remains, also with a third grade.
         (Outcome::NotGraded(reason), _) if reason.starts_with("conflict") => Outcome::NotGraded(reason),
         (graded @ Outcome::Graded(..), _) | (_, graded @ Outcome::Graded(..)) => graded,
         (Outcome::Waiting, other) | (other, _) => other,

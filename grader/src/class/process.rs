@@ -66,7 +66,7 @@ fn kill_group(leader: u32) {
 #[cfg(not(target_os = "linux"))]
 fn kill_group(_leader: u32) {}
 
-/// Has the kernel kill this process when `parent` ends, which started it: whoever kills a class leaves no grader behind that
+/// Has the kernel kill this process when `parent` ends, which started it: killing a class leaves no grader behind that
 /// goes on computing and writing.
 #[cfg(target_os = "linux")]
 pub fn end_with(parent: u32) -> io::Result<()> {

@@ -23,7 +23,7 @@ pub struct Store {
     _lock: File,
 }
 
-/// `class.json`: what a class consists of, for whoever joins shards.
+/// `class.json`: the contents of a class, for `merge`.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Index {
@@ -98,7 +98,7 @@ impl Store {
     pub fn finish(&self, partial: &Path, name: &str, key: &str) -> io::Result<()> {
         let place = self.out.join(folder(key));
         if place.exists() {
-            // It was there and could not be read, else nobody would have graded again.
+            // The folder is there and could not be read, so the submission was graded again.
             fs::remove_dir_all(&place)?;
         }
         fs::rename(partial, place)?;
@@ -112,7 +112,7 @@ impl Store {
         fs::remove_dir_all(partial)
     }
 
-    /// The grade of an earlier run. One that cannot be read is none.
+    /// The grade of an earlier run; `None` if it is missing or cannot be read.
     pub fn find(&self, key: &str) -> Option<Grade> {
         read_grade(&self.out.join(folder(key))).ok()
     }

@@ -76,7 +76,7 @@ impl Prebuilt {
             format!("--sysroot={}", self.sysroot.display()),
             "-Copt-level=2".to_owned(),
             "-Ccodegen-units=1".to_owned(),
-            // Nobody optimises a program again once it is linked.
+            // No program is optimised again after linking.
             "-Cembed-bitcode=no".to_owned(),
             // What std brings along for debuggers takes the linker longer than the rest of its work.
             "-Cstrip=debuginfo".to_owned(),
@@ -196,7 +196,7 @@ fn manifest(root: &Path) -> Result<String, PrebuildError> {
     ))
 }
 
-/// Changes with whatever the libraries are made of.
+/// A hash of everything that the libraries are made of.
 fn key(root: &Path, toolchain: &str) -> Result<u64, PrebuildError> {
     let mut hasher = DefaultHasher::new();
     (toolchain, env!("CARGO_PKG_VERSION")).hash(&mut hasher);

@@ -24,12 +24,12 @@ pub fn candidates<'a>(cases: &[&Case]) -> Vec<Candidate<'a>> {
 fn scaled(trial: &Trial, answer: &Observed, factor: f64) -> Option<Observed> {
     // Vertex numbers have no size, and a matrix that selects has none either.
     let countable = matches!(trial.input, Input::Pick(_));
-    // 0 · ∞ is no number, and not what somebody who returns 0 answers.
+    // 0 · ∞ is NaN, but a function that returns 0 returns 0.
     let times = |x: &f64| if factor == 0.0 { 0.0 } else { x * factor };
     (!countable).then(|| Observed { numbers: answer.numbers.iter().map(times).collect(), ..answer.clone() })
 }
 
-/// One factor for all answers, whatever it is.
+/// One unknown factor for all answers.
 fn constant<'a>(cases: &[&Case]) -> Option<Candidate<'a>> {
     let ratio = |case: &Case| {
         let entries = case.expected.numbers.iter().zip(&case.observed.numbers);

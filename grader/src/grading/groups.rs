@@ -22,7 +22,7 @@ pub struct Group {
 /// calls another. `below` are those of the levels below; `own` and `reference` tell who calls whom.
 pub fn groups(judged: &[&'static str], below: &Names, own: &Calls, reference: &Calls) -> Vec<Group> {
     let mut wanted: Vec<_> = judged.iter().map(|name| (*name, needs(name, below, own, reference))).collect();
-    // Those that call nobody first: they may all stay together.
+    // First the functions that call no other: they may all stay together.
     wanted.sort_by_key(|(_, needs)| !needs.is_empty());
     let mut groups: Vec<Group> = Vec::new();
     for (name, needs) in wanted {

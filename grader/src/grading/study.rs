@@ -1,4 +1,4 @@
-//! Error against run time of the whole simulation, at several time steps, beside the reference: nothing that points depend on.
+//! Error against run time of the whole simulation, at several time steps, beside the reference. No points depend on it.
 
 use std::time::Duration;
 
@@ -57,7 +57,7 @@ impl Grading {
     }
 }
 
-/// Runs a scene a few times; `None` where an answer is missing or makes no sense.
+/// Runs a scene a few times; `None` if an answer is missing or not valid.
 fn outcome(program: &Sandboxed, scene: &Scene, truth: &Truth) -> Option<Outcome> {
     let mut best: Option<Outcome> = None;
     for _ in 0..REPEATS {

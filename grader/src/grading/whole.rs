@@ -30,7 +30,7 @@ const DURATION: f64 = 0.2;
 /// Largest distance from the reference's positions, in lengths of the body. Newton's method may end a little earlier or later.
 const TOLERANCE: f64 = 1e-6;
 
-/// All of a submission's functions in one program, or why there is none.
+/// All of a submission's functions in one program, or the reason why it could not be built.
 pub(super) struct Whole {
     attempt: Attempt,
     folder: TempDir,

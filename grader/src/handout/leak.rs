@@ -80,7 +80,7 @@ fn bodies(text: &str) -> syn::Result<Vec<String>> {
     bodies.0.into_iter().map(without_comments).collect()
 }
 
-/// The tokens as written; spaces do not matter to whoever reads words.
+/// The tokens as written, separated by spaces.
 fn source_of(tokens: TokenStream, text: &str) -> String {
     let written = tokens.into_iter().map(|token| match token {
         TokenTree::Group(group) => {

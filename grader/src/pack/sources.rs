@@ -87,6 +87,6 @@ fn prune(files: &Path) -> Result<(), PackError> {
         command.args(["update", "--workspace", "--quiet"]).args(more).current_dir(files);
         output(&mut command, "cargo update").map(drop)
     };
-    // Whoever built this grader has all that is needed, so the network is the second choice.
+    // The machine that built this grader has all sources, so the network is the second choice.
     cargo(&["--offline"]).or_else(|_| cargo(&[]))
 }

@@ -96,7 +96,7 @@ impl<'a> FreeBody<'a> {
         self.trouble.borrow_mut().get_or_insert(mistake);
     }
 
-    /// The force; NaN, and a note of the reason, where there is none.
+    /// The force; NaN and a note of the reason if it is not available.
     fn force(&self, q: &DVector<f64>) -> DVector<f64> {
         let answer = self.checked(q).and_then(|()| {
             let Mesh { V, T, v0 } = &self.mesh;
@@ -110,7 +110,7 @@ impl<'a> FreeBody<'a> {
         })
     }
 
-    /// The stiffness; zero, and a note of the reason, where there is none.
+    /// The stiffness; zero and a note of the reason if it is not available.
     fn stiffness(&self, q: &DVector<f64>) -> CsrMatrix<f64> {
         let answer = self.checked(q).and_then(|()| {
             let Mesh { V, T, v0 } = &self.mesh;
@@ -190,7 +190,7 @@ impl<'a> FreeBody<'a> {
     }
 
     fn moved_to(&mut self, done: Result<(), Trouble>, q: DVector<f64>, qdot: DVector<f64>) -> Outcome {
-        // What a step could not know explains whatever came of it.
+        // The noted reason explains every result of the step.
         if let Some(mistake) = self.trouble.take() {
             return Err(mistake);
         }

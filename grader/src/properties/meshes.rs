@@ -1,4 +1,4 @@
-//! Elements and meshes to check with. Vertices that belong to no element are NaN: whoever reads them is found out.
+//! Elements and meshes to check with. Vertices that belong to no element are NaN, so that reading them shows.
 
 use nalgebra::{DVector, Matrix3, Vector3};
 

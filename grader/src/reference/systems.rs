@@ -27,7 +27,7 @@ pub struct System {
 impl System {
     /// Force at (q, v), N.
     pub fn force(&self, q: &DVector<f64>, v: &DVector<f64>) -> DVector<f64> {
-        // Whoever is judged may hand over anything.
+        // A submission may pass vectors of any length.
         if q.len() != self.load.len() || v.len() != self.load.len() {
             return DVector::from_element(self.load.len(), f64::NAN);
         }
@@ -92,7 +92,7 @@ impl Objective {
 
     /// Value.
     pub fn value(&self, x: &DVector<f64>) -> f64 {
-        // Whoever is judged may hand over anything.
+        // A submission may pass vectors of any length.
         if x.len() != self.size() {
             return f64::NAN;
         }

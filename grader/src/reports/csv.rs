@@ -92,7 +92,7 @@ fn points(points: Option<f64>) -> String {
     points.filter(|points| points.is_finite()).map_or(String::new(), |points| view::rounded(points).to_string())
 }
 
-/// An error or a time with four digits, however small; an empty cell where there is none.
+/// An error or a time with four digits, however small; an empty cell without one.
 fn figure(figure: Option<f64>) -> String {
     match figure.filter(|figure| figure.is_finite()) {
         Some(figure) if figure == 0.0 || (1e-3..1e4).contains(&figure) => {

@@ -148,7 +148,7 @@ pub fn class() -> Summary {
     Summary { entries, ..empty_class() }
 }
 
-/// A class that nobody has handed anything in to.
+/// A class without submissions.
 pub fn empty_class() -> Summary {
     Summary {
         identity: Identity {

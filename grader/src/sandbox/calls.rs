@@ -178,7 +178,7 @@ fn install(program: &BpfProgram) -> Result<(), String> {
     apply_filter(program).map_err(|error| error.to_string())
 }
 
-/// The same calls have second numbers above 2³⁰ on x86-64. Nobody needs them.
+/// The same calls have second numbers above 2³⁰ on x86-64. No program needs them.
 fn no_x32() -> BpfProgram {
     let step = |code: u32, jt, jf, k| seccompiler::sock_filter { code: code as u16, jt, jf, k };
     vec![

@@ -66,6 +66,6 @@ fn loaders() -> Vec<PathBuf> {
             .and_then(|name| name.to_str())
             .is_some_and(|name| name.starts_with("ld-") && name.contains(".so"))
     };
-    // A link whose end is not among what the program may see is none.
+    // A link to a file that the program may not see is left out.
     files.filter(is_loader).filter(|path| path.exists()).collect()
 }

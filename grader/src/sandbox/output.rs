@@ -66,7 +66,7 @@ fn keep(mut pipe: impl Read + Send + 'static, room: Arc<AtomicUsize>) -> Receive
                 Err(error) => break Err(error),
             }
         };
-        // Nobody listens any more if the run was given up.
+        // The receiver is gone if the program was given up.
         let _ = sender.send(outcome);
     });
     receiver

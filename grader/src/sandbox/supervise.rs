@@ -112,7 +112,7 @@ fn namespaces(spec: &Spec) -> CloneFlags {
 /// Who may kill the program, and why that was done.
 #[derive(Default)]
 struct Watch {
-    /// The program from its start until it is waited for; so long its number is nobody else's.
+    /// The program from its start until it is waited for; until then no other process has its number.
     program: Option<Pid>,
     /// Whether its time is over or the grader gone.
     over: bool,

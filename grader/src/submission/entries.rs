@@ -25,8 +25,8 @@ pub type Entry = (String, Content);
 #[error("{0}")]
 pub struct Unreadable(pub String);
 
-/// Files of a repository that decide how code is built; whoever changed them will wonder.
-const LEFT_ASIDE: [&str; 5] = ["build.rs", ".cargo", "rust-toolchain.toml", "rust-toolchain", "src/build.rs"];
+/// Files of a repository that decide how code is built; an author who changed them is told that they are ignored.
+const IGNORED: [&str; 5] = ["build.rs", ".cargo", "rust-toolchain.toml", "rust-toolchain", "src/build.rs"];
 
 /// Whether a path is that of one of the 22 files, in `src` or in `TOP/src`: what a reader of archives must keep.
 pub fn may_be_taken(path: &str) -> bool {
@@ -102,9 +102,9 @@ fn judged(name: &str, content: Content) -> Source {
     }
 }
 
-/// Tells about a file that is not taken, where its author may think that it is.
+/// A remark on an ignored file whose author may think that it counts.
 fn remark(path: &str) -> Option<String> {
-    if let Some(name) = LEFT_ASIDE.iter().find(|name| path == **name || path.starts_with(&format!("{name}/"))) {
+    if let Some(name) = IGNORED.iter().find(|name| path == **name || path.starts_with(&format!("{name}/"))) {
         return Some(format!("{name} is ignored: all submissions are built in the same way"));
     }
     let file = path.rsplit('/').next().unwrap_or(path);

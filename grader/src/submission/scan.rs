@@ -1,7 +1,7 @@
 //! Refuses files with code that leaves Rust's safety, runs before the program or reads files while compiling. Comments and string
 //! literals do not count.
 //!
-//! This is a fence, not the wall: a sandbox holds whatever gets past it.
+//! This is the first line of defence; the sandbox confines code that passes it.
 
 mod words;
 
@@ -20,7 +20,7 @@ pub struct Found {
     pub reason: String,
 }
 
-/// Brackets in brackets beyond this are refused, so that whoever walks them needs no endless stack.
+/// Deeper nesting of brackets is refused, so that a recursive walk fits on the stack.
 const MAX_NESTING: usize = 256;
 
 /// Stack of the thread that walks a file's tokens, bytes.
@@ -44,7 +44,7 @@ pub fn scan(text: &str) -> Option<Found> {
     .unwrap_or_else(|| as_text(text))
 }
 
-/// Tokenises a text on a thread with a large stack and works on the tokens there; none where it is no Rust.
+/// Tokenises a text on a thread with a large stack and works on the tokens there; `None` if it is not Rust.
 pub(super) fn with_tokens<R: Send>(text: &str, work: impl FnOnce(TokenStream) -> R + Send) -> Option<R> {
     if too_deep(text).is_some() {
         return None;

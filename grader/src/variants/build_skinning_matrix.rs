@@ -91,7 +91,7 @@ pub const VARIANTS: &[Variant] = &[
 
 type Place = ([usize; 4], Vector4<f64>);
 
-/// One row for each display vertex, from an element and its weights; an empty one where there is none.
+/// One row for each display vertex, from an element and its weights; an empty row without an element.
 fn skinned(
     V: &[Vector3<f64>],
     T: &[[usize; 4]],

@@ -2,7 +2,7 @@
 
 use super::Found;
 
-/// Refused wherever they stand. None is a name that a mathematician would give to anything.
+/// Refused everywhere. No formula uses one of them as a name.
 pub const ALWAYS: [&str; 23] = [
     "unsafe",
     "extern",
@@ -29,7 +29,7 @@ pub const ALWAYS: [&str; 23] = [
     "no_main",
 ];
 
-/// Refused as macros: called, or imported under whatever name.
+/// Refused as macros: called, or imported under any name.
 pub const AS_MACROS: [&str; 3] = ["asm", "env", "include"];
 
 /// Refused in attributes.

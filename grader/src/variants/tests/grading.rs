@@ -22,7 +22,7 @@ const TURNS: usize = 4;
 /// The share of the mistakes with a name that must be told by it.
 const NAMED: f64 = 0.8;
 
-/// The check that a function fails, as a grade would list it; `None` where it passes all.
+/// The check that a function fails, as a grade would list it; `None` if it passes all.
 fn first_failure(function: &str, functions: Functions, seed: u64) -> Option<String> {
     let subject = Local(functions);
     let judgement = judge(function, seed, &subject, TOLERANCE).expect("the reference answers");
