@@ -56,12 +56,14 @@ fn every_scene_key_is_in_the_readme_and_every_key_there_is_one() {
     assert!(tables.contains_key("mesh"), "no struct Scene with a table mesh in crates/scene/src");
     for (table, kind) in tables {
         let (known, told) = (keys(&scene, &kind), told(&table));
-        if known.is_empty() {
+        if told.contains("…") {
+            // The laws' own keys.
+        } else if known.is_empty() {
             // A key without a table.
             if !cells.contains(&format!("`{table}`")) {
                 problems.push(format!("README.md: add a row for the key `{table}` of scene files"));
             }
-        } else if !told.contains("…") {
+        } else {
             let missing = known.keys().filter(|key| !told.contains(*key));
             problems
                 .extend(missing.map(|key| format!("README.md: add a row `[{table}]` `{key}` to the keys of scenes")));
