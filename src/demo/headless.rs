@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::cli::RunArguments;
 use super::end::End;
-use super::pictures::Camera;
+use super::pictures::Pictures;
 use super::results::{self, Finished};
 use super::run::Ready;
 
@@ -18,20 +18,20 @@ const EXPORTED_FRAMES_PER_SECOND: f64 = 30.0;
 /// Runs all steps, shows progress on a terminal, and writes the files that the options name, also after a failure.
 pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
     let Ready { mut simulation, seconds_setup, steps, up, expected_tip } = ready;
-    let mut camera = Camera::for_run(arguments, &up);
+    let mut pictures = Pictures::new(arguments, &up);
     let mut log = Log::new(arguments)?;
     let bar = progress_bar(steps);
 
-    camera.record(&*simulation)?;
+    pictures.record(&*simulation)?;
     log.add(&*simulation)?;
     let run = simulate::run(&mut *simulation, steps, |simulation| {
         bar.inc(1);
         log.add(simulation)?;
-        camera.record(simulation)
+        pictures.record(simulation)
     })?;
     bar.finish_and_clear();
 
-    camera.shoot(&*simulation)?;
+    pictures.screenshot(&*simulation)?;
     log.finish(&*simulation)?;
     let Log { energies, frames, .. } = log;
     results::finish(

@@ -4,19 +4,19 @@ use super::cli::RunArguments;
 use super::end::End;
 use super::run::Ready;
 
-/// Whether a window can be opened, and if not, why.
+/// Checks whether a window can be opened; the error says why not.
 #[cfg(feature = "viewer")]
 pub fn available() -> Result<(), String> {
     fem_viewer::display_available()
 }
 
-/// Whether a window can be opened: without the viewer, none can.
+/// Without the viewer no window can be opened.
 #[cfg(not(feature = "viewer"))]
 pub fn available() -> Result<(), String> {
     Err("built without the feature `viewer`".to_owned())
 }
 
-/// Shows the simulation until the window is closed, then writes what the options ask for.
+/// Shows the simulation until the window is closed, then writes the files that the options name.
 #[cfg(feature = "viewer")]
 pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
     use fem_scene::simulate::Run;

@@ -1,6 +1,6 @@
-//! The camera: circles a body, and says where a pixel looks.
+//! The orbit camera: view and projection matrices, and rays through pixels.
 //!
-//! Its projection is OpenGL's (clip depth −1…1), which is also what the drawing library expects of a camera.
+//! Its projection is OpenGL's (clip depth −1…1), which kiss3d expects of a camera.
 
 use fem_scene::simulation::Click;
 use kiss3d::camera::Camera3d;
@@ -18,12 +18,12 @@ const STEEPEST_PITCH: f32 = 1.5; // rad, short of straight up, where "right" wou
 const MARGIN: f32 = 1.12; // body to picture edge, as a factor on the distance
 const RADIANS_PER_PIXEL: f32 = 0.006;
 
-/// A camera that looks at a target from a distance.
+/// A camera that orbits a target.
 #[derive(Clone, Debug)]
 pub struct OrbitCamera {
     /// The point looked at, m.
     target: Vec3,
-    /// From the target to the eye, m.
+    /// Distance from the target to the eye, m.
     distance: f32,
     /// Angle around `up`, rad.
     yaw: f32,
@@ -31,20 +31,20 @@ pub struct OrbitCamera {
     pitch: f32,
     /// Direction that is up in the picture, unit length.
     up: Vec3,
-    /// Size of what is looked at, m; near and far planes follow it.
+    /// Half of the diagonal of the framed box, m; near and far planes are multiples of it.
     radius: f32,
     /// Width and height of the picture, physical pixels.
     size: Vec2,
-    /// Pixels at the left that something covers; the target is drawn in the middle of the rest.
+    /// Width of the part at the left that the panel covers, pixels; the target is drawn in the middle of the rest.
     covered: f32,
 }
 
 impl OrbitCamera {
-    /// A camera that has all of `bounds` in the uncovered part of a picture of `size` pixels.
+    /// A camera with all of `bounds` in the uncovered part of a picture of `size` pixels.
     pub fn framing(bounds: &Bounds, up: Vec3, size: Vec2, covered: f32) -> Self {
         let up = up.try_normalize().unwrap_or(Vec3::Y);
         let mut camera = OrbitCamera {
-            target: bounds.center(),
+            target: bounds.centre(),
             distance: 1.0,
             yaw: FIRST_YAW,
             pitch: FIRST_PITCH,
@@ -72,27 +72,27 @@ impl OrbitCamera {
         bounds.corners().into_iter().map(needed).fold(self.radius, f32::max)
     }
 
-    /// Turns by a mouse motion of `pixels` (right, down).
-    pub fn turn(&mut self, pixels: Vec2) {
+    /// Orbits the target by a mouse motion of `pixels` (right, down).
+    pub fn orbit(&mut self, pixels: Vec2) {
         self.yaw -= pixels.x * RADIANS_PER_PIXEL;
         self.pitch = (self.pitch + pixels.y * RADIANS_PER_PIXEL).clamp(-STEEPEST_PITCH, STEEPEST_PITCH);
     }
 
-    /// Moves sideways so that the target follows a mouse motion of `pixels` (right, down).
-    pub fn shift(&mut self, pixels: Vec2) {
+    /// Moves parallel to the picture so that the target follows a mouse motion of `pixels` (right, down).
+    pub fn pan(&mut self, pixels: Vec2) {
         let metres_per_pixel = 2.0 * self.distance * (FIELD_OF_VIEW / 2.0).tan() / self.size.y;
         let right = self.right();
         let above = self.direction().cross(right);
         self.target += (above * pixels.y - right * pixels.x) * metres_per_pixel;
     }
 
-    /// Comes nearer (positive) or goes away, by notches of the mouse wheel.
+    /// Moves towards the target (positive) or away from it, by notches of the mouse wheel.
     pub fn zoom(&mut self, notches: f32) {
         let distance = self.distance * 0.9_f32.powf(notches);
         self.distance = distance.clamp(0.05 * self.radius, 50.0 * self.radius);
     }
 
-    /// Follows a change of the picture's size or of its covered part, physical pixels.
+    /// Sets the size of the picture and the width of its covered part, physical pixels.
     pub fn resize(&mut self, size: Vec2, covered: f32) {
         self.size = size.max(Vec2::ONE);
         self.covered = covered.clamp(0.0, 0.8 * self.size.x);
@@ -110,21 +110,21 @@ impl OrbitCamera {
         self.up.cross(self.direction()).normalize()
     }
 
-    /// Eye to clip space, depth −1…1.
+    /// Projection matrix: eye to clip space, depth −1…1.
     fn projection(&self) -> Mat4 {
         let (near, far) = self.clip_planes();
         let focal = 1.0 / (FIELD_OF_VIEW / 2.0).tan();
         let mut columns = [[0.0; 4]; 4];
         columns[0][0] = focal * self.size.y / self.size.x;
         columns[1][1] = focal;
-        columns[2][0] = -self.covered / self.size.x; // moves the target out of the covered part
+        columns[2][0] = -self.covered / self.size.x; // shifts the target out of the covered part
         columns[2][2] = (far + near) / (near - far);
         columns[2][3] = -1.0;
         columns[3][2] = 2.0 * far * near / (near - far);
         Mat4::from_cols_array_2d(&columns)
     }
 
-    /// The click at `cursor` (pixels from the upper left) as a simulation wants it.
+    /// The click at `cursor` (pixels from the upper left), in OpenGL's conventions.
     pub fn click(&self, cursor: Vec2) -> Click {
         Click {
             win: Vector3::new(f64::from(cursor.x), f64::from(self.size.y - cursor.y), 0.0),
@@ -144,7 +144,7 @@ impl OrbitCamera {
         (right * from_centre.x - above * from_centre.y - self.direction()).normalize()
     }
 
-    /// Where the ray through `cursor` meets the plane through `point` that is parallel to the picture.
+    /// Intersection of the ray through `cursor` with the plane through `point` parallel to the picture.
     pub fn on_plane(&self, cursor: Vec2, point: Vec3) -> Vec3 {
         let ray = self.ray(cursor);
         let normal = self.direction();

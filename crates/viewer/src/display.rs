@@ -1,20 +1,20 @@
-//! Asking for a display and a graphics adapter before anything is opened.
+//! Checks for a display server and a graphics adapter before a window is opened.
 //!
-//! The window system's library ends the program where it finds no display, and allows one attempt per process.
+//! winit ends the program if it finds no display, and allows one attempt per process.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 
-use crate::worker::run;
+use crate::worker::simulation_loop;
 
-/// Whether a window can be opened; if not, why, in one line.
+/// Checks whether a window can be opened; the error says in one line why not.
 pub fn display_available() -> Result<(), String> {
     server_answers()?;
     adapter_available()
 }
 
-/// Whether there is a graphics adapter, of hardware or of software; if not, why.
+/// Checks whether wgpu finds a graphics adapter, hardware or software; the error says why not.
 pub fn adapter_available() -> Result<(), String> {
     // Asking for OpenGL makes some drivers print complaints; it is asked for last.
     has_adapter(wgpu::Backends::PRIMARY)
@@ -25,21 +25,53 @@ pub fn adapter_available() -> Result<(), String> {
 fn has_adapter(backends: wgpu::Backends) -> Result<(), String> {
     let descriptor = wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle() };
     let found = without_panic(|| {
-        let instance = wgpu::Instance::new(descriptor);
-        pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).map(drop)
+        without_wayland_message(|| {
+            let instance = wgpu::Instance::new(descriptor);
+            pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).map(drop)
+        })
     })?;
     found.map_err(|error| one_line(&error.to_string()))
 }
 
+/// Calls `request`, which lists graphics adapters, without libwayland's message that XDG_RUNTIME_DIR is not set.
+///
+/// Mesa's Vulkan layer connects to Wayland for every list of adapters, also if there is no window. libwayland then prints
+/// to stderr, and its handler for messages cannot be replaced from safe code.
+#[cfg(all(unix, not(target_os = "macos")))]
+pub fn without_wayland_message<R>(request: impl FnOnce() -> R) -> R {
+    if std::env::var_os("XDG_RUNTIME_DIR").is_some() {
+        return request();
+    }
+    let redirected = redirect_stderr();
+    let result = request();
+    if let Ok(stderr) = redirected {
+        let _ = rustix::stdio::dup2_stderr(stderr);
+    }
+    result
+}
+
+#[cfg(not(all(unix, not(target_os = "macos"))))]
+pub fn without_wayland_message<R>(request: impl FnOnce() -> R) -> R {
+    request()
+}
+
+/// Redirects stderr to /dev/null and returns the former stderr.
+#[cfg(all(unix, not(target_os = "macos")))]
+fn redirect_stderr() -> std::io::Result<std::os::fd::OwnedFd> {
+    let stderr = rustix::io::dup(rustix::stdio::stderr())?;
+    rustix::stdio::dup2_stderr(std::fs::File::options().write(true).open("/dev/null")?)?;
+    Ok(stderr)
+}
+
 thread_local! {
-    /// Whether a panic of this thread is about to become an error, and is not to be printed.
+    /// Whether a panic of this thread becomes an error and is not printed.
     static QUIET: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Calls into the graphics libraries, which panic where a driver fails; the panic's words become an error.
+/// Calls into the graphics libraries, which panic if a driver fails, and returns the panic's message as an error.
 pub fn without_panic<R>(call: impl FnOnce() -> R) -> Result<R, String> {
-    static PRINT_OTHERS: Once = Once::new();
-    PRINT_OTHERS.call_once(|| {
+    static INSTALL_HOOK: Once = Once::new();
+    INSTALL_HOOK.call_once(|| {
         let print = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |panic| {
             if !QUIET.get() {
@@ -50,7 +82,7 @@ pub fn without_panic<R>(call: impl FnOnce() -> R) -> Result<R, String> {
     QUIET.set(true);
     let result = catch_unwind(AssertUnwindSafe(call));
     QUIET.set(false);
-    result.map_err(|panic| one_line(&run::panic_message(panic.as_ref())))
+    result.map_err(|panic| one_line(&simulation_loop::panic_message(panic.as_ref())))
 }
 
 fn one_line(text: &str) -> String {
@@ -73,9 +105,9 @@ mod unix {
     use std::path::PathBuf;
     use std::time::Duration;
 
-    const PATIENCE: Duration = Duration::from_secs(2);
+    const TIMEOUT: Duration = Duration::from_secs(2);
 
-    /// Whether a Wayland compositor or an X server takes a connection.
+    /// Checks whether a Wayland compositor or an X server accepts a connection.
     pub fn server_answers() -> Result<(), String> {
         let set = |name: &str| env::var(name).ok().filter(|value| !value.is_empty());
         let wayland = set("WAYLAND_DISPLAY").map(|name| wayland(&name, set("XDG_RUNTIME_DIR")));
@@ -102,7 +134,7 @@ mod unix {
         }
     }
 
-    /// `host:number.screen` as host and number.
+    /// Splits `host:number.screen` into host and number.
     pub fn parse(name: &str) -> Option<(&str, u16)> {
         let (host, rest) = name.rsplit_once(':')?;
         let number = rest.split('.').next()?.parse().ok()?;
@@ -114,7 +146,7 @@ mod unix {
         if abstract_socket(&path) { Ok(()) } else { UnixStream::connect(path).map(drop) }
     }
 
-    /// Linux has a second kind of local socket that leaves no file behind; X servers listen on it too.
+    /// X servers on Linux also listen on an abstract socket, which has no file.
     #[cfg(target_os = "linux")]
     fn abstract_socket(path: &str) -> bool {
         use std::os::linux::net::SocketAddrExt;
@@ -130,7 +162,7 @@ mod unix {
     fn remote(host: &str, number: u16) -> std::io::Result<()> {
         let address = (host, 6000_u16.saturating_add(number)).to_socket_addrs()?.next();
         let address = address.ok_or(std::io::ErrorKind::AddrNotAvailable)?;
-        TcpStream::connect_timeout(&address, PATIENCE).map(drop)
+        TcpStream::connect_timeout(&address, TIMEOUT).map(drop)
     }
 
     #[cfg(test)]
@@ -138,7 +170,7 @@ mod unix {
         use super::*;
 
         #[test]
-        fn display_names_are_understood() {
+        fn display_names_are_parsed() {
             assert_eq!(parse(":0"), Some(("", 0)));
             assert_eq!(parse(":99.0"), Some(("", 99)));
             assert_eq!(parse("localhost:10.0"), Some(("localhost", 10)));
@@ -146,7 +178,7 @@ mod unix {
         }
 
         #[test]
-        fn a_dead_display_is_named() {
+        fn the_error_names_the_display_that_does_not_answer() {
             let why = x_server(":63999").unwrap_err();
             assert!(why.contains("DISPLAY=:63999"), "{why}");
             assert!(x_server("nonsense").is_err());

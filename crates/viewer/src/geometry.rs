@@ -1,11 +1,11 @@
-//! Triangles in single precision, as the graphics card wants them.
+//! Points, boxes and triangles in single precision, the format of the graphics card.
 
 use std::collections::BTreeSet;
 
 use kiss3d::glamx::Vec3;
 use nalgebra::{DVector, Vector3};
 
-/// A box around points, m.
+/// An axis-aligned bounding box, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// Smallest coordinates.
@@ -15,7 +15,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The box around `points`; a small one about the origin where there are none.
+    /// Bounding box of the finite points; the unit cube about the origin if there are none.
     pub fn of(points: &[Vec3]) -> Self {
         let mut finite = points.iter().copied().filter(|p| p.is_finite());
         let Some(first) = finite.next() else {
@@ -25,13 +25,13 @@ impl Bounds {
         finite.fold(Bounds { low: first, high: first }, grow)
     }
 
-    /// The box around both.
+    /// Bounding box of both boxes.
     pub fn joined(&self, other: &Self) -> Self {
         Bounds { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// The middle of the box, m.
-    pub fn center(&self) -> Vec3 {
+    /// Centre of the box, m.
+    pub fn centre(&self) -> Vec3 {
         (self.low + self.high) / 2.0
     }
 
@@ -53,22 +53,22 @@ impl Bounds {
     }
 }
 
-/// A point in single precision.
+/// Converts a point to single precision.
 pub fn single(point: &Vector3<f64>) -> Vec3 {
     Vec3::new(point.x as f32, point.y as f32, point.z as f32)
 }
 
-/// A point in double precision.
+/// Converts a point to double precision.
 pub fn double(point: Vec3) -> Vector3<f64> {
     Vector3::new(f64::from(point.x), f64::from(point.y), f64::from(point.z))
 }
 
-/// Stacked positions `[x0 y0 z0 x1 …]` as points.
+/// Converts stacked positions `[x0 y0 z0 x1 …]` to points.
 pub fn points(q: &DVector<f64>) -> Vec<Vec3> {
     q.as_slice().chunks_exact(3).map(|p| Vec3::new(p[0] as f32, p[1] as f32, p[2] as f32)).collect()
 }
 
-/// Triangles with 32-bit indices.
+/// Converts the indices of triangles to 32 bits.
 pub fn faces(triangles: &[[usize; 3]]) -> Vec<[u32; 3]> {
     triangles.iter().map(|t| t.map(|i| i as u32)).collect()
 }
@@ -81,7 +81,7 @@ pub fn level_axes(up: Vec3) -> (Vec3, Vec3) {
     (up.cross(front), front)
 }
 
-/// Every edge of the triangles once.
+/// Edges of the triangles, each once.
 pub fn edges(triangles: &[[usize; 3]]) -> Vec<[usize; 2]> {
     let sides = |t: &[usize; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].map(|[a, b]| [a.min(b), a.max(b)]);
     triangles.iter().flat_map(sides).collect::<BTreeSet<_>>().into_iter().collect()
@@ -106,7 +106,7 @@ pub fn first_hit(origin: Vec3, ray: Vec3, points: &[Vec3], triangles: &[[usize; 
     triangles.iter().filter_map(hit).min_by(f32::total_cmp)
 }
 
-/// Möller and Trumbore's test; both sides of a triangle count.
+/// Möller and Trumbore's intersection test, from either side of the triangle.
 fn distance_to_triangle(origin: Vec3, ray: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f32> {
     let (ab, ac) = (b - a, c - a);
     let p = ray.cross(ac);
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_leave_out_points_that_are_not_finite() {
+    fn bounds_ignore_points_that_are_not_finite() {
         let bounds = Bounds::of(&[Vec3::ZERO, Vec3::ONE, Vec3::splat(f32::NAN)]);
         assert_eq!((bounds.low, bounds.high), (Vec3::ZERO, Vec3::ONE));
     }

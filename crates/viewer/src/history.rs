@@ -1,10 +1,10 @@
-//! The energies of the last seconds, for the plot.
+//! The energies of the last simulated seconds, for the plot.
 
 use std::collections::VecDeque;
 
 use fem_scene::simulation::Energies;
 
-/// Simulated seconds that the plot shows.
+/// Simulated time that the plot spans, s.
 pub const SPAN: f64 = 10.0;
 const SAMPLES: f64 = 500.0; // more than the plot has pixels
 
@@ -13,23 +13,23 @@ const SAMPLES: f64 = 500.0; // more than the plot has pixels
 pub struct Sample {
     /// Simulated time, s.
     pub time: f64,
-    /// Energies then, J.
+    /// Energies at that time, J.
     pub energies: Energies,
 }
 
-/// The last [`SPAN`] seconds, evenly thinned: its size does not grow with the number of steps.
+/// Samples of the last [`SPAN`] seconds at a bounded rate, so that their number does not grow with the number of steps.
 #[derive(Clone, Debug, Default)]
 pub struct History {
     samples: VecDeque<Sample>,
 }
 
 impl History {
-    /// Whether a sample at `time` would add something. Asking first saves computing energies that are thrown away.
+    /// Whether a sample at `time` is due. Asked before the energies are computed, which costs a pass over the elements.
     pub fn wants(&self, time: f64) -> bool {
         self.samples.back().is_none_or(|last| time - last.time >= 0.999 * SPAN / SAMPLES || time < last.time)
     }
 
-    /// Adds a sample. A time before the last one starts anew.
+    /// Adds a sample. A time before the last one clears the history first.
     pub fn push(&mut self, sample: Sample) {
         if self.samples.back().is_some_and(|last| sample.time < last.time) {
             self.samples.clear();
@@ -40,7 +40,7 @@ impl History {
         }
     }
 
-    /// Forgets everything.
+    /// Removes all samples.
     pub fn clear(&mut self) {
         self.samples.clear();
     }
@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn many_small_steps_are_thinned_and_old_ones_forgotten() {
+    fn many_small_steps_are_thinned_and_old_samples_removed() {
         let mut history = History::default();
         fill(&mut history, 200_000, 1e-4);
         let samples = history.to_vec();
@@ -75,14 +75,14 @@ mod tests {
     }
 
     #[test]
-    fn large_steps_are_all_kept() {
+    fn samples_of_large_steps_are_all_kept() {
         let mut history = History::default();
         fill(&mut history, 50, 0.02);
         assert_eq!(history.to_vec().len(), 50);
     }
 
     #[test]
-    fn time_that_runs_backwards_starts_anew() {
+    fn a_time_before_the_last_one_clears_the_history() {
         let mut history = History::default();
         fill(&mut history, 50, 0.1);
         history.push(Sample { time: 0.0, energies: Energies::default() });

@@ -1,31 +1,31 @@
-//! The window and the pictures. They read a [`Simulation`](fem_scene::simulation::Simulation) and give back drags.
+//! An interactive window and offscreen pictures of a [`Simulation`](fem_scene::simulation::Simulation).
 //!
 //! - [`open`] shows a simulation in a window until it is closed; the simulation runs on a thread of its own.
-//! - [`Photographer`] takes the same pictures without any window or display server.
-//! - [`display_available`] says beforehand whether a window can be opened, and if not, why.
+//! - [`OffscreenRenderer`] draws the same pictures without a window or a display server.
+//! - [`display_available`] tells in advance whether a window can be opened, and if not, why.
 
 #![deny(missing_docs)]
 
 mod camera;
 mod display;
 mod geometry;
-mod hand;
 mod history;
-mod matte;
+mod interaction;
+mod offscreen;
 mod pacing;
 mod panel;
-mod photograph;
 mod pictures;
 mod plot;
+mod scene_view;
 mod session;
-mod stage;
+mod shader;
 mod theme;
 mod window;
 mod worker;
 
 pub use display::display_available;
-pub use photograph::{NoAdapter, Photographer};
-pub use pictures::{FRAMES_PER_SECOND, NotWritten, Photograph, Recorder};
-pub use stage::Shown;
+pub use offscreen::{NoAdapter, OffscreenRenderer};
+pub use pictures::{FRAMES_PER_SECOND, NotWritten, Picture, Recorder};
+pub use scene_view::DisplayedSurface;
 pub use window::{NoWindow, Outcome, WindowError, WindowOptions, open};
 pub use worker::Stop;

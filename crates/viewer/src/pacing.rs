@@ -1,48 +1,48 @@
-//! Keeping step with the clock on the wall. Times are seconds on clocks that the caller reads.
+//! Pacing of steps to real time. Times are in seconds; the caller reads the clocks.
 
 use std::collections::VecDeque;
 
-const FORGIVEN: f64 = 0.05; // s behind the clock that may be caught up; more is given up
+const LARGEST_LAG: f64 = 0.05; // s behind the wall clock that is caught up
 const RATE_WINDOW: f64 = 1.0; // s of wall clock over which the rate is measured
 
-/// Lets simulated time run as fast as the clock, and never faster.
+/// Keeps simulated time from running faster than the wall clock.
 #[derive(Clone, Debug, Default)]
 pub struct Pace {
-    /// Wall clock and simulated time that belong together.
+    /// A wall-clock time and the simulated time that corresponds to it.
     anchor: Option<(f64, f64)>,
 }
 
 impl Pace {
-    /// Starts anew with the next wait: after a pause, a reset or a failure.
+    /// Restarts with the next wait: after a pause, a reset or a failure.
     pub fn restart(&mut self) {
         self.anchor = None;
     }
 
-    /// How long to wait before the next step, s. Whoever is late goes on at once and does not try to catch up
-    /// more than a moment: a simulation that is too slow would otherwise fall behind for ever.
+    /// Time to wait before the next step, s. A larger lag than `LARGEST_LAG` is not caught up: a simulation slower than
+    /// real time would otherwise never wait again.
     pub fn wait(&mut self, wall: f64, simulated: f64) -> f64 {
         let (wall_then, simulated_then) = *self.anchor.get_or_insert((wall, simulated));
         let ahead = (simulated - simulated_then) - (wall - wall_then);
-        if ahead < -FORGIVEN {
+        if ahead < -LARGEST_LAG {
             self.anchor = Some((wall, simulated));
         }
         ahead.max(0.0)
     }
 }
 
-/// Simulated seconds per second of wall clock, over the last moments.
+/// Simulated seconds per second of wall clock, over the last second.
 #[derive(Clone, Debug, Default)]
 pub struct Rate {
     marks: VecDeque<(f64, f64)>,
 }
 
 impl Rate {
-    /// Forgets what was measured.
+    /// Removes the measurements.
     pub fn restart(&mut self) {
         self.marks.clear();
     }
 
-    /// Notes that `simulated` was reached at `wall`.
+    /// Records that simulated time `simulated` was reached at `wall`.
     pub fn mark(&mut self, wall: f64, simulated: f64) {
         self.marks.push_back((wall, simulated));
         while self.marks.len() > 2 && wall - self.marks[1].0 > RATE_WINDOW {
@@ -50,7 +50,7 @@ impl Rate {
         }
     }
 
-    /// The rate, once it can be told.
+    /// The rate; `None` until there are enough measurements.
     pub fn factor(&self) -> Option<f64> {
         let (first, last) = (self.marks.front()?, self.marks.back()?);
         let elapsed = last.0 - first.0;
@@ -58,8 +58,8 @@ impl Rate {
     }
 }
 
-/// What a rate means, in words.
-pub fn verdict(factor: f64) -> String {
+/// Describes a rate relative to real time.
+pub fn describe(factor: f64) -> String {
     if factor >= 0.97 { "keeps real time".into() } else { format!("slower than real time: {:.1}×", 1.0 / factor) }
 }
 
@@ -87,7 +87,7 @@ mod tests {
         let mut pace = Pace::default();
         pace.wait(0.0, 0.0);
         assert_eq!(pace.wait(10.0, 0.01), 0.0);
-        assert!((pace.wait(10.0, 0.02) - 0.01).abs() < 1e-9, "the next step waits as if nothing had been late");
+        assert!((pace.wait(10.0, 0.02) - 0.01).abs() < 1e-9, "the next step waits as if there had been no delay");
     }
 
     #[test]
@@ -104,8 +104,8 @@ mod tests {
     }
 
     #[test]
-    fn the_verdict_says_how_many_times_slower() {
-        assert_eq!(verdict(1.0), "keeps real time");
-        assert_eq!(verdict(0.25), "slower than real time: 4.0×");
+    fn the_description_says_how_many_times_slower() {
+        assert_eq!(describe(1.0), "keeps real time");
+        assert_eq!(describe(0.25), "slower than real time: 4.0×");
     }
 }

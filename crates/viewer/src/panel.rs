@@ -1,4 +1,4 @@
-//! The panel at the left, the help at the bottom, and the banner of a failure.
+//! The panel at the left, the help line at the bottom, and the banner of a failure.
 
 use std::time::{Duration, Instant};
 
@@ -8,27 +8,27 @@ use kiss3d::egui::{
     Slider, SliderClamping, Ui, vec2,
 };
 
-use crate::stage::Shown;
+use crate::scene_view::DisplayedSurface;
 use crate::worker::Snapshot;
 use crate::{pacing, plot, theme};
 
-/// Width of the panel with its margins, logical pixels.
+/// Width of the panel including its margins, logical pixels.
 pub const WIDTH: f32 = 356.0;
-const INSIDE: f32 = 312.0;
+const CONTENT_WIDTH: f32 = 312.0;
 const HELP_WIDTH: f32 = 890.0; // of the text in one line
 const HELP: &str = "drag the body: pull  ·  drag beside it: turn  ·  middle button: move  ·  wheel: zoom  ·  \
                     S surface  ·  N integrator  ·  Space pause  ·  R reset  ·  Esc quit";
-/// How long a slider stays where it was dragged while the simulation has not answered.
+/// Time for which a slider keeps its dragged value while the simulation has not answered.
 const ANSWER_TIME: Duration = Duration::from_millis(600);
 
-/// What a person asked for through the panel.
+/// A request that the user makes through the panel or a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Wish {
-    /// Stop, or go on.
+pub enum UserRequest {
+    /// Pause or continue.
     TogglePause,
-    /// Back to the start.
+    /// Go back to the initial state.
     Reset,
-    /// Go on with the next integrator.
+    /// Continue with the next integrator.
     NextIntegrator,
     /// Show the other surface.
     NextSurface,
@@ -36,19 +36,19 @@ pub enum Wish {
     Set(&'static str, f64),
 }
 
-/// What the panel shows beside the snapshot.
-pub struct Facts<'a> {
+/// Values that the panel shows beside those of the snapshot.
+pub struct ViewState<'a> {
     /// The scene's name.
     pub name: &'a str,
-    /// Which surface is shown.
-    pub shown: Shown,
-    /// Whether there are two surfaces.
+    /// The displayed surface.
+    pub shown: DisplayedSurface,
+    /// Whether the body has a display surface beside its simulation mesh.
     pub has_skin: bool,
-    /// Time that the last frames took, s.
+    /// Running mean of the time per frame, s.
     pub frame_seconds: f64,
 }
 
-/// The panel's own memory.
+/// State of the panel between frames.
 #[derive(Default)]
 pub struct Panel {
     places: Vec<Rect>,
@@ -56,52 +56,54 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// Whether something of the panel lies at `point`, logical pixels.
+    /// Whether the panel or the banner covers `point`, logical pixels.
     pub fn covers(&self, point: Pos2) -> bool {
         self.places.iter().any(|place| place.contains(point))
     }
 
-    /// Lays everything out, and tells what was asked for.
-    pub fn show(&mut self, context: &Context, snapshot: &Snapshot, facts: &Facts) -> Vec<Wish> {
-        let mut wishes = Vec::new();
+    /// Lays out panel, help and banner, and returns the user's requests.
+    pub fn show(&mut self, context: &Context, snapshot: &Snapshot, state: &ViewState) -> Vec<UserRequest> {
+        let mut requests = Vec::new();
         self.places.clear();
         let height = context.content_rect().height();
-        let area =
-            Area::new(Id::new("panel")).fixed_pos([12.0, 12.0]).default_size([INSIDE, height]).show(context, |ui| {
-                paper().show(ui, |ui| {
-                    ui.set_width(INSIDE);
+        let area = Area::new(Id::new("panel")).fixed_pos([12.0, 12.0]).default_size([CONTENT_WIDTH, height]).show(
+            context,
+            |ui| {
+                panel_frame().show(ui, |ui| {
+                    ui.set_width(CONTENT_WIDTH);
                     let scroll = ScrollArea::vertical().max_height(height - 76.0).min_scrolled_height(height - 76.0);
-                    scroll.show(ui, |ui| self.contents(ui, snapshot, facts, &mut wishes));
+                    scroll.show(ui, |ui| self.contents(ui, snapshot, state, &mut requests));
                 });
-            });
+            },
+        );
         self.places.push(area.response.rect);
         help(context);
         if let Some(stop) = &snapshot.stop {
-            self.banner(context, &stop.to_string(), &mut wishes);
+            self.banner(context, &stop.to_string(), &mut requests);
         }
-        wishes
+        requests
     }
 
-    fn contents(&mut self, ui: &mut Ui, snapshot: &Snapshot, facts: &Facts, wishes: &mut Vec<Wish>) {
-        ui.label(RichText::new(facts.name).size(20.0).strong());
+    fn contents(&mut self, ui: &mut Ui, snapshot: &Snapshot, state: &ViewState, requests: &mut Vec<UserRequest>) {
+        ui.label(RichText::new(state.name).size(20.0).strong());
         ui.add_space(2.0);
-        buttons(ui, snapshot, facts, wishes);
+        buttons(ui, snapshot, state, requests);
         ui.add_space(6.0);
-        numbers(ui, snapshot, facts, wishes);
+        numbers(ui, snapshot, state, requests);
         ui.add_space(6.0);
         plot::show(ui, &snapshot.history);
         if !snapshot.parameters.is_empty() {
             ui.separator();
         }
         for parameter in &snapshot.parameters {
-            self.slider(ui, parameter, wishes);
+            self.slider(ui, parameter, requests);
         }
         if let Some(refusal) = &snapshot.refusal {
-            ui.label(RichText::new(refusal).color(theme::ALARM));
+            ui.label(RichText::new(refusal).color(theme::FAILURE));
         }
     }
 
-    fn slider(&mut self, ui: &mut Ui, parameter: &Parameter, wishes: &mut Vec<Wish>) {
+    fn slider(&mut self, ui: &mut Ui, parameter: &Parameter, requests: &mut Vec<UserRequest>) {
         self.dragged.take_if(|(_, _, since)| since.elapsed() > ANSWER_TIME);
         let mut value = match self.dragged {
             Some((key, value, _)) if key == parameter.key => value,
@@ -110,29 +112,29 @@ impl Panel {
         let (low, high) = parameter.range;
         let unit = if parameter.unit.is_empty() { String::new() } else { format!(" ({})", parameter.unit) };
         ui.label(format!("{}{unit}", parameter.label));
-        ui.spacing_mut().slider_width = INSIDE - 84.0;
+        ui.spacing_mut().slider_width = CONTENT_WIDTH - 84.0;
         let slider = Slider::new(&mut value, low..=high)
             .logarithmic(parameter.logarithmic)
-            .clamping(SliderClamping::Never) // a value typed outside is the simulation's to refuse, with words
+            .clamping(SliderClamping::Never) // the simulation refuses a typed value outside, with a message
             .custom_formatter(|value, _| plot::short(value))
             .custom_parser(parse);
         if ui.add(slider).changed() {
             self.dragged = Some((parameter.key, value, Instant::now()));
-            wishes.push(Wish::Set(parameter.key, value));
+            requests.push(UserRequest::Set(parameter.key, value));
         }
     }
 
-    fn banner(&mut self, context: &Context, text: &str, wishes: &mut Vec<Wish>) {
+    fn banner(&mut self, context: &Context, text: &str, requests: &mut Vec<UserRequest>) {
         let width = (context.content_rect().width() - WIDTH - 40.0).clamp(200.0, 620.0);
         let area = Area::new(Id::new("banner")).anchor(Align2::CENTER_TOP, vec2(WIDTH / 2.0, 16.0));
         let shown = area.show(context, |ui| {
-            let frame = Frame::new().fill(theme::ALARM).corner_radius(CornerRadius::same(6)).inner_margin(12.0);
+            let frame = Frame::new().fill(theme::FAILURE).corner_radius(CornerRadius::same(6)).inner_margin(12.0);
             frame.show(ui, |ui| {
                 ui.set_width(width);
                 ui.label(RichText::new(text).size(15.0).color(Color32::WHITE));
                 ui.add_space(4.0);
                 if ui.button("Reset (R)").clicked() {
-                    wishes.push(Wish::Reset);
+                    requests.push(UserRequest::Reset);
                 }
             });
         });
@@ -140,49 +142,49 @@ impl Panel {
     }
 }
 
-fn buttons(ui: &mut Ui, snapshot: &Snapshot, facts: &Facts, wishes: &mut Vec<Wish>) {
+fn buttons(ui: &mut Ui, snapshot: &Snapshot, state: &ViewState, requests: &mut Vec<UserRequest>) {
     ui.horizontal(|ui| {
-        let mut button = |text: &str, wish: Wish| {
+        let mut button = |text: &str, request: UserRequest| {
             if ui.add(Button::new(text).min_size(vec2(70.0, 24.0))).clicked() {
-                wishes.push(wish);
+                requests.push(request);
             }
         };
-        button(if snapshot.paused { "Go on" } else { "Pause" }, Wish::TogglePause);
-        button("Reset", Wish::Reset);
-        if facts.has_skin {
-            let other = if facts.shown == Shown::Skinned { "Show mesh" } else { "Show skin" };
-            button(other, Wish::NextSurface);
+        button(if snapshot.paused { "Continue" } else { "Pause" }, UserRequest::TogglePause);
+        button("Reset", UserRequest::Reset);
+        if state.has_skin {
+            let other = if state.shown == DisplayedSurface::Skinned { "Show mesh" } else { "Show skin" };
+            button(other, UserRequest::NextSurface);
         }
     });
 }
 
-fn numbers(ui: &mut Ui, snapshot: &Snapshot, facts: &Facts, wishes: &mut Vec<Wish>) {
+fn numbers(ui: &mut Ui, snapshot: &Snapshot, state: &ViewState, requests: &mut Vec<UserRequest>) {
     let row = |ui: &mut Ui, name: &str, value: String| {
-        ui.label(RichText::new(name).color(theme::PALE_INK));
+        ui.label(RichText::new(name).color(theme::SECONDARY_TEXT));
         ui.label(value);
         ui.end_row();
     };
     Grid::new("numbers").num_columns(2).spacing(vec2(10.0, 3.0)).show(ui, |ui| {
-        ui.label(RichText::new("integrator").color(theme::PALE_INK));
+        ui.label(RichText::new("integrator").color(theme::SECONDARY_TEXT));
         if ui.button(snapshot.integrator.replace('_', " ")).on_hover_text("the next one (N)").clicked() {
-            wishes.push(Wish::NextIntegrator);
+            requests.push(UserRequest::NextIntegrator);
         }
         ui.end_row();
         row(ui, "time", format!("{:.2} s, step {}", snapshot.time, snapshot.steps));
         row(ui, "one step", format!("{} ms", plot::short(1e3 * snapshot.step_seconds)));
-        row(ui, "one frame", format!("{} ms", plot::short(1e3 * facts.frame_seconds)));
+        row(ui, "one frame", format!("{} ms", plot::short(1e3 * state.frame_seconds)));
         row(ui, "speed", speed(snapshot));
     });
 }
 
-/// How fast simulated time runs, in words that claim nothing while it stands still.
+/// Describes the speed of simulated time, or why it does not run.
 fn speed(snapshot: &Snapshot) -> String {
     match snapshot.rate {
         _ if snapshot.stop.is_some() => "stopped".into(),
         _ if snapshot.finished => "finished".into(),
         _ if snapshot.paused => "paused".into(),
         None => "…".into(),
-        Some(factor) => format!("{factor:.2}, {}", pacing::verdict(factor)),
+        Some(factor) => format!("{factor:.2}, {}", pacing::describe(factor)),
     }
 }
 
@@ -191,18 +193,18 @@ fn help(context: &Context) {
     let area = Area::new(Id::new("help")).anchor(Align2::CENTER_BOTTOM, vec2(0.0, -8.0)).interactable(false);
     area.show(context, |ui| {
         let margin = Margin::symmetric(12, 4);
-        paper().inner_margin(margin).show(ui, |ui| {
+        panel_frame().inner_margin(margin).show(ui, |ui| {
             ui.set_width(width);
             ui.label(RichText::new(HELP).size(12.0));
         });
     });
 }
 
-fn paper() -> Frame {
-    Frame::new().fill(theme::PAPER).corner_radius(CornerRadius::same(6)).inner_margin(Margin::same(12))
+fn panel_frame() -> Frame {
+    Frame::new().fill(theme::PANEL).corner_radius(CornerRadius::same(6)).inner_margin(Margin::same(12))
 }
 
-/// A number as it is shown: with k for a thousand and M for a million.
+/// Parses a number in the panel's format: k is a thousand, M a million.
 fn parse(text: &str) -> Option<f64> {
     let text = text.trim();
     let scaled = |letter: char, factor: f64| text.strip_suffix(letter)?.trim().parse::<f64>().ok().map(|v| v * factor);
@@ -214,7 +216,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_read_as_they_are_shown() {
+    fn shown_numbers_parse_back_to_themselves() {
         for value in [0.25, 12_300.0, 2.5e6, 1e-5, 3e10] {
             assert_eq!(parse(&plot::short(value)), Some(value));
         }
@@ -222,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_claimed_of_a_simulation_that_stands_still() {
+    fn a_simulation_that_does_not_run_has_no_speed() {
         let running = Snapshot { rate: Some(1.0), ..Snapshot::default() };
         assert_eq!(speed(&running), "1.00, keeps real time");
         assert_eq!(speed(&Snapshot { paused: true, ..running.clone() }), "paused");

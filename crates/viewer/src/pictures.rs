@@ -1,4 +1,4 @@
-//! Pictures as files.
+//! Pictures and recordings as PNG files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,15 +9,15 @@ use thiserror::Error;
 /// Recorded frames per second of simulated time.
 pub const FRAMES_PER_SECOND: f64 = 30.0;
 
-/// A picture that was taken.
+/// A rendered picture.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Photograph {
+pub struct Picture {
     image: RgbImage,
 }
 
-impl Photograph {
+impl Picture {
     pub(crate) fn new(image: RgbImage) -> Self {
-        Photograph { image }
+        Picture { image }
     }
 
     /// Width in pixels.
@@ -30,12 +30,12 @@ impl Photograph {
         self.image.height()
     }
 
-    /// Red, green, blue of every pixel, row by row from the upper left.
+    /// Red, green and blue of every pixel, row by row from the upper left.
     pub fn bytes(&self) -> &[u8] {
         self.image.as_raw()
     }
 
-    /// Writes it as a PNG file, whatever the path ends in.
+    /// Writes a PNG file, whatever the extension of the path.
     pub fn save(&self, path: &Path) -> Result<(), NotWritten> {
         let result = self.image.save_with_format(path, ImageFormat::Png);
         result.map_err(|error| NotWritten { path: path.to_owned(), cause: cause(error) })
@@ -49,17 +49,17 @@ fn cause(error: ImageError) -> String {
     }
 }
 
-/// A picture that cannot be written.
+/// A picture could not be written.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("cannot write the picture {}: {cause}", path.display())]
 pub struct NotWritten {
     /// The file or folder.
     pub path: PathBuf,
-    /// What the operating system says.
+    /// The operating system's message.
     pub cause: String,
 }
 
-/// Fails early where a picture could not be written later, because its folder is missing or is none.
+/// Fails before the run if a picture could not be written after it: its folder is missing, read-only or not a folder.
 pub fn check_writable(path: &Path) -> Result<(), NotWritten> {
     let refuse = |cause: String| Err(NotWritten { path: path.to_owned(), cause });
     if path.is_dir() {
@@ -74,7 +74,7 @@ pub fn check_writable(path: &Path) -> Result<(), NotWritten> {
     }
 }
 
-/// A folder of numbered frames, `frame_00001.png` and so on.
+/// Writes numbered frames, `frame_00001.png` and so on, into a folder.
 #[derive(Clone, Debug)]
 pub struct Recorder {
     folder: PathBuf,
@@ -82,7 +82,7 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Records into `folder`, which is made where it is missing. Frames that are there already are written over.
+    /// Records into `folder`, which is created if it is missing. Existing frames are overwritten.
     pub fn new(folder: &Path) -> Result<Self, NotWritten> {
         let refuse = |error: std::io::Error| NotWritten { path: folder.to_owned(), cause: error.to_string() };
         fs::create_dir_all(folder).map_err(refuse)?;
@@ -95,9 +95,9 @@ impl Recorder {
     }
 
     /// Writes the next frame.
-    pub fn frame(&mut self, photograph: &Photograph) -> Result<(), NotWritten> {
+    pub fn frame(&mut self, picture: &Picture) -> Result<(), NotWritten> {
         self.frames += 1;
-        photograph.save(&self.folder.join(format!("frame_{:05}.png", self.frames)))
+        picture.save(&self.folder.join(format!("frame_{:05}.png", self.frames)))
     }
 }
 
@@ -105,8 +105,8 @@ impl Recorder {
 mod tests {
     use super::*;
 
-    fn photograph() -> Photograph {
-        Photograph::new(RgbImage::from_pixel(4, 3, image::Rgb([1, 2, 3])))
+    fn picture() -> Picture {
+        Picture::new(RgbImage::from_pixel(4, 3, image::Rgb([1, 2, 3])))
     }
 
     fn empty_folder(name: &str) -> PathBuf {
@@ -119,15 +119,15 @@ mod tests {
     fn a_photograph_is_written_as_it_is() {
         let folder = empty_folder("save");
         fs::create_dir_all(&folder).unwrap();
-        photograph().save(&folder.join("a.png")).unwrap();
-        assert_eq!(image::open(folder.join("a.png")).unwrap().to_rgb8().as_raw(), photograph().bytes());
+        picture().save(&folder.join("a.png")).unwrap();
+        assert_eq!(image::open(folder.join("a.png")).unwrap().to_rgb8().as_raw(), picture().bytes());
         fs::remove_dir_all(folder).unwrap();
     }
 
     #[test]
     fn an_unwritable_path_is_named_in_the_error() {
         let path = empty_folder("missing").join("a.png");
-        let late = photograph().save(&path).unwrap_err().to_string();
+        let late = picture().save(&path).unwrap_err().to_string();
         let early = check_writable(&path).unwrap_err().to_string();
         assert!(late.contains("a.png") && early.contains("a.png"), "{late} / {early}");
         assert!(check_writable(&std::env::temp_dir()).is_err());
@@ -140,7 +140,7 @@ mod tests {
         let mut recorder = Recorder::new(&folder).unwrap();
         for step in 0..=20 {
             if recorder.due(f64::from(step) * 0.01) {
-                recorder.frame(&photograph()).unwrap();
+                recorder.frame(&picture()).unwrap();
             }
         }
         let frames = fs::read_dir(&folder).unwrap().count();

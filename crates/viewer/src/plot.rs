@@ -1,4 +1,4 @@
-//! Energies over time, painted.
+//! The plot of energies over time.
 
 use kiss3d::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 
@@ -11,7 +11,7 @@ const BELOW: f32 = 30.0; // room for the numbers and the name of the time axis
 const ABOVE: f32 = 16.0; // room for the name of the energy axis
 const FONT: FontId = FontId::proportional(11.0);
 
-/// One curve: its name, colour and value.
+/// Name, colour and value of a curve.
 type Curve = (&'static str, Color32, fn(&Sample) -> f64);
 
 const CURVES: [Curve; 3] = [
@@ -20,7 +20,7 @@ const CURVES: [Curve; 3] = [
     ("total", theme::TOTAL, |s| s.energies.total()),
 ];
 
-/// Paints the curves, their axes and a legend as wide as there is room.
+/// Draws the curves, their axes and a legend over the available width.
 pub fn show(ui: &mut Ui, samples: &[Sample]) {
     let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
     let frame = Rect::from_min_max(area.min + vec2(LEFT, ABOVE), area.max - vec2(6.0, BELOW));
@@ -48,7 +48,7 @@ fn legend(ui: &mut Ui, last: Option<&Sample>) {
     });
 }
 
-/// Which times and energies the frame spans.
+/// Ranges of time and energy that the frame spans.
 struct Axes {
     frame: Rect,
     times: (f64, f64),
@@ -78,22 +78,22 @@ impl Axes {
             let y = self.at(self.times.0, energy).y;
             painter.hline(self.frame.x_range(), y, line);
             let place = pos2(self.frame.left() - 4.0, y);
-            painter.text(place, Align2::RIGHT_CENTER, short(energy), FONT, theme::INK);
+            painter.text(place, Align2::RIGHT_CENTER, short(energy), FONT, theme::TEXT);
         }
         for time in ticks(self.times, 2.0) {
             let x = self.at(time, self.energies.0).x;
             painter.vline(x, self.frame.y_range(), line);
             let place = pos2(x, self.frame.bottom() + 2.0);
-            painter.text(place, Align2::CENTER_TOP, format!("{time:.0}"), FONT, theme::INK);
+            painter.text(place, Align2::CENTER_TOP, format!("{time:.0}"), FONT, theme::TEXT);
         }
         let corner = pos2(self.frame.left() + 2.0, self.frame.top() - ABOVE);
-        painter.text(corner, Align2::LEFT_TOP, "energy (J)", FONT, theme::PALE_INK);
+        painter.text(corner, Align2::LEFT_TOP, "energy (J)", FONT, theme::SECONDARY_TEXT);
         let middle = pos2(self.frame.center().x, self.frame.bottom() + BELOW - 2.0);
-        painter.text(middle, Align2::CENTER_BOTTOM, "time (s)", FONT, theme::PALE_INK);
+        painter.text(middle, Align2::CENTER_BOTTOM, "time (s)", FONT, theme::SECONDARY_TEXT);
     }
 }
 
-/// The energies that the axis spans, and the distance of its lines: round numbers around all that is shown.
+/// Range of the energy axis and spacing of its lines: round numbers that enclose zero and all samples.
 fn energy_range(samples: &[Sample]) -> ((f64, f64), f64) {
     let values = samples.iter().flat_map(|s| CURVES.map(|(_, _, value)| value(s))).filter(|v| v.is_finite());
     let (low, high) = values.fold((0.0, 0.0), |(low, high), v| (f64::min(low, v), f64::max(high, v)));
@@ -104,20 +104,20 @@ fn energy_range(samples: &[Sample]) -> ((f64, f64), f64) {
     ((low, high.max(low + step)), step)
 }
 
-/// The next larger of 1, 2 or 5 times a power of ten.
+/// The smallest of 1, 2 or 5 times a power of ten that is not below `least`.
 fn round_step(least: f64) -> f64 {
     let power = 10.0_f64.powf(least.log10().floor());
     [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|s| *s >= least * (1.0 - 1e-9)).unwrap_or(10.0 * power)
 }
 
-/// Multiples of `step` in a range.
+/// Multiples of `step` in a range, at most 20.
 fn ticks((low, high): (f64, f64), step: f64) -> Vec<f64> {
     let first = (low / step - 1e-6).ceil() as i64;
     let last = (high / step + 1e-6).floor() as i64;
     (first..=last).take(20).map(|i| i as f64 * step).collect()
 }
 
-/// A number in few letters, with a thousand as k and a million as M.
+/// Formats a number with three digits; k is a thousand, M a million.
 pub fn short(value: f64) -> String {
     let size = value.abs();
     match size {
@@ -129,7 +129,7 @@ pub fn short(value: f64) -> String {
     }
 }
 
-/// Three digits, without zeros that say nothing.
+/// Formats with three significant digits, without trailing zeros.
 fn digits(value: f64) -> String {
     let decimals = (2 - value.abs().log10().floor() as i32).clamp(0, 6) as usize;
     let text = format!("{value:.decimals$}");
@@ -154,13 +154,13 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_without_energy_is_still_an_axis() {
+    fn an_axis_without_finite_energies_has_a_range() {
         assert_eq!(energy_range(&[]), ((0.0, 0.5), 0.5));
         assert_eq!(energy_range(&[sample(f64::NAN, f64::INFINITY)]), ((0.0, 0.5), 0.5));
     }
 
     #[test]
-    fn numbers_are_short() {
+    fn numbers_have_three_digits_and_a_suffix() {
         let cases =
             [(0.0, "0"), (0.25, "0.25"), (-1234.0, "-1234"), (12_345.0, "12.3k"), (2.5e6, "2.5M"), (1e-5, "1.0e-5")];
         for (value, text) in cases {

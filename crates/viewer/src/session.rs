@@ -1,4 +1,4 @@
-//! The window's loop: input, snapshot, panel, frame.
+//! The window's loop: input, latest snapshot, panel, frame.
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -12,27 +12,27 @@ use kiss3d::window::Window;
 
 use crate::camera::OrbitCamera;
 use crate::geometry::single;
-use crate::hand::Hand;
-use crate::panel::{self, Facts, Panel, Wish};
-use crate::pictures::{NotWritten, Photograph, Recorder};
-use crate::stage::{Shown, Stage, prepare};
+use crate::interaction::Interaction;
+use crate::panel::{self, Panel, UserRequest, ViewState};
+use crate::pictures::{NotWritten, Picture, Recorder};
+use crate::scene_view::{DisplayedSurface, SceneView, prepare};
 use crate::window::WindowOptions;
 use crate::worker::{Command, Snapshot, Worker};
 
-const REST: Duration = Duration::from_millis(15); // between looks for input while nothing moves
-const LONGEST_REST: Duration = Duration::from_secs(1); // then a frame is drawn all the same
-const AFTER_INPUT: Duration = Duration::from_millis(500); // in which the panel may still fade or glide
+const IDLE_INTERVAL: Duration = Duration::from_millis(15); // between polls for input while the picture does not change
+const LONGEST_IDLE: Duration = Duration::from_secs(1); // after which a frame is drawn in any case
+const AFTER_INPUT: Duration = Duration::from_millis(500); // during which the panel may be animated
 
 /// An open window with a running simulation.
 pub struct Session {
-    // The stage lies on the graphics card that goes with the window: it is dropped first.
-    stage: Stage,
+    // The view holds resources of the window's graphics device, so it is dropped first.
+    view: SceneView,
     window: Window,
     camera: OrbitCamera,
     worker: Worker,
     snapshot: Snapshot,
     name: String,
-    hand: Hand,
+    interaction: Interaction,
     panel: Panel,
     cursor: Vec2,
     frame_seconds: f64,
@@ -40,13 +40,13 @@ pub struct Session {
     last_frame: Instant,
     recorder: Option<Recorder>,
     screenshot: Option<PathBuf>,
-    quits_by_itself: bool,
+    closes_at_the_end: bool,
     not_written: Option<NotWritten>,
     closing: bool,
 }
 
 impl Session {
-    /// Sets the stage in a new window.
+    /// A session in a new window, with the body at rest.
     pub fn new(
         mut window: Window,
         worker: Worker,
@@ -56,17 +56,17 @@ impl Session {
         options: &WindowOptions,
     ) -> Self {
         let up = single(&options.up).try_normalize().unwrap_or(Vec3::Y);
-        let stage = Stage::new(shape, up);
+        let view = SceneView::new(shape, up);
         prepare(&mut window);
-        let camera = OrbitCamera::framing(stage.bounds(), up, size(&window), covered(&window));
+        let camera = OrbitCamera::framing(view.bounds(), up, size(&window), covered(&window));
         Session {
-            stage,
+            view,
             window,
             camera,
             worker,
             snapshot: Snapshot::default(),
             name,
-            hand: Hand::default(),
+            interaction: Interaction::default(),
             panel: Panel::default(),
             cursor: Vec2::ZERO,
             frame_seconds: 0.0,
@@ -74,42 +74,42 @@ impl Session {
             last_frame: Instant::now(),
             recorder,
             screenshot: options.screenshot.clone(),
-            quits_by_itself: options.quit_after_steps.is_some(),
+            closes_at_the_end: options.quit_after_steps.is_some(),
             not_written: None,
             closing: false,
         }
     }
 
-    /// Runs until the window is closed, and gives back the simulation's thread.
-    pub fn until_closed(mut self) -> (Worker, Option<NotWritten>) {
+    /// Runs until the window is closed, and returns the simulation's thread.
+    pub fn run(mut self) -> (Worker, Option<NotWritten>) {
         while !self.closing {
             self.read_input();
             let fresh = self.read_snapshot();
-            if !fresh && self.may_rest() {
+            if !fresh && self.is_idle() {
                 self.window.canvas_mut().poll_events();
-                std::thread::sleep(REST);
+                std::thread::sleep(IDLE_INTERVAL);
                 continue;
             }
             let open = self.draw_frame();
             if fresh {
                 self.record();
             }
-            let done = self.snapshot.finished || self.snapshot.stop.is_some();
-            self.closing |= !open || (fresh && done && self.quits_by_itself);
+            let ended = self.snapshot.finished || self.snapshot.stop.is_some();
+            self.closing |= !open || (fresh && ended && self.closes_at_the_end);
         }
         self.take_screenshot();
         (self.worker, self.not_written)
     }
 
-    /// Whether a frame would look like the last one.
-    fn may_rest(&self) -> bool {
-        self.last_input.elapsed() > AFTER_INPUT && self.last_frame.elapsed() < LONGEST_REST
+    /// Whether the next frame would equal the last one.
+    fn is_idle(&self) -> bool {
+        self.last_input.elapsed() > AFTER_INPUT && self.last_frame.elapsed() < LONGEST_IDLE
     }
 
     fn read_snapshot(&mut self) -> bool {
         let Some(snapshot) = self.worker.latest() else { return false };
         self.snapshot = snapshot;
-        self.stage.place(&self.snapshot.positions, &self.snapshot.display);
+        self.view.update(&self.snapshot.positions, &self.snapshot.display);
         true
     }
 
@@ -122,24 +122,24 @@ impl Session {
             match event {
                 WindowEvent::Key(key, Action::Press, _) => self.key(key),
                 WindowEvent::MouseButton(button, Action::Press, modifiers) => self.press(button, modifiers),
-                WindowEvent::MouseButton(_, Action::Release, _) => self.hand.release(&self.worker),
+                WindowEvent::MouseButton(_, Action::Release, _) => self.interaction.release(&self.worker),
                 WindowEvent::CursorPos(x, y, _) => self.move_cursor(Vec2::new(x as f32, y as f32)),
                 WindowEvent::Scroll(_, amount, _) if !self.is_on_panel() => self.camera.zoom(notches(amount)),
                 _ => {}
             }
         }
-        self.hand.listen(self.cursor, &mut self.camera, &self.worker);
+        self.interaction.poll_pick(self.cursor, &mut self.camera, &self.worker);
     }
 
     fn key(&mut self, key: Key) {
         if self.window.is_egui_capturing_keyboard() {
-            return; // somebody types a number
+            return; // a number is being typed
         }
         match key {
-            Key::S => self.grant(Wish::NextSurface),
-            Key::N => self.grant(Wish::NextIntegrator),
-            Key::R => self.grant(Wish::Reset),
-            Key::Space => self.grant(Wish::TogglePause),
+            Key::S => self.apply(UserRequest::NextSurface),
+            Key::N => self.apply(UserRequest::NextIntegrator),
+            Key::R => self.apply(UserRequest::Reset),
+            Key::Space => self.apply(UserRequest::TogglePause),
             Key::Escape => self.closing = true,
             _ => {}
         }
@@ -152,16 +152,16 @@ impl Session {
         // A mouse without a middle button moves the camera with shift.
         let button = if modifiers.contains(Modifiers::Shift) { MouseButton::Button3 } else { button };
         let (eye, ray) = (self.camera.eye(), self.camera.ray(self.cursor));
-        let hit = self.stage.hit(eye, ray, &self.snapshot.positions, &self.snapshot.display);
+        let hit = self.view.hit(eye, ray, &self.snapshot.positions, &self.snapshot.display);
         let grip = hit.map(|distance| eye + ray * distance);
-        self.hand.press(button, self.cursor, grip, &self.camera, &self.worker);
+        self.interaction.press(button, self.cursor, grip, &self.camera, &self.worker);
     }
 
     fn move_cursor(&mut self, cursor: Vec2) {
         let motion = cursor - self.cursor;
         self.cursor = cursor;
         let scale = self.window.scale_factor() as f32;
-        self.hand.moved(cursor, motion, scale, &mut self.camera, &self.worker);
+        self.interaction.moved(cursor, motion, scale, &mut self.camera, &self.worker);
     }
 
     fn is_on_panel(&self) -> bool {
@@ -169,32 +169,32 @@ impl Session {
         self.panel.covers(pos2(logical.x, logical.y)) || self.window.is_egui_capturing_mouse()
     }
 
-    fn grant(&mut self, wish: Wish) {
-        match wish {
-            Wish::TogglePause => self.worker.send(Command::TogglePause),
-            Wish::Reset => self.worker.send(Command::Reset),
-            Wish::NextIntegrator => self.worker.send(Command::NextIntegrator),
-            Wish::Set(key, value) => self.worker.send(Command::Set(key, value)),
-            Wish::NextSurface => {
-                let other = match self.stage.shown() {
-                    Shown::Skinned => Shown::SimulationMesh,
-                    Shown::SimulationMesh => Shown::Skinned,
+    fn apply(&mut self, request: UserRequest) {
+        match request {
+            UserRequest::TogglePause => self.worker.send(Command::TogglePause),
+            UserRequest::Reset => self.worker.send(Command::Reset),
+            UserRequest::NextIntegrator => self.worker.send(Command::NextIntegrator),
+            UserRequest::Set(key, value) => self.worker.send(Command::Set(key, value)),
+            UserRequest::NextSurface => {
+                let other = match self.view.shown() {
+                    DisplayedSurface::Skinned => DisplayedSurface::SimulationMesh,
+                    DisplayedSurface::SimulationMesh => DisplayedSurface::Skinned,
                 };
-                self.stage.show(other);
-                self.stage.place(&self.snapshot.positions, &self.snapshot.display);
+                self.view.show(other);
+                self.view.update(&self.snapshot.positions, &self.snapshot.display);
             }
         }
     }
 
-    /// Draws one frame; false when the window was closed.
+    /// Draws one frame; returns false if the window was closed.
     fn draw_frame(&mut self) -> bool {
         let begun = Instant::now();
         self.camera.resize(size(&self.window), covered(&self.window));
         self.draw_panel();
         let eye = self.camera.eye();
-        self.stage.draw_edges(&mut self.window, &self.snapshot.positions, eye);
-        self.hand.draw(&mut self.window, &self.snapshot.positions, eye);
-        let open = pollster::block_on(self.window.render_3d(&mut self.stage.root, &mut self.camera));
+        self.view.draw_edges(&mut self.window, &self.snapshot.positions, eye);
+        self.interaction.draw(&mut self.window, &self.snapshot.positions, eye);
+        let open = pollster::block_on(self.window.render_3d(&mut self.view.root, &mut self.camera));
         self.last_frame = Instant::now();
         let seconds = begun.elapsed().as_secs_f64();
         let share = if self.frame_seconds == 0.0 { 1.0 } else { 0.1 }; // a running mean
@@ -203,21 +203,22 @@ impl Session {
     }
 
     fn draw_panel(&mut self) {
-        let Session { window, panel, snapshot, stage, name, .. } = self;
-        let facts = Facts { name, shown: stage.shown(), has_skin: stage.has_skin(), frame_seconds: self.frame_seconds };
-        let mut wishes = Vec::new();
-        window.draw_ui(|context| wishes = panel.show(context, snapshot, &facts));
-        for wish in wishes {
-            self.grant(wish);
+        let Session { window, panel, snapshot, view, name, .. } = self;
+        let state =
+            ViewState { name, shown: view.shown(), has_skin: view.has_skin(), frame_seconds: self.frame_seconds };
+        let mut requests = Vec::new();
+        window.draw_ui(|context| requests = panel.show(context, snapshot, &state));
+        for request in requests {
+            self.apply(request);
         }
     }
 
-    /// Records the frame that was drawn. The simulation waits for this, and then goes on.
+    /// Records the frame that was drawn and lets the simulation, which waits for this, go on.
     fn record(&mut self) {
         let Some(recorder) = &mut self.recorder else { return };
         if recorder.due(self.snapshot.time) {
-            let photograph = Photograph::new(self.window.snap_image());
-            if let Err(error) = recorder.frame(&photograph) {
+            let picture = Picture::new(self.window.snap_image());
+            if let Err(error) = recorder.frame(&picture) {
                 self.not_written = Some(error);
                 self.closing = true;
             }
@@ -227,17 +228,17 @@ impl Session {
 
     fn take_screenshot(&mut self) {
         let Some(path) = &self.screenshot else { return };
-        let photograph = Photograph::new(self.window.snap_image());
-        self.not_written = photograph.save(path).err().or(self.not_written.take());
+        let picture = Picture::new(self.window.snap_image());
+        self.not_written = picture.save(path).err().or(self.not_written.take());
     }
 }
 
-/// Width and height of the window, physical pixels.
+/// Width and height of the window in physical pixels.
 fn size(window: &Window) -> Vec2 {
     Vec2::new(window.width() as f32, window.height() as f32)
 }
 
-/// Physical pixels at the left that the panel covers; none where the window is too narrow to make room for it.
+/// Width that the panel covers at the left, physical pixels; zero if the window is too narrow to centre the body beside it.
 fn covered(window: &Window) -> f32 {
     let width = panel::WIDTH * window.scale_factor() as f32;
     if size(window).x > 2.0 * width { width } else { 0.0 }

@@ -1,13 +1,13 @@
-//! Colours, widths and intensities, in one place.
+//! Colours and line widths.
 
 use kiss3d::color::Color;
 use kiss3d::egui::Color32;
 
-// Colours of the scene are linear; what is seen is brighter.
+// Colours of the scene are linear, and look brighter on the screen.
 
-/// The display surface: fired clay.
+/// The display surface.
 pub const CLAY: Color = Color::new(0.62, 0.26, 0.14, 1.0);
-/// The simulation mesh: paler, so that its edges are seen.
+/// The simulation mesh, paler so that its edges stand out.
 pub const MESH: Color = Color::new(0.66, 0.42, 0.28, 1.0);
 /// Edges of the simulation mesh.
 pub const EDGE: Color = Color::new(0.05, 0.03, 0.02, 1.0);
@@ -17,10 +17,10 @@ pub const EDGE_WIDTH: f32 = 1.2;
 pub const FLOOR: Color = Color::new(0.80, 0.77, 0.73, 1.0);
 /// The floor in the body's shadow.
 pub const SHADOW: Color = Color::new(0.55, 0.53, 0.52, 1.0);
-/// Behind everything.
+/// The background of the scene.
 pub const BACKGROUND: Color = Color::new(0.78, 0.83, 0.88, 1.0);
-/// Held nodes and the line to the hand.
-pub const HAND: Color = Color::new(0.02, 0.12, 0.55, 1.0);
+/// Dragged nodes and the line to the mouse.
+pub const DRAG: Color = Color::new(0.02, 0.12, 0.55, 1.0);
 
 /// Kinetic energy in the plot.
 pub const KINETIC: Color32 = Color32::from_rgb(0x1f, 0x6f, 0xb5);
@@ -28,13 +28,13 @@ pub const KINETIC: Color32 = Color32::from_rgb(0x1f, 0x6f, 0xb5);
 pub const POTENTIAL: Color32 = Color32::from_rgb(0xc4, 0x5a, 0x1b);
 /// Total energy in the plot.
 pub const TOTAL: Color32 = Color32::from_rgb(0x22, 0x22, 0x22);
-/// Lines behind the curves.
+/// Grid lines of the plot.
 pub const GRID: Color32 = Color32::from_rgb(0xd5, 0xd5, 0xd5);
-/// Text and axes.
-pub const INK: Color32 = Color32::from_rgb(0x2a, 0x2a, 0x2a);
-/// Text of lesser weight.
-pub const PALE_INK: Color32 = Color32::from_rgb(0x60, 0x60, 0x60);
-/// Behind a failure's text.
-pub const ALARM: Color32 = Color32::from_rgb(0xb3, 0x26, 0x1e);
-/// Behind the panel.
-pub const PAPER: Color32 = Color32::from_rgba_premultiplied(0xec, 0xec, 0xec, 0xee);
+/// Text and numbers.
+pub const TEXT: Color32 = Color32::from_rgb(0x2a, 0x2a, 0x2a);
+/// Labels.
+pub const SECONDARY_TEXT: Color32 = Color32::from_rgb(0x60, 0x60, 0x60);
+/// Background of a failure's banner.
+pub const FAILURE: Color32 = Color32::from_rgb(0xb3, 0x26, 0x1e);
+/// Background of the panel.
+pub const PANEL: Color32 = Color32::from_rgba_premultiplied(0xec, 0xec, 0xec, 0xee);

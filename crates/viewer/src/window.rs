@@ -1,4 +1,4 @@
-//! Opening the window, and what is left when it is closed.
+//! Opens the window and returns the run's results when it is closed.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -15,22 +15,22 @@ use crate::display::{display_available, without_panic};
 use crate::pictures::{FRAMES_PER_SECOND, NotWritten, Recorder, check_writable};
 use crate::session::Session;
 use crate::theme;
-use crate::worker::{Plan, Stop, Tempo, Worker};
+use crate::worker::{LoopOptions, Stepping, Stop, Worker};
 
-/// What may be asked of a window.
+/// Options of a window.
 #[derive(Clone, Debug)]
 pub struct WindowOptions {
     /// Width and height, logical pixels.
     pub size: (u32, u32),
-    /// The direction that is up in the picture.
+    /// Upward direction in the picture.
     pub up: Vector3<f64>,
-    /// Where to leave a picture of the window, taken after the last step or when it closes.
+    /// Path of a PNG file of the window, written after the last step or when it closes.
     pub screenshot: Option<PathBuf>,
-    /// The folder to record frames into, [`FRAMES_PER_SECOND`] of simulated time. The simulation then waits for each.
+    /// Folder for recorded frames, [`FRAMES_PER_SECOND`] of simulated time; the simulation then waits for each.
     pub record: Option<PathBuf>,
-    /// Closes the window after so many steps, or when the simulation fails before that.
+    /// Number of steps after which the window closes; it closes earlier if the simulation fails.
     pub quit_after_steps: Option<usize>,
-    /// Keeps the energies of every step for [`Outcome::energies`].
+    /// Whether the energies of every step are kept for [`Outcome::energies`].
     pub log_energies: bool,
 }
 
@@ -47,15 +47,15 @@ impl Default for WindowOptions {
     }
 }
 
-/// What is left when the window is closed.
+/// Results of a run in a window.
 pub struct Outcome {
-    /// The simulation; none where it panicked beyond repair.
+    /// The simulation; `None` if its thread panicked.
     pub simulation: Option<Box<dyn Simulation>>,
     /// Wall-clock time of each step since the start or the last reset, the physics alone, s.
     pub step_seconds: Vec<f64>,
-    /// Time (s) and energies (J) after each of them, where [`WindowOptions::log_energies`] asked for them.
+    /// Time (s) and energies (J) after each of these steps, if [`WindowOptions::log_energies`] is set.
     pub energies: Vec<(f64, Energies)>,
-    /// Why the simulation stood still when the window was closed, if it did.
+    /// The failure that had stopped the simulation when the window was closed.
     pub stop: Option<Stop>,
     /// A picture that could not be written while the window was open.
     pub not_written: Option<NotWritten>,
@@ -64,21 +64,21 @@ pub struct Outcome {
 /// Why no window was opened.
 #[derive(Debug, Error)]
 pub enum WindowError {
-    /// There is nothing to open it on.
+    /// The machine has no display or no graphics adapter.
     #[error(transparent)]
     NoWindow(#[from] NoWindow),
-    /// A picture that was asked for could not be written.
+    /// A screenshot or recording cannot be written.
     #[error(transparent)]
     NotWritten(#[from] NotWritten),
 }
 
-/// No window can be opened here. Gives the simulation back, to run without one.
+/// No window can be opened on this machine. Returns the simulation, so that it can run without one.
 #[derive(Error)]
 #[error("cannot open a window: {reason}")]
 pub struct NoWindow {
     /// Why, in one line.
     pub reason: String,
-    /// The simulation, untouched.
+    /// The simulation, not yet stepped.
     pub simulation: Box<dyn Simulation>,
 }
 
@@ -88,8 +88,8 @@ impl fmt::Debug for NoWindow {
     }
 }
 
-/// Shows `simulation` in a window until that is closed. To be called from the main thread, once: the window system's
-/// library allows no second time.
+/// Shows `simulation` in a window until it is closed. Must be called from the main thread, and once per process: winit
+/// allows no second event loop.
 pub fn open(simulation: Box<dyn Simulation>, options: WindowOptions) -> Result<Outcome, WindowError> {
     if let Some(path) = &options.screenshot {
         check_writable(path)?;
@@ -99,14 +99,14 @@ pub fn open(simulation: Box<dyn Simulation>, options: WindowOptions) -> Result<O
         Ok(window) => window,
         Err(reason) => return Err(NoWindow { reason, simulation }.into()),
     };
-    let plan = Plan {
-        tempo: if recorder.is_some() { Tempo::Frames(1.0 / FRAMES_PER_SECOND) } else { Tempo::RealTime },
+    let loop_options = LoopOptions {
+        stepping: if recorder.is_some() { Stepping::Frames(1.0 / FRAMES_PER_SECOND) } else { Stepping::RealTime },
         steps: options.quit_after_steps,
         log_energies: options.log_energies,
     };
     let (name, shape) = (simulation.name().to_owned(), simulation.shape());
-    let worker = Worker::start(simulation, plan);
-    let (worker, not_written) = Session::new(window, worker, name, &shape, recorder, &options).until_closed();
+    let worker = Worker::start(simulation, loop_options);
+    let (worker, not_written) = Session::new(window, worker, name, &shape, recorder, &options).run();
     let finished = worker.finish();
     Ok(Outcome {
         simulation: finished.simulation,
@@ -120,12 +120,12 @@ pub fn open(simulation: Box<dyn Simulation>, options: WindowOptions) -> Result<O
 fn create(name: &str, (width, height): (u32, u32)) -> Result<Window, String> {
     static OPENED: AtomicBool = AtomicBool::new(false);
     if OPENED.swap(true, Ordering::Relaxed) {
-        return Err("this program has had its window; there is one for each run".into());
+        return Err("a program can open one window, and this one has already done so".into());
     }
     let setup = CanvasSetup { samples: NumSamples::Four, ..CanvasSetup::default() };
     let mut window = without_panic(|| pollster::block_on(Window::new_with_setup(&title(name), width, height, setup)))?;
     if Context::get().adapter.get_info().device_type == wgpu::DeviceType::Cpu {
-        window.set_samples(NumSamples::One); // smooth edges cost a processor too much
+        window.set_samples(NumSamples::One); // multisampling is too slow in software
     }
     set_style(window.egui_context_mut());
     Ok(window)
@@ -135,11 +135,11 @@ fn title(name: &str) -> String {
     format!("{name} – finite elements 3d")
 }
 
-/// Dark text on light paper, of one size everywhere.
+/// Dark text on a light background.
 fn set_style(context: &egui::Context) {
     context.set_theme(Theme::Light);
     context.all_styles_mut(|style| {
-        style.visuals.override_text_color = Some(theme::INK);
+        style.visuals.override_text_color = Some(theme::TEXT);
         style.interaction.selectable_labels = false;
         for (kind, font) in &mut style.text_styles {
             font.size = match kind {

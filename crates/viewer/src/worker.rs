@@ -1,6 +1,6 @@
-//! The thread that the simulation runs on, seen from the window: commands go in, the latest snapshot comes out.
+//! The simulation's thread: the window sends it commands and reads its latest snapshot.
 
-pub mod run;
+pub mod simulation_loop;
 #[cfg(test)]
 mod tests;
 
@@ -16,12 +16,12 @@ use nalgebra::Vector3;
 
 use crate::history::Sample;
 
-/// Why a simulation stands still until it is reset.
+/// The reason why a simulation has stopped until it is reset.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stop {
-    /// A step failed; the state is the last good one.
+    /// A step failed; the state is that before the step.
     Failed(Failure),
-    /// The simulation panicked: a fault in the program. What it said.
+    /// The simulation panicked, which is a fault in the program; holds the panic's message.
     Panicked(String),
 }
 
@@ -36,50 +36,50 @@ impl fmt::Display for Stop {
 
 impl std::error::Error for Stop {}
 
-/// What the window asks of the simulation.
+/// A command from the window to the simulation.
 pub enum Command {
-    /// Stop stepping, or go on.
+    /// Pause or continue.
     TogglePause,
-    /// Back to the start.
+    /// Go back to the initial state.
     Reset,
-    /// Go on with the next integrator.
+    /// Continue with the next integrator.
     NextIntegrator,
     /// Set a parameter by its key.
     Set(&'static str, f64),
-    /// Hold nodes, or let go.
+    /// Pull nodes, or release them.
     Pull(Option<Pull>),
-    /// Tell which nodes a click meets, and where they are.
+    /// Reply with the nodes that a click picks and their positions.
     Pick(Click, Sender<Anchors>),
-    /// In [`Tempo::Frames`]: the frame was taken, go on to the next one.
+    /// Step on to the next frame, in [`Stepping::Frames`].
     NextFrame,
     /// End the thread.
     Quit,
 }
 
-/// Nodes and where they are, m.
+/// Nodes and their positions, m.
 pub type Anchors = Vec<(usize, Vector3<f64>)>;
 
-/// When the next step is taken.
+/// Timing of the steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Tempo {
-    /// As fast as the clock on the wall, or as fast as it can.
+pub enum Stepping {
+    /// In real time, or as fast as possible if the simulation is slower.
     RealTime,
-    /// From frame to frame, so many seconds of simulated time apart, each when it is asked for.
+    /// From frame to frame on request; the value is the simulated time between two frames, s.
     Frames(f64),
 }
 
-/// How a simulation is run.
+/// Options of the simulation loop.
 #[derive(Clone, Copy, Debug)]
-pub struct Plan {
-    /// When the next step is taken.
-    pub tempo: Tempo,
-    /// Steps after which the simulation is finished.
+pub struct LoopOptions {
+    /// Timing of the steps.
+    pub stepping: Stepping,
+    /// Number of steps after which the simulation is finished.
     pub steps: Option<usize>,
     /// Whether the energies of every step are kept.
     pub log_energies: bool,
 }
 
-/// The simulation at one moment: all that the window shows.
+/// A copy of the simulation's state for the window.
 #[derive(Clone, Debug, Default)]
 pub struct Snapshot {
     /// Positions of the nodes, m.
@@ -92,41 +92,41 @@ pub struct Snapshot {
     pub steps: usize,
     /// Median time of the last steps, the physics alone, s.
     pub step_seconds: f64,
-    /// Simulated seconds per second of wall clock; none while it cannot be told.
+    /// Simulated seconds per second of wall clock; `None` until it is measured.
     pub rate: Option<f64>,
     /// Name of the integrator.
     pub integrator: &'static str,
-    /// What a person may change.
+    /// The parameters that the user may change.
     pub parameters: Vec<Parameter>,
-    /// Energies of the last seconds.
+    /// Energies of the last simulated seconds.
     pub history: Vec<Sample>,
-    /// Whether it pauses.
+    /// Whether the simulation is paused.
     pub paused: bool,
-    /// Whether the number of steps asked for was reached.
+    /// Whether [`LoopOptions::steps`] has been reached.
     pub finished: bool,
-    /// Why it stands still, if it does.
+    /// The failure that stopped the simulation.
     pub stop: Option<Stop>,
-    /// Why the last change of a parameter was refused.
+    /// The message with which the last change of a parameter was refused.
     pub refusal: Option<String>,
 }
 
-/// What is left when the thread has ended.
+/// Results of the thread.
 pub struct Finished {
-    /// The simulation; none where it panicked beyond repair.
+    /// The simulation; `None` if its thread panicked.
     pub simulation: Option<Box<dyn Simulation>>,
     /// Wall-clock time of each step since the start or the last reset, the physics alone, s.
     pub step_seconds: Vec<f64>,
-    /// Time and energies after each of them, where they were asked for.
+    /// Time (s) and energies (J) after each of these steps, if [`LoopOptions::log_energies`] is set.
     pub energies: Vec<(f64, Energies)>,
-    /// Why it stood still at the end, if it did.
+    /// The failure that had stopped the simulation at the end.
     pub stop: Option<Stop>,
 }
 
-/// Where the thread leaves its latest snapshot.
+/// Shared storage for the latest snapshot.
 #[derive(Default)]
 pub struct Slot {
     latest: Mutex<Option<Snapshot>>,
-    /// Set when a snapshot was taken, so that no snapshot is made that nobody looks at.
+    /// Set when the window has taken a snapshot: the thread copies its state only on demand.
     wanted: AtomicBool,
 }
 
@@ -144,35 +144,37 @@ pub struct Worker {
 }
 
 impl Worker {
-    /// Starts `simulation`.
-    pub fn start(simulation: Box<dyn Simulation>, plan: Plan) -> Self {
+    /// Starts the thread of `simulation`.
+    pub fn start(simulation: Box<dyn Simulation>, options: LoopOptions) -> Self {
         let (commands, received) = channel();
         let slot = Arc::new(Slot::default());
-        let theirs = Arc::clone(&slot);
-        let thread = std::thread::spawn(move || run::Run::new(simulation, plan, received, theirs).until_told());
+        let shared_slot = Arc::clone(&slot);
+        let thread = std::thread::spawn(move || {
+            simulation_loop::SimulationLoop::new(simulation, options, received, shared_slot).run()
+        });
         Worker { commands, slot, thread }
     }
 
-    /// Sends a command. One that comes after the end of the thread has no effect.
+    /// Sends a command, which has no effect if the thread has ended.
     pub fn send(&self, command: Command) {
         let _ = self.commands.send(command);
     }
 
-    /// The latest snapshot, if there is a new one.
+    /// The latest snapshot, if it has not been taken yet.
     pub fn latest(&self) -> Option<Snapshot> {
         let snapshot = self.slot.latest.lock().unwrap_or_else(PoisonError::into_inner).take()?;
         self.slot.wanted.store(true, Ordering::Release);
         Some(snapshot)
     }
 
-    /// Ends the thread, after the step that it is in.
+    /// Ends the thread after its current step, and returns its results.
     pub fn finish(self) -> Finished {
         self.send(Command::Quit);
         self.thread.join().unwrap_or_else(|panic| Finished {
             simulation: None,
             step_seconds: Vec::new(),
             energies: Vec::new(),
-            stop: Some(Stop::Panicked(run::panic_message(panic.as_ref()))),
+            stop: Some(Stop::Panicked(simulation_loop::panic_message(panic.as_ref()))),
         })
     }
 }

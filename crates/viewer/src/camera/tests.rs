@@ -8,7 +8,7 @@ fn body() -> Bounds {
     Bounds { low: Vec3::new(-1.0, 0.0, -0.5), high: Vec3::new(3.0, 1.0, 0.5) }
 }
 
-/// Pixels from the upper left at which `point` is drawn, by the rules of the graphics card.
+/// Pixels from the upper left at which the graphics card draws `point`.
 fn drawn_at(camera: &OrbitCamera, point: Vec3) -> Vec2 {
     let clip = camera.transformation() * point.extend(1.0);
     let (x, y) = (clip.x / clip.w, clip.y / clip.w);
@@ -44,7 +44,7 @@ fn the_whole_body_is_in_the_uncovered_part_of_the_picture() {
 }
 
 #[test]
-fn the_body_is_not_lost_in_the_picture() {
+fn the_body_fills_most_of_the_uncovered_width() {
     let camera = OrbitCamera::framing(&body(), Vec3::Y, SIZE, 340.0);
     let across: Vec<f32> = body().corners().map(|c| drawn_at(&camera, c).x).to_vec();
     let width = across.iter().copied().fold(0.0, f32::max) - across.iter().copied().fold(f32::MAX, f32::min);
@@ -52,10 +52,10 @@ fn the_body_is_not_lost_in_the_picture() {
 }
 
 #[test]
-fn up_is_up_and_the_first_look_is_from_the_front() {
+fn up_is_up_and_the_first_view_is_from_the_front() {
     for up in [Vec3::Y, Vec3::Z] {
         let camera = OrbitCamera::framing(&body(), up, SIZE, 0.0);
-        let centre = body().center();
+        let centre = body().centre();
         assert!(drawn_at(&camera, centre + up * 0.1).y < drawn_at(&camera, centre).y);
         assert!(drawn_at(&camera, centre + Vec3::X * 0.1).x > drawn_at(&camera, centre).x);
     }
@@ -64,7 +64,7 @@ fn up_is_up_and_the_first_look_is_from_the_front() {
 #[test]
 fn a_click_projects_a_point_to_where_it_is_drawn_and_back() {
     let mut camera = OrbitCamera::framing(&body(), Vec3::Y, SIZE, 340.0);
-    camera.turn(Vec2::new(70.0, 30.0));
+    camera.orbit(Vec2::new(70.0, 30.0));
     for corner in body().corners() {
         let at = drawn_at(&camera, corner);
         let click = camera.click(at);
@@ -87,20 +87,20 @@ fn the_ray_through_a_pixel_meets_the_point_that_is_drawn_there() {
 }
 
 #[test]
-fn moving_the_camera_carries_the_body_along_with_the_mouse() {
+fn panning_moves_the_body_with_the_mouse() {
     let mut camera = OrbitCamera::framing(&body(), Vec3::Y, SIZE, 0.0);
-    let before = drawn_at(&camera, body().center());
-    camera.shift(Vec2::new(40.0, 25.0));
-    let after = drawn_at(&camera, body().center());
+    let before = drawn_at(&camera, body().centre());
+    camera.pan(Vec2::new(40.0, 25.0));
+    let after = drawn_at(&camera, body().centre());
     assert!((after - before - Vec2::new(40.0, 25.0)).length() < 0.5, "{before} {after}");
 }
 
 #[test]
-fn zooming_and_turning_have_ends() {
+fn zooming_and_orbiting_are_bounded() {
     let mut camera = OrbitCamera::framing(&body(), Vec3::Y, SIZE, 0.0);
     for _ in 0..1000 {
         camera.zoom(3.0);
-        camera.turn(Vec2::new(0.0, 100.0));
+        camera.orbit(Vec2::new(0.0, 100.0));
     }
     assert!(camera.distance > 0.0 && camera.direction().y < 1.0);
     for _ in 0..1000 {
@@ -110,7 +110,7 @@ fn zooming_and_turning_have_ends() {
 }
 
 #[test]
-fn a_body_without_size_does_not_break_the_camera() {
+fn a_body_without_extent_gives_finite_matrices() {
     let point = Bounds { low: Vec3::ONE, high: Vec3::ONE };
     let camera = OrbitCamera::framing(&point, Vec3::ZERO, SIZE, 0.0);
     assert!(camera.transformation().is_finite());

@@ -1,4 +1,4 @@
-//! The thread, driven with a simulation that does nothing but count.
+//! Tests of the thread with a simulation of one moving node.
 
 use std::sync::atomic::AtomicUsize;
 use std::time::{Duration, Instant};
@@ -9,10 +9,10 @@ use nalgebra::{DVector, Matrix3, Matrix4, Vector4};
 
 use super::*;
 
-const PATIENCE: Duration = Duration::from_secs(10);
-const REAL_TIME: Plan = Plan { tempo: Tempo::RealTime, steps: None, log_energies: true };
+const TIMEOUT: Duration = Duration::from_secs(10);
+const REAL_TIME: LoopOptions = LoopOptions { stepping: Stepping::RealTime, steps: None, log_energies: true };
 
-/// One node that rises by one metre per second; fails or panics where it is told to.
+/// One node that rises by one metre per second, and fails or panics at given steps.
 struct Fake {
     time: f64,
     offset: f64,
@@ -113,10 +113,10 @@ impl Simulation for Fake {
     }
 }
 
-/// Takes snapshots until one is as wanted.
+/// Takes snapshots until one satisfies `wanted`.
 fn wait_for(worker: &Worker, what: &str, wanted: impl Fn(&Snapshot) -> bool) -> Snapshot {
     let begun = Instant::now();
-    while begun.elapsed() < PATIENCE {
+    while begun.elapsed() < TIMEOUT {
         match worker.latest() {
             Some(snapshot) if wanted(&snapshot) => return snapshot,
             _ => std::thread::sleep(Duration::from_millis(1)),
@@ -126,7 +126,7 @@ fn wait_for(worker: &Worker, what: &str, wanted: impl Fn(&Snapshot) -> bool) -> 
 }
 
 #[test]
-fn the_first_snapshot_is_the_start_and_steps_follow() {
+fn steps_follow_the_first_snapshot() {
     let worker = Worker::start(Box::new(fake()), REAL_TIME);
     let later = wait_for(&worker, "some steps on", |s| s.steps >= 3);
     assert!((later.time - 0.01 * later.steps as f64).abs() < 1e-9);
@@ -137,7 +137,7 @@ fn the_first_snapshot_is_the_start_and_steps_follow() {
 }
 
 #[test]
-fn a_fast_simulation_runs_at_the_speed_of_the_clock() {
+fn a_fast_simulation_runs_in_real_time() {
     let begun = Instant::now();
     let worker = Worker::start(Box::new(fake()), REAL_TIME);
     let snapshot = wait_for(&worker, "0.2 s on", |s| s.time >= 0.2);
@@ -145,7 +145,7 @@ fn a_fast_simulation_runs_at_the_speed_of_the_clock() {
 }
 
 #[test]
-fn a_pause_takes_no_steps_and_ends() {
+fn a_paused_simulation_takes_no_steps_and_continues() {
     let fake = fake();
     let calls = Arc::clone(&fake.calls);
     let worker = Worker::start(Box::new(fake), REAL_TIME);
@@ -159,7 +159,7 @@ fn a_pause_takes_no_steps_and_ends() {
 }
 
 #[test]
-fn a_reset_goes_back_to_the_start_even_in_a_pause() {
+fn a_reset_restores_the_initial_state_also_during_a_pause() {
     let worker = Worker::start(Box::new(fake()), REAL_TIME);
     wait_for(&worker, "some steps on", |s| s.steps >= 3);
     worker.send(Command::TogglePause);
@@ -180,7 +180,7 @@ fn a_failure_keeps_the_last_good_state_until_a_reset() {
 }
 
 #[test]
-fn a_panic_is_shown_and_a_reset_goes_on() {
+fn a_panic_stops_the_simulation_until_a_reset() {
     let worker = Worker::start(Box::new(Fake { panics_at_step: 2, ..fake() }), REAL_TIME);
     let stopped = wait_for(&worker, "stopped", |s| s.stop.is_some());
     assert_eq!(stopped.stop, Some(Stop::Panicked("index out of bounds".into())));
@@ -190,7 +190,7 @@ fn a_panic_is_shown_and_a_reset_goes_on() {
 }
 
 #[test]
-fn a_refused_parameter_is_told_and_a_good_one_clears_it() {
+fn a_refused_parameter_has_a_message_and_a_valid_one_clears_it() {
     let worker = Worker::start(Box::new(fake()), REAL_TIME);
     worker.send(Command::Set("offset", 2.0));
     let refused = wait_for(&worker, "refused", |s| s.refusal.is_some());
@@ -201,7 +201,7 @@ fn a_refused_parameter_is_told_and_a_good_one_clears_it() {
 }
 
 #[test]
-fn a_pick_is_answered_with_nodes_and_places_also_in_a_pause() {
+fn a_pick_returns_nodes_and_positions_also_during_a_pause() {
     let worker = Worker::start(Box::new(Fake { offset: 0.25, ..fake() }), REAL_TIME);
     worker.send(Command::TogglePause);
     let pick = |x: f64| {
@@ -209,7 +209,7 @@ fn a_pick_is_answered_with_nodes_and_places_also_in_a_pause() {
         let win = Vector3::new(x, 0.0, 0.0);
         let (view, viewport) = (Matrix4::identity(), Vector4::zeros());
         worker.send(Command::Pick(Click { win, view, proj: view, viewport }, reply));
-        answer.recv_timeout(PATIENCE).unwrap()
+        answer.recv_timeout(TIMEOUT).unwrap()
     };
     assert!(pick(-1.0).is_empty());
     let anchors = pick(1.0);
@@ -217,20 +217,20 @@ fn a_pick_is_answered_with_nodes_and_places_also_in_a_pause() {
 }
 
 #[test]
-fn it_stops_after_the_steps_that_were_asked_for() {
-    let worker = Worker::start(Box::new(fake()), Plan { steps: Some(5), ..REAL_TIME });
+fn the_simulation_finishes_after_the_given_number_of_steps() {
+    let worker = Worker::start(Box::new(fake()), LoopOptions { steps: Some(5), ..REAL_TIME });
     assert_eq!(wait_for(&worker, "finished", |s| s.finished).steps, 5);
     assert_eq!(worker.finish().energies.len(), 5);
 }
 
 #[test]
-fn recorded_frames_come_one_by_one_and_evenly() {
-    let plan = Plan { tempo: Tempo::Frames(1.0 / 30.0), ..REAL_TIME };
-    let worker = Worker::start(Box::new(fake()), plan);
+fn frames_come_on_request_at_even_intervals() {
+    let options = LoopOptions { stepping: Stepping::Frames(1.0 / 30.0), ..REAL_TIME };
+    let worker = Worker::start(Box::new(fake()), options);
     let mut times = vec![wait_for(&worker, "the start", |_| true).time];
     for _ in 0..6 {
         std::thread::sleep(Duration::from_millis(5));
-        assert!(worker.latest().is_none(), "nothing comes unasked");
+        assert!(worker.latest().is_none(), "a frame comes on request only");
         worker.send(Command::NextFrame);
         times.push(wait_for(&worker, "the next frame", |_| true).time);
     }
@@ -239,7 +239,7 @@ fn recorded_frames_come_one_by_one_and_evenly() {
 }
 
 #[test]
-fn a_thread_without_a_window_ends() {
+fn the_thread_ends_when_its_window_is_gone() {
     let fake = Fake { step_seconds: 0.001, ..fake() };
     let calls = Arc::clone(&fake.calls);
     let Worker { commands, thread, .. } = Worker::start(Box::new(fake), REAL_TIME);

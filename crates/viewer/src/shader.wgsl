@@ -1,5 +1,5 @@
-// A matte body under three lights, a floor that fades into the background, and the body's shadow on it.
-// Colours are linear. There is no texture and no loop, so that it is fast without a graphics card, too.
+// A body under three lights, a floor that fades into the background, and the body's shadow on it.
+// Colours are linear. Without textures and loops the shader is fast on software renderers too.
 
 const BODY = 0.0;
 const SHADOW = 2.0;
@@ -11,8 +11,8 @@ struct Scene {
     key: vec4<f32>,          // unit vector to the strongest light; w: radius of the body, m
     fill: vec4<f32>,         // unit vector to the light from the other side
     centre: vec4<f32>,       // of the body at rest, m
-    color: vec4<f32>,        // of the object
-    background: vec4<f32>,   // into which the floor fades
+    colour: vec4<f32>,       // of the object
+    background: vec4<f32>,   // colour into which the floor fades
 }
 
 @group(0) @binding(0) var<uniform> scene: Scene;
@@ -28,13 +28,13 @@ fn place(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> Co
     let kind = scene.eye.w;
     var at = position;
     if kind == SHADOW {
-        // Slide along the light down to the floor.
+        // Project along the light onto the floor.
         let above = dot(position, scene.up.xyz) - scene.up.w;
         at -= scene.key.xyz * (above / dot(scene.key.xyz, scene.up.xyz));
     }
     var clip = scene.clip * vec4(at, 1.0);
     if kind != BODY && dot(scene.eye.xyz, scene.up.xyz) < scene.up.w {
-        clip = vec4(0.0, 0.0, 2.0, 1.0); // seen from below, the floor hides nothing
+        clip = vec4(0.0, 0.0, 2.0, 1.0); // clipped: seen from below, the floor would hide the body
     }
     return Corner(clip, at, normal);
 }
@@ -45,8 +45,8 @@ fn paint(corner: Corner, @builtin(front_facing) outside: bool) -> @location(0) v
         return vec4(lit(corner.at, normalize(select(-corner.normal, corner.normal, outside))), 1.0);
     }
     let away = distance(corner.at, scene.centre.xyz) / scene.key.w;
-    let floor_color = mix(scene.color.rgb, scene.background.rgb, smoothstep(2.0, 16.0, away));
-    return vec4(floor_color, 1.0);
+    let floor_colour = mix(scene.colour.rgb, scene.background.rgb, smoothstep(2.0, 16.0, away));
+    return vec4(floor_colour, 1.0);
 }
 
 fn lit(at: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
@@ -57,5 +57,5 @@ fn lit(at: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     let fill = vec3(0.75, 0.85, 1.0) * 0.28 * max(dot(normal, scene.fill.xyz), 0.0);
     let gloss = vec3(0.07) * pow(max(dot(normal, half_way), 0.0), 22.0);
     let edge = vec3(0.10, 0.11, 0.12) * pow(1.0 - max(dot(normal, to_eye), 0.0), 3.0);
-    return scene.color.rgb * (sky + key + fill + edge) + gloss;
+    return scene.colour.rgb * (sky + key + fill + edge) + gloss;
 }

@@ -1,4 +1,4 @@
-//! The loop of the simulation's thread.
+//! The loop that runs on the simulation's thread.
 
 use std::any::Any;
 use std::collections::VecDeque;
@@ -10,17 +10,17 @@ use std::time::{Duration, Instant};
 
 use fem_scene::simulation::{Energies, Simulation};
 
-use super::{Command, Finished, Plan, Slot, Snapshot, Stop, Tempo};
+use super::{Command, Finished, LoopOptions, Slot, Snapshot, Stepping, Stop};
 use crate::geometry::{points, single};
 use crate::history::{History, Sample};
 use crate::pacing::{Pace, Rate};
 
 const STEPS_IN_MEDIAN: usize = 61;
 
-/// Everything that the thread holds.
-pub struct Run {
+/// The simulation and the state of its loop.
+pub struct SimulationLoop {
     simulation: Box<dyn Simulation>,
-    plan: Plan,
+    options: LoopOptions,
     commands: Receiver<Command>,
     slot: Arc<Slot>,
     started: Instant,
@@ -30,21 +30,26 @@ pub struct Run {
     recent: VecDeque<f64>,
     step_seconds: Vec<f64>,
     energies: Vec<(f64, Energies)>,
-    /// Simulated time of the last frame, s, and whether another is asked for, in [`Tempo::Frames`].
+    /// Simulated time of the last frame, s, in [`Stepping::Frames`].
     last_frame: f64,
-    frame_asked_for: bool,
+    frame_requested: bool,
     paused: bool,
     stop: Option<Stop>,
     refusal: Option<String>,
     last: Snapshot,
 }
 
-impl Run {
-    /// Takes over a simulation.
-    pub fn new(simulation: Box<dyn Simulation>, plan: Plan, commands: Receiver<Command>, slot: Arc<Slot>) -> Self {
-        Run {
+impl SimulationLoop {
+    /// A loop that has not started.
+    pub fn new(
+        simulation: Box<dyn Simulation>,
+        options: LoopOptions,
+        commands: Receiver<Command>,
+        slot: Arc<Slot>,
+    ) -> Self {
+        SimulationLoop {
             simulation,
-            plan,
+            options,
             commands,
             slot,
             started: Instant::now(),
@@ -55,7 +60,7 @@ impl Run {
             step_seconds: Vec::new(),
             energies: Vec::new(),
             last_frame: 0.0,
-            frame_asked_for: false,
+            frame_requested: false,
             paused: false,
             stop: None,
             refusal: None,
@@ -63,13 +68,13 @@ impl Run {
         }
     }
 
-    /// Steps and obeys until it is told to quit, or until nobody can tell it any more.
-    pub fn until_told(mut self) -> Finished {
+    /// Steps and executes commands until it is told to quit or the channel of commands is closed.
+    pub fn run(mut self) -> Finished {
         self.guarded(Self::begin);
         loop {
             match self.next_command() {
                 Err(RecvTimeoutError::Disconnected) | Ok(Command::Quit) => break,
-                Ok(command) => self.guarded(|run| run.obey(command)),
+                Ok(command) => self.guarded(|this| this.execute(command)),
                 Err(RecvTimeoutError::Timeout) => self.guarded(Self::step),
             }
         }
@@ -86,7 +91,7 @@ impl Run {
         self.publish();
     }
 
-    /// Runs `part`; a panic in it becomes a stop, shown with the last snapshot.
+    /// Calls `part`. A panic in it stops the simulation and is published with the last snapshot.
     fn guarded(&mut self, part: impl FnOnce(&mut Self)) {
         if let Err(panic) = catch_unwind(AssertUnwindSafe(|| part(self))) {
             self.stop = Some(Stop::Panicked(panic_message(panic.as_ref())));
@@ -95,30 +100,30 @@ impl Run {
         }
     }
 
-    /// The next command; a timeout when it is time for a step. Waits, without work, where no step is due.
+    /// Waits for the next command; returns a timeout when a step is due.
     fn next_command(&mut self) -> Result<Command, RecvTimeoutError> {
         if !self.is_running() {
             self.pace.restart();
             self.rate.restart();
             return self.commands.recv().map_err(|_| RecvTimeoutError::Disconnected);
         }
-        let wait = match self.plan.tempo {
-            Tempo::RealTime => self.pace.wait(self.started.elapsed().as_secs_f64(), self.simulation.time()),
-            Tempo::Frames(_) => 0.0,
+        let wait = match self.options.stepping {
+            Stepping::RealTime => self.pace.wait(self.started.elapsed().as_secs_f64(), self.simulation.time()),
+            Stepping::Frames(_) => 0.0,
         };
         self.commands.recv_timeout(Duration::from_secs_f64(wait))
     }
 
     fn is_running(&self) -> bool {
-        let waits_for_frame = matches!(self.plan.tempo, Tempo::Frames(_)) && !self.frame_asked_for;
+        let waits_for_frame = matches!(self.options.stepping, Stepping::Frames(_)) && !self.frame_requested;
         self.stop.is_none() && !self.paused && !self.is_finished() && !waits_for_frame
     }
 
     fn is_finished(&self) -> bool {
-        self.plan.steps.is_some_and(|steps| self.step_seconds.len() >= steps)
+        self.options.steps.is_some_and(|steps| self.step_seconds.len() >= steps)
     }
 
-    fn obey(&mut self, command: Command) {
+    fn execute(&mut self, command: Command) {
         match command {
             Command::TogglePause => self.paused = !self.paused,
             Command::Reset => self.reset(),
@@ -131,7 +136,7 @@ impl Run {
                 let _ = reply.send(self.simulation.pick(&click).into_iter().map(place).collect());
                 return;
             }
-            Command::NextFrame => return self.frame_asked_for = true,
+            Command::NextFrame => return self.frame_requested = true,
             Command::Quit => return,
         }
         self.publish();
@@ -158,9 +163,9 @@ impl Run {
             Ok(()) => self.after_step(seconds),
             Err(failure) => self.stop = Some(Stop::Failed(failure)),
         }
-        let show = match self.plan.tempo {
-            Tempo::RealTime => self.slot.wanted.swap(false, Ordering::AcqRel),
-            Tempo::Frames(interval) => self.is_frame(interval),
+        let show = match self.options.stepping {
+            Stepping::RealTime => self.slot.wanted.swap(false, Ordering::AcqRel),
+            Stepping::Frames(interval) => self.is_frame(interval),
         };
         if show || !self.is_running() {
             self.publish();
@@ -175,20 +180,20 @@ impl Run {
         }
         let time = self.simulation.time();
         self.rate.mark(self.started.elapsed().as_secs_f64(), time);
-        if self.plan.log_energies {
+        if self.options.log_energies {
             self.energies.push((time, self.simulation.energies()));
         }
         self.sample();
     }
 
-    /// Whether the time of the next frame has come; if so, waits to be asked for the one after it.
+    /// Whether the time of the next frame has been reached; if so, the following frame has to be requested.
     fn is_frame(&mut self, interval: f64) -> bool {
         let time = self.simulation.time();
         let due = time >= self.last_frame + interval - 1e-9;
         if due {
-            // On the raster of the interval, so that steps that do not divide it do not add up to a drift.
+            // A multiple of the interval: time steps that do not divide it would add up to a drift.
             self.last_frame += interval * ((time - self.last_frame) / interval + 1e-6).floor();
-            self.frame_asked_for = false;
+            self.frame_requested = false;
         }
         due
     }
@@ -227,7 +232,7 @@ fn median(values: &VecDeque<f64>) -> f64 {
     sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }
 
-/// The words of a panic.
+/// The message of a panic.
 pub fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no message".into())

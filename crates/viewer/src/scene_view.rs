@@ -1,4 +1,4 @@
-//! What is drawn: the body, the floor and the shadow on it. Window and pictures share it.
+//! The drawn scene: the body, the floor and the shadow on it. The window and the offscreen renderer share it.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -11,34 +11,34 @@ use kiss3d::scene::SceneNode3d;
 use kiss3d::window::Window;
 
 use crate::geometry::{Bounds, edges, faces, first_hit, level_axes, single, smooth_normals};
-use crate::matte::{Kind, Shared, Surroundings, matte};
+use crate::shader::{Environment, Kind, Shared, shader};
 use crate::theme;
 
-/// Which of a body's two surfaces is shown.
+/// The surface of the body that is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Shown {
-    /// The display surface, moved by the simulation; the simulation mesh where a scene has none.
+pub enum DisplayedSurface {
+    /// The display surface, skinned to the simulation mesh; the simulation mesh itself if the scene has no display surface.
     #[default]
     Skinned,
     /// The boundary of the simulation mesh, with its edges.
     SimulationMesh,
 }
 
-/// The body and its surroundings.
-pub struct Stage {
-    /// What the drawing library draws.
+/// The scene graph of a body, its shadow and the floor.
+pub struct SceneView {
+    /// Root of kiss3d's scene graph.
     pub root: SceneNode3d,
     skin: Option<Surface>,
     mesh: Surface,
     edges: Vec<[usize; 2]>,
-    shown: Shown,
+    shown: DisplayedSurface,
     bounds: Bounds,
     floor: SceneNode3d,
-    surroundings: Rc<RefCell<Surroundings>>,
+    environment: Rc<RefCell<Environment>>,
 }
 
-impl Stage {
-    /// Sets the stage for a body at rest. Needs the drawing library's window or picture to exist.
+impl SceneView {
+    /// The view of a body at rest. kiss3d's window or offscreen surface must exist before.
     pub fn new(shape: &Shape, up: Vec3) -> Self {
         let mut root = SceneNode3d::empty();
         let nodes: Vec<Vec3> = shape.mesh.vertices.iter().map(single).collect();
@@ -47,78 +47,79 @@ impl Stage {
             None => nodes.clone(),
         };
         let bounds = Bounds::of(&shown);
-        let surroundings = Rc::new(RefCell::new(surroundings(&bounds, up)));
-        let floor = floor(&surroundings.borrow(), matte(Kind::Floor, &surroundings));
+        let environment = Rc::new(RefCell::new(environment(&bounds, up)));
+        let floor = floor(&environment.borrow(), shader(Kind::Floor, &environment));
         root.add_child(floor.clone());
-        let paint = [matte(Kind::Body, &surroundings), matte(Kind::Shadow, &surroundings)];
+        let paint = [shader(Kind::Body, &environment), shader(Kind::Shadow, &environment)];
         let skin =
             shape.display.as_ref().map(|d| Surface::new(&mut root, &shown, &d.elements, Shading::Smooth, &paint));
         let mesh = Surface::new(&mut root, &nodes, &shape.boundary, Shading::Flat, &paint);
         let edges = edges(&shape.boundary);
-        let mut stage = Stage { root, skin, mesh, edges, shown: Shown::Skinned, bounds, floor, surroundings };
-        stage.show(Shown::Skinned);
-        stage
+        let mut view =
+            SceneView { root, skin, mesh, edges, shown: DisplayedSurface::Skinned, bounds, floor, environment };
+        view.show(DisplayedSurface::Skinned);
+        view
     }
 
-    /// The box around the body at rest.
+    /// Bounding box of the body at rest.
     pub fn bounds(&self) -> &Bounds {
         &self.bounds
     }
 
-    /// Whether there are two surfaces to show.
+    /// Whether the body has a display surface beside its simulation mesh.
     pub fn has_skin(&self) -> bool {
         self.skin.is_some()
     }
 
-    /// Which surface is shown.
-    pub fn shown(&self) -> Shown {
+    /// The displayed surface.
+    pub fn shown(&self) -> DisplayedSurface {
         self.shown
     }
 
-    /// Shows one of the two surfaces; the simulation mesh where there is no other.
-    pub fn show(&mut self, shown: Shown) {
-        self.shown = if self.skin.is_some() { shown } else { Shown::SimulationMesh };
+    /// Displays one of the two surfaces; the simulation mesh if there is no other.
+    pub fn show(&mut self, shown: DisplayedSurface) {
+        self.shown = if self.skin.is_some() { shown } else { DisplayedSurface::SimulationMesh };
         if let Some(skin) = &mut self.skin {
-            skin.set_visible(self.shown == Shown::Skinned);
+            skin.set_visible(self.shown == DisplayedSurface::Skinned);
         }
-        self.mesh.set_visible(self.shown == Shown::SimulationMesh);
+        self.mesh.set_visible(self.shown == DisplayedSurface::SimulationMesh);
     }
 
-    /// Moves the shown surface to where the body is now, and gives the box around it.
-    pub fn place(&mut self, positions: &[Vec3], display: &[Vec3]) -> Bounds {
+    /// Moves the displayed surface to the current positions, and returns its bounding box.
+    pub fn update(&mut self, positions: &[Vec3], display: &[Vec3]) -> Bounds {
         let shown = match (&mut self.skin, self.shown) {
-            (Some(skin), Shown::Skinned) => skin.place(display),
-            _ => self.mesh.place(positions),
+            (Some(skin), DisplayedSurface::Skinned) => skin.update(display),
+            _ => self.mesh.update(positions),
         };
         self.lower_floor(&shown);
         shown
     }
 
-    /// The floor makes room for a body that comes lower than it, and stays there.
+    /// Lowers the floor under a body that reaches below it.
     fn lower_floor(&mut self, body: &Bounds) {
-        let mut surroundings = self.surroundings.borrow_mut();
-        let lowest = floor_under(body, surroundings.up, surroundings.radius);
-        if lowest < surroundings.floor {
-            let up = surroundings.up;
+        let mut environment = self.environment.borrow_mut();
+        let lowest = floor_under(body, environment.up, environment.radius);
+        if lowest < environment.floor {
+            let up = environment.up;
             self.floor.modify_vertices(&mut |corners| {
-                corners.iter_mut().for_each(|corner| *corner += up * (lowest - surroundings.floor));
+                corners.iter_mut().for_each(|corner| *corner += up * (lowest - environment.floor));
             });
-            surroundings.floor = lowest;
+            environment.floor = lowest;
         }
     }
 
-    /// Distance along a ray to the shown surface, m.
+    /// Distance along a ray to the displayed surface, m.
     pub fn hit(&self, origin: Vec3, ray: Vec3, positions: &[Vec3], display: &[Vec3]) -> Option<f32> {
         match (&self.skin, self.shown) {
-            (Some(skin), Shown::Skinned) => first_hit(origin, ray, display, &skin.triangles),
+            (Some(skin), DisplayedSurface::Skinned) => first_hit(origin, ray, display, &skin.triangles),
             _ => first_hit(origin, ray, positions, &self.mesh.triangles),
         }
     }
 
-    /// Draws the edges of the simulation mesh into the next frame, where that is shown.
+    /// Draws the edges of the simulation mesh into the next frame, if it is displayed.
     pub fn draw_edges(&self, window: &mut Window, positions: &[Vec3], eye: Vec3) {
-        if self.shown == Shown::SimulationMesh {
-            // A little towards the eye, so that the faces do not hide them.
+        if self.shown == DisplayedSurface::SimulationMesh {
+            // Slightly towards the eye, so that the faces do not hide the edges.
             let nearer = |i: usize| positions[i] + (eye - positions[i]) * 2e-3;
             let width = theme::EDGE_WIDTH * window.scale_factor() as f32;
             for &[a, b] in &self.edges {
@@ -128,16 +129,16 @@ impl Stage {
     }
 }
 
-/// How the triangles of a surface are lit.
+/// Shading of a surface.
 #[derive(Clone, Copy, PartialEq)]
 enum Shading {
-    /// As if they were curved.
+    /// Normals are interpolated between vertices.
     Smooth,
-    /// Each as the plane that it is.
+    /// Each triangle has its own normal.
     Flat,
 }
 
-/// Triangles that move, and their shadow.
+/// A moving triangle mesh and its shadow.
 struct Surface {
     node: SceneNode3d,
     shadow: SceneNode3d,
@@ -158,7 +159,7 @@ impl Surface {
         let triangles = triangles.to_vec();
         let faces = match shading {
             Shading::Smooth => faces(&triangles),
-            // Each triangle has its own three corners, because each corner has a normal for every triangle.
+            // Each triangle has three corners of its own, because a corner has one normal.
             Shading::Flat => (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
         };
         let coords = corners(points, &triangles, shading);
@@ -180,8 +181,8 @@ impl Surface {
         self.shadow.set_visible(visible);
     }
 
-    /// Moves the corners, and gives the box around them.
-    fn place(&mut self, points: &[Vec3]) -> Bounds {
+    /// Moves the corners and returns their bounding box.
+    fn update(&mut self, points: &[Vec3]) -> Bounds {
         let coords = corners(points, &self.triangles, self.shading);
         let bounds = Bounds::of(&coords);
         let normals = smooth_normals(&coords, &self.faces);
@@ -203,10 +204,10 @@ fn corners(points: &[Vec3], triangles: &[[usize; 3]], shading: Shading) -> Vec<V
     }
 }
 
-fn surroundings(bounds: &Bounds, up: Vec3) -> Surroundings {
+fn environment(bounds: &Bounds, up: Vec3) -> Environment {
     let (right, front) = level_axes(up);
-    let (centre, radius) = (bounds.center(), bounds.radius());
-    Surroundings { up, right, front, floor: floor_under(bounds, up, radius), centre, radius }
+    let (centre, radius) = (bounds.centre(), bounds.radius());
+    Environment { up, right, front, floor: floor_under(bounds, up, radius), centre, radius }
 }
 
 /// Height along `up` of a floor under `bounds`, m.
@@ -214,9 +215,9 @@ fn floor_under(bounds: &Bounds, up: Vec3, radius: f32) -> f32 {
     bounds.corners().into_iter().map(|corner| corner.dot(up)).fold(f32::INFINITY, f32::min) - 0.01 * radius
 }
 
-/// A square so large that it has faded into the background before it ends.
-fn floor(surroundings: &Surroundings, material: Shared) -> SceneNode3d {
-    let Surroundings { up, right, front, floor, centre, radius } = *surroundings;
+/// A square large enough to fade into the background before its edges.
+fn floor(environment: &Environment, material: Shared) -> SceneNode3d {
+    let Environment { up, right, front, floor, centre, radius } = *environment;
     let middle = centre + up * (floor - centre.dot(up));
     let (right, front) = (right * 40.0 * radius, front * 40.0 * radius);
     let corners = [-right - front, right - front, right + front, front - right].map(|c| middle + c).to_vec();
@@ -226,8 +227,8 @@ fn floor(surroundings: &Surroundings, material: Shared) -> SceneNode3d {
     node
 }
 
-/// What a window needs to know once, before the first frame.
+/// Sets up a window before its first frame.
 pub fn prepare(window: &mut Window) {
     window.set_background_color(theme::BACKGROUND);
-    window.set_shadows_enabled(false); // the material throws its own
+    window.set_shadows_enabled(false); // the shader draws its own
 }

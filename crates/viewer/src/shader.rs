@@ -1,5 +1,5 @@
-//! The material of everything that is drawn. The drawing library's own one has many more abilities, and needs most of
-//! a second for a picture where a processor stands in for the graphics card; this one is made for that case, too.
+//! The shader of the body, the floor and the shadow. kiss3d's own shader does much more, and takes most of a second per
+//! picture on a software renderer; this one is fast there too.
 
 use std::any::Any;
 use std::cell::RefCell;
@@ -16,60 +16,60 @@ use kiss3d::scene::{InstancesBuffer3d, ObjectData3d};
 
 use crate::theme;
 
-const FLOATS: usize = 16 + 7 * 4; // of `Scene` in the shader
+const FLOATS: usize = 16 + 7 * 4; // in `Scene` of the WGSL code
 const ATTRIBUTES: [[wgpu::VertexAttribute; 1]; 2] =
     [wgpu::vertex_attr_array![0 => Float32x3], wgpu::vertex_attr_array![1 => Float32x3]];
 
-/// What an object is.
+/// The kind of object that a shader draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// Lit from three sides.
     Body,
-    /// Flat, and fading into the background.
+    /// Flat, fading into the background.
     Floor,
-    /// The body, thrown onto the floor.
+    /// The body, projected onto the floor along the strongest light.
     Shadow,
 }
 
-/// What all objects of a scene have in common, m.
+/// Properties common to all objects of a scene. Lengths are in m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Surroundings {
-    /// Unit vector.
+pub struct Environment {
+    /// Upward unit vector.
     pub up: Vec3,
-    /// Unit vector to the right of the first look.
+    /// Unit vector to the right in the first view.
     pub right: Vec3,
-    /// Unit vector towards the eye of the first look.
+    /// Horizontal unit vector towards the eye in the first view.
     pub front: Vec3,
     /// Height of the floor along `up`.
     pub floor: f32,
-    /// Middle of the body at rest.
+    /// Centre of the body at rest.
     pub centre: Vec3,
     /// Half of the body's diagonal at rest.
     pub radius: f32,
 }
 
-/// A material as the drawing library holds it.
+/// A shader as kiss3d holds it.
 pub type Shared = Rc<RefCell<Box<dyn Material3d>>>;
 
-/// The material of one kind of object in the surroundings that `surroundings` holds at each frame.
-pub fn matte(kind: Kind, surroundings: &Rc<RefCell<Surroundings>>) -> Shared {
-    Rc::new(RefCell::new(Box::new(Matte::new(kind, Rc::clone(surroundings)))))
+/// The shader of one kind of object. It reads `environment` at each frame.
+pub fn shader(kind: Kind, environment: &Rc<RefCell<Environment>>) -> Shared {
+    Rc::new(RefCell::new(Box::new(Shader::new(kind, Rc::clone(environment)))))
 }
 
-struct Matte {
+struct Shader {
     kind: Kind,
-    surroundings: Rc<RefCell<Surroundings>>,
+    environment: Rc<RefCell<Environment>>,
     layout: wgpu::BindGroupLayout,
     pipelines: PipelineCache,
 }
 
-/// The numbers of one object on the graphics card.
-struct Numbers {
+/// Uniform buffer of one object.
+struct Uniforms {
     buffer: wgpu::Buffer,
     group: wgpu::BindGroup,
 }
 
-impl GpuData for Numbers {
+impl GpuData for Uniforms {
     fn as_any(&self) -> &dyn Any {
         self
     }
@@ -79,11 +79,11 @@ impl GpuData for Numbers {
     }
 }
 
-impl Matte {
-    fn new(kind: Kind, surroundings: Rc<RefCell<Surroundings>>) -> Self {
+impl Shader {
+    fn new(kind: Kind, environment: Rc<RefCell<Environment>>) -> Self {
         let context = Context::get();
         let layout = context.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("matte"),
+            label: Some("body, floor and shadow"),
             entries: &[wgpu::BindGroupLayoutEntry {
                 binding: 0,
                 visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
@@ -96,24 +96,24 @@ impl Matte {
             }],
         });
         let pipeline_layout = context.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("matte"),
+            label: Some("body, floor and shadow"),
             bind_group_layouts: &[Some(&layout)],
             immediate_size: 0,
         });
-        let shader = context.create_shader_module(Some("matte"), include_str!("matte.wgsl"));
+        let shader = context.create_shader_module(Some("body, floor and shadow"), include_str!("shader.wgsl"));
         let pipelines = PipelineCache::new(move |samples| pipeline(&pipeline_layout, &shader, samples));
-        Matte { kind, surroundings, layout, pipelines }
+        Shader { kind, environment, layout, pipelines }
     }
 
-    /// `Scene` of the shader, number by number.
-    fn numbers(&self, camera: &dyn Camera3d, color: Color) -> [f32; FLOATS] {
-        let Surroundings { up, right, front, floor, centre, radius } = *self.surroundings.borrow();
+    /// `Scene` of the WGSL code as floats.
+    fn uniforms(&self, camera: &dyn Camera3d, color: Color) -> [f32; FLOATS] {
+        let Environment { up, right, front, floor, centre, radius } = *self.environment.borrow();
         let kind = match self.kind {
             Kind::Body => 0.0,
             Kind::Floor => 1.0,
             Kind::Shadow => 2.0,
         };
-        // A shadow lies a little above the floor that would hide it.
+        // The shadow lies slightly above the floor, which would hide it.
         let floor = if self.kind == Kind::Shadow { floor + 3e-3 * radius } else { floor };
         let key = (up * 1.0 - right * 0.55 + front * 0.65).normalize();
         let fill = (up * 0.25 + right * 0.9 + front * 0.35).normalize();
@@ -127,26 +127,26 @@ impl Matte {
             Vec3::new(color.r, color.g, color.b).extend(1.0),
             Vec3::new(background.r, background.g, background.b).extend(1.0),
         ];
-        let mut numbers = [0.0; FLOATS];
-        numbers[..16].copy_from_slice(&camera.transformation().to_cols_array());
-        for (place, row) in numbers[16..].chunks_exact_mut(4).zip(rows) {
+        let mut uniforms = [0.0; FLOATS];
+        uniforms[..16].copy_from_slice(&camera.transformation().to_cols_array());
+        for (place, row) in uniforms[16..].chunks_exact_mut(4).zip(rows) {
             place.copy_from_slice(&row.to_array());
         }
-        numbers
+        uniforms
     }
 }
 
-impl Material3d for Matte {
+impl Material3d for Shader {
     fn create_gpu_data(&self) -> Box<dyn GpuData> {
         let context = Context::get();
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-        let buffer = context.create_buffer_simple(Some("matte"), (4 * FLOATS) as u64, usage);
+        let buffer = context.create_buffer_simple(Some("body, floor and shadow"), (4 * FLOATS) as u64, usage);
         let group = context.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("matte"),
+            label: Some("body, floor and shadow"),
             layout: &self.layout,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
         });
-        Box::new(Numbers { buffer, group })
+        Box::new(Uniforms { buffer, group })
     }
 
     fn prepare(
@@ -161,8 +161,8 @@ impl Material3d for Matte {
         _: u32,
         _: u32,
     ) {
-        let Some(data) = data.as_any().downcast_ref::<Numbers>() else { return };
-        let bytes: Vec<u8> = self.numbers(camera, object.color()).iter().flat_map(|n| n.to_ne_bytes()).collect();
+        let Some(data) = data.as_any().downcast_ref::<Uniforms>() else { return };
+        let bytes: Vec<u8> = self.uniforms(camera, object.color()).iter().flat_map(|n| n.to_ne_bytes()).collect();
         Context::get().write_buffer(&data.buffer, 0, &bytes);
     }
 
@@ -181,7 +181,7 @@ impl Material3d for Matte {
         context: &RenderContext,
     ) {
         let indices = mesh.num_indices();
-        let Some(data) = data.as_any().downcast_ref::<Numbers>() else { return };
+        let Some(data) = data.as_any().downcast_ref::<Uniforms>() else { return };
         let Some((coords, faces, normals, _)) = mesh.ensure_on_gpu() else { return };
         pass.set_pipeline(&self.pipelines.get(context.sample_count));
         pass.set_bind_group(0, &data.group, &[]);
@@ -199,7 +199,7 @@ fn pipeline(layout: &wgpu::PipelineLayout, shader: &wgpu::ShaderModule, samples:
     let target =
         wgpu::ColorTargetState { format: Context::render_format(), blend: None, write_mask: wgpu::ColorWrites::ALL };
     Context::get().create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("matte"),
+        label: Some("body, floor and shadow"),
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module: shader,

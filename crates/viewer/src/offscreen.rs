@@ -1,0 +1,147 @@
+//! Offscreen rendering: pictures without a window or a display server.
+
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+
+use fem_scene::simulation::{Shape, Simulation};
+use kiss3d::camera::Camera3d;
+use kiss3d::glamx::{Vec2, Vec3};
+use kiss3d::window::{CanvasSetup, NumSamples, OffscreenSurface};
+use nalgebra::Vector3;
+use thiserror::Error;
+
+use crate::camera::OrbitCamera;
+use crate::display::{adapter_available, without_panic, without_wayland_message};
+use crate::geometry::{Bounds, points, single};
+use crate::pictures::Picture;
+use crate::scene_view::{DisplayedSurface, SceneView, prepare};
+
+/// This machine has no graphics adapter that can render.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("cannot take pictures: {reason}")]
+pub struct NoAdapter {
+    /// Why, in one line.
+    pub reason: String,
+}
+
+/// Renders pictures of a simulation with the light and colours of the window.
+pub struct OffscreenRenderer {
+    requests: Option<Sender<Request>>,
+    results: Receiver<Result<Picture, String>>,
+    /// kiss3d keeps its graphics device per thread and never releases all of it. On a thread of its own, one renderer can
+    /// follow another.
+    thread: Option<JoinHandle<()>>,
+    up: Vec3,
+}
+
+/// A picture to render.
+struct Request {
+    shape: Arc<Shape>,
+    positions: Vec<Vec3>,
+    display: Vec<Vec3>,
+    shown: DisplayedSurface,
+    up: Vec3,
+}
+
+impl OffscreenRenderer {
+    /// A renderer of pictures of `width` × `height` pixels; y is up.
+    pub fn new(width: u32, height: u32) -> Result<Self, NoAdapter> {
+        adapter_available().map_err(|reason| NoAdapter { reason })?;
+        let (requests, received) = channel();
+        let (answer, results) = channel();
+        let thread = std::thread::spawn(move || serve(width, height, &received, &answer));
+        let mut renderer = OffscreenRenderer { requests: Some(requests), results, thread: Some(thread), up: Vec3::Y };
+        renderer.result()?; // the empty picture that a ready thread sends
+        Ok(renderer)
+    }
+
+    /// Sets the upward direction in the pictures, as [`WindowOptions::up`](crate::WindowOptions).
+    pub fn set_up(&mut self, up: &Vector3<f64>) {
+        self.up = single(up).try_normalize().unwrap_or(Vec3::Y);
+    }
+
+    /// Renders the current state of the simulation.
+    pub fn render(&mut self, simulation: &dyn Simulation, shown: DisplayedSurface) -> Result<Picture, NoAdapter> {
+        let request = Request {
+            shape: simulation.shape(),
+            positions: points(&simulation.positions()),
+            display: simulation.display_positions().iter().map(single).collect(),
+            shown,
+            up: self.up,
+        };
+        if let Some(requests) = &self.requests {
+            let _ = requests.send(request); // if the thread has ended, receiving the result fails
+        }
+        self.result()
+    }
+
+    fn result(&mut self) -> Result<Picture, NoAdapter> {
+        let result = self.results.recv().unwrap_or_else(|_| Err("the graphics driver failed".into()));
+        result.map_err(|reason| NoAdapter { reason })
+    }
+}
+
+impl Drop for OffscreenRenderer {
+    fn drop(&mut self) {
+        self.requests = None; // ends the thread
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+/// Renders pictures until the channel of requests is closed.
+fn serve(width: u32, height: u32, requests: &Receiver<Request>, answer: &Sender<Result<Picture, String>>) {
+    let opened = without_panic(|| {
+        let surface = SceneSurface::open(width, height);
+        let empty = Picture::new(surface.surface.snap_image());
+        (surface, empty)
+    });
+    let (mut surface, first) = match opened {
+        Ok((surface, empty)) => (Some(surface), Ok(empty)),
+        Err(reason) => (None, Err(reason)),
+    };
+    let _ = answer.send(first);
+    while let (Some(surface), Ok(request)) = (&mut surface, requests.recv()) {
+        let _ = answer.send(without_panic(|| surface.render(request)));
+    }
+}
+
+/// An offscreen surface and the scene rendered on it.
+struct SceneSurface {
+    // The view holds resources of the surface's device, so it is dropped first: fields are dropped in order.
+    /// The body, the upward direction, the scene, and the bounding box of all positions so far.
+    view: Option<(Arc<Shape>, Vec3, SceneView, Bounds)>,
+    surface: OffscreenSurface,
+}
+
+impl SceneSurface {
+    fn open(width: u32, height: u32) -> Self {
+        let setup = CanvasSetup { vsync: false, samples: NumSamples::Four, ..CanvasSetup::default() };
+        let open = || pollster::block_on(OffscreenSurface::with_setup(width, height, setup));
+        let mut surface = without_wayland_message(open);
+        prepare(surface.window_mut());
+        SceneSurface { view: None, surface }
+    }
+
+    fn render(&mut self, request: Request) -> Picture {
+        let Request { shape, positions, display, shown, up } = request;
+        let (_, _, view, framed) = match self.view.take() {
+            Some(view) if Arc::ptr_eq(&view.0, &shape) && view.1 == up => self.view.insert(view),
+            _ => {
+                let view = SceneView::new(&shape, up);
+                let framed = *view.bounds();
+                self.view.insert((shape, up, view, framed))
+            }
+        };
+        view.show(shown);
+        // The camera moves back to keep the whole motion in the picture, and does not come nearer again.
+        *framed = framed.joined(&view.update(&positions, &display));
+        let size = Vec2::new(self.surface.width() as f32, self.surface.height() as f32);
+        let mut camera = OrbitCamera::framing(framed, up, size, 0.0);
+        view.draw_edges(self.surface.window_mut(), &positions, camera.eye());
+        pollster::block_on(self.surface.render_3d(&mut view.root, &mut camera));
+        Picture::new(self.surface.snap_image())
+    }
+}
