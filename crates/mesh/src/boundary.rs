@@ -3,12 +3,12 @@
 use super::TetrahedralMesh;
 
 /// Faces of a positive tetrahedron, each counter-clockwise seen from outside; face `i` lies opposite vertex `i`.
-pub(super) const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+pub(crate) const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// Faces that belong to exactly one tetrahedron, counter-clockwise seen from outside.
 ///
 /// Their order is that of the elements, and within an element that of the vertex opposite; each face starts with the
-/// vertex that its element names first. Sorts all faces: O(m log m) time for m elements, 128 bytes each.
+/// vertex that its element names first. The faces are sorted: O(m log m) time and 128 m bytes for m elements.
 pub fn boundary(mesh: &TetrahedralMesh) -> Vec<[usize; 3]> {
     let mut faces = Vec::with_capacity(4 * mesh.elements.len());
     for (number, element) in mesh.elements.iter().enumerate() {
@@ -42,7 +42,7 @@ mod tests {
     }
 
     #[test]
-    fn two_tetrahedra_hide_the_face_between_them() {
+    fn a_face_between_two_tetrahedra_is_not_on_the_boundary() {
         let mesh = TetrahedralMesh { vertices: vec![], elements: vec![[0, 1, 2, 3], [0, 2, 1, 4]] };
         let faces = boundary(&mesh);
         assert_eq!(faces.len(), 6);

@@ -6,13 +6,13 @@ use nalgebra::Vector3;
 
 use super::{MeshError, Problem, TetrahedralMesh};
 
-/// The most elements that a box or a refined mesh may have: about 5 GB in memory before anything is computed on it.
+/// Largest number of elements of a box or a refined mesh. The mesh alone then takes about 5 GB.
 pub(super) const MOST_ELEMENTS: usize = 50_000_000;
 
-/// How far a size times the cells per unit may be from a whole number, relative: sizes such as 0.1 are not exact.
+/// Relative distance from a whole number that a size times the cells per unit may have: sizes such as 0.1 are not exact.
 const WHOLE: f64 = 1e-9;
 
-/// The axes in lexicographic order of their permutations (Kuhn's subdivision of the cube), and whether each is even.
+/// The permutations of the axes in lexicographic order, which give Kuhn's subdivision of the cube, and whether each is even.
 const PERMUTATIONS: [([usize; 3], bool); 6] = [
     ([0, 1, 2], true),
     ([0, 2, 1], false),
@@ -24,11 +24,11 @@ const PERMUTATIONS: [([usize; 3], bool); 6] = [
 
 /// The box from the origin to `size` (m), in cubes of edge 1/`cells_per_unit`.
 ///
-/// Node (i, j, k) has the index `i + (nx+1)(j + (ny+1)k)` and the place (i/n, j/n, k/n). Cells run with k outermost, then
+/// Node (i, j, k) has the index `i + (nx+1)(j + (ny+1)k)` and the position (i/n, j/n, k/n). Cells run with k outermost, then
 /// j, then i; each gives one tetrahedron per permutation p of the axes: a = (i, j, k), b = a + e_p0, c = b + e_p1,
-/// d = c + e_p2, as `[a, b, c, d]` where p is even and `[a, b, d, c]` where it is odd, so that all are positive.
+/// d = c + e_p2, as `[a, b, c, d]` for even p and `[a, b, d, c]` for odd p, so that all are positive.
 ///
-/// Refuses sizes that are not whole numbers of cells, and more than 50 million elements.
+/// Returns an error for sizes that are not whole numbers of cells, and for more than 50 million elements.
 pub fn box_mesh(size: [f64; 3], cells_per_unit: usize) -> Result<TetrahedralMesh, MeshError> {
     let cells = count_cells(size, cells_per_unit).map_err(|problem| MeshError::in_file(Path::new("box"), problem))?;
     Ok(TetrahedralMesh { vertices: nodes(cells, cells_per_unit), elements: tetrahedra(cells) })
@@ -45,7 +45,7 @@ fn count_cells(size: [f64; 3], cells_per_unit: usize) -> Result<[usize; 3], Prob
         }
     }
     let [x, y, z] = exact.map(f64::round);
-    // in floating point, where the product cannot overflow
+    // As floating-point numbers, whose product cannot overflow.
     let elements = 6.0 * x * y * z;
     if elements > MOST_ELEMENTS as f64 {
         let cells = format!("{x} × {y} × {z}");
@@ -79,7 +79,7 @@ fn tetrahedra([nx, ny, nz]: [usize; 3]) -> Vec<[usize; 4]> {
     tetrahedra
 }
 
-/// From the cube's first corner `a` along its three edges, as steps in the node numbers.
+/// The tetrahedron from the cube's first corner `a` along three of its edges, given as differences of node numbers.
 fn tetrahedron(a: usize, steps: [usize; 3], even: bool) -> [usize; 4] {
     let b = a + steps[0];
     let c = b + steps[1];

@@ -1,4 +1,4 @@
-//! What a tetrahedral mesh must keep before anything is computed on it.
+//! The properties of a tetrahedral mesh that computations rely on.
 
 use std::path::Path;
 
@@ -7,20 +7,20 @@ use nalgebra::Vector3;
 use super::boundary::FACES;
 use super::{MeshError, Problem, TetrahedralMesh, area_vector, signed_volume};
 
-/// A tetrahedron whose volume is below this part of its longest edge cubed is flat.
+/// A tetrahedron is flat if its volume is below this fraction of its longest edge cubed.
 ///
-/// The triple product rounds to about 1e-15 of that cube, so nothing smaller has a sign to trust; a flat sliver of
-/// aspect 1e6 has 2e-7 of it, and even a needle that is thin in both directions 2e-13.
+/// The triple product has a round-off error of about 1e-15 of that cube, so a smaller volume has no reliable sign. A flat sliver of
+/// aspect 1e6 has 2e-7 of it, a needle that is thin in both directions 2e-13.
 const FLAT: f64 = 1e-14;
 
-/// A tetrahedron whose smallest height is below this many roundings of its own coordinates is flat as well: far from the
-/// origin the vertices of a plane no longer lie in it, and the volume that they seem to have is the rounding alone.
+/// A tetrahedron is also flat if its smallest height is below this multiple of the round-off of its coordinates: far from the
+/// origin, rounding moves the vertices of a flat tetrahedron out of their plane and gives them an apparent volume.
 const ROUNDINGS: f64 = 4.0;
 
-/// Finite coordinates, indices in range, four different vertices and a positive volume for every element, no vertex
-/// without an element, and at least one element.
+/// Checks that the mesh has an element, coordinates are finite, indices in range, the four vertices of every element different
+/// and its volume positive, and that every vertex belongs to an element.
 ///
-/// Returns the first thing that is wrong; `source` is the file that the message names.
+/// Returns the first problem; `source` is the file that its message names.
 pub fn check(mesh: &TetrahedralMesh, source: &Path) -> Result<(), MeshError> {
     find_problem(mesh).map_err(|problem| MeshError::in_file(source, problem))
 }

@@ -1,19 +1,19 @@
-//! The one error of everything that reads, checks, builds or writes a mesh.
+//! The error of reading, checking, building and writing meshes.
 
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// What is wrong with a mesh, where, and what to do about it: one message, such as
+/// A problem with a mesh, its location and the remedy, in one message such as
 /// `bunny.ele, line 7: vertex 400 does not exist, …`.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("{}{}: {problem}", file.display(), line.map(|n| format!(", line {n}")).unwrap_or_default())]
 pub struct MeshError {
-    /// The file, or what stands in for it where a mesh comes from elsewhere.
+    /// The file, or the name of another source, such as `box`.
     pub file: PathBuf,
-    /// Line in the file, counted from 1, where one line is to blame.
+    /// Line of the problem in the file, counted from 1, if it belongs to one.
     pub line: Option<usize>,
-    /// What is wrong; its text names the element or vertex, and the remedy. Boxed, so that a result stays small.
+    /// The problem; its text names the element or vertex, and the remedy. Boxed to keep results small.
     pub problem: Box<Problem>,
 }
 
@@ -29,7 +29,8 @@ impl MeshError {
     }
 }
 
-/// What can be wrong with a mesh. Vertices and elements are counted from 0, as in memory, unless the text says otherwise.
+/// The problems that a mesh can have. Messages count vertices and elements from 0, as in memory, unless they tell the file's own
+/// count.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[allow(missing_docs)] // the messages are the documentation
 pub enum Problem {
@@ -55,9 +56,9 @@ pub enum Problem {
     NotA { word: String, expected: &'static str },
     #[error("announces {announced} {what} and holds {found}; correct the count or complete the file")]
     WrongCount { what: &'static str, announced: usize, found: usize },
-    #[error("the coordinate `{word}` is not finite; give the vertex a real place or remove it")]
+    #[error("the coordinate `{word}` is not finite; give the vertex a finite position or remove it")]
     NotFinite { word: String },
-    #[error("vertex {vertex} has a coordinate that is not finite; give it a real place or remove it")]
+    #[error("vertex {vertex} has a coordinate that is not finite; give it a finite position or remove it")]
     VertexNotFinite { vertex: usize },
     #[error("vertex {index} does not exist, the file's vertices are {first} to {last}; correct the index")]
     OutOfRange { index: i64, first: i64, last: i64 },
@@ -65,7 +66,7 @@ pub enum Problem {
     NoVertices { index: i64 },
     #[error("element {element} names vertex {vertex}, and there are only 0 to {} (all counted from 0); correct the index", *count as i128 - 1)]
     ElementOutOfRange { element: usize, vertex: i128, count: usize },
-    #[error("the number {found} stands where {expected} is due; number the entries one after the other, from 0 or 1")]
+    #[error("the number {found} stands in place of {expected}; number the entries one after the other, from 0 or 1")]
     NotConsecutive { expected: i64, found: i64 },
     #[error("the tag {tag} is given to two nodes; give each node its own")]
     RepeatedTag { tag: i64 },
@@ -83,9 +84,7 @@ pub enum Problem {
     Flat { element: usize, volume: f64 },
     #[error("element {element} (counted from 0) is too large to compute its volume; scale the mesh to metres")]
     Huge { element: usize },
-    #[error(
-        "vertex {vertex} (counted from 0) belongs to no element; remove it or the mesh has a mass that nothing holds"
-    )]
+    #[error("vertex {vertex} (counted from 0) belongs to no element; remove it, or add the element that it belongs to")]
     Unreferenced { vertex: usize },
     #[error("the mesh has no {what}; give one that has some")]
     Empty { what: &'static str },

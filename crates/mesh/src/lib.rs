@@ -1,4 +1,7 @@
-//! Meshes of simplices: what a scene is made of, read from files, checked, measured and written.
+//! Meshes of simplices: files, checks, measures, refinement.
+//!
+//! [`read_tetrahedra`] and [`read_surface`] read a mesh file by its extension, [`write`](mod@write) writes one. A mesh is plain data;
+//! [`check`] tests the properties that computations rely on.
 
 #![deny(missing_docs)]
 #![allow(non_snake_case)] // J, F, C and D are the names that the mathematics and the course use
@@ -22,14 +25,15 @@ pub use boundary::boundary;
 pub use box_mesh::box_mesh;
 pub use check::check;
 pub use error::{MeshError, Problem};
-pub use measures::{area_vector, signed_volume, volumes};
+pub(crate) use measures::signed_volume;
+pub use measures::{area_vector, volumes};
 pub use quality::{Extreme, Quality, quality};
 pub use read::{read_surface, read_tetrahedra};
 pub use refine::refine;
 pub use sides::{Side, faces_on_side, nodes_on_side};
 pub use write::{write_surface, write_tetrahedra};
 
-/// Simplices of `N` nodes in `D` dimensions. Data without promises: [`check`] is what gives them.
+/// Simplices of `N` vertices in `D` dimensions. The fields carry no guarantee; [`check`] tests them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh<const D: usize, const N: usize> {
     /// Undeformed position of each vertex, m.
@@ -38,7 +42,7 @@ pub struct Mesh<const D: usize, const N: usize> {
     pub elements: Vec<[usize; N]>,
 }
 
-/// Tetrahedra in space; positive when `dot(cross(b − a, c − a), d − a) > 0`.
+/// Tetrahedra in space; positively oriented if `dot(cross(b − a, c − a), d − a) > 0`.
 pub type TetrahedralMesh = Mesh<3, 4>;
 
 /// Triangles in space, counter-clockwise seen from outside.

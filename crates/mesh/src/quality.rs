@@ -1,4 +1,4 @@
-//! How well shaped the elements of a mesh are.
+//! Sizes and shapes of a mesh's elements.
 
 use std::f64::consts::PI;
 use std::fmt;
@@ -8,12 +8,12 @@ use nalgebra::Vector3;
 use super::boundary::FACES;
 use super::{TetrahedralMesh, area_vector, boundary, signed_volume};
 
-/// A worst value, and the element (counted from 0) that has it.
+/// An extreme value and its element, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extreme {
-    /// The value; infinite in a mesh without elements.
+    /// The value; infinite for a mesh without elements.
     pub value: f64,
-    /// The first element that has it.
+    /// The first element with this value.
     pub element: usize,
 }
 
@@ -26,11 +26,11 @@ pub struct Quality {
     pub elements: usize,
     /// Number of triangles on the boundary.
     pub boundary_faces: usize,
-    /// Volume of all elements together, m³.
+    /// Total volume, m³.
     pub volume: f64,
     /// Smallest and largest volume, m³.
     pub volumes: [Extreme; 2],
-    /// Smallest height of a vertex above the face opposite, m: what limits an explicit time step.
+    /// Smallest height of a vertex above the opposite face, m. It limits the time step of explicit integrators.
     pub smallest_height: Extreme,
     /// Smallest and largest angle between two faces, degrees.
     pub dihedral_angles: [Extreme; 2],
@@ -80,7 +80,8 @@ fn measure(corners: [Vector3<f64>; 4]) -> Shape {
     }
 }
 
-/// Smallest and largest of the six, degrees, by the arc tangent: the arc cosine loses half of the digits of flat angles.
+/// Smallest and largest of the six dihedral angles, degrees, by the arc tangent: the arc cosine loses half of the digits near 0°
+/// and 180°.
 fn dihedral_angles(normals: [Vector3<f64>; 4]) -> [f64; 2] {
     let mut range = [f64::INFINITY, f64::NEG_INFINITY];
     for i in 0..4 {
@@ -151,7 +152,7 @@ mod tests {
     #[test]
     fn the_regular_tetrahedron_is_perfect() {
         let regular = one([[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]);
-        // this order of its corners is the mirrored one
+        // This order of the corners is the mirrored one.
         assert_relative_eq!(regular.volume, -1.0 / 3.0, max_relative = 1e-14);
         let regular = one([[0.0, 0.0, 0.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0]]);
         assert_relative_eq!(regular.radius_ratio.value, 1.0, max_relative = 1e-14);

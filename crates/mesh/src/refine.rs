@@ -10,8 +10,8 @@ use super::{MeshError, Problem, TetrahedralMesh};
 /// The edges of a tetrahedron, by its corners.
 const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 
-/// For each diagonal of the octahedron inside: its two ends, then the other four edge midpoints around it, so that
-/// `[end, end, ring[i], ring[i + 1]]` is positive. Numbers are those of [`EDGES`].
+/// The three diagonals of the inner octahedron: the two ends of each, then the other four edge midpoints around it, such that
+/// `[end, end, ring[i], ring[i + 1]]` is positive. The numbers are indices of [`EDGES`].
 const DIAGONALS: [([usize; 2], [usize; 4]); 3] =
     [([0, 5], [1, 2, 4, 3]), ([1, 4], [2, 0, 3, 5]), ([2, 3], [0, 1, 5, 4])];
 
@@ -22,7 +22,7 @@ const DIAGONALS: [([usize; 2], [usize; 4]); 3] =
 /// Journal of Mathematics 21, 1995). The first vertices are those of the coarse mesh; the children of element e are the
 /// elements 8 e to 8 e + 7 and have an eighth of its volume each. The mesh must have passed [`check`](super::check).
 ///
-/// Refuses more than 50 million elements.
+/// Returns an error for more than 50 million elements.
 pub fn refine(mesh: TetrahedralMesh, times: u32, source: &Path) -> Result<TetrahedralMesh, MeshError> {
     let elements = mesh.elements.len() as f64 * 8f64.powf(f64::from(times));
     if elements > MOST_ELEMENTS as f64 {
@@ -62,7 +62,7 @@ fn children(&[a, b, c, d]: &[usize; 4], m: [usize; 6], vertices: &[Vector3<f64>]
         let [p, q] = DIAGONALS[diagonal].0.map(|end| vertices[m[end]]);
         (p - q).norm_squared()
     };
-    // The first of equal ones, so that the mesh is the same on every machine.
+    // The first of equal diagonals, so that the mesh is the same on every machine.
     let shortest = (1..3).fold(0, |best, next| if length(next) < length(best) { next } else { best });
     let (ends, ring) = DIAGONALS[shortest];
     let inner = |i: usize| [m[ends[0]], m[ends[1]], m[ring[i]], m[ring[(i + 1) % 4]]];

@@ -1,4 +1,4 @@
-//! The body of a scene: its meshes, and what its tables mean on them.
+//! The body of a scene: its meshes, constraints and loads.
 
 use std::path::{Path, PathBuf};
 
@@ -85,7 +85,7 @@ pub fn body_of(scene: &Scene, mesh: TetrahedralMesh, data: &Path) -> Result<Body
     })
 }
 
-/// Scaled, checked and refined.
+/// Scales, checks and refines the tetrahedra.
 fn checked(scene: &Scene, mesh: TetrahedralMesh) -> Result<TetrahedralMesh, SceneError> {
     let mesh = scale(mesh, scene.mesh.scale);
     let source = scene.mesh.file.clone().unwrap_or_else(|| PathBuf::from("box"));
@@ -118,7 +118,7 @@ fn surface(scene: &Scene, data: &Path, file: &Path) -> Result<SurfaceMesh, Scene
     surface.and_then(|surface| finite(surface, &path)).map_err(|error| mesh_error(scene, "mesh.display", error))
 }
 
-/// A scale can make what was read infinite.
+/// Checks the scaled coordinates, which a large scale can make infinite.
 fn finite(surface: SurfaceMesh, source: &Path) -> Result<SurfaceMesh, MeshError> {
     match surface.vertices.iter().position(|x| !x.iter().all(|coordinate| coordinate.is_finite())) {
         Some(vertex) => Err(MeshError::in_file(source, Problem::VertexNotFinite { vertex })),
@@ -133,7 +133,7 @@ fn scale<const N: usize>(mut mesh: fem_mesh::Mesh<3, N>, factor: f64) -> fem_mes
     mesh
 }
 
-/// Beside the scene, else in `data`; an absolute path is what it is.
+/// The path of a mesh file: beside the scene, else in `data`. An absolute path is used as it is.
 fn find(scene: &Scene, data: &Path, file: &Path) -> PathBuf {
     let beside = scene.path.parent().unwrap_or(Path::new("")).join(file);
     if beside.exists() { beside } else { data.join(file) }
@@ -149,13 +149,13 @@ impl Scene {
         check(self).map_err(|(field, problem)| self.refuse(&field, &problem))
     }
 
-    /// The error of a pipeline that cannot run the scene because of this field, such as `time.integrator`.
+    /// The error of a field, such as `time.integrator`, at its line. `problem` continues the sentence that begins with the field.
     pub fn refuse(&self, field: &str, problem: &str) -> SceneError {
         SceneError::Line { file: self.path.clone(), line: line(self, field), problem: format!("{field} {problem}") }
     }
 }
 
-/// Read anew, because only a scene that is refused needs it.
+/// The line of a field in the scene file, which is read again.
 fn line(scene: &Scene, field: &str) -> usize {
     std::fs::read_to_string(&scene.path).map_or(1, |text| line_of(&text, field))
 }

@@ -1,4 +1,4 @@
-//! The one error of scene files.
+//! The error of scene files.
 
 use std::path::PathBuf;
 
@@ -6,15 +6,15 @@ use thiserror::Error;
 
 use fem_mesh::MeshError;
 
-/// Why a scene cannot be used: one message with file, line, field and remedy.
+/// A problem with a scene, in one message with file, line, field and remedy.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SceneError {
-    /// There is no scene of that name.
+    /// No scene has this name.
     #[error("there is no scene `{name}`; {known}, or the path of a .toml file")]
     Unknown {
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// The names that there are.
+        /// The names of all scenes.
         known: String,
     },
     /// The file cannot be read.
@@ -22,20 +22,20 @@ pub enum SceneError {
     Unreadable {
         /// The scene file.
         file: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         reason: String,
     },
-    /// A line of the file is wrong.
+    /// A line of the file has a problem.
     #[error("{}, line {line}: {problem}", file.display())]
     Line {
         /// The scene file.
         file: PathBuf,
         /// Counted from 1.
         line: usize,
-        /// What is wrong with which field, and the remedy.
+        /// The field, its problem and the remedy.
         problem: String,
     },
-    /// A mesh that the scene names is wrong.
+    /// A mesh of the scene has a problem.
     #[error("{}, line {line}: {field}: {error}", file.display())]
     Mesh {
         /// The scene file.
@@ -44,7 +44,7 @@ pub enum SceneError {
         line: usize,
         /// The key that names the mesh.
         field: &'static str,
-        /// What is wrong with it.
+        /// The problem of the mesh.
         error: MeshError,
     },
 }

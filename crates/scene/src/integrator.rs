@@ -18,7 +18,7 @@ pub enum Integrator {
 }
 
 impl Integrator {
-    /// All of them.
+    /// All methods.
     pub const ALL: [Self; 8] = [
         Self::ExplicitEuler,
         Self::SemiImplicitEuler,

@@ -1,4 +1,4 @@
-//! From a name to a checked scene.
+//! Finding, reading and checking scene files.
 
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ pub fn load(name: &str, data: &Path) -> Result<Scene, SceneError> {
     parse(text.trim_start_matches('\u{feff}'), &path)
 }
 
-/// Reads and checks the text of a scene file; `path` is the file that errors name.
+/// Reads and checks the text of a scene file; errors name the file `path`.
 pub fn parse(text: &str, path: &Path) -> Result<Scene, SceneError> {
     let mut scene: Scene = toml::from_str(text).map_err(|error| SceneError::Line {
         file: path.to_owned(),
@@ -63,8 +63,7 @@ fn line_at(text: &str, position: usize) -> usize {
     1 + text.bytes().take(position).filter(|&byte| byte == b'\n').count()
 }
 
-/// The line of a field such as `time.dt` or `traction[0].on`; where the file leaves it out, that of the table that it
-/// belongs to.
+/// The line of a field such as `time.dt` or `traction[0].on`; the line of its table if the field is missing.
 pub(super) fn line_of(text: &str, field: &str) -> usize {
     let Ok(root) = DeTable::parse(text) else { return 1 };
     let mut table: &DeTable<'_> = root.get_ref();

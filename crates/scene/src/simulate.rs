@@ -1,19 +1,20 @@
-//! The loop: steps a simulation and takes its time.
+//! The loop that steps a simulation and measures its time.
 
 use std::time::Instant;
 
 use crate::simulation::{Failure, Simulation};
 
-/// What a run took, and how it ended.
+/// Step times of a run, and the failure that ended it.
 #[derive(Clone, Debug, Default)]
 pub struct Run {
-    /// Wall-clock time of each finished step, the physics alone, s.
+    /// Wall-clock time of each completed step, without `after_step`, s.
     pub step_seconds: Vec<f64>,
-    /// Why it ended before its last step, where it did.
+    /// The failure, if a step failed.
     pub failure: Option<Failure>,
 }
 
-/// Advances by `steps` steps. `after_step` is called outside the clock; its error ends the run.
+/// Advances by `steps` steps, or up to the first that fails. `after_step` is not part of the measured time; its error ends the
+/// run.
 pub fn run<E>(
     simulation: &mut dyn Simulation,
     steps: usize,
@@ -34,7 +35,7 @@ pub fn run<E>(
     Ok(run)
 }
 
-/// The value below which the part `fraction` of the values lies (nearest rank); `None` where there are none.
+/// Quantile of the values by nearest rank, `fraction` from 0 to 1; `None` without values.
 pub fn quantile(values: &[f64], fraction: f64) -> Option<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -59,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn no_values_have_no_quantile() {
+    fn an_empty_list_has_no_quantile() {
         assert_eq!(quantile(&[], 0.5), None);
     }
 }

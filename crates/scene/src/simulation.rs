@@ -14,12 +14,12 @@ pub use failure::{Breakdown, Cause, Failure};
 pub use parameter::Parameter;
 pub use part::Part;
 
-/// A body in motion, as the window, the headless loop and the reports see it. Lengths in m, times in s, energies in J.
+/// A simulation of one body, whichever pipeline computes it. Lengths are in m, times in s, energies in J.
 pub trait Simulation: Send {
     /// The scene's name, for titles and statistics.
     fn name(&self) -> &str;
 
-    /// The undeformed mesh and surfaces; they never change in a run.
+    /// The undeformed mesh and surfaces, which never change.
     fn shape(&self) -> Arc<Shape>;
 
     /// `q  (3n)` positions of all nodes now, m.
@@ -31,22 +31,22 @@ pub trait Simulation: Send {
     /// Positions of the display surface's vertices now, m: skinned if the scene has a display mesh, else the nodes.
     fn display_positions(&self) -> Vec<Vector3<f64>>;
 
-    /// Seconds simulated since the start or the last reset.
+    /// Simulated time since the start or the last reset, s.
     fn time(&self) -> f64;
 
-    /// Seconds that one step advances.
+    /// Time step, s.
     fn dt(&self) -> f64;
 
-    /// Advances by one time step. After a failure the state is the last good one; only [`reset`](Self::reset) goes on.
+    /// Advances by one time step. A step that fails leaves the state as it was before the step.
     fn step(&mut self) -> Result<(), Failure>;
 
-    /// Back to the start: rest positions, no velocity, time zero. Parameters and integrator stay as they are set.
+    /// Returns to the initial state: undeformed, at rest, time zero. Parameters and integrator keep their values.
     fn reset(&mut self);
 
-    /// Kinetic and potential energy now.
+    /// Kinetic and potential energy now, J.
     fn energies(&self) -> Energies;
 
-    /// Smallest J = det F of all elements now, and the element that has it.
+    /// Minimum of J = det F over all elements now, and its element.
     fn min_J(&self) -> (f64, usize);
 
     /// Cauchy stress of each element now, Pa.
@@ -55,7 +55,7 @@ pub trait Simulation: Send {
     /// Name of the integrator in use, as scene files spell it.
     fn integrator(&self) -> &'static str;
 
-    /// Goes on with the next integrator that this pipeline has, and returns its name.
+    /// Switches to the pipeline's next integrator, and returns its name.
     fn next_integrator(&mut self) -> &'static str;
 
     /// The numbers that the user may change while it runs.
@@ -91,7 +91,7 @@ pub trait Simulation: Send {
         Vec::new()
     }
 
-    /// Counts of the work done since the start (a reset does not clear them).
+    /// Work done since the start; a reset does not clear it.
     fn counters(&self) -> Counters;
 
     /// The parts that the scene builds and those that it leaves out.
@@ -101,11 +101,11 @@ pub trait Simulation: Send {
 /// The undeformed body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// Nodes and tetrahedra that are simulated.
+    /// Nodes and tetrahedra of the simulation.
     pub mesh: TetrahedralMesh,
     /// Boundary triangles of `mesh`, as indices of its nodes, counter-clockwise from outside.
     pub boundary: Vec<[usize; 3]>,
-    /// Surface that is shown, if the scene names one.
+    /// The display surface, if the scene has one.
     pub display: Option<SurfaceMesh>,
 }
 
@@ -166,7 +166,7 @@ pub struct Pull {
     pub offset: Vector3<f64>,
 }
 
-/// Work done so far. Each field counts what its name says.
+/// Numbers of operations so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs)] // the names are the documentation; they are the keys of the statistics file
 pub struct Counters {

@@ -14,7 +14,7 @@ const TETRAHEDRON: usize = 4;
 const CONVERT: &str = "convert it with `gmsh IN.msh -0 -format msh41 -setnumber Mesh.Binary 0 -o OUT.msh`";
 const SPLIT: &str = "mesh the volumes with tetrahedra of first order (`gmsh -3 -order 1`)";
 
-/// The two layouts that read alike but for the order of a few numbers.
+/// The two supported layouts, which differ in the order of a few numbers.
 #[derive(Clone, Copy, PartialEq)]
 enum Version {
     V40,
@@ -28,7 +28,7 @@ struct Nodes {
     index: HashMap<i64, usize>,
 }
 
-/// Reads the tetrahedra of all entities; points, lines and faces are left out, other volumes refused.
+/// Reads the tetrahedra of all entities. Points, lines and faces are skipped; other volume elements are an error.
 pub(super) fn read(file: &Path, text: &str) -> Result<TetrahedralMesh, MeshError> {
     let mut lines = Words::of_lines(file, text);
     let version = read_version(file, &mut lines)?;
@@ -38,7 +38,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<TetrahedralMesh, MeshError
         match line.word("a section")? {
             "$Nodes" => read_nodes(file, &mut lines, version, &mut nodes)?,
             "$Elements" => read_elements(file, &mut lines, version, &nodes, &mut elements)?,
-            // other sections, line by line
+            // Other sections are skipped line by line.
             _ => {}
         }
     }
@@ -61,8 +61,8 @@ fn read_version<'a>(file: &Path, lines: &mut impl Iterator<Item = Words<'a>>) ->
     }
 }
 
-/// `<blocks> <nodes> …`, then blocks of `<dim> <tag> <parametric> <nodes>`; the nodes' tags stand before their places (4.1)
-/// or each beside its own (4.0).
+/// `<blocks> <nodes> …`, then blocks of `<dim> <tag> <parametric> <nodes>`; all tags stand before all positions (4.1),
+/// or each tag beside its position (4.0).
 fn read_nodes<'a>(
     file: &Path,
     lines: &mut impl Iterator<Item = Words<'a>>,
@@ -80,7 +80,7 @@ fn read_nodes<'a>(
             let first = nodes.places.len();
             rows(file, lines, "nodes", count, |row, line| {
                 add_tag(line, nodes, first + row)?;
-                // the places have begun
+                // A line with more numbers is a position.
                 let short = Problem::WrongCount { what: "node tags", announced: count, found: row };
                 if line.peek().is_some() { Err(line.error(short)) } else { Ok(()) }
             })?;
@@ -121,7 +121,7 @@ fn read_elements<'a>(
         let dimension = if version == Version::V41 { first } else { second };
         let kind = header.amount("the type of the block's elements")?;
         let count = header.amount("the number of elements of the block")?;
-        // leaving out elements that fill space would leave holes in the body
+        // Skipped volume elements would leave holes in the body.
         if dimension == 3 && kind != TETRAHEDRON && count > 0 {
             let found = match kind {
                 11 => "a mesh of tetrahedra with 10 nodes".to_owned(),

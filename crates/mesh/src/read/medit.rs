@@ -5,7 +5,7 @@ use std::path::Path;
 use super::words::{Words, from_zero};
 use crate::{MeshError, Problem, TetrahedralMesh};
 
-/// Reads `Vertices` and `Tetrahedra`, counted from 1, wherever they stand; other sections end where the next keyword begins.
+/// Reads `Vertices` and `Tetrahedra`, counted from 1, in any order of sections; other sections are skipped up to the next keyword.
 pub(super) fn read(file: &Path, text: &str) -> Result<TetrahedralMesh, MeshError> {
     let mut words = Words::of_text(file, text);
     check_version(&mut words)?;
@@ -31,7 +31,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<TetrahedralMesh, MeshError
             _ => return Err(words.error(Problem::NotA { word: keyword.to_owned(), expected: "a MEDIT keyword" })),
         }
     }
-    // Only now: a file may have its tetrahedra before its vertices.
+    // Indices are checked at the end: a file may have its tetrahedra before its vertices.
     let mut elements = Vec::with_capacity(tetrahedra.len());
     for (line, corners) in tetrahedra {
         let in_line = |problem| MeshError::in_line(file, line, problem);
@@ -41,7 +41,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<TetrahedralMesh, MeshError
     Ok(TetrahedralMesh { vertices, elements })
 }
 
-/// Versions differ in the width of numbers in binary files alone, so all four read alike here.
+/// The four versions differ only in the width of numbers in binary files.
 fn check_version(words: &mut Words) -> Result<(), MeshError> {
     let instead = "save the mesh as a MEDIT text file, which starts with `MeshVersionFormatted 2`";
     match words.word("the keyword MeshVersionFormatted")? {
@@ -95,7 +95,7 @@ fn corners(words: &mut Words) -> Result<[i64; 4], MeshError> {
     Ok([corner()?, corner()?, corner()?, corner()?])
 }
 
-/// Leaving out elements that fill space would leave holes in the body.
+/// Returns an error for a section with entries: skipped volume elements would leave holes in the body.
 fn refuse_section(words: &mut Words, keyword: &str) -> Result<(), MeshError> {
     match words.amount("the number of entries")? {
         0 => Ok(()),
@@ -112,7 +112,7 @@ fn skip_section(words: &mut Words) {
     }
 }
 
-/// Keywords start with a letter; so do `nan` and `inf`, which are numbers.
+/// Returns true for a word that starts with a letter, apart from the numbers `nan` and `inf`.
 fn is_keyword(word: &str) -> bool {
     word.starts_with(|c: char| c.is_ascii_alphabetic()) && word.parse::<f64>().is_err()
 }

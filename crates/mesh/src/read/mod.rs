@@ -1,4 +1,5 @@
-//! Mesh files, by extension. Readers believe nothing that a file announces; [`check`](super::check) judges what they return.
+//! Readers of mesh files, by extension. They verify every count that a file announces and every index; [`check`](super::check)
+//! tests the mesh itself.
 
 mod gmsh;
 mod medit;
@@ -59,7 +60,7 @@ fn bytes(path: &Path) -> Result<Vec<u8>, MeshError> {
     })
 }
 
-/// A file as text without a byte-order mark. Names and comments may be in any encoding: what is not UTF-8 is replaced.
+/// A file as text without a byte-order mark. Bytes that are not UTF-8 are replaced: names and comments may be in any encoding.
 fn text(path: &Path) -> Result<String, MeshError> {
     let bytes = bytes(path)?;
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);

@@ -7,10 +7,10 @@ use nalgebra::Vector3;
 use super::words::{Words, from_zero};
 use crate::{MeshError, Problem, SurfaceMesh};
 
-/// A triangle and the line that gave it.
+/// The line of a triangle and its vertex indices.
 type Face = (usize, [i64; 3]);
 
-/// Reads `v` and `f`; everything else (textures, normals, groups, materials) has no part in the shape.
+/// Reads `v` and `f`; textures, normals, groups and materials do not change the shape.
 ///
 /// A polygon becomes a fan around its first vertex. A triangle that names a vertex twice has no area and is left out.
 pub(super) fn read(file: &Path, text: &str) -> Result<SurfaceMesh, MeshError> {
@@ -26,7 +26,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<SurfaceMesh, MeshError> {
     if faces.is_empty() {
         return Err(MeshError::in_file(file, Problem::Empty { what: "faces" }));
     }
-    // Only now: a face may stand before its vertices.
+    // Indices are checked at the end: a face may stand before its vertices.
     let mut elements = Vec::with_capacity(faces.len());
     for (line, corners) in faces {
         let in_line = |problem| MeshError::in_line(file, line, problem);

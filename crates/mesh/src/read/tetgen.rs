@@ -8,7 +8,7 @@ use super::words::{Words, rows};
 use super::{extension, text};
 use crate::{MeshError, Problem, TetrahedralMesh};
 
-/// Reads `path` and its partner of the same stem. The first node's number, 0 or 1, says where all counting starts.
+/// Reads `path` and its partner of the same stem. All numbers count from that of the first node, 0 or 1.
 pub(super) fn read(path: &Path) -> Result<TetrahedralMesh, MeshError> {
     let (node_file, ele_file) = match extension(path).as_str() {
         "node" => (path.to_owned(), path.with_extension("ele")),
@@ -16,7 +16,7 @@ pub(super) fn read(path: &Path) -> Result<TetrahedralMesh, MeshError> {
     };
     let partner = if node_file == path { &ele_file } else { &node_file };
     if !partner.exists() {
-        // where both are missing, the one that was asked for is the one to name
+        // If both are missing, the error names the requested one.
         text(path)?;
         return Err(MeshError::in_file(path, Problem::PartnerMissing { partner: partner.clone() }));
     }

@@ -12,10 +12,10 @@ use crate::{MeshError, Problem, TetrahedralMesh};
 
 const TETRAHEDRON: i64 = 10;
 
-/// Points, lines, polygons, and their curved kin: they fill no space, so nothing is lost without them.
+/// Points, lines and polygons, linear and curved: cells without volume, which are skipped.
 const SURFACE_CELLS: [i64; 12] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23];
 
-/// Reads the tetrahedra of all pieces; cells that fill no space are left out, other volumes refused.
+/// Reads the tetrahedra of all pieces. Cells without volume are skipped; other volume cells are an error.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<TetrahedralMesh, MeshError> {
     let (text, appended) = split_appended(file, bytes)?;
     let document = Document::parse(&text).map_err(|error| {
@@ -75,7 +75,7 @@ fn read_cells(arrays: &Arrays, piece: Node, points: usize) -> Result<Vec<[usize;
     Ok(tetrahedra)
 }
 
-/// A tetrahedron, or nothing for a cell that fills no space.
+/// A tetrahedron; `None` for a cell without volume.
 fn read_cell(cell: usize, kind: i64, corners: &[i64], points: usize) -> Result<Option<[usize; 4]>, Problem> {
     if SURFACE_CELLS.contains(&kind) {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! A text file as words that know their line.
+//! A text file as words with their line numbers.
 
 use std::path::Path;
 use std::str::FromStr;
@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use crate::{MeshError, Problem};
 
-/// What is left of a text: words between blanks and line ends. A word that starts with `#` begins a comment.
+/// The rest of a text, as words between blanks and line ends. A word that starts with `#` begins a comment.
 #[derive(Clone)]
 pub(super) struct Words<'a> {
     file: &'a Path,
@@ -27,22 +27,22 @@ impl<'a> Words<'a> {
         lines.filter(|line| line.peek().is_some())
     }
 
-    /// The next word, left where it is.
+    /// The next word, without taking it.
     pub(super) fn peek(&self) -> Option<&'a str> {
         self.clone().next()
     }
 
-    /// Line of the word that came last, counted from 1.
+    /// Line of the last word, counted from 1.
     pub(super) fn line(&self) -> usize {
         self.line
     }
 
-    /// A problem of that line.
+    /// The error of a problem in that line.
     pub(super) fn error(&self, problem: Problem) -> MeshError {
         MeshError::in_line(self.file, self.line, problem)
     }
 
-    /// The next word; `expected` says what it is, for the message where there is none.
+    /// The next word; `expected` describes it in the message if it is missing.
     pub(super) fn word(&mut self, expected: &'static str) -> Result<&'a str, MeshError> {
         self.next().ok_or_else(|| self.error(Problem::Ends { expected }))
     }
@@ -57,7 +57,7 @@ impl<'a> Words<'a> {
         self.parse(expected)
     }
 
-    /// The next word as a number of things. It is what a file announces: never allocate by it.
+    /// The next word as a count. Never allocate by it: the file may hold less.
     pub(super) fn amount(&mut self, expected: &'static str) -> Result<usize, MeshError> {
         self.parse(expected)
     }
@@ -99,7 +99,7 @@ impl<'a> Iterator for Words<'a> {
     }
 }
 
-/// A file's index, where its vertices count from `first`, as an index from 0.
+/// A file's vertex index, counted from `first`, as an index from 0.
 pub(super) fn from_zero(index: i64, first: i64, count: usize) -> Result<usize, Problem> {
     let from_zero = index.checked_sub(first).and_then(|i| usize::try_from(i).ok()).filter(|&i| i < count);
     from_zero.ok_or_else(|| match count {
@@ -108,7 +108,7 @@ pub(super) fn from_zero(index: i64, first: i64, count: usize) -> Result<usize, P
     })
 }
 
-/// Exactly as many lines as the file announced, each made into one entry; a line that starts with `$` ends a section.
+/// Reads exactly the announced number of lines, one entry each; a line that starts with `$` ends a section.
 pub(super) fn rows<'a, R>(
     file: &Path,
     lines: &mut impl Iterator<Item = Words<'a>>,

@@ -9,13 +9,13 @@ use serde_json::{Value, json};
 use super::save;
 use crate::{MeshError, Problem, area_vector};
 
-// Numbers that the specification gives to the types of its arrays and to what they are for.
+// Constants of the specification for component types and buffer targets.
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
 const VERTICES: u32 = 34962;
 const INDICES: u32 = 34963;
 
-/// Where the surface is at one time.
+/// Positions of the surface at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     /// Seconds since the start; not negative, and each frame later than the one before.
@@ -26,10 +26,10 @@ pub struct Frame {
 
 /// Writes a surface with smooth normals, and its motion as one morph target per frame, linear in time between frames.
 ///
-/// `rest  (n)` is the shape where nothing plays, m; `faces` are its triangles, counter-clockwise from outside, and only
-/// vertices that they name are written. Positions become single precision. The file takes 24 bytes per written vertex for
+/// `rest  (n)` is the shape without animation, m; `faces` are its triangles, counter-clockwise from outside. Vertices without a
+/// face are not written. Positions become single precision. The file takes 24 bytes per written vertex for
 /// the rest and again for each frame, 12 per face, and 4 per frame squared: 13 002 vertices in 100 frames are 32 MB, and 4 GiB is the
-/// most that the format holds. Panics where a face's index is out of range.
+/// most that the format allows. Panics if a face's index is out of range.
 pub fn write_glb(path: &Path, rest: &[Vector3<f64>], faces: &[[usize; 3]], frames: &[Frame]) -> Result<(), MeshError> {
     let (vertices, faces) = compact(rest.len(), faces);
     let in_file = |problem| MeshError::in_file(path, problem);
@@ -43,7 +43,7 @@ pub fn write_glb(path: &Path, rest: &[Vector3<f64>], faces: &[[usize; 3]], frame
     save(path, |out| write_chunks(out, document.into_bytes(), buffer.bytes))
 }
 
-/// The vertices that faces name, ascending, and the faces in their numbers.
+/// The vertices of the faces, ascending, and the faces in the numbers of these vertices.
 fn compact(count: usize, faces: &[[usize; 3]]) -> (Vec<usize>, Vec<[u32; 3]>) {
     let mut used = vec![false; count];
     for &vertex in faces.iter().flatten() {
@@ -58,7 +58,7 @@ fn compact(count: usize, faces: &[[usize; 3]]) -> (Vec<usize>, Vec<[u32; 3]>) {
 }
 
 fn check_frames(rest: &[Vector3<f64>], frames: &[Frame]) -> Result<(), Problem> {
-    // what single precision cannot hold is not finite in the file
+    // A number too large for single precision would be infinite in the file.
     let finite = |x: &Vector3<f64>| x.iter().all(|&coordinate| (coordinate as f32).is_finite());
     if let Some(vertex) = rest.iter().position(|x| !finite(x)) {
         return Err(Problem::VertexNotFinite { vertex });
@@ -75,7 +75,7 @@ fn check_frames(rest: &[Vector3<f64>], frames: &[Frame]) -> Result<(), Problem> 
             return refuse(format!("has {} vertices and the rest {}", positions.len(), rest.len()));
         }
         if let Some(vertex) = positions.iter().position(|x| !finite(x)) {
-            return refuse(format!("has vertex {vertex} at no finite place"));
+            return refuse(format!("has a position of vertex {vertex} that is not finite"));
         }
     }
     Ok(())
@@ -83,7 +83,7 @@ fn check_frames(rest: &[Vector3<f64>], frames: &[Frame]) -> Result<(), Problem> 
 
 fn check_size(vertices: usize, faces: usize, frames: usize) -> Result<(), Problem> {
     let (v, f, n) = (vertices as f64, faces as f64, frames as f64);
-    // 500 bytes for each frame's description, and more than enough for the rest
+    // At most 500 bytes for the description of each frame and of the rest.
     let bytes = 24.0 * v * (n + 1.0) + 12.0 * f + 4.0 * n * (n + 1.0) + 500.0 * (n + 4.0);
     if bytes > f64::from(u32::MAX) {
         let found = format!("a .glb file of {bytes:e} bytes");
@@ -95,7 +95,7 @@ fn check_size(vertices: usize, faces: usize, frames: usize) -> Result<(), Proble
     Ok(())
 }
 
-/// The binary part of the file, and the descriptions of what lies where.
+/// The binary part of the file, and the descriptions of its arrays.
 #[derive(Default)]
 struct Buffer {
     bytes: Vec<u8>,
@@ -141,8 +141,8 @@ impl Buffer {
     }
 }
 
-/// Arrays in this order: indices, positions, normals, then displacements and changes of normals of each frame, then the
-/// frames' times and weights.
+/// Fills the buffer in this order: indices, positions, normals, then displacements and changes of normals of each frame, then
+/// times and weights of the frames.
 fn fill(rest: &[Vector3<f64>], vertices: &[usize], faces: &[[u32; 3]], frames: &[Frame]) -> Buffer {
     let mut buffer = Buffer::default();
     buffer.push_indices(faces);
@@ -177,7 +177,8 @@ fn differences(to: &[Vector3<f32>], from: &[Vector3<f32>]) -> Vec<Vector3<f32>> 
     to.iter().zip(from).map(|(to, from)| to - from).collect()
 }
 
-/// Unit normal at each vertex: its faces' normals, weighted by area; upward where they cancel, since none may be zero.
+/// Unit normal at each vertex: the sum of its faces' normals weighted by area, or upward if that is zero, which glTF does not
+/// allow.
 fn smooth_normals(places: &[Vector3<f64>], faces: &[[u32; 3]]) -> Vec<Vector3<f64>> {
     let mut normals = vec![Vector3::zeros(); places.len()];
     for face in faces {
@@ -218,7 +219,7 @@ fn document(buffer: &Buffer, frames: usize) -> Value {
     document
 }
 
-/// The file's header and its two chunks, each filled up to a multiple of 4 bytes: JSON with blanks, numbers with zeros.
+/// Writes the header and the two chunks, each padded to a multiple of 4 bytes: JSON with blanks, numbers with zeros.
 fn write_chunks(out: &mut dyn Write, mut json: Vec<u8>, mut numbers: Vec<u8>) -> io::Result<()> {
     json.resize(json.len().next_multiple_of(4), b' ');
     numbers.resize(numbers.len().next_multiple_of(4), 0);

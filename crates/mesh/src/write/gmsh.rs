@@ -1,4 +1,4 @@
-//! Gmsh's text file, version 4.1: one volume holds everything. Source: Gmsh reference manual, «MSH file format».
+//! Gmsh's text file, version 4.1, with one volume entity. Source: Gmsh reference manual, «MSH file format».
 
 use std::io::{self, Write};
 

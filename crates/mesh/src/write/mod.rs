@@ -1,6 +1,6 @@
-//! Mesh files, by extension. A file appears under its name when it is complete, or not at all.
+//! Writers of mesh files, by extension. A file gets its name once it is complete.
 //!
-//! Numbers in text files have as many digits as reading them back exactly needs: 17 at most.
+//! Numbers in text files have as many digits as an exact round trip needs, at most 17.
 
 mod glb;
 mod gmsh;
@@ -44,8 +44,8 @@ pub fn write_surface(path: &Path, mesh: &SurfaceMesh) -> Result<(), MeshError> {
     }
 }
 
-/// Writes to a name of its own in the same folder, then gives the file its name in one step. A link stays a link, to a new
-/// file; a device or pipe is written to as it is.
+/// Writes a temporary file in the same folder and renames it, so that no incomplete file has the name. A link stays a link, to
+/// the new file; a device or pipe is written directly.
 pub fn save(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), MeshError> {
     let unwritable = |error: io::Error| MeshError::in_file(path, Problem::Unwritable { reason: error.to_string() });
     if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
@@ -56,7 +56,7 @@ pub fn save(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -
     let result =
         write_all(&unfinished, write).and_then(|file| file.sync_all()).and_then(|()| fs::rename(&unfinished, target));
     result.map_err(|error| {
-        // there may be none; the first error is the one to tell
+        // The temporary file may not exist; the first error is reported.
         let _ = fs::remove_file(&unfinished);
         unwritable(error)
     })
@@ -68,7 +68,7 @@ fn write_all(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) 
     out.into_inner().map_err(io::IntoInnerError::into_error)
 }
 
-/// Differs between processes and between calls, so that no two writers meet in one file.
+/// A name that differs between processes and between calls, so that no two writers share a file.
 fn unfinished_name(path: &Path) -> PathBuf {
     static CALLS: AtomicUsize = AtomicUsize::new(0);
     let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -76,12 +76,12 @@ fn unfinished_name(path: &Path) -> PathBuf {
     path.with_file_name(format!(".{name}.{}-{call}.part", process::id()))
 }
 
-/// `x y z`, exact.
+/// `x y z` with the digits of an exact round trip.
 fn place(x: &Vector3<f64>) -> String {
     format!("{:?} {:?} {:?}", x[0], x[1], x[2])
 }
 
-/// A name as an XML attribute.
+/// A name with the special characters of an XML attribute escaped.
 fn escape(name: &str) -> String {
     name.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{escape, save};
 use crate::MeshError;
 
-/// Writes the times (s) and names of files that lie in the same folder, such as those of [`write_vtu`](super::write_vtu).
+/// Writes the times (s) and names of files in the same folder, such as those of [`write_vtu`](super::write_vtu).
 pub fn write_pvd(path: &Path, files: &[(f64, String)]) -> Result<(), MeshError> {
     save(path, |out| {
         writeln!(out, r#"<?xml version="1.0"?>"#)?;

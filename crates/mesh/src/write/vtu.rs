@@ -11,20 +11,20 @@ use crate::{MeshError, Problem, TetrahedralMesh};
 /// VTK's number for the tetrahedron with 4 nodes.
 const TETRAHEDRON: u8 = 10;
 
-/// Numbers that belong to the points or the cells of a mesh, such as `displacement` in m with 3 components.
+/// Values at the points or in the cells of a mesh, such as `displacement` in m with 3 components.
 #[derive(Clone, Copy, Debug)]
 pub struct Field<'a> {
-    /// Name that ParaView shows; say the unit in it.
+    /// Name in ParaView, with the unit.
     pub name: &'a str,
-    /// Numbers for each point or cell: 1 for a scalar, 3 for a vector, 9 for a matrix row by row.
+    /// Number of values of each point or cell: 1 for a scalar, 3 for a vector, 9 for a matrix row by row.
     pub components: usize,
-    /// `(components · points)` or `(components · cells)` numbers, those of one point or cell side by side.
+    /// `(components · points)` or `(components · cells)` values, those of one point or cell contiguous.
     pub values: &'a [f64],
 }
 
 /// Writes a mesh with fields at its points (displacement, velocity) and in its cells (von Mises stress), for ParaView.
 ///
-/// Points stay where `mesh` has them; ParaView's filter «Warp By Vector» moves them by a displacement.
+/// Points keep the positions of `mesh`; ParaView's filter «Warp By Vector» moves them by a displacement.
 pub fn write_vtu(
     path: &Path,
     mesh: &TetrahedralMesh,
@@ -79,7 +79,7 @@ fn write_fields(out: &mut dyn Write, fields: &[Field]) -> io::Result<()> {
     Ok(())
 }
 
-/// Number of bytes, then the bytes, in base64 as a whole.
+/// Writes an array as base64 of the number of bytes followed by the bytes.
 fn array(
     out: &mut dyn Write,
     name: &str,

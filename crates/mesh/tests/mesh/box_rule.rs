@@ -95,7 +95,7 @@ pub fn assert_closed(faces: &[[usize; 3]]) {
     }
 }
 
-/// By the divergence theorem: positive where the faces look outward.
+/// By the divergence theorem: positive for faces that look outward.
 pub fn enclosed_volume(mesh: &TetrahedralMesh, faces: &[[usize; 3]]) -> f64 {
     let volume = |face: &[usize; 3]| {
         let [a, b, c] = face.map(|i| mesh.vertices[i]);

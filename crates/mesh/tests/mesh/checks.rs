@@ -1,4 +1,4 @@
-//! What the check refuses, and what it must let pass.
+//! Meshes that the check refuses, and meshes that pass it.
 
 use std::path::Path;
 
@@ -48,7 +48,10 @@ fn a_coordinate_that_is_not_finite_is_refused_with_its_vertex() {
         let mut mesh = corner();
         mesh.vertices[2].y = value;
         let message = refusal(&mesh);
-        assert!(message.contains("vertex 2 has a coordinate that is not finite; give it a real place"), "{message}");
+        assert!(
+            message.contains("vertex 2 has a coordinate that is not finite; give it a finite position"),
+            "{message}"
+        );
     }
 }
 

@@ -9,7 +9,7 @@ use crate::{folder_with, two_tetrahedra};
 const NODES: &[u8] = b"4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
 const ELEMENT: &[u8] = b"1 4 0\n0 0 1 2 3\n";
 
-/// Reads the first file and compares: the message begins with its path and holds these parts.
+/// Reads the first file and compares: the message begins with its path and contains these parts.
 fn assert_message(files: &[(&str, &[u8])], parts: &[&str]) {
     let (folder, path) = folder_with(files);
     let result = if path.extension().unwrap() == "obj" {
@@ -75,7 +75,7 @@ fn a_folder_that_does_not_exist_cannot_be_written_to() {
 }
 
 #[test]
-fn a_file_that_cannot_be_finished_leaves_nothing_behind() {
+fn a_file_that_cannot_be_finished_is_removed() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.vtu");
     std::fs::create_dir(&path).unwrap();
@@ -110,7 +110,7 @@ fn bad_lines_of_tetgen_are_refused_with_their_number() {
     assert_tetgen(nodes, "1 4 0\n0 0 1 2 4\n", &["m.ele, line 2: vertex 4 does not exist", "are 0 to 3; correct"]);
     assert_tetgen(nodes, "1 4 0\n0 0 1 2 -1\n", &["m.ele, line 2: vertex -1 does not exist"]);
     assert_tetgen(nodes, "1 4 0\n0 0 1 2 99999999999999999999\n", &["m.ele, line 2: `99999999999999999999`"]);
-    assert_tetgen(nodes, "1 4 0\n5 0 1 2 3\n", &["m.ele, line 2: the number 5 stands where 0 is due; number"]);
+    assert_tetgen(nodes, "1 4 0\n5 0 1 2 3\n", &["m.ele, line 2: the number 5 stands in place of 0; number"]);
     assert_tetgen("# only 2-D\n4 2 0 0\n", elements, &["m.node, line 2: a dimension other than 3", "in space"]);
     assert_tetgen(nodes, "1 10 0\n", &["m.ele, line 1", "more than 4 nodes", "without -o2"]);
     assert_tetgen("0 3 0 0\n", elements, &["m.ele, line 2", "no vertices that the index 0"]);

@@ -192,7 +192,7 @@ fn surfaces_from_scanners_come_with_byte_order_marks_carriage_returns_blanks_and
 }
 
 #[test]
-fn comments_in_any_encoding_do_no_harm() {
+fn comments_may_be_in_any_encoding() {
     let file = folder_with(&[("s.obj", b"# caf\xe9 \xff\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")]);
     assert_eq!(read_surface(&file.1).unwrap().elements.len(), 1);
 }

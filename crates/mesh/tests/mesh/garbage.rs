@@ -79,7 +79,7 @@ fn apply(bytes: &mut Vec<u8>, damage: &Damage) {
     }
 }
 
-/// Whatever a damaged file still holds, the check judges it; what passes has a boundary.
+/// Reads a damaged file. If a mesh results and passes the check, it has a boundary.
 fn read_anything(path: &Path) {
     if let Ok(mesh) = read_tetrahedra(path)
         && check(&mesh, path).is_ok()

@@ -1,4 +1,4 @@
-//! Meshes: files good and bad, the check, the boundary, the box, and what other programs expect of our files.
+//! Meshes: valid and damaged files, the check, the boundary, the box, refinement, and files for other programs.
 
 mod box_rule;
 mod checks;
@@ -29,7 +29,7 @@ fn folder_with(files: &[(&str, &[u8])]) -> (TempDir, PathBuf) {
     (folder, first)
 }
 
-/// Two tetrahedra that share a face, with coordinates that decimal text does not hold in few digits.
+/// Two tetrahedra that share a face, with coordinates that need many decimal digits.
 fn two_tetrahedra() -> TetrahedralMesh {
     let places =
         [[0.0, 0.0, 0.0], [1.0 / 3.0, 0.0, -0.0], [0.0, 2.0_f64.sqrt(), 1e-300], [0.1, 0.1, 1.0], [0.2, 0.3, -1e5]];

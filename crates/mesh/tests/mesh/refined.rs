@@ -1,4 +1,4 @@
-//! Uniform refinement, against what it must keep.
+//! Properties of uniform refinement.
 
 use std::path::Path;
 
@@ -79,7 +79,7 @@ fn shapes_stay_bounded_however_often_a_mesh_is_refined() {
 }
 
 #[test]
-fn refining_not_at_all_changes_nothing_and_twice_is_once_and_once() {
+fn zero_refinements_keep_the_mesh_and_two_are_one_after_another() {
     let mesh = box_mesh([2.0, 1.0, 1.0], 1).unwrap();
     assert_eq!(refined(mesh.clone(), 0), mesh);
     assert_eq!(refined(refined(mesh.clone(), 1), 1), refined(mesh, 2));

@@ -1,4 +1,4 @@
-//! The meshes that lie in `data`, against what its PROVENANCE.md says of them.
+//! The meshes in `data`, compared with their PROVENANCE.md.
 
 use std::collections::HashSet;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! What other programs expect of the files that we write for them.
+//! Files for other programs: VTK with fields, and glTF.
 
 use std::fs;
 use std::path::Path;
@@ -102,7 +102,7 @@ fn normals_are_unit_vectors_also_where_faces_cancel() {
 }
 
 #[test]
-fn frames_that_are_no_motion_of_the_surface_are_refused_with_their_number() {
+fn frames_that_do_not_fit_the_surface_are_refused_with_their_number() {
     let (rest, faces, mut frames) = turning_box(3);
     let refusal = |frames: &[Frame]| write_glb(Path::new("a.glb"), &rest, &faces, frames).unwrap_err().to_string();
     frames[2].time = frames[1].time;
@@ -111,7 +111,7 @@ fn frames_that_are_no_motion_of_the_surface_are_refused_with_their_number() {
     assert!(refusal(&frames).contains("frame 2"));
     frames.pop();
     frames[1].positions[3].x = 1e39;
-    assert!(refusal(&frames).contains("frame 1 (counted from 0) has vertex 3 at no finite place"));
+    assert!(refusal(&frames).contains("frame 1 (counted from 0) has a position of vertex 3 that is not finite"));
     frames[1].positions.pop();
     assert!(refusal(&frames).contains("frame 1 (counted from 0) has 26 vertices and the rest 27"));
     assert!(write_glb(Path::new("a.glb"), &rest, &[], &[]).unwrap_err().to_string().contains("no faces"));

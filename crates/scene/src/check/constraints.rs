@@ -1,11 +1,11 @@
-//! What `[fixed]` and `[[prescribed]]` must keep.
+//! Checks of `[fixed]` and `[[prescribed]]`.
 
 use super::loads::{check_distance, check_side};
 use super::{Problem, check_finite, check_positive, check_vector, problem};
 use crate::tables::{FixedTable, PrescribedTable, RotationTable};
 use crate::{Axis, Scene};
 
-/// An angle of that many turns still has ten digits.
+/// Largest number of turns: an angle of this size still has ten digits.
 const MOST_TURNS: f64 = 1e6;
 
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
@@ -29,7 +29,7 @@ fn check_prescribed(table: &str, motion: &PrescribedTable) -> Result<(), Problem
         _ => return problem(table, "needs either on or nodes; give one and only one"),
     }
     if motion.displacement.is_none() && motion.rotation.is_none() {
-        return problem(table, "says no motion; give displacement or rotation, or use [fixed]");
+        return problem(table, "has no motion; give displacement or rotation, or use [fixed]");
     }
     motion.displacement.map_or(Ok(()), |vector| check_vector(&format!("{table}.displacement"), &vector))?;
     motion.over.map_or(Ok(()), |over| check_positive(&format!("{table}.over"), over, " of seconds"))?;

@@ -1,4 +1,4 @@
-//! What the tables of loads must keep.
+//! Checks of the tables of external forces.
 
 use super::{Problem, check_finite, check_not_negative, check_positive, check_vector, problem};
 use crate::Scene;
@@ -37,7 +37,7 @@ pub(super) fn check_side(field: &str, plane: &SidePlane) -> Result<(), Problem> 
     check_distance(field, "within", plane.within)
 }
 
-/// A distance inside an inline table, which errors name as a whole.
+/// Checks a distance in an inline table. Errors name the table, because its keys share a line.
 pub(super) fn check_distance(field: &str, key: &str, distance: f64) -> Result<(), Problem> {
     if distance >= 0.0 && distance.is_finite() {
         return Ok(());

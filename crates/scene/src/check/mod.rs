@@ -1,4 +1,4 @@
-//! What a scene's numbers must keep, beyond what its types do.
+//! Checks of a scene's values beyond their types.
 
 mod constraints;
 mod loads;
@@ -6,13 +6,13 @@ mod loads;
 use crate::tables::{DampingTable, MeshTable, NewtonTable, SolverTable, StaticTable, TimeTable};
 use crate::{Integrator, Scene, SolverKind};
 
-/// The field that is wrong, and what is wrong with it together with the remedy.
+/// A field, and its problem together with the remedy. The message is both in one sentence.
 pub(super) type Problem = (String, String);
 
-/// The most cuts of each tetrahedron into eight: 8⁴ = 4096 of each.
+/// Largest number of refinements: 8⁴ = 4096 elements for each of the mesh file.
 const MOST_REFINEMENTS: u32 = 4;
 
-/// Returns the first problem.
+/// Returns the first problem of a scene.
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     check_mesh(&scene.mesh)?;
     scene.material.check()?;
@@ -29,10 +29,10 @@ pub(super) fn problem<T>(field: &str, text: impl Into<String>) -> Result<T, Prob
     Err((field.to_owned(), text.into()))
 }
 
-/// Numbers beyond these could overflow where two or three of them are multiplied.
+/// Products of two or three numbers of larger magnitude could overflow.
 const LARGEST: f64 = 1e60;
 
-/// And numbers nearer to zero than these.
+/// Products of two or three positive numbers below this one could underflow.
 const SMALLEST: f64 = 1e-60;
 
 pub(super) fn check_positive(field: &str, value: f64, unit: &str) -> Result<(), Problem> {
@@ -68,7 +68,7 @@ fn check_size(field: &str, value: f64) -> Result<(), Problem> {
     problem(field, format!("is {value:e}, too large to compute with; give at most {LARGEST:e}"))
 }
 
-/// Finite, and short enough for its length to be.
+/// Checks that the components are finite and small enough for the length to be finite.
 fn check_vector(field: &str, vector: &[f64; 3]) -> Result<(), Problem> {
     match vector.iter().any(|x| x.is_finite() && x.abs() > LARGEST) {
         true => problem(field, format!("is too long to compute with; give a shorter vector, of at most {LARGEST:e}")),
@@ -120,7 +120,7 @@ fn check_newton(newton: &NewtonTable) -> Result<(), Problem> {
     newton.tolerance.map_or(Ok(()), |tolerance| check_tolerance("newton.tolerance", tolerance))
 }
 
-/// What may be left of a whole.
+/// Checks that a relative tolerance lies between 0 and 1.
 fn check_tolerance(field: &str, tolerance: f64) -> Result<(), Problem> {
     check_positive(field, tolerance, "")?;
     if tolerance < 1.0 { Ok(()) } else { problem(field, format!("is {tolerance}; give a number below 1")) }

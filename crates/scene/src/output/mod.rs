@@ -1,4 +1,4 @@
-//! What a run leaves behind: state, energies, statistics, the final mesh, a series of meshes.
+//! The files of a run: state, energies, statistics, the final mesh, a series of meshes.
 
 mod series;
 
@@ -15,10 +15,10 @@ use crate::simulation::{Energies, Part, Simulation};
 use fem_mesh::write::{Field, Frame, save, write_glb, write_surface, write_vtu};
 use fem_mesh::{MeshError, Problem, SurfaceMesh};
 
-/// File extensions that [`export`] knows.
+/// File extensions that [`export`] supports.
 pub const EXPORTS: [&str; 3] = ["obj", "vtu", "glb"];
 
-/// Writes `{"time", "q", "qdot"}` of all nodes with 17 significant digits, so that reading gives the same numbers.
+/// Writes `{"time", "q", "qdot"}` of all nodes with 17 significant digits, enough for an exact round trip.
 pub fn write_state(path: &Path, simulation: &dyn Simulation) -> Result<(), MeshError> {
     let list =
         |values: &DVector<f64>| values.iter().map(|value| format!("{value:.16e}")).collect::<Vec<_>>().join(", ");
@@ -52,28 +52,28 @@ pub struct Stats {
     pub seconds_per_step_median: Option<f64>,
     pub seconds_per_step_p95: Option<f64>,
     pub newton_iterations: usize,
-    /// Steps that Newton's method left before it reached its tolerance.
+    /// Steps in which Newton's method did not reach its tolerance.
     pub unconverged_steps: usize,
     pub factorizations: usize,
     pub symbolic_factorizations: usize,
-    /// Of all iterative solutions.
+    /// Sum over all iterative solutions.
     pub solver_iterations: usize,
     pub stiffness_assemblies: usize,
     pub energy_evaluations: usize,
     pub line_search_backtracks: usize,
     pub projections: usize,
     pub skinning_rows: usize,
-    /// Of the whole process; none where the system does not tell.
+    /// Peak memory of the process; `None` if the operating system does not report it.
     pub peak_memory_bytes: Option<usize>,
     #[serde(rename = "min_J")]
     pub min_J: f64,
-    /// Force on the body of each table that holds nodes, N; empty where nothing does, or where the pipeline does not know it.
+    /// Reaction force of each Dirichlet condition, N; empty without conditions or if the pipeline does not compute reactions.
     pub reactions: serde_json::Map<String, serde_json::Value>,
     pub parts: serde_json::Map<String, serde_json::Value>,
 }
 
 impl Stats {
-    /// Gathers them after a run.
+    /// Collects the numbers after a run.
     pub fn of(simulation: &dyn Simulation, run: &Run, seconds_setup: f64) -> Self {
         let (shape, counters) = (simulation.shape(), simulation.counters());
         let built = simulation.parts().into_iter().filter(|part| part.built);
@@ -106,14 +106,14 @@ impl Stats {
         }
     }
 
-    /// Writes them as JSON.
+    /// Writes the numbers as JSON.
     pub fn write(&self, path: &Path) -> Result<(), MeshError> {
         let text = serde_json::to_string_pretty(self).expect("numbers and strings have a JSON form");
         write_text(path, &(text + "\n"))
     }
 }
 
-/// Largest memory that the process has had, where the system tells (Linux).
+/// Peak memory of the process, which Linux reports.
 fn peak_memory_bytes() -> Option<usize> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
@@ -138,7 +138,7 @@ pub fn export(path: &Path, simulation: &dyn Simulation, frames: &[Frame]) -> Res
     }
 }
 
-/// The error of an extension that [`export`] does not know.
+/// The error of an extension that [`export`] does not support.
 pub fn unknown_export(path: &Path, extension: &str) -> MeshError {
     MeshError::in_file(path, Problem::UnknownExtension { found: extension.to_owned(), known: ".obj, .vtu, .glb" })
 }
@@ -148,7 +148,7 @@ fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<(), MeshErr
     let (q, qdot) = (simulation.positions(), simulation.velocities());
     let displacement: Vec<f64> = q.iter().enumerate().map(|(i, x)| x - shape.mesh.vertices[i / 3][i % 3]).collect();
     let stresses = simulation.stresses();
-    // A stress is symmetric, so its columns are its rows.
+    // The columns of a symmetric matrix are its rows.
     let cauchy: Vec<f64> = stresses.iter().flat_map(|stress| stress.iter().copied()).collect();
     let von_mises: Vec<f64> = stresses.iter().map(von_mises).collect();
     let point = [
@@ -162,7 +162,7 @@ fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<(), MeshErr
     write_vtu(path, &shape.mesh, &point, &cell)
 }
 
-/// √(3/2 s:s), s the deviator of a Cauchy stress, Pa.
+/// Von Mises stress √(3/2 s:s) of a Cauchy stress with the deviator s, Pa.
 pub fn von_mises(stress: &Matrix3<f64>) -> f64 {
     let deviator = stress - Matrix3::identity() * (stress.trace() / 3.0);
     (1.5 * deviator.norm_squared()).sqrt()
@@ -177,7 +177,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_von_mises_stress_of_a_tension_is_the_tension_and_of_a_pressure_nothing() {
+    fn the_von_mises_stress_is_the_stress_of_a_tension_and_zero_for_a_pressure() {
         assert_eq!(von_mises(&Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into())), 2.0);
         assert_eq!(von_mises(&Matrix3::from_diagonal_element(-3.0)), 0.0);
     }

@@ -9,8 +9,8 @@ use crate::simulation::Simulation;
 use fem_mesh::write::write_pvd;
 use fem_mesh::{MeshError, Problem};
 
-/// Files of a run in a folder: `NAME_000000.vtu` at rest and one for every so many steps, and `NAME.pvd`, which tells the time
-/// of each. NAME is the simulation's.
+/// Files of a run in a folder: `NAME_000000.vtu` of the initial state, one after every so many steps, and `NAME.pvd` with the time
+/// of each. NAME is that of the simulation.
 #[derive(Debug)]
 pub struct Series {
     folder: PathBuf,
@@ -20,14 +20,14 @@ pub struct Series {
 }
 
 impl Series {
-    /// Makes the folder where there is none.
+    /// Creates the folder if it does not exist. A file is written after every `every` steps.
     pub fn new(folder: &Path, every: NonZeroUsize) -> Result<Self, MeshError> {
         let unwritable = |error: std::io::Error| Problem::Unwritable { reason: error.to_string() };
         fs::create_dir_all(folder).map_err(|error| MeshError::in_file(folder, unwritable(error)))?;
         Ok(Self { folder: folder.to_owned(), every, states: 0, written: Vec::new() })
     }
 
-    /// Call it at rest and after every step; writes the state where one is due.
+    /// Writes the state if its step is one of the series. Call it with the initial state and after every step.
     pub fn add(&mut self, simulation: &dyn Simulation) -> Result<(), MeshError> {
         let step = self.states;
         self.states += 1;
@@ -40,7 +40,7 @@ impl Series {
         Ok(())
     }
 
-    /// Writes the list of the files so far, and returns its path.
+    /// Writes the `.pvd` list of the files so far, and returns its path.
     pub fn finish(&self, simulation: &dyn Simulation) -> Result<PathBuf, MeshError> {
         let path = self.folder.join(format!("{}.pvd", simulation.name()));
         write_pvd(&path, &self.written)?;

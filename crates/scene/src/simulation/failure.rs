@@ -1,4 +1,4 @@
-//! Reasons for which a simulation cannot go on.
+//! Failures of a step.
 
 use std::fmt;
 
@@ -11,13 +11,13 @@ pub struct Failure {
     pub step: usize,
     /// The time that the step would have reached, s.
     pub time: f64,
-    /// What happened.
+    /// The reason.
     pub cause: Cause,
-    /// What the user can do about it.
+    /// Advice to the user.
     pub remedy: String,
 }
 
-/// What ended a simulation.
+/// The reason of a failed step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cause {
     /// A position or velocity is NaN or infinite.
@@ -52,14 +52,14 @@ impl Cause {
     }
 }
 
-/// Why a linear system was not solved.
+/// The reason why a linear system was not solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Breakdown {
     /// The matrix is not positive definite: a pivot, or the curvature along a search direction, is not positive.
     NotPositiveDefinite,
-    /// The matrix is singular, or holds a number that is not finite.
+    /// The matrix is singular, or an entry is not finite.
     Singular,
-    /// The iteration ended before it reached its tolerance.
+    /// The iteration did not reach its tolerance.
     NotConverged {
         /// Relative residual that was reached.
         residual: f64,

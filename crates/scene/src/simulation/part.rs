@@ -1,4 +1,4 @@
-//! Parts of a simulation: what a scene builds and what it leaves out.
+//! Parts of a simulation that a scene builds or leaves out.
 
 /// One part of a simulation: built, or left out.
 #[derive(Clone, Debug, PartialEq)]

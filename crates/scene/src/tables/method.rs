@@ -10,11 +10,11 @@ use crate::Integrator;
 pub struct TimeTable {
     /// Time step, s; optional for `static`.
     pub dt: Option<f64>,
-    /// Method that advances a step.
+    /// Time integration method.
     pub integrator: Integrator,
-    /// Steps of a run without a window.
+    /// Number of steps of a run without a window.
     pub steps: Option<usize>,
-    /// Number type of the engine.
+    /// Number type of the engine's computations.
     #[serde(default)]
     pub precision: Precision,
 }
@@ -33,7 +33,7 @@ pub enum Precision {
     /// 8 bytes, 16 digits.
     #[default]
     F64,
-    /// 4 bytes, 7 digits: for pictures, not for measurements.
+    /// 4 bytes, 7 digits: enough for pictures, not for measurements.
     F32,
 }
 
@@ -45,20 +45,20 @@ pub struct NewtonTable {
     pub max_iterations: Option<usize>,
     /// Relative tolerance on the velocity update.
     pub tolerance: Option<f64>,
-    /// Which stiffnesses are projected; [`Projection::WhenNeeded`] where it is left out.
+    /// Projection of element stiffnesses; [`Projection::WhenNeeded`] by default.
     pub projection: Option<Projection>,
 }
 
-/// When the stiffness of an element is made positive semi-definite.
+/// The iterations of Newton's method in which element stiffnesses are projected to positive semi-definite ones.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Projection {
-    /// Only where the exact matrix cannot be factorised: Newton's method stays quadratic.
+    /// Those whose exact matrix is not positive definite. Newton's method keeps its quadratic convergence.
     #[default]
     WhenNeeded,
-    /// In every iteration: each direction leads downhill, and convergence is linear.
+    /// All. Every direction is a descent direction, and convergence is linear.
     Always,
-    /// In none: a matrix that is not positive definite ends the step.
+    /// None. A matrix that is not positive definite ends the step with an error.
     Never,
 }
 
@@ -66,11 +66,11 @@ pub enum Projection {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct SolverTable {
-    /// Which solver.
+    /// The solver.
     pub kind: SolverKind,
-    /// Relative residual of the iterative ones.
+    /// Relative residual of the iterative solvers.
     pub tolerance: Option<f64>,
-    /// What `pcg` multiplies residuals by; [`Preconditioner::BlockJacobi`] where it is left out.
+    /// Preconditioner of `pcg`; [`Preconditioner::BlockJacobi`] by default.
     pub preconditioner: Option<Preconditioner>,
 }
 
@@ -92,22 +92,22 @@ pub enum Preconditioner {
     /// The inverse of each node's 3×3 block.
     #[default]
     BlockJacobi,
-    /// A Cholesky factor that keeps the matrix's own pattern.
+    /// A Cholesky factor with the sparsity pattern of the matrix.
     IncompleteCholesky,
     /// A hierarchy of coarser matrices.
     Multigrid,
-    /// Symmetric sweeps of Gauss and Seidel, in single precision.
+    /// Symmetric Gauss–Seidel sweeps in single precision.
     Ssor,
 }
 
-/// `[damping]`: Rayleigh's, a force −(α M + β K) v.
+/// `[damping]`: Rayleigh damping, the force −(α M + β K) v.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct DampingTable {
-    /// α of the mass, 1/s: damps slow motions most.
+    /// α of the mass, 1/s. It damps low frequencies most.
     #[serde(default)]
     pub alpha: f64,
-    /// β of the stiffness, s: damps fast motions most.
+    /// β of the stiffness, s. It damps high frequencies most.
     #[serde(default)]
     pub beta: f64,
 }
@@ -116,6 +116,6 @@ pub struct DampingTable {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct StaticTable {
-    /// Equal parts in which loads and prescribed motions are applied, a step each.
+    /// Number of equal load steps in which loads and prescribed motions are applied.
     pub load_steps: usize,
 }

@@ -18,7 +18,7 @@ use serde::Deserialize;
 use crate::Material;
 use fem_mesh::Side;
 
-/// A scene as its file tells it, checked; SI units.
+/// A scene file, checked. Tables and keys have the names of the file, quantities are in SI units.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
@@ -31,46 +31,46 @@ pub struct Scene {
     /// One line about the scene.
     #[serde(default)]
     pub about: String,
-    /// What runs it.
+    /// The pipeline that runs the scene.
     pub pipeline: Pipeline,
-    /// What it is made of.
+    /// `[mesh]`
     pub mesh: MeshTable,
-    /// What that is made of.
+    /// `[material]`
     pub material: Material,
-    /// Lumped or consistent mass.
+    /// `[mass]`
     #[serde(default)]
     pub mass: MassTable,
-    /// Gravity.
+    /// `[gravity]`
     pub gravity: Option<GravityTable>,
-    /// A force on every piece of the body.
+    /// `[body_force]`
     pub body_force: Option<BodyForceTable>,
-    /// Forces on parts of the surface.
+    /// `[[traction]]`
     #[serde(default)]
     pub traction: Vec<TractionTable>,
-    /// Springs between nodes.
+    /// `[[springs]]`
     #[serde(default)]
     pub springs: Vec<SpringTable>,
-    /// Nodes that never move.
+    /// `[fixed]`
     pub fixed: Option<FixedTable>,
-    /// Nodes that move as the scene says.
+    /// `[[prescribed]]`
     #[serde(default)]
     pub prescribed: Vec<PrescribedTable>,
-    /// Time steps.
+    /// `[time]`
     pub time: TimeTable,
-    /// Rayleigh damping.
+    /// `[damping]`
     pub damping: Option<DampingTable>,
-    /// Equilibrium.
+    /// `[static]`
     #[serde(rename = "static")]
     pub statics: Option<StaticTable>,
-    /// Newton's method of the engine.
+    /// `[newton]`
     pub newton: Option<NewtonTable>,
-    /// Linear solver of the engine.
+    /// `[solver]`
     pub solver: Option<SolverTable>,
-    /// A scripted pull.
+    /// `[drag]`
     pub drag: Option<DragTable>,
 }
 
-/// What runs a scene.
+/// The code that simulates a scene.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Pipeline {
@@ -84,17 +84,17 @@ pub enum Pipeline {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct MeshTable {
-    /// A mesh file.
+    /// A file of tetrahedra.
     pub file: Option<PathBuf>,
     /// A box.
     #[serde(rename = "box")]
     pub cuboid: Option<Cuboid>,
-    /// A surface to show instead of the tetrahedra.
+    /// A surface file to display instead of the boundary of the tetrahedra.
     pub display: Option<PathBuf>,
-    /// Factor for all coordinates of both.
+    /// Factor on all coordinates of the tetrahedra and the display surface.
     #[serde(default = "one")]
     pub scale: f64,
-    /// How often every tetrahedron is cut into eight.
+    /// Number of uniform refinements, each of which cuts every tetrahedron into eight.
     #[serde(default)]
     pub refine: u32,
 }
@@ -118,7 +118,7 @@ pub struct Cuboid {
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct MassTable {
-    /// Whether the mass of each row is gathered on the diagonal.
+    /// Whether the mass matrix is lumped: each row is summed on the diagonal.
     #[serde(default)]
     pub lumped: bool,
 }

@@ -121,7 +121,7 @@ fn check_disjoint(scene: &Scene, conditions: &[DirichletCondition], nodes: usize
     for condition in prescribed {
         for &node in &condition.nodes {
             if fixed.contains(&node) {
-                let text = format!("moves node {node}, which [fixed] holds; name each node in one of the two");
+                let text = format!("moves node {node}, which [fixed] constrains; name each node in one of the two");
                 return Err(scene.refuse(&condition.name, &text));
             }
             for axis in (0..3).filter(|&axis| condition.components[axis]) {

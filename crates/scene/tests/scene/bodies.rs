@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use crate::{LEAST, body, edit};
 
 #[test]
-fn a_body_has_the_mesh_and_its_boundary_and_nothing_that_the_scene_does_not_name() {
+fn a_body_has_its_mesh_its_boundary_and_only_the_parts_of_its_scene() {
     let body = body(LEAST).unwrap();
     assert_eq!((body.shape.mesh.vertices.len(), body.shape.mesh.elements.len()), (12, 12));
     assert_eq!(body.shape.boundary, boundary(&body.shape.mesh));

@@ -25,7 +25,7 @@ fn a_message_begins_with_file_and_line() {
 }
 
 #[test]
-fn a_field_is_found_however_the_file_writes_it() {
+fn a_field_is_found_in_every_notation_of_the_file_format() {
     let dotted = edit(LEAST, "[time]\ndt = 0.01\nintegrator = \"implicit_euler\"\n", "");
     assert_refused(&format!("time.integrator = \"rk4\"\n\ntime.dt = 0\n{dotted}"), 3, "time.dt is 0");
     assert_refused(&format!("time = {{ integrator = \"rk4\", dt = 0 }}\n{dotted}"), 1, "time.dt is 0");

@@ -43,7 +43,7 @@ frequency = 1.0                         # Hz
 "#;
 
 #[test]
-fn a_scene_with_every_table_says_what_its_file_says() {
+fn every_table_of_a_scene_is_read() {
     let scene = read(ALL);
     assert_eq!((scene.name.as_str(), scene.path), ("name", PathBuf::from("folder/name.toml")));
     assert_eq!((scene.about.as_str(), scene.pipeline), ("one line", Pipeline::Engine));
@@ -76,7 +76,7 @@ fn a_scene_with_every_table_says_what_its_file_says() {
 }
 
 #[test]
-fn what_a_scene_does_not_name_is_not_there() {
+fn tables_that_a_scene_leaves_out_are_absent() {
     let scene = read(LEAST);
     assert_eq!((scene.about.as_str(), scene.mesh.scale, scene.mass.lumped), ("", 1.0, false));
     assert_eq!((scene.mesh.file, scene.mesh.display), (None, None));
@@ -117,7 +117,7 @@ fn every_name_of_the_format_is_known() {
 }
 
 #[test]
-fn whole_numbers_may_stand_where_numbers_are_due() {
+fn integers_are_accepted_as_numbers() {
     let text = edit(&edit(LEAST, "density = 1000.0", "density = 1000"), "dt = 0.01", "dt = 1");
     let scene = read(&text);
     assert_eq!((scene.material.density, scene.time.dt), (1000.0, Some(1.0)));

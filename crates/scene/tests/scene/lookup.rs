@@ -1,4 +1,4 @@
-//! Where scenes and their meshes are looked for.
+//! The folders in which scenes and their meshes are searched.
 
 use std::fs;
 use std::path::Path;
@@ -70,7 +70,7 @@ fn a_scene_file_that_cannot_be_read_is_named() {
 }
 
 #[test]
-fn a_mesh_is_looked_for_beside_the_scene_and_then_in_data() {
+fn a_mesh_is_searched_beside_the_scene_and_then_in_data() {
     let root = folders();
     let data = root.path().join("data");
     write_tetrahedron(&data, "m", 2.0);
@@ -81,7 +81,7 @@ fn a_mesh_is_looked_for_beside_the_scene_and_then_in_data() {
 }
 
 #[test]
-fn an_absolute_path_of_a_mesh_is_what_it_is() {
+fn an_absolute_path_of_a_mesh_is_used_as_it_is() {
     let root = folders();
     let data = root.path().join("data");
     write_tetrahedron(&root.path().join("far away"), "m", 3.0);
@@ -92,7 +92,7 @@ fn an_absolute_path_of_a_mesh_is_what_it_is() {
 }
 
 #[test]
-fn a_display_surface_is_looked_for_in_the_same_places() {
+fn a_display_surface_is_searched_in_the_same_places() {
     let root = folders();
     let data = root.path().join("data");
     write_tetrahedron(&data, "m", 1.0);

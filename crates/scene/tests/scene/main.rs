@@ -1,4 +1,4 @@
-//! Scene files: what is read from them, what is refused and where, and the bodies that they name.
+//! Scene files: their values, the line and remedy of their errors, and the bodies that they describe.
 
 #![allow(non_snake_case)] // C, D and E are the names that the mathematics and the course use
 
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 use fem_scene::{Body, Scene, SceneError, parse};
 
-/// The smallest scene: what it must say and nothing else.
+/// The smallest scene, of mandatory keys only.
 const LEAST: &str = r#"pipeline = "course"
 [mesh]
 box = { size = [2, 1, 1], cells_per_unit = 1 }
@@ -32,7 +32,7 @@ fn read(text: &str) -> Scene {
     parse(text, Path::new("folder/name.toml")).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
-/// The scene with one passage replaced, which must be there once.
+/// The text with one passage replaced, which must occur once.
 fn edit(text: &str, from: &str, to: &str) -> String {
     assert_eq!(text.matches(from).count(), 1, "`{from}` is not there once:\n{text}");
     text.replacen(from, to, 1)

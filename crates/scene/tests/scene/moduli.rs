@@ -11,7 +11,7 @@ fn moduli(young: f64, poisson: f64) -> (f64, f64) {
 }
 
 #[test]
-fn c_and_d_are_taken_as_they_are() {
+fn c_and_d_are_used_as_given() {
     assert_eq!(read(LEAST).material.neo_hookean(), Some((1e5, 4e5)));
 }
 

@@ -1,4 +1,4 @@
-//! `[[prescribed]]`: who moves, where to, and when; and what it must not meet.
+//! `[[prescribed]]`: nodes, positions over time, and conflicts with other conditions.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -25,7 +25,7 @@ fn nodes(text: &str) -> Vec<Vec<usize>> {
 }
 
 #[test]
-fn a_displacement_grows_evenly_and_is_then_held() {
+fn a_displacement_grows_linearly_and_then_stays() {
     let motion = motion("displacement = [1, 2, 3]\nover = 4");
     let fractions = [0.0, 1.0, 4.0, 100.0].map(|time| motion.fraction(time));
     assert_eq!(fractions, [0.0, 0.25, 1.0, 1.0]);
@@ -36,7 +36,7 @@ fn a_displacement_grows_evenly_and_is_then_held() {
 }
 
 #[test]
-fn a_motion_without_a_duration_is_done_from_the_start() {
+fn a_motion_without_a_duration_applies_in_full_from_the_start() {
     assert_eq!(motion("displacement = [1, 0, 0]").fraction(0.0), 1.0);
 }
 
@@ -62,7 +62,7 @@ fn a_rotation_and_a_displacement_make_a_screw() {
 }
 
 #[test]
-fn free_components_are_not_held() {
+fn only_named_components_are_prescribed() {
     assert_eq!(condition("displacement = [0, 0, 0]\ncomponents = [\"x\", \"z\"]").components, [true, false, true]);
     assert_eq!(condition("displacement = [0, 0, 0]").components, [true; 3]);
 }
@@ -94,7 +94,7 @@ fn a_node_is_fixed_or_prescribed_and_each_coordinate_once() {
     let roller = format!("[[prescribed]]\n{ON}\ndisplacement = [0, 0, 0]\ncomponents = [\"x\"]\n");
     refused(
         &format!("[fixed]\nnodes = [8]\n{roller}"),
-        "prescribed[0] moves node 8, which [fixed] holds; name each node in one of the two",
+        "prescribed[0] moves node 8, which [fixed] constrains; name each node in one of the two",
     );
     refused(
         &format!("{roller}[[prescribed]]\nnodes = [1, 5]\ndisplacement = [0, 0, 0]\n"),
@@ -126,7 +126,7 @@ fn a_prescribed_table_is_checked_at_its_line() {
     refused("over = 1", "speed = 1", 15, "unknown field `speed`");
 
     let shift = |lines: &str| format!("{LEAST}[[prescribed]]\n{ON}\n{lines}\n");
-    assert_refused(&shift("over = 1"), 12, "prescribed[0] says no motion; give displacement or rotation");
+    assert_refused(&shift("over = 1"), 12, "prescribed[0] has no motion; give displacement or rotation");
     let free = "displacement = [0, 1, 0]\ncomponents = [\"x\"]";
     assert_refused(&shift(free), 15, "prescribed[0].components leaves y free, and displacement moves it; name y");
     assert_refused(&shift("displacement = [0, 0, 0]\ncomponents = []"), 15, "prescribed[0].components is empty");

@@ -1,4 +1,4 @@
-//! The tables of the engine: what they say, and what is refused at which line.
+//! The tables of the engine: their values, and the line of their errors.
 
 use fem_scene::tables::{BodyForceTable, DampingTable, SidePlane, SpringTable, StaticTable, TractionTable};
 use fem_scene::{Axis, Precision, Preconditioner, Projection, Side};
@@ -37,7 +37,7 @@ fn with_tables() -> String {
 }
 
 #[test]
-fn the_tables_of_the_engine_say_what_the_file_says() {
+fn the_tables_of_the_engine_are_read() {
     let scene = read(&with_tables());
     assert_eq!(scene.time.precision, Precision::F32);
     assert_eq!(scene.newton.unwrap().projection, Some(Projection::Always));
@@ -53,7 +53,7 @@ fn the_tables_of_the_engine_say_what_the_file_says() {
 }
 
 #[test]
-fn what_a_scene_does_not_say_of_the_engine_has_its_default() {
+fn tables_of_the_engine_have_defaults() {
     let scene = read(&format!("{LEAST}[newton]\n[damping]\nbeta = 2\n"));
     assert_eq!((scene.time.precision, scene.mesh.refine), (Precision::F64, 0));
     assert_eq!(scene.newton.unwrap().projection.unwrap_or_default(), Projection::WhenNeeded);
@@ -95,7 +95,7 @@ fn numbers_out_of_range_are_refused_at_their_line() {
 }
 
 #[test]
-fn lists_have_as_many_numbers_as_they_need() {
+fn lists_of_a_wrong_length_are_refused() {
     assert_refused(&edit(&with_tables(), "[0, 11]", "[0, 11, 12]"), 32, "invalid length 3, expected two nodes");
     assert_refused(&edit(&with_tables(), "[[4, 0, 1]]", "[[4, 0, 1, 2]]"), 29, "invalid length 4, expected three");
     assert_refused(&edit(&with_tables(), "[1, 2, 3]", "[1, 2]"), 27, "invalid length 2, expected three numbers");
@@ -140,7 +140,7 @@ fn a_spring_without_a_rest_length_is_at_rest_in_the_undeformed_body() {
 }
 
 #[test]
-fn what_the_mesh_does_not_have_is_refused() {
+fn nodes_and_faces_outside_the_mesh_are_refused() {
     let refused = |from: &str, to: &str, end: &str| {
         let message = body(&edit(&with_tables(), from, to)).unwrap_err().to_string();
         assert!(message.ends_with(end), "{message}");

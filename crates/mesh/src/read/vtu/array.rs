@@ -1,4 +1,4 @@
-//! The arrays of a VTK file: as text, as base64, or appended at the end, each plain or packed by zlib.
+//! The arrays of a VTK file: as text, as base64, or appended at the end, uncompressed or compressed by zlib.
 
 use std::io::Read;
 use std::path::Path;
@@ -9,10 +9,10 @@ use roxmltree::Node;
 
 use crate::{MeshError, Problem};
 
-/// What stands behind `<AppendedData>` in a file, from the character after its underscore.
+/// The content of `<AppendedData>` after its underscore.
 type Appended<'a> = &'a [u8];
 
-/// Closes the file's elements where the appended data, which need not be text, is cut off.
+/// Closes the file's elements after the appended data, which need not be text, has been cut off.
 const CLOSE: &str = "</AppendedData></VTKFile>";
 
 const ASCII: &str = "save it with little-endian data, uncompressed or packed by zlib (in ParaView: Data Mode Ascii)";
@@ -39,12 +39,12 @@ pub(super) struct Arrays<'a> {
     appended: Appended<'a>,
     /// Whether the appended data is text in base64.
     appended_base64: bool,
-    /// Where arrays begin in the appended data, ascending.
+    /// Offsets of the arrays in the appended data, ascending.
     starts: Vec<usize>,
     /// Bytes of each count before the data: 4 or 8.
     header: usize,
     zlib: bool,
-    /// Why arrays that are not text cannot be read.
+    /// The reason why arrays that are not text cannot be read.
     unsupported: Option<String>,
 }
 
@@ -87,7 +87,7 @@ impl<'a> Arrays<'a> {
         child.ok_or_else(|| self.malformed(node, format!("{} has no array {name}", node.tag_name().name())))
     }
 
-    /// Compares a count that the file announces, where it does, with what it holds.
+    /// Returns an error if the file announces another count than it has.
     pub(super) fn check_count(
         &self,
         node: Node,
@@ -130,7 +130,7 @@ impl<'a> Arrays<'a> {
             Some("Int32") => Ok(numbers(&bytes, |b| i32::from_le_bytes(b).into())),
             Some("UInt32") => Ok(numbers(&bytes, |b| u32::from_le_bytes(b).into())),
             Some("Int64") => Ok(numbers(&bytes, i64::from_le_bytes)),
-            // what does not fit is no index either, and shows as a negative one
+            // A number that does not fit becomes a negative one, which is no index either.
             Some("UInt64") => Ok(numbers(&bytes, |b| u64::from_le_bytes(b) as i64)),
             other => Err(self.unsupported_type(array, other)),
         }
@@ -168,7 +168,7 @@ impl<'a> Arrays<'a> {
         if !self.appended_base64 {
             return Ok(self.appended[offset..].to_vec());
         }
-        // In base64 only the next array tells where this one ends.
+        // Base64 data ends at the offset of the next array.
         let next = self.starts.iter().copied().find(|&start| start > offset).unwrap_or(usize::MAX);
         let text = &self.appended[offset..next.min(self.appended.len())];
         decode_base64(text.split(|&byte| byte == b'<').next().unwrap_or(text))
