@@ -9,6 +9,7 @@ macro_rules! say {
 }
 
 mod demo {
+    pub mod build;
     pub mod cli;
     pub mod data;
     pub mod end;
@@ -21,6 +22,7 @@ mod demo {
     pub mod pictures;
     pub mod results;
     pub mod run;
+    pub mod study;
     pub mod window;
 }
 

@@ -1,22 +1,10 @@
-//! Scenes that the fast engine runs: it is not in this repository, since it holds what you are to write.
+//! Scenes that the engine runs. It is not in this repository, since it holds solutions of the exercises.
 
-use clap::Subcommand;
 use fem_scene::simulation::Simulation;
 use fem_scene::{Body, Scene};
 use nalgebra::Vector3;
 
 use super::end::End;
-
-/// Studies of the engine: none here.
-#[derive(Debug, Subcommand)]
-pub enum Study {}
-
-impl Study {
-    /// There is nothing to run.
-    pub fn run(&self) -> Result<(), End> {
-        match *self {}
-    }
-}
 
 /// Refuses: your own functions run the course's scenes.
 pub fn build(scene: &Scene, _: Body) -> Result<Box<dyn Simulation>, End> {

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 use fem_scene::Integrator;
 
-use super::engine::Study;
+use super::study::Study;
 
 /// Deformable solids by the finite element method: shows a scene in a window, or runs it without one.
 #[derive(Debug, Parser)]

@@ -6,11 +6,11 @@ use fem_scene::simulate;
 use fem_scene::simulation::{Energies, Simulation};
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::build::Ready;
 use super::cli::RunArguments;
 use super::end::End;
 use super::pictures::Pictures;
 use super::results::{self, Finished};
-use super::run::Ready;
 
 /// Frames of an animated export in a second of simulated time.
 const EXPORTED_FRAMES_PER_SECOND: f64 = 30.0;

@@ -1,7 +1,7 @@
 //! `list`: the scenes.
 
 use super::end::End;
-use super::{data, explain, run};
+use super::{build, data, explain};
 
 /// Prints a line for each scene: its name, its line `about`, and the parts that it builds.
 pub fn print_scenes() -> Result<(), End> {
@@ -14,7 +14,7 @@ pub fn print_scenes() -> Result<(), End> {
     for name in names {
         let scene = fem_scene::load(&name, &data).map_err(End::unusable)?;
         // One scene that cannot be built does not hide the others.
-        match run::build(&scene) {
+        match build::build(&scene) {
             Ok(ready) => say!("{name:<width$} {} [{}]", scene.about, explain::built(&ready.simulation.parts())),
             Err(end) => say!("{name:<width$} {} [cannot be built: {}]", scene.about, end.message()),
         }

@@ -1,8 +1,8 @@
 //! A run in a window.
 
+use super::build::Ready;
 use super::cli::RunArguments;
 use super::end::End;
-use super::run::Ready;
 
 /// Checks whether a window can be opened; the error says why not.
 #[cfg(feature = "viewer")]

@@ -29,9 +29,10 @@ const WHOLE: [&str; 15] = [
 ];
 
 /// Parts of these folders that show what the engine computes.
-const ENGINES_OWN: [&str; 2] = ["src/demo/engine", "docs/reference"];
+const ENGINES_OWN: [&str; 2] = ["src/demo/study", "docs/reference"];
 
 const ENGINE: &str = include_str!("../../handout/engine.rs");
+const STUDY: &str = include_str!("../../handout/study.rs");
 const README: &str = include_str!("../../handout/README.md");
 const PROGRAM: &str = include_str!("../../handout/main.rs");
 
@@ -68,6 +69,7 @@ fn leave_out_the_engine(files: &mut Files) {
     };
     files.retain(|path, text| !ENGINES_OWN.iter().any(|own| path.starts_with(own)) && !needs_it(path, text));
     files.insert("src/demo/engine.rs".into(), ENGINE.into());
+    files.insert("src/demo/study.rs".into(), STUDY.into());
 }
 
 /// Adds a file or a folder, without hidden files and build products.

@@ -10,7 +10,7 @@ use fem_study::studies::Settings;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::demo::end::End;
-use crate::demo::{data, run as demo};
+use crate::demo::{build, data};
 
 #[derive(Debug, Args)]
 pub struct Arguments {
@@ -40,7 +40,7 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
         bar.set_message(what.to_owned());
     };
     let factory = |scene: &Scene| -> Result<Box<dyn Simulation>, String> {
-        demo::build(scene).map(|ready| ready.simulation).map_err(|end| end.message())
+        build::build(scene).map(|ready| ready.simulation).map_err(|end| end.message())
     };
     let settings = Settings { data, out: folder.clone(), is_quick: arguments.quick, factory: &factory, tell: &tell };
     let found = report(&settings, &scenes).map_err(End::Stopped)?;

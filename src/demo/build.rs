@@ -1,0 +1,69 @@
+//! Builds the simulation of a scene.
+
+use std::time::Instant;
+
+use fem_scene::simulation::Simulation;
+use fem_scene::{Body, Integrator, Pipeline, Scene};
+use finite_elements_3d::assignment_setup::AssignmentSetup;
+use nalgebra::Vector3;
+
+use super::end::End;
+use super::{data, engine};
+
+/// Number of steps without a window, if neither the scene nor the arguments give one.
+const DEFAULT_STEPS: usize = 100;
+
+/// A simulation that is ready to start.
+pub struct Ready {
+    pub simulation: Box<dyn Simulation>,
+    pub seconds_setup: f64,
+    pub steps: usize,
+    /// Upward direction of pictures: against gravity, or against a cantilever's load; y without either.
+    pub up: Vector3<f64>,
+    /// Timoshenko's displacement of the tip, m, if the scene is a cantilever.
+    pub expected_tip: Option<Vector3<f64>>,
+}
+
+/// Reads the meshes of a scene and builds its simulation.
+pub fn build(scene: &Scene) -> Result<Ready, End> {
+    let start = Instant::now();
+    let body = fem_scene::body(scene, &data::folder()).map_err(End::unusable)?;
+    let simulation = match scene.pipeline {
+        Pipeline::Course => course(scene, body)?,
+        Pipeline::Engine => engine::build(scene, body)?,
+    };
+    warn_of_vertices_outside(scene, &*simulation);
+    let seconds_setup = start.elapsed().as_secs_f64();
+    let down = scene.gravity.as_ref().and_then(|gravity| Vector3::from(gravity.acceleration).try_normalize(0.0));
+    let expected_tip = engine::expected_tip_displacement(scene);
+    // Without gravity a cantilever bends downwards.
+    let down = down.or_else(|| expected_tip.and_then(|tip| tip.try_normalize(0.0)));
+    let up = down.map_or(Vector3::y(), |down| -down);
+    Ok(Ready { simulation, seconds_setup, steps: steps(scene), up, expected_tip })
+}
+
+/// The scene's number of steps, or that of its load steps if it is static.
+fn steps(scene: &Scene) -> usize {
+    let load_steps = match scene.time.integrator {
+        Integrator::Static => Some(scene.statics.as_ref().map_or(1, |statics| statics.load_steps)),
+        _ => None,
+    };
+    scene.time.steps.or(load_steps).unwrap_or(DEFAULT_STEPS)
+}
+
+/// The simulation that the 22 functions run.
+fn course(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, End> {
+    Ok(Box::new(AssignmentSetup::new(scene, body).map_err(End::unusable)?))
+}
+
+/// Warns of display vertices that the mesh does not enclose: their weights stretch them.
+fn warn_of_vertices_outside(scene: &Scene, simulation: &dyn Simulation) {
+    let outside = simulation.display_vertices_outside();
+    if outside > 0 {
+        eprintln!(
+            "warning: {}: mesh.display: {outside} vertices lie outside the tetrahedra and follow the nearest one; \
+             use a cage that encloses the surface",
+            scene.path.display()
+        );
+    }
+}
