@@ -63,8 +63,9 @@ impl<T: Real> Simulator<T> {
     pub fn with_forces(scene: &Scene, body: Body, own: OwnForces<T>) -> Result<Self, SceneError> {
         let refuse = |(field, problem): Refusal| scene.refuse(field, &problem);
         let Some(law) = AnyLaw::<T::Lanes>::new(&body.material) else {
-            return Err(refuse(("material", "lacks the moduli of its model; give young and poisson".to_owned())));
+            return Err(refuse(("material", "lacks the parameters of its model; see README.md for them".to_owned())));
         };
+        range_check::check_shear_modulus(&body.material).map_err(refuse)?;
         let method = scene.method();
         if method.integrator == IntegratorKind::Static {
             rigid_modes::check(&body).map_err(refuse)?;

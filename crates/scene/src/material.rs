@@ -3,7 +3,7 @@
 use crate::check::{Problem, check_positive, problem};
 
 /// The laws: the name of each, and the sets of parameters of which a scene gives one.
-pub const MODELS: [(&str, &[&[&str]]); 5] = [
+pub const MODELS: &[(&str, &[&[&str]])] = &[
     ("linear", &[ELASTIC]),
     ("corotated", &[ELASTIC]),
     ("st_venant_kirchhoff", &[ELASTIC]),

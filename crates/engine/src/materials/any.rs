@@ -1,11 +1,10 @@
-//! The list of all laws, and the law that a scene asks for.
+//! What follows from the list of all laws.
 
-use super::{Corotated, Law, Linear, NamedLaw, NeoHookean, StVenantKirchhoff, StableNeoHookean};
-use crate::number::{Number, Real};
-
-/// Defines [`AnyLaw`] and all that depends on which law it is.
+/// Defines [`AnyLaw`](super::AnyLaw), and with it all that depends on which law it is, from a list of `file::Law`.
 macro_rules! laws {
-    ($($Law:ident),* $(,)?) => {
+    ($($file:ident::$Law:ident),* $(,)?) => {
+        $(pub use $file::$Law;)*
+
         /// One of the laws, with its parameters.
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[allow(missing_docs)] // the names are those of the laws
@@ -62,23 +61,14 @@ macro_rules! laws {
                 let of_all_lanes = match self {
                     $(Self::$Law(law) => law.moduli(),)*
                 };
-                of_all_lanes.map(|modulus| modulus.extract(0).as_f64())
+                of_all_lanes.map(|modulus| $crate::number::Real::as_f64(modulus.extract(0)))
+            }
+
+            /// The sum of its moduli, Pa: the size of its stress where strain is 1.
+            pub fn size(&self) -> f64 {
+                self.moduli().iter().sum()
             }
         }
     };
 }
-
-laws! {
-    Linear,
-    Corotated,
-    StVenantKirchhoff,
-    NeoHookean,
-    StableNeoHookean,
-}
-
-impl<T: Number> AnyLaw<T> {
-    /// The sum of its moduli, Pa: the size of its stress where strain is 1.
-    pub fn size(&self) -> f64 {
-        self.moduli().iter().sum()
-    }
-}
+pub(super) use laws;

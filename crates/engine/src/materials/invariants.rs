@@ -1,6 +1,6 @@
 //! The stress derivative of a law of the invariants I = tr(FᵀF) and J = det F.
 
-use super::isotropic::{from_invariants, projected_derivative_from};
+use super::isotropic::{Principal, projected_derivative_from};
 use crate::number::Number;
 use crate::svd::svd;
 use crate::tensor::{Tensor, Tensor4, add_cofactor_derivative, add_diagonal, outer_products};
@@ -31,6 +31,24 @@ impl<T: Number> OfInvariants<T> {
     /// ∂P/∂F with its negative eigenvalues raised to zero.
     pub fn projected_derivative(&self) -> Tensor4<T> {
         let F = svd(&self.F);
-        projected_derivative_from(&F, &from_invariants(&F.sigma, self.a, self.b, [self.s, self.t, self.r]))
+        projected_derivative_from(&F, &self.principal(&F.sigma))
+    }
+
+    /// ∂P/∂F in the basis of the principal stretches.
+    #[inline(always)]
+    pub(super) fn principal(&self, sigma: &[T; 3]) -> Principal<T> {
+        let Self { a, b, s, t, r, .. } = *self;
+        let cof = [sigma[1] * sigma[2], sigma[2] * sigma[0], sigma[0] * sigma[1]];
+        let mut principal = Principal::zero();
+        for i in 0..3 {
+            principal.twist[i] = a + b * sigma[i];
+            principal.flip[i] = a - b * sigma[i];
+            for j in 0..3 {
+                let other = if i == j { a } else { b * sigma[3 - i - j] };
+                principal.scaling[i][j] =
+                    s * sigma[i] * sigma[j] + t * (sigma[i] * cof[j] + cof[i] * sigma[j]) + r * cof[i] * cof[j] + other;
+            }
+        }
+        principal
     }
 }

@@ -32,23 +32,6 @@ impl<T: Number> Principal<T> {
     }
 }
 
-/// That of P = a F + b cof with ∂P/∂F = a 1 + s F⊗F + t (F⊗cof + cof⊗F) + r cof⊗cof + b ∂cof/∂F.
-#[inline(always)]
-pub(super) fn from_invariants<T: Number>(sigma: &[T; 3], a: T, b: T, [s, t, r]: [T; 3]) -> Principal<T> {
-    let cof = [sigma[1] * sigma[2], sigma[2] * sigma[0], sigma[0] * sigma[1]];
-    let mut principal = Principal::zero();
-    for i in 0..3 {
-        principal.twist[i] = a + b * sigma[i];
-        principal.flip[i] = a - b * sigma[i];
-        for j in 0..3 {
-            let other = if i == j { a } else { b * sigma[3 - i - j] };
-            principal.scaling[i][j] =
-                s * sigma[i] * sigma[j] + t * (sigma[i] * cof[j] + cof[i] * sigma[j]) + r * cof[i] * cof[j] + other;
-        }
-    }
-    principal
-}
-
 /// Negative eigenvalues raised to zero.
 #[inline(never)]
 fn projected<T: Number>(principal: &Principal<T>) -> Principal<T> {

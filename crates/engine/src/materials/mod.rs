@@ -8,6 +8,7 @@ mod any;
 mod cauchy;
 mod corotated;
 mod invariants;
+mod isochoric;
 mod isotropic;
 mod linear;
 mod neo_hookean;
@@ -16,17 +17,19 @@ mod stable_neo_hookean;
 #[cfg(test)]
 mod tests;
 
-pub use any::AnyLaw;
 pub use cauchy::cauchy_stress;
-pub use corotated::Corotated;
 pub use invariants::OfInvariants;
-pub use linear::Linear;
-pub use neo_hookean::NeoHookean;
-pub use st_venant_kirchhoff::StVenantKirchhoff;
-pub use stable_neo_hookean::StableNeoHookean;
 
 use crate::number::Number;
 use crate::tensor::{Tensor, Tensor4};
+
+any::laws! {
+    linear::Linear,
+    corotated::Corotated,
+    st_venant_kirchhoff::StVenantKirchhoff,
+    neo_hookean::NeoHookean,
+    stable_neo_hookean::StableNeoHookean,
+}
 
 /// A constitutive law, for one element or for a batch of them. A pass over elements calls it once per batch, by reference,
 /// so that each pass is compiled once for all laws.

@@ -1,8 +1,9 @@
 //! Whether a scene's numbers, and the quantities derived from them, fit into the number type of the simulation.
 
-use fem_scene::{Method, Precision};
+use fem_scene::{Material, Method, Precision};
 
 use super::Refusal;
+use crate::materials::AnyLaw;
 use crate::model::system::System;
 use crate::number::{Real, is_positive};
 
@@ -27,6 +28,17 @@ pub(super) fn check<T: Real>(method: &Method, system: &System<T>) -> Result<(), 
         Some((field, quantity)) => Err((field, problem(method, quantity))),
         None => Ok(()),
     }
+}
+
+/// Refuses parameters whose signs make the material unstable at rest. In double precision none that a scene may give is rounded to
+/// zero.
+pub(super) fn check_shear_modulus(table: &Material) -> Result<(), Refusal> {
+    let shear = AnyLaw::<f64>::new(table).map_or(0.0, |law| law.moduli()[0]);
+    if shear > 0.0 {
+        return Ok(());
+    }
+    let problem = format!("has the shear modulus {shear:e} Pa at small strain; give parameters that make it positive");
+    Err(("material", problem))
 }
 
 /// Whether μ V^(1/3), the stiffness of an element (N/m), is in range.

@@ -6,9 +6,10 @@ use fem_engine::forces::Moment;
 use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::solvers::SolverChoice;
+use fem_scene::MODELS;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use crate::{MODELS, block, scene};
+use crate::{block, scene};
 
 /// A body of 1 m³ whose inner nodes are where chance has put them.
 struct Patch {
@@ -76,7 +77,7 @@ const C_AREA: f64 = 1e5 / (4.0 * 1.3);
 #[test]
 fn an_affine_state_of_an_irregular_mesh_leaves_no_force_inside() {
     let mut random = Random(1);
-    for model in MODELS {
+    for (model, _) in MODELS {
         let patch = patch(model);
         assert_eq!(patch.inner.iter().filter(|&&inner| inner).count(), 27);
         for _ in 0..20 {
@@ -93,7 +94,7 @@ fn an_affine_state_of_an_irregular_mesh_leaves_no_force_inside() {
 
 #[test]
 fn a_state_that_is_not_affine_does_leave_a_force_inside() {
-    for model in MODELS {
+    for (model, _) in MODELS {
         let patch = patch(model);
         let mut u = patch.displacements(&Matrix3::identity(), &Vector3::zeros());
         let moved = patch.inner.iter().position(|&inner| inner).unwrap();
@@ -107,12 +108,12 @@ fn a_state_that_is_not_affine_does_leave_a_force_inside() {
 #[test]
 fn a_rotation_of_the_body_causes_no_force_unless_the_law_is_linear() {
     let mut random = Random(2);
-    for model in MODELS {
+    for (model, _) in MODELS {
         let patch = patch(model);
         for _ in 0..20 {
             let R = Rotation3::new(3.0 * random.vector()).into_inner();
             let force = largest(patch.gradient(&R, &random.vector()).iter());
-            if model == "linear" {
+            if *model == "linear" {
                 assert!(force > 1e-3 * C_AREA, "{force:e}");
             } else {
                 assert!(force <= 1e-12 * C_AREA, "{model}: {force:e} N");

@@ -1,8 +1,9 @@
 //! Reactions balance the loads, for every law and any number of load steps.
 
+use fem_scene::MODELS;
 use fem_scene::simulation::Simulation;
 
-use crate::{MODELS, block, build, run};
+use crate::{block, build, run};
 
 /// Weight of the box, 2 m³ at 1000 kg/m³, in N.
 const WEIGHT: [f64; 3] = [2000.0, -6000.0, 4000.0];
@@ -24,7 +25,7 @@ fn imbalance(simulation: &dyn Simulation, load_factor: f64) -> f64 {
 
 #[test]
 fn reactions_balance_the_loads_after_every_load_step_of_every_law() {
-    for model in MODELS {
+    for (model, _) in MODELS {
         for prescribed in ["", PRESCRIBED] {
             for load_steps in [1, 2, 5, 10] {
                 let rest = format!("{GRAVITY}{TABLES}{prescribed}[static]\nload_steps = {load_steps}\n");
@@ -43,7 +44,7 @@ fn reactions_balance_the_loads_after_every_load_step_of_every_law() {
 
 #[test]
 fn equilibrium_at_full_load_does_not_depend_on_the_number_of_load_steps() {
-    for model in MODELS {
+    for (model, _) in MODELS {
         let end = |load_steps: usize, steps: usize| {
             let rest = format!("{GRAVITY}{TABLES}{PRESCRIBED}[static]\nload_steps = {load_steps}\n");
             let mut simulation = build(&block(model, &rest));

@@ -9,6 +9,7 @@ mod bars;
 mod cantilever;
 mod conserved;
 mod extreme;
+mod laws;
 mod orders;
 mod parts;
 mod pressures;
@@ -84,14 +85,14 @@ fn symmetry() -> String {
 
 /// A box of 2 × 1 × 1 m of a law with E = 1e5 Pa and ν = 0.3, in equilibrium; `rest` are further tables.
 fn block(model: &str, rest: &str) -> String {
-    soft("static", 1.0, &format!("[newton]\ntolerance = 1e-14\n{rest}")).replace(
-        "model = \"neo_hookean\"\nC = 1e4\nD = 4e4",
-        &format!("model = \"{model}\"\nyoung = 1e5\npoisson = 0.3"),
-    )
+    of_law(model, &soft("static", 1.0, &format!("[newton]\ntolerance = 1e-14\n{rest}")))
 }
 
-/// All laws.
-const MODELS: [&str; 5] = ["linear", "corotated", "st_venant_kirchhoff", "neo_hookean", "stable_neo_hookean"];
+/// The scene with another law, with E = 1e5 Pa and ν = 0.3 at small strain.
+fn of_law(model: &str, scene: &str) -> String {
+    let material = format!("model = \"{model}\"\nyoung = 1e5\npoisson = 0.3");
+    scene.replace("model = \"neo_hookean\"\nC = 1e4\nD = 4e4", &material)
+}
 
 /// The methods that move.
 const DYNAMIC: [&str; 7] =

@@ -18,14 +18,15 @@ fn table(model: &str, parameters: &str) -> fem_scene::Material {
 #[test]
 fn every_model_of_the_scene_format_is_a_law_with_each_set_of_its_parameters() {
     for (model, sets) in MODELS {
-        for set in sets {
+        for set in *sets {
             let line = |name: &&str| format!("{name} = {}\n", if *name == "poisson" { 0.25 } else { 1000.0 });
             let law = AnyLaw::<f64>::new(&table(model, &set.iter().map(line).collect::<String>()));
-            assert_eq!(law.map(|law| law.name()), Some(model), "{set:?}");
+            assert_eq!(law.map(|law| law.name()), Some(*model), "{set:?}");
         }
     }
-    let (models, tested) = (MODELS.map(|(name, _)| name), laws::<f64>().iter().map(AnyLaw::name).collect::<Vec<_>>());
-    assert_eq!((AnyLaw::NAMES, &tested[..]), (&models[..], &models[..]));
+    let models: Vec<_> = MODELS.iter().map(|(name, _)| *name).collect();
+    let tested: Vec<_> = laws::<f64>().iter().map(AnyLaw::name).collect();
+    assert_eq!((AnyLaw::NAMES, &tested), (&models[..], &models));
 }
 
 #[test]

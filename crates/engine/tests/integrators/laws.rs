@@ -1,0 +1,29 @@
+//! Every law in every integrator.
+
+use fem_scene::MODELS;
+use nalgebra::DVector;
+
+use crate::{DYNAMIC, build, distance, of_law, run, soft};
+
+const CLAMPED: &str = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n[gravity]\nacceleration = [0, -1e-3, 5e-4]\n";
+
+/// Displacements after some steps under a load that strains the body by about 1e-5, m.
+fn displacements(model: &str, integrator: &str) -> DVector<f64> {
+    let steps = if integrator == "static" { 1 } else { 20 };
+    let mut simulation = build(&of_law(model, &soft(integrator, 1e-2, CLAMPED)));
+    let rest = simulation.positions();
+    run(&mut *simulation, steps);
+    simulation.positions() - rest
+}
+
+#[test]
+fn at_small_strain_every_integrator_moves_a_body_of_every_law_as_hooke_s_law_does() {
+    for integrator in DYNAMIC.into_iter().chain(["static"]) {
+        let hooke = displacements("linear", integrator);
+        assert!(hooke.amax() > 1e-6, "{integrator}: {:e} m", hooke.amax());
+        for (model, _) in MODELS {
+            let difference = distance(&displacements(model, integrator), &hooke) / hooke.amax();
+            assert!(difference < 1e-3, "{model}, {integrator}: {difference:e}");
+        }
+    }
+}
