@@ -1,6 +1,6 @@
 //! `[material]`: the constitutive law by its name, its parameters, and the density.
 
-use crate::check::{Problem, check_positive, problem};
+use crate::check::{Problem, check_finite, check_positive, problem};
 
 /// The laws: the name of each, and the sets of parameters of which a scene gives one.
 pub const MODELS: &[(&str, &[&[&str]])] = &[
@@ -9,6 +9,7 @@ pub const MODELS: &[(&str, &[&[&str]])] = &[
     ("st_venant_kirchhoff", &[ELASTIC]),
     ("neo_hookean", &[&["C", "D"], ELASTIC]),
     ("stable_neo_hookean", &[ELASTIC]),
+    ("mooney_rivlin", &[&["C10", "C01", "D"]]),
 ];
 
 /// Young's modulus and Poisson's ratio of small strain.
@@ -52,6 +53,10 @@ material! {
     poisson: poissons_ratio,
     /// Neo-Hookean: half the shear modulus at small strain, Pa.
     C: positive,
+    /// Mooney–Rivlin: factor of Ī1 − 3, Pa.
+    C10: finite,
+    /// Mooney–Rivlin: factor of Ī2 − 3, Pa.
+    C01: finite,
     /// Half the bulk modulus at small strain, Pa.
     D: positive,
 }
@@ -121,6 +126,10 @@ fn models_with(names: &[&str]) -> String {
 
 fn positive(field: &str, value: f64) -> Result<(), Problem> {
     check_positive(field, value, " of Pa")
+}
+
+fn finite(field: &str, value: f64) -> Result<(), Problem> {
+    check_finite(field, &[value])
 }
 
 fn poissons_ratio(field: &str, value: f64) -> Result<(), Problem> {

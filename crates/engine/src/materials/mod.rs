@@ -11,6 +11,7 @@ mod invariants;
 mod isochoric;
 mod isotropic;
 mod linear;
+mod mooney_rivlin;
 mod neo_hookean;
 mod st_venant_kirchhoff;
 mod stable_neo_hookean;
@@ -29,6 +30,7 @@ any::laws! {
     st_venant_kirchhoff::StVenantKirchhoff,
     neo_hookean::NeoHookean,
     stable_neo_hookean::StableNeoHookean,
+    mooney_rivlin::MooneyRivlin,
 }
 
 /// A constitutive law, for one element or for a batch of them. A pass over elements calls it once per batch, by reference,

@@ -3,13 +3,14 @@
 mod closed_forms;
 mod derivatives;
 mod lanes;
+mod mooney_rivlin;
 mod near_rest;
 mod projected;
 mod scenes;
 mod svd;
 mod symmetries;
 
-use super::{AnyLaw, Corotated, Law, Linear, NeoHookean, StVenantKirchhoff, StableNeoHookean};
+use super::{AnyLaw, Corotated, Law, Linear, MooneyRivlin, NeoHookean, StVenantKirchhoff, StableNeoHookean};
 use crate::number::{Number, constant};
 use crate::tensor::{Tensor, Tensor4};
 
@@ -38,6 +39,11 @@ fn stable_neo_hookean<T: Number>() -> StableNeoHookean<T> {
     StableNeoHookean { mu: constant(MU), lambda: constant(LAMBDA) }
 }
 
+fn mooney_rivlin<T: Number>() -> MooneyRivlin<T> {
+    let NeoHookean { C, D } = neo_hookean::<T>();
+    MooneyRivlin { C10: constant::<T>(0.625) * C, C01: constant::<T>(0.375) * C, D }
+}
+
 /// All laws.
 fn laws<T: Number>() -> Vec<AnyLaw<T>> {
     vec![
@@ -46,6 +52,7 @@ fn laws<T: Number>() -> Vec<AnyLaw<T>> {
         AnyLaw::StVenantKirchhoff(st_venant_kirchhoff()),
         AnyLaw::NeoHookean(neo_hookean()),
         AnyLaw::StableNeoHookean(stable_neo_hookean()),
+        AnyLaw::MooneyRivlin(mooney_rivlin()),
     ]
 }
 
@@ -118,6 +125,46 @@ fn eigenvalues(H: &Tensor4<f64>) -> Vec<f64> {
     let mut values: Vec<_> = matrix.symmetric_eigenvalues().iter().copied().collect();
     values.sort_by(f64::total_cmp);
     values
+}
+
+/// Bars, sheets and shears in their principal axes.
+const STRETCHES: [[f64; 3]; 6] =
+    [[1.5, 0.9, 0.9], [0.6, 1.2, 1.2], [3.0, 0.6, 0.6], [1.8, 1.8, 0.35], [1.001, 0.9995, 0.9995], [2.0, 1.0, 0.5]];
+
+/// Changes of volume alone.
+const VOLUMETRIC_STRETCHES: [f64; 5] = [0.3, 0.9, 1.001, 1.1, 2.0];
+
+/// D (J − 1)² and the diagonal of its P where J = s³.
+fn volumetric(D: f64, s: f64) -> (f64, [f64; 3]) {
+    let j = s.powi(3) - 1.0;
+    (D * j * j, [2.0 * D * j * s * s; 3])
+}
+
+fn assert_near(found: f64, expected: f64, what: &str) {
+    let size = expected.abs().max(MU + LAMBDA);
+    assert!((found - expected).abs() <= 1e-12 * size, "{what}: {found} instead of {expected}");
+}
+
+/// Energy density and diagonal of P at principal stretches.
+fn check_stretches(law: &dyn Law<f64>, stretches: [f64; 3], (energy, stress): (f64, [f64; 3])) {
+    let G = minus_identity(&diagonal(stretches));
+    assert_near(law.energy(&G), energy, &format!("energy at {stretches:?}"));
+    let size = stress.iter().fold(MU + LAMBDA, |size, stress| size.max(stress.abs()));
+    let error = distance(&law.stress(&G), &diagonal(stress));
+    assert!(error <= 1e-12 * size, "stress at {stretches:?}: {error:e}");
+}
+
+/// The law is the neo-Hookean one of [`neo_hookean`] at every deformation.
+fn check_is_neo_hookean(law: &dyn Law<f64>) {
+    let neo = neo_hookean::<f64>();
+    for G in upright() {
+        let (energy, P, H) = (neo.energy(&G), neo.stress(&G), neo.derivative(&G));
+        assert!((law.energy(&G) - energy).abs() <= 1e-15 * energy, "{G:?}");
+        assert!(distance(&law.stress(&G), &P) <= 1e-15 * largest(&P), "{G:?}");
+        assert!(distance(&law.derivative(&G), &H) <= 1e-14 * largest(&H), "{G:?}");
+        let (found, expected) = (law.projected_derivative(&G), neo.projected_derivative(&G));
+        assert!(distance(&found, &expected) <= 1e-13 * largest(&H), "{G:?}");
+    }
 }
 
 /// Deformations with J > 0 between gentle and wild, and those of coinciding stretches.

@@ -3,7 +3,7 @@
 use fem_scene::MODELS;
 use nalgebra::DVector;
 
-use crate::{DYNAMIC, build, distance, of_law, run, soft};
+use crate::{DYNAMIC, build, distance, of_law, run, soft, try_build};
 
 const CLAMPED: &str = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n[gravity]\nacceleration = [0, -1e-3, 5e-4]\n";
 
@@ -25,5 +25,17 @@ fn at_small_strain_every_integrator_moves_a_body_of_every_law_as_hooke_s_law_doe
             let difference = distance(&displacements(model, integrator), &hooke) / hooke.amax();
             assert!(difference < 1e-3, "{model}, {integrator}: {difference:e}");
         }
+    }
+}
+
+#[test]
+fn parameters_without_a_positive_shear_modulus_are_refused() {
+    for C01 in ["-1e4", "-2e4"] {
+        let text = of_law("mooney_rivlin", &soft("verlet", 1e-3, ""));
+        let (before, after) = text.split_once("C10 = ").unwrap();
+        let after = after.split_once("D = ").unwrap().1;
+        let error = try_build(&format!("{before}C10 = 1e4\nC01 = {C01}\nD = {after}")).err().map(|e| e.to_string());
+        let expected = "Pa at small strain; give parameters that make it positive";
+        assert!(error.as_ref().is_some_and(|error| error.contains(expected)), "{error:?}");
     }
 }

@@ -90,7 +90,12 @@ fn block(model: &str, rest: &str) -> String {
 
 /// The scene with another law, with E = 1e5 Pa and ν = 0.3 at small strain.
 fn of_law(model: &str, scene: &str) -> String {
-    let material = format!("model = \"{model}\"\nyoung = 1e5\npoisson = 0.3");
+    let (C, D) = (1e5 / (4.0 * 1.3), 1e5 / (6.0 * 0.4));
+    let parameters = match model {
+        "mooney_rivlin" => format!("C10 = {}\nC01 = {}\nD = {D}", 0.625 * C, 0.375 * C),
+        _ => "young = 1e5\npoisson = 0.3".to_owned(),
+    };
+    let material = format!("model = \"{model}\"\n{parameters}");
     scene.replace("model = \"neo_hookean\"\nC = 1e4\nD = 4e4", &material)
 }
 

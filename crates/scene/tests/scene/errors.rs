@@ -74,6 +74,39 @@ fn c_and_d_belong_to_the_neo_hookean_model_alone() {
 }
 
 #[test]
+fn a_law_takes_its_own_parameters_only_and_the_message_names_them() {
+    let with = |model: &str, parameters: &str| {
+        edit(&edit(LEAST, "C = 1e5\nD = 4e5\n", parameters), "neo_hookean", model).replace("\"course\"", "\"engine\"")
+    };
+    assert_refused(
+        &with("mooney_rivlin", "C = 1e5\nD = 4e5\n"),
+        6,
+        "material.C belongs to neo_hookean; give this model C10 and C01",
+    );
+    assert_refused(
+        &with("linear", "C10 = 1\nC01 = 1\nD = 1\n"),
+        6,
+        "material.C10 and C01 and D belong to mooney_rivlin; ",
+    );
+    assert_refused(
+        &with("mooney_rivlin", "C10 = 1e5\nD = 4e5\n"),
+        4,
+        "material needs C10 and C01 and D; give these and no",
+    );
+    assert_refused(
+        &with("mooney_rivlin", "C10 = 1\nC01 = nan\nD = 4e5\n"),
+        7,
+        "material.C01 is NaN; give finite numbers",
+    );
+    assert_refused(
+        &with("rubber", "C = 1e5\nD = 4e5\n"),
+        5,
+        "material.model is `rubber`, which is no law; write one of linear, ",
+    );
+    assert_eq!(read(&with("mooney_rivlin", "C10 = 1\nC01 = -0.5\nD = 4e5\n")).material.C01, Some(-0.5));
+}
+
+#[test]
 fn vectors_have_three_numbers() {
     for numbers in ["[]", "[1]", "[1, 2]", "[1, 2, 3, 4]"] {
         assert_refused(&format!("{LEAST}[gravity]\nacceleration = {numbers}\n"), 13, "invalid length ");
