@@ -10,6 +10,7 @@ pub const MODELS: &[(&str, &[&[&str]])] = &[
     ("neo_hookean", &[&["C", "D"], ELASTIC]),
     ("stable_neo_hookean", &[ELASTIC]),
     ("mooney_rivlin", &[&["C10", "C01", "D"]]),
+    ("yeoh", &[&["C1", "C2", "C3", "D"]]),
 ];
 
 /// Young's modulus and Poisson's ratio of small strain.
@@ -57,6 +58,12 @@ material! {
     C10: finite,
     /// Mooney–Rivlin: factor of Ī2 − 3, Pa.
     C01: finite,
+    /// Yeoh: half the shear modulus at small strain, Pa.
+    C1: positive,
+    /// Yeoh: factor of (Ī1 − 3)², Pa.
+    C2: finite,
+    /// Yeoh: factor of (Ī1 − 3)³, Pa.
+    C3: finite,
     /// Half the bulk modulus at small strain, Pa.
     D: positive,
 }

@@ -17,6 +17,7 @@ mod st_venant_kirchhoff;
 mod stable_neo_hookean;
 #[cfg(test)]
 mod tests;
+mod yeoh;
 
 pub use cauchy::cauchy_stress;
 pub use invariants::OfInvariants;
@@ -31,6 +32,7 @@ any::laws! {
     neo_hookean::NeoHookean,
     stable_neo_hookean::StableNeoHookean,
     mooney_rivlin::MooneyRivlin,
+    yeoh::Yeoh,
 }
 
 /// A constitutive law, for one element or for a batch of them. A pass over elements calls it once per batch, by reference,

@@ -9,8 +9,9 @@ mod projected;
 mod scenes;
 mod svd;
 mod symmetries;
+mod yeoh;
 
-use super::{AnyLaw, Corotated, Law, Linear, MooneyRivlin, NeoHookean, StVenantKirchhoff, StableNeoHookean};
+use super::{AnyLaw, Corotated, Law, Linear, MooneyRivlin, NeoHookean, StVenantKirchhoff, StableNeoHookean, Yeoh};
 use crate::number::{Number, constant};
 use crate::tensor::{Tensor, Tensor4};
 
@@ -44,6 +45,11 @@ fn mooney_rivlin<T: Number>() -> MooneyRivlin<T> {
     MooneyRivlin { C10: constant::<T>(0.625) * C, C01: constant::<T>(0.375) * C, D }
 }
 
+fn yeoh<T: Number>() -> Yeoh<T> {
+    let NeoHookean { C, D } = neo_hookean();
+    Yeoh { C1: C, C2: constant(-0.0625), C3: constant(0.03125), D }
+}
+
 /// All laws.
 fn laws<T: Number>() -> Vec<AnyLaw<T>> {
     vec![
@@ -53,6 +59,7 @@ fn laws<T: Number>() -> Vec<AnyLaw<T>> {
         AnyLaw::NeoHookean(neo_hookean()),
         AnyLaw::StableNeoHookean(stable_neo_hookean()),
         AnyLaw::MooneyRivlin(mooney_rivlin()),
+        AnyLaw::Yeoh(yeoh()),
     ]
 }
 
