@@ -1,7 +1,7 @@
 //! `--explain`: the parts that a scene builds and those that it leaves out.
 
 use fem_scene::simulation::{Part, Simulation};
-use fem_scene::{Pipeline, Scene};
+use fem_scene::{Integrator, Pipeline, Scene};
 
 /// Prints a line for every part.
 pub fn print(scene: &Scene, simulation: &dyn Simulation) {
@@ -10,7 +10,11 @@ pub fn print(scene: &Scene, simulation: &dyn Simulation) {
         Pipeline::Course => "course",
         Pipeline::Engine => "engine",
     };
-    say!("pipeline {pipeline}, {}, dt = {} s", simulation.integrator(), simulation.dt());
+    let step = match scene.time.integrator {
+        Integrator::Static => format!("load steps: {}", scene.method().load_steps),
+        _ => format!("dt = {} s", simulation.dt()),
+    };
+    say!("pipeline {pipeline}, {}, {step}", simulation.integrator());
     for part in simulation.parts() {
         let word = if part.built { "builds" } else { "leaves out" };
         let size =

@@ -93,13 +93,13 @@ fn print_summary(simulation: &dyn Simulation, run: &Run) {
     let (energies, (minimum, _)) = (simulation.energies(), simulation.min_J());
     let median = quantile(&run.step_seconds, 0.5)
         .map_or(String::new(), |seconds| format!(", {:.3} ms a step (median)", 1e3 * seconds));
-    say!(
-        "{}, {}: {} steps to t = {:.4} s{median}",
-        simulation.name(),
-        simulation.integrator(),
-        simulation.counters().steps,
-        simulation.time(),
-    );
+    let (name, integrator, steps) = (simulation.name(), simulation.integrator(), simulation.counters().steps);
+    // The time of an equilibrium has no meaning.
+    let end = match integrator {
+        "static" => "load steps".to_owned(),
+        _ => format!("steps to t = {:.4} s", simulation.time()),
+    };
+    say!("{name}, {integrator}: {steps} {end}{median}");
     say!(
         "kinetic {:.4e} J, potential {:.4e} J, total {:.4e} J, minimum of det F {minimum:.4}",
         energies.kinetic,

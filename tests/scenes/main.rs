@@ -1,7 +1,7 @@
 //! The scenes: each shipped one runs, moves by the laws of mechanics, and writes files that other programs can read; unusable
 //! arguments, scenes and meshes are refused with one message.
 //!
-//! `cargo test --no-default-features --features demo --test scenes` runs them without the window.
+//! `cargo test --no-default-features --features engine --test scenes` runs them without the window.
 
 #![allow(non_snake_case)] // V, T, F, J, C and D are the names that the mathematics and the course use
 
