@@ -25,7 +25,7 @@ pub fn run(mesh: &Path, out: &Path) -> Result<Found, Box<dyn Error>> {
         "pipeline = \"engine\"\n[mesh]\nfile = {:?}\n\
          [material]\nmodel = \"stable_neo_hookean\"\nyoung = 1e6\npoisson = 0.4\ndensity = {DENSITY:?}\n\
          [gravity]\nacceleration = [0, -9.81, 0]\n[fixed]\nplane = {{ axis = \"y\", below = 0.1 }}\n\
-         [time]\nintegrator = \"static\"\ndt = 1\nsteps = 4\n[static]\nload_steps = 4\n",
+         [time]\nintegrator = \"static\"\nsteps = 4\n[static]\nload_steps = 4\n",
         mesh.display().to_string()
     );
     let scene = fem_scene::parse(&text, Path::new("stress.toml"))?;

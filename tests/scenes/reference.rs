@@ -1,4 +1,4 @@
-//! A second implementation of implicit Euler that shares nothing with the first: dense matrices, derivatives by dual numbers and
+//! A second, independent implementation of implicit Euler: dense matrices, derivatives by dual numbers and
 //! finite differences, no projection, no line search. Slow, and only for bodies of a few elements.
 
 use std::ops::{Add, Mul, Sub};
@@ -128,7 +128,7 @@ impl Model {
         !self.fixed.contains(&(coordinate / 3))
     }
 
-    /// The velocity at the end of a step of implicit Euler from (q, v), by Newton's method until nothing changes any more.
+    /// The velocity at the end of a step of implicit Euler from (q, v), by Newton's method until the update is round-off.
     pub fn step(&self, q: &mut DVector<f64>, v: &mut DVector<f64>, dt: f64, springs: &[AnchorSpring]) {
         let M = self.mass();
         let weight = &M * DVector::from_fn(q.len(), |i, _| self.gravity[i % 3]);
