@@ -5,6 +5,12 @@ use std::path::Path;
 #[path = "../examples/01_patch_test.rs"]
 mod patch_test;
 
+#[path = "../examples/02_own_potential.rs"]
+mod own_potential;
+
+#[path = "../examples/03_own_integrator.rs"]
+mod own_integrator;
+
 #[path = "../examples/04_mesh_in_stress_out.rs"]
 mod mesh_in_stress_out;
 
@@ -18,6 +24,20 @@ fn every_law_passes_the_patch_test() {
         // Young's modulus times 20 %, within the nonlinearity of the laws.
         assert!((1e5..4e5).contains(&stress), "{law}: {stress:e} Pa");
     }
+}
+
+#[test]
+fn a_floor_of_ones_own_carries_the_weight_of_the_cube() {
+    let (force, weight) = own_potential::run().unwrap();
+    // After 6 s, implicit Euler has damped the bouncing to a hundred-thousandth.
+    assert!((force / weight - 1.0).abs() < 1e-5, "{force} N, {weight} N");
+}
+
+#[test]
+fn an_integrator_of_ones_own_has_its_order() {
+    let [coarse, fine] = own_integrator::run().unwrap();
+    let order = (coarse / fine).log2();
+    assert!((order - 4.0).abs() < 0.3, "{order}: {coarse:e} J, {fine:e} J");
 }
 
 #[test]

@@ -95,7 +95,7 @@ fn a_missing_table_or_key_is_named() {
 #[test]
 fn an_unknown_name_is_refused_with_the_known_ones() {
     assert_refused("\"course\"", "\"curse\"", 2, &["`curse`", "`course` or `engine`"]);
-    assert_refused("\"neo_hookean\"", "\"mooney_rivlin\"", 6, &["`mooney_rivlin`", "`neo_hookean`"]);
+    assert_refused("\"neo_hookean\"", "\"rubber\"", 6, &["material.model is `rubber`", "write one of", "neo_hookean"]);
     assert_refused("\"implicit_euler\"", "\"euler\"", 16, &["`euler`", "`implicit_euler`"]);
     assert_refused("axis = \"y\"", "axis = \"w\"", 13, &["`w`", "`x`, `y`"]);
     assert_refused("\"highest\"", "\"lowest\"", 19, &["\"lowest\"", "\"highest\" or the index of a vertex"]);

@@ -1,0 +1,84 @@
+//! 2. A force of one's own through the trait `Potential`: a rubber cube falls onto an elastic floor and comes to rest.
+//!
+//! `cargo run --release --example 02_own_potential`
+
+use std::error::Error;
+use std::path::Path;
+
+use fem_engine::forces::{Energy, HessianKind, Moment, Potential};
+use fem_engine::model::numbering::Numbering;
+use fem_engine::simulator::Simulator;
+use fem_engine::sparse::{Block, Pattern};
+use fem_scene::simulation::Simulation;
+
+const SCENE: &str = "pipeline = \"engine\"\n[mesh]\nbox = { size = [1, 1, 1], cells_per_unit = 2 }\n\
+    [material]\nmodel = \"neo_hookean\"\nyoung = 1e5\npoisson = 0.3\ndensity = 1000\n\
+    [gravity]\nacceleration = [0, 0, -9.81]\n[time]\nintegrator = \"implicit_euler\"\ndt = 0.02\n";
+
+/// A floor 0.1 m below the undeformed cube: ½ k z² for every node at a height z < 0 above it.
+struct Floor {
+    /// k, N/m
+    stiffness: f64,
+    /// Undeformed height of each node above the floor, m, in the engine's numbering.
+    heights: Vec<f64>,
+}
+
+impl Floor {
+    /// The nodes below the floor, and their (negative) heights, m.
+    fn contacts(&self, u: &[[f64; 3]]) -> impl Iterator<Item = (usize, f64)> {
+        let heights = self.heights.iter().zip(u).map(|(height, u)| height + u[2]);
+        heights.enumerate().filter(|&(_, height)| height < 0.0)
+    }
+}
+
+impl Potential<f64> for Floor {
+    fn name(&self) -> &'static str {
+        "floor"
+    }
+
+    fn description(&self) -> String {
+        format!("an elastic floor of {:e} N/m", self.stiffness)
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(&self.heights[..])
+    }
+
+    fn energy(&self, u: &[[f64; 3]], _: Moment) -> Energy {
+        self.contacts(u).map(|(_, z)| Energy::of(0.5 * self.stiffness * z * z)).sum()
+    }
+
+    fn add_gradient(&self, u: &[[f64; 3]], _: Moment, gradient: &mut [[f64; 3]]) {
+        self.contacts(u).for_each(|(node, z)| gradient[node][2] += self.stiffness * z);
+    }
+
+    fn add_hessian(&self, k: f64, u: &[[f64; 3]], _: HessianKind, pattern: &Pattern, values: &mut [Block<f64, 3>]) {
+        let blocks = self.contacts(u).filter_map(|(node, _)| pattern.find(node, node));
+        blocks.for_each(|block| values[block][2][2] += k * self.stiffness);
+    }
+}
+
+/// The force of the floor after 6 s, and the weight of the cube, N.
+pub fn run() -> Result<(f64, f64), Box<dyn Error>> {
+    let (scene, stiffness) = (fem_scene::parse(SCENE, Path::new("cube.toml"))?, 1e6);
+    let body = fem_scene::body(&scene, Path::new("data"))?;
+    let vertices = body.shape.mesh.vertices.clone();
+    let floor = |numbering: &Numbering| -> Vec<Box<dyn Potential<f64>>> {
+        let heights = numbering.mesh_node.iter().map(|&node| vertices[node as usize].z + 0.1).collect();
+        vec![Box::new(Floor { stiffness, heights })]
+    };
+    let mut simulation = Simulator::<f64>::with_forces(&scene, body, &floor)?;
+    for _ in 0..300 {
+        simulation.step()?;
+    }
+    let heights: Vec<f64> = simulation.positions().iter().skip(2).step_by(3).map(|z| z + 0.1).collect();
+    let force: f64 = heights.iter().filter(|&&z| z < 0.0).map(|z| -stiffness * z).sum();
+    Ok((force, 9.81 * 1000.0))
+}
+
+#[allow(dead_code)] // the test calls `run`
+fn main() -> Result<(), Box<dyn Error>> {
+    let (force, weight) = run()?;
+    println!("the floor carries {force:.3} N of a weight of {weight:.3} N");
+    Ok(())
+}
