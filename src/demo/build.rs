@@ -42,13 +42,13 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
     Ok(Ready { simulation, seconds_setup, steps: steps(scene), up, expected_tip })
 }
 
-/// The scene's number of steps, or that of its load steps if it is static.
+/// The scene's number of steps; by default that of its load steps if it is static.
 fn steps(scene: &Scene) -> usize {
-    let load_steps = match scene.time.integrator {
-        Integrator::Static => Some(scene.statics.as_ref().map_or(1, |statics| statics.load_steps)),
-        _ => None,
+    let default = match scene.time.integrator {
+        Integrator::Static => scene.method().load_steps,
+        _ => DEFAULT_STEPS,
     };
-    scene.time.steps.or(load_steps).unwrap_or(DEFAULT_STEPS)
+    scene.time.steps.unwrap_or(default)
 }
 
 /// The simulation that the 22 functions run.

@@ -10,9 +10,9 @@ use super::end::End;
 /// The subcommands.
 #[derive(Debug, Subcommand)]
 pub enum Study {
-    /// Error against run time: which method for which error, with tables, pictures and a page
+    /// Error against run time of every method, with tables, pictures and a page
     Report(report::Arguments),
-    /// Stiff and extreme cases: what each integrator does with them, beside what it must
+    /// Stiff and extreme cases: the outcome with each integrator beside the expected one
     Stability(stability::Arguments),
 }
 
