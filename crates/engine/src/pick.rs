@@ -29,7 +29,7 @@ fn ray(click: &Click) -> Option<(Vector3<f64>, Vector3<f64>)> {
     Some((near.coords, far - near))
 }
 
-/// Where a ray meets a triangle, in units of its direction: Möller and Trumbore, Fast, Minimum Storage Ray/Triangle
+/// Distance along a ray to a triangle, in lengths of its direction: Möller and Trumbore, Fast, Minimum Storage Ray/Triangle
 /// Intersection (1997).
 fn hit(origin: &Vector3<f64>, direction: &Vector3<f64>, [a, b, c]: [Vector3<f64>; 3]) -> Option<f64> {
     let (ab, ac, to_origin) = (b - a, c - a, origin - a);

@@ -13,7 +13,7 @@ pub enum Stored {
     Full,
 }
 
-/// Where the blocks are; made once.
+/// Places of the blocks, found once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pattern {
     /// Which half is stored.

@@ -43,7 +43,7 @@ fn constrained_directions(body: &Body) -> Vec<[bool; 3]> {
     constrained
 }
 
-/// For each part, at its first node, the Gram matrix Σ r rᵀ over its constrained degrees of freedom: a direction e at the arm a from
+/// Gram matrix of each part, at its first node: Σ r rᵀ over its constrained degrees of freedom: a direction e at the arm a from
 /// the centre, in lengths of the part, moves by r · (t, ω) = e · t + (a × e) · ω under a translation t and a rotation ω.
 fn gram_matrices(vertices: &[Vector3<f64>], part: &[usize], constrained: &[[bool; 3]]) -> Vec<Matrix6<f64>> {
     let mut centre = vec![(0.0, Vector3::zeros()); vertices.len()];

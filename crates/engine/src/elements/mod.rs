@@ -35,7 +35,7 @@ struct Chunk<T: Real, const D: usize, const N: usize> {
     blocks: Range<usize>,
     /// Corners of each element, lane after lane; the last batch is filled up with elements of no volume.
     corners: Vec<[u32; N]>,
-    /// For each pair of corners the block that it is added to, counted from the first of `blocks`; pairs without a block have a target
+    /// Block that each pair of corners is added to, counted from the first of `blocks`; pairs without a block have a target
     /// beyond the last.
     targets: Vec<[[u32; N]; N]>,
     batches: Vec<Batch<T, D>>,

@@ -44,7 +44,7 @@ struct Linear<T: Real> {
 const HALVINGS: i32 = 10;
 
 impl<T: Real> Statics<T> {
-    /// For a body; a linear one keeps only the solver of `newton`.
+    /// Allocates its vectors for a body; a linear one keeps only the solver of `newton`.
     pub fn new(newton: Newton<T>, system: &System<T>, load_steps: usize) -> Self {
         let zero = || vec![[T::default(); 3]; system.nodes()];
         let method = if system.is_linear() {

@@ -206,7 +206,7 @@ impl<T: Real> System<T> {
         self.profile.mass.time(|| self.mass.add_times(factor, x, product));
     }
 
-    /// Overwrites the constrained entries of an increment, m: they lead from `start` to the prescribed places at a moment. Free
+    /// Overwrites the constrained entries of an increment, m: the distance from `start` to the prescribed places at a moment. Free
     /// entries stay.
     pub fn prescribe(&self, start: &[[T; 3]], moment: Moment, step: &mut [[T; 3]]) {
         if self.dirichlet.has_motion() {

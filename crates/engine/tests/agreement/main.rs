@@ -11,7 +11,7 @@ use fem_scene::{Integrator, Scene, body, load, parse};
 use nalgebra::Vector3;
 use serde::Deserialize;
 
-/// What another program computed.
+/// The answer of another program.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Answer {

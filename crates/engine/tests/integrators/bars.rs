@@ -18,7 +18,7 @@ fn frequency() -> f64 {
     (4.0 * C / 1000.0_f64).sqrt() / (4.0 * LENGTH)
 }
 
-/// A bar of 2 m, held at x = 0, of which no node can move across; `rest` are further tables.
+/// A bar of 2 m, fixed at x = 0, without lateral motion; `rest` are further tables.
 fn bar(cells_per_metre: usize, rest: &str) -> String {
     let (width, nodes) = (1.0 / cells_per_metre as f64, 4 * (2 * cells_per_metre + 1));
     let all: Vec<usize> = (0..nodes).collect();

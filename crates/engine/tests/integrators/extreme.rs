@@ -1,4 +1,4 @@
-//! What stiff and extreme cases have once gone wrong with.
+//! Stiff and extreme cases that once failed.
 
 use fem_scene::simulation::Simulation;
 use fem_scene::{body, parse};
@@ -23,7 +23,7 @@ fn place(simulation: &mut fem_engine::simulator::Simulator<f64>, place: impl Fn(
 
 #[test]
 fn a_soft_body_under_a_long_step_is_not_handed_on_inside_out() {
-    // It falls by five times its length in the first step; directions lead to where the energy is infinite.
+    // It falls by five times its length in the first step; directions end where the energy is infinite.
     let tables = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n[gravity]\nacceleration = [9.81, 0, 0]\n";
     let text = soft("implicit_euler", 1.0, tables).replace("C = 1e4", "C = 20").replace("D = 4e4", "D = 40");
     let mut simulation = build(&text);

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use crate::{build, distance, run, soft};
 
-const ACTING: &str = r#"[gravity]
+const EXTERNAL: &str = r#"[gravity]
 acceleration = [0, -20, 3]
 [fixed]
 plane = { axis = "x", below = 1e-9 }
@@ -42,14 +42,14 @@ fn methods_converge_with_their_order_from_a_start_with_acceleration() {
         ("verlet", 2.0, 100),
         ("rk4", 4.0, 50),
     ] {
-        assert_order(integrator, order, steps, ACTING);
+        assert_order(integrator, order, steps, EXTERNAL);
     }
 }
 
 #[test]
 fn damping_springs_and_pressure_keep_the_orders() {
     let rest = format!(
-        "{ACTING}[damping]\nalpha = 2.0\nbeta = 0.004\n[[springs]]\nnodes = [1, 8]\nstiffness = 3e3\nrest_length = 1\n\
+        "{EXTERNAL}[damping]\nalpha = 2.0\nbeta = 0.004\n[[springs]]\nnodes = [1, 8]\nstiffness = 3e3\nrest_length = 1\n\
         [[traction]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\npressure = 4e3\n"
     );
     for (integrator, order, steps) in [
@@ -67,7 +67,7 @@ fn damping_springs_and_pressure_keep_the_orders() {
 
 #[test]
 fn lumped_masses_keep_the_orders() {
-    let rest = format!("{ACTING}[mass]\nlumped = true\n");
+    let rest = format!("{EXTERNAL}[mass]\nlumped = true\n");
     for (integrator, order, steps) in [("semi_implicit_euler", 1.0, 400), ("verlet", 2.0, 100), ("rk4", 4.0, 50)] {
         assert_order(integrator, order, steps, &rest);
     }

@@ -1,4 +1,4 @@
-//! What a scene leaves out costs nothing: with a part its counter rises, without it the counter stays where it was.
+//! A part that a scene leaves out costs nothing: its counter stays zero, and rises with the part.
 
 use fem_scene::simulation::{Part, Simulation};
 
@@ -42,14 +42,14 @@ fn assert_switched_by(name: &str, tables: &str, methods: &[&str]) {
 const METHODS: [&str; 4] = ["verlet", "rk4", "linearly_implicit_euler", "implicit_euler"];
 
 #[test]
-fn tables_that_act_on_the_body_switch_their_part_on() {
+fn tables_of_forces_switch_their_part_on() {
     let drag = "[drag]\nvertex = 5\nstiffness = 1e3\ndirection = [1, 0, 0]\namplitude = 0.1\nfrequency = 1\n";
     assert_switched_by("drag", drag, &METHODS);
     assert_switched_by("damping", "[damping]\nalpha = 1\nbeta = 1e-4\n", &["verlet", "rk4", "implicit_euler"]);
     assert_switched_by("springs", "[[springs]]\nnodes = [1, 8]\nstiffness = 1e3\nrest_length = 1\n", &METHODS);
     assert_switched_by("pressure", &format!("{TRACTION}pressure = 1e3\n"), &METHODS);
-    let led = "[[prescribed]]\nnodes = [2]\ndisplacement = [0.01, 0, 0]\nover = 1\n";
-    assert_switched_by("prescribed", led, &METHODS);
+    let prescribed = "[[prescribed]]\nnodes = [2]\ndisplacement = [0.01, 0, 0]\nover = 1\n";
+    assert_switched_by("prescribed", prescribed, &METHODS);
 }
 
 #[test]
@@ -74,7 +74,7 @@ fn dead_loads_fixed_nodes_and_reactions_are_there_where_the_scene_has_them() {
 }
 
 #[test]
-fn nobody_who_does_not_ask_pays_for_reactions() {
+fn reactions_take_time_only_on_request() {
     let mut simulation = build(&soft("implicit_euler", 1e-3, CLAMP));
     run(&mut *simulation, 3);
     assert_eq!(find(&simulation.parts(), "reactions").uses, 0);
@@ -147,7 +147,7 @@ fn with_display() -> Box<dyn Simulation> {
 }
 
 #[test]
-fn a_display_surface_is_skinned_when_somebody_looks() {
+fn a_display_surface_is_skinned_only_on_request() {
     let mut simulation = with_display();
     run(&mut *simulation, 3);
     assert_eq!((simulation.counters().skinning_rows, find(&simulation.parts(), "skinning").uses), (0, 0));

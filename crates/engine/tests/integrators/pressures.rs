@@ -38,7 +38,7 @@ fn a_pressure_on_a_closed_surface_keeps_the_energy() {
 }
 
 #[test]
-fn so_does_one_whose_surface_ends_at_fixed_nodes() {
+fn a_pressure_on_a_surface_with_a_fixed_edge_keeps_the_energy() {
     // All faces but that at x = 0, whose nodes are fixed.
     let clamp = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n[gravity]\nacceleration = [0, -9.81, 0]\n";
     let shape = build(&soft("rk4", 1e-3, "")).shape();

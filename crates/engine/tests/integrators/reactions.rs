@@ -1,4 +1,4 @@
-//! Forces where a body is held.
+//! Reactions at constrained nodes.
 
 use crate::{DYNAMIC, build, node_masses, run, soft};
 
@@ -43,7 +43,7 @@ fn in_motion_reactions_and_loads_change_the_momentum() {
 }
 
 #[test]
-fn a_body_that_nothing_holds_has_no_reactions() {
+fn an_unconstrained_body_has_no_reactions() {
     for integrator in DYNAMIC {
         let mut simulation = build(&soft(integrator, 1e-3, WEIGHT));
         assert!(simulation.reactions().is_empty());

@@ -55,12 +55,12 @@ fn an_explicit_method_that_explodes_names_its_step_and_the_remedy() {
 }
 
 #[test]
-fn led_nodes_are_where_their_motion_leads_them() {
-    let led = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n[[prescribed]]\nnodes = [2, 5]\n\
+fn prescribed_nodes_are_at_their_prescribed_positions() {
+    let prescribed = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n[[prescribed]]\nnodes = [2, 5]\n\
                displacement = [0.2, 0.1, 0]\nover = 0.1\n[[prescribed]]\nnodes = [8]\ncomponents = [\"y\"]\n\
                displacement = [0, 0.1, 0]\nover = 0.1\n";
     let end = |integrator: &str| {
-        let mut simulation = build(&soft(integrator, 1e-3, led));
+        let mut simulation = build(&soft(integrator, 1e-3, prescribed));
         let start = simulation.positions();
         run(&mut *simulation, 50);
         let moved = simulation.positions() - start;
@@ -92,7 +92,7 @@ fn single_precision_follows_double() {
 }
 
 #[test]
-fn a_pull_at_a_held_node_does_nothing() {
+fn a_pull_at_a_fixed_node_has_no_effect() {
     let drag = "[drag]\nvertex = 0\nstiffness = 1e3\ndirection = [1, 0, 0]\namplitude = 1\nfrequency = 1\n";
     for integrator in DYNAMIC {
         let end = |rest: &str| {
