@@ -1,8 +1,8 @@
 //! F = U diag(σ) Vᵀ with rotations U and V: the signed singular value decomposition, of one matrix or of lanes of them.
 //!
-//! σ_1 ≥ σ_2 ≥ |σ_3|, and σ_3 < 0 where F is inside out: Irving, Teran and Fedkiw, Invertible Finite Elements for Robust
-//! Simulation of Large Deformation (2004). Columns of F are turned in pairs until they are orthogonal: Hestenes, Inversion
-//! of Matrices by Biorthogonalization and Related Results (1958). Unlike eigenvalues of FᵀF, that costs no digits.
+//! σ_1 ≥ σ_2 ≥ |σ_3|, and σ_3 < 0 if det F < 0: Irving, Teran and Fedkiw, Invertible Finite Elements for Robust
+//! Simulation of Large Deformation (2004). Rotations of pairs of columns make the columns of F orthogonal: Hestenes,
+//! Inversion of Matrices by Biorthogonalization and Related Results (1958). Unlike eigenvalues of FᵀF, this loses no digits.
 
 use crate::number::{Number, Real, constant};
 use crate::tensor::Tensor;
@@ -10,7 +10,7 @@ use crate::tensor::Tensor;
 /// A vector.
 type Vector<T> = [T; 3];
 
-/// Sweeps over the three pairs; the angles left over square from one to the next.
+/// Sweeps over the three pairs; each sweep squares the remaining angles.
 const SWEEPS: usize = 5;
 
 /// F = Σ σ_k u_k v_kᵀ.
@@ -67,7 +67,7 @@ pub fn svd<T: Number>(F: &Tensor<T>) -> Svd<T> {
     Svd { U, sigma, V }
 }
 
-/// The largest |entry|, or one where all are zero.
+/// The largest |entry|, or one if all are zero.
 #[inline(always)]
 pub(crate) fn largest_entry<T: Number>(a: &Tensor<T>) -> T {
     let mut largest = T::zero();
@@ -87,7 +87,7 @@ pub(crate) fn unit<T: Number>() -> Tensor<T> {
 
 /// Cosine and sine of the smaller angle that turns a symmetric [[x, p], [p, x + d]] diagonal, entries of size one.
 ///
-/// Where both are below round-off the angle is too small, but never wrong by more than round-off.
+/// If both are below round-off the angle is too small, by no more than round-off.
 #[inline(always)]
 pub(crate) fn rotation<T: Number>(p: T, d: T) -> (T, T) {
     let epsilon = Real::as_f64(<T::Element as Real>::EPSILON);
@@ -98,7 +98,7 @@ pub(crate) fn rotation<T: Number>(p: T, d: T) -> (T, T) {
     (c, c * tangent)
 }
 
-/// Vectors i and j, turned in their plane.
+/// Rotates the vectors i and j in their plane.
 #[inline(always)]
 pub(crate) fn turn<T: Number>(a: &mut [Vector<T>; 3], i: usize, j: usize, c: T, s: T) {
     for k in 0..3 {
@@ -108,7 +108,7 @@ pub(crate) fn turn<T: Number>(a: &mut [Vector<T>; 3], i: usize, j: usize, c: T, 
     }
 }
 
-/// Turns i and j by a quarter where j is the longer one.
+/// Rotates i and j by a quarter turn if j is the longer one.
 #[inline(always)]
 fn sort<T: Number>(B: &mut [Vector<T>; 3], V: &mut [Vector<T>; 3], i: usize, j: usize) {
     let keep = inner(&B[i], &B[i]).simd_ge(inner(&B[j], &B[j]));
@@ -117,7 +117,7 @@ fn sort<T: Number>(B: &mut [Vector<T>; 3], V: &mut [Vector<T>; 3], i: usize, j: 
     turn(V, i, j, c, -s);
 }
 
-/// A right-handed orthonormal basis along the first two columns, which are orthogonal; any direction where one vanishes.
+/// A right-handed orthonormal basis along the first two columns, which are orthogonal; in any direction if one vanishes.
 #[inline(always)]
 fn basis<T: Number>(B: &[Vector<T>; 3]) -> [Vector<T>; 3] {
     let [x, y, _] = unit::<T>();
@@ -128,7 +128,7 @@ fn basis<T: Number>(B: &[Vector<T>; 3]) -> [Vector<T>; 3] {
     let second = without(&B[1], &first);
     let is_long = inner(&second, &second).simd_gt(constant(epsilon * epsilon * epsilon * epsilon));
     let second = normalized(&choose(is_long, &second, &without(&axis, &first)));
-    // Once more: what was left of a short column may lean towards the first.
+    // A second pass: the rest of a short column may still have a part along the first.
     let second = normalized(&without(&second, &first));
     let third = [
         first[1] * second[2] - first[2] * second[1],
@@ -156,7 +156,7 @@ fn normalized<T: Number>(a: &Vector<T>) -> Vector<T> {
     [a[0] * factor, a[1] * factor, a[2] * factor]
 }
 
-/// a where `condition` holds, else b.
+/// `a` in lanes with the condition, else `b`.
 #[inline(always)]
 fn choose<T: Number>(condition: T::SimdBool, a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
     [a[0].select(condition, b[0]), a[1].select(condition, b[1]), a[2].select(condition, b[2])]

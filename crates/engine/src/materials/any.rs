@@ -1,6 +1,6 @@
-//! What follows from the list of all laws.
+//! The enum of all laws and its dispatch, generated from the list of laws.
 
-/// Defines [`AnyLaw`](super::AnyLaw), and with it all that depends on which law it is, from a list of `file::Law`.
+/// Defines [`AnyLaw`](super::AnyLaw) and its methods from a list of `file::Law`.
 macro_rules! laws {
     ($($file:ident::$Law:ident),* $(,)?) => {
         $(pub use $file::$Law;)*

@@ -4,7 +4,7 @@
 //! Analytic Eigensystems for Isotropic Distortion Energies (2019).
 //!
 //! With F = U diag(σ) Vᵀ, R = U Vᵀ and e = σ − 1: ψ = μ Σe² + λ/2 (Σe)², P = U diag(2μ e + λ Σe) Vᵀ. R is always proper: an
-//! element that is inside out has σ_3 < 0 and is pushed back. Where σ_i + σ_j = 0, R jumps and ψ has a crease.
+//! inverted element has σ_3 < 0 and is pushed back. Where σ_i + σ_j = 0, R jumps and ψ has a crease.
 
 use super::isotropic::{Principal, derivative_from, projected_derivative_from};
 use super::{Law, NamedLaw};

@@ -8,7 +8,7 @@ use super::OfInvariants;
 use crate::number::{Number, constant, inverse_cube_root};
 use crate::tensor::{Tensor, cofactor, dot, from_fn, plus_identity, trace, volume_change};
 
-/// J, and what Ī and its first derivative are made of.
+/// J and the terms of Ī and its first derivative.
 #[derive(Clone, Copy)]
 pub(super) struct Isochoric<T> {
     /// J
@@ -33,7 +33,7 @@ impl<T: Number> Isochoric<T> {
         Self { J, j, second_order, y: inverse_cube_root(J), trace: trace(G), squares: dot(G, G) }
     }
 
-    /// The energy density if J > 0, else infinity: inside out the formulas would still give numbers.
+    /// The energy density if J > 0, else infinity. Without this check an inverted element would have a finite energy.
     #[inline(always)]
     pub fn allowed(&self, energy: T) -> T {
         energy.select(self.J.simd_gt(T::zero()), constant(f64::INFINITY))

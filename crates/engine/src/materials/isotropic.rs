@@ -3,18 +3,17 @@
 //! With F = U diag(σ) Vᵀ, p_i = ∂ψ/∂σ_i and (i, j, k) the three axes in any order, ∂P/∂F has the eigenvalues
 //! (p_i + p_j)/(σ_i + σ_j) for the twist (u_i v_jᵀ − u_j v_iᵀ)/√2, (p_i − p_j)/(σ_i − σ_j) for the flip (u_i v_jᵀ + u_j v_iᵀ)/√2,
 //! and those of ∂²ψ/∂σ_i∂σ_j for the scalings u_i v_iᵀ: Smith, de Goes and Kim, Analytic Eigensystems for Isotropic Distortion
-//! Energies (2019). Laws give the ratios with their denominators divided out, so that nothing is 0/0 where stretches
-//! coincide.
+//! Energies (2019). Laws give the ratios with their denominators divided out, so that equal stretches do not
+//! lead to 0/0.
 
 use crate::number::Number;
-use crate::svd::Svd;
-use crate::svd::{largest_entry, rotation, turn, unit};
+use crate::svd::{Svd, largest_entry, rotation, turn, unit};
 use crate::tensor::{Tensor, Tensor4, zero};
 
-/// Sweeps of Jacobi's iteration; the angles left over square from one to the next.
+/// Sweeps of Jacobi's iteration; each sweep squares the remaining angles.
 const SWEEPS: usize = 5;
 
-/// What the derivative is made of; twist and flip of the axes i and j stand at the third axis.
+/// The derivative in the principal basis; the index of twist and flip of the axes i and j is the third axis.
 #[derive(Clone, Copy)]
 pub(super) struct Principal<T> {
     /// ∂²ψ/∂σ_i∂σ_j
@@ -32,7 +31,7 @@ impl<T: Number> Principal<T> {
     }
 }
 
-/// Negative eigenvalues raised to zero.
+/// The positive semi-definite projection: negative eigenvalues raised to zero.
 #[inline(never)]
 fn projected<T: Number>(principal: &Principal<T>) -> Principal<T> {
     let mut raised = *principal;
@@ -44,7 +43,7 @@ fn projected<T: Number>(principal: &Principal<T>) -> Principal<T> {
     raised
 }
 
-/// A − Σ min(λ, 0) w wᵀ over the eigenvalues λ and eigenvectors w of A: nothing changes where none is negative.
+/// A − Σ min(λ, 0) w wᵀ over the eigenvalues λ and eigenvectors w of A. A matrix without negative eigenvalues stays as it is.
 #[inline(always)]
 fn add_negative_part<T: Number>(A: &mut Tensor<T>) {
     let size = largest_entry(A);
@@ -64,7 +63,7 @@ fn add_negative_part<T: Number>(A: &mut Tensor<T>) {
 fn eigen<T: Number>(A: &Tensor<T>, size: T) -> ([T; 3], [[T; 3]; 3]) {
     let inverse = T::one() / size;
     let mut diagonal = [A[0][0] * inverse, A[1][1] * inverse, A[2][2] * inverse];
-    // That of the axes i and j stands at the third axis.
+    // The index of the entry of the axes i and j is the third axis.
     let mut beside = [A[1][2] * inverse, A[2][0] * inverse, A[0][1] * inverse];
     let mut w = unit();
     for _ in 0..SWEEPS {

@@ -1,7 +1,7 @@
 //! ψ = μ ε:ε + λ/2 tr(ε)², ε = ½ (G + Gᵀ): Hooke's law for small strain and small rotation.
 //!
-//! Sifakis and Barbič, FEM Simulation of 3D Deformable Solids (2012), part one, §3.2. P = 2μ ε + λ tr(ε) 1. A rotation is
-//! taken for a strain.
+//! Sifakis and Barbič, FEM Simulation of 3D Deformable Solids (2012), part one, §3.2. P = 2μ ε + λ tr(ε) 1. The law
+//! mistakes a rotation for a strain.
 
 use super::{Law, NamedLaw};
 use crate::number::{Number, constant};

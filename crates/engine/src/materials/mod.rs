@@ -44,7 +44,7 @@ pub trait Law<T: Number>: Send + Sync {
     /// `P(G) = ∂ψ/∂F`, Pa.
     fn stress(&self, G: &Tensor<T>) -> Tensor<T>;
 
-    /// Both at once. The compiler shares what both compute, but for calls that it does not inline.
+    /// Energy density and stress in one call. The compiler shares their common terms, apart from calls that it does not inline.
     fn energy_and_stress(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
         (self.energy(G), self.stress(G))
     }

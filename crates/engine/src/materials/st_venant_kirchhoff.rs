@@ -2,7 +2,7 @@
 //!
 //! Sifakis and Barbič, FEM Simulation of 3D Deformable Solids (2012), part one, §3.3.
 //! With S = 2μ E + λ tr(E) 1: P = F S, and ∂P_ij/∂F_kl = δ_ik S_jl + μ ((FFᵀ)_ik δ_jl + F_il F_kj) + λ F_ij F_kl.
-//! An element that is squashed to less than 1/√3 of its length resists less and less, one that is flat not at all.
+//! Below 1/√3 of its length an element resists further compression less and less; a flat element has no stress along it.
 
 use super::isotropic::{Principal, projected_derivative_from};
 use super::{Law, NamedLaw};

@@ -1,8 +1,8 @@
 //! ψ = μ'/2 (I − 3) + λ'/2 (J − α)² − μ'/2 ln(I + 1) + constant, I = tr(FᵀF): stable neo-Hookean.
 //!
-//! Smith, de Goes and Kim, Stable Neo-Hookean Flesh Simulation (2018), eq. 14, with α = 1 + 3μ'/(4λ'), which frees the rest
-//! state of stress, and (§3.4) μ' = 4μ/3, λ' = λ + 5μ/6, where μ and λ are Lamé's constants of small strain. The constant makes
-//! the energy zero at rest. It is finite and smooth for every F, flattened and inside out too.
+//! Smith, de Goes and Kim, Stable Neo-Hookean Flesh Simulation (2018), eq. 14, with α = 1 + 3μ'/(4λ'), so that the rest
+//! state is free of stress, and (§3.4) μ' = 4μ/3, λ' = λ + 5μ/6, where μ and λ are Lamé's constants of small strain. The constant makes
+//! the energy zero at rest. The energy is finite and smooth for every F, flat and inverted elements included.
 //!
 //! With i = I − 3 and j = J − 1, P = a F + b cof, a = μ' I/(I + 1), b = λ' j − μ, and
 //! ∂P/∂F = a 1 + 2μ'/(I + 1)² F⊗F + λ' cof⊗cof + b ∂cof/∂F.
@@ -59,7 +59,7 @@ impl<T: Number> Law<T> for StableNeoHookean<T> {
             + half::<T>() * self.lambda_prime() * j * j
     }
 
-    /// Likewise without what cancels: P = μ i/(3 (I + 1)) F + λ' j cof + μ (F − cof), F − cof = G + Gᵀ − tr G 1 − cof G.
+    /// Likewise without cancellation: P = μ i/(3 (I + 1)) F + λ' j cof + μ (F − cof), F − cof = G + Gᵀ − tr G 1 − cof G.
     #[inline(always)]
     fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
         let (j, _) = volume_change(G);

@@ -1,4 +1,4 @@
-//! What must hold for every law, and for one law alone.
+//! Properties of every law, and closed forms of single laws.
 
 mod closed_forms;
 mod derivatives;
@@ -188,7 +188,7 @@ fn upright() -> Vec<Tensor<f64>> {
     gradients
 }
 
-/// Those that need not be upright: wild, inside out, flattened to a plane, a line or a point, mirrored.
+/// Deformations of any J: wild, inverted, flattened to a plane, a line or a point, mirrored.
 fn any() -> Vec<Tensor<f64>> {
     let mut random = Random(2);
     let mut gradients: Vec<_> = (0..800).map(|n| random.tensor(if n % 2 == 0 { 1.5 } else { 6.0 })).collect();

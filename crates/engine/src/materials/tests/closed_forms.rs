@@ -1,4 +1,4 @@
-//! Deformations whose stress is known.
+//! Deformations with a known stress.
 
 use super::*;
 use crate::materials::cauchy_stress;
@@ -9,7 +9,7 @@ fn assert_near(found: f64, expected: f64) {
 }
 
 #[test]
-fn a_simple_shear_of_the_neo_hookean_law() {
+fn the_stress_of_a_simple_shear_of_the_neo_hookean_law() {
     let law = neo_hookean::<f64>();
     for shear in [1e-3, 0.5, 2.0] {
         let mut G = zero();
@@ -26,7 +26,7 @@ fn a_simple_shear_of_the_neo_hookean_law() {
 }
 
 #[test]
-fn equal_stretch_in_all_directions() {
+fn the_stress_of_an_equal_stretch_in_all_directions() {
     for s in [0.3f64, 0.9, 1.1, 2.0] {
         let G = diagonal([s - 1.0; 3]);
         let law = neo_hookean::<f64>();
@@ -44,7 +44,7 @@ fn equal_stretch_in_all_directions() {
 }
 
 #[test]
-fn the_stable_neo_hookean_energy_is_the_published_one_but_for_a_constant() {
+fn the_stable_neo_hookean_energy_is_the_published_one_up_to_a_constant() {
     let (mu, lambda) = (4.0 / 3.0 * MU, LAMBDA + 5.0 / 6.0 * MU);
     let alpha = 1.0 + 0.75 * mu / lambda;
     let published = |G: &Tensor<f64>| {
@@ -60,7 +60,7 @@ fn the_stable_neo_hookean_energy_is_the_published_one_but_for_a_constant() {
 }
 
 #[test]
-fn a_bar_pulled_along_x_and_free_across() {
+fn the_stress_of_a_neo_hookean_bar_pulled_along_x() {
     let law = neo_hookean::<f64>();
     for stretch in [0.7, 1.2, 2.0] {
         // The lateral stretch without lateral stress, by bisection.
@@ -81,7 +81,7 @@ fn a_bar_pulled_along_x_and_free_across() {
 }
 
 #[test]
-fn the_corotated_law_leads_a_mirrored_element_back_and_does_not_take_it_for_rest() {
+fn the_corotated_law_pushes_a_mirrored_element_back() {
     let law = corotated::<f64>();
     let mirrored = diagonal([0.0, 0.0, -2.0]);
     assert_near(law.energy(&mirrored), 4.0 * MU + 2.0 * LAMBDA);

@@ -23,7 +23,7 @@ fn errors(law: &dyn Law<f64>, G: &Tensor<f64>, h: f64) -> (f64, f64) {
     (of_stress / (largest(&P) + MU), of_derivative / largest(&H))
 }
 
-/// With half the step a quarter of the error is left, or nothing but round-off.
+/// Half the step leaves a quarter of the error, or round-off.
 fn converges(coarse: f64, fine: f64) -> bool {
     fine < 1e-8 || (3.0..5.0).contains(&(coarse / fine))
 }
@@ -42,12 +42,12 @@ fn check_upright(name: &str, law: &dyn Law<f64>) {
 }
 
 #[test]
-fn every_derivative_is_the_limit_of_differences_of_the_one_before() {
+fn stress_and_stress_derivative_agree_with_finite_differences() {
     for_all_laws(check_upright);
 }
 
 #[test]
-fn inside_out_too_where_the_law_allows_it() {
+fn derivatives_of_inverted_elements_agree_with_differences_if_the_law_allows_inversion() {
     let mut random = Random(5);
     let mut number = 0;
     while number < 50 {
@@ -100,6 +100,6 @@ fn mistakes_are_found(name: &str, law: &dyn Law<f64>) {
 }
 
 #[test]
-fn a_sign_a_factor_and_a_millionth_are_found() {
+fn the_comparison_finds_a_wrong_sign_a_wrong_factor_and_an_error_of_a_millionth() {
     for_all_laws(mistakes_are_found);
 }

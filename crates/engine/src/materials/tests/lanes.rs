@@ -53,7 +53,7 @@ fn of_all_laws<T: Real + Number<Element = T>>() -> impl Iterator<Item = (&'stati
 }
 
 #[test]
-fn every_lane_has_the_answer_of_a_single_number_and_single_precision_is_near_double() {
+fn lanes_agree_with_single_numbers_and_single_precision_with_double() {
     for (name, of_lanes, of_precision) in of_all_laws::<f64>() {
         assert!(of_lanes < 1e-14 && of_precision == 0.0, "{name}: {of_lanes:e}");
     }

@@ -9,7 +9,7 @@ fn is_at_rest(name: &str, law: &dyn Law<f64>) {
 }
 
 #[test]
-fn at_rest_there_is_neither_energy_nor_stress_not_even_round_off() {
+fn energy_and_stress_at_rest_are_exactly_zero() {
     for_all_laws(is_at_rest);
 }
 
@@ -57,7 +57,7 @@ fn in_single_precision_energy_and_stress_of_a_strain_of_a_thousandth_are_right_t
     laws().iter().for_each(|law| keeps_single_digits(law.name(), law.as_law()));
 }
 
-/// The terms of third order are right, too: of the energy, half the work of the stress along a straight path is left.
+/// The energy equals the work of the stress along a straight path, terms of third order included.
 fn agrees_with_work(name: &str, law: &dyn Law<f64>) {
     let mut random = Random(8);
     for _ in 0..50 {
@@ -76,7 +76,7 @@ fn the_energy_of_a_small_strain_is_the_work_of_the_stress() {
 }
 
 #[test]
-fn energies_written_in_stretches_lose_those_digits() {
+fn an_energy_written_in_stretches_loses_those_digits() {
     let G = Random(6).tensor(1e-7);
     let F = crate::tensor::plus_identity(&G);
     let J: f64 = 1.0 + crate::tensor::volume_change(&G).0;

@@ -1,4 +1,4 @@
-//! The projection: nothing negative is left, nothing positive is touched.
+//! The positive semi-definite projection raises negative eigenvalues to zero and keeps the others.
 
 use super::*;
 
@@ -41,7 +41,7 @@ fn negative_eigenvalues_become_zero_and_the_others_stay() {
 }
 
 #[test]
-fn inside_out_and_flattened_too() {
+fn the_projection_also_holds_for_inverted_and_flat_elements() {
     for G in any() {
         for_all_laws_with_inversion(|name, law| check(name, law, &G));
     }

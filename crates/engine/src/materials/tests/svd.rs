@@ -17,19 +17,19 @@ fn check(F: &Tensor<f64>) {
     }
     let error = distance(&found.with_values(&found.sigma), F);
     assert!(error <= 1e-14 * largest(F), "{F:?}: {error:e}, {found:?}");
-    // The sign of the last follows: both bases are right-handed.
+    // Both bases are right-handed, which determines the sign of the last.
     let [first, second, third] = found.sigma;
     let tolerance = 1e-15 * first;
     assert!(first + tolerance >= second && second + tolerance >= third.abs(), "{F:?} gives {found:?}");
 }
 
 #[test]
-fn it_gives_back_any_matrix_from_two_rotations_and_sorted_stretches() {
+fn two_rotations_and_sorted_stretches_reproduce_any_matrix() {
     upright().iter().chain(&any()).map(plus_identity).for_each(|F| check(&F));
 }
 
 #[test]
-fn stretches_far_apart_or_close_together_turned_in_any_way_cost_no_digits() {
+fn stretches_far_apart_or_close_together_lose_no_digits() {
     let mut random = Random(3);
     for n in 0..2000 {
         let (U, V) = (random.rotation(), random.rotation());
@@ -46,11 +46,11 @@ fn stretches_far_apart_or_close_together_turned_in_any_way_cost_no_digits() {
 }
 
 #[test]
-fn the_nearest_rotation_is_the_one_that_a_stretched_body_was_turned_by() {
+fn the_nearest_rotation_is_the_rotation_of_a_stretched_body() {
     let mut random = Random(11);
     for n in 0..500 {
         let (Q, V) = (random.rotation(), random.rotation());
-        // From nearly round to far from it, and inside out by less than anything else is stretched.
+        // Stretches from nearly equal to far apart, with an inversion smaller than the other stretches.
         let sigma = [1.0 + 10f64.powi(-(n % 17)), 1.0, if n % 2 == 0 { 0.1 } else { -0.1 }];
         let stretch = product(&product(&V, &diagonal(sigma)), &transpose(&V));
         let R = svd(&product(&Q, &stretch)).with_values(&[1.0; 3]);
@@ -59,7 +59,7 @@ fn the_nearest_rotation_is_the_one_that_a_stretched_body_was_turned_by() {
 }
 
 #[test]
-fn entries_too_large_or_too_small_to_be_squared_are_decomposed_too() {
+fn entries_too_large_or_too_small_to_be_squared_lose_no_digits() {
     let mut random = Random(4);
     for size in [1e-300, 1e-160, 1e160, 1e300] {
         check(&random.tensor(size));
@@ -67,7 +67,7 @@ fn entries_too_large_or_too_small_to_be_squared_are_decomposed_too() {
 }
 
 #[test]
-fn in_lanes_of_single_precision_it_errs_by_single_round_off() {
+fn lanes_of_single_precision_have_errors_of_single_round_off() {
     let gradients = any();
     for batch in gradients.chunks_exact(f32::WIDTH) {
         let F: Vec<_> = batch.iter().map(plus_identity).collect();

@@ -13,12 +13,12 @@ fn ignores_rotations(name: &str, law: &dyn Law<f64>) {
 }
 
 #[test]
-fn a_rotation_costs_no_energy_and_causes_no_stress() {
+fn a_rotation_has_no_energy_and_no_stress() {
     for_all_objective_laws(ignores_rotations);
 }
 
 #[test]
-fn but_the_linear_law_takes_it_for_a_strain() {
+fn the_linear_law_mistakes_a_rotation_for_a_strain() {
     // A quarter turn about z: ε = diag(−1, −1, 0).
     let G = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0; 3]];
     assert_eq!(linear::<f64>().energy(&G), 2.0 * MU + 2.0 * LAMBDA);
@@ -37,13 +37,13 @@ fn is_objective_and_isotropic(name: &str, law: &dyn Law<f64>) {
         let tolerance = 1e-12 * size * (1.0 + largest(&F));
         assert!(distance(&law.stress(&turned), &product(&Q, &P)) < tolerance, "{name}: {G:?}");
         assert!(distance(&law.stress(&of_turned), &product(&P, &Q)) < tolerance, "{name}: {G:?}");
-        // Balance of angular momentum: Cauchy's stress is symmetric.
+        // Balance of angular momentum: Cauchy stress is symmetric.
         let tau = product(&P, &transpose(&F));
         assert!(distance(&tau, &transpose(&tau)) < tolerance, "{name}: {G:?}");
     }
 }
 
 #[test]
-fn turning_the_body_before_or_after_it_deforms_turns_the_stress_and_keeps_the_energy() {
+fn a_rotation_before_or_after_the_deformation_rotates_the_stress_and_keeps_the_energy() {
     for_all_objective_laws(is_objective_and_isotropic);
 }
