@@ -8,10 +8,19 @@ use std::path::Path;
 use fem_mesh::{TetrahedralMesh, box_mesh};
 use nalgebra::Vector3;
 
-const LAWS: [&str; 5] = ["linear", "corotated", "st_venant_kirchhoff", "neo_hookean", "stable_neo_hookean"];
+/// Names and parameters of all laws: Young's modulus 1 MPa and Poisson's ratio 0.3 at small strain.
+const LAWS: [(&str, &str); 7] = [
+    ("linear", "young = 1e6\npoisson = 0.3"),
+    ("corotated", "young = 1e6\npoisson = 0.3"),
+    ("st_venant_kirchhoff", "young = 1e6\npoisson = 0.3"),
+    ("neo_hookean", "young = 1e6\npoisson = 0.3"),
+    ("stable_neo_hookean", "young = 1e6\npoisson = 0.3"),
+    ("mooney_rivlin", "C10 = 1.2e5\nC01 = 7.2e4\nD = 4.2e5"),
+    ("yeoh", "C1 = 1.92e5\nC2 = -1e4\nC3 = 1e4\nD = 4.2e5"),
+];
 
 /// A cube between three rollers whose end is pulled out by 20 %.
-fn scene(law: &str) -> String {
+fn scene(law: &str, parameters: &str) -> String {
     let roller = |axis: &str, side: &str, displacement: [f64; 3]| {
         format!(
             "[[prescribed]]\non = {{ axis = \"{axis}\", side = \"{side}\", within = 1e-9 }}\n\
@@ -21,7 +30,7 @@ fn scene(law: &str) -> String {
     let rollers = ["x", "y", "z"].map(|axis| roller(axis, "min", [0.0; 3])).concat();
     format!(
         "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 3 }}\n\
-         [material]\nmodel = \"{law}\"\nyoung = 1e6\npoisson = 0.3\ndensity = 1000\n\
+         [material]\nmodel = \"{law}\"\n{parameters}\ndensity = 1000\n\
          [time]\nintegrator = \"static\"\n{rollers}{}",
         roller("x", "max", [0.2, 0.0, 0.0])
     )
@@ -39,8 +48,8 @@ fn irregular_mesh() -> Result<TetrahedralMesh, Box<dyn Error>> {
 /// For each law: its name, the Cauchy stress along x (Pa), and the largest relative difference between two elements.
 pub fn run() -> Result<Vec<(&'static str, f64, f64)>, Box<dyn Error>> {
     let mut results = Vec::new();
-    for law in LAWS {
-        let scene = fem_scene::parse(&scene(law), Path::new("patch.toml"))?;
+    for (law, parameters) in LAWS {
+        let scene = fem_scene::parse(&scene(law, parameters), Path::new("patch.toml"))?;
         let body = fem_scene::body_of(&scene, irregular_mesh()?, Path::new("data"))?;
         let mut simulation = fem_engine::simulator::build(&scene, body)?;
         simulation.step()?;
