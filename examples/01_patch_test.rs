@@ -45,7 +45,7 @@ fn irregular_mesh() -> Result<TetrahedralMesh, Box<dyn Error>> {
     Ok(mesh)
 }
 
-/// For each law: its name, the Cauchy stress along x (Pa), and the largest relative difference between two elements.
+/// Name of every law, its Cauchy stress along x (Pa), and the largest relative difference between two elements.
 pub fn run() -> Result<Vec<(&'static str, f64, f64)>, Box<dyn Error>> {
     let mut results = Vec::new();
     for (law, parameters) in LAWS {

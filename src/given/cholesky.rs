@@ -178,7 +178,7 @@ impl Cholesky {
     }
 }
 
-/// For every group of three unknowns, the groups that share an entry with it, ascending.
+/// Groups of three unknowns that share an entry with each group, ascending.
 fn block_neighbours(pattern: &SparsityPattern) -> Vec<Vec<usize>> {
     assert_eq!(pattern.major_dim(), pattern.minor_dim(), "only a square matrix has a Cholesky factor");
     let mut neighbours = vec![Vec::new(); pattern.major_dim().div_ceil(3)];
