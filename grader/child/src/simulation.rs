@@ -72,13 +72,13 @@ pub fn simulate(functions: &Functions, scene: &Scene, solve: GivenSolve) -> Vec<
     let rest = DVector::from_iterator(size, scene.V.iter().flat_map(|X| [X.x, X.y, X.z]));
     let P = (functions.fixed_point_constraints)(size, &scene.fixed);
     let Pt = P.transpose();
-    let held = &rest - &Pt * (&P * &rest);
+    let constrained = &rest - &Pt * (&P * &rest);
     let whole_mass = (functions.mass_matrix_mesh)(size, &scene.T, scene.density, &scene.v0);
     let weight = &whole_mass * DVector::from_fn(size, |i, _| scene.gravity[i % 3]);
     let mass = &P * whole_mass * &Pt;
     let forces = Forces { functions, scene, weight };
 
-    let positions = |q: &DVector<f64>| &held + &Pt * q;
+    let positions = |q: &DVector<f64>| &constrained + &Pt * q;
     let force = |q: &DVector<f64>, _: &DVector<f64>| &P * forces.force(&positions(q));
     let stiffness = |q: &DVector<f64>, _: &DVector<f64>| &P * forces.stiffness(&positions(q)) * &Pt;
     let (mut q, mut qdot) = (&P * &rest, DVector::zeros(P.nrows()));
