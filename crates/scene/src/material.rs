@@ -1,6 +1,6 @@
 //! `[material]`: the constitutive law by its name, its parameters, and the density.
 
-use crate::check::{Problem, check_finite, check_positive, problem};
+use crate::check::numbers::{Problem, check_finite, check_positive, problem};
 
 /// The laws: the name of each, and the sets of parameters of which a scene gives one.
 pub const MODELS: &[(&str, &[&[&str]])] = &[

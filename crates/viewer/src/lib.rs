@@ -12,6 +12,7 @@ mod geometry;
 mod history;
 mod interaction;
 mod offscreen;
+mod options;
 mod pacing;
 mod panel;
 mod pictures;
@@ -25,7 +26,8 @@ mod worker;
 
 pub use display::display_available;
 pub use offscreen::{NoAdapter, OffscreenRenderer};
+pub use options::WindowOptions;
 pub use pictures::{FRAMES_PER_SECOND, NotWritten, Picture, Recorder};
 pub use scene_view::DisplayedSurface;
-pub use window::{NoWindow, Outcome, WindowError, WindowOptions, open};
+pub use window::{NoWindow, Outcome, WindowError, open};
 pub use worker::Stop;

@@ -13,10 +13,10 @@ use kiss3d::window::Window;
 use crate::camera::OrbitCamera;
 use crate::geometry::single;
 use crate::interaction::Interaction;
+use crate::options::WindowOptions;
 use crate::panel::{self, Panel, UserRequest, ViewState};
 use crate::pictures::{NotWritten, Picture, Recorder};
 use crate::scene_view::{DisplayedSurface, SceneView, prepare};
-use crate::window::WindowOptions;
 use crate::worker::{Command, Snapshot, Worker};
 
 const IDLE_INTERVAL: Duration = Duration::from_millis(15); // between polls for input while the picture does not change

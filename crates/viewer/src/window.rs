@@ -1,51 +1,20 @@
 //! Opens the window and returns the run's results when it is closed.
 
 use std::fmt;
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use fem_scene::simulation::{Energies, Simulation};
 use kiss3d::context::Context;
 use kiss3d::egui::{self, Theme};
 use kiss3d::window::{CanvasSetup, NumSamples, Window};
-use nalgebra::Vector3;
 use thiserror::Error;
 
 use crate::display::{display_available, without_panic};
+use crate::options::WindowOptions;
 use crate::pictures::{FRAMES_PER_SECOND, NotWritten, Recorder, check_writable};
 use crate::session::Session;
 use crate::theme;
 use crate::worker::{LoopOptions, Stepping, Stop, Worker};
-
-/// Options of a window.
-#[derive(Clone, Debug)]
-pub struct WindowOptions {
-    /// Width and height, logical pixels.
-    pub size: (u32, u32),
-    /// Upward direction in the picture.
-    pub up: Vector3<f64>,
-    /// Path of a PNG file of the window, written after the last step or when it closes.
-    pub screenshot: Option<PathBuf>,
-    /// Folder for recorded frames, [`FRAMES_PER_SECOND`] of simulated time; the simulation then waits for each.
-    pub record: Option<PathBuf>,
-    /// Number of steps after which the window closes; it closes earlier if the simulation fails.
-    pub quit_after_steps: Option<usize>,
-    /// Whether the energies of every step are kept for [`Outcome::energies`].
-    pub log_energies: bool,
-}
-
-impl Default for WindowOptions {
-    fn default() -> Self {
-        WindowOptions {
-            size: (1280, 800),
-            up: Vector3::y(),
-            screenshot: None,
-            record: None,
-            quit_after_steps: None,
-            log_energies: false,
-        }
-    }
-}
 
 /// Results of a run in a window.
 pub struct Outcome {

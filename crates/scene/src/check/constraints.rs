@@ -1,7 +1,7 @@
 //! Checks of `[fixed]` and `[[prescribed]]`.
 
 use super::loads::{check_distance, check_side};
-use super::{Problem, check_finite, check_positive, check_vector, problem};
+use super::numbers::{Problem, check_finite, check_positive, check_vector, problem};
 use crate::tables::{FixedTable, PrescribedTable, RotationTable};
 use crate::{Axis, Scene};
 

@@ -1,6 +1,6 @@
 //! Checks of the tables of external forces.
 
-use super::{Problem, check_finite, check_not_negative, check_positive, check_vector, problem};
+use super::numbers::{Problem, check_finite, check_not_negative, check_positive, check_vector, problem};
 use crate::Scene;
 use crate::tables::{DragTable, SidePlane, SpringTable, TractionTable};
 

@@ -1,8 +1,9 @@
 //! The tables of external forces: gravity, body force, traction, springs, the scripted drag.
 
 use serde::Deserialize;
+use serde::de::{Error, Visitor};
 
-use super::vectors::{DragVertexVisitor, three_numbers, three_numbers_if_any, triangles_if_any, two_nodes};
+use super::vectors::{three_numbers, three_numbers_if_any, triangles_if_any, two_nodes};
 use super::{Axis, Side};
 
 /// `[gravity]`
@@ -93,5 +94,29 @@ pub enum DragVertex {
 impl<'de> Deserialize<'de> for DragVertex {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(DragVertexVisitor)
+    }
+}
+
+/// Reads `vertex = "highest"` or `vertex = 12`.
+struct DragVertexVisitor;
+
+impl Visitor<'_> for DragVertexVisitor {
+    type Value = DragVertex;
+
+    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str("\"highest\" or the index of a vertex")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<DragVertex, E> {
+        if text == "highest" {
+            Ok(DragVertex::Highest)
+        } else {
+            Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
+        }
+    }
+
+    fn visit_i64<E: Error>(self, index: i64) -> Result<DragVertex, E> {
+        let valid = usize::try_from(index).map(DragVertex::Index);
+        valid.map_err(|_| E::invalid_value(serde::de::Unexpected::Signed(index), &self))
     }
 }

@@ -1,32 +1,6 @@
 //! Values of fixed length, read with messages that name the expected length.
 
-use serde::de::{Deserialize, Deserializer, Error, Visitor};
-
-use super::DragVertex;
-
-/// Reads `vertex = "highest"` or `vertex = 12`.
-pub(super) struct DragVertexVisitor;
-
-impl Visitor<'_> for DragVertexVisitor {
-    type Value = DragVertex;
-
-    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str("\"highest\" or the index of a vertex")
-    }
-
-    fn visit_str<E: Error>(self, text: &str) -> Result<DragVertex, E> {
-        if text == "highest" {
-            Ok(DragVertex::Highest)
-        } else {
-            Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
-        }
-    }
-
-    fn visit_i64<E: Error>(self, index: i64) -> Result<DragVertex, E> {
-        let valid = usize::try_from(index).map(DragVertex::Index);
-        valid.map_err(|_| E::invalid_value(serde::de::Unexpected::Signed(index), &self))
-    }
-}
+use serde::de::{Deserialize, Deserializer, Error};
 
 /// Reads a vector. Serde's own arrays would accept further numbers silently.
 pub(super) fn three_numbers<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 3], D::Error> {

@@ -1,0 +1,35 @@
+//! Options of a window.
+
+use std::path::PathBuf;
+
+use nalgebra::Vector3;
+
+/// Options of a window.
+#[derive(Clone, Debug)]
+pub struct WindowOptions {
+    /// Width and height, logical pixels.
+    pub size: (u32, u32),
+    /// Upward direction in the picture.
+    pub up: Vector3<f64>,
+    /// Path of a PNG file of the window, written after the last step or when it closes.
+    pub screenshot: Option<PathBuf>,
+    /// Folder for recorded frames, [`FRAMES_PER_SECOND`](crate::FRAMES_PER_SECOND) of simulated time; the simulation then waits for each.
+    pub record: Option<PathBuf>,
+    /// Number of steps after which the window closes; it closes earlier if the simulation fails.
+    pub quit_after_steps: Option<usize>,
+    /// Whether the energies of every step are kept for [`Outcome::energies`](crate::Outcome::energies).
+    pub log_energies: bool,
+}
+
+impl Default for WindowOptions {
+    fn default() -> Self {
+        WindowOptions {
+            size: (1280, 800),
+            up: Vector3::y(),
+            screenshot: None,
+            record: None,
+            quit_after_steps: None,
+            log_energies: false,
+        }
+    }
+}
