@@ -1,22 +1,21 @@
-//! Symmetric sparse matrices of D×D blocks, one block for each pair of nodes that share an element: compressed sparse rows.
+//! Sparsity patterns of symmetric matrices in block compressed sparse rows: a block for each pair of nodes that share an
+//! element.
 
 use std::ops::Range;
 
-use crate::number::Real;
-
-/// Which blocks of a symmetric matrix are stored.
+/// The blocks of a symmetric matrix that are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stored {
-    /// Those with column ≤ row: what a factorisation reads.
+    /// Those with column ≤ row, for factorisations.
     Lower,
-    /// All of them: what products with vectors read, row by row.
+    /// All of them, for products with vectors row by row.
     Full,
 }
 
-/// Places of the blocks, found once.
+/// The positions of the blocks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pattern {
-    /// Which half is stored.
+    /// The blocks that are stored.
     pub stored: Stored,
     /// `starts[i]..starts[i + 1]` are the blocks of row i.
     pub starts: Vec<usize>,
@@ -25,12 +24,12 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// The pattern of `nodes` rows for elements that couple each of their corners below `nodes` with each other.
+    /// The pattern of `nodes` rows for elements that couple their nodes with each other. Nodes from `nodes` on have no row.
     pub fn new<const N: usize>(nodes: usize, elements: &[[u32; N]], stored: Stored) -> Self {
         Self::joined(nodes, elements, &[], stored)
     }
 
-    /// The same, with pairs of nodes that something else joins.
+    /// The same, with pairs of nodes that are coupled by other forces.
     pub fn joined<const N: usize>(nodes: usize, elements: &[[u32; N]], joined: &[[u32; 2]], stored: Stored) -> Self {
         let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(elements.len() * N * N + nodes);
         let coupled = |row: u32, column: u32| {
@@ -70,7 +69,7 @@ impl Pattern {
         self.starts[row]..self.starts[row + 1]
     }
 
-    /// The number of the block at (row, column), where there is one.
+    /// The number of the block at (row, column), if it is stored.
     pub fn find(&self, row: usize, column: usize) -> Option<usize> {
         if row >= self.rows() {
             return None;
@@ -88,7 +87,7 @@ impl Pattern {
         })
     }
 
-    /// Bytes that it holds.
+    /// Allocated bytes.
     pub fn bytes(&self) -> usize {
         size_of_val(self.starts.as_slice()) + size_of_val(self.columns.as_slice())
     }
@@ -97,41 +96,12 @@ impl Pattern {
 /// A D×D block, row by row.
 pub type Block<T, const D: usize> = [[T; D]; D];
 
-/// y = A x for a matrix of which all blocks are stored. x and y may be longer: nodes beyond the rows are left alone.
-pub fn multiply<T: Real, const D: usize>(pattern: &Pattern, values: &[Block<T, D>], x: &[[T; D]], y: &mut [[T; D]]) {
-    debug_assert_eq!(pattern.stored, Stored::Full);
-    for (row, sum) in y.iter_mut().enumerate().take(pattern.rows()) {
-        *sum = row_product(pattern, values, x, row);
-    }
-}
-
-/// One row of [`multiply`].
-#[inline]
-pub fn row_product<T: Real, const D: usize>(
-    pattern: &Pattern,
-    values: &[Block<T, D>],
-    x: &[[T; D]],
-    row: usize,
-) -> [T; D] {
-    let blocks = pattern.row(row);
-    let mut sum = [T::default(); D];
-    for (block, &column) in values[blocks.clone()].iter().zip(&pattern.columns[blocks]) {
-        let x = &x[column as usize];
-        for i in 0..D {
-            for j in 0..D {
-                sum[i] += block[i][j] * x[j];
-            }
-        }
-    }
-    sum
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Pattern, Stored, multiply};
+    use super::{Pattern, Stored};
 
     #[test]
-    fn two_triangles_couple_all_but_their_far_corners() {
+    fn two_triangles_couple_all_nodes_but_the_opposite_ones() {
         let full = Pattern::new(4, &[[0, 1, 2], [1, 3, 2]], Stored::Full);
         assert_eq!(full.blocks(), 14);
         assert_eq!(full.find(0, 3), None);
@@ -142,17 +112,8 @@ mod tests {
     }
 
     #[test]
-    fn nodes_beyond_the_rows_are_not_coupled() {
+    fn nodes_without_a_row_are_not_coupled() {
         let pattern = Pattern::new(2, &[[0, 1, 2]], Stored::Full);
         assert_eq!(pattern.columns, [0, 1, 0, 1]);
-    }
-
-    #[test]
-    fn a_product_sums_blocks_times_nodes() {
-        let pattern = Pattern::new(2, &[[0, 1]], Stored::Full);
-        let values = [[[1.0, 2.0], [3.0, 4.0]], [[0.5, 0.0], [0.0, 0.5]], [[0.0; 2]; 2], [[2.0, 0.0], [0.0, 2.0]]];
-        let mut y = [[0.0; 2]; 2];
-        multiply(&pattern, &values, &[[1.0, 1.0], [2.0, 4.0]], &mut y);
-        assert_eq!(y, [[4.0, 9.0], [4.0, 8.0]]);
     }
 }

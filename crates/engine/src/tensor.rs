@@ -1,20 +1,20 @@
-//! 3×3 matrices of kernel numbers, `a[i][j]` row i, column j, and the few operations that materials need.
+//! 3×3 matrices of kernel numbers, `a[i][j]` in row i and column j, with the operations that materials need.
 
 use crate::number::{Number, constant};
 
 /// A 3×3 matrix.
 pub type Tensor<T> = [[T; 3]; 3];
 
-/// The derivative of one 3×3 matrix by another, both flattened row by row.
+/// The derivative of one 3×3 matrix with respect to another, both flattened row by row.
 pub type Tensor4<T> = [[T; 9]; 9];
 
-/// All zero.
+/// The zero matrix.
 #[inline(always)]
 pub fn zero<T: Number>() -> Tensor<T> {
     [[T::zero(); 3]; 3]
 }
 
-/// Entry by entry.
+/// The matrix of the entries `entry(i, j)`.
 #[inline(always)]
 pub fn from_fn<T: Number>(mut entry: impl FnMut(usize, usize) -> T) -> Tensor<T> {
     let mut a = zero();
@@ -26,7 +26,7 @@ pub fn from_fn<T: Number>(mut entry: impl FnMut(usize, usize) -> T) -> Tensor<T>
     a
 }
 
-/// F = 1 + G.
+/// The deformation gradient F = 1 + G of a displacement gradient G.
 #[inline(always)]
 pub fn plus_identity<T: Number>(G: &Tensor<T>) -> Tensor<T> {
     let mut F = *G;
@@ -100,8 +100,8 @@ pub fn add_cofactor_derivative<T: Number>(H: &mut Tensor4<T>, b: T, F: &Tensor<T
     }
 }
 
-/// J − 1 = tr G + tr cof G + det G, without the cancellation of det(1 + G) − 1; and tr cof G + det G, what is of second order
-/// in it.
+/// J − 1 = tr G + tr cof G + det G, without the cancellation of det(1 + G) − 1; and its terms of second order and above,
+/// tr cof G + det G.
 #[inline(always)]
 pub fn volume_change<T: Number>(G: &Tensor<T>) -> (T, T) {
     let c = cofactor(G);
@@ -109,7 +109,7 @@ pub fn volume_change<T: Number>(G: &Tensor<T>) -> (T, T) {
     (trace(G) + second_order, second_order)
 }
 
-/// Green's strain E = ½ (FᵀF − 1) = ½ (G + Gᵀ + GᵀG), which keeps its digits near rest.
+/// Green's strain E = ½ (FᵀF − 1) = ½ (G + Gᵀ + GᵀG), accurate near rest.
 #[inline(always)]
 pub fn green_strain<T: Number>(G: &Tensor<T>) -> Tensor<T> {
     from_fn(
@@ -118,7 +118,7 @@ pub fn green_strain<T: Number>(G: &Tensor<T>) -> Tensor<T> {
     )
 }
 
-/// The outer products' part of a derivative: s a⊗a + t (a⊗b + b⊗a) + r b⊗b.
+/// s a⊗a + t (a⊗b + b⊗a) + r b⊗b.
 #[inline(always)]
 pub fn outer_products<T: Number>(s: T, t: T, r: T, a: &Tensor<T>, b: &Tensor<T>) -> Tensor4<T> {
     let mut H = [[T::zero(); 9]; 9];
@@ -132,7 +132,7 @@ pub fn outer_products<T: Number>(s: T, t: T, r: T, a: &Tensor<T>, b: &Tensor<T>)
     H
 }
 
-/// Adds s to the diagonal.
+/// Adds s times the identity.
 #[inline(always)]
 pub fn add_diagonal<T: Number>(H: &mut Tensor4<T>, s: T) {
     for i in 0..9 {

@@ -3,7 +3,7 @@ use nalgebra::{SVector, Vector3};
 use super::Elements;
 use crate::materials::{Law, NeoHookean, StableNeoHookean};
 use crate::number::{Number, Real};
-use crate::sparse::{Pattern, Stored, multiply};
+use crate::sparse::{Block, Pattern, Stored};
 use crate::tensor::{Tensor, Tensor4};
 use fem_mesh::box_mesh;
 
@@ -53,6 +53,17 @@ fn law<T: Real>() -> NeoHookean<T::Lanes> {
 
 fn moved<const D: usize>(u: &[[f64; D]], d: &[[f64; D]], h: f64) -> Vec<[f64; D]> {
     u.iter().zip(d).map(|(u, d)| std::array::from_fn(|i| u[i] + h * d[i])).collect()
+}
+
+/// y = A x for a pattern that stores all blocks.
+fn multiply<const D: usize>(pattern: &Pattern, values: &[Block<f64, D>], x: &[[f64; D]], y: &mut [[f64; D]]) {
+    for (row, y) in y.iter_mut().enumerate().take(pattern.rows()) {
+        *y = [0.0; D];
+        for block in pattern.row(row) {
+            let x = &x[pattern.columns[block] as usize];
+            (0..D).for_each(|i| y[i] += (0..D).map(|j| values[block][i][j] * x[j]).sum::<f64>());
+        }
+    }
 }
 
 fn dot<const D: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> f64 {

@@ -18,7 +18,8 @@ pub fn is_positive<T: Real>(x: T) -> bool {
 
 /// x^(−1/3) for x > 0; NaN or a meaningless number in lanes with x ≤ 0.
 ///
-/// Newton's iteration for y⁻³ = x from a rough start, without division or branch. Each of four steps doubles the number of digits.
+/// Newton's iteration for y⁻³ = x from a rough start, without division or branch. Each of four steps doubles the number of
+/// digits.
 #[inline(always)]
 pub fn inverse_cube_root<T: Number>(x: T) -> T {
     let mut y = x.map_lanes(

@@ -1,14 +1,14 @@
 //! Numbers that kernels compute with: `f32`, `f64`, or SIMD lanes of them.
 //!
-//! A kernel is written once over [`Number`]: a float for one element, or lanes that hold one float of each element in a batch, on
-//! which one instruction of the processor works together ([`vectorized`]).
+//! A kernel is written once over [`Number`]: a float for one element, or lanes with one float of each element of a batch, which
+//! one instruction of the processor handles together.
 
 mod functions;
 mod packed;
 mod real;
 
 pub use functions::{constant, inverse_cube_root, is_positive, minus_ln_1p};
-pub use packed::Packed;
+pub(crate) use packed::Packed;
 pub use real::{Number, Real};
 
 /// Runs `work` with the widest instructions that this processor has. Functions that it calls must be inlined into it.
@@ -16,6 +16,6 @@ pub use real::{Number, Real};
 /// Work is a type of its own, not a closure: only its `with_simd`, marked `inline(always)`, is compiled once for each
 /// instruction set.
 #[inline(always)]
-pub fn vectorized<W: pulp::WithSimd>(work: W) -> W::Output {
+pub(crate) fn vectorized<W: pulp::WithSimd>(work: W) -> W::Output {
     pulp::Arch::new().dispatch(work)
 }

@@ -31,8 +31,8 @@ pub trait Real: RealField + FaerReal + Packed + Default + std::iter::Sum {
     /// The numbers of all lanes, mutable.
     fn each_mut(lanes: &mut Self::Lanes) -> &mut [Self];
 
-    /// Adds each lane of a block to the block `target(lane)`, unless that is out of range. Lanes are transposed in registers, not
-    /// number by number: extracting numbers from lanes takes much of the time of an assembly.
+    /// Adds each lane of a block to the block `target(lane)`, unless that is out of range. Lanes are transposed in registers,
+    /// not number by number: extracting numbers from lanes takes much of the time of an assembly.
     fn add_by_lane<const D: usize>(
         lanes: &[[Self::Lanes; D]; D],
         blocks: &mut [[[Self; D]; D]],
@@ -121,8 +121,8 @@ real!(f64, WideF64x4, wide::f64x4, 4, 8, {
 
     #[inline(always)]
     fn rough_inverse_cube_root(self) -> f64 {
-        // Exponents beyond those of f32 saturate, and Newton's iteration would then need more than its four steps. No element is
-        // compressed or stretched by 1e38.
+        // Exponents beyond those of f32 saturate, and Newton's iteration would then need more than its four steps. No element
+        // is compressed or stretched by 1e38.
         f64::from((self as f32).rough_inverse_cube_root())
     }
 

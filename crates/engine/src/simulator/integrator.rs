@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fem_scene::{Integrator as IntegratorKind, Method, SolverKind, SolverSettings};
+use fem_scene::{Integrator as IntegratorKind, Method};
 
 use crate::integrators::{
     ExplicitEuler, ImplicitEuler, Integrator, LinearlyImplicitEuler, Rk2, Rk4, SemiImplicitEuler, Statics, Verlet,
@@ -48,25 +48,11 @@ pub fn integrators(kind: IntegratorKind) -> &'static [IntegratorKind] {
 pub(super) fn solver_choice(method: &Method, nodes: usize) -> SolverChoice {
     let is_static = method.integrator == IntegratorKind::Static;
     match &method.solver {
-        Some(SolverSettings { kind: SolverKind::Cholesky, .. }) => SolverChoice::Cholesky,
-        Some(SolverSettings { kind: SolverKind::Lu, .. }) => SolverChoice::Lu,
-        Some(SolverSettings { kind: SolverKind::Cg, .. }) => SolverChoice::Cg,
-        Some(SolverSettings { kind: SolverKind::Pcg, preconditioner, .. }) => {
-            SolverChoice::Pcg(preconditioner_of(*preconditioner))
-        }
+        Some(settings) => settings.into(),
         None if nodes <= if is_static { DIRECT.1 } else { DIRECT.0 } => SolverChoice::Cholesky,
         // Inertia keeps the iterations of the cheapest preconditioner few; in equilibrium only multigrid does.
         None if is_static => SolverChoice::Pcg(Preconditioner::Multigrid),
         None => SolverChoice::Pcg(Preconditioner::Ssor),
-    }
-}
-
-fn preconditioner_of(named: fem_scene::Preconditioner) -> Preconditioner {
-    match named {
-        fem_scene::Preconditioner::BlockJacobi => Preconditioner::BlockJacobi,
-        fem_scene::Preconditioner::IncompleteCholesky => Preconditioner::IncompleteCholesky,
-        fem_scene::Preconditioner::Multigrid => Preconditioner::Multigrid,
-        fem_scene::Preconditioner::Ssor => Preconditioner::Ssor,
     }
 }
 

@@ -2,8 +2,11 @@
 
 use std::fmt;
 
+pub use fem_scene::Preconditioner;
+
 use crate::model::numbering::Ordering;
 use crate::sparse::Stored;
+use fem_scene::{SolverKind, SolverSettings};
 
 /// A method to solve linear systems.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,19 +19,6 @@ pub enum SolverChoice {
     Cg,
     /// Preconditioned conjugate gradients.
     Pcg(Preconditioner),
-}
-
-/// The preconditioner of conjugate gradients.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Preconditioner {
-    /// The inverses of the diagonal blocks.
-    BlockJacobi,
-    /// A Cholesky factor with the sparsity pattern of the matrix.
-    IncompleteCholesky,
-    /// Multigrid by smoothed aggregation.
-    Multigrid,
-    /// Symmetric successive over-relaxation with a coarse grid; the iteration itself runs in single precision.
-    Ssor,
 }
 
 impl SolverChoice {
@@ -61,6 +51,17 @@ impl SolverChoice {
     /// Whether its iteration runs on a copy of the matrix in single precision, inside an iterative refinement.
     pub(crate) fn copies_matrix(self) -> bool {
         self == Self::Pcg(Preconditioner::Ssor)
+    }
+}
+
+impl From<&SolverSettings> for SolverChoice {
+    fn from(settings: &SolverSettings) -> Self {
+        match settings.kind {
+            SolverKind::Cholesky => Self::Cholesky,
+            SolverKind::Lu => Self::Lu,
+            SolverKind::Cg => Self::Cg,
+            SolverKind::Pcg => Self::Pcg(settings.preconditioner),
+        }
     }
 }
 

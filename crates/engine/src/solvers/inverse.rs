@@ -4,8 +4,8 @@ use crate::number::Real;
 use crate::sparse::Block;
 use fem_scene::simulation::Breakdown;
 
-/// An approximate inverse P⁻¹ of a matrix A: a factor, which is exact up to round-off, or a preconditioner. It is created for one
-/// sparsity pattern and prepared for the values of a matrix. Neither `prepare` nor `apply` allocates after the first time.
+/// An approximate inverse P⁻¹ of a matrix A: a factor, which is exact up to round-off, or a preconditioner. It is created for
+/// one sparsity pattern and prepared for the values of a matrix. Neither `prepare` nor `apply` allocates after the first time.
 pub(crate) trait ApproximateInverse<T: Real>: Send + Sync {
     /// Computes P for the values of a matrix. After an error P must be prepared again before it is applied.
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown>;

@@ -1,7 +1,7 @@
 //! Linear solvers of A x = b for symmetric block matrices.
 //!
-//! [`Solver`] splits the work by what it depends on: the pattern alone ([`Solver::new`]), the values ([`Solver::prepare`]) or the
-//! right-hand side ([`Solver::solve`]). Behind it, each method implements one trait, [`ApproximateInverse`].
+//! [`Solver`] splits the work by what it depends on: the pattern alone ([`Solver::new`]), the values ([`Solver::prepare`]) or
+//! the right-hand side ([`Solver::solve`]). Behind it, each method implements one trait, `ApproximateInverse`.
 
 mod block;
 mod choice;
@@ -17,7 +17,6 @@ pub(crate) mod beam;
 mod tests;
 
 pub use choice::{Preconditioner, SolverChoice};
-pub use krylov::product;
 pub use solver::{Solver, SolverCounters};
 
 pub(crate) use inverse::ApproximateInverse;

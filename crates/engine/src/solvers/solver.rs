@@ -38,8 +38,8 @@ pub struct Solver<T: Real> {
 }
 
 impl<T: Real> Solver<T> {
-    /// Analyses a pattern that stores the blocks of [`SolverChoice::stored`]. `rest` holds the undeformed positions of the rows'
-    /// nodes, m.
+    /// Analyses a pattern that stores the blocks of [`SolverChoice::stored`]. `rest` holds the undeformed positions of the
+    /// rows' nodes, m.
     pub fn new(choice: SolverChoice, pattern: &Arc<Pattern>, rest: &[[f64; 3]]) -> Self {
         let inverse: Box<dyn ApproximateInverse<T>> = match choice {
             SolverChoice::Cholesky => cholesky(pattern),
@@ -69,11 +69,11 @@ impl<T: Real> Solver<T> {
         preparing.time(|| inverse.prepare(values))
     }
 
-    /// Solves A x = b to ‖b − A x‖ ≤ `tolerance` ‖b‖, with the factor or preconditioner of this matrix or of a similar one. Returns the
-    /// number of iterations, 0 if the factor's solution is accurate enough.
+    /// Solves A x = b to ‖b − A x‖ ≤ `tolerance` ‖b‖, with the factor or preconditioner of this matrix or of a similar one.
+    /// Returns the number of iterations, 0 if the factor's solution is accurate enough.
     ///
-    /// Iterative methods start from the given x, direct ones from the factor's solution. Conjugate gradients reduce the residual
-    /// that remains, preconditioned by the factor or preconditioner. After an error x is the last iterate.
+    /// Iterative methods start from the given x, direct ones from the factor's solution. Conjugate gradients reduce the
+    /// residual that remains, preconditioned by the factor or preconditioner. After an error x is the last iterate.
     pub fn solve(
         &mut self,
         values: &[Block<T, 3>],

@@ -1,7 +1,8 @@
 //! All solvers against each other, on matrices of a beam.
 
 use super::beam::{Beam, random};
-use super::{Preconditioner, Solver, SolverChoice, product};
+use super::krylov::product;
+use super::{Preconditioner, Solver, SolverChoice};
 use crate::number::Real;
 use crate::vector::{norm, subtract_from};
 use fem_scene::simulation::Breakdown;

@@ -89,14 +89,14 @@ pub enum SolverKind {
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Preconditioner {
-    /// The inverse of each node's 3×3 block.
+    /// Block Jacobi: the inverse of each node's 3×3 block.
     #[default]
     BlockJacobi,
     /// A Cholesky factor with the sparsity pattern of the matrix.
     IncompleteCholesky,
-    /// A hierarchy of coarser matrices.
+    /// Multigrid by smoothed aggregation.
     Multigrid,
-    /// Symmetric Gauss–Seidel sweeps in single precision.
+    /// SSOR, symmetric Gauss–Seidel sweeps, with a coarse grid; the iteration runs in single precision.
     Ssor,
 }
 

@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use super::extent;
 use super::minimum_degree::minimum_degree;
 
-/// Up to this many nodes minimum degree is tried as well. For larger bodies, rows that are near in memory should belong to nodes
-/// that are near in space.
+/// Up to this many nodes minimum degree is tried as well. For larger bodies, rows that are near in memory should belong to
+/// nodes that are near in space.
 const NODES_FOR_MINIMUM_DEGREE: usize = 4000;
 
 /// Sets of nodes up to this size are not dissected further.
@@ -23,7 +23,7 @@ pub(super) fn fill_reducing<const N: usize>(
     if nodes.len() <= NODES_FOR_MINIMUM_DEGREE {
         let mut position = vec![u32::MAX; vertices.len()];
         let by_degree = by_minimum_degree(&nodes, &adjacency, &mut position);
-        let mut cost = |nodes: &[u32]| factorization_cost(nodes, &adjacency, &mut position);
+        let mut cost = |nodes: &[u32]| factorisation_cost(nodes, &adjacency, &mut position);
         if let Some(by_degree) = by_degree
             && cost(&by_degree) < cost(&nodes)
         {
@@ -70,8 +70,8 @@ fn by_minimum_degree(nodes: &[u32], adjacency: &[Vec<u32>], position: &mut [u32]
     Some(minimum_degree(&graph)?.into_iter().map(|i| nodes[i as usize]).collect())
 }
 
-/// Multiplications of a Cholesky factorization in this order, up to a constant: the sum of the squares of the column lengths.
-fn factorization_cost(nodes: &[u32], adjacency: &[Vec<u32>], position: &mut [u32]) -> usize {
+/// Multiplications of a Cholesky factorisation in this order, up to a constant: the sum of the squares of the column lengths.
+fn factorisation_cost(nodes: &[u32], adjacency: &[Vec<u32>], position: &mut [u32]) -> usize {
     set_positions(nodes, position);
     // A column holds its own neighbours below it, and the rows of its children in the elimination tree.
     let mut columns: Vec<Vec<u32>> = vec![Vec::new(); nodes.len()];
@@ -98,8 +98,8 @@ enum Side {
     Right,
 }
 
-/// Nested dissection by coordinates: first the two halves, then the separator between them. George, Nested Dissection of a Regular
-/// Finite Element Mesh (1973).
+/// Nested dissection by coordinates: first the two halves, then the separator between them. George, Nested Dissection of a
+/// Regular Finite Element Mesh (1973).
 fn dissect(nodes: &mut [u32], x: &[Vector3<f64>], adjacency: &[Vec<u32>], side: &mut [Side]) {
     if nodes.len() <= LEAF {
         return;

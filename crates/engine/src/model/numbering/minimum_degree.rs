@@ -4,8 +4,8 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
-/// The nodes in a fill-reducing order, from the lists of each node's neighbours, which ascend. Returns `None` if the graph has too
-/// many edges for 32-bit counts.
+/// The nodes in a fill-reducing order, from the lists of each node's neighbours, which ascend. Returns `None` if the graph has
+/// too many edges for 32-bit counts.
 pub(super) fn minimum_degree(adjacency: &[Vec<u32>]) -> Option<Vec<u32>> {
     let nodes = adjacency.len();
     let mut starts = vec![0u32];

@@ -1,5 +1,5 @@
-//! Sparse LU factorisation with partial pivoting, by faer. The matrix need not be positive definite; it takes twice the operations
-//! of a Cholesky factorisation.
+//! Sparse LU factorisation with partial pivoting, by faer. The matrix need not be positive definite; it takes twice the
+//! operations of a Cholesky factorisation.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::sparse::linalg::lu::{LuRef, NumericLu, SymbolicLu, factorize_symbolic_lu};

@@ -35,7 +35,8 @@ impl<T: Real> Workspace<T> {
     }
 }
 
-/// Solves A x = b from the given x, to ‖b − A x‖ ≤ tolerance ‖b‖. Returns the number of iterations; on failure x is the last iterate.
+/// Solves A x = b from the given x, to ‖b − A x‖ ≤ tolerance ‖b‖. Returns the number of iterations; on failure x is the last
+/// iterate.
 ///
 /// `A(x, y)` sets y = A x, `P(r, z)` sets z = P⁻¹ r, and `largest_entry()` is that of A. The iteration updates the residual by
 /// recurrence. Before it returns as converged, it computes the residual from its definition and restarts if that is too large.
@@ -124,8 +125,8 @@ impl Progress {
         Self { b, target: tolerance * b, best: infinite, stagnation: 0, last_true: infinite, largest_curvature: 0.0 }
     }
 
-    /// Returns whether the norm of a residual that was computed from its definition is small enough. If it is not below half of the
-    /// last one, either round-off has been reached (`round_off()` is that of A x) or the iteration fails.
+    /// Returns whether the norm of a residual that was computed from its definition is small enough. If it is not below half
+    /// of the last one, either round-off has been reached (`round_off()` is that of A x) or the iteration fails.
     fn true_residual(&mut self, residual: f64, round_off: impl Fn() -> f64) -> Result<bool, Breakdown> {
         if !residual.is_finite() {
             return Err(Breakdown::Singular);

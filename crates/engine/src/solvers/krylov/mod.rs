@@ -4,7 +4,7 @@ mod cg;
 mod product;
 mod refine;
 
-pub use product::product;
+pub(super) use product::product;
 
 pub(super) use cg::{Workspace, conjugate_gradients};
 pub(super) use refine::refine;

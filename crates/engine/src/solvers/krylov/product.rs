@@ -55,7 +55,8 @@ impl<T: Real> WithSimd for Rows<'_, T> {
     }
 }
 
-/// y = A x for a matrix of which the lower half is stored: a block below the diagonal represents its transpose above it as well.
+/// y = A x for a matrix of which the lower half is stored: a block below the diagonal represents its transpose above it as
+/// well.
 fn lower<T: Real>(pattern: &Pattern, values: &[Block<T, 3>], x: &[[T; 3]], y: &mut [[T; 3]]) {
     y.fill([T::default(); 3]);
     for row in 0..pattern.rows() {
@@ -90,7 +91,17 @@ fn add_product<T: Real>(A: &Block<T, 3>, x: &[T; 3], y: &mut [T; 3]) {
 mod tests {
     use super::product;
     use crate::solvers::beam::{Beam, random};
-    use crate::sparse::Stored;
+    use crate::sparse::{Pattern, Stored};
+
+    #[test]
+    fn a_product_sums_blocks_times_nodes() {
+        let pattern = Pattern::new(2, &[[0, 1]], Stored::Full);
+        let scaled = |a: f64| [[a, 0.0, 0.0], [0.0, a, 0.0], [0.0, 0.0, a]];
+        let values = [[[1.0, 2.0, 0.0], [3.0, 4.0, 0.0], [0.0, 0.0, 1.0]], scaled(0.5), [[0.0; 3]; 3], scaled(2.0)];
+        let mut y = [[0.0; 3]; 2];
+        product(&pattern, &values, &[[1.0, 1.0, 3.0], [2.0, 4.0, -2.0]], &mut y);
+        assert_eq!(y, [[4.0, 9.0, 2.0], [4.0, 8.0, -4.0]]);
+    }
 
     #[test]
     fn full_and_lower_storage_give_the_same_product() {

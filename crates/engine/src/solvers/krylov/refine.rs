@@ -1,4 +1,5 @@
-//! Iterative refinement of a solution by corrections in single precision: Wilkinson, Rounding Errors in Algebraic Processes (1963).
+//! Iterative refinement of a solution by corrections in single precision: Wilkinson, Rounding Errors in Algebraic Processes
+//! (1963).
 
 use super::cg::Workspace;
 use crate::number::Real;

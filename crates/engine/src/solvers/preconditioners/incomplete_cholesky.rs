@@ -1,7 +1,8 @@
-//! Incomplete Cholesky factorisation without fill-in, by 3×3 blocks: Meijerink and van der Vorst, An Iterative Solution Method for
-//! Linear Systems of Which the Coefficient Matrix is a Symmetric M-Matrix (1977). If it breaks down, the diagonal is enlarged:
-//! Manteuffel, An Incomplete Factorization Technique for Positive Definite Linear Systems (1980).
+//! Incomplete Cholesky factorisation without fill-in, by 3×3 blocks: Meijerink and van der Vorst, An Iterative Solution Method
+//! for Linear Systems of Which the Coefficient Matrix is a Symmetric M-Matrix (1977). If it breaks down, the diagonal is
+//! enlarged: Manteuffel, An Incomplete Factorization Technique for Positive Definite Linear Systems (1980).
 
+use super::lower_half::LowerHalf;
 use crate::number::Real;
 use crate::solvers::ApproximateInverse;
 use crate::solvers::block::{factor, invert_lower};
@@ -16,50 +17,38 @@ const NONE: u32 = u32::MAX;
 
 /// L with the sparsity pattern of the lower half of A.
 pub(crate) struct IncompleteCholesky<T> {
-    starts: Vec<usize>,
-    /// Column of each block left of the diagonal, row by row.
-    columns: Vec<u32>,
-    /// Number in A of each of those blocks, and of the diagonal blocks.
-    sources: Vec<u32>,
-    diagonal: Vec<u32>,
+    pattern: LowerHalf,
+    /// Blocks of L left of the diagonal.
     L: Vec<Block<T, 3>>,
     /// Inverses of the diagonal blocks of L.
     inverses: Vec<Block<T, 3>>,
     /// For each column its block in the current row, or [`NONE`].
-    places: Vec<u32>,
+    block_of: Vec<u32>,
 }
 
 impl<T: Real> IncompleteCholesky<T> {
     /// Takes the lower half of a pattern, which may store all blocks.
     pub(crate) fn new(pattern: &Pattern) -> Self {
-        let (mut starts, mut columns, mut sources) = (vec![0], Vec::new(), Vec::new());
-        for row in 0..pattern.rows() {
-            for block in pattern.row(row).filter(|&block| (pattern.columns[block] as usize) < row) {
-                columns.push(pattern.columns[block]);
-                sources.push(block as u32);
-            }
-            starts.push(columns.len());
-        }
-        let diagonal = pattern.diagonal().map(|block| block as u32).collect();
-        let (L, inverses) = (vec![Default::default(); columns.len()], vec![Default::default(); pattern.rows()]);
-        Self { starts, columns, sources, diagonal, L, inverses, places: vec![NONE; pattern.rows()] }
+        let lower = LowerHalf::new(pattern);
+        let (L, inverses) = (vec![Default::default(); lower.columns.len()], vec![Default::default(); lower.rows()]);
+        Self { L, inverses, block_of: vec![NONE; lower.rows()], pattern: lower }
     }
 
     /// Factorises the matrix with its diagonal scaled.
     fn factor(&mut self, values: &[Block<T, 3>], scale: T) -> Result<(), Breakdown> {
-        for row in 0..self.diagonal.len() {
-            let blocks = self.starts[row]..self.starts[row + 1];
+        for row in 0..self.pattern.rows() {
+            let blocks = self.pattern.row(row);
             for block in blocks.clone() {
-                self.places[self.columns[block] as usize] = block as u32;
+                self.block_of[self.pattern.columns[block] as usize] = block as u32;
             }
-            let mut diagonal = values[self.diagonal[row] as usize];
+            let mut diagonal = values[self.pattern.diagonal[row] as usize];
             (0..3).for_each(|i| diagonal[i][i] *= scale);
             for block in blocks.clone() {
-                self.L[block] = self.entry(block, &values[self.sources[block] as usize]);
+                self.L[block] = self.entry(block, &values[self.pattern.sources[block] as usize]);
                 subtract_product(&self.L[block], &self.L[block], &mut diagonal);
             }
             for block in blocks {
-                self.places[self.columns[block] as usize] = NONE;
+                self.block_of[self.pattern.columns[block] as usize] = NONE;
             }
             self.inverses[row] = invert_lower(&factor(&diagonal)?);
         }
@@ -68,12 +57,12 @@ impl<T: Real> IncompleteCholesky<T> {
 
     /// L_ij = (A_ij − Σ L_ik L_jkᵀ) L_jj⁻ᵀ over the columns k of both rows.
     fn entry(&self, block: usize, A: &Block<T, 3>) -> Block<T, 3> {
-        let column = self.columns[block] as usize;
+        let column = self.pattern.columns[block] as usize;
         let mut entry = *A;
-        for other in self.starts[column]..self.starts[column + 1] {
-            let place = self.places[self.columns[other] as usize];
-            if place != NONE {
-                subtract_product(&self.L[place as usize], &self.L[other], &mut entry);
+        for other in self.pattern.row(column) {
+            let same_column = self.block_of[self.pattern.columns[other] as usize];
+            if same_column != NONE {
+                subtract_product(&self.L[same_column as usize], &self.L[other], &mut entry);
             }
         }
         let inverse = &self.inverses[column];
@@ -100,10 +89,10 @@ impl<T: Real> ApproximateInverse<T> for IncompleteCholesky<T> {
     }
 
     fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
-        for row in 0..self.diagonal.len() {
+        for row in 0..self.pattern.rows() {
             let mut rest = r[row];
-            for block in self.starts[row]..self.starts[row + 1] {
-                let (L, known) = (&self.L[block], z[self.columns[block] as usize]);
+            for block in self.pattern.row(row) {
+                let (L, known) = (&self.L[block], z[self.pattern.columns[block] as usize]);
                 for i in 0..3 {
                     rest[i] -= L[i][0] * known[0] + L[i][1] * known[1] + L[i][2] * known[2];
                 }
@@ -111,21 +100,20 @@ impl<T: Real> ApproximateInverse<T> for IncompleteCholesky<T> {
             let inverse = &self.inverses[row];
             z[row] = inverse.map(|row| row[0] * rest[0] + row[1] * rest[1] + row[2] * rest[2]);
         }
-        for row in (0..self.diagonal.len()).rev() {
+        for row in (0..self.pattern.rows()).rev() {
             let known = transposed_product(&self.inverses[row], &z[row]);
             z[row] = known;
-            for block in self.starts[row]..self.starts[row + 1] {
+            for block in self.pattern.row(row) {
                 let product = transposed_product(&self.L[block], &known);
-                let rest = &mut z[self.columns[block] as usize];
+                let rest = &mut z[self.pattern.columns[block] as usize];
                 (0..3).for_each(|i| rest[i] -= product[i]);
             }
         }
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(self.starts.as_slice())
-            + 2 * size_of_val(self.columns.as_slice())
-            + 2 * size_of_val(self.diagonal.as_slice())
+        self.pattern.bytes()
+            + size_of_val(self.block_of.as_slice())
             + size_of_val(self.L.as_slice())
             + size_of_val(self.inverses.as_slice())
     }
@@ -150,7 +138,8 @@ fn transposed_product<T: Real>(A: &Block<T, 3>, x: &[T; 3]) -> [T; 3] {
 #[cfg(test)]
 mod tests {
     use super::IncompleteCholesky;
-    use crate::solvers::{ApproximateInverse, product};
+    use crate::solvers::ApproximateInverse;
+    use crate::solvers::krylov::product;
     use crate::sparse::{Pattern, Stored};
     use fem_scene::simulation::Breakdown;
 

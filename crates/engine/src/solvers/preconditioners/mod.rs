@@ -3,6 +3,7 @@
 mod block_jacobi;
 mod identity;
 mod incomplete_cholesky;
+mod lower_half;
 mod multigrid;
 mod ssor;
 

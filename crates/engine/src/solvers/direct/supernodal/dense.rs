@@ -142,8 +142,8 @@ impl<T: Packed, const N: usize> WithSimd for Divide<'_, T, N> {
     }
 }
 
-/// Factorises the first columns of a symmetric matrix, one for each entry of `inverse`, given their lower part: L overwrites them.
-/// In the register of its diagonal entry a column of L is zero above the diagonal; entries farther up are meaningless.
+/// Factorises the first columns of a symmetric matrix, one for each entry of `inverse`, given their lower part: L overwrites
+/// them. In the register of its diagonal entry a column of L is zero above the diagonal; entries farther up are meaningless.
 ///
 /// On entry `inverse` holds the diagonal of the sparse matrix, on return 1 / diagonal of L.
 pub fn factor_columns<T: Real, S: Simd>(

@@ -1,5 +1,5 @@
-//! Sparse Cholesky factorisation A = L Lᵀ by the multifrontal method with supernodes, in one thread: Duff and Reid, The Multifrontal
-//! Solution of Indefinite Sparse Symmetric Linear Equations (1983).
+//! Sparse Cholesky factorisation A = L Lᵀ by the multifrontal method with supernodes, in one thread: Duff and Reid, The
+//! Multifrontal Solution of Indefinite Sparse Symmetric Linear Equations (1983).
 
 mod dense;
 mod substitute;

@@ -1,9 +1,9 @@
 //! Symbolic factorisation: the supernodes of a factor and the assembly of their fronts, found once from the pattern.
 //!
-//! A supernode is a set of consecutive columns of L with the same rows below them, stored as one dense matrix (Ashcraft and Grimes,
-//! The Influence of Relaxed Supernode Partitions on the Multifrontal Method, 1989). Its contribution to later columns is gathered
-//! in a dense update matrix, which is assembled into the front of its parent, the supernode of its first row below (Duff and
-//! Reid, The Multifrontal Solution of Indefinite Sparse Symmetric Linear Equations, 1983).
+//! A supernode is a set of consecutive columns of L with the same rows below them, stored as one dense matrix (Ashcraft and
+//! Grimes, The Influence of Relaxed Supernode Partitions on the Multifrontal Method, 1989). Its contribution to later columns
+//! is gathered in a dense update matrix, which is assembled into the front of its parent, the supernode of its first row below
+//! (Duff and Reid, The Multifrontal Solution of Indefinite Sparse Symmetric Linear Equations, 1983).
 
 use std::ops::Range;
 
@@ -73,7 +73,8 @@ struct Draft {
 }
 
 impl SymbolicFactor {
-    /// Symbolic factorisation of a pattern that stores the lower half. Columns of L are padded to a multiple of `lanes` scalars.
+    /// Symbolic factorisation of a pattern that stores the lower half. Columns of L are padded to a multiple of `lanes`
+    /// scalars.
     pub fn new(pattern: &Pattern, lanes: usize) -> Self {
         let drafts = merge(fundamental_supernodes(pattern));
         let parents = parents(&drafts, pattern.rows());
@@ -151,8 +152,8 @@ impl SymbolicFactor {
         self.blocks = placed.into_iter().map(|(_, block, place)| (block, place)).collect();
     }
 
-    /// Finds the children of each supernode and the largest size of the stack of update matrices. A supernode's own update matrix is
-    /// computed above those of its children, then moved down to where theirs began.
+    /// Finds the children of each supernode and the largest size of the stack of update matrices. A supernode's own update
+    /// matrix is computed above those of its children, then moved down to where theirs began.
     fn find_children(&mut self, parents: &[Option<usize>], postorder: &[usize]) {
         let mut number_of = vec![0; postorder.len()];
         postorder.iter().enumerate().for_each(|(number, &draft)| number_of[draft] = number);
@@ -232,7 +233,8 @@ fn fundamental_supernodes(pattern: &Pattern) -> Vec<Draft> {
     drafts
 }
 
-/// Merges a supernode with the one after it, its parent, where few zeros are stored for it: fewer and larger supernodes are faster.
+/// Merges a supernode with the one after it, its parent, where few zeros are stored for it: fewer and larger supernodes are
+/// faster.
 fn merge(drafts: Vec<Draft>) -> Vec<Draft> {
     let mut merged: Vec<Draft> = Vec::new();
     for draft in drafts {

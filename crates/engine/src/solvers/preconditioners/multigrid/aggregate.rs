@@ -5,9 +5,9 @@ use super::blocks::Blocks;
 /// Marks a node without an aggregate.
 const NONE: u32 = u32::MAX;
 
-/// The aggregate of each node, and the number of aggregates. First whole neighbourhoods become aggregates, then each remaining node
-/// joins an adjacent one (Vaněk, Mandel and Brezina, Algebraic Multigrid by Smoothed Aggregation for Second and Fourth Order
-/// Elliptic Problems, 1996).
+/// The aggregate of each node, and the number of aggregates. First whole neighbourhoods become aggregates, then each remaining
+/// node joins an adjacent one (Vaněk, Mandel and Brezina, Algebraic Multigrid by Smoothed Aggregation for Second and Fourth
+/// Order Elliptic Problems, 1996).
 pub fn aggregate<const D: usize>(A: &Blocks<D, D>) -> (Vec<u32>, usize) {
     let mut aggregates = vec![NONE; A.rows()];
     let mut count = 0;

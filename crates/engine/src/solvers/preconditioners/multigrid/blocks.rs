@@ -37,7 +37,8 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
         Self::zeros(starts, columns)
     }
 
-    /// A zero matrix with the sparsity pattern of Aᵀ, for A of `columns` columns, and the number in A of each block's transpose.
+    /// A zero matrix with the sparsity pattern of Aᵀ, for A of `columns` columns, and the number in A of each block's
+    /// transpose.
     pub fn transpose(A: &Blocks<C, R>, columns: usize) -> (Self, Vec<u32>) {
         let mut starts = vec![0; columns + 1];
         A.columns.iter().for_each(|&column| starts[column as usize + 1] += 1);

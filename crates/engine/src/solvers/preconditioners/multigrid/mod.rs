@@ -146,13 +146,13 @@ fn lower_pattern(A: &Blocks<6, 6>) -> Pattern {
 
 /// Copies the lower half of a matrix of 6×6 blocks to the 3×3 blocks of its [`lower_pattern`].
 fn copy_lower(A: &Blocks<6, 6>, values: &mut [[[f32; 3]; 3]]) {
-    let mut places = values.iter_mut();
+    let mut values = values.iter_mut();
     for row in 0..2 * A.rows() {
         let (columns, blocks) = A.row(row / 2);
         for (&column, block) in columns.iter().zip(blocks) {
             for half in (0..2).filter(|half| 2 * column as usize + half <= row) {
-                let Some(place) = places.next() else { return };
-                *place = std::array::from_fn(|i| std::array::from_fn(|j| block[3 * (row % 2) + i][3 * half + j]));
+                let Some(value) = values.next() else { return };
+                *value = std::array::from_fn(|i| std::array::from_fn(|j| block[3 * (row % 2) + i][3 * half + j]));
             }
         }
     }

@@ -1,14 +1,14 @@
-//! The coarse-grid correction P (Pᵀ A P)⁻¹ Pᵀ with trilinear functions P, for smooth errors, which sweeps reduce slowly. It is added
-//! to the sweeps: Bramble, Pasciak and Xu, Parallel Multilevel Preconditioners (1990), with two levels.
+//! The coarse-grid correction P (Pᵀ A P)⁻¹ Pᵀ with trilinear functions P, for smooth errors, which sweeps reduce slowly. It is
+//! added to the sweeps: Bramble, Pasciak and Xu, Parallel Multilevel Preconditioners (1990), with two levels.
 
 use std::array::from_fn;
 
 use nalgebra::Vector3;
 use pulp::{Simd, WithSimd};
 
+use super::super::lower_half::LowerHalf;
 use super::Row;
 use super::grid::Grid;
-use super::scaled::Places;
 use crate::model::numbering::{Numbering, Ordering};
 use crate::number::{Real, vectorized};
 use crate::solvers::ApproximateInverse;
@@ -21,7 +21,8 @@ const WEIGHT: f32 = 0.5;
 /// Relative shift of the coarse diagonal: the functions of cells with few nodes are not independent.
 const SHIFT: f32 = 1e-4;
 
-/// The coarse matrix is assembled and factorised again if a solve takes more iterations than `.0 + .1` × those of its first solve.
+/// The coarse matrix is assembled and factorised again if a solve takes more iterations than `.0 + .1` × those of its first
+/// solve.
 const REFACTOR: (f64, f64) = (3.0, 1.5);
 
 /// The grid, and the factor of its matrix Pᵀ A P.
@@ -68,15 +69,14 @@ const TRANSPOSED: u32 = 1;
 const BOTH: u32 = 2;
 
 impl Coarse {
-    /// A grid for a pattern, which stores all blocks or the lower half, and the undeformed positions of its nodes, m.
-    pub fn new(pattern: &Pattern, rest: &[[f64; 3]]) -> Self {
-        let mut grid = Grid::new(pattern, rest);
+    /// A grid for a matrix and the undeformed positions of its nodes, m.
+    pub fn new(fine: &LowerHalf, rest: &[[f64; 3]]) -> Self {
+        let mut grid = Grid::new(fine, rest);
         let cell = |node: usize| grid.nodes[node].cell;
-        let rows = 0..pattern.rows();
-        let coupled: Vec<[u32; 2]> = rows
-            .flat_map(|row| lower(pattern, row).map(move |column| (row, column)))
-            .map(|(i, j)| [cell(i), cell(j)])
-            .collect();
+        let lower = |row: usize| fine.row(row).map(|block| fine.columns[block] as usize).chain([row]);
+        let rows = 0..fine.rows();
+        let coupled: Vec<[u32; 2]> =
+            rows.flat_map(|row| lower(row).map(move |column| (row, column))).map(|(i, j)| [cell(i), cell(j)]).collect();
         let mut kinds = coupled.clone();
         kinds.sort_unstable();
         kinds.dedup();
@@ -96,7 +96,7 @@ impl Coarse {
             effort: None,
             is_outdated: true,
             weight: 0.0,
-            free: vec![[0.0; 3]; pattern.rows()],
+            free: vec![[0.0; 3]; fine.rows()],
             residual: zeros.clone(),
             change: zeros.clone(),
             correction: zeros,
@@ -107,28 +107,28 @@ impl Coarse {
     }
 
     /// Assembles and factorises the coarse matrix, unless an earlier factor still serves. `values` holds the fine matrix.
-    pub fn prepare<T: Real>(&mut self, places: &Places, values: &[Block<T, 3>], scale: f64) {
+    pub fn prepare<T: Real>(&mut self, fine: &LowerHalf, values: &[Block<T, 3>], scale: f64) {
         if self.is_outdated || self.scale.is_none() {
             (self.is_outdated, self.effort) = (false, None);
-            self.find_free_directions(places, values);
-            self.assemble(places, values, scale);
+            self.find_free_directions(fine, values);
+            self.assemble(fine, values, scale);
             self.scale = self.factor.prepare(&self.values).is_ok().then_some(scale);
         }
         self.weight = self.scale.map_or(0.0, |then| WEIGHT * (then / scale) as f32);
     }
 
     /// Finds the directions that the matrix couples to others.
-    fn find_free_directions<T: Real>(&mut self, places: &Places, values: &[Block<T, 3>]) {
+    fn find_free_directions<T: Real>(&mut self, fine: &LowerHalf, values: &[Block<T, 3>]) {
         self.free.fill([0.0; 3]);
         for row in 0..self.free.len() {
-            for block in places.row(row) {
-                let (column, A) = (places.columns[block] as usize, &values[places.sources[block] as usize]);
+            for block in fine.row(row) {
+                let (column, A) = (fine.columns[block] as usize, &values[fine.sources[block] as usize]);
                 for_each_nonzero(A, |i, j| {
                     self.free[row][i] = 1.0;
                     self.free[column][j] = 1.0;
                 });
             }
-            for_each_nonzero(&values[places.diagonal[row] as usize], |i, j| {
+            for_each_nonzero(&values[fine.diagonal[row] as usize], |i, j| {
                 if i != j {
                     self.free[row][i] = 1.0;
                 }
@@ -137,7 +137,7 @@ impl Coarse {
     }
 
     /// Assembles Pᵀ A P.
-    fn assemble<T: Real>(&mut self, places: &Places, values: &[Block<T, 3>], scale: f64) {
+    fn assemble<T: Real>(&mut self, fine: &LowerHalf, values: &[Block<T, 3>], scale: f64) {
         self.sums.fill([[0.0; 4]; 3]);
         let mut pairs = self.pairs.iter();
         let mut add = |row: usize, column: usize, block: u32| {
@@ -157,8 +157,8 @@ impl Coarse {
             });
         };
         for row in 0..self.free.len() {
-            places.row(row).for_each(|block| add(row, places.columns[block] as usize, places.sources[block]));
-            add(row, row, places.diagonal[row]);
+            fine.row(row).for_each(|block| add(row, fine.columns[block] as usize, fine.sources[block]));
+            add(row, row, fine.diagonal[row]);
         }
         for (value, sum) in self.values.iter_mut().zip(&self.sums) {
             *value = sum.map(|row| [row[0], row[1], row[2]]);
@@ -198,8 +198,8 @@ impl Coarse {
         product
     }
 
-    /// Records the iterations of a solve to `tolerance`, `None` if it failed. A solve that fails or takes many more iterations than the
-    /// first one makes the factor outdated.
+    /// Records the iterations of a solve to `tolerance`, `None` if it failed. A solve that fails or takes many more iterations
+    /// than the first one makes the factor outdated.
     pub fn record_effort(&mut self, iterations: Option<usize>, tolerance: f64) {
         let powers = -tolerance.ln().min(-1.0);
         let mut limit = |first: f64| REFACTOR.0 + REFACTOR.1 * powers * *self.effort.get_or_insert(first / powers);
@@ -260,11 +260,6 @@ impl WithSimd for Products<'_> {
             }
         }
     }
-}
-
-/// Columns of a row up to the diagonal.
-fn lower(pattern: &Pattern, row: usize) -> impl Iterator<Item = usize> {
-    pattern.columns[pattern.row(row)].iter().map(|&column| column as usize).filter(move |&column| column <= row)
 }
 
 /// Numbers the corners in a fill-reducing ordering. Returns the pattern of the coarse matrix.

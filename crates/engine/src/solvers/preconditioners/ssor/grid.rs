@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use crate::sparse::Pattern;
+use super::super::lower_half::LowerHalf;
 
 /// Edge length of a cell, in mean distances of neighbouring nodes.
 const EDGE: f64 = 4.0;
@@ -28,12 +28,12 @@ pub struct CellPoint {
 }
 
 impl Grid {
-    /// A grid over these positions, m, with cells some node distances wide. `pattern` tells which nodes are neighbours.
-    pub fn new(pattern: &Pattern, rest: &[[f64; 3]]) -> Self {
-        let rest = &rest[..pattern.rows()];
+    /// A grid over these positions, m, with cells some node distances wide. `matrix` tells which nodes are neighbours.
+    pub fn new(matrix: &LowerHalf, rest: &[[f64; 3]]) -> Self {
+        let rest = &rest[..matrix.rows()];
         let lower: [f64; 3] = from_fn(|i| rest.iter().fold(f64::INFINITY, |lower, x| lower.min(x[i])));
         let upper: [f64; 3] = from_fn(|i| rest.iter().fold(f64::NEG_INFINITY, |upper, x| upper.max(x[i])));
-        let edge = EDGE * mean_distance(pattern, rest);
+        let edge = EDGE * mean_distance(matrix, rest);
         let extent: [f64; 3] = from_fn(|i| upper[i] - lower[i]);
         // The extent of a single node, or of a flat body along its normal, is zero.
         let counts =
@@ -41,17 +41,17 @@ impl Grid {
         let along =
             |x: &[f64; 3], i: usize| if extent[i] > 0.0 { (x[i] - lower[i]) / extent[i] * counts[i] } else { 0.0 };
         let lattice = |x: &[f64; 3]| -> [u32; 3] { from_fn(|i| along(x, i).floor().min(counts[i] - 1.0) as u32) };
-        let mut places: Vec<[u32; 3]> = rest.iter().map(lattice).collect();
-        let coordinates = |(x, place): (&[f64; 3], &[u32; 3])| from_fn(|i| (along(x, i) - f64::from(place[i])) as f32);
-        let at: Vec<[f32; 3]> = rest.iter().zip(&places).map(coordinates).collect();
-        let of_node = places.clone();
-        let numbers = |sorted: &[[u32; 3]], place: &[u32; 3]| sorted.binary_search(place).unwrap_or_default() as u32;
-        sort_unique(&mut places);
-        let mut corners: Vec<[u32; 3]> = places.iter().flat_map(corners).collect();
+        let mut cells: Vec<[u32; 3]> = rest.iter().map(lattice).collect();
+        let coordinates = |(x, cell): (&[f64; 3], &[u32; 3])| from_fn(|i| (along(x, i) - f64::from(cell[i])) as f32);
+        let at: Vec<[f32; 3]> = rest.iter().zip(&cells).map(coordinates).collect();
+        let of_node = cells.clone();
+        let numbers = |sorted: &[[u32; 3]], cell: &[u32; 3]| sorted.binary_search(cell).unwrap_or_default() as u32;
+        sort_unique(&mut cells);
+        let mut corners: Vec<[u32; 3]> = cells.iter().flat_map(corners).collect();
         sort_unique(&mut corners);
         Self {
-            nodes: of_node.iter().zip(at).map(|(place, at)| CellPoint { cell: numbers(&places, place), at }).collect(),
-            cells: places.iter().map(|place| self::corners(place).map(|corner| numbers(&corners, &corner))).collect(),
+            nodes: of_node.iter().zip(at).map(|(cell, at)| CellPoint { cell: numbers(&cells, cell), at }).collect(),
+            cells: cells.iter().map(|cell| self::corners(cell).map(|corner| numbers(&corners, &corner))).collect(),
             corners: corners.iter().map(|corner| corner.map(f64::from)).collect(),
         }
     }
@@ -82,9 +82,9 @@ impl CellPoint {
     }
 }
 
-fn sort_unique(places: &mut Vec<[u32; 3]>) {
-    places.sort_unstable();
-    places.dedup();
+fn sort_unique(cells: &mut Vec<[u32; 3]>) {
+    cells.sort_unstable();
+    cells.dedup();
 }
 
 /// Grid coordinates of the corners of a cell.
@@ -93,15 +93,13 @@ fn corners(cell: &[u32; 3]) -> [[u32; 3]; 8] {
 }
 
 /// Mean distance of neighbouring nodes, m; 1 for a single node.
-fn mean_distance(pattern: &Pattern, rest: &[[f64; 3]]) -> f64 {
+fn mean_distance(matrix: &LowerHalf, rest: &[[f64; 3]]) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
-    for row in 0..pattern.rows() {
-        for &column in &pattern.columns[pattern.row(row)] {
-            if (column as usize) < row {
-                let (a, b) = (rest[row], rest[column as usize]);
-                sum += (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
-                count += 1.0;
-            }
+    for row in 0..matrix.rows() {
+        for block in matrix.row(row) {
+            let (a, b) = (rest[row], rest[matrix.columns[block] as usize]);
+            sum += (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
+            count += 1.0;
         }
     }
     if count > 0.0 { sum / count } else { 1.0 }
@@ -109,14 +107,14 @@ fn mean_distance(pattern: &Pattern, rest: &[[f64; 3]]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::Grid;
+    use super::{Grid, LowerHalf};
     use crate::solvers::beam::Beam;
-    use crate::sparse::Stored;
+    use crate::sparse::{Pattern, Stored};
 
     #[test]
     fn functions_sum_to_one_and_reproduce_positions() {
         let beam = Beam::new(7, Stored::Lower);
-        let grid = Grid::new(&beam.pattern, &beam.rest);
+        let grid = Grid::new(&LowerHalf::new(&beam.pattern), &beam.rest);
         let scale: [f64; 3] = std::array::from_fn(|i| {
             let upper = |x: &[[f64; 3]]| x.iter().fold(f64::NEG_INFINITY, |upper, x| upper.max(x[i]));
             let lower = |x: &[[f64; 3]]| x.iter().fold(f64::INFINITY, |lower, x| lower.min(x[i]));
@@ -127,21 +125,21 @@ mod tests {
             assert!((weights.iter().sum::<f32>() - 1.0).abs() < 1e-6);
             for i in 0..3 {
                 let corners = &grid.cells[point.cell as usize];
-                let place: f64 =
+                let position: f64 =
                     corners.iter().zip(weights).map(|(&c, w)| f64::from(w) * grid.corners[c as usize][i]).sum();
                 let origin = if i == 0 { 1.0 / 7.0 } else { 0.0 };
-                assert!((place * scale[i] + origin - x[i]).abs() < 1e-6, "{place} {x:?}");
+                assert!((position * scale[i] + origin - x[i]).abs() < 1e-6, "{position} {x:?}");
             }
         }
     }
 
     #[test]
     fn a_single_node_and_a_flat_body_have_cells() {
-        let pattern = crate::sparse::Pattern::new::<4>(1, &[], Stored::Lower);
-        let grid = Grid::new(&pattern, &[[3.0, 1.0, 2.0]]);
+        let node = LowerHalf::new(&Pattern::new::<4>(1, &[], Stored::Lower));
+        let grid = Grid::new(&node, &[[3.0, 1.0, 2.0]]);
         assert_eq!((grid.cells.len(), grid.corners.len()), (1, 8));
-        let pattern = crate::sparse::Pattern::new(3, &[[0, 1, 2]], Stored::Lower);
-        let grid = Grid::new(&pattern, &[[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]]);
+        let triangle = LowerHalf::new(&Pattern::new(3, &[[0, 1, 2]], Stored::Lower));
+        let grid = Grid::new(&triangle, &[[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]]);
         assert!(grid.nodes.iter().all(|point| point.at.iter().all(|at| (0.0..=1.0).contains(at))));
     }
 }

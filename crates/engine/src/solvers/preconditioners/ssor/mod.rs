@@ -1,11 +1,11 @@
-//! Conjugate gradients preconditioned by SSOR, a forward and a backward Gauss–Seidel sweep, with Eisenstat's trick: an iteration
-//! takes the two sweeps and no product with the matrix. Eisenstat, Efficient Implementation of a Class of Preconditioned Conjugate
-//! Gradient Methods (1981). The iteration runs in single precision, inside an iterative refinement.
+//! Conjugate gradients preconditioned by SSOR, a forward and a backward Gauss–Seidel sweep, with Eisenstat's trick: an
+//! iteration takes the two sweeps and no product with the matrix. Eisenstat, Efficient Implementation of a Class of
+//! Preconditioned Conjugate Gradient Methods (1981). The iteration runs in single precision, inside an iterative refinement.
 //!
 //! With A = L + D + Lᵀ, the preconditioner is (L + W) W⁻¹ (W + Lᵀ), where W = G Gᵀ is D minus a fraction of the change that an
-//! incomplete factorisation would make to the diagonal blocks. Scaled by G, the matrix is L̃ + K + 2 + L̃ᵀ with L̃ = G⁻¹ L G⁻ᵀ and
-//! K = G⁻¹ D G⁻ᵀ − 2, and the preconditioner is (L̃ + 1)(1 + L̃ᵀ). It reduces oscillating errors well and smooth errors badly, so the
-//! inverse of the matrix on a coarse grid is added.
+//! incomplete factorisation would make to the diagonal blocks. Scaled by G, the matrix is L̃ + K + 2 + L̃ᵀ with L̃ = G⁻¹ L G⁻ᵀ
+//! and K = G⁻¹ D G⁻ᵀ − 2, and the preconditioner is (L̃ + 1)(1 + L̃ᵀ). It reduces oscillating errors well and smooth errors
+//! badly, so the inverse of the matrix on a coarse grid is added.
 
 mod coarse;
 mod grid;
@@ -58,11 +58,11 @@ pub(crate) struct Ssor {
 impl Ssor {
     /// Takes the lower half of a pattern, which may store all blocks, and the undeformed positions of its nodes, m.
     pub(crate) fn new(pattern: &Pattern, rest: &[[f64; 3]]) -> Self {
-        let rows = pattern.rows();
+        let (rows, matrix) = (pattern.rows(), Scaled::new(pattern));
         let (vector, pairs) = (vec![[0.0; 4]; rows], vec![[[0.0; 4]; 2]; rows]);
         Self {
-            matrix: Scaled::new(pattern),
-            coarse: Coarse::new(pattern, rest),
+            coarse: Coarse::new(&matrix.pattern, rest),
+            matrix,
             x: vector.clone(),
             r: vector.clone(),
             p: vector,
@@ -71,16 +71,17 @@ impl Ssor {
         }
     }
 
-    /// Starts an iteration: x = 0, r̃ = (L̃ + 1)⁻¹ G⁻¹ r and the coarse residual Pᵀ r, with r scaled by `factor`, and no direction.
+    /// Starts an iteration: x = 0, r̃ = (L̃ + 1)⁻¹ G⁻¹ r and the coarse residual Pᵀ r, with r scaled by `factor`, and no
+    /// direction.
     fn start<T: Real>(&mut self, r: &[[T; 3]], factor: f64) {
-        let Scaled { places, L, inverses, .. } = &self.matrix;
+        let Scaled { pattern, L, inverses, .. } = &self.matrix;
         self.coarse.residual.fill([0.0; 4]);
         for (row, r) in r.iter().enumerate() {
             let r = r.map(|r| (r.as_f64() * factor) as f32);
             self.coarse.restrict(row, &r);
             let mut scaled: [f32; 3] = from_fn(|i| (0..=i).map(|j| inverses[row][i][j] * r[j]).sum());
-            for block in places.row(row) {
-                let known = &self.r[places.columns[block] as usize];
+            for block in pattern.row(row) {
+                let known = &self.r[pattern.columns[block] as usize];
                 (0..3).for_each(|i| scaled[i] -= (0..3).map(|k| L[9 * block + 3 * i + k] * known[k]).sum::<f32>());
             }
             self.r[row] = [scaled[0], scaled[1], scaled[2], 0.0];
@@ -172,9 +173,9 @@ impl Ssor {
 
 impl<T: Real> ApproximateInverse<T> for Ssor {
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
-        let scale = single_precision_scale(values, &self.matrix.places.diagonal)?;
+        let scale = single_precision_scale(values, &self.matrix.pattern.diagonal)?;
         self.matrix.scale = scale;
-        self.coarse.prepare(&self.matrix.places, values, scale);
+        self.coarse.prepare(&self.matrix.pattern, values, scale);
         self.matrix.prepare(values, &self.coarse.free)
     }
 

@@ -1,7 +1,6 @@
 //! The scaled matrix G⁻¹ A G⁻ᵀ = L̃ + K + 2 + L̃ᵀ in single precision.
 
-use std::ops::Range;
-
+use super::super::lower_half::LowerHalf;
 use crate::number::Real;
 use crate::solvers::block::{factor, invert_lower};
 use crate::sparse::{Block, Pattern};
@@ -22,7 +21,7 @@ const LOWER: [(usize, usize); 6] = [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 
 
 /// A scaled matrix.
 pub struct Scaled {
-    pub places: Places,
+    pub pattern: LowerHalf,
     /// L̃, row by row, and one number more, so that a register of four can be read at the last row of a block.
     pub L: Vec<f32>,
     /// The lower triangles of K.
@@ -35,42 +34,17 @@ pub struct Scaled {
     pub scale: f64,
 }
 
-/// Sparsity pattern of the blocks left of the diagonal.
-pub struct Places {
-    starts: Vec<u32>,
-    pub columns: Vec<u32>,
-    /// Number in the matrix of each of those blocks, and of the diagonal blocks.
-    pub sources: Vec<u32>,
-    pub diagonal: Vec<u32>,
-}
-
-impl Places {
-    /// The blocks of a row left of the diagonal.
-    #[inline(always)]
-    pub fn row(&self, row: usize) -> Range<usize> {
-        self.starts[row] as usize..self.starts[row + 1] as usize
-    }
-}
-
 impl Scaled {
     /// Takes the lower half of a pattern, which may store all blocks.
     pub fn new(pattern: &Pattern) -> Self {
-        let (mut starts, mut columns, mut sources) = (vec![0], Vec::new(), Vec::new());
-        for row in 0..pattern.rows() {
-            for block in pattern.row(row).filter(|&block| (pattern.columns[block] as usize) < row) {
-                columns.push(pattern.columns[block]);
-                sources.push(block as u32);
-            }
-            starts.push(columns.len() as u32);
-        }
-        let diagonal = pattern.diagonal().map(|block| block as u32).collect();
+        let lower = LowerHalf::new(pattern);
         let rows = pattern.rows();
         Self {
-            L: vec![0.0; 9 * columns.len() + 1],
+            L: vec![0.0; 9 * lower.columns.len() + 1],
             K: vec![[0.0; 6]; rows],
             inverses: vec![[[0.0; 3]; 3]; rows],
             G: vec![[0.0; 6]; rows],
-            places: Places { starts, columns, sources, diagonal },
+            pattern: lower,
             scale: 1.0,
         }
     }
@@ -88,15 +62,15 @@ impl Scaled {
     }
 
     fn factor<T: Real>(&mut self, values: &[Block<T, 3>], free: &[[f32; 3]], fraction: f32) -> Result<(), Breakdown> {
-        let Self { places, L, K, G, inverses, scale } = self;
+        let Self { pattern, L, K, G, inverses, scale } = self;
         let single = |block: u32| values[block as usize].map(|row| row.map(|entry| (entry.as_f64() * *scale) as f32));
-        for row in 0..places.diagonal.len() {
-            let blocks = places.row(row);
-            let diagonal = single(places.diagonal[row]);
+        for row in 0..pattern.rows() {
+            let blocks = pattern.row(row);
+            let diagonal = single(pattern.diagonal[row]);
             let mut W = diagonal;
             for block in blocks.clone() {
-                let column = places.columns[block] as usize;
-                let half = times_transpose(&single(places.sources[block]), &inverses[column]);
+                let column = pattern.columns[block] as usize;
+                let half = times_transpose(&single(pattern.sources[block]), &inverses[column]);
                 for i in 0..3 {
                     for j in 0..3 {
                         W[i][j] -= fraction * (0..3).map(|k| half[i][k] * half[j][k]).sum::<f32>();
@@ -123,10 +97,8 @@ impl Scaled {
     }
 
     pub fn bytes(&self) -> usize {
-        let places = &self.places;
-        let numbers = places.starts.len() + 2 * places.columns.len() + places.diagonal.len() + self.L.len();
-        let blocks = size_of_val(self.K.as_slice()) + size_of_val(self.G.as_slice());
-        4 * numbers + blocks + size_of_val(self.inverses.as_slice())
+        let triangles = size_of_val(self.K.as_slice()) + size_of_val(self.G.as_slice());
+        self.pattern.bytes() + size_of_val(self.L.as_slice()) + triangles + size_of_val(self.inverses.as_slice())
     }
 }
 

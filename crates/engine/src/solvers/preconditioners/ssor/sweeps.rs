@@ -27,7 +27,7 @@ impl WithSimd for Backward<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) {
-        let Self { matrix: Scaled { places, L, G, .. }, coarse, beta, r, p, st, sums } = self;
+        let Self { matrix: Scaled { pattern, L, G, .. }, coarse, beta, r, p, st, sums } = self;
         for row in (0..r.len()).rev() {
             let point = &coarse.grid.nodes[row];
             let mut e = [0.0; 4];
@@ -42,10 +42,10 @@ impl WithSimd for Backward<'_> {
                 p[row][k] = r[row][k] + (c[k] + sum[1][k]) + beta * p[row][k];
                 st[row][1][k] = w[k] + c[k] + beta * st[row][1][k];
             }
-            let blocks = places.row(row);
+            let blocks = pattern.row(row);
             // From the last block to the first, so that memory is read in one direction.
             for block in blocks.rev() {
-                let (L, above) = (rows(L, block), &mut sums[places.columns[block] as usize]);
+                let (L, above) = (rows(L, block), &mut sums[pattern.columns[block] as usize]);
                 let [of_w, of_c] = *above;
                 *above = [plus_product(of_w, &L, &w), plus_product(of_c, &L, &c)];
             }
@@ -113,15 +113,15 @@ impl WithSimd for Forward<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) -> f64 {
-        let Self { matrix: Scaled { places, L, K, G, .. }, coarse, p, st } = self;
+        let Self { matrix: Scaled { pattern, L, K, G, .. }, coarse, p, st } = self;
         let (mut total, mut sum) = (0.0, 0.0);
         coarse.change.fill([0.0; 4]);
         for row in 0..p.len() {
             // Each entry of a block has sums of its own, so that no addition waits for another.
             let mut sums = [wide([0.0; 4], [0.0; 4]); 3];
-            let blocks = places.row(row);
+            let blocks = pattern.row(row);
             for block in blocks {
-                let (L, [s, t]) = (rows(L, block), st[places.columns[block] as usize]);
+                let (L, [s, t]) = (rows(L, block), st[pattern.columns[block] as usize]);
                 for (sums, L) in sums.iter_mut().zip(L) {
                     *sums += wide(L, L) * wide(s, t);
                 }
