@@ -18,7 +18,7 @@ pub struct Arguments {
 pub enum Command {
     /// The engine and its peers in turn, on the same scenes: a table of times per step, and whether answers agree
     Peers(PeersArguments),
-    /// What each part of a step costs
+    /// The costs of the parts of a step
     Parts(RunArguments),
     /// The beam from 1 000 to 60 000 nodes: time per step, its exponent, memory
     Scaling(ScalingArguments),
@@ -36,7 +36,7 @@ pub struct PeersArguments {
     /// The program `fenris_peer`, in Rust with fenris
     #[arg(long, value_name = "PROGRAM")]
     pub fenris: Option<PathBuf>,
-    /// How often each is run
+    /// Number of runs of each
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = positive)]
     pub rounds: usize,
     /// Steps of each run instead of the scene's
@@ -48,20 +48,20 @@ pub struct PeersArguments {
     /// Folder of meshes and scenes
     #[arg(long, value_name = "DIR", default_value = "data")]
     pub data: PathBuf,
-    /// Write the same here
+    /// Write the table as JSON
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
 pub struct SizesArguments {
-    /// Cells per metre of the beam; left out, those that suit the command
+    /// Cells per metre of the beam; the default depends on the command
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = positive)]
     pub cells: Vec<usize>,
     /// Steps of each run
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = positive)]
     pub steps: usize,
-    /// How often each is run
+    /// Number of runs of each
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = positive)]
     pub rounds: usize,
     /// Folder of meshes and scenes
@@ -78,7 +78,7 @@ pub struct ScalingArguments {
     pub solver: Option<SolverName>,
 }
 
-/// A scene and what is different in this run.
+/// A scene with overrides.
 #[derive(Clone, Debug, Args)]
 pub struct RunArguments {
     /// Name of a scene or path of a .toml file
@@ -121,7 +121,7 @@ impl SolverName {
         SolverTable { kind, tolerance: None, preconditioner }
     }
 
-    /// As the command line spells it.
+    /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Cholesky => "cholesky",
@@ -134,7 +134,7 @@ impl SolverName {
 }
 
 impl RunArguments {
-    /// The scene with what is different in this run.
+    /// The scene with the overrides.
     pub fn scene(&self) -> Result<Scene, String> {
         let mut scene = fem_scene::load(&self.scene, &self.data).map_err(|error| error.to_string())?;
         scene.time.steps = self.steps.or(scene.time.steps);

@@ -1,14 +1,14 @@
-//! How the program ends other than well.
+//! Errors of the program and their exit codes.
 
 use std::fmt;
 use std::process::ExitCode;
 
-/// Why it ended.
+/// The reason of a failure.
 #[derive(Debug)]
 pub enum End {
     /// Arguments, scenes or programs that cannot be used.
     Unusable(String),
-    /// Something that was timed failed, or its answer is not the others'.
+    /// A timed program failed, or its answer disagrees.
     Wrong(String),
 }
 
@@ -18,12 +18,12 @@ impl End {
         Self::Unusable(error.to_string())
     }
 
-    /// A failure of what was timed.
+    /// A failure of a timed program.
     pub fn wrong(error: impl fmt::Display) -> Self {
         Self::Wrong(error.to_string())
     }
 
-    /// 2 for what cannot be used, 1 for what went wrong.
+    /// 2 for unusable arguments, 1 for failures.
     pub fn exit_code(&self) -> ExitCode {
         match self {
             Self::Unusable(_) => ExitCode::from(2),

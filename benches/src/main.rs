@@ -6,7 +6,6 @@
 
 mod cli;
 mod end;
-mod machine;
 mod parts;
 mod peers;
 mod race;

@@ -1,5 +1,6 @@
-//! What the parts of a step cost.
+//! Costs of the parts of a step.
 
+use std::path::Path;
 use std::time::Instant;
 
 use fem_engine::forces::{HessianKind, Moment};
@@ -7,15 +8,15 @@ use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::solvers::{Preconditioner, Solver, SolverChoice};
 use fem_scene::simulate::quantile;
+use fem_study::machine::Machine;
 
 use crate::cli::{RunArguments, SolverName};
 use crate::end::End;
-use crate::machine::Machine;
 
-/// Each part is repeated for so long, s, and so often at least.
+/// Least duration, s, and least number of repetitions of each part.
 const LONG_ENOUGH: (f64, usize) = (0.5, 15);
 
-/// Times each part alone, on a body that is bent a little, and prints a table.
+/// Times each part alone, on a slightly bent body, and prints a table.
 pub fn run(arguments: &RunArguments) -> Result<(), End> {
     let scene = arguments.scene().map_err(End::unusable)?;
     let body = fem_scene::body(&scene, &arguments.data).map_err(End::unusable)?;
@@ -25,7 +26,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), End> {
     let name = arguments.solver.unwrap_or(SolverName::Cholesky);
     let system = System::<f64>::new(body, law, choice(name));
     let (nodes, free, elements) = (system.nodes(), system.free(), system.elements.count);
-    println!("{}\n", Machine::this().line());
+    println!("{}\n", Machine::this(Path::new(".")).line());
     println!("{}: {nodes} nodes, {free} free, {elements} elements, {} blocks\n", scene.name, system.pattern.blocks());
     println!("| part | µs | fastest, µs | ns per element |\n|---|---:|---:|---:|");
     elastic(&system)?;
@@ -42,13 +43,13 @@ fn choice(name: SolverName) -> SolverChoice {
     }
 }
 
-/// Displacements that bend and twist a little, m.
+/// Displacements of slight bending and torsion, m.
 fn bent(system: &System<f64>) -> Vec<[f64; 3]> {
     let by = 0.01 / system.length;
     system.rest.iter().map(|x| [by * x.y * x.y, 2.0 * by * x.x * x.x, by * x.x * x.z]).collect()
 }
 
-/// Sums over all elements.
+/// Assemblies over all elements.
 fn elastic(system: &System<f64>) -> Result<(), End> {
     let (u, moment, count) = (bent(system), Moment::at(0.0), system.elements.count);
     let mut gradient = vec![[0.0; 3]; system.nodes()];

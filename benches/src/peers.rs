@@ -4,20 +4,22 @@ mod eigen;
 mod fenris;
 
 use std::cell::RefCell;
+use std::path::Path;
+
+use fem_study::machine::{self, Machine};
 
 use crate::cli::{PeersArguments, RunArguments};
 use crate::end::End;
-use crate::machine::{self, Machine};
 use crate::race::{Contestant, Time, race};
-use crate::run::{self, Run};
+use crate::run::{self, Measurement};
 use crate::table::{self, Row};
 use eigen::Eigen;
 use fenris::Fenris;
 
-/// Part of the armadillo's size by which answers may differ.
+/// Largest difference of positions, relative to the size of the armadillo.
 const ARMA_DIFFERENCE: f64 = 1e-8;
 
-/// How far tips of beams may be apart, m.
+/// Largest difference of the tips of beams, m.
 const BEAM_DIFFERENCE: f64 = 1e-8;
 
 /// Times per step and differences of answers, as a table.
@@ -35,7 +37,7 @@ pub fn run(arguments: &PeersArguments) -> Result<(), End> {
         }
         None => println!("No rows of fenris: --fenris is not given.\n"),
     }
-    let machine = Machine::this();
+    let machine = Machine::this(Path::new("."));
     table::print(&machine, &rows);
     if let Some(path) = &arguments.json {
         table::write(path, &machine, &rows)?;
@@ -45,7 +47,7 @@ pub fn run(arguments: &PeersArguments) -> Result<(), End> {
 }
 
 /// The armadillo against Eigen: its expert program on one thread and on all, and its naive one.
-fn arma(arguments: &PeersArguments, program: &std::path::Path) -> Result<Vec<Row>, End> {
+fn arma(arguments: &PeersArguments, program: &Path) -> Result<Vec<Row>, End> {
     let ours = ours("arma-engine", None, arguments);
     let scene = ours.scene().map_err(End::unusable)?;
     let steps = scene.time.steps.unwrap_or(100);
@@ -80,7 +82,7 @@ fn arma(arguments: &PeersArguments, program: &std::path::Path) -> Result<Vec<Row
 }
 
 /// The beam against fenris.
-fn beam(arguments: &PeersArguments, program: &std::path::Path, cells: usize) -> Result<Row, End> {
+fn beam(arguments: &PeersArguments, program: &Path, cells: usize) -> Result<Row, End> {
     let ours = ours("beam", Some(cells), arguments);
     let scene = ours.scene().map_err(End::unusable)?;
     let steps = scene.time.steps.unwrap_or(50);
@@ -121,8 +123,8 @@ fn ours(scene: &str, cells: Option<usize>, arguments: &PeersArguments) -> RunArg
     RunArguments { scene: scene.to_owned(), steps: *steps, cells, solver: None, data: data.clone() }
 }
 
-/// The engine as a contestant, which keeps its last run.
-fn timed<'a>(ours: &'a RunArguments, threads: usize, kept: &'a RefCell<Option<Run>>) -> Contestant<'a> {
+/// The engine as a contestant that stores its last run.
+fn timed<'a>(ours: &'a RunArguments, threads: usize, kept: &'a RefCell<Option<Measurement>>) -> Contestant<'a> {
     Box::new(move || {
         let run = run::apart(ours, threads)?;
         let time = Time { wall: run.wall_per_step, cpu: run.cpu_per_step };
@@ -131,7 +133,7 @@ fn timed<'a>(ours: &'a RunArguments, threads: usize, kept: &'a RefCell<Option<Ru
     })
 }
 
-/// Largest distance between two places of one coordinate, m.
+/// Largest difference of a coordinate, m.
 fn distance(a: &[f64], b: &[f64]) -> Result<f64, End> {
     if a.len() != b.len() {
         return Err(End::wrong(format!("answers have {} and {} coordinates", a.len(), b.len())));
@@ -141,7 +143,7 @@ fn distance(a: &[f64], b: &[f64]) -> Result<f64, End> {
     Ok(if apart().any(f64::is_nan) { f64::NAN } else { apart().fold(0.0, f64::max) })
 }
 
-/// Longest edge of the bounding box of places, m.
+/// Longest edge of the bounding box of positions, m.
 fn size(q: &[f64]) -> f64 {
     let edge = |axis: usize| {
         let along = || q.iter().skip(axis).step_by(3).copied();
@@ -155,7 +157,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_distance_that_is_no_number_is_not_overlooked() {
+    fn distances_keep_nan() {
         assert_eq!(distance(&[1.0, 5.0, 2.0], &[1.0, 3.0, 2.5]).unwrap(), 2.0);
         assert!(distance(&[f64::NAN, 1.0], &[0.0, 3.0]).unwrap().is_nan());
         assert!(distance(&[1.0, f64::NAN], &[0.0, 3.0]).unwrap().is_nan());

@@ -1,4 +1,4 @@
-//! Several programs in turn, round after round, so that a busy minute of the machine falls on all of them.
+//! Several programs in turn, round after round, so that other load on the machine affects all of them alike.
 
 use fem_scene::simulate::quantile;
 use serde::Serialize;
@@ -8,13 +8,13 @@ use crate::end::End;
 /// Seconds per step.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Time {
-    /// By the clock on the wall.
+    /// Wall-clock time.
     pub wall: f64,
-    /// By the processor's clock.
+    /// Processor time.
     pub cpu: f64,
 }
 
-/// Something that is run and timed.
+/// A timed program.
 pub type Contestant<'a> = Box<dyn Fn() -> Result<Time, End> + 'a>;
 
 /// The median of each contestant's times.
@@ -28,7 +28,7 @@ pub fn race(rounds: usize, contestants: &[Contestant]) -> Result<Vec<Time>, End>
     Ok(times.iter().map(|times| median(times)).collect())
 }
 
-/// Of the wall times and of the processor times.
+/// Medians of wall-clock and processor times.
 fn median(times: &[Time]) -> Time {
     let of = |which: fn(&Time) -> f64| {
         let values: Vec<f64> = times.iter().map(which).collect();

@@ -11,35 +11,35 @@ use serde::{Deserialize, Serialize};
 use crate::cli::RunArguments;
 use crate::end::End;
 
-/// Steps, where neither the scene nor the arguments say how many.
+/// Number of steps if neither the scene nor the arguments give one.
 const DEFAULT_STEPS: usize = 100;
 
-/// What a run took. Times are means over its steps, s.
+/// The measurement of a run. Times are means over its steps, s.
 #[derive(Clone, Debug, Deserialize, Serialize)]
-pub struct Run {
+pub struct Measurement {
     pub nodes: usize,
     pub elements: usize,
     pub steps: usize,
     pub seconds_setup: f64,
-    /// By the clock on the wall.
+    /// Wall-clock time.
     pub wall_per_step: f64,
-    /// By the processor's clock, all threads together.
+    /// Processor time of all threads.
     pub cpu_per_step: f64,
     pub newton_per_step: f64,
     pub unconverged_steps: usize,
     pub peak_memory_bytes: Option<usize>,
-    /// Of all nodes at the end, m.
+    /// Positions of all nodes at the end, m.
     pub positions: Vec<f64>,
 }
 
-/// Runs a scene and prints its [`Run`].
+/// Runs a scene and prints its [`Measurement`].
 pub fn print(arguments: &RunArguments) -> Result<(), End> {
     let run = here(arguments)?;
     println!("{}", serde_json::to_string(&run).map_err(End::wrong)?);
     Ok(())
 }
 
-fn here(arguments: &RunArguments) -> Result<Run, End> {
+fn here(arguments: &RunArguments) -> Result<Measurement, End> {
     let scene = arguments.scene().map_err(End::unusable)?;
     let steps = scene.time.steps.unwrap_or(DEFAULT_STEPS);
     let start = Instant::now();
@@ -55,7 +55,7 @@ fn here(arguments: &RunArguments) -> Result<Run, End> {
         return Err(End::wrong(format!("{}: {failure}", scene.name)));
     }
     let counters = simulation.counters();
-    Ok(Run {
+    Ok(Measurement {
         nodes: stats.nodes,
         elements: stats.elements,
         steps,
@@ -75,8 +75,8 @@ fn processor_seconds() -> Result<f64, End> {
     Ok(time.tv_sec() as f64 + 1e-9 * time.tv_nsec() as f64)
 }
 
-/// Runs a scene in a process of its own, with so many threads.
-pub fn apart(arguments: &RunArguments, threads: usize) -> Result<Run, End> {
+/// Runs a scene in a process of its own with a number of threads.
+pub fn apart(arguments: &RunArguments, threads: usize) -> Result<Measurement, End> {
     let program = std::env::current_exe().map_err(End::unusable)?;
     let mut command = Command::new(program);
     command.env("RAYON_NUM_THREADS", threads.to_string()).arg("run").arg(&arguments.scene);
@@ -90,10 +90,10 @@ pub fn apart(arguments: &RunArguments, threads: usize) -> Result<Run, End> {
         command.args(["--solver", solver.name()]);
     }
     let printed = output_of(&mut command)?;
-    serde_json::from_str(&printed).map_err(|error| End::wrong(format!("a run printed what is no JSON: {error}")))
+    serde_json::from_str(&printed).map_err(|error| End::wrong(format!("a run printed no valid JSON: {error}")))
 }
 
-/// What a program prints; what it complains of is an error.
+/// The output of a program; a failure includes its messages.
 pub fn output_of(command: &mut Command) -> Result<String, End> {
     let program = command.get_program().to_string_lossy().into_owned();
     let output = command.output().map_err(|error| End::unusable(format!("{program}: {error}; give its path")))?;

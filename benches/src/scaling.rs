@@ -1,20 +1,24 @@
-//! How time and memory grow with the body.
+//! Time and memory over the size of the body.
+
+use std::path::Path;
+
+use fem_study::machine::{self, Machine};
 
 use crate::cli::{RunArguments, ScalingArguments};
 use crate::end::End;
-use crate::machine::{self, Machine};
 use crate::race::{Contestant, Time, race};
-use crate::run::{self, Run};
+use crate::run::{self, Measurement};
 
 /// Cells per metre of beams of 1 225 to 60 625 nodes.
 const CELLS: [usize; 7] = [6, 8, 10, 13, 16, 20, 24];
 
-/// Times beams of growing size, all in turn, and prints a table and the exponents that fit it.
+/// Times beams of increasing size in turn, and prints a table and the fitted exponents.
 pub fn run(arguments: &ScalingArguments) -> Result<(), End> {
     let sizes = &arguments.sizes;
     let cells = if sizes.cells.is_empty() { CELLS.to_vec() } else { sizes.cells.clone() };
     let beams: Vec<RunArguments> = cells.iter().map(|&cells| beam(arguments, cells)).collect();
-    let runs = beams.iter().map(|beam| run::apart(beam, machine::threads())).collect::<Result<Vec<Run>, End>>()?;
+    let runs =
+        beams.iter().map(|beam| run::apart(beam, machine::threads())).collect::<Result<Vec<Measurement>, End>>()?;
     let timed = |beam, threads| -> Contestant {
         Box::new(move || run::apart(beam, threads).map(|run| Time { wall: run.wall_per_step, cpu: run.cpu_per_step }))
     };
@@ -35,9 +39,9 @@ fn beam(arguments: &ScalingArguments, cells: usize) -> RunArguments {
     }
 }
 
-/// `times` holds two of each run: by one thread, and by all.
-fn print(cells: &[usize], runs: &[Run], times: &[Time]) {
-    println!("{}\n", Machine::this().line());
+/// `times` contains two values for each run: with one thread, and with all threads.
+fn print(cells: &[usize], runs: &[Measurement], times: &[Time]) {
+    println!("{}\n", Machine::this(Path::new(".")).line());
     println!(
         "| cells per metre | nodes | one thread, ms per step (processor) | all threads, ms per step | Newton iterations per step | peak memory, MiB |"
     );

@@ -1,10 +1,12 @@
 //! Which linear solver is fastest for which size.
 
+use std::path::Path;
+
 use clap::ValueEnum;
+use fem_study::machine::{self, Machine};
 
 use crate::cli::{RunArguments, SizesArguments, SolverName};
 use crate::end::End;
-use crate::machine::{self, Machine};
 use crate::race::{Contestant, Time, race};
 use crate::run;
 
@@ -14,7 +16,7 @@ const CELLS: [usize; 3] = [6, 10, 16];
 /// Times the beam with each solver, by one thread and by all, and prints a table.
 pub fn run(arguments: &SizesArguments) -> Result<(), End> {
     let cells = if arguments.cells.is_empty() { CELLS.to_vec() } else { arguments.cells.clone() };
-    println!("{}\n", Machine::this().line());
+    println!("{}\n", Machine::this(Path::new(".")).line());
     println!("| cells per metre | solver | one thread, ms per step (processor) | all threads, ms per step |");
     println!("|---:|---|---:|---:|");
     for cells in cells {

@@ -1,11 +1,11 @@
-//! The table of the engine and its peers, for people and for programs.
+//! The table of the engine and its peers, as Markdown and as JSON.
 
 use std::path::Path;
 
+use fem_study::machine::Machine;
 use serde::Serialize;
 
 use crate::end::End;
-use crate::machine::Machine;
 use crate::race::Time;
 
 /// One peer on one scene.
@@ -24,22 +24,22 @@ pub struct Row {
     pub ours_all: Time,
     /// Largest difference of a coordinate at the end, m.
     pub difference: f64,
-    /// Largest that is allowed, m.
+    /// Largest allowed difference, m.
     pub allowed: f64,
 }
 
 impl Row {
-    /// Processor times, of a peer with one thread only.
+    /// Ratio of processor times, for a peer with one thread.
     fn ratio_by_one_thread(&self) -> Option<f64> {
         (self.peer_threads == 1).then(|| self.theirs.cpu / self.ours_one.cpu)
     }
 
-    /// Wall-clock times.
+    /// Ratio of wall-clock times.
     fn ratio_by_all_threads(&self) -> f64 {
         self.theirs.wall / self.ours_all.wall
     }
 
-    /// What to say where answers are too far apart, or no numbers.
+    /// The message if the answers differ too much or are not finite.
     pub fn disagreement(&self) -> Option<String> {
         let agrees = self.difference <= self.allowed;
         let Self { scene, peer, difference, allowed, .. } = self;
@@ -75,7 +75,7 @@ pub fn print(machine: &Machine, rows: &[Row]) {
     }
 }
 
-/// Everything that is in the table, as JSON.
+/// Writes the table as JSON.
 pub fn write(path: &Path, machine: &Machine, rows: &[Row]) -> Result<(), End> {
     #[derive(Serialize)]
     struct Table<'a> {

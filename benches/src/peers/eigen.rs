@@ -1,4 +1,4 @@
-//! The peer in C++ with Eigen, `a3`: told a scene by options, it prints its times and writes its answer.
+//! The peer in C++ with Eigen, `a3`: it reads the scene from options, prints its times and writes its answer.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -13,18 +13,18 @@ use crate::run::output_of;
 /// Newton iterations and unbalanced momentum (kg m/s) of an answer to compare with.
 const CONVERGED: [&str; 4] = ["--newton", "200", "--tol", "1e-10"];
 
-/// The program and the options that tell it a scene.
+/// The program and the options of a scene.
 pub struct Eigen {
     program: PathBuf,
     options: Vec<String>,
 }
 
 impl Eigen {
-    /// Refuses scenes that the program does not know.
+    /// Refuses scenes that the program does not support.
     pub fn new(program: &Path, scene: &Scene, data: &Path, steps: usize) -> Result<Self, End> {
-        let refuse = || End::unusable(format!("{}: a3 does not know what this scene asks for", scene.name));
+        let refuse = || End::unusable(format!("{}: a3 does not support this scene", scene.name));
         let mut options = body(scene, data).ok_or_else(refuse)?;
-        options.extend(acting(scene).ok_or_else(refuse)?);
+        options.extend(loads(scene).ok_or_else(refuse)?);
         options.extend(pair("--dt", scene.time.dt()));
         options.extend(["--steps".to_owned(), steps.to_string()]);
         Ok(Self { program: program.to_owned(), options })
@@ -41,7 +41,7 @@ impl Eigen {
         Ok(Time { wall: by("wall")?, cpu: by("cpu")? })
     }
 
-    /// Positions of all nodes at the end, iterated until nothing changes, m.
+    /// Converged positions of all nodes at the end, m.
     pub fn converged(&self) -> Result<Vec<f64>, End> {
         let name = format!("fem-bench-{}.txt", std::process::id());
         let path = std::env::temp_dir().join(name);
@@ -53,10 +53,10 @@ impl Eigen {
             std::fs::remove_file(&path).map_err(End::wrong)?;
         }
         let numbers: Result<Vec<f64>, _> = text?.lines().map(str::parse).collect();
-        numbers.map_err(|error| End::wrong(format!("a3 wrote what is no number: {error}")))
+        numbers.map_err(|error| End::wrong(format!("a3 wrote an invalid number: {error}")))
     }
 
-    /// Threads that wait must not burn the processor that another needs.
+    /// Waiting threads must not use the processor.
     fn command(&self) -> Command {
         let mut command = Command::new(&self.program);
         command.env("OMP_WAIT_POLICY", "passive").args(&self.options);
@@ -84,8 +84,8 @@ fn body(scene: &Scene, data: &Path) -> Option<Vec<String>> {
     Some(options)
 }
 
-/// Gravity along y, feet that are held, and a pull along x at the highest vertex.
-fn acting(scene: &Scene) -> Option<Vec<String>> {
+/// Gravity along y, fixed feet, and a drag along x at the highest vertex.
+fn loads(scene: &Scene) -> Option<Vec<String>> {
     let gravity = scene.gravity.as_ref().map_or([0.0; 3], |gravity| gravity.acceleration);
     let feet = scene.fixed.as_ref()?.plane.as_ref()?;
     let drag = scene.drag.as_ref()?;

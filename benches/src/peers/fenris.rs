@@ -1,4 +1,4 @@
-//! The peer in Rust with fenris: it knows one beam, by cells per metre and steps.
+//! The peer in Rust with fenris: one beam, with the cells per metre and the number of steps as arguments.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -10,14 +10,14 @@ use crate::end::End;
 use crate::race::Time;
 use crate::run::output_of;
 
-/// The program, and the beam that it is told.
+/// The program and its beam.
 pub struct Fenris {
     program: PathBuf,
     cells: usize,
     steps: usize,
 }
 
-/// What the program prints, as far as it is read.
+/// The used part of the program's output.
 #[derive(Debug, Deserialize)]
 struct Printed {
     tip_centre_x: [f64; 3],
@@ -27,7 +27,7 @@ struct Printed {
 }
 
 impl Fenris {
-    /// Refuses scenes that are not the program's own.
+    /// Refuses all scenes but the beam of the program.
     pub fn new(program: &Path, scene: &Scene, cells: usize, steps: usize) -> Result<Self, End> {
         if !is_its_beam(scene) {
             return Err(End::unusable(format!("{}: not the beam that fenris_peer is written for", scene.name)));

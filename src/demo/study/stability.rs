@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use fem_study::stability::{Row, study, write};
+use fem_study::stability::{CaseRow, study, write};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::demo::data;
@@ -26,11 +26,11 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
         return Err(End::unusable(format!("--out {}: is a file; give the name of a folder", folder.display())));
     }
     let bar = progress_bar();
-    let progress = |row: &Row, count: usize| {
+    let progress = |row: &CaseRow, count: usize| {
         bar.set_length(count as u64);
         bar.inc(1);
         if !row.pass {
-            let Row { family, case, parameters, integrator, material, expected, outcome, note, .. } = row;
+            let CaseRow { family, case, parameters, integrator, material, expected, outcome, note, .. } = row;
             let told = format!(
                 "{family}: {case} ({parameters}), {integrator}, {material}: {outcome} instead of {expected}; {note}"
             );

@@ -1,4 +1,4 @@
-//! A sparse factor A = L D Lᵀ for references: up-looking, row by row, by the elimination tree. T. A. Davis, "Algorithm 849: a
+//! A sparse factorization A = L D Lᵀ for references: up-looking, row by row, by the elimination tree. T. A. Davis, "Algorithm 849: a
 //! concise sparse Cholesky factorization package", ACM Transactions on Mathematical Software 31, 2005.
 //!
 //! It shares nothing with the solvers that are under test.
@@ -9,7 +9,7 @@ const ROOT: usize = usize::MAX;
 /// The factor of a symmetric positive definite matrix.
 #[derive(Clone, Debug)]
 pub struct Ldl {
-    /// Where each column of L starts; its entries are below the diagonal, which is 1.
+    /// Start of each column of L. Its entries are below the diagonal, which is 1.
     starts: Vec<usize>,
     rows: Vec<usize>,
     values: Vec<f64>,
@@ -93,7 +93,7 @@ impl Ldl {
     }
 }
 
-/// What a row is made in.
+/// Working memory of a row.
 struct Row {
     y: Vec<f64>,
     flag: Vec<usize>,

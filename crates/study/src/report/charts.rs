@@ -1,4 +1,4 @@
-//! The pictures of a report.
+//! The charts of a report.
 
 use super::Report;
 use crate::report::text::{number, seconds, step};
@@ -9,7 +9,7 @@ use crate::studies::scene::{SceneStudy, competing_error};
 use crate::studies::space::{self, SpaceStudy};
 use fem_chart::{Axis, Bar, Chart, Dot, Guide, Picture, Series, bars};
 
-/// Pictures that become files of their own.
+/// Charts that are written as files.
 pub fn files(report: &Report) -> Vec<(String, Picture)> {
     let mut files = Vec::new();
     for (place, study) in report.scenes.iter().enumerate() {
@@ -29,12 +29,12 @@ pub fn files(report: &Report) -> Vec<(String, Picture)> {
 /// Frames in a second of motion.
 const FRAMES: f64 = 60.0;
 
-/// What a dot says of its run.
+/// The text that a dot shows under the pointer.
 pub fn title(row: &Row) -> String {
     let case = &row.config;
     let counters = &row.counters;
     format!(
-        "{}\n{} steps of {}\nerror {} (largest {})\n{} in all, {} a step\nsteps {}, forces {}, Newton {}, factors {}, solver {}\n{}",
+        "{}\n{} steps of {}\nerror {} (largest {})\n{} in all, {} a step\nsteps {}, forces {}, Newton {}, factorizations {}, solver {}\n{}",
         case.method,
         case.steps,
         step(case.dt),
@@ -67,8 +67,8 @@ fn look(method: &str) -> (usize, usize) {
     }
 }
 
-/// Names of the methods that have a ladder, in the order of their first run.
-fn methods(study: &SceneStudy) -> Vec<String> {
+/// Names of the methods with a ladder, in the order of their first run.
+pub(super) fn methods(study: &SceneStudy) -> Vec<String> {
     let mut methods: Vec<String> = Vec::new();
     for row in study.rows.iter().filter(|row| ["method", "order"].contains(&&*row.config.group)) {
         if !methods.contains(&row.config.method) {
@@ -78,7 +78,7 @@ fn methods(study: &SceneStudy) -> Vec<String> {
     methods
 }
 
-/// The picture that the report is named after.
+/// The chart of error against run time.
 pub fn error_against_time(study: &SceneStudy) -> Picture {
     let is_moving = study.horizon > 0.0;
     let (unit, name) = if is_moving {
@@ -86,8 +86,7 @@ pub fn error_against_time(study: &SceneStudy) -> Picture {
     } else {
         (1e3, "wall time of the whole equilibrium (ms)")
     };
-    let error_name =
-        if is_moving { "error in time, part of the body's length" } else { "error against the closed form" };
+    let error_name = if is_moving { "error in time / body length" } else { "error against the closed form" };
     let label = format!("{}: error against run time", study.name);
     let mut chart = Chart::new(label, Axis::log(name), Axis::log(error_name));
     chart.size = (660.0, 450.0);
@@ -103,7 +102,7 @@ pub fn error_against_time(study: &SceneStudy) -> Picture {
     for method in methods(study) {
         let (colour, shape) = look(&method);
         let dots: Vec<Dot> = rows(&method).into_iter().filter_map(dot).collect();
-        let name = if dots.is_empty() { format!("{method} (none ended)") } else { method };
+        let name = if dots.is_empty() { format!("{method} (all runs failed)") } else { method };
         chart.series.push(Series { name, colour, shape, is_joined: true, has_dots: true, dots, ..Series::default() });
     }
     let others = study.rows.iter().filter(own).filter(|row| row.config.group != "method");
@@ -125,13 +124,13 @@ pub fn error_against_time(study: &SceneStudy) -> Picture {
         chart.guides.push(Guide::Vertical(16.0, "16 ms".to_owned()));
         chart.guides.extend(slopes(&chart));
         if let Some(level) = study.richardson.as_ref().and_then(|nested| nested.errors.get(1)) {
-            chart.guides.push(Guide::Horizontal(level.1, "the mesh's own error".to_owned()));
+            chart.guides.push(Guide::Horizontal(level.1, "error in space".to_owned()));
         }
     }
     chart.draw()
 }
 
-/// Slopes of order 1, 2 and 4 beside the methods that have them.
+/// Slopes of order 1, 2 and 4 beside methods of these orders.
 fn slopes(chart: &Chart) -> Vec<Guide> {
     let of = |(method, order): (&str, f64)| {
         let series = chart.series.iter().find(|series| series.name == method)?;
@@ -145,8 +144,7 @@ fn slopes(chart: &Chart) -> Vec<Guide> {
 /// Error over time step.
 pub fn convergence(study: &SceneStudy) -> Picture {
     let label = format!("{}: convergence in dt", study.name);
-    let mut chart =
-        Chart::new(label, Axis::log("time step (s)"), Axis::log("error in time, part of the body's length"));
+    let mut chart = Chart::new(label, Axis::log("time step (s)"), Axis::log("error in time / body length"));
     for method in methods(study) {
         let rows = study.rows.iter().filter(|row| row.config.method == method && row.is_done());
         let dot =
@@ -161,13 +159,13 @@ pub fn convergence(study: &SceneStudy) -> Picture {
     chart.draw()
 }
 
-/// Total energy over time, less that at the start, as a part of the energy that moves.
+/// Change of the total energy over time, relative to the larger of kinetic and potential energy.
 pub fn drift(study: &SceneStudy) -> Option<Picture> {
     let label = format!("{}: total energy over time", study.name);
-    let name = "change of total energy, part of the largest kinetic or potential";
+    let name = "change of total energy / larger of kinetic and potential";
     let mut chart = Chart::new(label, Axis::linear("time (s)"), Axis::linear(name));
     for method in methods(study).iter().filter(|method| !method.starts_with("course")) {
-        // The run of the ladder's middle: steps that people use.
+        // The middle run of the ladder has a usual time step.
         let places: Vec<usize> = (0..study.rows.len())
             .filter(|&place| study.rows[place].config.method == *method && study.rows[place].is_done())
             .collect();
@@ -191,7 +189,7 @@ pub fn drift(study: &SceneStudy) -> Option<Picture> {
     (study.energy_scale > 0.0).then(|| chart.draw())
 }
 
-/// Milliseconds of a step by kinds of work, for the finest run of each method.
+/// Milliseconds of a step by part, for the middle run of each method.
 pub fn costs_of_a_step(study: &SceneStudy) -> Option<Picture> {
     let costs = study.costs.as_ref()?;
     let bar = |method: String| {
@@ -209,7 +207,7 @@ pub fn costs_of_a_step(study: &SceneStudy) -> Option<Picture> {
     (!all.is_empty()).then(|| bars(&label, &kinds, &all, percent))
 }
 
-/// Errors of the manufactured solution over the cells' edge.
+/// Errors of the manufactured solution over the edge of a cell.
 pub fn in_space(space: &SpaceStudy) -> Picture {
     let label = "manufactured solution: convergence in h";
     let mut chart = Chart::new(label, Axis::log("edge of a cell (m)"), Axis::log("relative error"));
@@ -240,10 +238,10 @@ pub fn in_space(space: &SpaceStudy) -> Picture {
     chart.draw()
 }
 
-/// What is left of the tip's displacement, over the cells' edge, for each Poisson's ratio.
+/// Tip deflection relative to theory over the edge of a cell, for each Poisson's ratio.
 pub fn locking(space: &SpaceStudy) -> Picture {
-    let label = "locking: displacement of the tip as a part of Timoshenko's";
-    let y = Axis { range: Some((0.0, 1.05)), ..Axis::linear("part of Timoshenko's displacement") };
+    let label = "volumetric locking: tip deflection relative to Timoshenko's";
+    let y = Axis { range: Some((0.0, 1.05)), ..Axis::linear("tip deflection / Timoshenko's") };
     let mut chart = Chart::new(label, Axis::log("edge of a cell, beam 1 m high (m)"), y);
     chart.guides.push(Guide::Horizontal(1.0, "Timoshenko".to_owned()));
     for (place, poisson) in crate::space::locking::RATIOS.into_iter().enumerate() {
@@ -251,7 +249,7 @@ pub fn locking(space: &SpaceStudy) -> Picture {
         let dot = |bent: &crate::space::locking::TipDeflection| Dot {
             x: 1.0 / bent.cells as f64,
             y: bent.ratio,
-            title: format!("ν = {poisson}, {} cells\n{} of Timoshenko's", bent.cells, number(Some(bent.ratio))),
+            title: format!("ν = {poisson}, {} cells\n{} of theory", bent.cells, number(Some(bent.ratio))),
             ..Dot::default()
         };
         let dots = beams.map(dot).collect();

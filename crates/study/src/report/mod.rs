@@ -1,4 +1,4 @@
-//! Error against run time: studies of scenes, written as tables, pictures and a page.
+//! The report "error against run time": studies of scenes as tables, charts and a page.
 
 mod answer;
 mod charts;
@@ -25,38 +25,38 @@ use fem_chart::page::page;
 use fem_mesh::write::save;
 use fem_scene::{Scene, parse};
 
-/// All that was found.
+/// The results of a report.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// What it was measured on.
+    /// The machine of the measurements.
     pub machine: Machine,
-    /// Whether it is the short one.
+    /// The short report.
     pub is_quick: bool,
-    /// Scenes that were asked for.
+    /// Studies of the requested scenes.
     pub scenes: Vec<SceneStudy>,
-    /// The small body on which orders in time are seen.
+    /// The small body that shows the convergence orders in time.
     pub orders: SceneStudy,
     /// Errors in space.
     pub space: SpaceStudy,
 }
 
-/// An order that was observed.
+/// An observed order of convergence.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Observed {
-    /// Scene.
+    /// Name of the scene.
     pub scene: String,
-    /// Method.
+    /// Name of the method.
     pub method: String,
     /// `dt`, `h in L2` or `h in H1`.
     pub of: &'static str,
-    /// The order; none where too few runs came to their end.
+    /// The order; `None` if too few runs completed.
     pub order: Option<ConvergenceOrder>,
-    /// What theory says.
+    /// The order of theory.
     pub expected: f64,
 }
 
-/// A small soft body that is clamped, weighed and pulled: it starts with an acceleration, and its forces depend on time.
-const ORDERS: &str = r#"about = "a small soft box, clamped, pulled and under its weight, at steps that show the orders"
+/// A small soft body with a clamp, gravity and a drag: its initial acceleration is not zero, and its loads depend on time.
+const ORDERS: &str = r#"about = "a small soft box with a clamp, gravity and a drag, at time steps in the asymptotic range"
 pipeline = "engine"
 [mesh]
 box = { size = [2, 1, 1], cells_per_unit = 1 }
@@ -81,8 +81,7 @@ amplitude = 0.3
 frequency = 2.0
 "#;
 
-/// Studies the scenes and writes everything into the folder of the setting. Returns the report; an error names the file or
-/// the scene.
+/// Studies the scenes and writes the report into the folder of the settings. An error names the file or the scene.
 pub fn report(settings: &Settings, scenes: &[Scene]) -> Result<Report, String> {
     make_folders(&settings.out)?;
     let machine = Machine::this(&settings.data);
@@ -99,13 +98,13 @@ pub fn report(settings: &Settings, scenes: &[Scene]) -> Result<Report, String> {
 }
 
 impl Report {
-    /// All rows.
+    /// Rows of all studies.
     pub fn rows(&self) -> Vec<Row> {
         let studies = std::iter::once(&self.orders).chain(&self.scenes);
         studies.flat_map(|study| &study.rows).chain(&self.space.rows).cloned().collect()
     }
 
-    /// All orders, in time and in space.
+    /// Observed orders in time and in space.
     pub fn observed(&self) -> Vec<Observed> {
         let mut observed = orders_in_time(&self.orders);
         for (scene, l2, h1) in &self.space.orders {
@@ -118,26 +117,20 @@ impl Report {
         observed
     }
 
-    /// One sentence for each scene: which method for which error.
+    /// One sentence for each scene: the fastest method for each error.
     pub fn answers(&self) -> Vec<String> {
         self.scenes.iter().map(answer::sentence).collect()
     }
 }
 
-/// Finest runs of a ladder that an order is taken from.
+/// Number of runs of a fitted order, the finest of the ladder.
 const FINEST: usize = 4;
 
-/// Errors below this may be those of the reference.
+/// Accuracy of the reference: smaller errors are excluded.
 const FLOOR: f64 = 1e-11;
 
-/// Order in dt of each method that has a ladder.
-pub fn orders_in_time(study: &SceneStudy) -> Vec<Observed> {
-    let mut methods: Vec<&str> = Vec::new();
-    for row in study.rows.iter().filter(|row| ["method", "order"].contains(&&*row.config.group)) {
-        if !methods.contains(&&*row.config.method) {
-            methods.push(&row.config.method);
-        }
-    }
+/// Order in dt of each method with a ladder.
+fn orders_in_time(study: &SceneStudy) -> Vec<Observed> {
     let observe = |method: &str| {
         let rows = study.rows.iter().filter(|row| row.config.method == method && row.is_done());
         let pairs: Vec<_> = rows.filter_map(|row| Some((row.config.dt, row.errors.time_l2?))).collect();
@@ -150,7 +143,7 @@ pub fn orders_in_time(study: &SceneStudy) -> Vec<Observed> {
         let order = asymptotic(&pairs, FINEST, FLOOR).filter(|order| order.points > 2);
         Some(Observed { scene: study.name.clone(), method: method.to_owned(), of: "dt", order, expected })
     };
-    methods.into_iter().filter_map(observe).collect()
+    charts::methods(study).iter().filter_map(|method| observe(method)).collect()
 }
 
 fn write(report: &Report, out: &Path) -> Result<(), String> {
@@ -243,7 +236,7 @@ fn as_json(report: &Report) -> Value {
     })
 }
 
-/// Files of a report that people open first.
+/// The files of a report to open first.
 pub fn first_files(out: &Path) -> [PathBuf; 2] {
     [out.join("report.html"), out.join("runs.csv")]
 }

@@ -1,6 +1,6 @@
-//! Numbers as people read them.
+//! Numbers and times for readers.
 
-/// Three significant digits: `0.0123`, `12.3`, `1.2·10⁻⁵`; a dash where there is none.
+/// Three significant digits: `0.0123`, `12.3`, `1.2·10⁻⁵`; a dash for `None`.
 pub fn number(value: Option<f64>) -> String {
     let Some(value) = value.filter(|value| value.is_finite()) else { return "–".to_owned() };
     let size = value.abs();

@@ -1,20 +1,20 @@
-//! The order of convergence that errors show: the slope of log error over log step, by least squares, with its confidence.
+//! The observed order of convergence: the slope of log error over log step by least squares, with its confidence interval.
 
-/// A fitted order.
+/// A fitted order of convergence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConvergenceOrder {
     /// p of error ∝ step^p.
     pub value: f64,
-    /// Half the width of its 95 % confidence interval (Student's t); `None` for two points, which leave nothing to judge by.
+    /// Half-width of the 95 % confidence interval (Student's t); `None` for two points.
     pub half_width: Option<f64>,
-    /// Points that it was fitted to.
+    /// Number of points of the fit.
     pub points: usize,
 }
 
 /// 97.5 % quantiles of Student's t with 1, 2, … degrees of freedom.
 const STUDENT: [f64; 8] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306];
 
-/// Fits pairs of step and error; `None` where fewer than two of them have a logarithm, or all steps are the same.
+/// Fits pairs of step and error. `None` if fewer than two pairs are positive and finite, or all steps are equal.
 pub fn fit(pairs: &[(f64, f64)]) -> Option<ConvergenceOrder> {
     let usable = |&&(step, error): &&(f64, f64)| step > 0.0 && error > 0.0 && step.is_finite() && error.is_finite();
     let logs: Vec<(f64, f64)> = pairs.iter().filter(usable).map(|&(step, error)| (step.ln(), error.ln())).collect();
@@ -33,8 +33,7 @@ pub fn fit(pairs: &[(f64, f64)]) -> Option<ConvergenceOrder> {
     Some(ConvergenceOrder { value, half_width, points: logs.len() })
 }
 
-/// The order of the finest steps, at most `most` of them: those whose errors are above `floor`, where round-off or the reference
-/// itself begin.
+/// Fits the finest steps, at most `most` of them, whose errors exceed `floor`, the accuracy of the reference.
 pub fn asymptotic(pairs: &[(f64, f64)], most: usize, floor: f64) -> Option<ConvergenceOrder> {
     let mut usable: Vec<_> = pairs.iter().copied().filter(|(_, error)| *error > floor && error.is_finite()).collect();
     usable.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -65,13 +64,13 @@ mod tests {
     }
 
     #[test]
-    fn a_power_is_found_exactly_and_with_certainty() {
+    fn an_exact_power_has_an_exact_fit() {
         let order = fit(&powers(2.0, &[1.0; 4])).unwrap();
         assert!((order.value - 2.0).abs() < 1e-12 && order.half_width.unwrap() < 1e-10, "{order:?}");
     }
 
     #[test]
-    fn scatter_widens_the_confidence_as_the_hand_computes() {
+    fn scatter_widens_the_confidence_interval() {
         // Logs are 0 and ±1 along, e^{0, 0.3, 0} up: slope 0, residuals −0.1, 0.2, −0.1; t(1) √(0.06/1/2).
         let e = std::f64::consts::E;
         let order = fit(&[(1.0 / e, 1.0), (1.0, 0.3f64.exp()), (e, 1.0)]).unwrap();
@@ -80,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn points_at_the_floor_and_failed_ones_do_not_count() {
+    fn points_at_the_floor_and_failed_runs_are_excluded() {
         let mut pairs = powers(4.0, &[1.0; 5]);
         pairs.push((1e-3, 1e-13));
         pairs.push((2.0, f64::NAN));

@@ -1,4 +1,4 @@
-//! What the parts of a step cost on this machine, each by itself: with the counts of a run they tell where its time went.
+//! Costs of the parts of a step on this machine, each timed alone. With the counters of a run they give the shares of its time.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -9,25 +9,26 @@ use fem_engine::forces::{HessianKind, Moment};
 use fem_engine::solvers::{Solver, SolverChoice};
 use fem_scene::simulate::quantile;
 
-/// Seconds of one call.
+/// Time of one call, s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Costs {
-    /// Forces of all elements.
+    /// Internal forces.
     pub force: f64,
-    /// Energy and forces in one pass.
+    /// Energy and internal forces together.
     pub pass: f64,
-    /// Stiffness of all elements into the matrix.
+    /// Assembly of the stiffness matrix.
     pub stiffness: f64,
-    /// Cholesky factor of it.
+    /// Its Cholesky factorization.
     pub factor: f64,
     /// Forward and backward substitution.
     pub substitution: f64,
 }
 
-/// Kinds of work in [`shares`], in order.
-pub const KINDS: [&str; 5] = ["forces and energies", "stiffness", "factor", "substitution", "mass and all else"];
+/// The parts, in the order of [`shares`].
+pub const KINDS: [&str; 5] =
+    ["forces and energies", "stiffness", "factorization", "substitution", "mass and remainder"];
 
-/// Takes the time of each part, at rest.
+/// Times each part for the undeformed body.
 pub fn measure(equations: &Equations) -> Costs {
     let system = &equations.system;
     let u = vec![[0.0; 3]; system.nodes()];
@@ -44,7 +45,7 @@ pub fn measure(equations: &Equations) -> Costs {
         values.fill([[0.0; 3]; 3]);
         system.add_stiffness(1.0, &u, HessianKind::Exact, &mut values);
     });
-    // Inertia makes it positive definite, as it does in a step.
+    // The mass makes the matrix positive definite, as in a step.
     system.mass.add_to(1e4, &system.pattern, &mut values);
     system.dirichlet.eliminate(&system.pattern, &mut values);
     let mut is_factor = false;
@@ -65,8 +66,8 @@ fn median(mut work: impl FnMut()) -> f64 {
     quantile(&times, 0.5).unwrap_or_default()
 }
 
-/// Milliseconds of a step that went into each of [`KINDS`]; none for runs of which the counts do not tell: other solvers than
-/// Cholesky, other precision, the course.
+/// Milliseconds of a step for each of [`KINDS`]. `None` for runs that these costs do not describe: iterative solvers, LU, single
+/// precision, the course.
 pub fn shares(costs: &Costs, row: &Row) -> Option<[f64; 5]> {
     let case = &row.config;
     let is_known = ["automatic", "cholesky", "none"].contains(&&*case.solver);
@@ -82,10 +83,10 @@ pub fn shares(costs: &Costs, row: &Row) -> Option<[f64; 5]> {
         per_step(counters.factorizations, costs.factor),
         per_step(row.linear_solves(), costs.substitution),
     ];
-    // The median step: a busy machine lengthens some steps, and not the parts that were timed by themselves.
+    // The median step: other load on the machine lengthens some steps, but not the parts that were timed alone.
     let whole = row.times.step_ms[0]?;
     let rest = (whole - known.iter().sum::<f64>()).max(0.0);
-    // Steps differ: those with a new factor take longer than the median.
+    // Steps with a new factorization take longer than the median.
     let fitting = (whole / known.iter().sum::<f64>()).min(1.0);
     known.iter_mut().for_each(|part| *part *= fitting);
     Some([known[0], known[1], known[2], known[3], rest])

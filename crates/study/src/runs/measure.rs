@@ -1,5 +1,5 @@
-//! Runs and takes their time. The first run of each is looked at: its end, its energies on the way. Later ones are timed only, in
-//! turn with all other runs, so that a busy minute of the machine falls on all of them.
+//! Measurement of runs. The first run records the state at the end and the energies on the way. Later runs are timed only, in turn
+//! with all other runs, so that other load on the machine affects all of them alike.
 
 use std::time::Instant;
 
@@ -11,13 +11,13 @@ use fem_scene::Scene;
 use fem_scene::simulate::quantile;
 use fem_scene::simulation::{Counters, Simulation};
 
-/// Builds the simulation of a scene, by whichever pipeline it names.
+/// Builds the simulation of a scene with the pipeline that the scene names.
 pub type Factory<'a> = dyn Fn(&Scene) -> Result<Box<dyn Simulation>, String> + 'a;
 
-/// What a run led to.
+/// The result of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunResult {
-    /// s
+    /// Time at the end, s.
     pub time: f64,
     /// Positions of all nodes, m.
     pub q: DVector<f64>,
@@ -25,61 +25,61 @@ pub struct RunResult {
     pub qdot: DVector<f64>,
     /// Kinetic and potential energy at the end, J.
     pub energies: (f64, f64),
-    /// Time (s) and total energy (J) on the way.
+    /// Samples of time, s, and total energy, J.
     pub history: Vec<(f64, f64)>,
-    /// Smallest J of the moments that were looked at.
+    /// Smallest J of all samples.
     pub min_j: f64,
-    /// Work done.
+    /// Counters of the run.
     pub counters: Counters,
-    /// Why it ended early, where it did.
+    /// The failure that ended the run early.
     pub failure: Option<String>,
-    /// Distance from the scene's closed form, where it has one.
+    /// Distance from the scene's closed form; `None` without one.
     pub analytic: Option<f64>,
-    /// Largest memory of the process, MB.
+    /// Peak memory of the process, MB.
     pub peak_mb: Option<f64>,
-    /// Processor time of steps and looks, s; by the clock where the system does not tell.
+    /// Processor time of steps and samples, s; wall-clock time if the system has no such counter.
     pub spent: f64,
-    /// The clock of this run.
+    /// Times of this run.
     pub timing: Timing,
 }
 
-/// The clock of one run.
+/// Times of one run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Timing {
-    /// s
+    /// Set-up, s.
     pub setup: f64,
     /// Each step, s.
     pub steps: Vec<f64>,
-    /// Processor time of all steps in all threads, s; none where it is not told, or where something else was done between them.
+    /// Processor time of all steps in all threads, s; `None` if unknown, or if samples were taken between the steps.
     pub processor: Option<f64>,
 }
 
 impl Timing {
-    /// All steps, s.
+    /// Sum over all steps, s.
     pub fn total(&self) -> f64 {
         self.steps.iter().sum()
     }
 }
 
-/// Moments of a run that are looked at.
-const LOOKS: usize = 120;
+/// Samples of a run.
+const SAMPLES: usize = 120;
 
-/// Why there is no outcome.
+/// The reason why a run has no result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refusal {
-    /// In words.
+    /// A sentence.
     pub reason: String,
-    /// Seconds that were spent, and steps that were done in them.
+    /// Time spent, s, and steps done in it.
     pub spent: Option<(f64, usize)>,
 }
 
-/// Runs and looks; gives up after `most_seconds`.
+/// Runs and takes samples; gives up after `most_seconds`.
 pub fn first(factory: &Factory, run: &PlannedRun, most_seconds: f64) -> Result<RunResult, Refusal> {
-    machine::forget_peak();
+    machine::reset_peak();
     let (start, before) = (Instant::now(), machine::processor_seconds());
     let mut simulation = factory(&run.scene).map_err(|reason| Refusal { reason, spent: None })?;
     let mut timing = Timing { setup: start.elapsed().as_secs_f64(), ..Timing::default() };
-    let every = run.steps.div_ceil(LOOKS);
+    let every = run.steps.div_ceil(SAMPLES);
     let (mut history, mut min_j) = (vec![(0.0, simulation.energies().total())], simulation.min_J().0);
     let failure = steps(&mut *simulation, run.steps, &mut timing, |simulation, step| {
         if step % every == 0 || step == run.steps {
@@ -88,11 +88,11 @@ pub fn first(factory: &Factory, run: &PlannedRun, most_seconds: f64) -> Result<R
         }
         start.elapsed().as_secs_f64() < most_seconds
     });
-    // Other work on the machine must not decide what is run.
+    // Processor time: other load on the machine must not decide which runs are made.
     let spent = machine::processor_seconds().zip(before).map_or(timing.total(), |(after, before)| after - before);
     let count = timing.steps.len();
     if failure.is_none() && count < run.steps {
-        let reason = format!("given up in step {count} of {}, after {most_seconds:.0} s", run.steps);
+        let reason = format!("stopped in step {count} of {}, after {most_seconds:.0} s", run.steps);
         return Err(Refusal { reason, spent: Some((spent, count)) });
     }
     let energies = simulation.energies();
@@ -112,7 +112,7 @@ pub fn first(factory: &Factory, run: &PlannedRun, most_seconds: f64) -> Result<R
     })
 }
 
-/// Runs and takes the time, nothing else.
+/// Runs and measures times only.
 pub fn again(factory: &Factory, run: &PlannedRun) -> Result<Timing, String> {
     let start = Instant::now();
     let mut simulation = factory(&run.scene)?;
@@ -123,12 +123,12 @@ pub fn again(factory: &Factory, run: &PlannedRun) -> Result<Timing, String> {
     Ok(timing)
 }
 
-/// Steps as long as `look` says so; the clock runs in the steps alone.
+/// Takes steps while `sample` returns true. Only the steps are timed.
 fn steps(
     simulation: &mut dyn Simulation,
     count: usize,
     timing: &mut Timing,
-    mut look: impl FnMut(&dyn Simulation, usize) -> bool,
+    mut sample: impl FnMut(&dyn Simulation, usize) -> bool,
 ) -> Option<String> {
     timing.steps.reserve(count);
     for step in 1..=count {
@@ -138,32 +138,32 @@ fn steps(
         if let Err(failure) = outcome {
             return Some(failure.to_string());
         }
-        if !look(simulation, step) {
+        if !sample(simulation, step) {
             break;
         }
     }
     None
 }
 
-/// When a run has been timed often enough.
+/// Numbers of repetitions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimingPlan {
-    /// Repetitions at least, and at most.
+    /// Least and largest number of repetitions.
     pub repetitions: (usize, usize),
-    /// Time for all of a run's repetitions, once there are enough of them, s.
+    /// Time after which no repetitions are added to the least number, s.
     pub seconds: f64,
-    /// A first run as long as this has warmed up by itself, and counts, s.
+    /// A first run longer than this needs no warm-up and counts as a repetition, s.
     pub long: f64,
 }
 
 impl TimingPlan {
-    /// For a study of minutes, or for a look.
+    /// The plan of the full or of the short study.
     pub fn new(is_quick: bool) -> Self {
         let repetitions = if is_quick { (2, 3) } else { (3, 9) };
         Self { repetitions, seconds: if is_quick { 0.02 } else { 0.6 }, long: if is_quick { 0.3 } else { 2.0 } }
     }
 
-    /// The clocks of all runs: round after round over all of them. `tell` is called after each.
+    /// Times all runs in turn, round after round. `tell` is called after each.
     pub fn time(&self, factory: &Factory, runs: &[(&PlannedRun, &Timing)], mut tell: impl FnMut()) -> Vec<Vec<Timing>> {
         let counts = |timing: &Timing| timing.total() > self.long;
         let mut clocks: Vec<Vec<Timing>> =
@@ -173,7 +173,7 @@ impl TimingPlan {
                 let spent: f64 = clocks.iter().map(|clock| clock.total() + clock.setup).sum();
                 let is_enough = clocks.len() >= self.repetitions.0 && spent > self.seconds;
                 if clocks.len() < self.repetitions.1 && !is_enough {
-                    // It could be built before, and can be again.
+                    // The simulation was built before, so building it again succeeds.
                     clocks.extend(again(factory, run));
                 }
                 tell();
@@ -182,7 +182,7 @@ impl TimingPlan {
         clocks
     }
 
-    /// Calls of `tell` that [`time`](Self::time) makes for so many runs.
+    /// Number of calls of `tell` by [`time`](Self::time) for a number of runs.
     pub fn calls(&self, runs: usize) -> usize {
         self.repetitions.1 * runs
     }
@@ -216,29 +216,29 @@ mod tests {
     }
 
     #[test]
-    fn a_run_is_looked_at_from_its_start_to_its_end() {
+    fn a_run_is_sampled_from_start_to_end() {
         let outcome = first(&build, &run(1e-3, 300), 60.0).unwrap();
         assert_eq!(outcome.failure, None);
         assert_eq!((outcome.counters.steps, outcome.timing.steps.len()), (300, 300));
         let times: Vec<f64> = outcome.history.iter().map(|(time, _)| *time).collect();
         assert_eq!(times[0], 0.0);
-        assert!((times[times.len() - 1] - 0.3).abs() < 1e-9 && times.len() <= LOOKS + 2, "{}", times.len());
+        assert!((times[times.len() - 1] - 0.3).abs() < 1e-9 && times.len() <= SAMPLES + 2, "{}", times.len());
     }
 
     #[test]
-    fn a_run_that_explodes_says_so() {
+    fn a_diverging_run_reports_its_step() {
         let outcome = first(&build, &run(1.0, 20), 60.0).unwrap();
         assert!(outcome.failure.is_some_and(|failure| failure.contains("failed in step")));
     }
 
     #[test]
-    fn a_run_that_takes_too_long_is_given_up() {
+    fn a_slow_run_is_stopped() {
         let refusal = first(&build, &run(1e-3, 300), 0.0).unwrap_err();
         assert!(refusal.reason.contains("step 1 of 300") && refusal.spent.is_some(), "{refusal:?}");
     }
 
     #[test]
-    fn all_runs_are_timed_at_least_so_often() {
+    fn all_runs_have_the_least_number_of_repetitions() {
         let runs = [run(1e-3, 5), run(1e-3, 10)];
         let clock = Timing::default();
         let patience = TimingPlan { repetitions: (2, 4), seconds: 0.0, long: 1.0 };

@@ -1,15 +1,15 @@
-//! Which runs no other run beats: neither faster nor more exact, beyond the spread of their times.
+//! The Pareto front of error and run time, with the spread of the times.
 
-/// A run as the front sees it.
+/// Error and time of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contender {
-    /// Error.
+    /// The error.
     pub error: f64,
     /// Lower and upper quartile of its time, s.
     pub time: (f64, f64),
 }
 
-/// How a run stands among all.
+/// The standing of a run among all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// Every run that is as exact is slower, beyond the spread of both.
@@ -21,7 +21,7 @@ pub enum Standing {
 }
 
 impl Standing {
-    /// One word for tables.
+    /// The word in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Front => "front",
@@ -31,7 +31,7 @@ impl Standing {
     }
 }
 
-/// Errors that differ by less than this factor are as good as the same.
+/// Errors that differ by less than this factor count as equal.
 pub const AS_EXACT: f64 = 1.02;
 
 /// The standing of each. Errors and times must be finite.
@@ -65,19 +65,19 @@ mod tests {
     }
 
     #[test]
-    fn within_the_spread_nobody_wins() {
+    fn runs_within_the_spread_tie() {
         let runs = [run(1e-2, 1.0, 1.2), run(1e-2, 1.1, 1.3)];
         assert_eq!(standings(&runs), [Standing::Tie, Standing::Tie]);
     }
 
     #[test]
-    fn a_hundredth_of_an_error_is_no_advantage() {
+    fn errors_that_differ_by_one_percent_are_equal() {
         let runs = [run(1.0e-3, 1.0, 1.1), run(1.01e-3, 0.5, 0.6)];
         assert_eq!(standings(&runs), [Standing::Dominated, Standing::Front]);
     }
 
     #[test]
-    fn a_less_exact_run_is_no_rival_however_fast() {
+    fn a_less_exact_run_never_dominates() {
         let runs = [run(1e-3, 1.0, 1.1), run(1e-2, 0.1, 0.2)];
         assert_eq!(standings(&runs), [Standing::Front, Standing::Front]);
     }

@@ -1,45 +1,44 @@
-//! Which runs make sense for a scene: a star around the scene's own method and time step, not the product of all choices.
+//! The plan of a scene's runs: one choice at a time varies around the scene's own method and time step.
 //!
-//! Every method goes down a ladder of time steps, each half of the one before. Explicit ones begin above their limit of stability,
-//! so that the failure is seen. What belongs to one method only (tolerance, solver, projection, precision, mesh) is varied
-//! around one point of its ladder.
+//! Every integrator runs with a ladder of halved time steps. Explicit integrators start above their stability limit, so that the
+//! failure is shown. Tolerance, solver, projection, precision and mesh vary around one point of the ladder of implicit Euler.
 
 use fem_scene::tables::{NewtonTable, SolverTable, TimeTable};
 use fem_scene::{Integrator, Pipeline, Precision, Preconditioner, Projection, Scene, SolverKind};
 
-/// One run.
+/// A run to be made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedRun {
-    /// Which question it belongs to: `method`, `tolerance`, `solver`, `projection`, `precision`, `mesh`.
+    /// The varied choice: `method`, `tolerance`, `solver`, `projection`, `precision`, `mesh`, or `order`.
     pub group: &'static str,
-    /// The method as people call it.
+    /// Name of the method.
     pub method: String,
-    /// All that there is to run.
+    /// The scene, with its integrator and time step.
     pub scene: Scene,
-    /// Number of steps; the scene's `dt` times this is the horizon.
+    /// Number of steps. The product with the scene's `dt` is the horizon.
     pub steps: usize,
 }
 
-/// Runs of one method from coarse to fine: where one takes too long, those after it are left out.
+/// Runs of one method from coarse to fine. If a run takes too long, the finer ones are left out.
 pub type Ladder = Vec<PlannedRun>;
 
-/// How much is asked.
+/// The extent of a study.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
-    /// Whether minutes are too long.
+    /// The short study, of less than a minute.
     pub is_quick: bool,
-    /// Time that is simulated, s.
+    /// Simulated time, s.
     pub horizon: f64,
-    /// The scene's own number of steps in it.
+    /// The scene's own number of steps in that time.
     pub steps: usize,
-    /// Fastest vibration, 1/s.
+    /// Highest natural frequency, 1/s.
     pub fastest: f64,
 }
 
-/// Fastest vibration times the largest explicit step: above every method's limit.
+/// ω_max dt of the largest explicit step, above the stability limits of all integrators.
 const ABOVE_THE_LIMIT: f64 = 3.6;
 
-/// The engine's and the course's runs of a scene in motion. `scene` is what [`base`] returns.
+/// Runs of the engine and of the course for a scene in motion. `scene` comes from [`base`].
 pub fn dynamic(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     let mut ladders = Vec::new();
     let with = |integrator: Integrator| {
@@ -58,7 +57,7 @@ pub fn dynamic(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     for integrator in [Integrator::SemiImplicitEuler, Integrator::Rk2, Integrator::Rk4, Integrator::Verlet] {
         ladders.push(ladder("method", name(integrator), &with(integrator), &explicit, extent));
     }
-    // Its growth e^(ω² dt T/2) leaves nothing of most of them: every other one is enough to see it.
+    // Growth by e^(ω² dt T/2) makes most of these runs fail: every other step size shows it.
     let sparse: Vec<usize> = explicit.iter().copied().step_by(2).collect();
     ladders.push(ladder("method", name(Integrator::ExplicitEuler), &with(Integrator::ExplicitEuler), &sparse, extent));
     ladders.extend(course(scene, extent));
@@ -80,7 +79,7 @@ fn course(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     [Integrator::ImplicitEuler, Integrator::LinearlyImplicitEuler].map(of).into()
 }
 
-/// What else there is to choose for implicit Euler; precision for others too.
+/// Variants of implicit Euler; precision of other integrators too.
 fn variants(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     let mut base = scene.clone();
     base.time.integrator = Integrator::ImplicitEuler;
@@ -121,7 +120,7 @@ fn variants(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     ladders
 }
 
-/// A box with half as many and with twice as many cells, under implicit Euler.
+/// A box with half and with twice as many cells per edge, with implicit Euler.
 fn meshes(scene: &Scene) -> Vec<Scene> {
     let with = |cells: usize| {
         let mut scene = scene.clone();
@@ -134,11 +133,11 @@ fn meshes(scene: &Scene) -> Vec<Scene> {
     levels(scene).map_or(Vec::new(), |[half, _, twice]| vec![with(half), with(twice)])
 }
 
-/// Cells per metre of three meshes around the scene's, each twice as fine; says why where there are none.
+/// Cells per metre of three nested meshes around the scene's. The error says why the scene has no such meshes.
 pub fn levels(scene: &Scene) -> Result<[usize; 3], String> {
     let Some(cuboid) = &scene.mesh.cuboid else {
-        let text = "the mesh is a file, of which no finer mesh of the same body is known: cut into smaller elements, its \
-                    surface stays as coarse, and nodes that are held or pulled one by one have no limit";
+        let text = "the mesh comes from a file. Subdivision does not refine its surface, and constraints and loads on \
+                    single nodes have no limit in the continuum";
         return Err(text.to_owned());
     };
     let cells = cuboid.cells_per_unit;
@@ -149,7 +148,7 @@ pub fn levels(scene: &Scene) -> Result<[usize; 3], String> {
     Err(format!("{cells} cells per metre cannot be halved; an even number can, if edges stay whole numbers of cells"))
 }
 
-/// Solvers, and preconditioners of those that have one.
+/// Solvers with their preconditioners.
 const SOLVERS: [(SolverKind, Option<Preconditioner>); 7] = [
     (SolverKind::Cholesky, None),
     (SolverKind::Lu, None),
@@ -160,7 +159,7 @@ const SOLVERS: [(SolverKind, Option<Preconditioner>); 7] = [
     (SolverKind::Pcg, Some(Preconditioner::Ssor)),
 ];
 
-/// Steps at which each method's order shows, from the scene's horizon cut into so many; four halvings.
+/// Numbers of steps in the horizon at which each integrator is in its asymptotic range.
 const FIRST: [(Integrator, usize); 7] = [
     (Integrator::ExplicitEuler, 400),
     (Integrator::SemiImplicitEuler, 400),
@@ -171,7 +170,7 @@ const FIRST: [(Integrator, usize); 7] = [
     (Integrator::Rk4, 50),
 ];
 
-/// Ladders that begin where a method's order is seen already.
+/// Ladders in the asymptotic range of each integrator.
 pub fn orders(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     let halvings = if extent.is_quick { 3 } else { 4 };
     let steps = |first: usize| (0..halvings).map(|k| first << k).collect::<Vec<_>>();
@@ -188,7 +187,7 @@ pub fn orders(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     ladders
 }
 
-/// Runs of a scene in equilibrium: solvers, precision and meshes.
+/// Runs of a static scene: solvers, precision and meshes.
 pub fn equilibrium(scene: &Scene, load_steps: usize) -> Vec<Ladder> {
     let run = |group, method: String, scene: &Scene| {
         vec![PlannedRun { group, method, scene: scene.clone(), steps: load_steps }]
@@ -208,7 +207,7 @@ pub fn equilibrium(scene: &Scene, load_steps: usize) -> Vec<Ladder> {
     ladders
 }
 
-/// The scene in single precision, with a tolerance that it can reach.
+/// The scene in single precision, with a tolerance above round-off.
 fn single(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     scene.time.precision = Precision::F32;
@@ -216,7 +215,7 @@ fn single(scene: &Scene) -> Scene {
     scene
 }
 
-/// A scene without what is only looked at, run by the engine; small where minutes are too long.
+/// The scene for the engine, without its display mesh, and with a coarse mesh for the short study.
 pub fn base(scene: &Scene, is_quick: bool) -> Scene {
     let mut scene = Scene { pipeline: Pipeline::Engine, ..scene.clone() };
     scene.mesh.display = None;
@@ -244,7 +243,7 @@ fn newton(scene: &Scene) -> NewtonTable {
     scene.newton.clone().unwrap_or(NewtonTable { max_iterations: None, tolerance: None, projection: None })
 }
 
-/// A method as people call it.
+/// Name of an integrator in prose.
 pub fn name(integrator: Integrator) -> &'static str {
     match integrator {
         Integrator::ExplicitEuler => "explicit Euler",
@@ -258,7 +257,7 @@ pub fn name(integrator: Integrator) -> &'static str {
     }
 }
 
-/// The solver that a scene names, `automatic` where it names none.
+/// The solver of a scene, or `automatic`.
 pub fn solver_name(scene: &Scene) -> String {
     let Some(solver) = &scene.solver else { return "automatic".to_owned() };
     let kind = match solver.kind {

@@ -1,16 +1,16 @@
-//! One row of a study: a run, its errors, its time and its work. The columns of `runs.csv`.
+//! A row of a study: configuration, errors, times and counters of a run. The columns of `runs.csv`.
 
 use fem_scene::simulation::Counters;
 
-/// What was run.
+/// The configuration of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[allow(missing_docs)] // the names are the columns; README.txt of the output explains them
 pub struct Configuration {
     pub id: String,
     pub scene: String,
-    /// Which question of the study the run belongs to.
+    /// The varied choice.
     pub group: String,
-    /// The method as people call it.
+    /// Name of the method.
     pub method: String,
     pub pipeline: &'static str,
     pub mesh_hash: String,
@@ -39,11 +39,11 @@ pub struct Times {
     pub total_s: [Option<f64>; 3],
     /// Median over the repetitions of the processor time of all steps in all threads, s.
     pub processor_s: Option<f64>,
-    /// How often the whole run was timed.
+    /// Number of timed runs.
     pub repetitions: usize,
 }
 
-/// Distances from references; none where there is no reference, or no end to compare.
+/// Distances from references; `None` without a reference, or for a run that failed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[allow(missing_docs)] // the names are the columns
 pub struct Errors {
@@ -57,7 +57,7 @@ pub struct Errors {
     pub angular: Option<f64>,
 }
 
-/// A row.
+/// The row of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[allow(missing_docs)]
 pub struct Row {
@@ -67,28 +67,28 @@ pub struct Row {
     pub counters: Counters,
     pub peak_mb: Option<f64>,
     pub min_j: Option<f64>,
-    /// `done`, or why not.
+    /// `done`, or the failure.
     pub status: String,
-    /// `front`, `tie` or `dominated`; empty where the run does not compete.
+    /// `front`, `tie` or `dominated`; empty if the run is not compared.
     pub standing: &'static str,
-    /// Files that the errors can be computed from.
+    /// Files from which the errors can be recomputed.
     pub state: String,
     pub reference_state: String,
 }
 
-/// A cell.
+/// The value of a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CellValue {
-    /// Words.
+    /// Text.
     Text(String),
-    /// A whole number, where there is one.
+    /// A whole number, or an empty cell.
     Count(Option<usize>),
-    /// A number, where there is one.
+    /// A number, or an empty cell.
     Number(Option<f64>),
 }
 
 impl Row {
-    /// Whether it came to its end.
+    /// Returns true if the run completed.
     pub fn is_done(&self) -> bool {
         self.status.starts_with("done")
     }
@@ -98,7 +98,7 @@ impl Row {
         self.times.total_s[1]
     }
 
-    /// Linear systems that were solved for steps or Newton directions.
+    /// Linear systems solved for steps or Newton directions.
     pub fn linear_solves(&self) -> usize {
         match self.config.integrator {
             "linearly_implicit_euler" => self.counters.steps,
@@ -106,7 +106,7 @@ impl Row {
         }
     }
 
-    /// Names and values of all columns but those of the machine.
+    /// Names and values of all columns except those of the machine.
     pub fn cells(&self) -> Vec<(&'static str, CellValue)> {
         let mut cells = self.of_case();
         cells.extend(self.of_results());

@@ -1,4 +1,4 @@
-//! Files from which every error can be computed again.
+//! State files, from which every error can be recomputed.
 
 use std::path::Path;
 
@@ -9,10 +9,10 @@ use crate::space::norms;
 use fem_mesh::TetrahedralMesh;
 use fem_mesh::write::save;
 
-/// A state: where a run ended.
+/// The state at the end of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Snapshot<'a> {
-    /// s
+    /// Time, s.
     pub time: f64,
     /// Positions of all nodes, m.
     pub q: &'a DVector<f64>,
@@ -27,8 +27,8 @@ pub fn write_state(path: &Path, snapshot: &Snapshot) -> Result<(), String> {
     save(path, |out| writeln!(out, "{{\n{}\n}}", fields(snapshot))).map_err(|error| error.to_string())
 }
 
-/// Writes a reference: a state, and what errors are measured with: `rest`, `elements`, `weights` (m³), `length` (m),
-/// `density` (kg/m³), and how far the reference trusts itself.
+/// Writes a reference: a state with its self-check, and the data of the error norms: `rest`, `elements`, `weights` (m³), `length`
+/// (m) and `density` (kg/m³).
 pub fn write_reference(
     path: &Path,
     mesh: &TetrahedralMesh,
@@ -63,7 +63,7 @@ fn fields(snapshot: &Snapshot) -> String {
     )
 }
 
-/// A number that is not finite has no JSON form.
+/// JSON has no infinity and no NaN: they become null.
 fn json(value: f64) -> String {
     if value.is_finite() { format!("{value:.16e}") } else { "null".to_owned() }
 }

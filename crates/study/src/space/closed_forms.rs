@@ -1,4 +1,4 @@
-//! Equilibria that are known in closed form: a scene's exact answer, where it has one.
+//! Equilibria in closed form.
 
 use crate::space::norms;
 use fem_engine::cantilever::{expected_tip_displacement, tip_displacement};
@@ -6,10 +6,10 @@ use fem_scene::simulation::Simulation;
 use fem_scene::tables::PrescribedTable;
 use fem_scene::{Axis, Integrator, Scene, Side};
 
-/// Distance of a simulation at its horizon from the scene's closed form, relative; `None` for a scene without one.
+/// Relative distance of a simulation from the scene's closed form; `None` for a scene without one.
 ///
-/// A cantilever: the displacement of its tip against Timoshenko's, as a part of it. A stretched bar: root mean square over the
-/// nodes against the uniform state, as a part of the body's length.
+/// Cantilever: relative error of the tip displacement against Timoshenko's beam theory. Stretched bar: root mean square over the nodes
+/// against the uniform state, relative to the body's length.
 pub fn error(scene: &Scene, simulation: &dyn Simulation) -> Option<f64> {
     if let Some(expected) = expected_tip_displacement(scene) {
         return Some((tip_displacement(simulation) - expected).norm() / expected.norm());
@@ -24,7 +24,7 @@ pub fn error(scene: &Scene, simulation: &dyn Simulation) -> Option<f64> {
     Some(norms::l2(&norms::weights(mesh), &found, &exact) / norms::length(mesh))
 }
 
-/// Stretch along x and across it, of a neo-Hookean box between three rollers that a dead traction pulls along x.
+/// Stretches along and across x of a neo-Hookean box on three symmetry planes under a dead traction along x.
 pub fn uniaxial(scene: &Scene) -> Option<(f64, f64)> {
     let is_neo_hookean = scene.material.model == "neo_hookean" && scene.time.integrator == Integrator::Static;
     let is_alone =
@@ -33,7 +33,7 @@ pub fn uniaxial(scene: &Scene) -> Option<(f64, f64)> {
     let on = traction.on.as_ref().filter(|on| on.axis == Axis::X && on.side == Side::Max)?;
     let [pull, 0.0, 0.0] = traction.force_per_area? else { return None };
     let rollers =
-        [Axis::X, Axis::Y, Axis::Z].iter().all(|&axis| scene.prescribed.iter().any(|held| is_roller(held, axis)));
+        [Axis::X, Axis::Y, Axis::Z].iter().all(|&axis| scene.prescribed.iter().any(|condition| is_roller(condition, axis)));
     let is_bar =
         scene.mesh.cuboid.is_some() && scene.prescribed.len() == 3 && scene.fixed.is_none() && on.within >= 0.0;
     let (C, D) = scene.material.neo_hookean()?;
@@ -43,11 +43,11 @@ pub fn uniaxial(scene: &Scene) -> Option<(f64, f64)> {
     stretches(C, D, pull)
 }
 
-/// A plane of symmetry: the side of the smallest coordinate keeps that coordinate.
-fn is_roller(held: &PrescribedTable, axis: Axis) -> bool {
-    let on_side = held.on.as_ref().is_some_and(|on| on.axis == axis && on.side == Side::Min);
-    let stays = held.rotation.is_none() && held.displacement == Some([0.0; 3]);
-    on_side && stays && held.components.as_deref() == Some(&[axis])
+/// A symmetry plane: the face of the smallest coordinate keeps that coordinate.
+fn is_roller(condition: &PrescribedTable, axis: Axis) -> bool {
+    let on_side = condition.on.as_ref().is_some_and(|on| on.axis == axis && on.side == Side::Min);
+    let stays = condition.rotation.is_none() && condition.displacement == Some([0.0; 3]);
+    on_side && stays && condition.components.as_deref() == Some(&[axis])
 }
 
 /// λ and a of P11(λ, a) = pull where (2C/3) J^(−2/3) (a² − λ²) + 2D (J − 1) J = 0, J = λ a²: bisection over λ, and over a in it.
@@ -68,7 +68,7 @@ fn stretches(C: f64, D: f64, pull: f64) -> Option<(f64, f64)> {
 
 /// A zero of a function that is negative at `low` and positive at `high`.
 fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> Option<f64> {
-    // NaN is neither.
+    // NaN fails both comparisons.
     if !(f(low) < 0.0 && f(high) > 0.0) {
         return None;
     }
@@ -84,13 +84,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_bar_of_the_scenes_is_stretched_by_half() {
+    fn the_bar_of_the_scenes_has_a_stretch_of_one_and_a_half() {
         let (stretch, lateral) = stretches(2e5, 1e6, 3.842394e5).unwrap();
         assert!((stretch - 1.5).abs() < 1e-6, "{stretch} {lateral}");
     }
 
     #[test]
-    fn a_small_pull_stretches_as_hooke_says() {
+    fn a_small_traction_follows_hookes_law() {
         // E = 18CD/(3D + C), ν = (3D − 2C)/(6D + 2C)
         let (C, D) = (2e5, 1e6);
         let (E, nu) = (18.0 * C * D / (3.0 * D + C), (3.0 * D - 2.0 * C) / (6.0 * D + 2.0 * C));

@@ -1,6 +1,6 @@
-//! Equilibrium of a cube whose solution is known because it was chosen: u_i = a_i sin πx sin πy sin πz, zero on all sides.
+//! The method of manufactured solutions: a cube with u_i = a_i sin πx sin πy sin πz, which is zero on all faces.
 //!
-//! The body force that makes it so is −Div P, by the chain rule −∂P/∂F : ∇∇u, exact in every point. P. J. Roache, "Code
+//! The body force is −Div P = −∂P/∂F : ∇∇u, exact in every point. P. J. Roache, "Code
 //! verification by the method of manufactured solutions", Journal of Fluids Engineering 124, 2002.
 
 use std::f64::consts::PI;
@@ -26,13 +26,13 @@ use fem_scene::{Body, Projection, Scene, body, parse};
 /// a, m: large enough that the neo-Hookean law is far from linear.
 pub const AMPLITUDE: [f64; 3] = [0.06, -0.05, 0.04];
 
-/// Integrates the body force and the errors.
+/// Index of the quadrature rule of the body force and the errors.
 const RULE: u32 = 3;
 
-/// A cube of this many cells in each direction, solved.
+/// The discrete solution on one mesh.
 #[derive(Clone, Debug)]
 pub struct Solved {
-    /// The scene that it was solved as.
+    /// The scene.
     pub scene: Scene,
     /// The mesh.
     pub mesh: TetrahedralMesh,
@@ -42,13 +42,13 @@ pub struct Solved {
     pub l2: f64,
     /// ‖∇u − ∇u_h‖ / ‖∇u‖ over the cube.
     pub h1: f64,
-    /// Work that it took.
+    /// Counters of the solution.
     pub counters: Counters,
-    /// Wall-clock time of the solution, set-up apart, s.
+    /// Wall-clock time of the solution without set-up, s.
     pub seconds: f64,
 }
 
-/// Displacement at a place, m.
+/// Exact displacement, m.
 pub fn displacement(X: &Vector3<f64>) -> [f64; 3] {
     let product: f64 = X.iter().map(|x| (PI * x).sin()).product();
     AMPLITUDE.map(|a| a * product)
@@ -72,7 +72,7 @@ fn second(X: &Vector3<f64>, i: usize, j: usize, l: usize) -> f64 {
     AMPLITUDE[i] * PI * PI * (0..3).map(factor).product::<f64>()
 }
 
-/// −Div P at a place, N/m³.
+/// −Div P, N/m³.
 fn body_force(law: &AnyLaw<f64>, X: &Vector3<f64>) -> [f64; 3] {
     let G = gradient(X);
     let H = law.as_law().derivative(&G);
@@ -89,7 +89,7 @@ fn body_force(law: &AnyLaw<f64>, X: &Vector3<f64>) -> [f64; 3] {
     force
 }
 
-/// Solves it on a mesh of `cells` cells in each direction.
+/// Solves on a mesh of `cells` cells in each direction.
 pub fn solve(model: &str, cells: usize) -> Result<Solved, String> {
     let (scene, body) = cube(model, cells)?;
     let mesh = body.shape.mesh.clone();
@@ -118,7 +118,7 @@ pub fn solve(model: &str, cells: usize) -> Result<Solved, String> {
     Ok(Solved { scene, mesh, q, l2, h1, counters, seconds })
 }
 
-/// The unit cube, held on all sides.
+/// The unit cube with fixed faces.
 fn cube(model: &str, cells: usize) -> Result<(Scene, Body), String> {
     let moduli = match model {
         "neo_hookean" => "model = \"neo_hookean\"\nC = 1e4\nD = 3e4",
@@ -140,7 +140,7 @@ fn cube(model: &str, cells: usize) -> Result<(Scene, Body), String> {
     Ok((scene, body))
 }
 
-/// ∫ b φ of each node, N.
+/// Nodal loads ∫ b φ, N.
 fn nodal_load(law: &AnyLaw<f64>, mesh: &TetrahedralMesh) -> Vec<[f64; 3]> {
     let rule = Rule::of_index(RULE);
     let mut load = vec![[0.0; 3]; mesh.vertices.len()];
@@ -184,7 +184,7 @@ fn errors(mesh: &TetrahedralMesh, u: &[[f64; 3]]) -> (f64, f64) {
     ((l2 / size).sqrt(), (h1 / slope).sqrt())
 }
 
-/// G of an element.
+/// Displacement gradient of an element.
 pub fn element_gradient(mesh: &TetrahedralMesh, element: &[usize; 4], u: &[[f64; 3]]) -> Tensor<f64> {
     let edge = |of: &dyn Fn(usize) -> Vector3<f64>| {
         let origin = of(element[0]);
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_fall_with_the_cells() {
+    fn errors_converge_under_refinement() {
         for model in ["linear", "neo_hookean"] {
             let [coarse, fine] = [4, 8].map(|cells| solve(model, cells).unwrap());
             assert!(coarse.l2 / fine.l2 > 3.0 && coarse.h1 / fine.h1 > 1.75, "{} {}", coarse.l2, fine.l2);

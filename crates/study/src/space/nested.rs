@@ -1,4 +1,4 @@
-//! Errors in space of boxes, from three meshes of which each halves the cells of the one before: Richardson's extrapolation.
+//! Errors in space of boxes by Richardson extrapolation over three nested meshes, each with half the cell size of the one before.
 
 use nalgebra::DVector;
 
@@ -6,7 +6,7 @@ use crate::space::manufactured::element_gradient;
 use crate::space::norms;
 use fem_mesh::{TetrahedralMesh, volumes};
 
-/// A box's state on one mesh.
+/// The state of a box on one mesh.
 #[derive(Clone, Debug)]
 pub struct Level {
     /// Cells per metre.
@@ -17,26 +17,26 @@ pub struct Level {
     pub q: DVector<f64>,
 }
 
-/// What three levels tell.
+/// Extrapolated errors of three levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RichardsonEstimate {
-    /// Observed orders.
+    /// Observed orders in L2 and H1.
     pub orders: (f64, f64),
-    /// For each level: cells per metre, error in L2 as a part of the body's length, error of the displacement's gradient in L2 as a
-    /// part of the gradient's own norm.
+    /// For each level: cells per metre, error in L2 relative to the body's length, error of the displacement gradient in L2 relative to
+    /// the gradient's norm.
     pub errors: Vec<(usize, f64, f64)>,
     /// Extrapolated displacements at the coarsest level's nodes, m.
     pub limit: Vec<f64>,
 }
 
-/// Orders that are believed; beyond, the meshes are too coarse to tell.
-const BELIEVED: (f64, f64) = (0.5, 3.0);
+/// Range of plausible orders; outside, the meshes are too coarse.
+const PLAUSIBLE: (f64, f64) = (0.5, 3.0);
 
-/// Compares three levels, from coarse to fine, at the nodes of the coarsest; `None` where they are not nested.
+/// Compares three levels, from coarse to fine, at the nodes of the coarsest. `None` if the meshes are not nested.
 ///
 /// With p = log₂(‖u₁ − u₂‖ / ‖u₂ − u₃‖) the limit is u₃ + (u₃ − u₂)/(2^p − 1), and an error is a distance from it (L. F. Richardson,
 /// "The approximate arithmetical solution by finite differences", 1911). Gradients: ‖∇(u − u_l)‖ = ‖∇(u_{l+1} − u_l)‖ / √(1 − 4^−p),
-/// because what a finer mesh adds is orthogonal to what it leaves out.
+/// because the increments of nested meshes are orthogonal to the remaining error.
 pub fn compare(levels: &[Level; 3]) -> Option<RichardsonEstimate> {
     let places = [0, 1, 2].map(|level| places(&levels[level]));
     let coarse = &levels[0].mesh;
@@ -54,12 +54,12 @@ pub fn compare(levels: &[Level; 3]) -> Option<RichardsonEstimate> {
     let weights = norms::weights(coarse);
     let apart = [norms::l2(&weights, &u[0], &u[1]), norms::l2(&weights, &u[1], &u[2])];
     let p = (apart[0] / apart[1]).log2();
-    let factor = 2f64.powf(p.clamp(BELIEVED.0, BELIEVED.1)) - 1.0;
+    let factor = 2f64.powf(p.clamp(PLAUSIBLE.0, PLAUSIBLE.1)) - 1.0;
     let limit: Vec<f64> = u[2].iter().zip(&u[1]).map(|(fine, coarse)| fine + (fine - coarse) / factor).collect();
     let length = norms::length(coarse);
     let slopes = [slope_apart(&levels[0], &levels[1])?, slope_apart(&levels[1], &levels[2])?];
     let p1 = (slopes[0] / slopes[1]).log2();
-    let remaining = (1.0 - 4f64.powf(-p1.clamp(BELIEVED.0, BELIEVED.1))).sqrt();
+    let remaining = (1.0 - 4f64.powf(-p1.clamp(PLAUSIBLE.0, PLAUSIBLE.1))).sqrt();
     let size = slope_norm(&levels[2]);
     let steep = [slopes[0] / remaining, slopes[1] / remaining, slopes[1] / remaining / 2f64.powf(p1)];
     let error =
@@ -67,7 +67,7 @@ pub fn compare(levels: &[Level; 3]) -> Option<RichardsonEstimate> {
     Some(RichardsonEstimate { orders: (p, p1), errors: (0..3).map(error).collect(), limit })
 }
 
-/// Nodes by their place on the grid of a level.
+/// Nodes by their indices on the grid of a level.
 fn places(level: &Level) -> std::collections::HashMap<[i64; 3], usize> {
     (0..level.mesh.vertices.len()).map(|node| (places_of(&level.mesh, node, level.cells), node)).collect()
 }
@@ -76,8 +76,8 @@ fn places_of(mesh: &TetrahedralMesh, node: usize, cells: usize) -> [i64; 3] {
     mesh.vertices[node].map(|x| (x * cells as f64).round() as i64).into()
 }
 
-/// ‖∇(u_fine − u_coarse)‖ over the body. A node between two coarse ones lies on the edge that joins them: all edges of the box's
-/// cells lead along (0 or 1, 0 or 1, 0 or 1).
+/// ‖∇(u_fine − u_coarse)‖. A fine node lies at a coarse node or in the middle of a coarse edge, since all edges of the box mesh point
+/// along (0 or 1, 0 or 1, 0 or 1).
 fn slope_apart(coarse: &Level, fine: &Level) -> Option<f64> {
     if fine.cells != 2 * coarse.cells {
         return None;
@@ -117,7 +117,7 @@ mod tests {
     use crate::space::manufactured;
     use fem_mesh::box_mesh;
 
-    /// Interpolants of a known displacement, each with an error of its own order at the nodes.
+    /// Interpolant of a known displacement, with an error of second order at the nodes.
     fn level(cells: usize) -> Level {
         let mesh = box_mesh([1.0; 3], cells).unwrap();
         let h = 1.0 / cells as f64;
@@ -129,30 +129,30 @@ mod tests {
     }
 
     #[test]
-    fn the_limit_and_the_order_are_found_from_three_levels() {
+    fn three_levels_give_the_limit_and_the_order() {
         let levels = [4, 8, 16].map(level);
-        let nested = compare(&levels).unwrap();
-        assert!((nested.orders.0 - 2.0).abs() < 1e-9, "{:?}", nested.orders);
-        assert!((nested.orders.1 - 1.0).abs() < 0.05, "{:?}", nested.orders);
+        let estimate = compare(&levels).unwrap();
+        assert!((estimate.orders.0 - 2.0).abs() < 1e-9, "{:?}", estimate.orders);
+        assert!((estimate.orders.1 - 1.0).abs() < 0.05, "{:?}", estimate.orders);
         for (node, X) in levels[0].mesh.vertices.iter().enumerate() {
             let exact = manufactured::displacement(X);
-            assert!((0..3).all(|i| (nested.limit[3 * node + i] - exact[i]).abs() < 1e-12));
+            assert!((0..3).all(|i| (estimate.limit[3 * node + i] - exact[i]).abs() < 1e-12));
         }
-        assert!((nested.errors[0].1 / nested.errors[1].1 - 4.0).abs() < 1e-9);
+        assert!((estimate.errors[0].1 / estimate.errors[1].1 - 4.0).abs() < 1e-9);
     }
 
     #[test]
-    fn errors_of_gradients_are_those_against_the_exact_one() {
+    fn errors_of_gradients_match_the_exact_ones() {
         let levels = [4, 8, 16].map(level);
-        let nested = compare(&levels).unwrap();
+        let estimate = compare(&levels).unwrap();
         // An interpolant of sin πx sin πy sin πz on this mesh: integrated against the exact gradient.
         let exact = manufactured::solve("linear", 8).unwrap().h1;
-        let found = nested.errors[1].2;
+        let found = estimate.errors[1].2;
         assert!((found / exact - 1.0).abs() < 0.1, "{found} {exact}");
     }
 
     #[test]
-    fn meshes_that_are_not_nested_are_not_compared() {
+    fn meshes_that_are_not_nested_have_no_estimate() {
         assert_eq!(compare(&[level(2), level(3), level(4)]), None);
     }
 }

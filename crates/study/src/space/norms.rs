@@ -1,8 +1,8 @@
-//! Distances between two states of a body, with nothing that an outsider could not compute from the state files.
+//! Distances between two states of a body. The state files contain all their data.
 
 use fem_mesh::{TetrahedralMesh, volumes};
 
-/// Weights of the nodes, m³: a quarter of the volume of every element at a node.
+/// Weights of the nodes, m³: a quarter of the volume of every adjacent element.
 pub fn weights(mesh: &TetrahedralMesh) -> Vec<f64> {
     let mut weights = vec![0.0; mesh.vertices.len()];
     for (element, volume) in mesh.elements.iter().zip(volumes(mesh)) {
@@ -13,7 +13,7 @@ pub fn weights(mesh: &TetrahedralMesh) -> Vec<f64> {
     weights
 }
 
-/// Longest edge of the bounding box of the undeformed body, m: what errors are parts of.
+/// Longest edge of the bounding box of the undeformed body, m; errors are relative to it.
 pub fn length(mesh: &TetrahedralMesh) -> f64 {
     let Some(&first) = mesh.vertices.first() else { return 1.0 };
     let (least, most) = mesh.vertices.iter().fold((first, first), |(least, most), x| (least.inf(x), most.sup(x)));
@@ -30,7 +30,7 @@ pub fn l2(weights: &[f64], a: &[f64], b: &[f64]) -> f64 {
 /// The largest distance of a node, max |aᵢ − bᵢ|.
 pub fn largest(a: &[f64], b: &[f64]) -> f64 {
     let distance = |(a, b): (&[f64], &[f64])| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
-    // NaN stays: it is no small distance.
+    // A NaN must not be lost.
     a.chunks(3).zip(b.chunks(3)).map(distance).fold(0.0, |most: f64, d| if d > most || d.is_nan() { d } else { most })
 }
 
@@ -57,7 +57,7 @@ pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// A number for a mesh: FNV-1a over the bits of its coordinates and the indices of its elements (Fowler, Noll, Vo, 1991).
+/// Hash of a mesh: FNV-1a over the bits of its coordinates and the indices of its elements (Fowler, Noll, Vo, 1991).
 pub fn mesh_hash(mesh: &TetrahedralMesh) -> String {
     let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
     let mut add = |word: u64| {
@@ -76,7 +76,7 @@ mod tests {
     use fem_mesh::box_mesh;
 
     #[test]
-    fn a_shift_of_all_nodes_is_its_own_length_in_both_norms() {
+    fn a_translation_has_its_length_in_both_norms() {
         let mesh = box_mesh([2.0, 1.0, 1.0], 2).unwrap();
         let a: Vec<f64> = mesh.vertices.iter().flat_map(|x| x.iter().copied()).collect();
         let b: Vec<f64> = a.iter().enumerate().map(|(i, a)| a + [0.3, 0.0, -0.4][i % 3]).collect();
@@ -88,13 +88,13 @@ mod tests {
     }
 
     #[test]
-    fn a_distance_that_is_not_a_number_is_not_small() {
+    fn distances_keep_nan() {
         assert!(largest(&[0.0, f64::NAN, 0.0, 1.0, 0.0, 0.0], &[0.0; 6]).is_nan());
         assert!(l2(&[1.0], &[f64::NAN, 0.0, 0.0], &[0.0; 3]).is_nan());
     }
 
     #[test]
-    fn a_turning_box_has_angular_momentum_and_no_momentum() {
+    fn a_rotating_box_has_angular_momentum_only() {
         let mesh = box_mesh([1.0, 1.0, 1.0], 2).unwrap();
         let weights = weights(&mesh);
         let q: Vec<f64> = mesh.vertices.iter().flat_map(|x| x.iter().copied()).collect();
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn meshes_that_differ_have_different_hashes() {
+    fn different_meshes_have_different_hashes() {
         let (a, b) = (box_mesh([1.0; 3], 1).unwrap(), box_mesh([1.0; 3], 2).unwrap());
         assert_ne!(mesh_hash(&a), mesh_hash(&b));
         assert_eq!(mesh_hash(&a), mesh_hash(&a.clone()));

@@ -1,44 +1,44 @@
-//! A case and the row that it becomes.
+//! A case of the study, its outcome, and the row that it becomes.
 
 use std::fmt;
 use std::time::Instant;
 
 use serde::Serialize;
 
-/// What a case ends in.
+/// The outcome of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// Everything stays finite, J > 0, at least 95 % of the steps converge; what else the case measures is within its bound.
+    /// All values stay finite, J > 0, at least 95 % of the steps converge, and the margin is within its bound.
     Survives,
-    /// Back at the shape of rest.
+    /// The body returned to its undeformed shape.
     Recovers,
-    /// Upright everywhere (J > 0) and at rest, but not as it was made: wound or folded in another balance.
+    /// J > 0 in all elements and the body is at rest, in an equilibrium other than the undeformed shape.
     Untangles,
-    /// Not begun: the error names the element or field.
+    /// The case was refused before its first step by an error that names the element or key.
     Refused,
-    /// Ended by a typed error that names the step.
+    /// A typed error that names the step ended the run.
     Explodes,
-    /// Finite and upright, but much too stiff: a known defect of linear tetrahedra.
+    /// All values are finite and J > 0, but the body is far too stiff: a known defect of linear tetrahedra.
     Locks,
-    /// Finite, but what is measured is beyond its bound.
+    /// All values are finite, but the margin exceeds its bound.
     Deviates,
-    /// Handed on an element that is inside out.
+    /// The run returned an inverted element.
     Inverts,
     /// Fewer than 95 % of the steps converged.
     Unconverged,
-    /// Handed on a NaN or an infinity.
+    /// The run returned a NaN or an infinity.
     NotFinite,
-    /// Began what should have been refused.
+    /// A scene that should be refused was accepted.
     Accepted,
-    /// A panic.
+    /// The case panicked.
     Panics,
-    /// Took longer than its time.
+    /// The case exceeded its time.
     Hangs,
 }
 
 impl Outcome {
-    /// The word of the tables.
+    /// The word in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Survives => "survives",
@@ -56,10 +56,8 @@ impl Outcome {
             Self::Hangs => "hangs",
         }
     }
-}
 
-impl Outcome {
-    /// Whether it is what was expected: a body that comes back all the way has untangled, too.
+    /// Returns true if the outcome is the expected one. `Recovers` satisfies `Untangles`.
     pub fn satisfies(self, expected: Self) -> bool {
         self == expected || (self, expected) == (Self::Recovers, Self::Untangles)
     }
@@ -71,74 +69,77 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// What a case has found.
+/// The result of a case.
 #[derive(Clone, Debug)]
 pub struct Finding {
-    /// How it ended.
+    /// The outcome.
     pub outcome: Outcome,
-    /// The figure that decides, in the unit that [`Case::margin_is`] tells; none where nothing was measured.
+    /// The deciding figure, defined by [`Case::margin_is`]; `None` without a measurement.
     pub margin: Option<f64>,
-    /// What a reader may want to know besides: figures, the message of an error.
+    /// Further figures, or the message of an error.
     pub note: String,
 }
 
 impl Finding {
-    /// With a figure.
+    /// A finding with a margin.
     pub fn new(outcome: Outcome, margin: f64, note: impl Into<String>) -> Self {
         Self { outcome, margin: Some(margin), note: note.into() }
     }
 
-    /// Without one.
+    /// A finding without a margin.
     pub fn plain(outcome: Outcome, note: impl Into<String>) -> Self {
         Self { outcome, margin: None, note: note.into() }
     }
 
-    /// `Survives` where the figure, in parts of its bound, is at most 1; NaN is not.
+    /// `Survives` if the margin, relative to its bound, is at most 1; NaN is not.
     pub fn within(part: f64, note: impl Into<String>) -> Self {
         Self::new(if part <= 1.0 { Outcome::Survives } else { Outcome::Deviates }, part, note)
     }
 }
 
-/// When a case has to end.
+/// The time at which a case must end.
 #[derive(Clone, Copy, Debug)]
-pub struct Clock {
-    /// It ends itself here, between two steps.
-    pub deadline: Instant,
-}
+pub struct Deadline(pub Instant);
 
-impl Clock {
-    /// Whether time is up.
+impl Deadline {
+    /// Returns true after the deadline.
     pub fn is_over(&self) -> bool {
-        Instant::now() >= self.deadline
+        Instant::now() >= self.0
     }
 }
 
-/// Something to be tried, and what it must end in.
+/// Runs a case until its deadline.
+pub type Work = Box<dyn FnOnce(Deadline) -> Finding + Send>;
+
+/// A margin: the smallest det F.
+pub const SMALLEST_J: &str = "smallest J at the end of a step; must be above 0";
+
+/// A case and its expected outcome.
 pub struct Case {
-    /// Its chapter.
+    /// The family of the case.
     pub family: &'static str,
-    /// What is extreme about it.
+    /// What is extreme about the case.
     pub case: String,
-    /// The numbers that it is made of.
+    /// Its parameters.
     pub parameters: String,
-    /// Name of the method, as scenes spell it; `-` where none comes to run.
+    /// Name of the integrator, as in scenes; `-` without one.
     pub integrator: String,
-    /// Name of the law, as scenes spell it; `-` where none comes to run.
+    /// Name of the material, as in scenes; `-` without one.
     pub material: String,
-    /// How it must end.
+    /// The expected outcome.
     pub expected: Outcome,
-    /// What the margin is, and its bound.
+    /// Definition and bound of the margin.
     pub margin_is: &'static str,
-    /// Seeds of its random numbers.
+    /// Seed of its random numbers.
     pub seed: Option<u64>,
-    /// Tries it.
-    pub work: Box<dyn FnOnce(Clock) -> Finding + Send>,
+    /// Runs the case.
+    pub work: Work,
 }
 
-/// A case that has been tried.
+/// A case with its result.
 #[derive(Clone, Debug, Serialize)]
 #[allow(missing_docs)] // as in `Case`
-pub struct Row {
+pub struct CaseRow {
     pub family: &'static str,
     pub case: String,
     pub parameters: String,

@@ -1,45 +1,42 @@
-//! Steps a case, and notes what decides whether it survives.
+//! Time marching of a case, with the quantities that decide its outcome.
 
-use super::case::{Clock, Finding, Outcome};
+use super::case::{Deadline, Finding, Outcome};
 use fem_engine::number::Real;
 use fem_engine::simulator::Simulator;
 use fem_scene::simulation::{Failure, Simulation};
 
-/// Part of the steps that must converge.
+/// Share of the steps that must converge.
 const CONVERGED: f64 = 0.95;
 
-/// What margins of [`March::survival`] are.
-pub const SMALLEST_J: &str = "smallest J at the end of a step; must be above 0";
-
-/// What became of some steps.
+/// The result of a number of steps.
 #[derive(Clone, Debug)]
 pub struct March {
-    /// Steps that ended well.
+    /// Completed steps.
     pub steps: usize,
-    /// Steps of these that did not converge.
+    /// Completed steps that did not converge.
     pub unconverged: usize,
-    /// What ended it too early.
+    /// The failure of the last step.
     pub failure: Option<Failure>,
-    /// Smallest J at the end of any step.
+    /// Smallest J at the end of all steps.
     pub min_J: f64,
-    /// Largest kinetic energy at the end of any step, J.
+    /// Largest kinetic energy at the end of all steps, J.
     pub kinetic: f64,
-    /// Whether everything was finite after every step.
+    /// All values were finite after every step.
     pub is_finite: bool,
-    /// Whether time was up before the last step.
+    /// The deadline passed before the last step.
     pub is_late: bool,
 }
 
-/// Takes up to so many steps.
-pub fn march<T: Real>(simulation: &mut Simulator<T>, steps: usize, clock: Clock) -> March {
-    march_with(simulation, steps, clock, |_| {})
+/// Takes up to `steps` steps.
+pub fn march<T: Real>(simulation: &mut Simulator<T>, steps: usize, deadline: Deadline) -> March {
+    march_with(simulation, steps, deadline, |_| {})
 }
 
-/// The same; calls `after` at the end of each step.
+/// Takes up to `steps` steps and calls `after` at the end of each.
 pub fn march_with<T: Real>(
     simulation: &mut Simulator<T>,
     steps: usize,
-    clock: Clock,
+    deadline: Deadline,
     mut after: impl FnMut(&Simulator<T>),
 ) -> March {
     let before = simulation.counters().unconverged_steps;
@@ -53,7 +50,7 @@ pub fn march_with<T: Real>(
         is_late: false,
     };
     for _ in 0..steps {
-        if clock.is_over() {
+        if deadline.is_over() {
             march.is_late = true;
             break;
         }
@@ -64,7 +61,7 @@ pub fn march_with<T: Real>(
         march.steps += 1;
         let energies = simulation.energies();
         march.kinetic = march.kinetic.max(energies.kinetic);
-        // The smallest of some numbers is the other one where one is NaN.
+        // `min` ignores a NaN.
         let J = simulation.min_J().0;
         march.is_finite &= simulation.state().first_not_finite().is_none() && !J.is_nan();
         march.min_J = march.min_J.min(J);
@@ -75,10 +72,10 @@ pub fn march_with<T: Real>(
 }
 
 impl March {
-    /// Why it does not survive; `None` where it does.
+    /// The reason why the run does not survive; `None` if it does.
     pub fn trouble(&self) -> Option<Finding> {
         if self.is_late {
-            return Some(Finding::plain(Outcome::Hangs, format!("{} steps when time was up", self.steps)));
+            return Some(Finding::plain(Outcome::Hangs, format!("deadline after {} steps", self.steps)));
         }
         if let Some(failure) = &self.failure {
             return Some(Finding::plain(
@@ -98,12 +95,12 @@ impl March {
         None
     }
 
-    /// Whether it survives; the margin is the smallest J.
+    /// Survival, with the smallest J as margin.
     pub fn survival(&self) -> Finding {
         self.trouble().unwrap_or_else(|| Finding::new(Outcome::Survives, self.min_J, self.note()))
     }
 
-    /// The figures.
+    /// The number of steps, and of those that did not converge.
     pub fn note(&self) -> String {
         let not = if self.unconverged > 0 { format!(", {} not converged", self.unconverged) } else { String::new() };
         format!("{} steps{not}", self.steps)

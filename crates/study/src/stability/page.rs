@@ -4,20 +4,20 @@ use fem_chart::page::{details, figure, page, table};
 use fem_chart::{Cell, HeatMap, Picture, Shade};
 use maud::{Markup, html};
 
-use super::case::{Outcome, Row};
-use super::map::{EXPONENTS_OF_YOUNG, Map, PARTS_OF_DT, TIME_STEPS};
-use super::output::Table;
-use super::poisson::CANTILEVER;
+use super::case::{CaseRow, Outcome};
+use super::families::incompressibility::CANTILEVER;
+use super::families::maps::{self, EXPONENTS_OF_YOUNG, Map, PARTS_OF_DT, TIME_STEPS};
+use super::results::Results;
 
 /// The whole page.
-pub fn render(study: &Table) -> String {
+pub fn render(study: &Results) -> String {
     let mut families: Vec<&str> = study.rows.iter().map(|row| row.family).collect();
     families.dedup();
-    let failed: Vec<&Row> = study.rows.iter().filter(|row| !row.pass).collect();
+    let failed: Vec<&CaseRow> = study.rows.iter().filter(|row| !row.pass).collect();
     let body = html! {
         (head(study))
         @if !failed.is_empty() { h2 { "Unexpected outcomes" } (rows(&failed)) }
-        (maps(&study.maps))
+        (stiffness_and_step(&study.maps))
         (recovery(study))
         (locking(study))
         h2 { "All cases" }
@@ -26,7 +26,7 @@ pub fn render(study: &Table) -> String {
     page("Stiff and extreme cases", body)
 }
 
-fn head(study: &Table) -> Markup {
+fn head(study: &Results) -> Markup {
     let counts = study.counts;
     let of = |outcome: Outcome| study.rows.iter().filter(|row| row.outcome == outcome).count();
     let ends = [
@@ -57,12 +57,12 @@ fn head(study: &Table) -> Markup {
         p class="soft" {
             (counts.seeded_rows) " cases start from random states with " (counts.seeds) " seeds; the maps contain " (counts.map_cells)
             " more runs. " @if study.quick { "This is the short study. " }
-            "Wall-clock time: " (format!("{:.0}", study.seconds)) " s. " (study.machine.line()) "."
+            "Wall-deadline time: " (format!("{:.0}", study.seconds)) " s. " (study.machine.line()) "."
         } "\n"
     }
 }
 
-fn maps(maps: &[Map]) -> Markup {
+fn stiffness_and_step(maps: &[Map]) -> Markup {
     let caption = |map: &Map| {
         let exploded = map.cells.iter().filter(|cell| cell.outcome == Outcome::Explodes).count();
         let unexpected = map.cells.iter().filter(|cell| cell.outcome != cell.expected).count();
@@ -102,7 +102,7 @@ fn words(name: &str) -> &str {
 
 /// The map of an integrator.
 pub fn picture(map: &Map) -> Picture {
-    let cell = |(i, cell): (usize, &super::map::Cell)| {
+    let cell = |(i, cell): (usize, &maps::Cell)| {
         let shade = match cell.outcome {
             outcome if outcome != cell.expected => Shade::Fair,
             Outcome::Survives => Shade::Good,
@@ -148,14 +148,14 @@ fn line(limit: f64) -> Vec<(f64, f64)> {
 }
 
 /// Numbers of recoveries for each initial state.
-fn recovery(study: &Table) -> Markup {
-    let rows: Vec<&Row> = study.rows.iter().filter(|row| row.family == "recovery").collect();
+fn recovery(study: &Results) -> Markup {
+    let rows: Vec<&CaseRow> = study.rows.iter().filter(|row| row.family == "recovery").collect();
     let mut kinds: Vec<&str> = rows.iter().map(|row| row.case.as_str()).collect();
     let mut seen = std::collections::HashSet::new();
     kinds.retain(|kind| seen.insert(*kind));
     let line = |kind: &&str| {
         let of = |wanted: Option<Outcome>| {
-            let is_wanted = |row: &&&Row| row.case == *kind && wanted.is_none_or(|outcome| row.outcome == outcome);
+            let is_wanted = |row: &&&CaseRow| row.case == *kind && wanted.is_none_or(|outcome| row.outcome == outcome);
             rows.iter().filter(is_wanted).count().to_string()
         };
         vec![(*kind).to_owned(), of(None), of(Some(Outcome::Recovers)), of(Some(Outcome::Untangles))]
@@ -173,10 +173,10 @@ fn recovery(study: &Table) -> Markup {
 }
 
 /// Tip deflections of the cantilever, by Poisson's ratio and mesh.
-fn locking(study: &Table) -> Markup {
-    let beams: Vec<&Row> = study.rows.iter().filter(|row| row.case == CANTILEVER).collect();
+fn locking(study: &Results) -> Markup {
+    let beams: Vec<&CaseRow> = study.rows.iter().filter(|row| row.case == CANTILEVER).collect();
     // Poisson's ratio and cells, as the rows write them.
-    let parts = |row: &Row| -> [String; 2] {
+    let parts = |row: &CaseRow| -> [String; 2] {
         let mut parts = row.parameters.split(", ").map(str::to_owned);
         [parts.next().unwrap_or_default(), parts.last().unwrap_or_default()]
     };
@@ -211,14 +211,14 @@ fn locking(study: &Table) -> Markup {
     }
 }
 
-fn chapter(family: &str, study: &Table) -> Markup {
-    let all: Vec<&Row> = study.rows.iter().filter(|row| row.family == family).collect();
+fn chapter(family: &str, study: &Results) -> Markup {
+    let all: Vec<&CaseRow> = study.rows.iter().filter(|row| row.family == family).collect();
     let pass = all.iter().filter(|row| row.pass).count();
     details(&format!("{family}: {pass} of {} as expected", all.len()), rows(&all))
 }
 
-fn rows(all: &[&Row]) -> Markup {
-    let line = |row: &&Row| {
+fn rows(all: &[&CaseRow]) -> Markup {
+    let line = |row: &&CaseRow| {
         let margin = row.margin.map_or(String::new(), |margin| format!("{margin:.3e}"));
         let of = if margin.is_empty() { "" } else { row.margin_is };
         let seed = row.seed.map_or(String::new(), |seed| format!(", seed {seed}"));

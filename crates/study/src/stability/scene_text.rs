@@ -1,29 +1,28 @@
-//! Scenes of this study, as the text of their files: whoever doubts a row can run it.
+//! Scenes of this study as the text of scene files, so that every row can be reproduced.
 
 use std::path::Path;
 
 use nalgebra::Vector3;
 
-use super::case::Finding;
-use super::case::Outcome;
+use super::case::{Case, Deadline, Finding, Outcome, SMALLEST_J};
 use fem_engine::number::Real;
 use fem_engine::simulator::Simulator;
 use fem_mesh::TetrahedralMesh;
 use fem_scene::{Scene, SceneError, body, body_of, parse};
 
-/// The methods that move.
+/// The integrators in time.
 pub const DYNAMIC: [&str; 7] =
     ["explicit_euler", "semi_implicit_euler", "rk2", "rk4", "verlet", "linearly_implicit_euler", "implicit_euler"];
 
-/// The laws.
+/// The materials.
 pub const LAWS: [&str; 5] = ["linear", "corotated", "st_venant_kirchhoff", "neo_hookean", "stable_neo_hookean"];
 
-/// What a scene is made of.
+/// The parts of a scene file.
 #[derive(Clone, Debug)]
-pub struct Text {
-    /// What stands in `[mesh]`.
+pub struct SceneText {
+    /// Contents of `[mesh]`.
     pub mesh: String,
-    /// The law.
+    /// The material.
     pub model: &'static str,
     /// Pa
     pub young: f64,
@@ -31,7 +30,7 @@ pub struct Text {
     pub poisson: f64,
     /// kg/m³
     pub density: f64,
-    /// The method.
+    /// The integrator.
     pub integrator: &'static str,
     /// s
     pub dt: f64,
@@ -39,14 +38,14 @@ pub struct Text {
     pub rest: String,
 }
 
-/// Holds the side of smallest x.
+/// Fixes the face of smallest x.
 pub const CLAMPED: &str = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n";
 
-/// Mass on the nodes.
+/// Lumped mass.
 pub const LUMPED: &str = "[mass]\nlumped = true\n";
 
-impl Text {
-    /// A box of 2 × 1 × 1 m of a rubber-like material, in cells of 1 m.
+impl SceneText {
+    /// A box of 2 × 1 × 1 m of soft rubber, with cells of 1 m.
     pub fn small(integrator: &'static str, model: &'static str) -> Self {
         Self {
             mesh: "box = { size = [2, 1, 1], cells_per_unit = 1 }".to_owned(),
@@ -60,13 +59,13 @@ impl Text {
         }
     }
 
-    /// In cells of half a metre.
+    /// The same box with cells of 0.5 m.
     pub fn finer(integrator: &'static str, model: &'static str) -> Self {
         let mesh = "box = { size = [2, 1, 1], cells_per_unit = 2 }".to_owned();
         Self { mesh, ..Self::small(integrator, model) }
     }
 
-    /// With further tables.
+    /// Adds tables.
     pub fn with(mut self, tables: &str) -> Self {
         self.rest.push_str(tables);
         self
@@ -81,24 +80,45 @@ impl Text {
         )
     }
 
+    /// A case of this scene. It is expected to survive with J > 0; override the other fields with `..`.
+    pub fn case(
+        &self,
+        family: &'static str,
+        case: impl Into<String>,
+        parameters: String,
+        work: impl FnOnce(Deadline) -> Result<Finding, Finding> + Send + 'static,
+    ) -> Case {
+        Case {
+            family,
+            case: case.into(),
+            parameters,
+            integrator: self.integrator.to_owned(),
+            material: self.model.to_owned(),
+            expected: Outcome::Survives,
+            margin_is: SMALLEST_J,
+            seed: None,
+            work: Box::new(move |deadline| work(deadline).unwrap_or_else(|finding| finding)),
+        }
+    }
+
     /// The scene.
     pub fn scene(&self) -> Result<Scene, SceneError> {
         parse(&self.text(), Path::new("case.toml"))
     }
 
-    /// The simulation, at rest.
+    /// The simulation of the scene, at rest.
     pub fn build(&self) -> Result<Simulator<f64>, Finding> {
         let scene = self.scene().map_err(refused)?;
         let body = body(&scene, Path::new("")).map_err(refused)?;
         Simulator::new(&scene, body).map_err(refused)
     }
 
-    /// The same on another mesh.
+    /// The simulation on another mesh.
     pub fn build_on(&self, mesh: TetrahedralMesh) -> Result<Simulator<f64>, Finding> {
         self.build_on_as(mesh)
     }
 
-    /// The same in a precision; the scene must name it too.
+    /// The simulation on another mesh in a precision, which the scene must name too.
     pub fn build_on_as<T: Real>(&self, mesh: TetrahedralMesh) -> Result<Simulator<T>, Finding> {
         let scene = self.scene().map_err(refused)?;
         let body = body_of(&scene, mesh, Path::new("")).map_err(refused)?;
@@ -106,22 +126,25 @@ impl Text {
     }
 }
 
-/// The finding that a scene cannot be begun.
+/// Light mass-proportional damping, so that bodies come to rest within the run.
+pub const DAMPED: &str = "[damping]\nalpha = 0.2\n";
+
+/// The finding for a refused scene.
 pub fn refused(error: SceneError) -> Finding {
     Finding::plain(Outcome::Refused, error.to_string())
 }
 
-/// Weight along an axis, m/s².
+/// `[gravity]`, m/s².
 pub fn gravity(acceleration: [f64; 3]) -> String {
     format!("[gravity]\nacceleration = {acceleration:?}\n")
 }
 
-/// `[[prescribed]]` of all nodes at the end where x is largest.
-pub fn led_end(motion: &str, over: f64) -> String {
+/// `[[prescribed]]` for all nodes of the face of largest x.
+pub fn prescribed_end(motion: &str, over: f64) -> String {
     format!("[[prescribed]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\n{motion}\nover = {over:e}\n")
 }
 
-/// The mesh of a box, with each vertex moved.
+/// The mesh of a box with transformed vertices.
 pub fn moved_box(
     size: [f64; 3],
     cells_per_unit: usize,

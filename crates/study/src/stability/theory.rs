@@ -1,15 +1,14 @@
-//! What theory says of a vibration of frequency ω at the time step dt, z = ω dt: how fast it grows.
+//! Linear stability theory: the growth of a vibration of frequency ω at the time step dt, as a function of z = ω dt.
 //!
 //! Hairer, Lubich and Wanner, Geometric Numerical Integration (2006), ch. I and VI.3; Hairer and Wanner, Solving Ordinary
 //! Differential Equations II (1996), ch. IV.2.
 
-use super::start::Random;
 use fem_engine::integrators::MassInverse;
 use fem_engine::model::system::System;
 use fem_engine::vector::{dot, norm};
 use fem_scene::simulation::Cause;
 
-/// ω dt below which the method is stable; none where it always is.
+/// The stability limit of ω dt; `None` for unconditionally stable integrators.
 pub fn limit(integrator: &str) -> Option<f64> {
     match integrator {
         "explicit_euler" | "rk2" => Some(0.0),
@@ -19,8 +18,7 @@ pub fn limit(integrator: &str) -> Option<f64> {
     }
 }
 
-/// Logarithm of the factor by which a vibration grows in a step: that of the largest eigenvalue of the method's matrix for
-/// x'' = −ω² x.
+/// Logarithm of the growth factor per step: the spectral radius of the amplification matrix for ẍ = −ω² x.
 pub fn growth(integrator: &str, z: f64) -> f64 {
     let z2 = z * z;
     match integrator {
@@ -38,27 +36,27 @@ pub fn growth(integrator: &str, z: f64) -> f64 {
     }
 }
 
-/// The fastest vibration of a body.
-pub struct Fastest {
-    /// Its frequency, 1/s.
+/// The mode of the highest natural frequency.
+pub struct HighestMode {
+    /// Natural frequency, 1/s.
     pub omega: f64,
-    /// Displacements in the engine's order, m; the largest component is 1.
+    /// Mode shape in the engine's numbering; the largest component is 1.
     pub shape: Vec<[f64; 3]>,
 }
 
-/// Iterations after which a power iteration ends in any case.
-const MOST: usize = 20_000;
+/// Upper limit of power iterations.
+const MAX_ITERATIONS: usize = 20_000;
 
-/// ω_max at rest: the root of the largest eigenvalue of M⁻¹ K by power iteration, Golub and Van Loan, Matrix Computations (2013),
-/// ch. 8.2, with Rayleigh's quotient, whose error is that of the shape squared.
-pub fn fastest(system: &System<f64>) -> Result<Fastest, Cause> {
+/// ω_max at rest: the square root of the largest eigenvalue of M⁻¹ K by power iteration (Golub and Van Loan, Matrix Computations,
+/// 2013, ch. 8.2) with the Rayleigh quotient, whose error is the square of the mode's.
+/// `start` must contain the mode.
+pub fn highest_mode(system: &System<f64>, start: Vec<[f64; 3]>) -> Result<HighestMode, Cause> {
     let mut inverse = MassInverse::new(&system.mass);
-    let mut random = Random::new(1);
     let rest = vec![[0.0; 3]; system.nodes()];
-    let mut x: Vec<[f64; 3]> = rest.iter().map(|_| random.vector().into()).collect();
+    let mut x = start;
     let (mut force, mut next) = (rest.clone(), rest.clone());
     let mut omega2: f64 = 0.0;
-    for _ in 0..MOST {
+    for _ in 0..MAX_ITERATIONS {
         system.dirichlet.clear_constrained(&mut x);
         let length = norm(&x);
         scale(&mut x, 1.0 / length);
@@ -75,7 +73,7 @@ pub fn fastest(system: &System<f64>) -> Result<Fastest, Cause> {
     }
     let largest = x.as_flattened().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     scale(&mut x, 1.0 / largest);
-    Ok(Fastest { omega: omega2.sqrt(), shape: x })
+    Ok(HighestMode { omega: omega2.sqrt(), shape: x })
 }
 
 fn scale(x: &mut [[f64; 3]], factor: f64) {
@@ -87,7 +85,7 @@ mod tests {
     use super::{growth, limit};
 
     #[test]
-    fn vibrations_grow_beyond_the_limit_and_not_below() {
+    fn vibrations_grow_above_the_limit_only() {
         for integrator in ["semi_implicit_euler", "verlet", "rk4"] {
             let limit = limit(integrator).unwrap();
             assert!(growth(integrator, 0.99 * limit) <= 0.0 && growth(integrator, 1.01 * limit) > 0.03, "{integrator}");

@@ -7,23 +7,23 @@ use std::path::{Path, PathBuf};
 
 use crate::runs::measure::Factory;
 
-/// What a study needs.
+/// Settings of a study.
 pub struct Settings<'a> {
-    /// Where meshes are.
+    /// Folder of meshes and scenes.
     pub data: PathBuf,
-    /// Where results go; it has a folder `states`.
+    /// Folder of the results; contains a folder `states`.
     pub out: PathBuf,
-    /// Whether minutes are too long.
+    /// The short study, of less than a minute.
     pub is_quick: bool,
-    /// Both pipelines.
+    /// Builds simulations of both pipelines.
     pub factory: &'a Factory<'a>,
-    /// Told how many pieces of work are done, of how many, and what comes next.
+    /// Receives the number of finished parts, the number of all parts, and the name of the next one.
     pub tell: &'a dyn Fn(usize, usize, &str),
 }
 
-/// Where states of a study go.
+/// Creates the folders of a study.
 pub fn make_folders(out: &Path) -> Result<(), String> {
     let states = out.join("states");
     std::fs::create_dir_all(&states)
-        .map_err(|error| format!("{}: {error}; name a folder that can be made", states.display()))
+        .map_err(|error| format!("{}: {error}; name a folder that can be created", states.display()))
 }

@@ -1,4 +1,4 @@
-//! Errors in space that no scene is needed for: the manufactured solution, and locking.
+//! Errors in space without a scene: the manufactured solution, and volumetric locking.
 
 use super::Settings;
 use crate::runs::convergence_order::{ConvergenceOrder, asymptotic};
@@ -10,21 +10,21 @@ use crate::space::manufactured;
 use crate::space::norms;
 use fem_engine::cantilever::moduli;
 
-/// What was found.
+/// The results.
 #[derive(Clone, Debug, Default)]
 pub struct SpaceStudy {
-    /// A row for each law and mesh of the manufactured solution.
+    /// A row for each material and mesh of the manufactured solution.
     pub rows: Vec<Row>,
-    /// For each law: its scene, and the orders in L2 and H1.
+    /// For each material: scene, orders in L2 and H1.
     pub orders: Vec<(String, Option<ConvergenceOrder>, Option<ConvergenceOrder>)>,
-    /// Beams that lock.
+    /// Tip deflections of the cantilever.
     pub tip_deflections: Vec<TipDeflection>,
 }
 
-/// The finest meshes that an order is taken from: coarser ones are not yet where it holds.
+/// Number of meshes of a fitted order: coarser ones are outside the asymptotic range.
 const FINEST: usize = 2;
 
-/// Solves on finer and finer meshes.
+/// Solves on a sequence of meshes.
 pub fn study(settings: &Settings) -> Result<SpaceStudy, String> {
     let mut space = SpaceStudy::default();
     let cells: &[usize] = if settings.is_quick { &[4, 8, 16] } else { &[2, 4, 8, 16, 32] };

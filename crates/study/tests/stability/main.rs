@@ -46,7 +46,7 @@ fn rows(text: &str) -> BTreeMap<String, Row> {
     let [expected, outcome, margin, margin_is] = ["expected", "outcome", "margin", "margin_is"].map(column);
     let row = |fields: csv::StringRecord| {
         // A tangle may unwind into one balance or another by its last digits, and a body squashed flat may buckle so.
-        let is_one_of_many = &fields[expected] == "untangles" || fields[names[1]].starts_with("squashed to 2 %");
+        let is_one_of_many = &fields[expected] == "untangles" || fields[names[1]].starts_with("compressed to 2 %");
         let is_steady = !fields[margin_is].contains("round-off") && !is_one_of_many;
         let row = Row {
             outcome: if &fields[expected] == "untangles" { "-".to_owned() } else { fields[outcome].to_owned() },

@@ -1,4 +1,4 @@
-//! A run's identity and its errors, as its row shows them.
+//! Configuration, errors and status of a run for its row.
 
 use nalgebra::DVector;
 
@@ -11,7 +11,7 @@ use crate::space::norms;
 use fem_engine::cantilever::moduli;
 use fem_scene::{Integrator, Pipeline, Precision, Projection};
 
-/// Distances of a run that has come to its end.
+/// Errors of a completed run.
 pub(super) fn errors(run: &PlannedRun, outcome: &RunResult, body: &StudyMesh, study: &SceneStudy) -> Errors {
     let in_space =
         study.richardson.as_ref().and_then(|nested| nested.errors.iter().find(|row| row.0 == cells(&run.scene)));
@@ -31,7 +31,7 @@ pub(super) fn errors(run: &PlannedRun, outcome: &RunResult, body: &StudyMesh, st
     };
     let (found, expected) = (momenta(&outcome.q, &outcome.qdot), momenta(&reference.q, &reference.qdot));
     let mass: f64 = run.scene.material.density * body.weights.iter().sum::<f64>();
-    // The momentum that all of the kinetic energy would be, moving one way; the same at the body's length.
+    // The momentum of a translation with the same kinetic energy; with the length, an angular momentum.
     let scale = (2.0 * mass * reference.kinetic).sqrt();
     let total = |energies: (f64, f64)| energies.0 + energies.1;
     let expected_energy = reference.kinetic + reference.potential;
@@ -82,7 +82,7 @@ pub(super) fn configuration(id: String, run: &PlannedRun, body: &StudyMesh) -> C
     }
 }
 
-/// `done`, or what went wrong.
+/// `done`, or the failure.
 pub(super) fn status(outcome: &RunResult) -> String {
     match &outcome.failure {
         Some(failure) => format!("failed: {failure}"),

@@ -1,4 +1,4 @@
-//! Three nested meshes of a box, and the state of each.
+//! Three nested meshes of a box, and the state on each.
 
 use nalgebra::DVector;
 
@@ -9,14 +9,14 @@ use crate::space::closed_forms;
 use crate::space::nested::{self, Level, RichardsonEstimate};
 use fem_scene::{Integrator, Scene};
 
-/// Fastest vibration times a step of Verlet that is safely stable.
-const EXPLICIT: f64 = 1.2;
+/// ω_max dt of a stable step of Verlet, with a margin.
+const STABLE: f64 = 1.2;
 
-/// Time of an explicit step for each element, s; about.
+/// Approximate time of an explicit step per element, s.
 const SECONDS_OF_AN_ELEMENT: f64 = 2e-7;
 
 impl StudyMeshes<'_> {
-    /// What three meshes tell; `None` where the scene is no box, is known in closed form, or would take too long.
+    /// Errors in space. `None` if the scene is no box, has a closed form, or would take too long.
     pub fn nested(&mut self, base: &Scene, study: &mut SceneStudy) -> Result<Option<RichardsonEstimate>, String> {
         let is_static = base.time.integrator == Integrator::Static;
         if closed_forms::uniaxial(base).is_some() || (!is_static && study.fastest == 0.0) {
@@ -29,7 +29,7 @@ impl StudyMeshes<'_> {
                 return Ok(None);
             }
         };
-        let steps = 2.0 * study.fastest * study.horizon / EXPLICIT;
+        let steps = 2.0 * study.fastest * study.horizon / STABLE;
         let finest = steps * 8.0 * study.size.1 as f64 * SECONDS_OF_AN_ELEMENT;
         if finest > most_reference_seconds(self.settings.is_quick) {
             study.left_out.push(("errors in space".to_owned(), format!("the finest mesh would take {finest:.0} s")));
@@ -46,11 +46,11 @@ impl StudyMeshes<'_> {
                 }
             }
         }
-        let levels: [Level; 3] = levels.try_into().map_err(|_| "three levels are three".to_owned())?;
+        let levels: [Level; 3] = levels.try_into().map_err(|_| "three meshes give three levels".to_owned())?;
         Ok(nested::compare(&levels).filter(|nested| nested.orders.0.is_finite()))
     }
 
-    /// One of them; says why where its state cannot be computed. Errors of files end the study.
+    /// One level. The inner error says why its state cannot be computed; the outer error is that of a file.
     fn level(
         &mut self,
         base: &Scene,
@@ -75,13 +75,13 @@ impl StudyMeshes<'_> {
         Ok(q.map(|q| Level { cells, mesh: body.mesh.clone(), q }))
     }
 
-    /// A state whose error in time is far below that of the mesh: the equilibrium, or Verlet at small steps.
+    /// A state whose error in time is far below its error in space: the equilibrium, or Verlet with small steps.
     fn settled(&self, mut scene: Scene, is_static: bool, horizon: f64, fastest: f64) -> Result<DVector<f64>, String> {
         let steps = if is_static {
             scene.statics.as_ref().map_or(1, |statics| statics.load_steps)
         } else {
             scene.time.integrator = Integrator::Verlet;
-            (horizon * fastest / EXPLICIT).ceil().max(1.0) as usize
+            (horizon * fastest / STABLE).ceil().max(1.0) as usize
         };
         if !is_static {
             scene.time.dt = Some(horizon / steps as f64);

@@ -1,4 +1,4 @@
-//! The meshes of a study with their references, and the row of each run on them.
+//! The meshes of a study with their references, and the rows of the runs on them.
 
 use std::collections::HashMap;
 
@@ -15,7 +15,7 @@ use crate::runs::states::{Snapshot, write_reference, write_state};
 use crate::space::norms;
 use fem_scene::Scene;
 
-/// Time that a reference may take, and that the finest of three meshes may, s.
+/// Largest time of a reference, and of the finest of three nested meshes, s.
 pub(super) fn most_reference_seconds(is_quick: bool) -> f64 {
     if is_quick { 60.0 } else { 240.0 }
 }
@@ -28,7 +28,7 @@ pub(super) struct StudyMeshes<'a> {
 }
 
 impl StudyMeshes<'_> {
-    /// Reads a mesh, and computes its reference where a horizon is given and one can be computed.
+    /// Reads a mesh. With a horizon, computes its reference; a reason for its absence goes to `left_out`.
     pub fn add(&mut self, scene: &Scene, horizon: Option<f64>, study: &mut SceneStudy) -> Result<(), String> {
         let body = fem_scene::body(scene, &self.settings.data).map_err(|error| error.to_string())?;
         let mesh = body.shape.mesh.clone();

@@ -1,4 +1,4 @@
-//! The study of one scene: references, runs, times, standings.
+//! The study of one scene: references, runs, times, Pareto front.
 
 mod case;
 mod levels;
@@ -18,49 +18,49 @@ use fem_scene::simulate::quantile;
 use fem_scene::{Integrator, Scene};
 use meshes::StudyMeshes;
 
-/// What is known of one scene.
+/// The results of one scene.
 #[derive(Clone, Debug, Default)]
 pub struct SceneStudy {
-    /// Its name.
+    /// Name of the scene.
     pub name: String,
-    /// Its own words.
+    /// Description in the scene file.
     pub about: String,
-    /// Time that is simulated, s; none in equilibrium.
+    /// Simulated time, s; 0 for a static scene.
     pub horizon: f64,
     /// Nodes and elements of the scene's own mesh.
     pub size: (usize, usize),
-    /// Fastest vibration, 1/s.
+    /// Highest natural frequency, 1/s.
     pub fastest: f64,
-    /// All runs.
+    /// Rows of all runs.
     pub rows: Vec<Row>,
-    /// Total energy over time of each row, less that at the start: s and J.
+    /// For each row: samples of time, s, and change of the total energy, J.
     pub histories: Vec<Vec<(f64, f64)>>,
-    /// Each reference: its file, its own checks (displacements, velocities), force evaluations.
+    /// References: file, self-checks of displacements and velocities, force evaluations.
     pub references: Vec<(String, (f64, f64), usize)>,
-    /// Largest energy that moves between kinetic and potential, J.
+    /// Larger of kinetic and potential energy at the end, J.
     pub energy_scale: f64,
-    /// Three meshes.
+    /// Errors in space.
     pub richardson: Option<RichardsonEstimate>,
-    /// What parts cost.
+    /// Costs of the parts of a step.
     pub costs: Option<Costs>,
-    /// What was not done, and why.
+    /// Runs that were left out, with the reasons.
     pub left_out: Vec<(String, String)>,
 }
 
-/// Processor time that a single run may take, s. Those of the short study are short, and all of them are compared with a table.
+/// Largest processor time of a run, s. The runs of the short study are short, and a test compares all of them with a table.
 fn most_seconds(is_quick: bool) -> f64 {
     if is_quick { 60.0 } else { 4.0 }
 }
 
-/// Times that by which a run may be longer by the clock, before it is given up.
-const GIVEN_UP: f64 = 8.0;
+/// Largest wall-clock time of a run, relative to that.
+const WALL_CLOCK_FACTOR: f64 = 8.0;
 
-/// Which runs.
+/// The question that the runs answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
-    /// Which method for which error: all that makes sense for the scene.
+    /// Which method for which error?
     Choice,
-    /// Which order each method has: steps that are small enough to tell.
+    /// Which order of convergence does each integrator have?
     Order,
 }
 
@@ -93,7 +93,7 @@ pub fn study(settings: &Settings, scene: &Scene, question: Question) -> Result<S
     Ok(study)
 }
 
-/// Times all runs that came to their end; of the others the first clock is all there is.
+/// Times all completed runs. Failed runs keep the times of their first run.
 fn take_times(settings: &Settings, done: &[(PlannedRun, RunResult)], study: &mut SceneStudy) {
     let patience = TimingPlan::new(settings.is_quick);
     let ended = |place: &usize| done[*place].1.failure.is_none();
@@ -113,7 +113,7 @@ fn take_times(settings: &Settings, done: &[(PlannedRun, RunResult)], study: &mut
     }
 }
 
-/// Runs everything once, and looks.
+/// Makes all runs once, with samples.
 fn first_runs(
     settings: &Settings,
     bodies: &mut StudyMeshes,
@@ -133,7 +133,7 @@ fn first_runs(
                 study.left_out.push((what, format!("would take {expected:.0} s")));
                 continue;
             }
-            match first(settings.factory, &run, GIVEN_UP * most_seconds(settings.is_quick)) {
+            match first(settings.factory, &run, WALL_CLOCK_FACTOR * most_seconds(settings.is_quick)) {
                 Ok(outcome) => {
                     before = Some((outcome.spent, outcome.timing.steps.len()));
                     bodies.add_row(&run, &outcome, study)?;
@@ -162,12 +162,12 @@ fn times(clocks: &[Timing]) -> Times {
     }
 }
 
-/// Which error a run competes with: in time, or against the closed form.
+/// The error of the Pareto front: in time, or against the closed form.
 pub fn competing_error(row: &Row) -> Option<f64> {
     row.errors.time_l2.or(row.errors.analytic).filter(|error| error.is_finite())
 }
 
-/// Runs on one mesh compete with each other.
+/// Sets the standings. Runs on the same mesh are compared.
 fn stand(rows: &mut [Row]) {
     let mut meshes: Vec<String> = rows.iter().map(|row| row.config.mesh_hash.clone()).collect();
     meshes.sort();

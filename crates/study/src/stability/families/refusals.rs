@@ -1,21 +1,21 @@
-//! What cannot be computed is refused before it begins, with an error that names the element or field.
+//! Unusable scenes and meshes, which an error that names the element or key must refuse.
 
 use std::path::Path;
 
 use nalgebra::Vector3;
 
-use super::case::{Case, Finding, Outcome};
-use super::scene_text::{CLAMPED, Text};
+use crate::stability::case::{Case, Finding, Outcome};
+use crate::stability::scene_text::{CLAMPED, SceneText};
 use fem_mesh::TetrahedralMesh;
 use fem_scene::parse;
 
 const FAMILY: &str = "refusals";
 
-/// Adds the chapter.
+/// Adds the family.
 pub fn add(cases: &mut Vec<Case>) {
     for (name, from, to, names) in FIELDS {
         cases.push(case(name, format!("`{}`", to.replace('\n', "; ")), names, move || {
-            let text = Text::small("implicit_euler", "neo_hookean").with(CLAMPED).text().replace(from, to);
+            let text = SceneText::small("implicit_euler", "neo_hookean").with(CLAMPED).text().replace(from, to);
             match parse(&text, Path::new("case.toml")) {
                 Ok(scene) => fem_scene::body(&scene, Path::new("")).map(|_| ()).map_err(|error| error.to_string()),
                 Err(error) => Err(error.to_string()),
@@ -26,13 +26,13 @@ pub fn add(cases: &mut Vec<Case>) {
         cases.push(case(name, "a box of 12 vertices and 12 tetrahedra".to_owned(), names, move || {
             let mut mesh = fem_mesh::box_mesh([2.0, 1.0, 1.0], 1).map_err(|error| error.to_string())?;
             spoil(&mut mesh);
-            let text = Text::small("implicit_euler", "neo_hookean");
+            let text = SceneText::small("implicit_euler", "neo_hookean");
             text.build_on(mesh).map(|_| ()).map_err(|finding| finding.note)
         }));
     }
 }
 
-/// What is wrong, the text that becomes another, and what the error names.
+/// Name of the defect, text to replace, replacement, and the words that the error must contain.
 const FIELDS: [(&str, &str, &str, &str); 24] = [
     ("density is zero", "density = 1e3", "density = 0", "material.density"),
     ("density is negative", "density = 1e3", "density = -1000", "material.density"),
@@ -50,30 +50,30 @@ const FIELDS: [(&str, &str, &str, &str); 24] = [
     ("dt is negative", "dt = 1e-2", "dt = -0.01", "time.dt"),
     ("dt is NaN", "dt = 1e-2", "dt = nan", "time.dt"),
     ("dt is infinite", "dt = 1e-2", "dt = inf", "time.dt"),
-    ("there is no such method", "\"implicit_euler\"", "\"leapfrog\"", "leapfrog"),
-    ("there is no such law", "\"neo_hookean\"", "\"rubber\"", "rubber"),
-    ("an unknown field", "poisson = 0.3", "poisson = 0.3\nviscosity = 1", "viscosity"),
-    ("a held node that is not there", "plane = { axis = \"x\", below = 1e-9 }", "nodes = [12]", "fixed.nodes"),
-    ("a box of half cells", "[2, 1, 1]", "[2.5, 1, 1]", "along x"),
-    ("a box of no length", "[2, 1, 1]", "[0, 1, 1]", "along x"),
-    ("a box of too many cells", "cells_per_unit = 1", "cells_per_unit = 1000", "mesh.box"),
+    ("unknown integrator", "\"implicit_euler\"", "\"leapfrog\"", "leapfrog"),
+    ("unknown material", "\"neo_hookean\"", "\"rubber\"", "rubber"),
+    ("unknown key", "poisson = 0.3", "poisson = 0.3\nviscosity = 1", "viscosity"),
+    ("a fixed node out of range", "plane = { axis = \"x\", below = 1e-9 }", "nodes = [12]", "fixed.nodes"),
+    ("a box with half cells", "[2, 1, 1]", "[2.5, 1, 1]", "along x"),
+    ("a box of length 0", "[2, 1, 1]", "[0, 1, 1]", "along x"),
+    ("a box with too many cells", "cells_per_unit = 1", "cells_per_unit = 1000", "mesh.box"),
     ("a scale of zero", "cells_per_unit = 1 }", "cells_per_unit = 1 }\nscale = 0", "mesh.scale"),
 ];
 
 type Spoil = fn(&mut TetrahedralMesh);
 
 const MESHES: [(&str, Spoil, &str); 12] = [
-    ("an element of no volume", |mesh| mesh.vertices[5] = mesh.vertices[4], "element"),
+    ("an element without volume", |mesh| mesh.vertices[5] = mesh.vertices[4], "element"),
     ("an element flattened to a plane", |mesh| flatten(mesh, 1.0, 1.0, 0.0), "element 0"),
     ("all elements on a line", |mesh| flatten(mesh, 1.0, 0.0, 0.0), "element 0"),
     ("all elements in a point", |mesh| flatten(mesh, 0.0, 0.0, 0.0), "element 0"),
-    ("an element inside out", |mesh| mesh.elements[7].swap(0, 1), "element 7"),
+    ("an inverted element", |mesh| mesh.elements[7].swap(0, 1), "element 7"),
     ("an index out of range", |mesh| mesh.elements[3][2] = 12, "element 3"),
     ("a vertex twice in an element", |mesh| mesh.elements[4][1] = mesh.elements[4][0], "element 4"),
-    ("a vertex of no element", |mesh| mesh.vertices.push(Vector3::zeros()), "vertex 12"),
+    ("a vertex without an element", |mesh| mesh.vertices.push(Vector3::zeros()), "vertex 12"),
     ("a coordinate that is NaN", |mesh| mesh.vertices[6].y = f64::NAN, "vertex 6"),
     ("a coordinate that is infinite", |mesh| mesh.vertices[2].x = f64::INFINITY, "vertex 2"),
-    ("coordinates too large to compute with", |mesh| flatten(mesh, 1e200, 1e200, 1e200), "element 0"),
+    ("coordinates too large", |mesh| flatten(mesh, 1e200, 1e200, 1e200), "element 0"),
     ("no elements", |mesh| mesh.elements.clear(), "tetrahedra"),
 ];
 
@@ -96,12 +96,12 @@ fn case(
         integrator: "-".to_owned(),
         material: "-".to_owned(),
         expected: Outcome::Refused,
-        margin_is: "1 where the message names the element or field, 0 where not",
+        margin_is: "1 if the message names the element or key, else 0",
         seed: None,
         work: Box::new(move |_| match attempt() {
             Ok(()) => Finding::new(Outcome::Accepted, 0.0, ""),
             Err(message) if message.contains(names) => Finding::new(Outcome::Refused, 1.0, message),
-            Err(message) => Finding::new(Outcome::Deviates, 0.0, format!("does not name {names}: {message}")),
+            Err(message) => Finding::new(Outcome::Deviates, 0.0, format!("the error does not name {names}: {message}")),
         }),
     }
 }

@@ -1,4 +1,4 @@
-//! Tries the cases, each on a thread of its own: a panic or a hang costs its own row.
+//! Runs the cases, each on a thread of its own: a panic or a hang costs one row only.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
@@ -6,19 +6,19 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::case::{Case, Clock, Finding, Outcome, Row};
+use super::case::{Case, CaseRow, Deadline, Finding, Outcome};
 
-/// A case ends itself between two steps after this time.
-const PATIENCE: Duration = Duration::from_secs(60);
+/// Time after which a case ends itself between two steps.
+const TIME_LIMIT: Duration = Duration::from_secs(60);
 
-/// One that has not ended by then, too long after its deadline, is left behind.
+/// Time after the deadline at which a case counts as hanging.
 const GRACE: Duration = Duration::from_secs(30);
 
-/// Is told of every row as it is found, with the number of rows there will be.
-pub type Progress<'a> = &'a (dyn Fn(&Row, usize) + Sync);
+/// Receives every finished row and the number of all rows.
+pub type Progress<'a> = &'a (dyn Fn(&CaseRow, usize) + Sync);
 
-/// A row for each case, in their order. As many are tried at once as there are processors.
-pub fn rows(cases: Vec<Case>, progress: Progress) -> Vec<Row> {
+/// Runs the cases on all processors. Rows keep the order of the cases.
+pub fn rows(cases: Vec<Case>, progress: Progress) -> Vec<CaseRow> {
     let count = cases.len();
     let waiting = Mutex::new(cases.into_iter().enumerate());
     let found = Mutex::new(Vec::with_capacity(count));
@@ -42,16 +42,16 @@ pub fn rows(cases: Vec<Case>, progress: Progress) -> Vec<Row> {
     found.into_iter().map(|(_, row)| row).collect()
 }
 
-fn row(case: Case) -> Row {
+fn row(case: Case) -> CaseRow {
     let Case { family, case, parameters, integrator, material, expected, margin_is, seed, work } = case;
     let start = Instant::now();
-    let clock = Clock { deadline: start + PATIENCE };
-    let Finding { outcome, margin, note } = guarded(move || work(clock));
-    // A row is a line.
+    let deadline = Deadline(start + TIME_LIMIT);
+    let Finding { outcome, margin, note } = guarded(move || work(deadline));
+    // A row is one line.
     let note = note.split_whitespace().collect::<Vec<_>>().join(" ");
     let margin = margin.filter(|margin| margin.is_finite());
     let (pass, seconds) = (outcome.satisfies(expected), start.elapsed().as_secs_f64());
-    Row {
+    CaseRow {
         family,
         case,
         parameters,
@@ -68,22 +68,24 @@ fn row(case: Case) -> Row {
     }
 }
 
-/// What the work finds, or how it fails to.
+/// The finding of a case, or its panic or hang.
 fn guarded(work: impl FnOnce() -> Finding + Send + 'static) -> Finding {
     let (sender, receiver) = channel();
     thread::spawn(move || {
         let found = catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
             let message = panic.downcast_ref::<String>().map(String::as_str);
-            let message = message.or(panic.downcast_ref::<&str>().copied()).unwrap_or("without a message");
+            let message = message.or(panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
             Finding::plain(Outcome::Panics, message)
         });
-        // Nobody waits for it any more where it took too long.
+        // The receiver is gone if the case took too long.
         let _ = sender.send(found);
     });
-    match receiver.recv_timeout(PATIENCE + GRACE) {
+    match receiver.recv_timeout(TIME_LIMIT + GRACE) {
         Ok(found) => found,
-        Err(RecvTimeoutError::Timeout) => Finding::plain(Outcome::Hangs, "a single step does not end"),
-        Err(RecvTimeoutError::Disconnected) => Finding::plain(Outcome::Panics, "its thread is gone"),
+        Err(RecvTimeoutError::Timeout) => Finding::plain(Outcome::Hangs, "a step does not end"),
+        Err(RecvTimeoutError::Disconnected) => {
+            Finding::plain(Outcome::Panics, "the thread of the case ended without a result")
+        }
     }
 }
 
@@ -99,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn a_figure_that_is_not_a_number_is_not_within_its_bound() {
+    fn nan_is_not_within_a_bound() {
         assert_eq!(guarded(|| Finding::within(f64::NAN, "")).outcome, Outcome::Deviates);
     }
 }

@@ -1,29 +1,27 @@
-//! Where bodies start: numbers that look random and are the same in every run.
-
-use nalgebra::Vector3;
+//! Initial states, random and not.
 
 use fem_engine::simulator::Simulator;
+use nalgebra::Vector3;
+use rand::rngs::ChaCha8Rng;
+use rand::seq::SliceRandom;
+use rand::{RngExt, SeedableRng};
 
-/// Evenly spread numbers: SplitMix64 by Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators (2014).
-pub struct Random(u64);
+/// Random numbers: ChaCha with eight rounds (D. J. Bernstein, ChaCha, a variant of Salsa20, 2008). A seed gives the same numbers on
+/// every machine.
+pub struct Random(ChaCha8Rng);
 
 impl Random {
-    /// The numbers that belong to a seed.
+    /// The generator of a seed.
     pub fn new(seed: u64) -> Self {
-        Self(seed)
+        Self(ChaCha8Rng::seed_from_u64(seed))
     }
 
-    /// The next one, in [−1, 1).
-    pub fn number(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    /// Three of them.
+    /// Uniform in [−1, 1)³.
     pub fn vector(&mut self) -> Vector3<f64> {
-        Vector3::from_fn(|_, _| self.number())
+        Vector3::from_fn(|_, _| 2.0 * self.0.random::<f64>() - 1.0)
     }
 
-    /// Of length 1, every direction as likely.
+    /// Uniform on the unit sphere.
     pub fn direction(&mut self) -> Vector3<f64> {
         loop {
             let v = self.vector();
@@ -34,31 +32,20 @@ impl Random {
         }
     }
 
-    /// 0 … n − 1 in some order: Fisher and Yates (1938).
+    /// A permutation of 0 … n − 1.
     pub fn permutation(&mut self, n: usize) -> Vec<usize> {
         let mut order: Vec<usize> = (0..n).collect();
-        for i in (1..n).rev() {
-            let j = (self.bits() % (i as u64 + 1)) as usize;
-            order.swap(i, j);
-        }
+        order.shuffle(&mut self.0);
         order
-    }
-
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
     }
 }
 
-/// Moves the nodes that nothing holds wholly to where `place` says, without velocity.
+/// Moves free nodes to the positions that `place` gives, with zero velocity.
 pub fn place(simulation: &mut Simulator<f64>, mut place: impl FnMut(&Vector3<f64>) -> Vector3<f64>) {
     place_moving(simulation, |X| (place(X), Vector3::zeros()));
 }
 
-/// The same with a velocity, m/s.
+/// Moves free nodes to positions, m, and sets their velocities, m/s.
 pub fn place_moving(
     simulation: &mut Simulator<f64>,
     mut place: impl FnMut(&Vector3<f64>) -> (Vector3<f64>, Vector3<f64>),
@@ -75,7 +62,7 @@ pub fn place_moving(
     simulation.set_state(&displacements, &velocities);
 }
 
-/// Largest distance of a node from where it is at rest, in lengths of the body.
+/// Largest displacement of a node, relative to the body's length.
 pub fn distance_from_rest(simulation: &Simulator<f64>) -> f64 {
     let u = simulation.state().u.iter().map(|u| Vector3::from(*u).norm());
     u.fold(0.0, f64::max) / simulation.system().length

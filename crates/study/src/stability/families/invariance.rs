@@ -1,0 +1,158 @@
+//! Invariance under translation, scaling, renumbering and rigid motion.
+
+use fem_engine::simulator::Simulator;
+use fem_mesh::TetrahedralMesh;
+use nalgebra::Vector3;
+
+use crate::stability::case::{Case, Deadline, Finding};
+use crate::stability::initial_state::{Random, place_moving};
+use crate::stability::march::march;
+use crate::stability::scene_text::{CLAMPED, DYNAMIC, LUMPED, SceneText, gravity, moved_box};
+
+const FAMILY: &str = "invariance";
+
+/// Integrators with time steps below all limits, s, and numbers of steps.
+const METHODS: [(&str, f64, usize); 5] = [
+    ("implicit_euler", 0.02, 20),
+    ("linearly_implicit_euler", 0.005, 40),
+    ("verlet", 0.002, 100),
+    ("rk4", 0.002, 100),
+    ("static", 1.0, 1),
+];
+
+/// Largest difference of two displacements, relative to the body's length.
+const SAME: f64 = 1e-8;
+
+const MARGIN_IS: &str = "largest difference / 1e-8 of the length, round-off; must be at most 1";
+
+/// Adds the family.
+pub fn add(cases: &mut Vec<Case>, quick: bool) {
+    let methods = if quick { &METHODS[..1] } else { &METHODS };
+    for &(integrator, dt, steps) in methods {
+        for model in ["neo_hookean", "stable_neo_hookean"] {
+            let text = SceneText { dt, ..SceneText::finer(integrator, model) }.with(CLAMPED);
+            let text = text.with("[newton]\ntolerance = 1e-12\n");
+            cases.push(shifted(text.clone(), steps));
+            for scale in [1e-6, 1e6] {
+                cases.push(scaled(text.clone(), scale, steps));
+            }
+            for seed in 0..if quick { 1 } else { 5 } {
+                cases.push(renumbered(text.clone(), seed, steps));
+            }
+        }
+    }
+    for integrator in DYNAMIC {
+        for mass in ["", LUMPED] {
+            cases.push(rigid(integrator, mass, if quick { 100 } else { 1000 }));
+        }
+    }
+}
+
+/// Acceleration of gravity at rest, m/s².
+const WEIGHT: [f64; 3] = [1.0, 0.0, -4.0];
+
+fn unmoved() -> Result<TetrahedralMesh, Finding> {
+    moved_box([2.0, 1.0, 1.0], 2, |x| *x)
+}
+
+/// Displacements in the mesh's numbering, relative to the body's length.
+fn answer(
+    text: &SceneText,
+    mesh: TetrahedralMesh,
+    steps: usize,
+    deadline: Deadline,
+) -> Result<Vec<Vector3<f64>>, Finding> {
+    let mut simulation = text.build_on(mesh)?;
+    if let Some(trouble) = march(&mut simulation, steps, deadline).trouble() {
+        return Err(trouble);
+    }
+    let (system, u) = (simulation.system(), &simulation.state().u);
+    Ok(system.numbering.to_mesh(u).into_iter().map(|u| Vector3::from(u) / system.length).collect())
+}
+
+fn compared(a: &[Vector3<f64>], b: &[Vector3<f64>]) -> Finding {
+    let largest = a.iter().zip(b).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    let size = a.iter().map(Vector3::norm).fold(0.0, f64::max);
+    Finding::within(largest / SAME, format!("difference {largest:.1e}, displacement {size:.2e}"))
+}
+
+fn shifted(text: SceneText, steps: usize) -> Case {
+    let text = text.with(&gravity(WEIGHT));
+    let parameters = "translated by (1e6, -1e6, 1e6) m and a third".to_owned();
+    let case = text.clone().case(FAMILY, "far from the origin", parameters, move |deadline| {
+        let away = Vector3::new(1e6, -1e6, 1e6).add_scalar(1.0 / 3.0);
+        let far = moved_box([2.0, 1.0, 1.0], 2, |x| x + away)?;
+        // The tolerance of the clamp is 1e-9 m at the origin, which is round-off far away.
+        let far_text = SceneText { rest: text.rest.replace("1e-9", "1e-6"), ..text.clone() };
+        let near = answer(&text, unmoved()?, steps, deadline)?;
+        Ok(compared(&near, &answer(&far_text, far, steps, deadline)?))
+    });
+    Case { margin_is: MARGIN_IS, ..case }
+}
+
+/// The weight is scaled so that the body bends alike, and the time step so that waves pass as many elements.
+fn scaled(text: SceneText, scale: f64, steps: usize) -> Case {
+    let parameters = format!("dt and 1/g scaled by {scale:e}");
+    let case = text.clone().case(FAMILY, format!("scaled by {scale:e}"), parameters, move |deadline| {
+        let unit = text.clone().with(&gravity(WEIGHT));
+        let rest = text.rest.replace("1e-9", &format!("{:e}", 1e-9 * scale));
+        let other = SceneText { dt: text.dt * scale, rest, ..text }.with(&gravity(WEIGHT.map(|g| g / scale)));
+        let near = answer(&unit, unmoved()?, steps, deadline)?;
+        Ok(compared(&near, &answer(&other, moved_box([2.0, 1.0, 1.0], 2, |x| x * scale)?, steps, deadline)?))
+    });
+    Case { margin_is: MARGIN_IS, ..case }
+}
+
+/// Nodes and elements in random order, with rotated corners of elements.
+fn renumbered(text: SceneText, seed: u64, steps: usize) -> Case {
+    let text = text.with(&gravity(WEIGHT));
+    let name = "nodes, elements and corners renumbered";
+    let case = text.clone().case(FAMILY, name, "random permutations".to_owned(), move |deadline| {
+        let mesh = unmoved()?;
+        let (other, number) = shuffled(&mesh, seed);
+        let plain = answer(&text, mesh, steps, deadline)?;
+        let found = answer(&text, other, steps, deadline)?;
+        Ok(compared(&plain, &number.into_iter().map(|node| found[node]).collect::<Vec<_>>()))
+    });
+    Case { margin_is: MARGIN_IS, seed: Some(seed), ..case }
+}
+
+/// The mesh in random order, and the new number of each node.
+fn shuffled(mesh: &TetrahedralMesh, seed: u64) -> (TetrahedralMesh, Vec<usize>) {
+    let mut random = Random::new(seed);
+    let number = random.permutation(mesh.vertices.len());
+    let mut vertices = mesh.vertices.clone();
+    for (vertex, &new) in mesh.vertices.iter().zip(&number) {
+        vertices[new] = *vertex;
+    }
+    let order = random.permutation(mesh.elements.len());
+    let turned = |(i, &element): (usize, &usize)| {
+        let [a, b, c, d] = mesh.elements[element].map(|node| number[node]);
+        // Even permutations keep the volume positive.
+        [[a, b, c, d], [b, c, a, d], [c, a, b, d], [b, a, d, c]][i % 4]
+    };
+    (TetrahedralMesh { vertices, elements: order.iter().enumerate().map(turned).collect() }, number)
+}
+
+/// A free body in rigid motion without loads, which conserves its momentum.
+fn rigid(integrator: &'static str, mass: &'static str, steps: usize) -> Case {
+    let text = SceneText { dt: 1e-3, ..SceneText::small(integrator, "neo_hookean") }.with(mass);
+    let name = if mass.is_empty() { "consistent" } else { "lumped" };
+    let parameters = format!("{name} mass, dt = 1e-3 s, {steps} steps");
+    let case = text.clone().case(FAMILY, "translating and rotating", parameters, move |deadline| {
+        let mut simulation = text.build()?;
+        let (spin, speed) = (Vector3::new(0.3, -0.2, 0.5), Vector3::new(3.0, 2.0, -1.0));
+        place_moving(&mut simulation, |X| (*X, speed + spin.cross(&(X - Vector3::new(1.0, 0.5, 0.5)))));
+        let before = momentum(&simulation);
+        let end = march(&mut simulation, steps, deadline);
+        let change = (momentum(&simulation) - before).norm() / (1e-12 * before.norm());
+        Ok(end.trouble().unwrap_or_else(|| Finding::within(change, end.note())))
+    });
+    Case { margin_is: "relative change of momentum / 1e-12, round-off; must be at most 1", ..case }
+}
+
+/// Σ M v, kg m/s.
+fn momentum(simulation: &Simulator<f64>) -> Vector3<f64> {
+    let (masses, v) = (simulation.system().mass.lumped(), &simulation.state().v);
+    masses.iter().zip(v).map(|(mass, v)| *mass * Vector3::from(*v)).sum()
+}

@@ -1,0 +1,36 @@
+//! Families of cases, one file each.
+
+mod degenerate_bodies;
+pub mod incompressibility;
+mod invariance;
+mod large_strains;
+mod long_runs;
+pub mod maps;
+mod material_contrast;
+mod recovery;
+mod refusals;
+mod single_precision;
+mod slivers;
+mod stability_limits;
+mod stiffness_and_step;
+
+use super::case::Case;
+
+/// The cases of all families. Finished maps are added to `maps`.
+pub fn cases(quick: bool, maps: &maps::Found) -> Vec<Case> {
+    let mut cases = Vec::new();
+    stiffness_and_step::add(&mut cases, quick);
+    maps::add(&mut cases, quick, maps);
+    stability_limits::add(&mut cases, quick);
+    incompressibility::add(&mut cases, quick);
+    invariance::add(&mut cases, quick);
+    slivers::add(&mut cases, quick);
+    single_precision::add(&mut cases, quick);
+    material_contrast::add(&mut cases, quick);
+    large_strains::add(&mut cases, quick);
+    recovery::add(&mut cases, quick);
+    degenerate_bodies::add(&mut cases, quick);
+    long_runs::add(&mut cases, quick);
+    refusals::add(&mut cases);
+    cases
+}

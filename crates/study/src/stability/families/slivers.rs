@@ -1,0 +1,62 @@
+//! Elements with an aspect ratio of a million.
+
+use fem_mesh::TetrahedralMesh;
+use nalgebra::Vector3;
+
+use crate::stability::case::{Case, Finding};
+use crate::stability::forecast::excite;
+use crate::stability::march::march;
+use crate::stability::scene_text::{CLAMPED, SceneText, gravity, moved_box};
+
+const FAMILY: &str = "slivers";
+
+/// Edge over thickness.
+const ASPECT: f64 = 1e6;
+
+/// Adds the family.
+pub fn add(cases: &mut Vec<Case>, quick: bool) {
+    for thin in [Thin::Sheet, Thin::Needle] {
+        for model in ["neo_hookean", "stable_neo_hookean"] {
+            for integrator in ["implicit_euler", "linearly_implicit_euler", "static", "verlet"] {
+                cases.push(sliver(thin, model, integrator, if quick { 10 } else { 100 }));
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Thin {
+    /// A layer of flat elements between two blocks.
+    Sheet,
+    /// Two crossing layers, with elements that are thin in two directions.
+    Needle,
+}
+
+/// Maps 0, 1, 2, 3 to 0, 1, 1 + thickness, 2 + thickness.
+fn thinned(x: f64) -> f64 {
+    if x > 1.5 { x - 1.0 + 1.0 / ASPECT } else { x }
+}
+
+fn mesh(thin: Thin) -> Result<TetrahedralMesh, Finding> {
+    match thin {
+        Thin::Sheet => moved_box([3.0, 1.0, 1.0], 1, |x| Vector3::new(thinned(x.x), x.y, x.z)),
+        Thin::Needle => moved_box([3.0, 3.0, 1.0], 1, |x| Vector3::new(thinned(x.x), thinned(x.y), x.z)),
+    }
+}
+
+fn sliver(thin: Thin, model: &'static str, integrator: &'static str, steps: usize) -> Case {
+    let mut text = SceneText::small(integrator, model).with(CLAMPED).with(&gravity([0.0, 0.0, -2.0]));
+    let steps = if integrator == "static" { 1 } else { steps };
+    let step = if integrator == "verlet" { "half of the largest stable step" } else { "0.01 s" };
+    let name = match thin {
+        Thin::Sheet => "a layer of flat elements",
+        Thin::Needle => "crossing layers with needles",
+    };
+    let parameters = format!("aspect ratio {ASPECT:e}, dt = {step}, {steps} steps");
+    text.clone().case(FAMILY, name, parameters, move |deadline| {
+        if text.integrator == "verlet" {
+            text.dt = 1.0 / excite(&mut text.build_on(mesh(thin)?)?, 0.0)?.omega;
+        }
+        Ok(march(&mut text.build_on(mesh(thin)?)?, steps, deadline).survival())
+    })
+}

@@ -1,0 +1,78 @@
+//! Soft to stiff bodies, short to long time steps: each integrator with each material.
+
+use crate::stability::case::{Case, SMALLEST_J};
+use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
+use crate::stability::march::march;
+use crate::stability::scene_text::{DYNAMIC, LAWS, SceneText, gravity};
+use crate::stability::theory;
+
+const FAMILY: &str = "stiffness and time step";
+
+/// Young's moduli, Pa.
+pub const YOUNG: [f64; 4] = [1e2, 1e5, 1e8, 1e12];
+
+/// Time steps, s.
+pub const DT: [f64; 3] = [1e-5, 1e-2, 1.0];
+
+/// The margin of an integrator.
+fn margin_is(integrator: &str) -> &'static str {
+    match theory::limit(integrator) {
+        None => SMALLEST_J,
+        Some(0.0) => "e-folds of the highest mode over those that end the run; no step is stable",
+        Some(_) => "dt / dt_limit; stable below 1",
+    }
+}
+
+/// Adds the family.
+pub fn add(cases: &mut Vec<Case>, quick: bool) {
+    let omega = unit_omega();
+    let laws: &[&str] = if quick { &LAWS[3..] } else { &LAWS };
+    for integrator in DYNAMIC {
+        for &model in laws {
+            for young in YOUNG {
+                for dt in DT {
+                    cases.push(vibrating(integrator, model, young, dt, omega, quick));
+                }
+            }
+        }
+    }
+    add_weighed(cases, quick);
+}
+
+fn vibrating(integrator: &'static str, model: &'static str, young: f64, dt: f64, unit_omega: f64, quick: bool) -> Case {
+    let z = unit_omega * young.sqrt() * dt;
+    let forecast = forecast(integrator, model, z, if quick { 2000 } else { 20_000 });
+    let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, dt omega_max = {z:.3e}, {} steps", forecast.steps);
+    let text = clamped(integrator, model, young, dt);
+    Case {
+        expected: forecast.expected,
+        margin_is: margin_is(integrator),
+        ..text.clone().case(FAMILY, "clamped body, vibrating", parameters, move |deadline| {
+            try_forecast(&text, forecast, deadline)
+        })
+    }
+}
+
+/// Under a weight as large as the stiffness: ρ g L = E.
+fn add_weighed(cases: &mut Vec<Case>, quick: bool) {
+    let methods = [("implicit_euler", DT[0]), ("implicit_euler", DT[1]), ("implicit_euler", DT[2]), ("static", 1.0)];
+    for model in ["neo_hookean", "stable_neo_hookean"] {
+        for young in if quick { &YOUNG[..1] } else { &YOUNG } {
+            for (integrator, dt) in methods {
+                for (name, direction) in [("sagging", [0.0, 0.0, -1.0]), ("hanging", [1.0, 0.0, 0.0])] {
+                    let text = clamped(integrator, model, *young, dt);
+                    let g = text.young / (text.density * 2.0);
+                    let text = text.with(&gravity(direction.map(|x| x * g)));
+                    cases.push(weighed(name, text, if integrator == "static" { 1 } else { 50 }));
+                }
+            }
+        }
+    }
+}
+
+fn weighed(name: &str, text: SceneText, steps: usize) -> Case {
+    let case = format!("clamped body, {name} under a weight of E times its cross-section");
+    let parameters = format!("E = {:e} Pa, dt = {:e} s, {steps} steps", text.young, text.dt);
+    text.clone()
+        .case(FAMILY, case, parameters, move |deadline| Ok(march(&mut text.build()?, steps, deadline).survival()))
+}

@@ -1,0 +1,105 @@
+//! The results of a study: rows, maps and their counts.
+
+use std::collections::BTreeSet;
+
+use serde::Serialize;
+
+use super::case::CaseRow;
+use super::families::maps::Map;
+use crate::csv_table::csv_text;
+use crate::machine::Machine;
+
+/// The results of a study.
+#[derive(Clone, Debug, Serialize)]
+pub struct Results {
+    /// The short study.
+    pub quick: bool,
+    /// Machine and date.
+    pub machine: Machine,
+    /// Wall-clock time of the study, s.
+    pub seconds: f64,
+    /// Numbers of rows.
+    pub counts: Counts,
+    /// Rows in the order of the families.
+    pub rows: Vec<CaseRow>,
+    /// Maps in the order of the integrators.
+    pub maps: Vec<Map>,
+}
+
+/// Numbers of rows and runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Counts {
+    /// Rows.
+    pub rows: usize,
+    /// Rows with the expected outcome.
+    pub pass: usize,
+    /// Rows with random initial states.
+    pub seeded_rows: usize,
+    /// Different seeds.
+    pub seeds: usize,
+    /// Runs of all maps.
+    pub map_cells: usize,
+}
+
+impl Results {
+    /// Counts rows and maps.
+    pub fn new(quick: bool, machine: Machine, seconds: f64, rows: Vec<CaseRow>, maps: Vec<Map>) -> Self {
+        let seeds: Vec<u64> = rows.iter().filter_map(|row| row.seed).collect();
+        let counts = Counts {
+            rows: rows.len(),
+            pass: rows.iter().filter(|row| row.pass).count(),
+            seeded_rows: seeds.len(),
+            seeds: seeds.iter().collect::<BTreeSet<_>>().len(),
+            map_cells: maps.iter().map(|map| map.cells.len()).sum(),
+        };
+        Self { quick, machine, seconds, counts, rows, maps }
+    }
+
+    /// Returns true if every row has the expected outcome.
+    pub fn passes(&self) -> bool {
+        self.counts.pass == self.counts.rows
+    }
+
+    /// `stability.csv`: a head and a line for each row.
+    pub fn csv(&self) -> Result<String, csv::Error> {
+        csv_text(&COLUMNS, self.rows.iter().map(cells))
+    }
+}
+
+const COLUMNS: [&str; 12] = [
+    "family",
+    "case",
+    "parameters",
+    "integrator",
+    "material",
+    "seed",
+    "expected",
+    "outcome",
+    "margin",
+    "pass",
+    "margin_is",
+    "note",
+];
+
+fn cells(row: &CaseRow) -> Vec<String> {
+    let seed = row.seed.map_or(String::new(), |seed| seed.to_string());
+    // Other machines reproduce four digits.
+    let margin = row.margin.map_or(String::new(), |margin| format!("{margin:.3e}"));
+    // A row is one line.
+    let note = row.note.lines().map(str::trim).collect::<Vec<_>>().join(" ");
+    let cells = [
+        row.family,
+        &row.case,
+        &row.parameters,
+        &row.integrator,
+        &row.material,
+        &seed,
+        row.expected.name(),
+        row.outcome.name(),
+        &margin,
+        if row.pass { "true" } else { "false" },
+        row.margin_is,
+        &note,
+    ];
+    cells.map(str::to_owned).to_vec()
+}
