@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cli::RunArguments;
 use crate::end::End;
+use crate::race::{Contestant, Time};
 
 /// Number of steps if neither the scene nor the arguments give one.
 const DEFAULT_STEPS: usize = 100;
@@ -91,6 +92,11 @@ pub fn apart(arguments: &RunArguments, threads: usize) -> Result<Measurement, En
     }
     let printed = output_of(&mut command)?;
     serde_json::from_str(&printed).map_err(|error| End::wrong(format!("a run printed no valid JSON: {error}")))
+}
+
+/// A scene as a contestant, each time in a process of its own.
+pub fn timed(arguments: &RunArguments, threads: usize) -> Contestant<'_> {
+    Box::new(move || apart(arguments, threads).map(|run| Time { wall: run.wall_per_step, cpu: run.cpu_per_step }))
 }
 
 /// The output of a program; a failure includes its messages.

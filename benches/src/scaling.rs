@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use fem_study::machine::{self, Machine};
+use fem_study::runs::convergence_order::fit;
 
 use crate::cli::{RunArguments, ScalingArguments};
 use crate::end::End;
@@ -19,11 +20,8 @@ pub fn run(arguments: &ScalingArguments) -> Result<(), End> {
     let beams: Vec<RunArguments> = cells.iter().map(|&cells| beam(arguments, cells)).collect();
     let runs =
         beams.iter().map(|beam| run::apart(beam, machine::threads())).collect::<Result<Vec<Measurement>, End>>()?;
-    let timed = |beam, threads| -> Contestant {
-        Box::new(move || run::apart(beam, threads).map(|run| Time { wall: run.wall_per_step, cpu: run.cpu_per_step }))
-    };
     let contestants: Vec<Contestant> =
-        beams.iter().flat_map(|beam| [timed(beam, 1), timed(beam, machine::threads())]).collect();
+        beams.iter().flat_map(|beam| [run::timed(beam, 1), run::timed(beam, machine::threads())]).collect();
     let times = race(sizes.rounds, &contestants)?;
     print(&cells, &runs, &times);
     Ok(())
@@ -62,29 +60,7 @@ fn print(cells: &[usize], runs: &[Measurement], times: &[Time]) {
     }
     let exponent = |time: fn(&(f64, f64, f64)) -> f64| {
         let points: Vec<(f64, f64)> = rows.iter().map(|row| (row.0, time(row))).collect();
-        exponent(&points).map_or("unknown: give two sizes".to_owned(), |exponent| format!("{exponent:.3}"))
+        fit(&points).map_or("unknown: give two sizes".to_owned(), |fit| format!("{:.3}", fit.value))
     };
     println!("\nExponent, one thread: {}; all threads: {}.", exponent(|row| row.1), exponent(|row| row.2));
-}
-
-/// Slope of the line through (log x, log y) by least squares; `None` for fewer than two sizes.
-fn exponent(points: &[(f64, f64)]) -> Option<f64> {
-    let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
-    let mean = |of: fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / logs.len() as f64;
-    let (x, y) = (mean(|point| point.0), mean(|point| point.1));
-    let spread: f64 = logs.iter().map(|point| (point.0 - x).powi(2)).sum();
-    let slope = logs.iter().map(|point| (point.0 - x) * (point.1 - y)).sum::<f64>() / spread;
-    (spread > 0.0).then_some(slope)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::exponent;
-
-    #[test]
-    fn the_exponent_of_a_power_is_found_and_one_size_has_none() {
-        let power: Vec<(f64, f64)> = [1.0, 10.0, 50.0].map(|x: f64| (x, 3.0 * x.powf(1.25))).to_vec();
-        assert!((exponent(&power).unwrap() - 1.25).abs() < 1e-12);
-        assert_eq!(exponent(&power[..1]), None);
-    }
 }

@@ -7,7 +7,7 @@ use fem_study::machine::{self, Machine};
 
 use crate::cli::{RunArguments, SizesArguments, SolverName};
 use crate::end::End;
-use crate::race::{Contestant, Time, race};
+use crate::race::{Contestant, race};
 use crate::run;
 
 /// Cells per metre of beams of 1 225, 4 961 and 18 785 nodes.
@@ -22,13 +22,8 @@ pub fn run(arguments: &SizesArguments) -> Result<(), End> {
     for cells in cells {
         let beams = SolverName::value_variants().iter().map(|&solver| beam(arguments, cells, solver));
         let beams: Vec<RunArguments> = beams.collect();
-        let timed = |beam, threads| -> Contestant {
-            Box::new(move || {
-                run::apart(beam, threads).map(|run| Time { wall: run.wall_per_step, cpu: run.cpu_per_step })
-            })
-        };
         let contestants: Vec<Contestant> =
-            beams.iter().flat_map(|beam| [timed(beam, 1), timed(beam, machine::threads())]).collect();
+            beams.iter().flat_map(|beam| [run::timed(beam, 1), run::timed(beam, machine::threads())]).collect();
         let times = race(arguments.rounds, &contestants)?;
         for (solver, times) in SolverName::value_variants().iter().zip(times.chunks(2)) {
             println!("| {cells} | {} | {:.2} | {:.2} |", solver.name(), 1e3 * times[0].cpu, 1e3 * times[1].wall);

@@ -1,4 +1,4 @@
-//! `report`: error against run time.
+//! The subcommand `report`: error against run time.
 
 use std::path::PathBuf;
 
@@ -25,7 +25,7 @@ pub struct Arguments {
     pub quick: bool,
 }
 
-/// Studies the scenes, writes the folder, and prints which method is for which error.
+/// Studies the scenes, writes the report, and prints the fastest method for each error.
 pub fn run(arguments: &Arguments) -> Result<(), End> {
     let (folder, data) = (&arguments.out, data::folder());
     if folder.exists() && !folder.is_dir() {
@@ -58,10 +58,10 @@ fn print(found: &Report) {
     }
     let rows = found.rows();
     let done = rows.iter().filter(|row| row.is_done()).count();
-    say!("{} runs, {} of them failed or exploded, as the tables tell", rows.len(), rows.len() - done);
+    say!("{} runs; {} of them failed, as the tables show", rows.len(), rows.len() - done);
 }
 
-/// Not drawn where stderr is no terminal.
+/// The bar is hidden if stderr is no terminal.
 fn progress_bar() -> ProgressBar {
     let style =
         ProgressStyle::with_template("{bar:30} {pos:>4} of {len}  {elapsed}  {wide_msg}").expect("a valid template");

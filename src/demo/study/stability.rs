@@ -1,4 +1,4 @@
-//! `stability`: the engine under stiff and extreme cases.
+//! The subcommand `stability`: stiff and extreme cases.
 
 use std::path::PathBuf;
 
@@ -19,7 +19,7 @@ pub struct Arguments {
     pub quick: bool,
 }
 
-/// Tries every case and writes the tables; an error where one does not end as it must.
+/// Runs all cases and writes the tables. An unexpected outcome is an error.
 pub fn run(arguments: &Arguments) -> Result<(), End> {
     let folder = &arguments.out;
     if folder.exists() && !folder.is_dir() {
@@ -32,7 +32,7 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
         if !row.pass {
             let CaseRow { family, case, parameters, integrator, material, expected, outcome, note, .. } = row;
             let told = format!(
-                "{family}: {case} ({parameters}), {integrator}, {material}: {outcome} instead of {expected}; {note}"
+                "{family}: {case} ({parameters}), {integrator}, {material}: {outcome}, expected: {expected}; {note}"
             );
             bar.suspend(|| eprintln!("{told}"));
         }
@@ -44,7 +44,7 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
     write(&table, folder).map_err(unwritable)?;
     let counts = table.counts;
     say!(
-        "{} of {} cases as expected ({} of them from random numbers, {} seeds; {} more runs in maps), {:.0} s",
+        "{} of {} cases as expected ({} of them from random states with {} seeds; {} more runs in maps), {:.0} s",
         counts.pass,
         counts.rows,
         counts.seeded_rows,
@@ -56,11 +56,11 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
     if table.passes() {
         Ok(())
     } else {
-        Err(End::Stopped(format!("{} cases do not end as they must", counts.rows - counts.pass)))
+        Err(End::Stopped(format!("{} cases have an unexpected outcome", counts.rows - counts.pass)))
     }
 }
 
-/// Not drawn where stderr is no terminal.
+/// The bar is hidden if stderr is no terminal.
 fn progress_bar() -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:40} case {pos} of {len}, {eta} left").expect("a valid template");
     ProgressBar::new(0).with_style(style)

@@ -56,30 +56,7 @@ pub struct Observed {
 }
 
 /// A small soft body with a clamp, gravity and a drag: its initial acceleration is not zero, and its loads depend on time.
-const ORDERS: &str = r#"about = "a small soft box with a clamp, gravity and a drag, at time steps in the asymptotic range"
-pipeline = "engine"
-[mesh]
-box = { size = [2, 1, 1], cells_per_unit = 1 }
-[material]
-model = "neo_hookean"
-C = 1e4
-D = 4e4
-density = 1000.0
-[gravity]
-acceleration = [0, -20, 3]
-[fixed]
-plane = { axis = "x", below = 1e-9 }
-[time]
-dt = 0.01
-integrator = "implicit_euler"
-steps = 20
-[drag]
-vertex = 5
-stiffness = 2e3
-direction = [1, 0, 0.5]
-amplitude = 0.3
-frequency = 2.0
-"#;
+const ORDERS: &str = include_str!("orders.toml");
 
 /// Studies the scenes and writes the report into the folder of the settings. An error names the file or the scene.
 pub fn report(settings: &Settings, scenes: &[Scene]) -> Result<Report, String> {

@@ -2,9 +2,9 @@
 
 pub mod convergence_order;
 pub(crate) mod costs;
-pub mod measure;
+pub(crate) mod measure;
 pub mod pareto;
-pub mod plan;
+pub(crate) mod plan;
 pub mod row;
 pub(crate) mod states;
 pub(crate) mod table;

@@ -31,16 +31,17 @@ pub fn uniaxial(scene: &Scene) -> Option<(f64, f64)> {
         scene.gravity.is_none() && scene.body_force.is_none() && scene.springs.is_empty() && scene.drag.is_none();
     let [traction] = &scene.traction[..] else { return None };
     let on = traction.on.as_ref().filter(|on| on.axis == Axis::X && on.side == Side::Max)?;
-    let [pull, 0.0, 0.0] = traction.force_per_area? else { return None };
-    let rollers =
-        [Axis::X, Axis::Y, Axis::Z].iter().all(|&axis| scene.prescribed.iter().any(|condition| is_roller(condition, axis)));
+    let [load, 0.0, 0.0] = traction.force_per_area? else { return None };
+    let rollers = [Axis::X, Axis::Y, Axis::Z]
+        .iter()
+        .all(|&axis| scene.prescribed.iter().any(|condition| is_roller(condition, axis)));
     let is_bar =
         scene.mesh.cuboid.is_some() && scene.prescribed.len() == 3 && scene.fixed.is_none() && on.within >= 0.0;
     let (C, D) = scene.material.neo_hookean()?;
     if !(is_neo_hookean && is_alone && rollers && is_bar) {
         return None;
     }
-    stretches(C, D, pull)
+    stretches(C, D, load)
 }
 
 /// A symmetry plane: the face of the smallest coordinate keeps that coordinate.
@@ -50,8 +51,8 @@ fn is_roller(condition: &PrescribedTable, axis: Axis) -> bool {
     on_side && stays && condition.components.as_deref() == Some(&[axis])
 }
 
-/// λ and a of P11(λ, a) = pull where (2C/3) J^(−2/3) (a² − λ²) + 2D (J − 1) J = 0, J = λ a²: bisection over λ, and over a in it.
-fn stretches(C: f64, D: f64, pull: f64) -> Option<(f64, f64)> {
+/// λ and a of P11(λ, a) = traction where (2C/3) J^(−2/3) (a² − λ²) + 2D (J − 1) J = 0, J = λ a²: bisection over λ, and over a in it.
+fn stretches(C: f64, D: f64, traction: f64) -> Option<(f64, f64)> {
     let lateral = |stretch: f64| {
         bisect(1e-3, 10.0, |a| {
             let J = stretch * a * a;
@@ -62,7 +63,7 @@ fn stretches(C: f64, D: f64, pull: f64) -> Option<(f64, f64)> {
         let a = lateral(stretch)?;
         Some(2.0 * C / stretch * (stretch * a * a).powf(-2.0 / 3.0) * (stretch * stretch - a * a))
     };
-    let stretch = bisect(0.05, 20.0, |stretch| stress(stretch).map_or(f64::NAN, |stress| stress - pull))?;
+    let stretch = bisect(0.05, 20.0, |stretch| stress(stretch).map_or(f64::NAN, |stress| stress - traction))?;
     Some((stretch, lateral(stretch)?))
 }
 

@@ -1,11 +1,11 @@
 //! Studies: which runs a scene needs, and their rows.
 
-pub mod scene;
-pub mod space;
+pub(crate) mod scene;
+pub(crate) mod space;
 
 use std::path::{Path, PathBuf};
 
-use crate::runs::measure::Factory;
+pub use crate::runs::measure::Factory;
 
 /// Settings of a study.
 pub struct Settings<'a> {

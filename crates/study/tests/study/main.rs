@@ -1,7 +1,7 @@
-//! The short report beside the one that is stored: errors and orders must not change by more than a hundredth. Times may.
+//! The short report against the stored tables: errors and orders must not change by more than a hundredth; times may.
 //!
-//! Where a change is meant, write the tables anew:
-//! `FEM_WRITE_REFERENCE=1 cargo test --release -p fem-study --test study`, and tell in the commit why they changed.
+//! After an intended change, write the tables anew:
+//! `FEM_WRITE_REFERENCE=1 cargo test --release -p fem-study --test study`, and give the reason in the commit.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -24,7 +24,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// The short report of two scenes by the engine alone, in a folder that lives as long as the tests.
+/// The short report of four scenes with the engine alone, in a folder that exists during the tests.
 fn found() -> &'static (Report, tempfile::TempDir) {
     static FOUND: OnceLock<(Report, tempfile::TempDir)> = OnceLock::new();
     FOUND.get_or_init(|| {
@@ -32,7 +32,7 @@ fn found() -> &'static (Report, tempfile::TempDir) {
         let data = root().join("data");
         let factory = |scene: &Scene| -> Result<Box<dyn Simulation>, String> {
             if scene.pipeline == Pipeline::Course {
-                return Err("the engine's tests know nothing of the course".to_owned());
+                return Err("the tests of the study have no course pipeline".to_owned());
             }
             let body = fem_scene::body(scene, &root().join("data")).map_err(|error| error.to_string())?;
             fem_engine::simulator::build(scene, body).map_err(|error| error.to_string())
@@ -49,7 +49,7 @@ fn found() -> &'static (Report, tempfile::TempDir) {
     })
 }
 
-/// A name for each run that does not depend on its place, and its errors. Loose tolerances end where Newton's path happens to.
+/// Name and errors of each run. The errors of loose tolerances depend on round-off in Newton's method.
 fn errors(rows: &[Row]) -> Vec<Vec<String>> {
     let is_loose =
         |row: &&Row| row.config.group == "tolerance" && row.config.tolerance.is_some_and(|tolerance| tolerance > 1e-6);
@@ -77,7 +77,7 @@ fn orders(report: &Report) -> Vec<Vec<String>> {
     report.observed().into_iter().map(line).collect()
 }
 
-/// Compares with a table that is stored, or stores it.
+/// Compares with a stored table, or writes it.
 fn compare(file: &str, head: &[&str], rows: &[Vec<String>]) {
     let path = root().join("docs/reference").join(file);
     if std::env::var_os("FEM_WRITE_REFERENCE").is_some() {
@@ -93,7 +93,7 @@ fn compare(file: &str, head: &[&str], rows: &[Vec<String>]) {
     let mut problems = Vec::new();
     for row in rows {
         let Some(before) = stored.get(&row[0]) else {
-            problems.push(format!("{}: is not in the table", row[0]));
+            problems.push(format!("{}: not in the table", row[0]));
             continue;
         };
         for (place, (now, before)) in row.iter().zip(before).enumerate().skip(1) {
@@ -114,17 +114,17 @@ fn agrees(now: &str, before: &str) -> bool {
 }
 
 #[test]
-fn errors_are_those_of_the_stored_table() {
+fn errors_match_the_stored_table() {
     compare("report-quick-errors.csv", &ERRORS, &errors(&found().0.rows()));
 }
 
 #[test]
-fn orders_are_those_of_the_stored_table() {
+fn orders_match_the_stored_table() {
     compare("report-quick-orders.csv", &["of", "order"], &orders(&found().0));
 }
 
 #[test]
-fn every_method_has_its_order_on_the_small_body() {
+fn every_integrator_has_its_order_on_the_small_body() {
     for observed in found().0.observed().into_iter().filter(|observed| observed.scene == "orders") {
         let order = observed.order.unwrap_or_else(|| panic!("{observed:?}"));
         assert!((order.value - observed.expected).abs() < 0.1, "{observed:?}");
@@ -132,7 +132,7 @@ fn every_method_has_its_order_on_the_small_body() {
 }
 
 #[test]
-fn an_error_can_be_computed_from_the_files_that_its_row_names() {
+fn errors_can_be_recomputed_from_the_state_files() {
     let (report, out) = found();
     let read = |file: &str| -> serde_json::Value {
         serde_json::from_str(&fs::read_to_string(out.path().join(file)).unwrap()).unwrap()
@@ -153,7 +153,7 @@ fn an_error_can_be_computed_from_the_files_that_its_row_names() {
 }
 
 #[test]
-fn what_must_explode_is_kept_as_a_failed_row() {
+fn diverging_runs_are_failed_rows() {
     let rows = found().0.rows();
     let explicit = rows.iter().filter(|row| row.config.scene == "arma" && row.config.integrator == "explicit_euler");
     let statuses: Vec<_> = explicit.map(|row| &row.status).collect();
@@ -161,7 +161,7 @@ fn what_must_explode_is_kept_as_a_failed_row() {
 }
 
 #[test]
-fn the_page_and_the_pictures_hold_no_number_that_is_none() {
+fn the_page_and_the_charts_contain_no_nan() {
     let (_, out) = found();
     for file in ["report.html", "error-vs-time.svg", "locking.svg", "orders-in-h.svg", "runs.csv", "orders.csv"] {
         let text = fs::read_to_string(out.path().join(file)).unwrap();
