@@ -12,17 +12,13 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 use super::{assert_none, files, read, root};
 
-/// Crates in which cycles still stand.
-const KNOTTED: &[&str] = &["crates/engine/src/lib.rs"];
-
 #[test]
 fn no_two_modules_need_each_other() {
     let is_root = |path: &PathBuf| {
         path.parent().is_some_and(|folder| folder.ends_with("src"))
             && (path.ends_with("lib.rs") || path.ends_with("main.rs"))
     };
-    let is_held_to_it = |path: &PathBuf| !KNOTTED.iter().any(|knotted| path.ends_with(knotted));
-    let roots = files("rs").into_iter().filter(is_root).filter(is_held_to_it);
+    let roots = files("rs").into_iter().filter(is_root);
     assert_none(roots.flat_map(|path| Crate::read(&path).cycles()).collect());
 }
 

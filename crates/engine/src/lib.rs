@@ -21,6 +21,7 @@ pub mod newton;
 pub mod number;
 mod pick;
 pub mod profile;
+mod refusal;
 pub mod simulator;
 pub mod skinning;
 pub mod solvers;

@@ -16,6 +16,7 @@ use crate::materials::AnyLaw;
 use crate::model::state::State;
 use crate::model::system::{OwnForces, System};
 use crate::number::Real;
+use crate::refusal::Refusal;
 use crate::skinning::Skinning;
 use crate::solvers::SolverChoice;
 
@@ -40,9 +41,6 @@ pub struct Simulator<T: Real> {
     skinning_timer: Timer,
     reactions_timer: Timer,
 }
-
-/// A field of the scene that the engine refuses: its name, and the problem with its remedy.
-pub(crate) type Refusal = (&'static str, String);
 
 /// Builds the simulation of a scene in the precision that it names. Returns an error that names the field if the scene asks for
 /// something impossible.

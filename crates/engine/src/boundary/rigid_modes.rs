@@ -3,7 +3,7 @@
 use fem_scene::Body;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use crate::simulator::Refusal;
+use crate::refusal::Refusal;
 
 /// A rigid motion is constrained if its stiffness is more than this part of the largest.
 const LEAST: f64 = 1e-9;

@@ -2,10 +2,10 @@
 
 use fem_scene::{Material, Method, Precision};
 
-use super::Refusal;
 use crate::materials::AnyLaw;
 use crate::model::system::System;
 use crate::number::{Real, is_positive};
+use crate::refusal::Refusal;
 
 /// Refuses a scene with a derived quantity that would be zero or infinite. Each of its numbers has been checked when it was read;
 /// products of several can still be out of range, above all in single precision.
