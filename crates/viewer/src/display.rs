@@ -37,30 +37,10 @@ fn has_adapter(backends: wgpu::Backends) -> Result<(), String> {
 ///
 /// Mesa's Vulkan layer connects to Wayland for every list of adapters, also if there is no window. libwayland then prints
 /// to stderr, and its handler for messages cannot be replaced from safe code.
-#[cfg(all(unix, not(target_os = "macos")))]
 pub fn without_wayland_message<R>(request: impl FnOnce() -> R) -> R {
-    if std::env::var_os("XDG_RUNTIME_DIR").is_some() {
-        return request();
-    }
-    let redirected = redirect_stderr();
-    let result = request();
-    if let Ok(stderr) = redirected {
-        let _ = rustix::stdio::dup2_stderr(stderr);
-    }
-    result
-}
-
-#[cfg(not(all(unix, not(target_os = "macos"))))]
-pub fn without_wayland_message<R>(request: impl FnOnce() -> R) -> R {
+    #[cfg(all(unix, not(target_os = "macos")))]
+    let _restored_at_the_end = unix::redirect_stderr();
     request()
-}
-
-/// Redirects stderr to /dev/null and returns the former stderr.
-#[cfg(all(unix, not(target_os = "macos")))]
-fn redirect_stderr() -> std::io::Result<std::os::fd::OwnedFd> {
-    let stderr = rustix::io::dup(rustix::stdio::stderr())?;
-    rustix::stdio::dup2_stderr(std::fs::File::options().write(true).open("/dev/null")?)?;
-    Ok(stderr)
 }
 
 thread_local! {
@@ -100,10 +80,34 @@ use unix::server_answers;
 #[cfg(all(unix, not(target_os = "macos")))]
 mod unix {
     use std::env;
+    use std::fs::File;
     use std::net::{TcpStream, ToSocketAddrs};
+    use std::os::fd::OwnedFd;
     use std::os::unix::net::UnixStream;
     use std::path::PathBuf;
     use std::time::Duration;
+
+    use rustix::stdio::{dup2_stderr, stderr};
+
+    /// The stderr of the process, restored when this is dropped.
+    pub struct Stderr(OwnedFd);
+
+    impl Drop for Stderr {
+        fn drop(&mut self) {
+            let _ = dup2_stderr(&self.0);
+        }
+    }
+
+    /// Redirects stderr to /dev/null if XDG_RUNTIME_DIR is not set.
+    pub fn redirect_stderr() -> Option<Stderr> {
+        if env::var_os("XDG_RUNTIME_DIR").is_some() {
+            return None;
+        }
+        let null = File::options().write(true).open("/dev/null").ok()?;
+        let former = Stderr(rustix::io::dup(stderr()).ok()?);
+        dup2_stderr(null).ok()?;
+        Some(former)
+    }
 
     const TIMEOUT: Duration = Duration::from_secs(2);
 

@@ -9,7 +9,7 @@ use kiss3d::egui::{self, Theme};
 use kiss3d::window::{CanvasSetup, NumSamples, Window};
 use thiserror::Error;
 
-use crate::display::{display_available, without_panic};
+use crate::display::{display_available, without_panic, without_wayland_message};
 use crate::options::WindowOptions;
 use crate::pictures::{FRAMES_PER_SECOND, NotWritten, Recorder, check_writable};
 use crate::session::Session;
@@ -92,7 +92,8 @@ fn create(name: &str, (width, height): (u32, u32)) -> Result<Window, String> {
         return Err("a program can open one window, and this one has already done so".into());
     }
     let setup = CanvasSetup { samples: NumSamples::Four, ..CanvasSetup::default() };
-    let mut window = without_panic(|| pollster::block_on(Window::new_with_setup(&title(name), width, height, setup)))?;
+    let open = || pollster::block_on(Window::new_with_setup(&title(name), width, height, setup));
+    let mut window = without_panic(|| without_wayland_message(open))?;
     if Context::get().adapter.get_info().device_type == wgpu::DeviceType::Cpu {
         window.set_samples(NumSamples::One); // multisampling is too slow in software
     }
