@@ -29,7 +29,7 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     }
 
     /// Adds the gradient of the energy by the nodes' positions, N.
-    pub fn add_gradient(&self, law: &dyn Law<T::Lanes>, u: &[[T; D]], gradient: &mut [[T; D]]) {
+    pub fn add_gradient<L: Law<T::Lanes> + ?Sized>(&self, law: &L, u: &[[T; D]], gradient: &mut [[T; D]]) {
         let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; D]]| {
             add_gradient_of(chunk, law, u, sums);
             0.0
@@ -38,13 +38,24 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     }
 
     /// Energy and gradient in one pass.
-    pub fn add_energy_and_gradient(&self, law: &dyn Law<T::Lanes>, u: &[[T; D]], gradient: &mut [[T; D]]) -> f64 {
+    pub fn add_energy_and_gradient<L: Law<T::Lanes> + ?Sized>(
+        &self,
+        law: &L,
+        u: &[[T; D]],
+        gradient: &mut [[T; D]],
+    ) -> f64 {
         let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; D]]| add_energy_and_gradient_of(chunk, law, u, sums);
         over_chunks(&self.chunks, gradient, |chunk| chunk.nodes.end, &of_chunk)
     }
 
     /// Adds `factor` times the Hessian of the energy to the values of the pattern that the elements were made for, N/m.
-    pub fn add_stiffness(&self, law: &dyn Law<T::Lanes>, factor: T, u: &[[T; D]], values: &mut [Block<T, D>]) {
+    pub fn add_stiffness<L: Law<T::Lanes> + ?Sized>(
+        &self,
+        law: &L,
+        factor: T,
+        u: &[[T; D]],
+        values: &mut [Block<T, D>],
+    ) {
         let of_chunk = |chunk: &Chunk<T, D, N>, values: &mut [Block<T, D>]| {
             add_stiffness_of(chunk, law, factor, u, values);
             0.0
@@ -158,9 +169,9 @@ fn squares_of<T: Real, const D: usize, const N: usize>(chunk: &Chunk<T, D, N>, u
     batches(chunk).map(of_batch).sum()
 }
 
-fn add_gradient_of<T: Real, const D: usize, const N: usize>(
+fn add_gradient_of<T: Real, L: Law<T::Lanes> + ?Sized, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
-    law: &dyn Law<T::Lanes>,
+    law: &L,
     u: &[[T; D]],
     sums: &mut [[T; D]],
 ) {
@@ -170,9 +181,9 @@ fn add_gradient_of<T: Real, const D: usize, const N: usize>(
     }
 }
 
-fn add_energy_and_gradient_of<T: Real, const D: usize, const N: usize>(
+fn add_energy_and_gradient_of<T: Real, L: Law<T::Lanes> + ?Sized, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
-    law: &dyn Law<T::Lanes>,
+    law: &L,
     u: &[[T; D]],
     sums: &mut [[T; D]],
 ) -> f64 {
@@ -186,9 +197,9 @@ fn add_energy_and_gradient_of<T: Real, const D: usize, const N: usize>(
     total
 }
 
-fn add_stiffness_of<T: Real, const D: usize, const N: usize>(
+fn add_stiffness_of<T: Real, L: Law<T::Lanes> + ?Sized, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
-    law: &dyn Law<T::Lanes>,
+    law: &L,
     factor: T,
     u: &[[T; D]],
     values: &mut [Block<T, D>],

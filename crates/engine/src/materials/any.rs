@@ -2,7 +2,7 @@
 
 /// Defines [`AnyLaw`](super::AnyLaw) and its methods from a list of `file::Law`.
 macro_rules! laws {
-    ($($file:ident::$Law:ident),* $(,)?) => {
+    (() $($file:ident::$Law:ident),* $(,)?) => {
         $(pub use $file::$Law;)*
 
         /// One of the laws, with its parameters.
@@ -72,3 +72,22 @@ macro_rules! laws {
     };
 }
 pub(super) use laws;
+
+/// Chooses the law once, outside the loop over elements: `with_law!(any_law, law => expression)` evaluates the expression, compiled
+/// once for each law, with `law` bound to the law itself. Needs [`match_law`] in scope.
+macro_rules! with_law {
+    ($any:expr, $law:ident => $work:expr) => {
+        $crate::materials::law_list! { match_law ($any, $law, $work) }
+    };
+}
+pub(crate) use with_law;
+
+/// The match of [`with_law`].
+macro_rules! match_law {
+    (($any:expr, $law:ident, $work:expr) $($file:ident::$Law:ident),* $(,)?) => {
+        match $any {
+            $($crate::materials::AnyLaw::$Law($law) => $work,)*
+        }
+    };
+}
+pub(crate) use match_law;

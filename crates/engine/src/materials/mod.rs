@@ -24,19 +24,29 @@ pub use invariants::OfInvariants;
 
 use crate::number::Number;
 use crate::tensor::{Tensor, Tensor4};
+use any::laws;
+pub(crate) use any::{match_law, with_law};
 
-any::laws! {
-    linear::Linear,
-    corotated::Corotated,
-    st_venant_kirchhoff::StVenantKirchhoff,
-    neo_hookean::NeoHookean,
-    stable_neo_hookean::StableNeoHookean,
-    mooney_rivlin::MooneyRivlin,
-    yeoh::Yeoh,
+/// Hands the list of all laws, each as `file::Law`, to another macro.
+macro_rules! law_list {
+    ($callback:ident $arguments:tt) => {
+        $callback! { $arguments
+            linear::Linear,
+            corotated::Corotated,
+            st_venant_kirchhoff::StVenantKirchhoff,
+            neo_hookean::NeoHookean,
+            stable_neo_hookean::StableNeoHookean,
+            mooney_rivlin::MooneyRivlin,
+            yeoh::Yeoh,
+        }
+    };
 }
+pub(crate) use law_list;
 
-/// A constitutive law, for one element or for a batch of them. A pass over elements calls it once per batch, by reference,
-/// so that each pass is compiled once for all laws.
+law_list! { laws () }
+
+/// A constitutive law, for one element or for a batch of them. The loops that take most of a step's time are compiled for each law
+/// ([`with_law`]); the others call it by reference, once per batch.
 pub trait Law<T: Number>: Send + Sync {
     /// `ψ(G)` energy density, J/m³; zero at rest, not finite where the law does not allow the deformation.
     fn energy(&self, G: &Tensor<T>) -> T;
@@ -45,6 +55,7 @@ pub trait Law<T: Number>: Send + Sync {
     fn stress(&self, G: &Tensor<T>) -> Tensor<T>;
 
     /// Energy density and stress in one call. The compiler shares their common terms, apart from calls that it does not inline.
+    #[inline(always)]
     fn energy_and_stress(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
         (self.energy(G), self.stress(G))
     }

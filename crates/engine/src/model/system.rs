@@ -13,7 +13,7 @@ use crate::boundary::dirichlet::{DirichletConditions, fully_constrained_nodes};
 use crate::elements::Elements;
 use crate::forces::anchors::Anchors;
 use crate::forces::{Energy, Forces, HessianKind, Moment, Potential};
-use crate::materials::{AnyLaw, Law, Projected};
+use crate::materials::{AnyLaw, Projected, match_law, with_law};
 use crate::number::Real;
 use crate::profile::Profile;
 use crate::solvers::SolverChoice;
@@ -137,7 +137,8 @@ impl<T: Real> System<T> {
     pub fn potential_and_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) -> Energy {
         gradient.fill([T::default(); 3]);
         let Self { profile, elements, law, .. } = self;
-        let elastic = profile.energies.time(|| elements.add_energy_and_gradient(law.as_law(), u, gradient));
+        let elastic =
+            profile.energies.time(|| with_law!(law, law => elements.add_energy_and_gradient(law, u, gradient)));
         self.add_gradient_of_forces(true, u, moment, gradient);
         Energy::of(elastic) + self.energy_of_forces(u, moment)
     }
@@ -174,12 +175,15 @@ impl<T: Real> System<T> {
     /// Adds `factor` K(u), the Hessian of the body's own energy: elements and springs between its nodes, N/m.
     pub fn add_stiffness(&self, factor: T, u: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>]) {
         let Self { profile, elements, law, .. } = self;
-        let projected = Projected(law.as_law());
-        let (law, timer): (&dyn Law<T::Lanes>, _) = match kind {
-            HessianKind::Exact => (law.as_law(), &profile.stiffness),
-            HessianKind::Projected => (&projected, &profile.projection),
-        };
-        timer.time(|| elements.add_stiffness(law, factor, u, values));
+        match kind {
+            HessianKind::Exact => {
+                profile.stiffness.time(|| with_law!(law, law => elements.add_stiffness(law, factor, u, values)));
+            }
+            HessianKind::Projected => {
+                let projected = Projected(law.as_law());
+                profile.projection.time(|| elements.add_stiffness(&projected, factor, u, values));
+            }
+        }
         for (potential, timer) in self.forces.active().filter(|(potential, _)| potential.is_internal()) {
             timer.time(|| potential.add_hessian(factor, u, kind, &self.pattern, values));
         }
@@ -242,7 +246,8 @@ impl<T: Real> System<T> {
 
     fn elastic_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
         gradient.fill([T::default(); 3]);
-        self.profile.forces.time(|| self.elements.add_gradient(self.law.as_law(), u, gradient));
+        let Self { profile, elements, law, .. } = self;
+        profile.forces.time(|| with_law!(law, law => elements.add_gradient(law, u, gradient)));
     }
 
     fn energy_of_forces(&self, u: &[[T; 3]], moment: Moment) -> Energy {
