@@ -1,6 +1,6 @@
 //! Dead loads: nodal forces that keep their size and direction. Weight, body force, tractions.
 
-use fem_mesh::volumes;
+use fem_mesh::{area_vector, volumes};
 use fem_scene::Body;
 use nalgebra::Vector3;
 
@@ -40,8 +40,9 @@ pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Pote
     }
     for traction in &body.tractions {
         for face in &traction.faces {
-            let [a, b, c] = face.map(|node| mesh.vertices[node]);
-            let share = (b - a).cross(&(c - a)).norm() / 6.0 * traction.force_per_area;
+            // Each node of a linear triangle carries a third of its load.
+            let area = area_vector(face.map(|node| mesh.vertices[node])).norm();
+            let share = area / 3.0 * traction.force_per_area;
             face.iter().for_each(|&node| force[node] += share);
         }
     }

@@ -16,6 +16,7 @@ mod pressures;
 mod reactions;
 mod shipped_scenes;
 mod statics;
+mod surface_loads;
 mod twists;
 mod vibrations;
 mod work;

@@ -3,7 +3,7 @@
 use crate::{build, run, soft};
 
 /// Pressure on these sides, in Pa.
-fn pressed(sides: &[(&str, &str)], pressure: f64) -> String {
+pub fn pressed(sides: &[(&str, &str)], pressure: f64) -> String {
     let table = |(axis, side): &(&str, &str)| {
         format!("[[traction]]\non = {{ axis = \"{axis}\", side = \"{side}\", within = 1e-9 }}\npressure = {pressure}\n")
     };
@@ -11,7 +11,7 @@ fn pressed(sides: &[(&str, &str)], pressure: f64) -> String {
 }
 
 /// One table of all faces of the box, which close it.
-fn closed(pressure: f64) -> String {
+pub fn closed(pressure: f64) -> String {
     let faces = build(&soft("rk4", 1e-3, "")).shape().boundary.clone();
     format!("[[traction]]\nfaces = {faces:?}\npressure = {pressure}\n")
 }
