@@ -45,8 +45,11 @@ fn irregular_mesh() -> Result<TetrahedralMesh, Box<dyn Error>> {
     Ok(mesh)
 }
 
-/// Name of every law, its Cauchy stress along x (Pa), and the largest relative difference between two elements.
-pub fn run() -> Result<Vec<(&'static str, f64, f64)>, Box<dyn Error>> {
+/// Name of a law, its Cauchy stress along x (Pa), and the largest relative difference between two elements.
+type Outcome = (&'static str, f64, f64);
+
+/// The patch test of every law.
+pub fn run() -> Result<Vec<Outcome>, Box<dyn Error>> {
     let mut results = Vec::new();
     for (law, parameters) in LAWS {
         let scene = fem_scene::parse(&scene(law, parameters), Path::new("patch.toml"))?;

@@ -73,11 +73,14 @@ const HEAD: [&str; 11] = [
     ">solver",
 ];
 
+/// Name and cells of a column of markup.
+type MarkupColumn<'a> = (&'a str, fn(&Row) -> Markup);
+
 /// A table of runs: a cell before and cells behind the columns of [`HEAD`].
 fn table_of_runs<'a>(
     rows: impl IntoIterator<Item = &'a Row>,
     first: (&str, impl Fn(&Row) -> String),
-    last: Option<(&str, fn(&Row) -> Markup)>,
+    last: Option<MarkupColumn>,
 ) -> Markup {
     let line = |row: &Row| {
         let mut cells = vec![html! { (first.1(row)) }];
