@@ -46,7 +46,7 @@ pub(crate) use law_list;
 law_list! { laws () }
 
 /// A constitutive law, for one element or for a batch of them. The loops that take most of a step's time are compiled for each law
-/// ([`with_law`]); the others call it by reference, once per batch.
+/// (`with_law`); the others call it by reference, once per batch.
 pub trait Law<T: Number>: Send + Sync {
     /// `ψ(G)` energy density, J/m³; zero at rest, not finite where the law does not allow the deformation.
     fn energy(&self, G: &Tensor<T>) -> T;

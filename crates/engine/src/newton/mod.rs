@@ -1,7 +1,7 @@
 //! Newton's method for the minimum of the incremental potential: robust, with as few Hessians as possible.
 //!
 //! A factor of the Hessian is kept, across iterations and across steps, as long as it converges quickly; limited-memory BFGS updates
-//! it from the gradients ([`Lbfgs`]). Where convergence is slow the Hessian is assembled again: the exact one as long as it is
+//! it from the gradients (`Lbfgs`). Where convergence is slow the Hessian is assembled again: the exact one as long as it is
 //! positive definite, else the one projected element by element, else that one with a growing shift of its diagonal. Every step
 //! decreases the energy; where its change is within rounding error, the directional derivative.
 
