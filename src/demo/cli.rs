@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
-use fem_scene::Integrator;
+use fem_scene::{Integrator, Override};
 
 use super::study::Study;
 
@@ -61,6 +61,9 @@ pub struct RunArguments {
     /// Time integration method
     #[arg(long, value_name = "NAME", value_parser = integrator)]
     pub integrator: Option<Integrator>,
+    /// Override a key of the scene, such as material.young=1e5 or traction.0.pressure=5; repeatable
+    #[arg(long, value_name = "TABLE.KEY=VALUE")]
+    pub set: Vec<Override>,
     /// Write time, positions and velocities at the end
     #[arg(long, value_name = "FILE.json")]
     pub state: Option<PathBuf>,

@@ -29,7 +29,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), End> {
 }
 
 fn scene_with_overrides(arguments: &RunArguments) -> Result<Scene, End> {
-    let mut scene = fem_scene::load(&arguments.scene, &data::folder()).map_err(End::unusable)?;
+    let mut scene = fem_scene::load_with(&arguments.scene, &data::folder(), &arguments.set).map_err(End::unusable)?;
     scene.time.dt = arguments.dt.or(scene.time.dt);
     scene.time.integrator = arguments.integrator.unwrap_or(scene.time.integrator);
     scene.time.steps = arguments.steps.or(scene.time.steps);

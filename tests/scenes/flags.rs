@@ -26,6 +26,21 @@ fn an_override_gives_the_same_motion_as_the_number_in_the_scene() {
 }
 
 #[test]
+fn a_key_that_is_set_gives_the_same_motion_as_the_key_in_the_scene() {
+    let desk = Desk::with("cube.toml", CUBE);
+    desk.write(
+        "other.toml",
+        edit(&edit(CUBE, "C = 1e5", "C = 2e5"), "\"implicit_euler\"", "\"linearly_implicit_euler\""),
+    );
+    let set = "--set material.C=2e5 --set time.integrator=linearly_implicit_euler";
+    desk.run_well(&format!("cube.toml --headless {set} --state flag.json"));
+    desk.run_well("other.toml --headless --state scene.json");
+    assert_eq!(desk.json("flag.json")["q"], desk.json("scene.json")["q"]);
+    let message = desk.refused("cube.toml --headless --set material.C=-2");
+    assert!(message.starts_with("error: --set material.C=-2: material.C"), "{message}");
+}
+
+#[test]
 fn the_default_number_of_steps_is_the_scenes_or_100() {
     let desk = Desk::with("cube.toml", CUBE);
     assert!(desk.run_well("cube.toml --headless").stdout.contains(": 4 steps to t = 0.0400 s"));

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use nalgebra::Vector3;
 
 use crate::check::check;
-use crate::load::line_of;
+use crate::load::{line_of, refused};
 use crate::simulation::Shape;
 use crate::values::{
     DirichletCondition, Drag, Pressure, RayleighDamping, Spring, Traction, damping, dirichlet_conditions, drag,
@@ -140,7 +140,10 @@ fn find(scene: &Scene, data: &Path, file: &Path) -> PathBuf {
 }
 
 fn mesh_error(scene: &Scene, field: &'static str, error: MeshError) -> SceneError {
-    SceneError::Mesh { file: scene.path.clone(), line: line(scene, field), field, error }
+    if let Some(change) = scene.overrides.iter().rev().find(|change| change.concerns(field)) {
+        return SceneError::Override { option: change.to_string(), problem: format!("{field}: {error}") };
+    }
+    SceneError::Mesh { file: scene.path.clone(), line: line_of(&text(scene), field), field, error }
 }
 
 impl Scene {
@@ -149,13 +152,13 @@ impl Scene {
         check(self).map_err(|(field, problem)| self.refuse(&field, &problem))
     }
 
-    /// The error of a field, such as `time.integrator`, at its line. `problem` continues the sentence that begins with the field.
+    /// The error of a field, such as `time.integrator`: of its override, or at its line. `problem` continues the sentence that begins with the field.
     pub fn refuse(&self, field: &str, problem: &str) -> SceneError {
-        SceneError::Line { file: self.path.clone(), line: line(self, field), problem: format!("{field} {problem}") }
+        refused(&text(self), self, field, &format!("{field} {problem}"))
     }
 }
 
-/// The line of a field in the scene file, which is read again.
-fn line(scene: &Scene, field: &str) -> usize {
-    std::fs::read_to_string(&scene.path).map_or(1, |text| line_of(&text, field))
+/// The text of the scene file, which is read again.
+fn text(scene: &Scene) -> String {
+    std::fs::read_to_string(&scene.path).unwrap_or_default()
 }

@@ -35,6 +35,14 @@ pub enum SceneError {
         /// The field, its problem and the remedy.
         problem: String,
     },
+    /// A key that is overridden has a problem.
+    #[error("--set {option}: {problem}")]
+    Override {
+        /// The override as it was given.
+        option: String,
+        /// The field, its problem and the remedy.
+        problem: String,
+    },
     /// A mesh of the scene has a problem.
     #[error("{}, line {line}: {field}: {error}", file.display())]
     Mesh {

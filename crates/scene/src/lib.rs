@@ -16,6 +16,7 @@ mod interaction;
 mod load;
 mod material;
 pub mod output;
+mod overrides;
 pub mod simulate;
 pub mod simulation;
 pub mod tables;
@@ -26,8 +27,9 @@ pub use body::{Body, body, body_of};
 pub use error::SceneError;
 pub use integrator::Integrator;
 pub use interaction::{Anchor, Interaction};
-pub use load::{load, names, parse};
+pub use load::{load, load_with, names, parse};
 pub use material::{MODELS, Material};
+pub use overrides::Override;
 pub use tables::{Axis, Pipeline, Precision, Preconditioner, Projection, Scene, SolverKind};
 pub use timer::Timer;
 pub use values::{

@@ -2,38 +2,86 @@
 
 use std::path::{Path, PathBuf};
 
-use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table};
 
 use crate::check::check;
+use crate::overrides::Override;
 use crate::{Scene, SceneError};
 
 /// Reads and checks a scene.
 ///
 /// `name` is the path of a `.toml` file, or the name of one in the folder `scenes` of `data`.
 pub fn load(name: &str, data: &Path) -> Result<Scene, SceneError> {
+    load_with(name, data, &[])
+}
+
+/// The same with some keys overridden. The values of all keys are checked as those of a file; an error names the override that
+/// causes it.
+pub fn load_with(name: &str, data: &Path, overrides: &[Override]) -> Result<Scene, SceneError> {
     let path = find(name, data)?;
     let unreadable = |reason: String| SceneError::Unreadable { file: path.clone(), reason };
     let bytes = std::fs::read(&path).map_err(|error| unreadable(error.to_string()))?;
     let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text".to_owned()))?;
-    parse(text.trim_start_matches('\u{feff}'), &path)
+    parse_with(text.trim_start_matches('\u{feff}'), &path, overrides)
 }
 
 /// Reads and checks the text of a scene file; errors name the file `path`.
 pub fn parse(text: &str, path: &Path) -> Result<Scene, SceneError> {
-    let mut scene: Scene = toml::from_str(text).map_err(|error| SceneError::Line {
-        file: path.to_owned(),
-        line: error.span().map_or(1, |span| line_at(text, span.start)),
-        problem: format!("{}; correct it as the scene format in README.md says", error.message().trim_end()),
-    })?;
+    parse_with(text, path, &[])
+}
+
+fn parse_with(text: &str, path: &Path, overrides: &[Override]) -> Result<Scene, SceneError> {
+    let mut source: Table = text.parse().map_err(|error| of_line(text, path, &error))?;
+    for change in overrides {
+        let refuse = |problem| SceneError::Override { option: change.to_string(), problem };
+        change.apply(&mut source).map_err(refuse)?;
+    }
+    let mut scene = match overrides {
+        [] => toml::from_str(text).map_err(|error| of_line(text, path, &error))?,
+        _ => overridden(text, path, &source, overrides)?,
+    };
     scene.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     scene.path = path.to_owned();
-    check(&scene).map_err(|(field, problem)| SceneError::Line {
-        file: path.to_owned(),
-        line: line_of(text, &field),
-        problem: format!("{field} {problem}"),
-    })?;
+    scene.source = source;
+    scene.overrides = overrides.to_vec();
+    check(&scene).map_err(|(field, problem)| refused(text, &scene, &field, &format!("{field} {problem}")))?;
     Ok(scene)
+}
+
+/// Reads a scene from its tables after the overrides.
+fn overridden(text: &str, path: &Path, source: &Table, overrides: &[Override]) -> Result<Scene, SceneError> {
+    let merged = source.to_string();
+    toml::from_str(&merged).map_err(|error: toml::de::Error| {
+        if let Err(own) = toml::from_str::<Scene>(text)
+            && own.message() == error.message()
+        {
+            return of_line(text, path, &own);
+        }
+        // The file without the overrides does not have this problem.
+        let field = error.span().map_or(String::new(), |span| field_before(&merged, span.end));
+        let cause = overrides.iter().rev().find(|change| change.concerns(&field)).or(overrides.last());
+        let option = cause.map_or(String::new(), Override::to_string);
+        SceneError::Override { option, problem: problem_of(&error) }
+    })
+}
+
+fn of_line(text: &str, path: &Path, error: &toml::de::Error) -> SceneError {
+    let line = error.span().map_or(1, |span| line_at(text, span.start));
+    SceneError::Line { file: path.to_owned(), line, problem: problem_of(error) }
+}
+
+fn problem_of(error: &toml::de::Error) -> String {
+    format!("{}; correct it as the scene format in README.md says", error.message().trim_end())
+}
+
+/// The error of a field: of the override that sets it, or else of its line in the scene's text.
+pub(super) fn refused(text: &str, scene: &Scene, field: &str, problem: &str) -> SceneError {
+    let problem = problem.to_owned();
+    match scene.overrides.iter().rev().find(|change| change.concerns(field)) {
+        Some(change) => SceneError::Override { option: change.to_string(), problem },
+        None => SceneError::Line { file: scene.path.clone(), line: line_of(text, field), problem },
+    }
 }
 
 /// Names of the scenes in `data/scenes`, sorted.
@@ -82,6 +130,35 @@ pub(super) fn line_of(text: &str, field: &str) -> usize {
         }
     }
     line_at(text, position)
+}
+
+/// The last field whose key begins before a position of the text, such as `traction.0.on`.
+fn field_before(text: &str, position: usize) -> String {
+    fn visit(value: &DeValue<'_>, path: &str, position: usize, last: &mut (usize, String)) {
+        let below = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
+        match value {
+            DeValue::Table(table) => {
+                for (key, value) in table {
+                    let (start, path) = (key.span().start, below(key.get_ref()));
+                    if start < position && start >= last.0 {
+                        *last = (start, path.clone());
+                    }
+                    visit(value.get_ref(), &path, position, last);
+                }
+            }
+            DeValue::Array(entries) => {
+                for (number, value) in entries.iter().enumerate() {
+                    visit(value.get_ref(), &below(&number.to_string()), position, last);
+                }
+            }
+            _ => {}
+        }
+    }
+    let mut last = (0, String::new());
+    if let Ok(root) = DeTable::parse(text) {
+        visit(&DeValue::Table(root.into_inner()), "", position, &mut last);
+    }
+    last.1
 }
 
 /// `("traction", Some(0))` of `traction[0]`.

@@ -16,6 +16,7 @@ use std::path::PathBuf;
 use serde::Deserialize;
 
 use crate::Material;
+use crate::overrides::Override;
 use fem_mesh::Side;
 
 /// A scene file, checked. Tables and keys have the names of the file, quantities are in SI units.
@@ -28,6 +29,12 @@ pub struct Scene {
     /// The file.
     #[serde(skip)]
     pub path: PathBuf,
+    /// The keys and values as the file and the overrides give them.
+    #[serde(skip)]
+    pub source: toml::Table,
+    /// The overrides.
+    #[serde(skip)]
+    pub overrides: Vec<Override>,
     /// One line about the scene.
     #[serde(default)]
     pub about: String,

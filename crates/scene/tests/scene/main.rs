@@ -8,6 +8,7 @@ mod examples;
 mod lookup;
 mod moduli;
 mod motions;
+mod overrides;
 mod tables;
 
 use std::path::{Path, PathBuf};

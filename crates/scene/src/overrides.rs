@@ -1,0 +1,98 @@
+//! Keys of a scene that are overridden without a change of the file: `TABLE.KEY=VALUE`.
+
+use std::fmt;
+use std::str::FromStr;
+
+use toml::{Table, Value};
+
+/// An override of one key of a scene, such as `time.dt=0.01`, `traction.0.pressure=5` or `mesh.file=meshes/a.node`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Override {
+    /// The keys from the root to the value; entries of arrays by their number, counted from 0.
+    path: Vec<String>,
+    value: Value,
+    text: String,
+}
+
+impl FromStr for Override {
+    type Err = String;
+
+    /// Reads `TABLE.KEY=VALUE`. The value is TOML; a text that is no TOML value, such as a bare word or a path, is a string.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let remedy = || "give TABLE.KEY=VALUE, such as time.dt=0.01 or traction.0.pressure=5".to_owned();
+        let (path, value) = text.split_once('=').ok_or_else(remedy)?;
+        let path: Vec<String> = path.split('.').map(|key| key.trim().to_owned()).collect();
+        if path.iter().any(String::is_empty) {
+            return Err(remedy());
+        }
+        Ok(Self { path, value: value_of(value.trim()), text: text.to_owned() })
+    }
+}
+
+impl fmt::Display for Override {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+impl Override {
+    /// Sets the value in the tables of a scene; tables that are missing are added, and so is the entry after the last of an array.
+    pub(crate) fn apply(&self, tables: &mut Table) -> Result<(), String> {
+        let mut root = Value::Table(std::mem::take(tables));
+        let outcome = self.set(&mut root, 0);
+        if let Value::Table(changed) = root {
+            *tables = changed;
+        }
+        outcome
+    }
+
+    /// Sets the value below `place`, which the first `depth` keys lead to.
+    fn set(&self, place: &mut Value, depth: usize) -> Result<(), String> {
+        let Some(key) = self.path.get(depth) else {
+            *place = self.value.clone();
+            return Ok(());
+        };
+        let here = || self.path[..depth].join(".");
+        match place {
+            Value::Table(table) => {
+                let entry = table.entry(key.as_str()).or_insert_with(|| self.missing(depth + 1));
+                self.set(entry, depth + 1)
+            }
+            Value::Array(entries) => {
+                let Ok(number) = key.parse::<usize>() else {
+                    return Err(format!("{} is an array; give the number of an entry in place of `{key}`", here()));
+                };
+                if number == entries.len() {
+                    entries.push(self.missing(depth + 1));
+                }
+                let count = entries.len();
+                let entry = entries.get_mut(number);
+                let entry =
+                    entry.ok_or_else(|| format!("{} has {count} entries; give a number up to {count}", here()))?;
+                self.set(entry, depth + 1)
+            }
+            _ => Err(format!("{} is a value without keys; remove `.{key}`", here())),
+        }
+    }
+
+    /// A new value that the first `depth` keys lead to: an empty array or table if keys follow.
+    fn missing(&self, depth: usize) -> Value {
+        match self.path.get(depth) {
+            Some(key) if key.parse::<usize>().is_ok() => Value::Array(Vec::new()),
+            Some(_) => Value::Table(Table::new()),
+            None => self.value.clone(),
+        }
+    }
+
+    /// Whether it sets a field such as `time.dt` or `traction[0].on`, a part of it, or a table that contains it.
+    pub(crate) fn concerns(&self, field: &str) -> bool {
+        let field = field.replace('[', ".").replace(']', "");
+        self.path.iter().zip(field.split('.')).all(|(key, of_field)| key == of_field)
+    }
+}
+
+/// A TOML value, or else a string.
+fn value_of(text: &str) -> Value {
+    let table = format!("value = {text}").parse::<Table>().ok().filter(|table| table.len() == 1);
+    table.and_then(|mut table| table.remove("value")).unwrap_or_else(|| Value::String(text.to_owned()))
+}
