@@ -97,7 +97,9 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         let problem = format!("is {}, which the course does not have; use {names}", scene.time.integrator.name());
         return Err(scene.refuse("time.integrator", &problem));
     }
+    let has_curve = scene.gravity.as_ref().is_some_and(|gravity| gravity.curve.is_some());
     let engine_only = [
+        ("gravity.curve", has_curve),
         ("mesh.refine", scene.mesh.refine > 0),
         ("time.precision", scene.time.precision != Precision::F64),
         ("newton", scene.newton.is_some()),
@@ -109,6 +111,7 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         ("traction", !scene.traction.is_empty()),
         ("springs", !scene.springs.is_empty()),
         ("prescribed", !scene.prescribed.is_empty()),
+        ("initial_velocity", !scene.initial_velocity.is_empty()),
     ];
     match engine_only.iter().find(|(_, present)| *present) {
         Some((field, _)) => {

@@ -9,6 +9,7 @@ use std::sync::atomic::AtomicUsize;
 
 use fem_scene::simulation::{Counters, Simulation};
 use fem_scene::{Body, Integrator as IntegratorKind, Material, Method, Precision, Scene, SceneError, Timer};
+use nalgebra::Vector3;
 
 use crate::boundary::rigid_modes;
 use crate::integrators::Integrator;
@@ -28,6 +29,8 @@ pub struct Simulator<T: Real> {
     material: Material,
     system: System<T>,
     state: State<T>,
+    /// Velocities at the start in the engine's numbering, m/s; empty for a body at rest.
+    initial_velocity: Vec<[T; 3]>,
     /// The state before the last step, to which a failed step returns.
     last_good: State<T>,
     integrator: Box<dyn Integrator<T>>,
@@ -52,7 +55,7 @@ pub fn build(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, SceneErro
 }
 
 impl<T: Real> Simulator<T> {
-    /// Builds what the scene names, and nothing else, at rest.
+    /// Builds what the scene names, and nothing else, in the scene's initial state.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
         Self::with_forces(scene, body, &|_| Vec::new())
     }
@@ -71,9 +74,11 @@ impl<T: Real> Simulator<T> {
         let skinning = body.shape.display.as_ref().map(|display| Skinning::new(&body.shape.mesh, &display.vertices));
         let solver = integrator::solver_choice(&method, body.shape.mesh.vertices.len());
         let material = body.material.clone();
+        let velocities = body.initial_velocity.clone();
         let system = System::with_forces(body, law, solver, own);
         range_check::check(&method, &system).map_err(refuse)?;
-        let state = State::at_rest(system.nodes());
+        let initial_velocity = initial_velocity(&velocities, &system);
+        let state = State::at_start(system.nodes(), &initial_velocity);
         Ok(Self {
             integrator: integrator::build(method.integrator, &method, &system, solver),
             kind: method.integrator,
@@ -86,6 +91,7 @@ impl<T: Real> Simulator<T> {
             reactions_timer: Timer::default(),
             last_good: state.clone(),
             state,
+            initial_velocity,
             system,
             material,
             method,
@@ -110,4 +116,15 @@ impl<T: Real> Simulator<T> {
         }
         self.integrator.forget();
     }
+}
+
+/// The velocities of the mesh's nodes in the engine's numbering, zero at constrained degrees of freedom, m/s.
+fn initial_velocity<T: Real>(of_mesh: &[Vector3<f64>], system: &System<T>) -> Vec<[T; 3]> {
+    if of_mesh.is_empty() {
+        return Vec::new();
+    }
+    let of_node = |&node: &u32| -> [f64; 3] { of_mesh[node as usize].into() };
+    let mut velocities: Vec<[T; 3]> = system.numbering.mesh_node.iter().map(|node| of_node(node).map(T::of)).collect();
+    system.dirichlet.clear_constrained(&mut velocities);
+    velocities
 }

@@ -8,10 +8,10 @@ use crate::check::check;
 use crate::load::{line_of, refused};
 use crate::simulation::Shape;
 use crate::values::{
-    DirichletCondition, Drag, Pressure, RayleighDamping, Spring, Traction, damping, dirichlet_conditions, drag,
-    springs, surface_loads,
+    DirichletCondition, Drag, Pressure, RayleighDamping, Spring, Traction, curve, damping, dirichlet_conditions, drag,
+    initial_velocity, springs, surface_loads,
 };
-use crate::{Material, Scene, SceneError};
+use crate::{LoadCurve, Material, Scene, SceneError};
 use fem_mesh::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
 /// A body as a pipeline simulates it: checked meshes, material, constraints and external forces, in the mesh's node numbers and
@@ -32,10 +32,16 @@ pub struct Body {
     pub density_factors: Vec<f64>,
     /// Acceleration of gravity, m/s².
     pub gravity: Option<Vector3<f64>>,
+    /// Factor of time on gravity.
+    pub gravity_curve: Option<LoadCurve>,
     /// Body force per undeformed volume, N/m³.
     pub body_force: Option<Vector3<f64>>,
+    /// Factor of time on the body force.
+    pub body_force_curve: Option<LoadCurve>,
     /// `[fixed]` first if there is one, then each `[[prescribed]]` in order. No two of them prescribe the same coordinate.
     pub dirichlet: Vec<DirichletCondition>,
+    /// Velocity of each node at the start, m/s; empty for a body at rest. Constrained nodes have their prescribed motion instead.
+    pub initial_velocity: Vec<Vector3<f64>>,
     /// Dead loads on the surface.
     pub tractions: Vec<Traction>,
     /// Follower loads on the surface.
@@ -67,6 +73,8 @@ pub fn body_of(scene: &Scene, mesh: TetrahedralMesh, data: &Path) -> Result<Body
     let boundary = fem_mesh::boundary(&mesh);
     let dirichlet = dirichlet_conditions(scene, &mesh)?;
     let (tractions, pressures) = surface_loads(scene, &mesh, &boundary)?;
+    let density = |_: usize| scene.material.density;
+    let initial_velocity = initial_velocity(scene, &mesh, density, |file| find(scene, data, file))?;
     Ok(Body {
         name: scene.name.clone(),
         material: scene.material.clone(),
@@ -74,8 +82,11 @@ pub fn body_of(scene: &Scene, mesh: TetrahedralMesh, data: &Path) -> Result<Body
         stiffness_factors: Vec::new(),
         density_factors: Vec::new(),
         gravity: scene.gravity.as_ref().map(|gravity| gravity.acceleration.into()),
+        gravity_curve: scene.gravity.as_ref().and_then(|gravity| curve(&gravity.curve)),
         body_force: scene.body_force.as_ref().map(|force| force.density.into()),
+        body_force_curve: scene.body_force.as_ref().and_then(|force| curve(&force.curve)),
         dirichlet,
+        initial_velocity,
         tractions,
         pressures,
         springs: springs(scene, &mesh)?,

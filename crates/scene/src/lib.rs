@@ -10,6 +10,7 @@
 
 mod body;
 mod check;
+mod curve;
 mod error;
 mod integrator;
 mod interaction;
@@ -24,6 +25,7 @@ mod timer;
 mod values;
 
 pub use body::{Body, body, body_of};
+pub use curve::LoadCurve;
 pub use error::SceneError;
 pub use integrator::Integrator;
 pub use interaction::{Anchor, Interaction};

@@ -1,7 +1,7 @@
-//! Dead loads: nodal forces that keep their size and direction. Weight, body force, tractions.
+//! Dead loads: nodal forces that keep their direction, and their size up to a factor of time. Weight, body force, tractions.
 
 use fem_mesh::{area_vector, volumes};
-use fem_scene::Body;
+use fem_scene::{Body, LoadCurve};
 use nalgebra::Vector3;
 
 use super::{Energy, Moment, Potential};
@@ -12,42 +12,80 @@ use crate::vector::dot3;
 /// Key in the statistics.
 pub const NAME: &str = "dead_load";
 
-/// Nodal forces, N, in the engine's order.
-pub struct DeadLoad<T> {
+/// Nodal forces in the engine's order. Loads with the same factor of time are summed.
+pub struct DeadLoad<T>(Vec<Load<T>>);
+
+/// Nodal forces, N, and their factor of time.
+struct Load<T> {
     force: Vec<[T; 3]>,
+    curve: Option<LoadCurve>,
 }
 
 impl<T: Real> DeadLoad<T> {
-    /// These forces on the nodes, N.
+    /// These constant forces on the nodes, N.
     pub fn new(force: Vec<[T; 3]>) -> Self {
-        Self { force }
+        Self(vec![Load { force, curve: None }])
     }
 }
 
 /// Weight, body force and dead tractions of a body; `None` where it has none of them.
 pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Potential<T>>> {
-    if body.gravity.is_none() && body.body_force.is_none() && body.tractions.is_empty() {
-        return None;
+    let mut sums = Sums { nodes: body.shape.mesh.vertices.len(), of_curve: Vec::new() };
+    add_volume_loads(body, &mut sums);
+    add_tractions(body, &mut sums);
+    let in_order = |(curve, force): (Option<LoadCurve>, Vec<Vector3<f64>>)| {
+        let force = numbering.mesh_node.iter().map(|&node| force[node as usize]);
+        Load { force: force.map(|f| [T::of(f.x), T::of(f.y), T::of(f.z)]).collect(), curve }
+    };
+    let loads: Vec<_> = sums.of_curve.into_iter().map(in_order).collect();
+    (!loads.is_empty()).then(|| Box::new(DeadLoad(loads)) as Box<dyn Potential<T>>)
+}
+
+/// Sums of the nodal forces that have the same factor of time, N.
+struct Sums {
+    nodes: usize,
+    of_curve: Vec<(Option<LoadCurve>, Vec<Vector3<f64>>)>,
+}
+
+impl Sums {
+    fn of(&mut self, curve: &Option<LoadCurve>) -> &mut [Vector3<f64>] {
+        let place = self.of_curve.iter().position(|(other, _)| other == curve).unwrap_or_else(|| {
+            self.of_curve.push((curve.clone(), vec![Vector3::zeros(); self.nodes]));
+            self.of_curve.len() - 1
+        });
+        &mut self.of_curve[place].1
     }
+}
+
+/// Adds weight and body force: each node of a linear tetrahedron carries a quarter of its load.
+fn add_volume_loads(body: &Body, sums: &mut Sums) {
     let mesh = &body.shape.mesh;
-    let mut force = vec![Vector3::zeros(); mesh.vertices.len()];
     let density = |element: usize| body.material.density * body.density_factors.get(element).copied().unwrap_or(1.0);
-    for (number, (element, volume)) in mesh.elements.iter().zip(volumes(mesh)).enumerate() {
-        // Each node of a linear tetrahedron carries a quarter of its load.
-        let weight = density(number) * body.gravity.unwrap_or_default();
-        let share = 0.25 * volume * (weight + body.body_force.unwrap_or_default());
-        element.iter().for_each(|&node| force[node] += share);
+    let mut add = |curve: &Option<LoadCurve>, per_volume: &dyn Fn(usize) -> Vector3<f64>| {
+        let force = sums.of(curve);
+        for (number, (element, volume)) in mesh.elements.iter().zip(volumes(mesh)).enumerate() {
+            let share = 0.25 * volume * per_volume(number);
+            element.iter().for_each(|&node| force[node] += share);
+        }
+    };
+    if let Some(gravity) = body.gravity {
+        add(&body.gravity_curve, &|element| density(element) * gravity);
     }
+    if let Some(body_force) = body.body_force {
+        add(&body.body_force_curve, &|_| body_force);
+    }
+}
+
+/// Adds tractions: each node of a linear triangle carries a third of its load.
+fn add_tractions(body: &Body, sums: &mut Sums) {
     for traction in &body.tractions {
+        let force = sums.of(&traction.curve);
         for face in &traction.faces {
-            // Each node of a linear triangle carries a third of its load.
-            let area = area_vector(face.map(|node| mesh.vertices[node])).norm();
+            let area = area_vector(face.map(|node| body.shape.mesh.vertices[node])).norm();
             let share = area / 3.0 * traction.force_per_area;
             face.iter().for_each(|&node| force[node] += share);
         }
     }
-    let in_order = numbering.mesh_node.iter().map(|&node| force[node as usize]);
-    Some(Box::new(DeadLoad::new(in_order.map(|f| [T::of(f.x), T::of(f.y), T::of(f.z)]).collect())))
 }
 
 impl<T: Real> Potential<T> for DeadLoad<T> {
@@ -60,31 +98,41 @@ impl<T: Real> Potential<T> for DeadLoad<T> {
     }
 
     fn bytes(&self) -> usize {
-        size_of_val(&self.force[..])
+        self.0.iter().map(|load| size_of_val(&load.force[..])).sum()
     }
 
+    /// Energy of the forces of this moment. A force that changes with time does work on a body that does not move.
     fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy {
-        let factor = moment.load_factor.unwrap_or(1.0);
-        self.force.iter().zip(u).map(|(f, u)| Energy::of(-factor * dot3(f, u))).sum()
+        let of_load = |load: &Load<T>| -> Energy {
+            let factor = moment.factor(load.curve.as_ref());
+            load.force.iter().zip(u).map(|(f, u)| Energy::of(-factor * dot3(f, u))).sum()
+        };
+        self.0.iter().map(of_load).sum()
     }
 
     fn add_gradient(&self, _: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
-        let factor: T = moment.load();
-        for (sum, force) in gradient.iter_mut().zip(&self.force) {
-            for i in 0..3 {
-                sum[i] -= factor * force[i];
+        for load in &self.0 {
+            let factor = T::of(moment.factor(load.curve.as_ref()));
+            for (sum, force) in gradient.iter_mut().zip(&load.force) {
+                for i in 0..3 {
+                    sum[i] -= factor * force[i];
+                }
             }
         }
     }
 
     fn resultant(&self, moment: Moment) -> Option<[f64; 3]> {
-        let factor = moment.load_factor.unwrap_or(1.0);
-        let along = |i: usize| self.force.iter().map(|force| force[i].as_f64()).sum::<f64>();
-        Some(std::array::from_fn(|i| factor * along(i)))
+        let along = |load: &Load<T>, i: usize| load.force.iter().map(|force| force[i].as_f64()).sum::<f64>();
+        let of_load = |load: &Load<T>| {
+            let factor = moment.factor(load.curve.as_ref());
+            std::array::from_fn(|i| factor * along(load, i))
+        };
+        let add = |sum: [f64; 3], force: [f64; 3]| std::array::from_fn(|i| sum[i] + force[i]);
+        Some(self.0.iter().map(of_load).fold([0.0; 3], add))
     }
 
     fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
-        let is_finite = self.force.as_flattened().iter().all(|force| force.as_f64().is_finite());
-        (!is_finite).then_some(("gravity", "a force on a node"))
+        let is_finite = |load: &Load<T>| load.force.as_flattened().iter().all(|force| force.as_f64().is_finite());
+        (!self.0.iter().all(is_finite)).then_some(("gravity", "a force on a node"))
     }
 }

@@ -5,7 +5,7 @@ pub mod dead_load;
 pub mod pressure;
 pub mod springs;
 
-use fem_scene::{Body, Timer};
+use fem_scene::{Body, LoadCurve, Timer};
 
 use crate::model::numbering::Numbering;
 use crate::number::Real;
@@ -101,9 +101,9 @@ impl Moment {
         Self { time, load_factor: None }
     }
 
-    /// Factor of the external loads.
-    pub fn load<T: Real>(self) -> T {
-        T::of(self.load_factor.unwrap_or(1.0))
+    /// Factor of an external load: the load factor, times that of the load's curve at the time.
+    pub fn factor(self, curve: Option<&LoadCurve>) -> f64 {
+        self.load_factor.unwrap_or(1.0) * curve.map_or(1.0, |curve| curve.factor(self.time))
     }
 }
 

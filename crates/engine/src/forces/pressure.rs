@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use fem_scene::Body;
+use fem_scene::{Body, LoadCurve};
 use nalgebra::Vector3;
 
 use super::{Energy, Moment, Potential};
@@ -20,6 +20,7 @@ struct Pressures<T>(Vec<Pressure<T>>);
 struct Pressure<T> {
     /// Pa; positive pushes inward.
     pressure: T,
+    curve: Option<LoadCurve>,
     faces: Vec<Face<T>>,
     /// Undeformed corners of each triangle, relative to a point of the surface, m; `None` where the pressure has no potential.
     ///
@@ -54,6 +55,7 @@ impl<T: Real> Pressure<T> {
         };
         Self {
             pressure: T::of(pressure.pressure),
+            curve: pressure.curve.clone(),
             corners: edge_is_fixed(body, &pressure.faces).then(|| corners(vertices, &pressure.faces)),
             faces: pressure.faces.iter().map(face).collect(),
         }
@@ -112,13 +114,15 @@ impl<T: Real> Potential<T> for Pressures<T> {
     }
 
     fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy {
-        let factor = moment.load_factor.unwrap_or(1.0);
-        self.0.iter().filter_map(|pressure| pressure.potential(u)).map(|energy| Energy::of(factor * energy)).sum()
+        let of_one =
+            |pressure: &Pressure<T>| Some(Energy::of(moment.factor(pressure.curve.as_ref()) * pressure.potential(u)?));
+        self.0.iter().filter_map(of_one).sum()
     }
 
     fn add_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
-        let factor: T = moment.load();
-        self.0.iter().for_each(|pressure| pressure.add_force(-factor, u, gradient));
+        for pressure in &self.0 {
+            pressure.add_force(T::of(-moment.factor(pressure.curve.as_ref())), u, gradient);
+        }
     }
 
     fn out_of_range(&self) -> Option<(&'static str, &'static str)> {

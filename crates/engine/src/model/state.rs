@@ -23,6 +23,15 @@ impl<T: Real> State<T> {
         Self { u: vec![[T::default(); 3]; nodes], v: vec![[T::default(); 3]; nodes], time: 0.0, steps: 0 }
     }
 
+    /// Undeformed, with these velocities, m/s; at rest if there are none.
+    pub fn at_start(nodes: usize, velocities: &[[T; 3]]) -> Self {
+        let mut state = Self::at_rest(nodes);
+        if !velocities.is_empty() {
+            state.v.copy_from_slice(velocities);
+        }
+        state
+    }
+
     /// Copies another state of the body without allocating.
     pub fn copy_from(&mut self, other: &Self) {
         self.u.copy_from_slice(&other.u);

@@ -78,7 +78,7 @@ impl<T: Real> Simulation for Simulator<T> {
     }
 
     fn reset(&mut self) {
-        self.state = State::at_rest(self.system.nodes());
+        self.state = State::at_start(self.system.nodes(), &self.initial_velocity);
         self.last_good.copy_from(&self.state);
         self.integrator.forget();
     }

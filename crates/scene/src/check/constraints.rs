@@ -33,6 +33,10 @@ fn check_prescribed(table: &str, motion: &PrescribedTable) -> Result<(), Problem
     }
     motion.displacement.map_or(Ok(()), |vector| check_vector(&format!("{table}.displacement"), &vector))?;
     motion.over.map_or(Ok(()), |over| check_positive(&format!("{table}.over"), over, " of seconds"))?;
+    motion.curve.as_ref().map_or(Ok(()), |curve| curve.check(&format!("{table}.curve")))?;
+    if motion.over.is_some() && motion.curve.is_some() {
+        return problem(&format!("{table}.curve"), "stands beside over, which is a curve too; remove one of the two");
+    }
     motion.rotation.as_ref().map_or(Ok(()), |rotation| check_rotation(table, rotation))?;
     motion.components.as_ref().map_or(Ok(()), |components| check_components(table, motion, components))
 }

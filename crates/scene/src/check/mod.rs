@@ -1,6 +1,8 @@
 //! Checks of a scene's values beyond their types.
 
 mod constraints;
+mod curves;
+mod initial;
 mod loads;
 pub(crate) mod numbers;
 
@@ -18,6 +20,8 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     check_time(&scene.time)?;
     loads::check(scene)?;
     constraints::check(scene)?;
+    curves::check(scene)?;
+    initial::check(scene)?;
     scene.damping.as_ref().map_or(Ok(()), check_damping)?;
     scene.statics.as_ref().map_or(Ok(()), check_static)?;
     scene.newton.as_ref().map_or(Ok(()), check_newton)?;

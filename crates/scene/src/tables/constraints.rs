@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::vectors::{three_numbers, three_numbers_if_any};
-use super::{Axis, SidePlane};
+use super::{Axis, CurveTable, SidePlane};
 
 /// `[fixed]`: nodes by a plane or by index.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -43,6 +43,8 @@ pub struct PrescribedTable {
     /// Time in which the motion grows linearly from zero to its full size, s; the nodes keep their place afterwards. Without it,
     /// the full motion applies from the first step on. A static scene applies the motion in its load steps instead.
     pub over: Option<f64>,
+    /// Part of the full motion as a function of time, in place of `over`.
+    pub curve: Option<CurveTable>,
 }
 
 /// A rotation about a line parallel to a coordinate axis.

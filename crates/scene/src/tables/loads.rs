@@ -4,7 +4,7 @@ use serde::Deserialize;
 use serde::de::{Error, Visitor};
 
 use super::vectors::{three_numbers, three_numbers_if_any, triangles_if_any, two_nodes};
-use super::{Axis, Side};
+use super::{Axis, CurveTable, Side};
 
 /// `[gravity]`
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -13,6 +13,8 @@ pub struct GravityTable {
     /// m/s²
     #[serde(deserialize_with = "three_numbers")]
     pub acceleration: [f64; 3],
+    /// Factor of time on it.
+    pub curve: Option<CurveTable>,
 }
 
 /// `[body_force]`: a force on every part of the body, independent of its density.
@@ -22,6 +24,8 @@ pub struct BodyForceTable {
     /// Force per undeformed volume, N/m³.
     #[serde(deserialize_with = "three_numbers")]
     pub density: [f64; 3],
+    /// Factor of time on it.
+    pub curve: Option<CurveTable>,
 }
 
 /// `[[traction]]`: a force on a part of the surface, spread evenly over it. `on` or `faces`, and one kind of force.
@@ -38,6 +42,8 @@ pub struct TractionTable {
     pub force_per_area: Option<[f64; 3]>,
     /// Follower load: pressure against the deformed surface, Pa; positive pushes inward.
     pub pressure: Option<f64>,
+    /// Factor of time on it.
+    pub curve: Option<CurveTable>,
 }
 
 /// All nodes within a distance of one side of the mesh's bounding box.

@@ -1,11 +1,15 @@
 //! The tables and keys of a scene file. A table that a scene leaves out is `None` and builds no part.
 
 mod constraints;
+mod initial;
 mod loads;
 mod method;
 mod vectors;
 
+pub use crate::curve::{CurveTable, SineTable};
+
 pub use constraints::{FixedTable, Plane, PrescribedTable, RotationTable};
+pub use initial::{AngularVelocityTable, InitialVelocityTable};
 pub use loads::{BodyForceTable, DragTable, DragVertex, GravityTable, SidePlane, SpringTable, TractionTable};
 pub use method::{
     DampingTable, NewtonTable, Precision, Preconditioner, Projection, SolverKind, SolverTable, StaticTable, TimeTable,
@@ -62,6 +66,9 @@ pub struct Scene {
     /// `[[prescribed]]`
     #[serde(default)]
     pub prescribed: Vec<PrescribedTable>,
+    /// `[[initial_velocity]]`
+    #[serde(default)]
+    pub initial_velocity: Vec<InitialVelocityTable>,
     /// `[time]`
     pub time: TimeTable,
     /// `[damping]`

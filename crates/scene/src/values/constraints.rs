@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use nalgebra::{Rotation3, Unit, Vector3};
 
 use super::listed;
-use crate::tables::{FixedTable, PrescribedTable, RotationTable, SidePlane};
-use crate::{Scene, SceneError};
+use crate::tables::{CurveTable, FixedTable, PrescribedTable, RotationTable, SidePlane};
+use crate::{LoadCurve, Scene, SceneError};
 use fem_mesh::{Side, TetrahedralMesh, nodes_on_side};
 
 /// Prescribed coordinates of some nodes.
@@ -23,15 +23,15 @@ pub struct DirichletCondition {
     pub motion: Option<Motion>,
 }
 
-/// A rotation followed by a displacement, which grow linearly in time.
+/// A rotation followed by a displacement, a part of which is reached at each time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
-    /// Displacement at the end of the motion, m.
+    /// Displacement of the full motion, m.
     pub displacement: Vector3<f64>,
     /// Rotation before the displacement.
     pub rotation: Option<Rotation>,
-    /// Duration, s; `None` if the full motion applies from the first step on.
-    pub over: Option<f64>,
+    /// Part of the motion that is reached, a ramp for `over`; `None` if the full motion applies from the first step on.
+    pub curve: Option<LoadCurve>,
 }
 
 /// A rotation about a line.
@@ -46,9 +46,9 @@ pub struct Rotation {
 }
 
 impl Motion {
-    /// Fraction of the motion that is reached at a time (s), from 0 at the start to 1 at the end.
+    /// Fraction of the full motion that is reached at a time, s.
     pub fn fraction(&self, time: f64) -> f64 {
-        self.over.map_or(1.0, |over| (time / over).clamp(0.0, 1.0))
+        self.curve.as_ref().map_or(1.0, |curve| curve.factor(time))
     }
 
     /// Position of a node at a fraction of the motion, m. `X` is its undeformed position, m.
@@ -71,7 +71,7 @@ impl Motion {
         Self {
             displacement: table.displacement.unwrap_or_default().into(),
             rotation: table.rotation.as_ref().map(rotation),
-            over: table.over,
+            curve: table.over.map(LoadCurve::Ramp).or_else(|| table.curve.as_ref().map(CurveTable::curve)),
         }
     }
 }

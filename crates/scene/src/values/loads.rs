@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use nalgebra::Vector3;
 
 use super::listed;
-use crate::tables::{DragTable, DragVertex, SidePlane, SpringTable, TractionTable};
-use crate::{Scene, SceneError};
+use crate::tables::{CurveTable, DragTable, DragVertex, SidePlane, SpringTable, TractionTable};
+use crate::{LoadCurve, Scene, SceneError};
 use fem_mesh::{TetrahedralMesh, faces_on_side};
 
 /// Dead load on a part of the surface: it keeps its direction and its sum.
@@ -17,6 +17,8 @@ pub struct Traction {
     pub faces: Vec<[usize; 3]>,
     /// Force per undeformed area, Pa.
     pub force_per_area: Vector3<f64>,
+    /// Factor of time on it.
+    pub curve: Option<LoadCurve>,
 }
 
 /// Follower load on a part of the surface: it acts along the normal of the deformed triangles.
@@ -26,6 +28,8 @@ pub struct Pressure {
     pub faces: Vec<[usize; 3]>,
     /// Force per deformed area, Pa; positive pushes inward.
     pub pressure: f64,
+    /// Factor of time on it.
+    pub curve: Option<LoadCurve>,
 }
 
 /// A spring between two nodes, ½ k (|x_b − x_a| − l)².
@@ -75,13 +79,19 @@ pub(crate) fn surface_loads(
     let (mut tractions, mut pressures) = (Vec::new(), Vec::new());
     for (number, table) in scene.traction.iter().enumerate() {
         let faces = faces(scene, &format!("traction[{number}]"), table, mesh, boundary)?;
+        let curve = curve(&table.curve);
         match (table.force_per_area, table.pressure) {
-            (Some(force), _) => tractions.push(Traction { faces, force_per_area: force.into() }),
-            (None, Some(pressure)) => pressures.push(Pressure { faces, pressure }),
+            (Some(force), _) => tractions.push(Traction { faces, force_per_area: force.into(), curve }),
+            (None, Some(pressure)) => pressures.push(Pressure { faces, pressure, curve }),
             (None, None) => unreachable!("a traction without a force is refused when the scene is read"),
         }
     }
     Ok((tractions, pressures))
+}
+
+/// The factor of time of a load.
+pub(crate) fn curve(table: &Option<CurveTable>) -> Option<LoadCurve> {
+    table.as_ref().map(CurveTable::curve)
 }
 
 fn faces(

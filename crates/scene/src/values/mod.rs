@@ -1,6 +1,7 @@
 //! A scene's tables as values: SI units, the mesh's node numbers, defaults filled in.
 
 mod constraints;
+mod initial;
 mod loads;
 mod method;
 
@@ -9,7 +10,8 @@ pub use loads::{Drag, Pressure, Spring, Traction};
 pub use method::{Method, NewtonSettings, RayleighDamping, SolverSettings};
 
 pub(crate) use constraints::dirichlet_conditions;
-pub(crate) use loads::{drag, springs, surface_loads};
+pub(crate) use initial::initial_velocity;
+pub(crate) use loads::{curve, drag, springs, surface_loads};
 pub(crate) use method::damping;
 
 use crate::{Scene, SceneError};

@@ -3,8 +3,10 @@
 #![allow(non_snake_case)] // C, D and E are the names that the mathematics and the course use
 
 mod bodies;
+mod curves;
 mod errors;
 mod examples;
+mod initial;
 mod lookup;
 mod moduli;
 mod motions;

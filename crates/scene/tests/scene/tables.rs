@@ -44,10 +44,11 @@ fn the_tables_of_the_engine_are_read() {
     assert_eq!(scene.solver.unwrap().preconditioner, Some(Preconditioner::Multigrid));
     assert_eq!(scene.damping, Some(DampingTable { alpha: 0.5, beta: 1e-3 }));
     assert_eq!(scene.statics, Some(StaticTable { load_steps: 4 }));
-    assert_eq!(scene.body_force, Some(BodyForceTable { density: [0.0, 0.0, -9810.0] }));
+    assert_eq!(scene.body_force, Some(BodyForceTable { density: [0.0, 0.0, -9810.0], curve: None }));
     let on = Some(SidePlane { axis: Axis::X, side: Side::Max, within: 1e-9 });
-    let dead = TractionTable { on, faces: None, force_per_area: Some([1.0, 2.0, 3.0]), pressure: None };
-    let follower = TractionTable { on: None, faces: Some(vec![[4, 0, 1]]), force_per_area: None, pressure: Some(-5.0) };
+    let (dead, faces) = (Some([1.0, 2.0, 3.0]), Some(vec![[4, 0, 1]]));
+    let dead = TractionTable { on, faces: None, force_per_area: dead, pressure: None, curve: None };
+    let follower = TractionTable { on: None, faces, force_per_area: None, pressure: Some(-5.0), curve: None };
     assert_eq!(scene.traction, [dead, follower]);
     assert_eq!(scene.springs, [SpringTable { nodes: [0, 11], stiffness: 100.0, rest_length: Some(0.0) }]);
 }

@@ -6,7 +6,8 @@ use fem_engine::forces::Moment;
 use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::solvers::SolverChoice;
-use fem_scene::{Body, Scene};
+use fem_scene::{Body, LoadCurve, Scene};
+use nalgebra::Vector3;
 
 use super::mass::MassInverse;
 use super::prescribed_motion::{kinematics, moves};
@@ -20,6 +21,10 @@ pub struct Equations {
     pub system: System<f64>,
     mass: MassInverse,
     has_prescribed_motion: bool,
+    /// Velocities at the start, m/s.
+    initial_velocity: Vec<[f64; 3]>,
+    /// Times at which an external load has a kink or a jump, s.
+    kinks: Vec<f64>,
 }
 
 /// Working memory of an evaluation.
@@ -35,15 +40,23 @@ impl Equations {
     /// Builds the equations of a scene. The error says why the scene has none.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, String> {
         let law = AnyLaw::new(&scene.material).ok_or("the material lacks its parameters")?;
+        let kinks = kinks(&body);
+        let velocities = body.initial_velocity.clone();
         let system = System::new(body, law, SolverChoice::Cholesky);
         let mass = MassInverse::new(scene, &system)?;
         let has_prescribed_motion = system.dirichlet.motions().any(|(_, motion)| moves(motion));
-        Ok(Self { system, mass, has_prescribed_motion })
+        let initial_velocity = initial_velocity(&velocities, &system);
+        Ok(Self { system, mass, has_prescribed_motion, initial_velocity, kinks })
     }
 
     /// Number of nodes.
     pub fn nodes(&self) -> usize {
         self.system.nodes()
+    }
+
+    /// The undeformed body with its initial velocity.
+    pub fn start(&self) -> Phase {
+        [vec![[0.0; 3]; self.nodes()], self.initial_velocity.clone()]
     }
 
     /// a = M⁻¹ f(u, v, t), m/s², zero in constrained directions. With prescribed motion, [`prescribe`](Self::prescribe) must
@@ -58,15 +71,22 @@ impl Equations {
         self.mass.apply(force, a, right);
     }
 
-    /// Times at which prescribed velocities may jump, including 0 and the horizon, s. A displacement that jumps is an error.
+    /// Times between which prescribed motions and loads are smooth, including 0 and the horizon, s. A displacement that jumps is an
+    /// error.
     pub fn jumps(&self, horizon: f64) -> Result<Vec<f64>, String> {
         let mut jumps = vec![0.0, horizon];
+        jumps.extend(&self.kinks);
         for (_, motion) in self.system.dirichlet.motions().filter(|(_, motion)| moves(motion)) {
-            let Some(over) = motion.over else {
-                return Err("[[prescribed]] without `over` moves nodes at once, which no time step resolves".to_owned());
-            };
-            jumps.extend((over < horizon).then_some(over));
+            match &motion.curve {
+                Some(curve) if !curve.has_jumps() && curve.factor(0.0) == 0.0 => jumps.extend(curve.kinks()),
+                Some(_) | None => {
+                    let reason = "[[prescribed]] without `over`, or with a curve that jumps, moves nodes at once, which no time \
+                                  step resolves";
+                    return Err(reason.to_owned());
+                }
+            }
         }
+        jumps.retain(|time| (0.0..=horizon).contains(time));
         jumps.sort_by(f64::total_cmp);
         jumps.dedup();
         Ok(jumps)
@@ -143,6 +163,22 @@ impl Equations {
     pub fn energies(&self, u: &[[f64; 3]], v: &[[f64; 3]], time: f64) -> (f64, f64) {
         (self.system.mass.kinetic_energy(v), self.system.potential(u, Moment::at(time)).value)
     }
+}
+
+/// Velocities of the mesh's nodes in the engine's numbering, zero in constrained directions, m/s.
+fn initial_velocity(of_mesh: &[Vector3<f64>], system: &System<f64>) -> Vec<[f64; 3]> {
+    let of_node = |&node: &u32| of_mesh.get(node as usize).copied().unwrap_or_default().into();
+    let mut velocities: Vec<[f64; 3]> = system.numbering.mesh_node.iter().map(of_node).collect();
+    system.dirichlet.clear_constrained(&mut velocities);
+    velocities
+}
+
+/// Times at which an external load of the body has a kink or a jump, s.
+fn kinks(body: &Body) -> Vec<f64> {
+    let of_volume = body.gravity_curve.iter().chain(&body.body_force_curve);
+    let dead = body.tractions.iter().filter_map(|traction| traction.curve.as_ref());
+    let followers = body.pressures.iter().filter_map(|pressure| pressure.curve.as_ref());
+    of_volume.chain(dead).chain(followers).flat_map(LoadCurve::kinks).collect()
 }
 
 /// Products with M⁻¹ K.

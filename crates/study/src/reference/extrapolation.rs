@@ -48,7 +48,7 @@ struct Interval {
     steps: usize,
 }
 
-/// Integrates from rest to a time, s. The error says why the scene has no reference, or that it would take longer than
+/// Integrates from the start to a time, s. The error says why the scene has no reference, or that it would take longer than
 /// `most_seconds`.
 pub fn reference(equations: &Equations, horizon: f64, most_seconds: f64) -> Result<Reference, String> {
     let fastest = equations.fastest();
@@ -118,7 +118,7 @@ fn distance(a: &Phase, b: &Phase) -> (f64, f64) {
 
 fn solve(equations: &Equations, intervals: &[Interval]) -> Phase {
     let zero = || vec![[0.0; 3]; equations.nodes()];
-    let mut now: Phase = [zero(), zero()];
+    let mut now = equations.start();
     let mut work = Work { previous: [zero(), zero()], next: [zero(), zero()], a: zero(), scratch: Scratch::default() };
     let mut table: Vec<Phase> = (0..COLUMNS).map(|_| [zero(), zero()]).collect();
     for interval in intervals {

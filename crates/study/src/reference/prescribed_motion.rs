@@ -13,19 +13,18 @@ pub(super) fn moves(motion: &Motion) -> bool {
 /// Position, m, velocity, m/s, and acceleration, m/s², at a time, s, of a node with the undeformed position X. `begin` is the start of
 /// the interval between two velocity jumps that holds `time`.
 pub(super) fn kinematics(motion: &Motion, X: &Vector3<f64>, begin: f64, time: f64) -> [Vector3<f64>; 3] {
-    let over = motion.over.unwrap_or(f64::INFINITY);
-    let fraction = if over.is_finite() { motion.fraction(time) } else { 0.0 };
+    let Some(curve) = &motion.curve else { return [*X, Vector3::zeros(), Vector3::zeros()] };
+    let fraction = curve.factor(time);
+    // Between two kinks the curve is linear: its rate at the end of the interval is that at its begin.
+    let [rate, change] = curve.derivatives(if curve.kinks().is_empty() { time } else { begin });
     let place = motion.position(X, fraction);
-    if begin >= over {
-        return [place, Vector3::zeros(), Vector3::zeros()];
-    }
     let displacement = motion.displacement;
-    let (mut velocity, mut acceleration) = (displacement / over, Vector3::zeros());
+    let (mut first, mut second) = (displacement, Vector3::zeros());
     if let Some(rotation) = &motion.rotation {
-        let rate = (TAU * rotation.turns / over) * rotation.axis.into_inner();
+        let angle = TAU * rotation.turns * rotation.axis.into_inner();
         let arm = place - fraction * displacement - rotation.center;
-        velocity += rate.cross(&arm);
-        acceleration = rate.cross(&rate.cross(&arm));
+        first += angle.cross(&arm);
+        second = angle.cross(&angle.cross(&arm));
     }
-    [place, velocity, acceleration]
+    [place, rate * first, rate * rate * second + change * first]
 }

@@ -1,0 +1,25 @@
+//! Checks of `curve` in every table that has it.
+
+use super::numbers::{Problem, problem};
+use crate::tables::CurveTable;
+use crate::{Integrator, Scene};
+
+pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+    let gravity = scene.gravity.iter().map(|table| ("gravity".to_owned(), &table.curve));
+    let body_force = scene.body_force.iter().map(|table| ("body_force".to_owned(), &table.curve));
+    let numbered = |table: &str, number: usize| format!("{table}[{number}]");
+    let tractions = scene.traction.iter().enumerate().map(|(i, table)| (numbered("traction", i), &table.curve));
+    let prescribed = scene.prescribed.iter().enumerate().map(|(i, table)| (numbered("prescribed", i), &table.curve));
+    let curves = gravity.chain(body_force).chain(tractions).chain(prescribed);
+    let given = curves.filter_map(|(table, curve)| Some((format!("{table}.curve"), curve.as_ref()?)));
+    given.into_iter().try_for_each(|(field, curve)| check_curve(scene, &field, curve))
+}
+
+fn check_curve(scene: &Scene, field: &str, curve: &CurveTable) -> Result<(), Problem> {
+    curve.check(field)?;
+    if scene.time.integrator == Integrator::Static {
+        let text = "is a function of time, and static has none; its loads grow in the parts of static.load_steps; remove the curve";
+        return problem(field, text);
+    }
+    Ok(())
+}

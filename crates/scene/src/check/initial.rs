@@ -1,0 +1,34 @@
+//! Checks of `[[initial_velocity]]`.
+
+use super::numbers::{Problem, check_finite, check_vector, problem};
+use crate::tables::{AngularVelocityTable, InitialVelocityTable};
+use crate::{Integrator, Scene};
+
+pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+    for (number, velocity) in scene.initial_velocity.iter().enumerate() {
+        let table = format!("initial_velocity[{number}]");
+        if scene.time.integrator == Integrator::Static {
+            return problem(&table, "is a motion, and static has none; remove it or choose a method that moves");
+        }
+        check_velocity(&table, velocity)?;
+    }
+    Ok(())
+}
+
+fn check_velocity(table: &str, velocity: &InitialVelocityTable) -> Result<(), Problem> {
+    if velocity.velocity.is_none() && velocity.angular.is_none() && velocity.per_node.is_none() {
+        return problem(table, "has no velocity; give velocity, angular or per_node");
+    }
+    velocity.velocity.map_or(Ok(()), |vector| check_vector(&format!("{table}.velocity"), &vector))?;
+    velocity.angular.as_ref().map_or(Ok(()), |angular| check_angular(&format!("{table}.angular"), angular))
+}
+
+fn check_angular(field: &str, angular: &AngularVelocityTable) -> Result<(), Problem> {
+    let axis = format!("{field}.axis");
+    check_vector(&axis, &angular.axis)?;
+    if angular.axis == [0.0; 3] {
+        return problem(&axis, "is zero; give the direction of the axis");
+    }
+    angular.center.map_or(Ok(()), |center| check_vector(&format!("{field}.center"), &center))?;
+    check_finite(&format!("{field}.rate"), &[angular.rate])
+}

@@ -1,0 +1,182 @@
+//! `curve`: a factor of time on a load or on a prescribed motion.
+
+use std::f64::consts::TAU;
+
+use serde::Deserialize;
+
+use crate::check::numbers::{Problem, check_finite, check_positive, problem};
+
+/// `curve`: one of the four kinds. `on` and `off` belong together, and either may be left out.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct CurveTable {
+    /// Seconds in which the factor grows linearly from 0 to 1.
+    pub ramp: Option<f64>,
+    /// Times (s) and factors between which the factor is linear.
+    pub table: Option<Vec<Vec<f64>>>,
+    /// A harmonic oscillation.
+    pub sine: Option<SineTable>,
+    /// Time from which the factor is 1, s; before it the factor is 0.
+    pub on: Option<f64>,
+    /// Time from which the factor is 0 again, s.
+    pub off: Option<f64>,
+}
+
+/// sin(2π · frequency · t + phase)
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct SineTable {
+    /// Hz
+    pub frequency: f64,
+    /// Radians.
+    #[serde(default)]
+    pub phase: f64,
+}
+
+/// A factor of time on a load or on a prescribed motion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LoadCurve {
+    /// Linear from 0 at the start to 1 after this duration (s), and 1 from then on.
+    Ramp(f64),
+    /// Linear between pairs of time (s) and factor, whose times increase; constant before the first and after the last.
+    Table(Vec<[f64; 2]>),
+    /// sin(2π · frequency · t + phase)
+    Sine {
+        /// Hz
+        frequency: f64,
+        /// Radians.
+        phase: f64,
+    },
+    /// 1 for on ≤ t < off, else 0.
+    Switch {
+        /// s
+        on: f64,
+        /// s
+        off: f64,
+    },
+}
+
+impl LoadCurve {
+    /// The factor at a time, s.
+    pub fn factor(&self, time: f64) -> f64 {
+        match self {
+            Self::Ramp(duration) => (time / duration).clamp(0.0, 1.0),
+            Self::Table(points) => interpolated(points, time),
+            Self::Sine { frequency, phase } => (TAU * frequency * time + phase).sin(),
+            Self::Switch { on, off } => f64::from(u8::from(*on <= time && time < *off)),
+        }
+    }
+
+    /// First and second derivative of the factor (1/s, 1/s²) at a time, s. They are those of the time right after it at a kink, and
+    /// zero where the factor jumps.
+    pub fn derivatives(&self, time: f64) -> [f64; 2] {
+        match self {
+            Self::Ramp(duration) if (0.0..*duration).contains(&time) => [1.0 / duration, 0.0],
+            Self::Ramp(_) | Self::Switch { .. } => [0.0; 2],
+            Self::Table(points) => {
+                let next = points.partition_point(|[t, _]| *t <= time);
+                if next == 0 || next == points.len() {
+                    return [0.0; 2];
+                }
+                let ([t0, f0], [t1, f1]) = (points[next - 1], points[next]);
+                [(f1 - f0) / (t1 - t0), 0.0]
+            }
+            Self::Sine { frequency, phase } => {
+                let rate = TAU * frequency;
+                let (sine, cosine) = (rate * time + phase).sin_cos();
+                [rate * cosine, -rate * rate * sine]
+            }
+        }
+    }
+
+    /// Times at which the factor has a kink or a jump, s.
+    pub fn kinks(&self) -> Vec<f64> {
+        match self {
+            Self::Ramp(duration) => vec![*duration],
+            Self::Table(points) => points.iter().map(|[time, _]| *time).collect(),
+            Self::Sine { .. } => Vec::new(),
+            Self::Switch { on, off } => vec![*on, *off],
+        }
+    }
+
+    /// Whether the factor jumps.
+    pub fn has_jumps(&self) -> bool {
+        matches!(self, Self::Switch { .. })
+    }
+}
+
+/// The factor on the line between two points.
+fn interpolated(points: &[[f64; 2]], time: f64) -> f64 {
+    let next = points.partition_point(|[t, _]| *t <= time);
+    match (next.checked_sub(1).map(|last| points[last]), points.get(next).copied()) {
+        (Some([t0, f0]), Some([t1, f1])) => f0 + (f1 - f0) * ((time - t0) / (t1 - t0)),
+        (Some([_, factor]), None) | (None, Some([_, factor])) => factor,
+        (None, None) => 1.0,
+    }
+}
+
+impl CurveTable {
+    /// The curve of a checked table.
+    pub(crate) fn curve(&self) -> LoadCurve {
+        match self {
+            Self { ramp: Some(duration), .. } => LoadCurve::Ramp(*duration),
+            Self { table: Some(points), .. } => {
+                LoadCurve::Table(points.iter().map(|point| [point[0], point[1]]).collect())
+            }
+            Self { sine: Some(SineTable { frequency, phase }), .. } => {
+                LoadCurve::Sine { frequency: *frequency, phase: *phase }
+            }
+            Self { on, off, .. } => {
+                LoadCurve::Switch { on: on.unwrap_or(f64::NEG_INFINITY), off: off.unwrap_or(f64::INFINITY) }
+            }
+        }
+    }
+
+    /// Checks the table that stands at `field`, such as `gravity.curve`.
+    pub(crate) fn check(&self, field: &str) -> Result<(), Problem> {
+        let switch = self.on.is_some() || self.off.is_some();
+        let kinds = [self.ramp.is_some(), self.table.is_some(), self.sine.is_some(), switch];
+        if kinds.into_iter().filter(|is_given| *is_given).count() != 1 {
+            return problem(field, "needs one kind of curve; give either ramp, table, sine, or on and off");
+        }
+        self.ramp.map_or(Ok(()), |ramp| check_positive(&format!("{field}.ramp"), ramp, " of seconds"))?;
+        self.table.as_ref().map_or(Ok(()), |points| check_points(&format!("{field}.table"), points))?;
+        if let Some(sine) = &self.sine {
+            check_positive(&format!("{field}.sine.frequency"), sine.frequency, " of Hz")?;
+            check_finite(&format!("{field}.sine.phase"), &[sine.phase])?;
+        }
+        self.check_switch(field)
+    }
+
+    fn check_switch(&self, field: &str) -> Result<(), Problem> {
+        for (key, time) in [("on", self.on), ("off", self.off)] {
+            time.map_or(Ok(()), |time| check_finite(&format!("{field}.{key}"), &[time]))?;
+        }
+        match (self.on, self.off) {
+            (Some(on), Some(off)) if off <= on => {
+                problem(&format!("{field}.off"), format!("is {off}, not after on = {on}; give a later time"))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn check_points(field: &str, points: &[Vec<f64>]) -> Result<(), Problem> {
+    if points.is_empty() {
+        return problem(field, "is empty; give pairs of time and factor such as [[0, 0], [2, 1]]");
+    }
+    for (number, point) in points.iter().enumerate() {
+        let field = format!("{field}[{number}]");
+        if point.len() != 2 {
+            let text = format!("has {} numbers; give a pair, the time in seconds and the factor", point.len());
+            return problem(&field, text);
+        }
+        check_finite(&field, point)?;
+        if let Some(before) = number.checked_sub(1).map(|before| points[before][0])
+            && point[0] <= before
+        {
+            return problem(&field, format!("is at {} s, not after {before} s; give times that increase", point[0]));
+        }
+    }
+    Ok(())
+}
