@@ -100,6 +100,7 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
     let has_curve = scene.gravity.as_ref().is_some_and(|gravity| gravity.curve.is_some());
     let engine_only = [
         ("gravity.curve", has_curve),
+        ("fixed.until", scene.fixed.as_ref().is_some_and(|fixed| fixed.until.is_some())),
         ("mesh.refine", scene.mesh.refine > 0),
         ("time.precision", scene.time.precision != Precision::F64),
         ("newton", scene.newton.is_some()),

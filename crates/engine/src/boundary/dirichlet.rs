@@ -1,7 +1,8 @@
 //! Dirichlet conditions: nodes that are fixed or follow a prescribed motion, in all directions or in some.
 //!
-//! Fully constrained nodes come last in the engine's numbering and have no rows in any matrix. Partly constrained nodes keep their
-//! rows; their constrained degrees of freedom are eliminated from the matrix.
+//! Fully constrained nodes come last in the engine's numbering and have no rows in any matrix. Partly constrained nodes, and those
+//! that become free at a time, keep their rows; their constrained degrees of freedom are eliminated from the matrix. A release
+//! therefore changes neither the numbering nor the pattern of the matrix.
 
 use fem_scene::{Body, DirichletCondition, Motion};
 use nalgebra::Vector3;
@@ -11,7 +12,7 @@ use crate::model::numbering::Numbering;
 use crate::number::Real;
 use crate::sparse::{Block, Pattern, Stored};
 
-/// The Dirichlet conditions of a body. Nodes have the engine's numbers; those from `free` on are fully constrained.
+/// The Dirichlet conditions of a body. Nodes have the engine's numbers; those from `free` on are fully constrained at all times.
 #[derive(Clone, Debug, Default)]
 pub struct DirichletConditions {
     /// First fully constrained node.
@@ -19,16 +20,18 @@ pub struct DirichletConditions {
     /// Nodes below `free` with their constrained directions, ascending.
     partly: Vec<(usize, [bool; 3])>,
     conditions: Vec<DirichletCondition>,
+    /// Whether each condition applies now.
+    applies: Vec<bool>,
 }
 
-/// Whether each node of the mesh is constrained in all directions.
+/// Whether each node of the mesh is constrained in all directions at all times.
 pub fn fully_constrained_nodes(body: &Body) -> Vec<bool> {
     let mut directions = vec![[false; 3]; body.shape.mesh.vertices.len()];
-    constrain(&body.dirichlet, &mut directions);
+    constrain(body.dirichlet.iter().filter(|condition| condition.until.is_none()), &mut directions);
     directions.into_iter().map(|constrained| constrained == [true; 3]).collect()
 }
 
-fn constrain(conditions: &[DirichletCondition], directions: &mut [[bool; 3]]) {
+fn constrain<'a>(conditions: impl Iterator<Item = &'a DirichletCondition>, directions: &mut [[bool; 3]]) {
     for condition in conditions {
         for &node in &condition.nodes {
             let constrained = directions[node];
@@ -45,11 +48,35 @@ impl DirichletConditions {
             ..condition.clone()
         };
         let conditions: Vec<_> = body.dirichlet.iter().map(engine_nodes).collect();
-        let mut directions = vec![[false; 3]; body.shape.mesh.vertices.len()];
-        constrain(&conditions, &mut directions);
-        directions.truncate(numbering.free);
-        let partly = directions.into_iter().enumerate().filter(|(_, constrained)| *constrained != [false; 3]).collect();
-        Self { free: numbering.free, partly, conditions }
+        let applies = vec![true; conditions.len()];
+        let mut new = Self { free: numbering.free, partly: Vec::new(), conditions, applies };
+        new.find_partly_constrained(body.shape.mesh.vertices.len());
+        new
+    }
+
+    /// Lets each condition apply or not as it does at a time, s. Returns whether that has changed any.
+    pub fn apply_at(&mut self, time: f64, nodes: usize) -> bool {
+        let applies: Vec<_> =
+            self.conditions.iter().map(|condition| condition.until.is_none_or(|until| time < until)).collect();
+        if applies == self.applies {
+            return false;
+        }
+        self.applies = applies;
+        self.find_partly_constrained(nodes);
+        true
+    }
+
+    fn find_partly_constrained(&mut self, nodes: usize) {
+        let mut directions = vec![[false; 3]; nodes];
+        constrain(self.applying(), &mut directions);
+        directions.truncate(self.free);
+        let directions = directions.into_iter().enumerate();
+        self.partly = directions.filter(|(_, constrained)| *constrained != [false; 3]).collect();
+    }
+
+    /// The conditions that apply now.
+    fn applying(&self) -> impl Iterator<Item = &DirichletCondition> {
+        self.conditions.iter().zip(&self.applies).filter_map(|(condition, applies)| applies.then_some(condition))
     }
 
     /// Whether no degree of freedom of a body with so many nodes is constrained.
@@ -57,14 +84,14 @@ impl DirichletConditions {
         self.free == nodes && self.partly.is_empty()
     }
 
-    /// Every condition, with the engine's numbers of its nodes.
-    pub fn conditions(&self) -> &[DirichletCondition] {
-        &self.conditions
+    /// Every condition with the engine's numbers of its nodes, and whether it applies now.
+    pub fn conditions(&self) -> impl Iterator<Item = (&DirichletCondition, bool)> {
+        self.conditions.iter().zip(self.applies.iter().copied())
     }
 
-    /// The conditions that prescribe a motion.
+    /// The conditions that prescribe a motion now.
     pub fn motions(&self) -> impl Iterator<Item = (&DirichletCondition, &Motion)> {
-        self.conditions.iter().filter_map(|condition| Some((condition, condition.motion.as_ref()?)))
+        self.applying().filter_map(|condition| Some((condition, condition.motion.as_ref()?)))
     }
 
     /// Whether a motion is prescribed.

@@ -1,5 +1,6 @@
 //! Reactions: the forces of the constraints on the body, M a − f over the constrained degrees of freedom. A free node has none.
 
+use fem_scene::DirichletCondition;
 use fem_scene::simulation::Reaction;
 
 use crate::forces::Moment;
@@ -7,7 +8,7 @@ use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
 
-/// One for each Dirichlet condition. The acceleration is the mean of the last step, which began at `before`; Rayleigh damping takes
+/// One for each Dirichlet condition, zero where its nodes are free by now. The acceleration is the mean of the last step, which began at `before`; Rayleigh damping takes
 /// its stiffness there too.
 pub fn reactions<T: Real>(system: &System<T>, before: &State<T>, state: &State<T>, moment: Moment) -> Vec<Reaction> {
     let force = unbalanced(system, before, state, moment);
@@ -15,8 +16,11 @@ pub fn reactions<T: Real>(system: &System<T>, before: &State<T>, state: &State<T
         let along = |i: usize| nodes.iter().map(|&node| force[node][i].as_f64()).sum();
         std::array::from_fn(|i| if components[i] { along(i) } else { 0.0 })
     };
-    let conditions = system.dirichlet.conditions().iter();
-    conditions.map(|c| Reaction { name: c.name.clone(), force: sum(&c.nodes, c.components) }).collect()
+    let reaction = |(condition, applies): (&DirichletCondition, bool)| Reaction {
+        name: condition.name.clone(),
+        force: if applies { sum(&condition.nodes, condition.components) } else { [0.0; 3] },
+    };
+    system.dirichlet.conditions().map(reaction).collect()
 }
 
 /// M a − f, N.

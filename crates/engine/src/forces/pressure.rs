@@ -136,9 +136,10 @@ fn corners(vertices: &[Vector3<f64>], faces: &[[usize; 3]]) -> Vec<[Vector3<f64>
     faces.iter().map(|face| face.map(|node| vertices[node] - vertices[faces[0][0]])).collect()
 }
 
-/// Whether every node on the edge of the surface is fixed; a closed surface has no edge.
+/// Whether every node on the edge of the surface is fixed at all times; a closed surface has no edge.
 fn edge_is_fixed(body: &Body, faces: &[[usize; 3]]) -> bool {
-    let fixed: HashSet<usize> = body.fixed_nodes().unwrap_or_default().iter().copied().collect();
+    let always = body.dirichlet.iter().filter(|condition| condition.motion.is_none() && condition.until.is_none());
+    let fixed: HashSet<usize> = always.flat_map(|condition| &condition.nodes).copied().collect();
     let edges: HashSet<[usize; 2]> = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
     // Two outward triangles run along a common edge in opposite directions.
     edges.iter().all(|&[a, b]| edges.contains(&[b, a]) || (fixed.contains(&a) && fixed.contains(&b)))

@@ -39,6 +39,9 @@ impl<T: Real> Accelerations<T> {
         if !system.dirichlet.has_motion() {
             return;
         }
+        // A reset can bring back a motion that had ended when the vectors were allocated.
+        self.prescribed.resize(system.nodes(), [T::default(); 3]);
+        self.velocity.resize(system.nodes(), [T::default(); 3]);
         let over_dt = T::of(1.0 / dt);
         system.prescribe(&state.u, Moment::at(state.time + dt), &mut self.velocity);
         for node in 0..self.prescribed.len() {

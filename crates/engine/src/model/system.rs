@@ -1,5 +1,5 @@
 //! A body as the engine computes with it: the undeformed body, its material, its constraints and the forces on it. None of this
-//! changes in a run, apart from a user's pull.
+//! changes in a run, apart from a user's pull and the release of nodes.
 
 use std::sync::Arc;
 
@@ -104,6 +104,15 @@ impl<T: Real> System<T> {
             forces,
             profile: Profile::default(),
         }
+    }
+
+    /// Lets the Dirichlet conditions apply that apply at a time, s. Returns whether these are others than before.
+    pub fn apply_conditions_at(&mut self, time: f64) -> bool {
+        let has_changed = self.dirichlet.apply_at(time, self.rest.len());
+        if has_changed {
+            self.node_masses = if self.is_unconstrained() { self.mass.lumped() } else { Vec::new() };
+        }
+        has_changed
     }
 
     /// Number of nodes.

@@ -57,10 +57,13 @@ fn material(material: &Material) -> String {
 
 fn constraints<T: Real>(simulator: &Simulator<T>) -> Vec<Part> {
     let dirichlet = &simulator.system.dirichlet;
-    let fixed = dirichlet.conditions().iter().find(|condition| condition.motion.is_none());
-    let fixed = match fixed.map(|condition| condition.nodes.len()) {
-        Some(nodes) => {
-            let why = format!("[fixed]: {nodes} nodes have no row in any matrix");
+    let fixed = dirichlet.conditions().map(|(condition, _)| condition).find(|condition| condition.motion.is_none());
+    let fixed = match fixed.map(|condition| (condition.nodes.len(), condition.until)) {
+        Some((nodes, until)) => {
+            let why = match until {
+                Some(until) => format!("[fixed]: {nodes} nodes, free from {until} s on, keep their rows in the matrix"),
+                None => format!("[fixed]: {nodes} nodes have no row in any matrix"),
+            };
             Part::built("fixed", why, size_of::<usize>() * nodes, MADE_ONCE)
         }
         None => left_out_without("fixed", "[fixed]"),

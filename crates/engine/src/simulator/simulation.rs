@@ -16,6 +16,9 @@ use crate::model::state::State;
 use crate::number::Real;
 use crate::pick;
 
+/// Part of a time step by which the time of a step may be rounded.
+const ROUNDING: f64 = 1e-6;
+
 impl<T: Real> Simulation for Simulator<T> {
     fn name(&self) -> &str {
         &self.system.name
@@ -56,6 +59,10 @@ impl<T: Real> Simulation for Simulator<T> {
     }
 
     fn step(&mut self) -> Result<(), Failure> {
+        // Times are sums of steps, so the release may lie a rounding error beyond the one that was meant.
+        if self.system.apply_conditions_at(self.state.time + ROUNDING * self.dt) {
+            self.integrator.forget();
+        }
         let Self { integrator, system, state, dt, counters, last_good, .. } = self;
         last_good.copy_from(state);
         let moment = integrator.moment(state);
@@ -78,6 +85,7 @@ impl<T: Real> Simulation for Simulator<T> {
     }
 
     fn reset(&mut self) {
+        self.system.apply_conditions_at(0.0);
         self.state = State::at_start(self.system.nodes(), &self.initial_velocity);
         self.last_good.copy_from(&self.state);
         self.integrator.forget();

@@ -16,6 +16,7 @@ mod orders;
 mod parts;
 mod pressures;
 mod reactions;
+mod release;
 mod shipped_scenes;
 mod statics;
 mod surface_loads;

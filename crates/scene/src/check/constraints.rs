@@ -3,15 +3,32 @@
 use super::loads::{check_distance, check_side};
 use super::numbers::{Problem, check_finite, check_positive, check_vector, problem};
 use crate::tables::{FixedTable, PrescribedTable, RotationTable};
-use crate::{Axis, Scene};
+use crate::{Axis, Integrator, Scene};
 
 /// Largest number of turns: an angle of this size still has ten digits.
 const MOST_TURNS: f64 = 1e6;
 
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
-    scene.fixed.as_ref().map_or(Ok(()), check_fixed)?;
+    scene.fixed.as_ref().map_or(Ok(()), |fixed| {
+        check_until(scene, "fixed", fixed.until)?;
+        check_fixed(fixed)
+    })?;
     let tables = scene.prescribed.iter().enumerate();
-    tables.into_iter().try_for_each(|(number, motion)| check_prescribed(&format!("prescribed[{number}]"), motion))
+    tables.into_iter().try_for_each(|(number, motion)| {
+        let table = format!("prescribed[{number}]");
+        check_until(scene, &table, motion.until)?;
+        check_prescribed(&table, motion)
+    })
+}
+
+/// Checks the time from which nodes are free.
+fn check_until(scene: &Scene, table: &str, until: Option<f64>) -> Result<(), Problem> {
+    let Some(until) = until else { return Ok(()) };
+    let field = format!("{table}.until");
+    if scene.time.integrator == Integrator::Static {
+        return problem(&field, "is a time, and static has none; remove it or choose a method that moves");
+    }
+    check_positive(&field, until, " of seconds")
 }
 
 fn check_fixed(fixed: &FixedTable) -> Result<(), Problem> {

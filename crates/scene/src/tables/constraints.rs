@@ -6,13 +6,15 @@ use super::vectors::{three_numbers, three_numbers_if_any};
 use super::{Axis, CurveTable, SidePlane};
 
 /// `[fixed]`: nodes by a plane or by index.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct FixedTable {
     /// All nodes on one side of a plane.
     pub plane: Option<Plane>,
     /// These nodes.
     pub nodes: Option<Vec<usize>>,
+    /// Time from which the nodes are free, s.
+    pub until: Option<f64>,
 }
 
 /// All nodes whose coordinate is at most the mesh's smallest plus `below`.
@@ -45,6 +47,8 @@ pub struct PrescribedTable {
     pub over: Option<f64>,
     /// Part of the full motion as a function of time, in place of `over`.
     pub curve: Option<CurveTable>,
+    /// Time from which the nodes are free, s.
+    pub until: Option<f64>,
 }
 
 /// A rotation about a line parallel to a coordinate axis.

@@ -21,6 +21,8 @@ pub struct DirichletCondition {
     pub components: [bool; 3],
     /// Prescribed motion; `None` if the nodes keep their undeformed positions.
     pub motion: Option<Motion>,
+    /// Time from which the nodes are free, s; `None` if they never are.
+    pub until: Option<f64>,
 }
 
 /// A rotation followed by a displacement, a part of which is reached at each time.
@@ -83,12 +85,19 @@ pub(crate) fn dirichlet_conditions(
 ) -> Result<Vec<DirichletCondition>, SceneError> {
     let fixed = scene.fixed.iter().map(|table| {
         let nodes = fixed_nodes(scene, table, mesh)?;
-        Ok(DirichletCondition { name: "fixed".to_owned(), nodes, components: [true; 3], motion: None })
+        Ok(DirichletCondition {
+            name: "fixed".to_owned(),
+            nodes,
+            components: [true; 3],
+            motion: None,
+            until: table.until,
+        })
     });
     let prescribed = scene.prescribed.iter().enumerate().map(|(number, table)| {
         let name = format!("prescribed[{number}]");
         let nodes = prescribed_nodes(scene, &name, table, mesh)?;
-        Ok(DirichletCondition { name, nodes, components: table.is_prescribed(), motion: Some(Motion::new(table)) })
+        let (components, motion) = (table.is_prescribed(), Some(Motion::new(table)));
+        Ok(DirichletCondition { name, nodes, components, motion, until: table.until })
     });
     let conditions = fixed.chain(prescribed).collect::<Result<Vec<_>, _>>()?;
     check_disjoint(scene, &conditions, mesh.vertices.len())?;

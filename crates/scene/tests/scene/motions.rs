@@ -107,6 +107,22 @@ fn a_node_is_fixed_or_prescribed_and_each_coordinate_once() {
 }
 
 #[test]
+fn a_release_has_a_time_in_a_scene_that_moves() {
+    let tables = format!(
+        "{LEAST}[fixed]\nnodes = [0]\nuntil = 2.5\n[[prescribed]]\n{ON}\ndisplacement = [1, 0, 0]\nuntil = 4\n"
+    );
+    let until: Vec<_> = body(&tables).unwrap().dirichlet.into_iter().map(|condition| condition.until).collect();
+    assert_eq!(until, [Some(2.5), Some(4.0)]);
+    assert_refused(&edit(&tables, "2.5", "0"), 14, "fixed.until is 0; give a positive number of seconds");
+    assert_refused(&edit(&tables, "until = 4", "until = nan"), 18, "prescribed[0].until is NaN; give a positive");
+    assert_refused(
+        &edit(&tables, "implicit_euler", "static"),
+        14,
+        "fixed.until is a time, and static has none; remove",
+    );
+}
+
+#[test]
 fn a_prescribed_table_is_checked_at_its_line() {
     let good = format!(
         "{LEAST}[[prescribed]]\n{ON}\nrotation = {{ axis = \"x\", center = [0, 0, 0], turns = 2 }}\nover = 1\n"

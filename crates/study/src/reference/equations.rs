@@ -40,6 +40,9 @@ impl Equations {
     /// Builds the equations of a scene. The error says why the scene has none.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, String> {
         let law = AnyLaw::new(&scene.material).ok_or("the material lacks its parameters")?;
+        if body.dirichlet.iter().any(|condition| condition.until.is_some()) {
+            return Err("nodes become free at a time, which the reference in time does not compute".to_owned());
+        }
         let kinks = kinks(&body);
         let velocities = body.initial_velocity.clone();
         let system = System::new(body, law, SolverChoice::Cholesky);

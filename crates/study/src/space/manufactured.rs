@@ -135,7 +135,7 @@ fn cube(model: &str, cells: usize) -> Result<(Scene, Body), String> {
         [node % per_edge, node / per_edge % per_edge, node / per_edge / per_edge].iter().all(|&i| i > 0 && i < cells)
     };
     let sides = (0..per_edge.pow(3)).filter(|&node| !is_inside(node)).collect();
-    scene.fixed = Some(FixedTable { plane: None, nodes: Some(sides) });
+    scene.fixed = Some(FixedTable { nodes: Some(sides), ..FixedTable::default() });
     let body = body(&scene, Path::new("")).map_err(|error| error.to_string())?;
     Ok((scene, body))
 }
