@@ -129,20 +129,25 @@ impl AssignmentSetup {
     /// −∂V/∂q of [`potential`](Self::potential), N.
     fn force(&self, q: &DVector<f64>, springs: &[AnchorSpring]) -> DVector<f64> {
         self.profile.count_force_assembly();
-        let x = self.constraints.all_coordinates(q);
+        let f = self.force_on_nodes(&self.constraints.all_coordinates(q), springs);
+        self.constraints.free_coordinates(f)
+    }
+
+    /// Elastic forces, weight and springs on all coordinates at the positions `x  (3n)`, N.
+    fn force_on_nodes(&self, x: &DVector<f64>, springs: &[AnchorSpring]) -> DVector<f64> {
         let (V, T) = (&self.shape.mesh.vertices, &self.shape.mesh.elements);
-        let mut f = assemble_forces(&x, V, T, &self.v0, self.C, self.D);
+        let mut f = assemble_forces(x, V, T, &self.v0, self.C, self.D);
         if self.gravity.is_some() {
             f += &self.weight;
         }
         for spring in springs {
             let gradient =
-                dV_spring_particle_particle_dq(&node(&x, spring.node), &spring.target, 0.0, self.interaction.stiffness);
+                dV_spring_particle_particle_dq(&node(x, spring.node), &spring.target, 0.0, self.interaction.stiffness);
             for i in 0..3 {
                 f[3 * spring.node + i] -= gradient[i];
             }
         }
-        self.constraints.free_coordinates(f)
+        f
     }
 
     /// [`stiffness`](Self::stiffness), or the last one of the same step if no coordinate has moved by more than

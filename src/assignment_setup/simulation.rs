@@ -147,6 +147,10 @@ impl Simulation for AssignmentSetup {
         self.skinning.as_ref().map_or(0, |N| N.row_iter().filter(|row| is_outside(row.values())).count())
     }
 
+    fn nodal_forces(&self) -> Option<DVector<f64>> {
+        Some(self.force_on_nodes(&self.positions(), &self.springs(self.time)))
+    }
+
     fn counters(&self) -> Counters {
         let solver = self.solver.borrow();
         Counters {

@@ -28,6 +28,9 @@ pub struct Ready {
 pub fn build(scene: &Scene) -> Result<Ready, End> {
     let start = Instant::now();
     let body = fem_scene::body(scene, &data::folder()).map_err(End::unusable)?;
+    for warning in fem_scene::warnings(scene, &body) {
+        eprintln!("warning: {warning}");
+    }
     let simulation = match scene.pipeline {
         Pipeline::Course => course(scene, body)?,
         Pipeline::Engine => engine::build(scene, body)?,

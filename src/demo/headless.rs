@@ -80,8 +80,8 @@ impl Log {
     }
 
     /// Writes the `.pvd` of the series, if an option asks for it.
-    fn finish(&self, simulation: &dyn Simulation) -> Result<(), End> {
-        let listed = self.series.as_ref().map(|series| series.finish(simulation)).transpose().map_err(End::unusable)?;
+    fn finish(&mut self, simulation: &dyn Simulation) -> Result<(), End> {
+        let listed = self.series.as_mut().map(|series| series.finish(simulation)).transpose().map_err(End::unusable)?;
         if let Some(path) = listed {
             say!("{}: the series, for ParaView", path.display());
         }

@@ -160,10 +160,11 @@ fn moduli_out_of_range_are_refused() {
 }
 
 #[test]
-fn fixed_with_both_plane_and_nodes_or_neither_is_refused() {
+fn fixed_with_two_selectors_or_none_or_an_empty_list_is_refused() {
     let plane = "plane = { axis = \"y\", below = 0.1 }\n";
-    assert_refused(plane, "", 12, &["fixed needs either plane or nodes", "give one and only one"]);
-    assert_refused(plane, &format!("{plane}nodes = [0]\n"), 12, &["fixed needs either plane or nodes"]);
+    assert_refused(plane, "", 12, &["fixed needs one of plane, on,", "give one and only one"]);
+    assert_refused(plane, &format!("{plane}nodes = [0]\n"), 12, &["fixed needs one of plane, on,"]);
+    assert_refused(plane, "nodes = []\n", 13, &["fixed.nodes is empty", "remove the table"]);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use fem_scene::simulation::Simulation;
 
-use crate::program::Desk;
+use crate::program::{Desk, assert_names};
 use crate::scene_text::{CUBE, INTEGRATORS, build_with, edit, without};
 
 /// The cube's scene with the mesh `m.node` in place of the box.
@@ -24,6 +24,14 @@ fn assert_runs(desk: &Desk) {
     }
 }
 
+/// Asserts that the scene runs with one warning, which contains these parts.
+fn assert_warns(desk: &Desk, parts: &[&str]) {
+    let outcome = desk.run("scene.toml --headless");
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    assert!(outcome.stderr.starts_with("warning: scene.toml: "), "{outcome:?}");
+    assert_names(&outcome.stderr, parts);
+}
+
 #[test]
 fn a_body_of_fixed_nodes_does_not_move() {
     let text = edit(CUBE, "below = 0.1", "below = 1.0");
@@ -37,19 +45,6 @@ fn a_body_of_fixed_nodes_does_not_move() {
         simulation.step().unwrap();
         assert_eq!(simulation.positions(), rest);
     }
-}
-
-#[test]
-fn an_empty_list_of_fixed_nodes_is_accepted() {
-    let text = edit(CUBE, "plane = { axis = \"y\", below = 0.1 }", "nodes = []");
-    let (mut empty, mut left_out) =
-        (build_with(&text, INTEGRATORS[1]), build_with(&without(CUBE, "fixed"), INTEGRATORS[1]));
-    for _ in 0..4 {
-        empty.step().unwrap();
-        left_out.step().unwrap();
-    }
-    assert_eq!(empty.positions(), left_out.positions());
-    assert!(empty.parts().iter().all(|part| part.name != "fixed" || !part.built));
 }
 
 #[test]
@@ -88,13 +83,17 @@ fn disconnected_parts_run() {
     for text in [CUBE.to_owned(), without(CUBE, "fixed")] {
         assert_runs(&desk_with_mesh(&text, nodes, elements));
     }
+    let plane = "plane = { axis = \"y\", below = 0.1 }";
+    let desk = desk_with_mesh(&edit(CUBE, plane, "nodes = [0, 1, 3]"), nodes, elements);
+    assert_warns(&desk, &["1 of 2 connected parts have no Dirichlet condition", "the first with node 4"]);
 }
 
 #[test]
 fn coincident_vertices_run() {
     // Two tetrahedra with a common face, each with its own copy of that face's vertices.
     let nodes = "8 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 0 0 0\n5 0 1 0\n6 1 0 0\n7 0 0 -1\n";
-    assert_runs(&desk_with_mesh(CUBE, nodes, "2 4 0\n0 0 1 2 3\n1 4 5 6 7\n"));
+    let desk = desk_with_mesh(CUBE, nodes, "2 4 0\n0 0 1 2 3\n1 4 5 6 7\n");
+    assert_warns(&desk, &["mesh: 3 nodes lie at the place of another one, the first are 0 and 4"]);
 }
 
 #[test]

@@ -101,7 +101,7 @@ fn force_density(scene: &Scene) -> Vector3<f64> {
 /// Sum of all tractions, Pa; `None` unless all are dead loads on the end of largest x.
 fn end_traction(tractions: &[TractionTable], length: f64) -> Option<Vector3<f64>> {
     let end_load = |traction: &TractionTable| {
-        let on = traction.on.as_ref()?;
+        let on = traction.on.as_ref()?.side()?;
         let is_end = on.axis as usize == 0 && on.side == Side::Max && on.within <= END * length;
         traction.force_per_area.filter(|_| is_end).map(Vector3::from)
     };

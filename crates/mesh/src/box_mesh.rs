@@ -31,7 +31,7 @@ const PERMUTATIONS: [([usize; 3], bool); 6] = [
 /// Returns an error for sizes that are not whole numbers of cells, and for more than 50 million elements.
 pub fn box_mesh(size: [f64; 3], cells_per_unit: usize) -> Result<TetrahedralMesh, MeshError> {
     let cells = count_cells(size, cells_per_unit).map_err(|problem| MeshError::in_file(Path::new("box"), problem))?;
-    Ok(TetrahedralMesh { vertices: nodes(cells, cells_per_unit), elements: tetrahedra(cells) })
+    Ok(TetrahedralMesh::new(nodes(cells, cells_per_unit), tetrahedra(cells)))
 }
 
 fn count_cells(size: [f64; 3], cells_per_unit: usize) -> Result<[usize; 3], Problem> {

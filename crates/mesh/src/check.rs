@@ -5,7 +5,7 @@ use std::path::Path;
 use nalgebra::Vector3;
 
 use super::boundary::FACES;
-use super::{MeshError, Problem, TetrahedralMesh, area_vector, signed_volume};
+use super::{MeshError, Problem, TetrahedralMesh, area_vector, sets, signed_volume};
 
 /// A tetrahedron is flat if its volume is below this fraction of its longest edge cubed.
 ///
@@ -18,7 +18,7 @@ const FLAT: f64 = 1e-14;
 const ROUNDINGS: f64 = 4.0;
 
 /// Checks that the mesh has an element, coordinates are finite, indices in range, the four vertices of every element different
-/// and its volume positive, and that every vertex belongs to an element.
+/// and its volume positive, that no two elements have the same vertices, that every vertex belongs to an element, and that named sets are parts of the mesh.
 ///
 /// Returns the first problem; `source` is the file that its message names.
 pub fn check(mesh: &TetrahedralMesh, source: &Path) -> Result<(), MeshError> {
@@ -39,7 +39,9 @@ fn find_problem(mesh: &TetrahedralMesh) -> Result<(), Problem> {
         check_indices(element, nodes, mesh.vertices.len())?;
         check_volume(element, nodes.map(|i| mesh.vertices[i]))?;
     }
-    check_all_referenced(mesh)
+    check_all_referenced(mesh)?;
+    check_no_duplicates(mesh)?;
+    sets::check(mesh)
 }
 
 fn check_indices(element: usize, nodes: &[usize; 4], count: usize) -> Result<(), Problem> {
@@ -75,6 +77,19 @@ fn longest_edge(corners: [Vector3<f64>; 4]) -> f64 {
 fn largest_face(corners: [Vector3<f64>; 4]) -> f64 {
     let areas = FACES.map(|face| area_vector(face.map(|i| corners[i])).norm());
     areas.into_iter().fold(0.0, f64::max)
+}
+
+fn check_no_duplicates(mesh: &TetrahedralMesh) -> Result<(), Problem> {
+    let mut keys: Vec<([usize; 4], usize)> = mesh.elements.iter().copied().zip(0..).collect();
+    keys.iter_mut().for_each(|(nodes, _)| nodes.sort_unstable());
+    keys.sort_unstable();
+    // The first element of each chunk is the original.
+    let repeats = keys.chunk_by(|a, b| a.0 == b.0).flat_map(|equal| equal[1..].iter().map(|(_, e)| (*e, equal[0].1)));
+    let (count, first) = repeats.fold((0, None), |(count, first), repeat| {
+        let first = first.map_or(repeat, |first: (usize, usize)| first.min(repeat));
+        (count + 1, Some(first))
+    });
+    first.map_or(Ok(()), |(element, original)| Err(Problem::DuplicateElement { element, original, count }))
 }
 
 fn check_all_referenced(mesh: &TetrahedralMesh) -> Result<(), Problem> {

@@ -1,5 +1,6 @@
 //! The error of reading, checking, building and writing meshes.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -7,12 +8,12 @@ use thiserror::Error;
 /// A problem with a mesh, its location and the remedy, in one message such as
 /// `bunny.ele, line 7: vertex 400 does not exist, …`.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[error("{}{}: {problem}", file.display(), line.map(|n| format!(", line {n}")).unwrap_or_default())]
+#[error("{}{place}: {problem}", file.display())]
 pub struct MeshError {
     /// The file, or the name of another source, such as `box`.
     pub file: PathBuf,
-    /// Line of the problem in the file, counted from 1, if it belongs to one.
-    pub line: Option<usize>,
+    /// Place of the problem in the file.
+    pub place: Place,
     /// The problem; its text names the element or vertex, and the remedy. Boxed to keep results small.
     pub problem: Box<Problem>,
 }
@@ -20,12 +21,38 @@ pub struct MeshError {
 impl MeshError {
     /// A problem of a file as a whole.
     pub fn in_file(file: &Path, problem: Problem) -> Self {
-        Self { file: file.to_owned(), line: None, problem: Box::new(problem) }
+        Self { file: file.to_owned(), place: Place::File, problem: Box::new(problem) }
     }
 
     /// A problem of one line, counted from 1.
     pub fn in_line(file: &Path, line: usize, problem: Problem) -> Self {
-        Self { file: file.to_owned(), line: Some(line), problem: Box::new(problem) }
+        Self { file: file.to_owned(), place: Place::Line(line), problem: Box::new(problem) }
+    }
+
+    /// A problem of binary data, at a byte counted from 0.
+    pub fn in_byte(file: &Path, byte: usize, problem: Problem) -> Self {
+        Self { file: file.to_owned(), place: Place::Byte(byte), problem: Box::new(problem) }
+    }
+}
+
+/// A place in a mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The file as a whole.
+    File,
+    /// A line of text, counted from 1.
+    Line(usize),
+    /// A byte of binary data, counted from 0.
+    Byte(usize),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File => Ok(()),
+            Self::Line(line) => write!(f, ", line {line}"),
+            Self::Byte(byte) => write!(f, ", byte {byte}"),
+        }
     }
 }
 
@@ -84,8 +111,14 @@ pub enum Problem {
     Flat { element: usize, volume: f64 },
     #[error("element {element} (counted from 0) is too large to compute its volume; scale the mesh to metres")]
     Huge { element: usize },
+    #[error(
+        "element {element} (counted from 0) has the same four vertices as element {original}, and {count} elements repeat an earlier one; remove them"
+    )]
+    DuplicateElement { element: usize, original: usize, count: usize },
     #[error("vertex {vertex} (counted from 0) belongs to no element; remove it, or add the element that it belongs to")]
     Unreferenced { vertex: usize },
+    #[error("the set `{set}` has {part} (counted from 0), which is no part of a tetrahedron; remove it from the set")]
+    StrayPart { set: String, part: String },
     #[error("the mesh has no {what}; give one that has some")]
     Empty { what: &'static str },
     #[error(

@@ -8,28 +8,34 @@
 #![allow(clippy::needless_range_loop)] // indices of tensors are the notation of the field
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
+use std::collections::BTreeMap;
+
 use nalgebra::SVector;
 
 mod boundary;
 mod box_mesh;
 mod check;
+mod connectivity;
 mod error;
 mod measures;
 mod quality;
 mod read;
 mod refine;
+mod sets;
 mod sides;
 pub mod write;
 
 pub use boundary::boundary;
 pub use box_mesh::box_mesh;
 pub use check::check;
-pub use error::{MeshError, Problem};
+pub use connectivity::{CoincidentNodes, coincident_nodes, parts};
+pub use error::{MeshError, Place, Problem};
 pub(crate) use measures::signed_volume;
 pub use measures::{area_vector, volumes};
 pub use quality::{Extreme, Quality, quality};
 pub use read::{read_surface, read_tetrahedra};
 pub use refine::refine;
+pub use sets::MeshSet;
 pub use sides::{Side, faces_on_side, nodes_on_side};
 pub use write::{write_surface, write_tetrahedra};
 
@@ -40,6 +46,15 @@ pub struct Mesh<const D: usize, const N: usize> {
     pub vertices: Vec<SVector<f64, D>>,
     /// Vertex indices of each element, counted from 0.
     pub elements: Vec<[usize; N]>,
+    /// Parts of the mesh by name, such as the physical groups of a Gmsh file; empty if the file names no part.
+    pub sets: BTreeMap<String, MeshSet>,
+}
+
+impl<const D: usize, const N: usize> Mesh<D, N> {
+    /// A mesh without named sets. `vertices` in m.
+    pub fn new(vertices: Vec<SVector<f64, D>>, elements: Vec<[usize; N]>) -> Self {
+        Self { vertices, elements, sets: BTreeMap::new() }
+    }
 }
 
 /// Tetrahedra in space; positively oriented if `dot(cross(b − a, c − a), d − a) > 0`.

@@ -146,7 +146,7 @@ mod tests {
     use super::*;
 
     fn one(vertices: [[f64; 3]; 4]) -> Quality {
-        quality(&TetrahedralMesh { vertices: vertices.map(Vector3::from).to_vec(), elements: vec![[0, 1, 2, 3]] })
+        quality(&TetrahedralMesh::new(vertices.map(Vector3::from).to_vec(), vec![[0, 1, 2, 3]]))
     }
 
     #[test]

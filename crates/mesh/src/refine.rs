@@ -5,10 +5,8 @@ use std::path::Path;
 use nalgebra::Vector3;
 
 use super::box_mesh::MOST_ELEMENTS;
-use super::{MeshError, Problem, TetrahedralMesh};
-
-/// The edges of a tetrahedron, by its corners.
-const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+use super::sets::EDGES;
+use super::{MeshError, MeshSet, Problem, TetrahedralMesh};
 
 /// The three diagonals of the inner octahedron: the two ends of each, then the other four edge midpoints around it, such that
 /// `[end, end, ring[i], ring[i + 1]]` is positive. The numbers are indices of [`EDGES`].
@@ -20,7 +18,7 @@ const DIAGONALS: [([usize; 2], [usize; 4]); 3] =
 /// Four children are the corners, half as large in each direction. The octahedron between them is cut into four about its
 /// shortest diagonal (S. Zhang, "Successive subdivisions of tetrahedra and multigrid methods on tetrahedral meshes", Houston
 /// Journal of Mathematics 21, 1995). The first vertices are those of the coarse mesh; the children of element e are the
-/// elements 8 e to 8 e + 7 and have an eighth of its volume each. The mesh must have passed [`check`](super::check).
+/// elements 8 e to 8 e + 7 and have an eighth of its volume each. Named sets keep their part of the body. The mesh must have passed [`check`](super::check).
 ///
 /// Returns an error for more than 50 million elements.
 pub fn refine(mesh: TetrahedralMesh, times: u32, source: &Path) -> Result<TetrahedralMesh, MeshError> {
@@ -41,7 +39,10 @@ fn refine_once(mesh: &TetrahedralMesh) -> TetrahedralMesh {
         let midpoints = EDGES.map(|edge| number(sorted(edge.map(|corner| element[corner]))));
         children(element, midpoints, &vertices)
     });
-    TetrahedralMesh { elements: elements.collect(), vertices }
+    let elements = elements.collect();
+    let refined = |set: &MeshSet| set.refined(|edge| number(sorted(edge)));
+    let sets = mesh.sets.iter().map(|(name, set)| (name.clone(), refined(set))).collect();
+    TetrahedralMesh { vertices, elements, sets }
 }
 
 /// Each edge once, its smaller vertex first, in ascending order.

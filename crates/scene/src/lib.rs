@@ -23,6 +23,7 @@ pub mod simulation;
 pub mod tables;
 mod timer;
 mod values;
+mod warnings;
 
 pub use body::{Body, body, body_of};
 pub use curve::LoadCurve;
@@ -38,5 +39,6 @@ pub use values::{
     DirichletCondition, Drag, Method, Motion, NewtonSettings, Pressure, RayleighDamping, Rotation, SolverSettings,
     Spring, Traction,
 };
+pub use warnings::warnings;
 
 pub use fem_mesh::Side;

@@ -91,6 +91,12 @@ pub trait Simulation: Send {
         Vec::new()
     }
 
+    /// `(3n)` sum of all forces on each node now, N: elastic, external and damping forces, and those of springs. It is M a at a
+    /// free node, zero in equilibrium, and M a less the reaction at a constrained one. `None` for a pipeline that does not compute it.
+    fn nodal_forces(&self) -> Option<DVector<f64>> {
+        None
+    }
+
     /// Work done since the start; a reset does not clear it.
     fn counters(&self) -> Counters;
 

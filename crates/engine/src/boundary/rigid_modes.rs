@@ -10,7 +10,7 @@ const LEAST: f64 = 1e-9;
 
 /// Refuses a body of which a connected part can move or rotate without deforming. Parts that springs join are left to the solver.
 pub(crate) fn check(body: &Body) -> Result<(), Refusal> {
-    let part = parts(body);
+    let part = fem_mesh::parts(&body.shape.mesh);
     let grams = gram_matrices(&body.shape.mesh.vertices, &part, &constrained_directions(body));
     let joined: Vec<usize> = body.springs.iter().flat_map(|spring| spring.nodes).map(|node| part[node]).collect();
     for root in (0..part.len()).filter(|&node| part[node] == node && !joined.contains(&node)) {
@@ -67,26 +67,4 @@ fn gram_matrices(vertices: &[Vector3<f64>], part: &[usize], constrained: &[[bool
         }
     }
     grams
-}
-
-/// The first node of each node's connected part.
-fn parts(body: &Body) -> Vec<usize> {
-    let nodes = body.shape.mesh.vertices.len();
-    let mut parent: Vec<usize> = (0..nodes).collect();
-    fn root(parent: &mut [usize], mut node: usize) -> usize {
-        while parent[node] != node {
-            parent[node] = parent[parent[node]];
-            node = parent[node];
-        }
-        node
-    }
-    for element in &body.shape.mesh.elements {
-        for &node in &element[1..] {
-            let (a, b) = (root(&mut parent, element[0]), root(&mut parent, node));
-            let least = a.min(b);
-            parent[a] = least;
-            parent[b] = least;
-        }
-    }
-    (0..nodes).map(|node| root(&mut parent, node)).collect()
 }

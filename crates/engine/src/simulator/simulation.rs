@@ -150,6 +150,14 @@ impl<T: Real> Simulation for Simulator<T> {
         self.reactions_timer.time(|| reactions(system, last_good, state, integrator.moment(state)))
     }
 
+    fn nodal_forces(&self) -> Option<DVector<f64>> {
+        let Self { system, state, last_good, integrator, .. } = self;
+        let mut force = vec![[T::default(); 3]; system.nodes()];
+        system.force(&state.u, &state.v, &last_good.u, integrator.moment(state), &mut force);
+        let force = system.numbering.to_mesh(&force);
+        Some(DVector::from_iterator(3 * force.len(), force.as_flattened().iter().map(|force| force.as_f64())))
+    }
+
     fn counters(&self) -> Counters {
         let solver = self.integrator.solver().map(|solver| solver.counters()).unwrap_or_default();
         Counters {

@@ -38,7 +38,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<TetrahedralMesh, MeshError
         let [a, b, c, d] = corners.map(|index| from_zero(index, 1, vertices.len()).map_err(in_line));
         elements.push([a?, b?, c?, d?]);
     }
-    Ok(TetrahedralMesh { vertices, elements })
+    Ok(TetrahedralMesh::new(vertices, elements))
 }
 
 /// The four versions differ only in the width of numbers in binary files.

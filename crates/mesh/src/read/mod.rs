@@ -1,34 +1,43 @@
 //! Readers of mesh files, by extension. They verify every count that a file announces and every index; [`check`](super::check)
 //! tests the mesh itself.
 
+mod cells;
 mod gmsh;
 mod medit;
 mod obj;
 mod tetgen;
+mod vtk;
 mod vtu;
 mod words;
 
 use std::fs;
-use std::io::ErrorKind;
-use std::path::Path;
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
+
+use flate2::read::MultiGzDecoder;
 
 use super::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
-/// Extensions of the tetrahedral meshes that can be read and written.
-pub(super) const TETRAHEDRAL: &str =
-    ".node with .ele (TetGen), .mesh (MEDIT), .msh (Gmsh 4), .vtu (VTK); surfaces are .obj";
+/// Largest ratio of the sizes of a file unpacked and packed. Meshes have less than 10; gzip can reach 1032.
+const MOST_UNPACKED: u64 = 200;
+
+/// Extensions of the tetrahedral meshes that can be read.
+const TETRAHEDRAL: &str =
+    ".node with .ele (TetGen), .mesh (MEDIT), .msh (Gmsh), .vtu or .vtk (VTK), each also as .gz; surfaces are .obj";
 
 /// Extensions of the surfaces that can be read and written.
-pub(super) const SURFACES: &str = ".obj (Wavefront)";
+pub(super) const SURFACES: &str = ".obj (Wavefront), also as .obj.gz";
 
-/// Reads a tetrahedral mesh: `.node` and `.ele` (TetGen; either name), `.mesh` (MEDIT), `.msh` (Gmsh 4.0 and 4.1), `.vtu`
-/// (VTK). Lengths as in the file, m; indices in range; orientation, volumes and unused vertices as the file has them.
+/// Reads a tetrahedral mesh: `.node` and `.ele` (TetGen; either name), `.mesh` (MEDIT), `.msh` (Gmsh 2 and 4), `.vtu` and
+/// `.vtk` (VTK), each also compressed, with `.gz` after its extension. Lengths as in the file, m; indices in range; orientation,
+/// volumes and unused vertices as the file has them. Physical groups of Gmsh become named sets.
 pub fn read_tetrahedra(path: &Path) -> Result<TetrahedralMesh, MeshError> {
     match extension(path).as_str() {
         "node" | "ele" => tetgen::read(path),
         "mesh" => medit::read(path, &text(path)?),
-        "msh" => gmsh::read(path, &text(path)?),
+        "msh" => gmsh::read(path, &bytes(path)?),
         "vtu" => vtu::read(path, &bytes(path)?),
+        "vtk" => vtk::read(path, &bytes(path)?),
         _ => Err(unknown_extension(path, TETRAHEDRAL)),
     }
 }
@@ -41,23 +50,55 @@ pub fn read_surface(path: &Path) -> Result<SurfaceMesh, MeshError> {
     }
 }
 
-/// A path's extension in lower case, without the dot.
+/// A path's extension in lower case, without the dot and without a `.gz` after it.
 pub(super) fn extension(path: &Path) -> String {
-    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
+    let plain = if is_packed(path) { path.with_extension("") } else { path.to_owned() };
+    plain.extension().unwrap_or_default().to_string_lossy().to_lowercase()
+}
+
+/// Whether a path ends in `.gz`.
+pub(super) fn is_packed(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"))
+}
+
+/// The path with another extension before its `.gz`, if it has one.
+pub(super) fn with_extension(path: &Path, extension: &str) -> PathBuf {
+    match path.extension() {
+        Some(packed) if is_packed(path) => {
+            let packed = packed.to_string_lossy();
+            path.with_extension("").with_extension(format!("{extension}.{packed}"))
+        }
+        _ => path.with_extension(extension),
+    }
 }
 
 pub(super) fn unknown_extension(path: &Path, known: &'static str) -> MeshError {
     MeshError::in_file(path, Problem::UnknownExtension { found: format!(".{}", extension(path)), known })
 }
 
+/// The content of a file, unpacked.
 fn bytes(path: &Path) -> Result<Vec<u8>, MeshError> {
-    fs::read(path).map_err(|error| {
+    let bytes = fs::read(path).map_err(|error| {
         let problem = match error.kind() {
             ErrorKind::NotFound => Problem::Missing,
             _ => Problem::Unreadable { reason: error.to_string() },
         };
         MeshError::in_file(path, problem)
-    })
+    })?;
+    if !is_packed(path) {
+        return Ok(bytes);
+    }
+    let mut unpacked = Vec::new();
+    let limit = MOST_UNPACKED.saturating_mul(bytes.len() as u64);
+    let unpacking = MultiGzDecoder::new(&bytes[..]).take(limit).read_to_end(&mut unpacked);
+    let damaged = |reason: String| MeshError::in_file(path, Problem::Malformed { reason });
+    match unpacking {
+        Ok(length) if length as u64 == limit => {
+            Err(damaged("it unpacks to no mesh, but to far too many bytes".to_owned()))
+        }
+        Ok(_) => Ok(unpacked),
+        Err(error) => Err(damaged(format!("it is no complete gzip file ({error})"))),
+    }
 }
 
 /// A file as text without a byte-order mark. Bytes that are not UTF-8 are replaced: names and comments may be in any encoding.

@@ -36,7 +36,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<SurfaceMesh, MeshError> {
             elements.push([a, b, c]);
         }
     }
-    Ok(SurfaceMesh { vertices, elements })
+    Ok(SurfaceMesh::new(vertices, elements))
 }
 
 fn polygon(line: &mut Words, vertices: usize, faces: &mut Vec<Face>) -> Result<(), MeshError> {

@@ -5,14 +5,14 @@ use std::path::Path;
 use nalgebra::Vector3;
 
 use super::words::{Words, rows};
-use super::{extension, text};
+use super::{extension, text, with_extension};
 use crate::{MeshError, Problem, TetrahedralMesh};
 
 /// Reads `path` and its partner of the same stem. All numbers count from that of the first node, 0 or 1.
 pub(super) fn read(path: &Path) -> Result<TetrahedralMesh, MeshError> {
     let (node_file, ele_file) = match extension(path).as_str() {
-        "node" => (path.to_owned(), path.with_extension("ele")),
-        _ => (path.with_extension("node"), path.to_owned()),
+        "node" => (path.to_owned(), with_extension(path, "ele")),
+        _ => (with_extension(path, "node"), path.to_owned()),
     };
     let partner = if node_file == path { &ele_file } else { &node_file };
     if !partner.exists() {
@@ -22,7 +22,7 @@ pub(super) fn read(path: &Path) -> Result<TetrahedralMesh, MeshError> {
     }
     let (vertices, first) = nodes(&node_file, &text(&node_file)?)?;
     let elements = elements(&ele_file, &text(&ele_file)?, first, vertices.len())?;
-    Ok(TetrahedralMesh { vertices, elements })
+    Ok(TetrahedralMesh::new(vertices, elements))
 }
 
 /// `<nodes> <dimension> <attributes> <markers>`, then `<number> <x> <y> <z> …` for each. Returns the first number too.

@@ -21,6 +21,11 @@ impl<'a> Words<'a> {
         Self { file, line: 1, rest: text }
     }
 
+    /// The words of one line; `line` is its number, counted from 1.
+    pub(super) fn of_line(file: &'a Path, line: usize, text: &'a str) -> Self {
+        Self { file, line, rest: text }
+    }
+
     /// The words of each line that has any.
     pub(super) fn of_lines(file: &'a Path, text: &'a str) -> impl Iterator<Item = Self> {
         let lines = text.lines().enumerate().map(move |(i, rest)| Self { file, line: i + 1, rest });
@@ -66,6 +71,16 @@ impl<'a> Words<'a> {
     pub(super) fn index(&mut self, first: i64, count: usize) -> Result<usize, MeshError> {
         let index = self.integer("the index of a vertex")?;
         from_zero(index, first, count).map_err(|problem| self.error(problem))
+    }
+
+    /// The next word as a number.
+    pub(super) fn real(&mut self, expected: &'static str) -> Result<f64, MeshError> {
+        self.parse(expected)
+    }
+
+    /// All that is left.
+    pub(super) fn rest(&self) -> &'a str {
+        self.rest
     }
 
     /// The next three words as a finite position.

@@ -16,21 +16,28 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use flate2::Compression;
+use flate2::write::GzEncoder;
 use nalgebra::Vector3;
 
 pub use self::glb::{Frame, write_glb};
 pub use self::pvd::write_pvd;
 pub use self::vtu::{Field, write_vtu};
-use super::read::{SURFACES, TETRAHEDRAL, extension, unknown_extension};
+use super::read::{SURFACES, extension, is_packed, unknown_extension};
 use super::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
+/// Extensions of the tetrahedral meshes that can be written.
+const TETRAHEDRAL: &str =
+    ".node with .ele (TetGen), .mesh (MEDIT), .msh (Gmsh 4), .vtu (VTK), each also as .gz; surfaces are .obj";
+
 /// Writes a tetrahedral mesh: `.node` and `.ele` (TetGen; both files by either name), `.mesh` (MEDIT), `.msh` (Gmsh 4.1),
-/// `.vtu` (VTK). Reading the file gives the same mesh, bit for bit.
+/// `.vtu` (VTK), each also compressed, with `.gz` after its extension. Reading the file gives the same mesh, bit for bit; named
+/// sets are kept by `.msh` alone.
 pub fn write_tetrahedra(path: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
     match extension(path).as_str() {
         "node" | "ele" => tetgen::write(path, mesh),
-        "mesh" => save(path, |out| medit::write(out, mesh)),
-        "msh" => save(path, |out| gmsh::write(out, mesh)),
+        "mesh" => save_mesh(path, |out| medit::write(out, mesh)),
+        "msh" => save_mesh(path, |out| gmsh::write(out, mesh)),
         "vtu" => write_vtu(path, mesh, &[], &[]),
         _ => Err(unknown_extension(path, TETRAHEDRAL)),
     }
@@ -39,7 +46,7 @@ pub fn write_tetrahedra(path: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshE
 /// Writes a triangle mesh: `.obj` (Wavefront). Reading the file gives the same mesh, bit for bit.
 pub fn write_surface(path: &Path, mesh: &SurfaceMesh) -> Result<(), MeshError> {
     match extension(path).as_str() {
-        "obj" => save(path, |out| obj::write(out, mesh)),
+        "obj" => save_mesh(path, |out| obj::write(out, mesh)),
         _ => Err(unknown_extension(path, SURFACES)),
     }
 }
@@ -59,6 +66,18 @@ pub fn save(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -
         // The temporary file may not exist; the first error is reported.
         let _ = fs::remove_file(&unfinished);
         unwritable(error)
+    })
+}
+
+/// [`save`] of a mesh file, which is compressed if its name ends in `.gz`.
+fn save_mesh(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), MeshError> {
+    if !is_packed(path) {
+        return save(path, write);
+    }
+    save(path, |out| {
+        let mut packed = GzEncoder::new(out, Compression::default());
+        write(&mut packed)?;
+        packed.finish().map(drop)
     })
 }
 

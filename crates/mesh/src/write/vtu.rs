@@ -5,7 +5,7 @@ use std::path::Path;
 
 use base64::prelude::{BASE64_STANDARD, Engine};
 
-use super::{escape, save};
+use super::{escape, save_mesh};
 use crate::{MeshError, Problem, TetrahedralMesh};
 
 /// VTK's number for the tetrahedron with 4 nodes.
@@ -33,7 +33,7 @@ pub fn write_vtu(
 ) -> Result<(), MeshError> {
     check_sizes(point_fields, mesh.vertices.len(), "point").map_err(|problem| MeshError::in_file(path, problem))?;
     check_sizes(cell_fields, mesh.elements.len(), "cell").map_err(|problem| MeshError::in_file(path, problem))?;
-    save(path, |out| write_grid(out, mesh, point_fields, cell_fields))
+    save_mesh(path, |out| write_grid(out, mesh, point_fields, cell_fields))
 }
 
 fn check_sizes(fields: &[Field], entries: usize, per: &'static str) -> Result<(), Problem> {

@@ -15,7 +15,7 @@ fn refusal(mesh: &TetrahedralMesh) -> String {
 }
 
 fn one(places: [[f64; 3]; 4]) -> TetrahedralMesh {
-    TetrahedralMesh { vertices: places.map(Vector3::from).to_vec(), elements: vec![[0, 1, 2, 3]] }
+    TetrahedralMesh::new(places.map(Vector3::from).to_vec(), vec![[0, 1, 2, 3]])
 }
 
 fn corner() -> TetrahedralMesh {
@@ -26,7 +26,7 @@ fn corner() -> TetrahedralMesh {
 fn placed(mesh: &TetrahedralMesh, scale: f64, offset: f64) -> TetrahedralMesh {
     let turn = Rotation3::from_euler_angles(0.3, 1.1, -0.7);
     let vertices = mesh.vertices.iter().map(|x| turn * x * scale + Vector3::repeat(offset)).collect();
-    TetrahedralMesh { vertices, elements: mesh.elements.clone() }
+    TetrahedralMesh::new(vertices, mesh.elements.clone())
 }
 
 #[test]
@@ -115,6 +115,17 @@ fn a_box_passes_at_every_scale_and_a_thousand_kilometres_away() {
     }
     let far: f64 = volumes(&placed(&mesh, 1.0, 1e6)).iter().sum();
     approx::assert_relative_eq!(far, 2.0, max_relative = 1e-8);
+}
+
+#[test]
+fn elements_with_the_same_vertices_are_refused_with_their_number() {
+    let mut mesh = box_mesh([1.0, 1.0, 1.0], 1).unwrap();
+    let [a, b, c, d] = mesh.elements[2];
+    mesh.elements.push([b, c, a, d]);
+    mesh.elements.push(mesh.elements[5]);
+    let message = refusal(&mesh);
+    assert!(message.contains("element 6 (counted from 0) has the same four vertices as element 2"), "{message}");
+    assert!(message.contains("2 elements repeat an earlier one; remove them"), "{message}");
 }
 
 #[test]

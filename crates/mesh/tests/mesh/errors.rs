@@ -154,8 +154,10 @@ fn bad_files_of_gmsh_are_refused() {
         assert!(good.contains(from), "{from}");
         assert_message(&[("m.msh", good.replacen(from, to, 1).as_bytes())], parts);
     };
-    assert_gmsh("4.1 0 8", "2.2 0 8", &["m.msh, line 2: Gmsh format 2.2 is not supported", "gmsh IN.msh", "msh41"]);
-    assert_gmsh("4.1 0 8", "4.1 1 8", &["m.msh, line 2: a binary Gmsh file", "-setnumber Mesh.Binary 0"]);
+    assert_gmsh("4.1 0 8", "3 0 8", &["m.msh, line 2: Gmsh format 3 is not supported", "gmsh IN.msh", "msh41"]);
+    assert_gmsh("4.1 0 8", "4.0 1 8", &["m.msh, line 2: a binary file of Gmsh format 4.0", "-setnumber Mesh.Binary 0"]);
+    assert_gmsh("4.1 0 8", "4.1 1 4", &["m.msh, line 2: a binary Gmsh file with numbers of 4 bytes"]);
+    assert_gmsh("4.1 0 8", "4.1 1 8", &["m.msh, byte 24: `", "is not the integer 1 that tells the byte order"]);
     assert_gmsh("$MeshFormat", "$NOD", &["m.msh: ", "without the section $MeshFormat"]);
     assert_gmsh("3 1 0 4", "3 1 0 5", &["m.msh, line 11: announces 5 node tags and holds 4"]);
     assert_gmsh("1 4 1 9", "1 5 1 9", &["m.msh: announces 5 nodes and holds 4"]);

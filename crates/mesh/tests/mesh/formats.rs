@@ -17,7 +17,7 @@ fn read(files: &[(&str, &[u8])]) -> TetrahedralMesh {
 /// The corner of the unit cube.
 fn corner() -> TetrahedralMesh {
     let vertices = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
-    TetrahedralMesh { vertices, elements: vec![[0, 1, 2, 3]] }
+    TetrahedralMesh::new(vertices, vec![[0, 1, 2, 3]])
 }
 
 fn obj(text: &str) -> SurfaceMesh {
@@ -52,7 +52,10 @@ fn gmsh_4_1_has_blocks_scattered_tags_and_other_elements() {
         $EndPhysicalNames\n$Entities\n1 0 0 1\n1 0 0 0 0\n1 0 0 0 1 1 1 1 1 0\n$EndEntities\n\
         $Nodes\n3 4 5 100\n0 1 0 1\n100\n0 0 0\n2 1 1 2\n7\n5\n1 0 0 0.5 0.5\n0 1 0 0.5 0.5\n3 1 0 1\n50\n0 0 1\n$EndNodes\n\
         $Elements\n3 3 1 3\n0 1 15 1\n1 100\n2 1 2 1\n2 100 7 5\n3 1 4 1\n3 100 7 5 50\n$EndElements\n";
-    assert_eq!(read(&[("m.msh", text.replace('\n', "\r\n").as_bytes())]), corner());
+    let mut mesh = read(&[("m.msh", text.replace('\n', "\r\n").as_bytes())]);
+    let body = mesh.sets.remove("body").unwrap();
+    assert_eq!((body.elements, body.faces), (vec![0], vec![]));
+    assert_eq!(mesh, corner());
 }
 
 #[test]

@@ -20,7 +20,7 @@ static VALID: LazyLock<HashMap<&str, Vec<u8>>> = LazyLock::new(|| {
     for name in ["m.node", "m.mesh", "m.msh", "m.vtu"] {
         write_tetrahedra(&folder.path().join(name), &mesh).unwrap();
     }
-    let surface = SurfaceMesh { elements: boundary(&mesh), vertices: mesh.vertices };
+    let surface = SurfaceMesh::new(mesh.vertices.clone(), boundary(&mesh));
     write_surface(&folder.path().join("s.obj"), &surface).unwrap();
     let names = ["m.node", "m.ele", "m.mesh", "m.msh", "m.vtu", "s.obj"];
     names.into_iter().map(|name| (name, fs::read(folder.path().join(name)).unwrap())).collect()

@@ -5,10 +5,13 @@ mod checks;
 mod errors;
 mod formats;
 mod garbage;
+mod gmsh;
+mod packed;
 mod refined;
 mod round_trip;
 mod shipped;
 mod sides;
+mod vtk;
 mod written;
 
 use std::fs;
@@ -33,7 +36,7 @@ fn folder_with(files: &[(&str, &[u8])]) -> (TempDir, PathBuf) {
 fn two_tetrahedra() -> TetrahedralMesh {
     let places =
         [[0.0, 0.0, 0.0], [1.0 / 3.0, 0.0, -0.0], [0.0, 2.0_f64.sqrt(), 1e-300], [0.1, 0.1, 1.0], [0.2, 0.3, -1e5]];
-    TetrahedralMesh { vertices: places.map(Vector3::from).to_vec(), elements: vec![[0, 1, 2, 3], [0, 2, 1, 4]] }
+    TetrahedralMesh::new(places.map(Vector3::from).to_vec(), vec![[0, 1, 2, 3], [0, 2, 1, 4]])
 }
 
 /// Random cases that are the same in every run.

@@ -19,7 +19,7 @@ fn with_shortest_diagonal(partner: usize) -> TetrahedralMesh {
     let others: Vec<usize> = (1..4).filter(|&corner| corner != partner).collect();
     let shift = 0.3 * ((corners[0] + corners[partner]) - (corners[others[0]] + corners[others[1]]));
     others.iter().for_each(|&corner| corners[corner] += shift);
-    TetrahedralMesh { vertices: corners.to_vec(), elements: vec![[0, 1, 2, 3]] }
+    TetrahedralMesh::new(corners.to_vec(), vec![[0, 1, 2, 3]])
 }
 
 #[test]

@@ -62,12 +62,12 @@ proptest! {
 
     #[test]
     fn any_tetrahedral_mesh_comes_back_from_every_format((vertices, elements) in vertices_and_elements::<4>()) {
-        assert_round_trip(&TetrahedralMesh { vertices, elements });
+        assert_round_trip(&TetrahedralMesh::new(vertices, elements));
     }
 
     #[test]
     fn any_surface_comes_back((vertices, elements) in vertices_and_elements::<3>()) {
-        let mesh = SurfaceMesh { vertices, elements };
+        let mesh = SurfaceMesh::new(vertices, elements);
         let folder = tempdir().unwrap();
         let path = folder.path().join("a.OBJ");
         write_surface(&path, &mesh).unwrap();

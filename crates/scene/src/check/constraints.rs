@@ -1,7 +1,7 @@
 //! Checks of `[fixed]` and `[[prescribed]]`.
 
-use super::loads::{check_distance, check_side};
 use super::numbers::{Problem, check_finite, check_positive, check_vector, problem};
+use super::selector::check_one;
 use crate::tables::{FixedTable, PrescribedTable, RotationTable};
 use crate::{Axis, Integrator, Scene};
 
@@ -32,19 +32,11 @@ fn check_until(scene: &Scene, table: &str, until: Option<f64>) -> Result<(), Pro
 }
 
 fn check_fixed(fixed: &FixedTable) -> Result<(), Problem> {
-    match (&fixed.plane, &fixed.nodes) {
-        (Some(plane), None) => check_distance("fixed.plane", "below", plane.below),
-        (None, Some(_)) => Ok(()),
-        _ => problem("fixed", "needs either plane or nodes; give one and only one"),
-    }
+    check_one("fixed", &fixed.selectors(), "plane, on, box, sphere, set and nodes")
 }
 
 fn check_prescribed(table: &str, motion: &PrescribedTable) -> Result<(), Problem> {
-    match (&motion.on, &motion.nodes) {
-        (Some(plane), None) => check_side(&format!("{table}.on"), plane)?,
-        (None, Some(_)) => {}
-        _ => return problem(table, "needs either on or nodes; give one and only one"),
-    }
+    check_one(table, &motion.selectors(), "on, box, sphere, set and nodes")?;
     if motion.displacement.is_none() && motion.rotation.is_none() {
         return problem(table, "has no motion; give displacement or rotation, or use [fixed]");
     }

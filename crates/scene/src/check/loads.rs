@@ -1,8 +1,9 @@
 //! Checks of the tables of external forces.
 
 use super::numbers::{Problem, check_finite, check_not_negative, check_positive, check_vector, problem};
+use super::selector::check_one;
 use crate::Scene;
-use crate::tables::{DragTable, SidePlane, SpringTable, TractionTable};
+use crate::tables::{DragTable, SpringTable, TractionTable};
 
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     if let Some(gravity) = &scene.gravity {
@@ -21,28 +22,12 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
 }
 
 fn check_traction(table: &str, traction: &TractionTable) -> Result<(), Problem> {
-    match (&traction.on, &traction.faces) {
-        (Some(plane), None) => check_side(&format!("{table}.on"), plane)?,
-        (None, Some(_)) => {}
-        _ => return problem(table, "needs either on or faces; give one and only one"),
-    }
+    check_one(table, &traction.selectors(), "on, box, sphere, set and faces")?;
     match (&traction.force_per_area, traction.pressure) {
         (Some(force), None) => check_vector(&format!("{table}.force_per_area"), force),
         (None, Some(pressure)) => check_finite(&format!("{table}.pressure"), &[pressure]),
         _ => problem(table, "needs either force_per_area or pressure; give one and only one"),
     }
-}
-
-pub(super) fn check_side(field: &str, plane: &SidePlane) -> Result<(), Problem> {
-    check_distance(field, "within", plane.within)
-}
-
-/// Checks a distance in an inline table. Errors name the table, because its keys share a line.
-pub(super) fn check_distance(field: &str, key: &str, distance: f64) -> Result<(), Problem> {
-    if distance >= 0.0 && distance.is_finite() {
-        return Ok(());
-    }
-    problem(field, format!("has {key} = {distance}; give a distance of 0 m or more"))
 }
 
 fn check_spring(table: &str, spring: &SpringTable) -> Result<(), Problem> {

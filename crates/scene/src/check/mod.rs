@@ -5,6 +5,7 @@ mod curves;
 mod initial;
 mod loads;
 pub(crate) mod numbers;
+mod selector;
 
 use crate::tables::{DampingTable, MeshTable, NewtonTable, SolverTable, StaticTable, TimeTable};
 use crate::{Integrator, Scene, SolverKind};

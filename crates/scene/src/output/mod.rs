@@ -1,18 +1,22 @@
 //! The files of a run: state, energies, statistics, the final mesh, a series of meshes.
 
+mod fields;
 mod series;
 
+pub use fields::von_mises;
 pub use series::Series;
+
+use fields::export_fields;
 
 use std::fmt::Write as _;
 use std::path::Path;
 
-use nalgebra::{DVector, Matrix3};
+use nalgebra::DVector;
 use serde::Serialize;
 
 use crate::simulate::{Run, quantile};
 use crate::simulation::{Energies, Part, Simulation};
-use fem_mesh::write::{Field, Frame, save, write_glb, write_surface, write_vtu};
+use fem_mesh::write::{Frame, save, write_glb, write_surface};
 use fem_mesh::{MeshError, Problem, SurfaceMesh};
 
 /// File extensions that [`export`] supports.
@@ -120,15 +124,12 @@ fn peak_memory_bytes() -> Option<usize> {
     Some(1024 * line.trim().strip_suffix("kB")?.trim().parse::<usize>().ok()?)
 }
 
-/// Writes the final mesh by extension: `.obj` the display surface, `.vtu` the simulation mesh with displacement, velocity
-/// and stress, `.glb` the display surface with the motion in `frames`.
+/// Writes the final mesh by extension: `.obj` the display surface, `.vtu` the simulation mesh with its fields, `.glb` the display surface with the motion in `frames`.
 pub fn export(path: &Path, simulation: &dyn Simulation, frames: &[Frame]) -> Result<(), MeshError> {
     let shape = simulation.shape();
     let faces = shape.display.as_ref().map_or(&shape.boundary, |display| &display.elements);
     match path.extension().and_then(|extension| extension.to_str()) {
-        Some("obj") => {
-            write_surface(path, &SurfaceMesh { vertices: simulation.display_positions(), elements: faces.clone() })
-        }
+        Some("obj") => write_surface(path, &SurfaceMesh::new(simulation.display_positions(), faces.clone())),
         Some("glb") => {
             let rest = shape.display.as_ref().map_or(&shape.mesh.vertices, |display| &display.vertices);
             write_glb(path, rest, faces, frames)
@@ -143,42 +144,6 @@ pub fn unknown_export(path: &Path, extension: &str) -> MeshError {
     MeshError::in_file(path, Problem::UnknownExtension { found: extension.to_owned(), known: ".obj, .vtu, .glb" })
 }
 
-fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<(), MeshError> {
-    let shape = simulation.shape();
-    let (q, qdot) = (simulation.positions(), simulation.velocities());
-    let displacement: Vec<f64> = q.iter().enumerate().map(|(i, x)| x - shape.mesh.vertices[i / 3][i % 3]).collect();
-    let stresses = simulation.stresses();
-    // The columns of a symmetric matrix are its rows.
-    let cauchy: Vec<f64> = stresses.iter().flat_map(|stress| stress.iter().copied()).collect();
-    let von_mises: Vec<f64> = stresses.iter().map(von_mises).collect();
-    let point = [
-        Field { name: "displacement (m)", components: 3, values: &displacement },
-        Field { name: "velocity (m/s)", components: 3, values: qdot.as_slice() },
-    ];
-    let cell = [
-        Field { name: "Cauchy stress (Pa)", components: 9, values: &cauchy },
-        Field { name: "von Mises stress (Pa)", components: 1, values: &von_mises },
-    ];
-    write_vtu(path, &shape.mesh, &point, &cell)
-}
-
-/// Von Mises stress √(3/2 s:s) of a Cauchy stress with the deviator s, Pa.
-pub fn von_mises(stress: &Matrix3<f64>) -> f64 {
-    let deviator = stress - Matrix3::identity() * (stress.trace() / 3.0);
-    (1.5 * deviator.norm_squared()).sqrt()
-}
-
 fn write_text(path: &Path, text: &str) -> Result<(), MeshError> {
     save(path, |out| out.write_all(text.as_bytes()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_von_mises_stress_is_the_stress_of_a_tension_and_zero_for_a_pressure() {
-        assert_eq!(von_mises(&Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into())), 2.0);
-        assert_eq!(von_mises(&Matrix3::from_diagonal_element(-3.0)), 0.0);
-    }
 }

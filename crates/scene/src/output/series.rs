@@ -4,12 +4,12 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use super::export_fields;
+use super::fields::export_fields;
 use crate::simulation::Simulation;
 use fem_mesh::write::write_pvd;
 use fem_mesh::{MeshError, Problem};
 
-/// Files of a run in a folder: `NAME_000000.vtu` of the initial state, one after every so many steps, and `NAME.pvd` with the time
+/// Files of a run in a folder: `NAME_000000.vtu` of the initial state, one after every so many steps and after the last one, and `NAME.pvd` with the time
 /// of each. NAME is that of the simulation.
 #[derive(Debug)]
 pub struct Series {
@@ -29,19 +29,24 @@ impl Series {
 
     /// Writes the state if its step is one of the series. Call it with the initial state and after every step.
     pub fn add(&mut self, simulation: &dyn Simulation) -> Result<(), MeshError> {
-        let step = self.states;
         self.states += 1;
-        if !step.is_multiple_of(self.every.get()) {
-            return Ok(());
-        }
+        if (self.states - 1).is_multiple_of(self.every.get()) { self.write(simulation) } else { Ok(()) }
+    }
+
+    /// Writes the last state that was added.
+    fn write(&mut self, simulation: &dyn Simulation) -> Result<(), MeshError> {
+        let step = self.states - 1;
         let file = format!("{}_{step:06}.vtu", simulation.name());
         export_fields(&self.folder.join(&file), simulation)?;
         self.written.push((simulation.time(), file));
         Ok(())
     }
 
-    /// Writes the `.pvd` list of the files so far, and returns its path.
-    pub fn finish(&self, simulation: &dyn Simulation) -> Result<PathBuf, MeshError> {
+    /// Writes the last state unless it is there, and the `.pvd` list of the files so far. Returns its path.
+    pub fn finish(&mut self, simulation: &dyn Simulation) -> Result<PathBuf, MeshError> {
+        if self.states > 0 && !(self.states - 1).is_multiple_of(self.every.get()) {
+            self.write(simulation)?;
+        }
         let path = self.folder.join(format!("{}.pvd", simulation.name()));
         write_pvd(&path, &self.written)?;
         Ok(path)

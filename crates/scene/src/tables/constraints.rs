@@ -3,36 +3,42 @@
 use serde::Deserialize;
 
 use super::vectors::{three_numbers, three_numbers_if_any};
-use super::{Axis, CurveTable, SidePlane};
+use super::{Axis, BoxTable, CurveTable, On, Plane, Region, Selector, SphereTable};
 
-/// `[fixed]`: nodes by a plane or by index.
+/// `[fixed]`: nodes that do not move, by one selector.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct FixedTable {
     /// All nodes on one side of a plane.
     pub plane: Option<Plane>,
+    /// All nodes on one side of the mesh, or all nodes.
+    pub on: Option<On>,
+    /// All nodes in a box.
+    #[serde(rename = "box")]
+    pub cuboid: Option<BoxTable>,
+    /// All nodes in a sphere.
+    pub sphere: Option<SphereTable>,
+    /// The nodes of a named set.
+    pub set: Option<String>,
     /// These nodes.
     pub nodes: Option<Vec<usize>>,
     /// Time from which the nodes are free, s.
     pub until: Option<f64>,
 }
 
-/// All nodes whose coordinate is at most the mesh's smallest plus `below`.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct Plane {
-    /// The coordinate that is constant on the plane.
-    pub axis: Axis,
-    /// Distance from the smallest coordinate of the mesh, m.
-    pub below: f64,
-}
-
-/// `[[prescribed]]`: nodes with a prescribed motion. `on` or `nodes`, and a displacement, a rotation, or both.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
+/// `[[prescribed]]`: nodes with a prescribed motion. One selector, and a displacement, a rotation, or both.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct PrescribedTable {
-    /// All nodes on one side of the mesh.
-    pub on: Option<SidePlane>,
+    /// All nodes on one side of the mesh, or all nodes.
+    pub on: Option<On>,
+    /// All nodes in a box.
+    #[serde(rename = "box")]
+    pub cuboid: Option<BoxTable>,
+    /// All nodes in a sphere.
+    pub sphere: Option<SphereTable>,
+    /// The nodes of a named set.
+    pub set: Option<String>,
     /// These nodes.
     pub nodes: Option<Vec<usize>>,
     /// Displacement from the undeformed position at the end of the motion, m.
@@ -64,7 +70,24 @@ pub struct RotationTable {
     pub turns: f64,
 }
 
+impl FixedTable {
+    /// The selectors that the table gives; exactly one in a checked scene.
+    pub fn selectors(&self) -> Vec<Selector> {
+        let mut selectors = Selector::of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
+        selectors.extend(self.plane.clone().map(|plane| Selector::Region(Region::Plane(plane))));
+        selectors.extend(self.nodes.clone().map(Selector::Nodes));
+        selectors
+    }
+}
+
 impl PrescribedTable {
+    /// The selectors that the table gives; exactly one in a checked scene.
+    pub fn selectors(&self) -> Vec<Selector> {
+        let mut selectors = Selector::of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
+        selectors.extend(self.nodes.clone().map(Selector::Nodes));
+        selectors
+    }
+
     /// Whether x, y and z are prescribed.
     pub(crate) fn is_prescribed(&self) -> [bool; 3] {
         let named = |axis| self.components.as_ref().is_none_or(|components| components.contains(&axis));

@@ -4,7 +4,7 @@ use serde::Deserialize;
 use serde::de::{Error, Visitor};
 
 use super::vectors::{three_numbers, three_numbers_if_any, triangles_if_any, two_nodes};
-use super::{Axis, CurveTable, Side};
+use super::{BoxTable, CurveTable, On, Selector, SphereTable};
 
 /// `[gravity]`
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -28,12 +28,19 @@ pub struct BodyForceTable {
     pub curve: Option<CurveTable>,
 }
 
-/// `[[traction]]`: a force on a part of the surface, spread evenly over it. `on` or `faces`, and one kind of force.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
+/// `[[traction]]`: a force on a part of the surface, spread evenly over it. One selector, and one kind of force.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct TractionTable {
-    /// All boundary triangles on one side of the mesh.
-    pub on: Option<SidePlane>,
+    /// All boundary triangles on one side of the mesh, or the whole boundary.
+    pub on: Option<On>,
+    /// All boundary triangles in a box.
+    #[serde(rename = "box")]
+    pub cuboid: Option<BoxTable>,
+    /// All boundary triangles in a sphere.
+    pub sphere: Option<SphereTable>,
+    /// The triangles of a named set.
+    pub set: Option<String>,
     /// These boundary triangles, each by its three nodes in any order.
     #[serde(default, deserialize_with = "triangles_if_any")]
     pub faces: Option<Vec<[usize; 3]>>,
@@ -46,16 +53,13 @@ pub struct TractionTable {
     pub curve: Option<CurveTable>,
 }
 
-/// All nodes within a distance of one side of the mesh's bounding box.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct SidePlane {
-    /// The coordinate that is constant on the side.
-    pub axis: Axis,
-    /// The side of its smallest or of its largest value.
-    pub side: Side,
-    /// Largest distance from that value, m.
-    pub within: f64,
+impl TractionTable {
+    /// The selectors that the table gives; exactly one in a checked scene.
+    pub fn selectors(&self) -> Vec<Selector> {
+        let mut selectors = Selector::of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
+        selectors.extend(self.faces.clone().map(Selector::Faces));
+        selectors
+    }
 }
 
 /// `[[springs]]`: a spring between two nodes, ½ k (|x_b − x_a| − l)².

@@ -4,16 +4,19 @@ mod constraints;
 mod initial;
 mod loads;
 mod method;
+mod selector;
 mod vectors;
 
 pub use crate::curve::{CurveTable, SineTable};
 
-pub use constraints::{FixedTable, Plane, PrescribedTable, RotationTable};
+pub use constraints::{FixedTable, PrescribedTable, RotationTable};
 pub use initial::{AngularVelocityTable, InitialVelocityTable};
-pub use loads::{BodyForceTable, DragTable, DragVertex, GravityTable, SidePlane, SpringTable, TractionTable};
+pub use loads::{BodyForceTable, DragTable, DragVertex, GravityTable, SpringTable, TractionTable};
 pub use method::{
     DampingTable, NewtonTable, Precision, Preconditioner, Projection, SolverKind, SolverTable, StaticTable, TimeTable,
 };
+
+pub use selector::{BoxTable, On, Plane, Region, Selector, SidePlane, SphereTable};
 
 use std::path::PathBuf;
 

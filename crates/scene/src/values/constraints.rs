@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Rotation3, Unit, Vector3};
 
-use super::listed;
-use crate::tables::{CurveTable, FixedTable, PrescribedTable, RotationTable, SidePlane};
+use super::selection::{self, chosen};
+use crate::tables::{CurveTable, PrescribedTable, RotationTable};
 use crate::{LoadCurve, Scene, SceneError};
-use fem_mesh::{Side, TetrahedralMesh, nodes_on_side};
+use fem_mesh::TetrahedralMesh;
 
 /// Prescribed coordinates of some nodes.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,7 +84,7 @@ pub(crate) fn dirichlet_conditions(
     mesh: &TetrahedralMesh,
 ) -> Result<Vec<DirichletCondition>, SceneError> {
     let fixed = scene.fixed.iter().map(|table| {
-        let nodes = fixed_nodes(scene, table, mesh)?;
+        let nodes = selection::nodes(scene, "fixed", &chosen(table.selectors()), mesh)?;
         Ok(DirichletCondition {
             name: "fixed".to_owned(),
             nodes,
@@ -95,32 +95,13 @@ pub(crate) fn dirichlet_conditions(
     });
     let prescribed = scene.prescribed.iter().enumerate().map(|(number, table)| {
         let name = format!("prescribed[{number}]");
-        let nodes = prescribed_nodes(scene, &name, table, mesh)?;
+        let nodes = selection::nodes(scene, &name, &chosen(table.selectors()), mesh)?;
         let (components, motion) = (table.is_prescribed(), Some(Motion::new(table)));
         Ok(DirichletCondition { name, nodes, components, motion, until: table.until })
     });
     let conditions = fixed.chain(prescribed).collect::<Result<Vec<_>, _>>()?;
     check_disjoint(scene, &conditions, mesh.vertices.len())?;
     Ok(conditions)
-}
-
-fn fixed_nodes(scene: &Scene, table: &FixedTable, mesh: &TetrahedralMesh) -> Result<Vec<usize>, SceneError> {
-    match &table.plane {
-        Some(plane) => Ok(nodes_on_side(&mesh.vertices, plane.axis as usize, Side::Min, plane.below)),
-        None => listed(scene, "fixed.nodes", table.nodes.as_deref().unwrap_or_default(), mesh),
-    }
-}
-
-fn prescribed_nodes(
-    scene: &Scene,
-    name: &str,
-    table: &PrescribedTable,
-    mesh: &TetrahedralMesh,
-) -> Result<Vec<usize>, SceneError> {
-    match &table.on {
-        Some(SidePlane { axis, side, within }) => Ok(nodes_on_side(&mesh.vertices, *axis as usize, *side, *within)),
-        None => listed(scene, &format!("{name}.nodes"), table.nodes.as_deref().unwrap_or_default(), mesh),
-    }
 }
 
 fn check_disjoint(scene: &Scene, conditions: &[DirichletCondition], nodes: usize) -> Result<(), SceneError> {

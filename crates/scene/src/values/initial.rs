@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::Vector3;
 
-use super::listed;
+use super::selection::listed;
 use crate::tables::{AngularVelocityTable, InitialVelocityTable};
 use crate::{Scene, SceneError};
 use fem_mesh::{TetrahedralMesh, volumes};

@@ -1,14 +1,13 @@
 //! External forces: tractions, pressures, springs, the scripted drag.
 
-use std::collections::HashSet;
 use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
-use super::listed;
-use crate::tables::{CurveTable, DragTable, DragVertex, SidePlane, SpringTable, TractionTable};
+use super::selection::{self, chosen, listed};
+use crate::tables::{CurveTable, DragTable, DragVertex, SpringTable};
 use crate::{LoadCurve, Scene, SceneError};
-use fem_mesh::{TetrahedralMesh, faces_on_side};
+use fem_mesh::TetrahedralMesh;
 
 /// Dead load on a part of the surface: it keeps its direction and its sum.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,7 +77,8 @@ pub(crate) fn surface_loads(
 ) -> Result<SurfaceLoads, SceneError> {
     let (mut tractions, mut pressures) = (Vec::new(), Vec::new());
     for (number, table) in scene.traction.iter().enumerate() {
-        let faces = faces(scene, &format!("traction[{number}]"), table, mesh, boundary)?;
+        let faces =
+            selection::faces(scene, &format!("traction[{number}]"), &chosen(table.selectors()), mesh, boundary)?;
         let curve = curve(&table.curve);
         match (table.force_per_area, table.pressure) {
             (Some(force), _) => tractions.push(Traction { faces, force_per_area: force.into(), curve }),
@@ -92,39 +92,6 @@ pub(crate) fn surface_loads(
 /// The factor of time of a load.
 pub(crate) fn curve(table: &Option<CurveTable>) -> Option<LoadCurve> {
     table.as_ref().map(CurveTable::curve)
-}
-
-fn faces(
-    scene: &Scene,
-    name: &str,
-    table: &TractionTable,
-    mesh: &TetrahedralMesh,
-    boundary: &[[usize; 3]],
-) -> Result<Vec<[usize; 3]>, SceneError> {
-    if let Some(SidePlane { axis, side, within }) = &table.on {
-        let faces = faces_on_side(&mesh.vertices, boundary, *axis as usize, *side, *within);
-        if faces.is_empty() {
-            return Err(scene.refuse(&format!("{name}.on"), "meets no boundary triangle; enlarge within"));
-        }
-        return Ok(faces);
-    }
-    let wanted: HashSet<_> = table.faces.iter().flatten().map(sorted).collect();
-    let faces: Vec<_> = boundary.iter().filter(|face| wanted.contains(&sorted(face))).copied().collect();
-    let known: HashSet<_> = faces.iter().map(sorted).collect();
-    let field = format!("{name}.faces");
-    match table.faces.iter().flatten().find(|face| !known.contains(&sorted(face))) {
-        Some(face) => {
-            Err(scene.refuse(&field, &format!("names {face:?}, which is no triangle of the boundary; correct it")))
-        }
-        None if faces.is_empty() => Err(scene.refuse(&field, "is empty; name a triangle of the boundary or use on")),
-        None => Ok(faces),
-    }
-}
-
-fn sorted(face: &[usize; 3]) -> [usize; 3] {
-    let mut key = *face;
-    key.sort_unstable();
-    key
 }
 
 /// The spring of every `[[springs]]`.

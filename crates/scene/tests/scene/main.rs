@@ -11,6 +11,7 @@ mod lookup;
 mod moduli;
 mod motions;
 mod overrides;
+mod selectors;
 mod tables;
 
 use std::path::{Path, PathBuf};

@@ -136,8 +136,13 @@ fn a_prescribed_table_is_checked_at_its_line() {
     refused("[0, 0, 0]", "[0, nan, 0]", 14, "prescribed[0].rotation.center is NaN");
     refused("[0, 0, 0]", "[0, 0]", 14, "invalid length 2, expected three numbers");
     refused("within = 1e-9", "within = nan", 13, "prescribed[0].on has within = NaN");
-    refused(ON, "", 12, "prescribed[0] needs either on or nodes");
-    refused(ON, &format!("{ON}\nnodes = [1]"), 12, "prescribed[0] needs either on or nodes");
+    refused(ON, "", 12, "prescribed[0] needs one of on, box, sphere, set and nodes; give one and only one");
+    refused(
+        ON,
+        &format!("{ON}\nnodes = [1]"),
+        12,
+        "prescribed[0] needs one of on, box, sphere, set and nodes; give one and only one",
+    );
     refused("over = 1", "components = [\"x\"]", 15, "prescribed[0].components stands beside rotation");
     refused("over = 1", "speed = 1", 15, "unknown field `speed`");
 

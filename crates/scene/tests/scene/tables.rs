@@ -1,6 +1,6 @@
 //! The tables of the engine: their values, and the line of their errors.
 
-use fem_scene::tables::{BodyForceTable, DampingTable, SidePlane, SpringTable, StaticTable, TractionTable};
+use fem_scene::tables::{BodyForceTable, DampingTable, On, SidePlane, SpringTable, StaticTable, TractionTable};
 use fem_scene::{Axis, Precision, Preconditioner, Projection, Side};
 
 use crate::errors::assert_refused;
@@ -45,10 +45,10 @@ fn the_tables_of_the_engine_are_read() {
     assert_eq!(scene.damping, Some(DampingTable { alpha: 0.5, beta: 1e-3 }));
     assert_eq!(scene.statics, Some(StaticTable { load_steps: 4 }));
     assert_eq!(scene.body_force, Some(BodyForceTable { density: [0.0, 0.0, -9810.0], curve: None }));
-    let on = Some(SidePlane { axis: Axis::X, side: Side::Max, within: 1e-9 });
-    let (dead, faces) = (Some([1.0, 2.0, 3.0]), Some(vec![[4, 0, 1]]));
-    let dead = TractionTable { on, faces: None, force_per_area: dead, pressure: None, curve: None };
-    let follower = TractionTable { on: None, faces, force_per_area: None, pressure: Some(-5.0), curve: None };
+    let on = Some(On::Side(SidePlane { axis: Axis::X, side: Side::Max, within: 1e-9 }));
+    let dead = TractionTable { on, force_per_area: Some([1.0, 2.0, 3.0]), ..TractionTable::default() };
+    let faces = Some(vec![[4, 0, 1]]);
+    let follower = TractionTable { faces, pressure: Some(-5.0), ..TractionTable::default() };
     assert_eq!(scene.traction, [dead, follower]);
     assert_eq!(scene.springs, [SpringTable { nodes: [0, 11], stiffness: 100.0, rest_length: Some(0.0) }]);
 }
@@ -103,8 +103,20 @@ fn lists_of_a_wrong_length_are_refused() {
 }
 
 #[test]
+fn an_empty_list_of_nodes_or_faces_is_refused() {
+    assert_refused(&edit(&with_tables(), "[[4, 0, 1]]", "[]"), 29, "traction[1].faces is empty; name a triangle");
+    assert_refused(
+        &format!("{LEAST}[fixed]\nnodes = []\n"),
+        13,
+        "fixed.nodes is empty; name a node, or remove the table",
+    );
+    let prescribed = format!("{LEAST}[[prescribed]]\nnodes = []\ndisplacement = [0, 0, 0]\n");
+    assert_refused(&prescribed, 13, "prescribed[0].nodes is empty; name a node");
+}
+
+#[test]
 fn a_traction_names_one_place_and_one_force() {
-    let place = "traction[1] needs either on or faces; give one and only one";
+    let place = "traction[1] needs one of on, box, sphere, set and faces; give one and only one";
     let force = "needs either force_per_area or pressure; give one and only one";
     assert_refused(&edit(&with_tables(), "faces = [[4, 0, 1]]\n", ""), 28, place);
     assert_refused(&edit(&with_tables(), "pressure = -5.0\n", ""), 28, &format!("traction[1] {force}"));
@@ -152,7 +164,6 @@ fn nodes_and_faces_outside_the_mesh_are_refused() {
         "[[0, 1, 11]]",
         "traction[1].faces names [0, 1, 11], which is no triangle of the boundary; correct it",
     );
-    refused("[[4, 0, 1]]", "[]", "traction[1].faces is empty; name a triangle of the boundary or use on");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use crate::space::norms;
 use fem_engine::cantilever::{expected_tip_displacement, tip_displacement};
 use fem_scene::simulation::Simulation;
-use fem_scene::tables::PrescribedTable;
+use fem_scene::tables::{On, PrescribedTable};
 use fem_scene::{Axis, Integrator, Scene, Side};
 
 /// Relative distance of a simulation from the scene's closed form; `None` for a scene without one.
@@ -30,7 +30,7 @@ pub fn uniaxial(scene: &Scene) -> Option<(f64, f64)> {
     let is_alone =
         scene.gravity.is_none() && scene.body_force.is_none() && scene.springs.is_empty() && scene.drag.is_none();
     let [traction] = &scene.traction[..] else { return None };
-    let on = traction.on.as_ref().filter(|on| on.axis == Axis::X && on.side == Side::Max)?;
+    let on = traction.on.as_ref().and_then(On::side).filter(|on| on.axis == Axis::X && on.side == Side::Max)?;
     let [load, 0.0, 0.0] = traction.force_per_area? else { return None };
     let rollers = [Axis::X, Axis::Y, Axis::Z]
         .iter()
@@ -46,7 +46,7 @@ pub fn uniaxial(scene: &Scene) -> Option<(f64, f64)> {
 
 /// A symmetry plane: the face of the smallest coordinate keeps that coordinate.
 fn is_roller(condition: &PrescribedTable, axis: Axis) -> bool {
-    let on_side = condition.on.as_ref().is_some_and(|on| on.axis == axis && on.side == Side::Min);
+    let on_side = condition.on.as_ref().and_then(On::side).is_some_and(|on| on.axis == axis && on.side == Side::Min);
     let stays = condition.rotation.is_none() && condition.displacement == Some([0.0; 3]);
     on_side && stays && condition.components.as_deref() == Some(&[axis])
 }

@@ -8,12 +8,8 @@ use nalgebra::Vector3;
 use roxmltree::{Document, Node};
 
 use self::array::{Arrays, split_appended};
+use super::cells;
 use crate::{MeshError, Problem, TetrahedralMesh};
-
-const TETRAHEDRON: i64 = 10;
-
-/// Points, lines and polygons, linear and curved: cells without volume, which are skipped.
-const SURFACE_CELLS: [i64; 12] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23];
 
 /// Reads the tetrahedra of all pieces. Cells without volume are skipped; other volume cells are an error.
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<TetrahedralMesh, MeshError> {
@@ -69,29 +65,9 @@ fn read_cells(arrays: &Arrays, piece: Node, points: usize) -> Result<Vec<[usize;
             arrays.error(cells, Problem::Malformed { reason })
         })?;
         start += corners.len();
-        let tetrahedron = read_cell(cell, kind, corners, points).map_err(|problem| arrays.error(cells, problem))?;
+        let tetrahedron =
+            cells::tetrahedron(cell, kind, corners, points).map_err(|problem| arrays.error(cells, problem))?;
         tetrahedra.extend(tetrahedron);
     }
     Ok(tetrahedra)
-}
-
-/// A tetrahedron; `None` for a cell without volume.
-fn read_cell(cell: usize, kind: i64, corners: &[i64], points: usize) -> Result<Option<[usize; 4]>, Problem> {
-    if SURFACE_CELLS.contains(&kind) {
-        return Ok(None);
-    }
-    let &[a, b, c, d] = corners else { return Err(unsupported_cell(cell, kind)) };
-    if kind != TETRAHEDRON {
-        return Err(unsupported_cell(cell, kind));
-    }
-    let index = |corner: i64| {
-        let index = usize::try_from(corner).ok().filter(|&index| index < points);
-        index.ok_or(Problem::ElementOutOfRange { element: cell, vertex: corner.into(), count: points })
-    };
-    Ok(Some([index(a)?, index(b)?, index(c)?, index(d)?]))
-}
-
-fn unsupported_cell(cell: usize, kind: i64) -> Problem {
-    let found = format!("cell {cell} of VTK's type {kind}, which is no tetrahedron with 4 nodes,");
-    Problem::Unsupported { found, instead: "split such cells first (ParaView's filter Tetrahedralize does)" }
 }

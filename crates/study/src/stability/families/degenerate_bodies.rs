@@ -56,7 +56,7 @@ const BODIES: [Body; 6] = [
 
 fn single() -> Result<TetrahedralMesh, Finding> {
     let vertices = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
-    Ok(TetrahedralMesh { vertices, elements: vec![[0, 1, 2, 3]] })
+    Ok(TetrahedralMesh::new(vertices, vec![[0, 1, 2, 3]]))
 }
 
 fn plain() -> Result<TetrahedralMesh, Finding> {

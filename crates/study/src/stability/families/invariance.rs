@@ -131,7 +131,7 @@ fn shuffled(mesh: &TetrahedralMesh, seed: u64) -> (TetrahedralMesh, Vec<usize>) 
         // Even permutations keep the volume positive.
         [[a, b, c, d], [b, c, a, d], [c, a, b, d], [b, a, d, c]][i % 4]
     };
-    (TetrahedralMesh { vertices, elements: order.iter().enumerate().map(turned).collect() }, number)
+    (TetrahedralMesh::new(vertices, order.iter().enumerate().map(turned).collect()), number)
 }
 
 /// A free body in rigid motion without loads, which conserves its momentum.

@@ -1,0 +1,89 @@
+//! Sections of versions 2.0 to 2.2, in which every element names its physical group.
+
+use std::collections::HashMap;
+
+use super::builder::{Builder, Group};
+use super::kinds::{Kind, TETRAHEDRON, kind};
+use super::numbers::Numbers;
+use crate::{MeshError, Problem};
+
+/// A count, then `<tag> <x> <y> <z>` for each node.
+pub(super) fn read_nodes(numbers: &mut dyn Numbers, mesh: &mut Builder) -> Result<(), MeshError> {
+    let announced = numbers.text_count("the number of nodes")?;
+    for row in 0..announced {
+        numbers.row("nodes", announced, row)?;
+        let tag = numbers.int("the tag of a node")?;
+        mesh.add_tag(tag, 0).map_err(|problem| numbers.error(problem))?;
+        mesh.add_place(numbers.place()?);
+    }
+    numbers.end("Nodes", "nodes", announced, mesh.nodes())
+}
+
+/// A count, then `<tag> <type> <tags> <tag …> <nodes …>` for each element. In a binary file elements of one type and number of
+/// tags follow each other: `<type> <elements> <tags>`, then `<tag> <tag …> <nodes …>` for each.
+pub(super) fn read_elements(numbers: &mut dyn Numbers, is_binary: bool, mesh: &mut Builder) -> Result<(), MeshError> {
+    let announced = numbers.text_count("the number of elements")?;
+    let (mut found, mut known) = (0, Known::new());
+    while found < announced {
+        numbers.row("elements", announced, found)?;
+        if !is_binary {
+            numbers.int("the tag of an element")?;
+        }
+        let number = numbers.int("the type of an element")?;
+        let count = if is_binary { amount(numbers, "the number of elements that follow")? } else { 1 };
+        let tags = amount(numbers, "the number of tags")?;
+        let kind = kind(number).map_err(|problem| numbers.error(problem))?;
+        for _ in 0..count {
+            if is_binary {
+                numbers.int("the tag of an element")?;
+            }
+            read_element(numbers, kind, tags, &mut known, mesh)?;
+        }
+        found += count;
+    }
+    numbers.end("Elements", "elements", announced, found)
+}
+
+/// Tetrahedra of physical groups so far: index and groups by the tags of the nodes.
+type Known = HashMap<[i64; 4], (usize, Vec<Group>)>;
+
+fn read_element(
+    numbers: &mut dyn Numbers,
+    kind: Kind,
+    tags: usize,
+    known: &mut Known,
+    mesh: &mut Builder,
+) -> Result<(), MeshError> {
+    let mut group = 0;
+    for tag in 0..tags {
+        let found = numbers.int("a tag of an element")?;
+        group = if tag == 0 { found.abs() } else { group };
+    }
+    let mut nodes = Vec::with_capacity(kind.nodes);
+    for _ in 0..kind.nodes {
+        nodes.push(numbers.int("the tag of a node")?);
+    }
+    let groups: &[Group] = if group == 0 { &[] } else { &[(kind.dimension, group)] };
+    if kind.number == TETRAHEDRON
+        && let &[group] = groups
+        && let &[a, b, c, d] = &nodes[..]
+    {
+        let mut key = [a, b, c, d];
+        key.sort_unstable();
+        let (element, earlier) = known.entry(key).or_insert((mesh.elements(), Vec::new()));
+        let is_repeated = !earlier.is_empty() && !earlier.contains(&group);
+        earlier.push(group);
+        // An element of several groups stands in the file once for each.
+        if is_repeated {
+            mesh.add_to_group(*element, group);
+            return Ok(());
+        }
+    }
+    mesh.add_element(kind, &nodes, groups).map_err(|problem| numbers.error(problem))
+}
+
+/// A count, of 4 bytes in a binary file.
+fn amount(numbers: &mut dyn Numbers, expected: &'static str) -> Result<usize, MeshError> {
+    let count = numbers.int(expected)?;
+    usize::try_from(count).map_err(|_| numbers.error(Problem::NotA { word: count.to_string(), expected }))
+}

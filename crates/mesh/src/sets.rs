@@ -1,0 +1,124 @@
+//! Named sets: parts of a mesh that a file names, such as Gmsh's physical groups.
+
+use std::collections::HashSet;
+
+use super::boundary::FACES;
+use super::{Problem, TetrahedralMesh};
+
+/// The edges of a tetrahedron, by its corners.
+pub(crate) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+
+/// A named part of a tetrahedral mesh. Every list is ascending and without repeats.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct MeshSet {
+    /// Elements, by their index.
+    pub elements: Vec<usize>,
+    /// Triangles, each by its three nodes in ascending order.
+    pub faces: Vec<[usize; 3]>,
+    /// Edges, each by its two nodes in ascending order.
+    pub edges: Vec<[usize; 2]>,
+    /// Single nodes.
+    pub points: Vec<usize>,
+}
+
+impl MeshSet {
+    /// The nodes of its triangles, edges and points; those of its elements if it has nothing else. Ascending, without repeats.
+    ///
+    /// A file without names numbers its groups of every dimension from 1, so a surface and a volume can share a name; the nodes
+    /// of the surface are meant then.
+    pub fn nodes(&self, elements: &[[usize; 4]]) -> Vec<usize> {
+        let (faces, edges) = (self.faces.iter().flatten(), self.edges.iter().flatten());
+        let mut nodes: Vec<usize> = faces.chain(edges).chain(&self.points).copied().collect();
+        if nodes.is_empty() {
+            nodes = self.elements.iter().flat_map(|&element| elements[element]).collect();
+        }
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
+    /// The counts of its parts, such as `24 triangles`.
+    pub fn counts(&self) -> String {
+        let counts = [
+            (self.elements.len(), "tetrahedra"),
+            (self.faces.len(), "triangles"),
+            (self.edges.len(), "edges"),
+            (self.points.len(), "points"),
+        ];
+        let counts = counts.into_iter().filter(|(count, _)| *count > 0);
+        counts.map(|(count, what)| format!("{count} {what}")).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Adds the parts of another set.
+    pub(crate) fn extend(&mut self, other: Self) {
+        self.elements.extend(other.elements);
+        self.faces.extend(other.faces);
+        self.edges.extend(other.edges);
+        self.points.extend(other.points);
+    }
+
+    /// Sorts the lists and the nodes of each part, and removes repeats.
+    pub(crate) fn sort(&mut self) {
+        self.faces.iter_mut().for_each(|face| face.sort_unstable());
+        self.edges.iter_mut().for_each(|edge| edge.sort_unstable());
+        sort_list(&mut self.elements);
+        sort_list(&mut self.faces);
+        sort_list(&mut self.edges);
+        sort_list(&mut self.points);
+    }
+
+    /// The same part of the mesh after every tetrahedron has become eight; `midpoint` is the new node on an edge.
+    pub(crate) fn refined(&self, midpoint: impl Fn([usize; 2]) -> usize) -> Self {
+        let face = |&[a, b, c]: &[usize; 3]| {
+            let [ab, bc, ca] = [[a, b], [b, c], [a, c]].map(&midpoint);
+            [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+        };
+        let edge = |&[a, b]: &[usize; 2]| [[a, midpoint([a, b])], [midpoint([a, b]), b]];
+        let mut fine = Self {
+            elements: self.elements.iter().flat_map(|element| 8 * element..8 * element + 8).collect(),
+            faces: self.faces.iter().flat_map(face).collect(),
+            edges: self.edges.iter().flat_map(edge).collect(),
+            points: self.points.clone(),
+        };
+        fine.sort();
+        fine
+    }
+}
+
+fn sort_list<T: Ord>(list: &mut Vec<T>) {
+    list.sort_unstable();
+    list.dedup();
+}
+
+/// Checks that the sets consist of parts of the mesh: its elements, their faces and edges, and its nodes.
+pub(crate) fn check(mesh: &TetrahedralMesh) -> Result<(), Problem> {
+    if mesh.sets.is_empty() {
+        return Ok(());
+    }
+    let (mut faces, mut edges) = (HashSet::new(), HashSet::new());
+    for element in &mesh.elements {
+        faces.extend(FACES.map(|face| sorted(face.map(|corner| element[corner]))));
+        edges.extend(EDGES.map(|edge| sorted(edge.map(|corner| element[corner]))));
+    }
+    for (name, set) in &mesh.sets {
+        let stray = |part: String| Problem::StrayPart { set: name.clone(), part };
+        if let Some(element) = set.elements.iter().find(|&&element| element >= mesh.elements.len()) {
+            return Err(stray(format!("the element {element}")));
+        }
+        if let Some(face) = set.faces.iter().find(|face| !faces.contains(&sorted(**face))) {
+            return Err(stray(format!("the triangle {face:?}")));
+        }
+        if let Some(edge) = set.edges.iter().find(|edge| !edges.contains(&sorted(**edge))) {
+            return Err(stray(format!("the edge {edge:?}")));
+        }
+        if let Some(node) = set.points.iter().find(|&&node| node >= mesh.vertices.len()) {
+            return Err(stray(format!("the node {node}")));
+        }
+    }
+    Ok(())
+}
+
+fn sorted<const N: usize>(mut nodes: [usize; N]) -> [usize; N] {
+    nodes.sort_unstable();
+    nodes
+}

@@ -1,0 +1,51 @@
+//! Checks of selectors.
+
+use super::numbers::{Problem, check_positive, check_vector, problem};
+use crate::tables::{BoxTable, Region, Selector};
+
+/// Checks that a table has exactly one selector, and its numbers. `keys` lists those that it may have.
+pub(super) fn check_one(table: &str, selectors: &[Selector], keys: &str) -> Result<(), Problem> {
+    match selectors {
+        [selector] => check_selector(table, selector),
+        _ => problem(table, format!("needs one of {keys}; give one and only one")),
+    }
+}
+
+fn check_selector(table: &str, selector: &Selector) -> Result<(), Problem> {
+    let field = format!("{table}.{}", selector.key());
+    match selector {
+        Selector::Region(Region::All) | Selector::Set(_) => Ok(()),
+        Selector::Region(Region::Side(side)) => check_distance(&field, "within", side.within),
+        Selector::Region(Region::Plane(plane)) => check_distance(&field, "below", plane.below),
+        Selector::Region(Region::Box(cuboid)) => check_box(&field, cuboid),
+        Selector::Region(Region::Sphere(sphere)) => {
+            check_vector(&format!("{field}.center"), &sphere.center)?;
+            check_positive(&format!("{field}.radius"), sphere.radius, " of metres")
+        }
+        Selector::Nodes(nodes) if nodes.is_empty() => problem(&field, "is empty; name a node, or remove the table"),
+        Selector::Faces(faces) if faces.is_empty() => {
+            problem(&field, "is empty; name a triangle of the boundary, or remove the table")
+        }
+        Selector::Nodes(_) | Selector::Faces(_) => Ok(()),
+    }
+}
+
+fn check_box(field: &str, BoxTable { min, max }: &BoxTable) -> Result<(), Problem> {
+    check_vector(&format!("{field}.min"), min)?;
+    check_vector(&format!("{field}.max"), max)?;
+    match (0..3).find(|&i| min[i] > max[i]) {
+        Some(i) => {
+            let axis = ["x", "y", "z"][i];
+            problem(field, format!("has min above max along {axis}: {} > {}; swap them", min[i], max[i]))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Checks a distance in an inline table. Errors name the table, because its keys share a line.
+fn check_distance(field: &str, key: &str, distance: f64) -> Result<(), Problem> {
+    if distance >= 0.0 && distance.is_finite() {
+        return Ok(());
+    }
+    problem(field, format!("has {key} = {distance}; give a distance of 0 m or more"))
+}

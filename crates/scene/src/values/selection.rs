@@ -1,0 +1,217 @@
+//! The nodes, boundary triangles and elements that a selector names. An empty selection is refused.
+
+use std::collections::HashSet;
+
+use nalgebra::Vector3;
+
+use crate::tables::{BoxTable, Plane, Region, Selector, SidePlane, SphereTable};
+use crate::{Scene, SceneError};
+use fem_mesh::{MeshSet, Side, TetrahedralMesh};
+
+/// The one selector of a checked table.
+pub(crate) fn chosen(mut selectors: Vec<Selector>) -> Selector {
+    match (selectors.pop(), selectors.pop()) {
+        (Some(selector), None) => selector,
+        _ => unreachable!("a table without exactly one selector is refused when the scene is read"),
+    }
+}
+
+/// The nodes that a selector of `table` names, such as `fixed` or `prescribed[0]`: ascending, without repeats, at least one. A
+/// set of the mesh gives the nodes of its triangles, edges and points, or of its elements if it has nothing else.
+pub(crate) fn nodes(
+    scene: &Scene,
+    table: &str,
+    selector: &Selector,
+    mesh: &TetrahedralMesh,
+) -> Result<Vec<usize>, SceneError> {
+    let nodes = match selector {
+        Selector::Set(name) => set(scene, table, name, mesh)?.nodes(&mesh.elements),
+        Selector::Nodes(nodes) => listed(scene, &format!("{table}.nodes"), nodes, mesh)?,
+        Selector::Faces(faces) => listed(scene, &format!("{table}.faces"), faces.as_flattened(), mesh)?,
+        Selector::Region(region) => {
+            let is_inside = inside(region, mesh);
+            (0..mesh.vertices.len()).filter(|&node| is_inside(&mesh.vertices[node])).collect()
+        }
+    };
+    not_empty(scene, table, selector, mesh, nodes, "node")
+}
+
+/// The boundary triangles that a selector of `table` names: those with all corners inside, or those of a set. They are as in
+/// `boundary`, counter-clockwise from outside, at least one.
+pub(crate) fn faces(
+    scene: &Scene,
+    table: &str,
+    selector: &Selector,
+    mesh: &TetrahedralMesh,
+    boundary: &[[usize; 3]],
+) -> Result<Vec<[usize; 3]>, SceneError> {
+    let faces = match selector {
+        Selector::Set(name) => {
+            let set = set(scene, table, name, mesh)?;
+            if set.faces.is_empty() {
+                let text = format!("is {name:?}, which has {} and no triangles; name a set of triangles", set.counts());
+                return Err(scene.refuse(&format!("{table}.set"), &text));
+            }
+            of_boundary(scene, &format!("{table}.set"), &set.faces, boundary)?
+        }
+        Selector::Faces(faces) => of_boundary(scene, &format!("{table}.faces"), faces, boundary)?,
+        Selector::Region(_) | Selector::Nodes(_) => {
+            let mut is_selected = vec![false; mesh.vertices.len()];
+            nodes(scene, table, selector, mesh)?.into_iter().for_each(|node| is_selected[node] = true);
+            boundary.iter().filter(|face| face.iter().all(|&node| is_selected[node])).copied().collect()
+        }
+    };
+    not_empty(scene, table, selector, mesh, faces, "triangle of the boundary")
+}
+
+/// The elements that a selector of `table` names: those whose centroid lies inside, those of a set, or those of which all nodes
+/// are listed. Ascending, at least one.
+#[allow(dead_code)] // for tables that name elements
+pub(crate) fn elements(
+    scene: &Scene,
+    table: &str,
+    selector: &Selector,
+    mesh: &TetrahedralMesh,
+) -> Result<Vec<usize>, SceneError> {
+    let matching = |is_selected: &dyn Fn(&[usize; 4]) -> bool| -> Vec<usize> {
+        (0..mesh.elements.len()).filter(|&element| is_selected(&mesh.elements[element])).collect()
+    };
+    let elements = match selector {
+        Selector::Set(name) => {
+            let set = set(scene, table, name, mesh)?;
+            if set.elements.is_empty() {
+                let text =
+                    format!("is {name:?}, which has {} and no tetrahedra; name a set of tetrahedra", set.counts());
+                return Err(scene.refuse(&format!("{table}.set"), &text));
+            }
+            set.elements.clone()
+        }
+        Selector::Nodes(_) | Selector::Faces(_) => {
+            let nodes: HashSet<usize> = nodes(scene, table, selector, mesh)?.into_iter().collect();
+            matching(&|element| element.iter().all(|node| nodes.contains(node)))
+        }
+        Selector::Region(region) => {
+            let is_inside = inside(region, mesh);
+            let centroid =
+                |element: &[usize; 4]| element.map(|node| mesh.vertices[node]).iter().sum::<Vector3<f64>>() / 4.0;
+            matching(&|element| is_inside(&centroid(element)))
+        }
+    };
+    not_empty(scene, table, selector, mesh, elements, "element")
+}
+
+/// Points nearer than this part of the mesh's size to a box or sphere count as inside: coordinates are rounded.
+const NEAR: f64 = 1e-9;
+
+/// Whether a point (m) lies in a region; a side is that of the mesh's bounding box.
+fn inside(region: &Region, mesh: &TetrahedralMesh) -> impl Fn(&Vector3<f64>) -> bool {
+    let (least, most) = span(mesh);
+    let near = NEAR * (most - least).amax();
+    move |x| match region {
+        Region::All => true,
+        Region::Side(SidePlane { axis, side: Side::Min, within }) | Region::Plane(Plane { axis, below: within }) => {
+            x[*axis as usize] <= least[*axis as usize] + within
+        }
+        Region::Side(SidePlane { axis, side: Side::Max, within }) => x[*axis as usize] >= most[*axis as usize] - within,
+        Region::Box(BoxTable { min, max }) => (0..3).all(|i| x[i] >= min[i] - near && x[i] <= max[i] + near),
+        Region::Sphere(SphereTable { center, radius }) => (x - Vector3::from(*center)).norm() <= radius + near,
+    }
+}
+
+/// Corners of the mesh's bounding box, m.
+fn span(mesh: &TetrahedralMesh) -> (Vector3<f64>, Vector3<f64>) {
+    let start = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
+    mesh.vertices.iter().fold(start, |(least, most), x| (least.inf(x), most.sup(x)))
+}
+
+/// The set of this name. Refuses a name that the mesh does not have, with those that it has.
+fn set<'a>(scene: &Scene, table: &str, name: &str, mesh: &'a TetrahedralMesh) -> Result<&'a MeshSet, SceneError> {
+    mesh.sets.get(name).ok_or_else(|| {
+        let known: Vec<_> = mesh.sets.iter().map(|(name, set)| format!("{name:?} ({})", set.counts())).collect();
+        let text = match &known[..] {
+            [] => format!("is {name:?}, and the mesh has no sets; give a .msh file with physical groups, or use a box"),
+            known => format!("is {name:?}, and the mesh has the sets {}; name one of them", known.join(", ")),
+        };
+        scene.refuse(&format!("{table}.set"), &text)
+    })
+}
+
+/// The triangles of the boundary with these nodes, in the order of the boundary. Refuses a triangle that is not on the boundary.
+fn of_boundary(
+    scene: &Scene,
+    field: &str,
+    wanted: &[[usize; 3]],
+    boundary: &[[usize; 3]],
+) -> Result<Vec<[usize; 3]>, SceneError> {
+    let keys: HashSet<_> = wanted.iter().map(sorted).collect();
+    let faces: Vec<_> = boundary.iter().filter(|face| keys.contains(&sorted(face))).copied().collect();
+    let known: HashSet<_> = faces.iter().map(sorted).collect();
+    match wanted.iter().find(|face| !known.contains(&sorted(face))) {
+        Some(face) => {
+            Err(scene.refuse(field, &format!("names {face:?}, which is no triangle of the boundary; correct it")))
+        }
+        None => Ok(faces),
+    }
+}
+
+fn sorted(face: &[usize; 3]) -> [usize; 3] {
+    let mut key = *face;
+    key.sort_unstable();
+    key
+}
+
+/// Refuses an empty selection, with the selector and the extent of the mesh.
+fn not_empty<T>(
+    scene: &Scene,
+    table: &str,
+    selector: &Selector,
+    mesh: &TetrahedralMesh,
+    found: Vec<T>,
+    what: &str,
+) -> Result<Vec<T>, SceneError> {
+    if !found.is_empty() {
+        return Ok(found);
+    }
+    let ([a, b, c], [d, e, f]) = (<[f64; 3]>::from(span(mesh).0), <[f64; 3]>::from(span(mesh).1));
+    let text = format!(
+        "{} names no {what}; the mesh spans [{a}, {b}, {c}] to [{d}, {e}, {f}] m, enlarge or correct it",
+        description(selector)
+    );
+    Err(scene.refuse(&format!("{table}.{}", selector.key()), &text))
+}
+
+fn description(selector: &Selector) -> String {
+    match selector {
+        Selector::Region(Region::All) => "= \"all\"".to_owned(),
+        Selector::Region(Region::Side(SidePlane { axis, side, within })) => {
+            format!("(side {side:?} of {axis:?} within {within} m)").to_lowercase()
+        }
+        Selector::Region(Region::Plane(Plane { axis, below })) => format!("({axis:?} below {below} m)").to_lowercase(),
+        Selector::Region(Region::Box(BoxTable { min, max })) => format!("(from {min:?} to {max:?} m)"),
+        Selector::Region(Region::Sphere(SphereTable { center, radius })) => {
+            format!("(radius {radius} m about {center:?} m)")
+        }
+        Selector::Set(name) => format!("({name:?})"),
+        Selector::Nodes(nodes) => format!("({} nodes)", nodes.len()),
+        Selector::Faces(faces) => format!("({} triangles)", faces.len()),
+    }
+}
+
+/// Listed nodes, ascending and without repeats. Refuses a node that the mesh does not have.
+pub(super) fn listed(
+    scene: &Scene,
+    field: &str,
+    nodes: &[usize],
+    mesh: &TetrahedralMesh,
+) -> Result<Vec<usize>, SceneError> {
+    let mut nodes = nodes.to_vec();
+    nodes.sort_unstable();
+    nodes.dedup();
+    match nodes.last() {
+        Some(&node) if node >= mesh.vertices.len() => {
+            let last = mesh.vertices.len() - 1;
+            Err(scene.refuse(field, &format!("names node {node}; the mesh has nodes 0 to {last}")))
+        }
+        _ => Ok(nodes),
+    }
+}

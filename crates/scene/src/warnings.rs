@@ -1,0 +1,50 @@
+//! Warnings: properties of a body that are allowed and seldom meant.
+
+use std::collections::BTreeMap;
+
+use crate::{Body, Scene};
+
+/// What is told before a run, each with its remedy: nodes that coincide without being merged, and parts that nothing constrains.
+pub fn warnings(scene: &Scene, body: &Body) -> Vec<String> {
+    let file = scene.path.display();
+    [coincident_nodes(body), unconstrained_parts(body)]
+        .into_iter()
+        .flatten()
+        .map(|text| format!("{file}: {text}"))
+        .collect()
+}
+
+fn coincident_nodes(body: &Body) -> Option<String> {
+    let found = fem_mesh::coincident_nodes(&body.shape.mesh)?;
+    let [a, b] = found.first;
+    Some(format!(
+        "mesh: {} nodes lie at the place of another one, the first are {a} and {b}; the body is not connected there unless they are \
+         merged (in Gmsh: Coherence Mesh)",
+        found.count
+    ))
+}
+
+/// Parts without any Dirichlet condition while others have one. Springs connect parts, and the spring of a drag holds its own.
+fn unconstrained_parts(body: &Body) -> Option<String> {
+    if body.dirichlet.is_empty() {
+        return None;
+    }
+    let mut part = fem_mesh::parts(&body.shape.mesh);
+    for spring in &body.springs {
+        let [a, b] = spring.nodes.map(|node| part[node]);
+        part.iter_mut().filter(|part| **part == a.max(b)).for_each(|part| *part = a.min(b));
+    }
+    let mut is_held: BTreeMap<usize, bool> = part.iter().map(|&part| (part, false)).collect();
+    let conditions = body.dirichlet.iter().flat_map(|condition| &condition.nodes);
+    for &node in conditions.chain(body.drag.as_ref().map(|drag| &drag.node)) {
+        is_held.insert(part[node], true);
+    }
+    let mut free = is_held.iter().filter(|(_, is_held)| !**is_held).map(|(part, _)| part);
+    let count = free.clone().count();
+    let first = free.next()?;
+    Some(format!(
+        "mesh: {count} of {} connected parts have no Dirichlet condition and move freely, the first with node {first}; constrain them \
+         by [fixed] or [[prescribed]], or connect them, unless that is meant",
+        is_held.len()
+    ))
+}
