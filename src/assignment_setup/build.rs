@@ -103,6 +103,7 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         ("fixed.until", scene.fixed.as_ref().is_some_and(|fixed| fixed.until.is_some())),
         ("mesh.refine", scene.mesh.refine > 0),
         ("time.precision", scene.time.precision != Precision::F64),
+        ("materials", !scene.materials.is_empty()),
         ("newton", scene.newton.is_some()),
         ("solver", scene.solver.is_some()),
         ("mass.lumped", scene.mass.lumped),

@@ -66,7 +66,10 @@ impl<T: Real> Simulator<T> {
         let Some(law) = AnyLaw::<T::Lanes>::new(&body.material) else {
             return Err(refuse(("material", "lacks the parameters of its model; see README.md for them".to_owned())));
         };
-        range_check::check_shear_modulus(&body.material).map_err(refuse)?;
+        let materials = body.regions.iter().map(|region| (&region.name[..], &region.material));
+        for (table, material) in std::iter::once(("material", &body.material)).chain(materials) {
+            range_check::check_shear_modulus(material).map_err(|problem| scene.refuse(table, &problem))?;
+        }
         let method = scene.method();
         if method.integrator == IntegratorKind::Static {
             rigid_modes::check(&body).map_err(refuse)?;

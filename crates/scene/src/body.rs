@@ -8,8 +8,8 @@ use crate::check::check;
 use crate::load::{line_of, refused};
 use crate::simulation::Shape;
 use crate::values::{
-    DirichletCondition, Drag, Pressure, RayleighDamping, Spring, Traction, curve, damping, dirichlet_conditions, drag,
-    initial_velocity, springs, surface_loads,
+    DirichletCondition, Drag, MaterialRegion, Pressure, RayleighDamping, Spring, Traction, curve, damping,
+    density_factors, dirichlet_conditions, drag, initial_velocity, regions, springs, surface_loads,
 };
 use crate::{LoadCurve, Material, Scene, SceneError};
 use fem_mesh::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
@@ -22,13 +22,15 @@ pub struct Body {
     pub name: String,
     /// Nodes, tetrahedra and surfaces.
     pub shape: Shape,
-    /// Constitutive law and density.
+    /// Constitutive law and density of the elements outside of all regions.
     pub material: Material,
+    /// Parts of the body with materials of their own. No element belongs to two of them.
+    pub regions: Vec<MaterialRegion>,
     /// Whether the mass matrix is lumped instead of consistent.
     pub lumped_mass: bool,
     /// Factor on the moduli of each element; empty for a uniform body. Scene files have no key for it.
     pub stiffness_factors: Vec<f64>,
-    /// Factor on the density of each element; empty for a uniform body. Scene files have no key for it.
+    /// Factor on the density of `material` for each element, that of its region included; empty for a uniform body.
     pub density_factors: Vec<f64>,
     /// Acceleration of gravity, m/s².
     pub gravity: Option<Vector3<f64>>,
@@ -73,14 +75,17 @@ pub fn body_of(scene: &Scene, mesh: TetrahedralMesh, data: &Path) -> Result<Body
     let boundary = fem_mesh::boundary(&mesh);
     let dirichlet = dirichlet_conditions(scene, &mesh)?;
     let (tractions, pressures) = surface_loads(scene, &mesh, &boundary)?;
-    let density = |_: usize| scene.material.density;
+    let regions = regions(scene, &mesh)?;
+    let density_factors = density_factors(&regions, scene.material.density, mesh.elements.len());
+    let density = |element: usize| scene.material.density * density_factors.get(element).copied().unwrap_or(1.0);
     let initial_velocity = initial_velocity(scene, &mesh, density, |file| find(scene, data, file))?;
     Ok(Body {
         name: scene.name.clone(),
         material: scene.material.clone(),
+        regions,
         lumped_mass: scene.mass.lumped,
         stiffness_factors: Vec::new(),
-        density_factors: Vec::new(),
+        density_factors,
         gravity: scene.gravity.as_ref().map(|gravity| gravity.acceleration.into()),
         gravity_curve: scene.gravity.as_ref().and_then(|gravity| curve(&gravity.curve)),
         body_force: scene.body_force.as_ref().map(|force| force.density.into()),

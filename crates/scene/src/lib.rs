@@ -15,7 +15,6 @@ mod error;
 mod integrator;
 mod interaction;
 mod load;
-mod material;
 pub mod output;
 mod overrides;
 pub mod simulate;
@@ -31,13 +30,12 @@ pub use error::SceneError;
 pub use integrator::Integrator;
 pub use interaction::{Anchor, Interaction};
 pub use load::{load, load_with, names, parse};
-pub use material::{MODELS, Material};
 pub use overrides::Override;
-pub use tables::{Axis, Pipeline, Precision, Preconditioner, Projection, Scene, SolverKind};
+pub use tables::{Axis, MODELS, Material, Pipeline, Precision, Preconditioner, Projection, Scene, SolverKind};
 pub use timer::Timer;
 pub use values::{
-    DirichletCondition, Drag, Method, Motion, NewtonSettings, Pressure, RayleighDamping, Rotation, SolverSettings,
-    Spring, Traction,
+    DirichletCondition, Drag, MaterialRegion, Method, Motion, NewtonSettings, Pressure, RayleighDamping, Rotation,
+    SolverSettings, Spring, Traction,
 };
 pub use warnings::warnings;
 

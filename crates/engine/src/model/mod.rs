@@ -2,5 +2,6 @@
 
 pub mod mass;
 pub mod numbering;
+pub mod solids;
 pub mod state;
 pub mod system;

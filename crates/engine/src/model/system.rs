@@ -9,16 +9,15 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::mass::Mass;
 use super::numbering::Numbering;
+use super::solids::Solids;
 use crate::boundary::dirichlet::{DirichletConditions, fully_constrained_nodes};
-use crate::elements::Elements;
 use crate::forces::anchors::Anchors;
 use crate::forces::{Energy, Forces, HessianKind, Moment, Potential};
-use crate::materials::{AnyLaw, Projected, match_law, with_law};
+use crate::materials::AnyLaw;
 use crate::number::Real;
 use crate::profile::Profile;
 use crate::solvers::SolverChoice;
 use crate::sparse::{Block, Pattern};
-use crate::tensor::Tensor;
 
 /// A body in the engine's numbering: free nodes first, fully constrained ones last.
 pub struct System<T: Real> {
@@ -30,14 +29,10 @@ pub struct System<T: Real> {
     pub numbering: Numbering,
     /// Undeformed positions in the engine's numbering, m.
     pub rest: Vec<Vector3<f64>>,
-    /// Undeformed elements.
-    pub elements: Elements<T, 3, 4>,
+    /// Undeformed elements and their materials.
+    pub elements: Solids<T>,
     /// Sparsity of the stiffness matrix; its rows are the nodes that are not fully constrained.
     pub pattern: Arc<Pattern>,
-    /// Constitutive law.
-    pub law: AnyLaw<T::Lanes>,
-    /// Factor of the moduli of each of the mesh's elements; empty where all have the same.
-    pub stiffness_factors: Vec<f64>,
     /// Mass of all nodes.
     pub mass: Mass<T>,
     /// Row sums of the mass, kg; empty where a node is constrained.
@@ -87,19 +82,17 @@ impl<T: Real> System<T> {
         let mass = Mass::new(rest.len(), &corners, &weighted, body.material.density, body.lumped_mass);
         let dirichlet = DirichletConditions::new(&body, &numbering);
         Self {
-            elements: Elements::stiffened(&rest, &corners, &body.stiffness_factors, &pattern),
+            elements: Solids::new(&body, law, &rest, &corners, &pattern),
             length: length(&rest),
             total_mass: body.material.density * weighted.iter().sum::<f64>(),
             node_masses: if dirichlet.is_empty(rest.len()) { mass.lumped() } else { Vec::new() },
             name,
-            stiffness_factors: body.stiffness_factors,
             damping: body.damping,
             shape,
             pattern: Arc::new(pattern),
             dirichlet,
             numbering,
             rest,
-            law,
             mass,
             forces,
             profile: Profile::default(),
@@ -133,21 +126,19 @@ impl<T: Real> System<T> {
     /// Whether the elastic energy is quadratic and no force depends on the displacements: then one linear solve finds equilibrium.
     pub fn is_linear(&self) -> bool {
         let depends = |(potential, _): (&dyn Potential<T>, _)| potential.is_internal() || !potential.is_conservative();
-        self.law.is_linear() && !self.forces.active().any(depends)
+        self.elements.is_linear() && !self.forces.active().any(depends)
     }
 
     /// Potential energy: that of the elements and of all conservative forces, zero in the undeformed body.
     pub fn potential(&self, u: &[[T; 3]], moment: Moment) -> Energy {
-        let elastic = self.elements.energy(self.law.as_law(), u);
+        let elastic = self.elements.energy(u);
         Energy::of(elastic) + self.energy_of_forces(u, moment)
     }
 
     /// Potential energy and its gradient (N) in one pass over the elements.
     pub fn potential_and_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) -> Energy {
         gradient.fill([T::default(); 3]);
-        let Self { profile, elements, law, .. } = self;
-        let elastic =
-            profile.energies.time(|| with_law!(law, law => elements.add_energy_and_gradient(law, u, gradient)));
+        let elastic = self.profile.energies.time(|| self.elements.add_energy_and_gradient(u, gradient));
         self.add_gradient_of_forces(true, u, moment, gradient);
         Energy::of(elastic) + self.energy_of_forces(u, moment)
     }
@@ -183,15 +174,10 @@ impl<T: Real> System<T> {
 
     /// Adds `factor` K(u), the Hessian of the body's own energy: elements and springs between its nodes, N/m.
     pub fn add_stiffness(&self, factor: T, u: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>]) {
-        let Self { profile, elements, law, .. } = self;
+        let Self { profile, elements, .. } = self;
         match kind {
-            HessianKind::Exact => {
-                profile.stiffness.time(|| with_law!(law, law => elements.add_stiffness(law, factor, u, values)));
-            }
-            HessianKind::Projected => {
-                let projected = Projected(law.as_law());
-                profile.projection.time(|| elements.add_stiffness(&projected, factor, u, values));
-            }
+            HessianKind::Exact => profile.stiffness.time(|| elements.add_stiffness(factor, u, values)),
+            HessianKind::Projected => profile.projection.time(|| elements.add_projected_stiffness(factor, u, values)),
         }
         for (potential, timer) in self.forces.active().filter(|(potential, _)| potential.is_internal()) {
             timer.time(|| potential.add_hessian(factor, u, kind, &self.pattern, values));
@@ -208,7 +194,7 @@ impl<T: Real> System<T> {
 
     /// Adds `factor` K(u) d without a matrix, N.
     pub fn add_stiffness_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
-        self.elements.add_stiffness_times(self.law.as_law(), factor, u, d, product);
+        self.elements.add_stiffness_times(factor, u, d, product);
         for (potential, _) in self.forces.active().filter(|(potential, _)| potential.is_internal()) {
             potential.add_hessian_times(factor, u, d, product);
         }
@@ -231,21 +217,18 @@ impl<T: Real> System<T> {
 
     /// Magnitude of the terms that cancel in the elastic energy of a rotated body, J: its rounding error is a part of this.
     pub fn cancelled(&self, u: &[[T; 3]]) -> f64 {
-        self.law.size() * self.elements.squares(u)
+        self.elements.cancelled(u)
     }
 
     /// Energy for reports: that of the elements and of all forces that have a potential, follower loads included, J.
     pub fn reported_potential(&self, u: &[[T; 3]], moment: Moment) -> f64 {
-        let elastic = self.elements.energy(self.law.as_law(), u);
+        let elastic = self.elements.energy(u);
         elastic + self.forces.active().map(|(potential, _)| potential.energy(u, moment).value).sum::<f64>()
     }
 
     /// Cauchy stress of each element of the mesh, Pa.
     pub fn stresses(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
-        let stresses = self.elements.cauchy_stresses(&self.law, u);
-        let factor = |element: usize| self.stiffness_factors.get(element).copied().unwrap_or(1.0);
-        let matrix = |(element, stress): (usize, Tensor<f64>)| factor(element) * Matrix3::from_fn(|i, j| stress[i][j]);
-        stresses.into_iter().enumerate().map(matrix).collect()
+        self.elements.cauchy_stresses(u)
     }
 
     /// The largest multiple of `direction` up to which no force becomes infeasible.
@@ -255,8 +238,7 @@ impl<T: Real> System<T> {
 
     fn elastic_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
         gradient.fill([T::default(); 3]);
-        let Self { profile, elements, law, .. } = self;
-        profile.forces.time(|| with_law!(law, law => elements.add_gradient(law, u, gradient)));
+        self.profile.forces.time(|| self.elements.add_gradient(u, gradient));
     }
 
     fn energy_of_forces(&self, u: &[[T; 3]], moment: Moment) -> Energy {

@@ -83,10 +83,10 @@ impl<T: Real> IncrementalPotential<'_, T> {
         potential + of_followers + kinetic
     }
 
-    /// Minimum of det F over all elements.
+    /// Minimum of det F over the elements whose law does not allow inversion.
     pub fn min_det_F(&self, w: &[[T; 3]], workspace: &mut Workspace<T>) -> f64 {
         workspace.set_u(self.increment.start, w);
-        self.system.elements.min_det_F(&workspace.u).0.as_f64()
+        self.system.elements.min_det_F_of_barriers(&workspace.u).0.as_f64()
     }
 
     /// Magnitude of the terms that cancel within E(w), J.

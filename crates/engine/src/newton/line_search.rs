@@ -64,13 +64,13 @@ impl<T: Real> Newton<T> {
         None
     }
 
-    /// Lower bound of det F along the direction; `None` where the law allows inversion or the step is short.
+    /// Lower bound of det F along the direction; `None` where every law allows inversion or the step is short.
     ///
     /// A law that forbids J ≤ 0 may still have a finite energy at a point: a long step must not cross the barrier that would have
     /// stopped a shorter one.
     fn lower_bound_of_det_F(&mut self, potential: &IncrementalPotential<T>, w: &[[T; 3]]) -> Option<f64> {
         let system = potential.system;
-        let is_long = !system.law.allows_inversion() && max_norm(&self.direction) > LONG * system.length;
+        let is_long = !system.elements.allow_inversion() && max_norm(&self.direction) > LONG * system.length;
         is_long.then(|| KEPT * potential.min_det_F(w, &mut self.workspace))
     }
 }

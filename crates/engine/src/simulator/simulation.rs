@@ -186,10 +186,11 @@ impl<T: Real> Simulator<T> {
         if let Some(node) = self.state.first_not_finite() {
             return Err(Cause::NotFinite { node: self.system.numbering.mesh_node[node] as usize });
         }
-        if self.system.law.allows_inversion() {
+        if self.system.elements.allow_inversion() {
             return Ok(());
         }
-        Cause::inverted(self.min_J()).map_or(Ok(()), Err)
+        let (J, element) = self.system.elements.min_det_F_of_barriers(&self.state.u);
+        Cause::inverted((J.as_f64(), element)).map_or(Ok(()), Err)
     }
 
     fn failure(&self, cause: Cause) -> Failure {

@@ -7,6 +7,7 @@ mod affine;
 mod balance;
 mod bars;
 mod cantilever;
+mod closed_scenes;
 mod conserved;
 mod curves;
 mod extreme;

@@ -22,7 +22,7 @@ fn engine_scenes_that_repeat_one_of_the_course_differ_in_name_and_pipeline_alone
         let mut engine = load(&format!("{name}-engine"), &data()).unwrap();
         assert_ne!(engine.pipeline, course.pipeline);
         (engine.name, engine.path, engine.about) = (course.name.clone(), course.path.clone(), course.about.clone());
-        engine.pipeline = course.pipeline;
+        (engine.pipeline, engine.source) = (course.pipeline, course.source.clone());
         assert_eq!(engine, course);
     }
 }

@@ -1,6 +1,7 @@
 //! Checks of `[[initial_velocity]]`.
 
 use super::numbers::{Problem, check_finite, check_vector, problem};
+use super::selector::check_one;
 use crate::tables::{AngularVelocityTable, InitialVelocityTable};
 use crate::{Integrator, Scene};
 
@@ -16,6 +17,10 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
 }
 
 fn check_velocity(table: &str, velocity: &InitialVelocityTable) -> Result<(), Problem> {
+    let selectors = velocity.selectors();
+    if !selectors.is_empty() {
+        check_one(table, &selectors, "on, box, sphere, set and nodes")?;
+    }
     if velocity.velocity.is_none() && velocity.angular.is_none() && velocity.per_node.is_none() {
         return problem(table, "has no velocity; give velocity, angular or per_node");
     }

@@ -4,6 +4,7 @@ mod constraints;
 mod curves;
 mod initial;
 mod loads;
+mod materials;
 pub(crate) mod numbers;
 mod selector;
 
@@ -17,7 +18,8 @@ const MOST_REFINEMENTS: u32 = 4;
 /// Returns the first problem of a scene.
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     check_mesh(&scene.mesh)?;
-    scene.material.check()?;
+    scene.material.check("material")?;
+    materials::check(scene)?;
     check_time(&scene.time)?;
     loads::check(scene)?;
     constraints::check(scene)?;

@@ -5,12 +5,22 @@ use std::path::PathBuf;
 use serde::Deserialize;
 
 use super::vectors::{three_numbers, three_numbers_if_any};
+use super::{BoxTable, On, Selector, SphereTable};
 
 /// `[[initial_velocity]]`: the sum of its parts at the selected nodes. Velocities of several tables are added.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct InitialVelocityTable {
-    /// These nodes; all by default.
+    /// All nodes on one side of the mesh, or all nodes: that is the default.
+    pub on: Option<On>,
+    /// All nodes in a box.
+    #[serde(rename = "box")]
+    pub cuboid: Option<BoxTable>,
+    /// All nodes in a sphere.
+    pub sphere: Option<SphereTable>,
+    /// The nodes of a named set.
+    pub set: Option<String>,
+    /// These nodes.
     pub nodes: Option<Vec<usize>>,
     /// The same velocity at every node, m/s.
     #[serde(default, deserialize_with = "three_numbers_if_any")]
@@ -33,4 +43,13 @@ pub struct AngularVelocityTable {
     pub center: Option<[f64; 3]>,
     /// Radians per second, counter-clockwise seen against the direction.
     pub rate: f64,
+}
+
+impl InitialVelocityTable {
+    /// The selectors that the table gives; at most one in a checked scene, and all nodes without one.
+    pub fn selectors(&self) -> Vec<Selector> {
+        let mut selectors = Selector::of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
+        selectors.extend(self.nodes.clone().map(Selector::Nodes));
+        selectors
+    }
 }

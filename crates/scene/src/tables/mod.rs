@@ -3,6 +3,7 @@
 mod constraints;
 mod initial;
 mod loads;
+mod material;
 mod method;
 mod selector;
 mod vectors;
@@ -12,6 +13,7 @@ pub use crate::curve::{CurveTable, SineTable};
 pub use constraints::{FixedTable, PrescribedTable, RotationTable};
 pub use initial::{AngularVelocityTable, InitialVelocityTable};
 pub use loads::{BodyForceTable, DragTable, DragVertex, GravityTable, SpringTable, TractionTable};
+pub use material::{MODELS, Material, MaterialsTable};
 pub use method::{
     DampingTable, NewtonTable, Precision, Preconditioner, Projection, SolverKind, SolverTable, StaticTable, TimeTable,
 };
@@ -22,7 +24,6 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
-use crate::Material;
 use crate::overrides::Override;
 use fem_mesh::Side;
 
@@ -51,6 +52,9 @@ pub struct Scene {
     pub mesh: MeshTable,
     /// `[material]`
     pub material: Material,
+    /// `[[materials]]`
+    #[serde(default)]
+    pub materials: Vec<MaterialsTable>,
     /// `[mass]`
     #[serde(default)]
     pub mass: MassTable,

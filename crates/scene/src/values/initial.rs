@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::Vector3;
 
-use super::selection::listed;
+use super::selection::{chosen, nodes};
 use crate::tables::{AngularVelocityTable, InitialVelocityTable};
 use crate::{Scene, SceneError};
 use fem_mesh::{TetrahedralMesh, volumes};
@@ -24,9 +24,9 @@ pub(crate) fn initial_velocity(
     let mut sum = vec![Vector3::zeros(); mesh.vertices.len()];
     for (number, table) in scene.initial_velocity.iter().enumerate() {
         let name = format!("initial_velocity[{number}]");
-        let nodes = match &table.nodes {
-            Some(nodes) => listed(scene, &format!("{name}.nodes"), nodes, mesh)?,
-            None => (0..mesh.vertices.len()).collect(),
+        let nodes = match table.selectors() {
+            selectors if selectors.is_empty() => (0..mesh.vertices.len()).collect(),
+            selectors => nodes(scene, &name, &chosen(selectors), mesh)?,
         };
         let field = format!("{name}.per_node");
         let path = table.per_node.as_deref().map(&find);

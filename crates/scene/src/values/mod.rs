@@ -3,14 +3,17 @@
 mod constraints;
 mod initial;
 mod loads;
+mod materials;
 mod method;
 mod selection;
 
 pub use constraints::{DirichletCondition, Motion, Rotation};
 pub use loads::{Drag, Pressure, Spring, Traction};
+pub use materials::MaterialRegion;
 pub use method::{Method, NewtonSettings, RayleighDamping, SolverSettings};
 
 pub(crate) use constraints::dirichlet_conditions;
 pub(crate) use initial::initial_velocity;
 pub(crate) use loads::{curve, drag, springs, surface_loads};
+pub(crate) use materials::{density_factors, regions};
 pub(crate) use method::damping;

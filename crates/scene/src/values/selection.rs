@@ -66,7 +66,6 @@ pub(crate) fn faces(
 
 /// The elements that a selector of `table` names: those whose centroid lies inside, those of a set, or those of which all nodes
 /// are listed. Ascending, at least one.
-#[allow(dead_code)] // for tables that name elements
 pub(crate) fn elements(
     scene: &Scene,
     table: &str,

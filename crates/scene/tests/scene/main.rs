@@ -8,6 +8,7 @@ mod errors;
 mod examples;
 mod initial;
 mod lookup;
+mod materials;
 mod moduli;
 mod motions;
 mod overrides;

@@ -9,7 +9,7 @@ use fem_engine::solvers::SolverChoice;
 use fem_scene::{Body, LoadCurve, Scene};
 use nalgebra::Vector3;
 
-use super::mass::MassInverse;
+use super::mass::{Density, MassInverse};
 use super::prescribed_motion::{kinematics, moves};
 
 /// Displacements, m, and velocities, m/s, of all nodes.
@@ -44,9 +44,10 @@ impl Equations {
             return Err("nodes become free at a time, which the reference in time does not compute".to_owned());
         }
         let kinks = kinks(&body);
+        let density = Density::new(&body);
         let velocities = body.initial_velocity.clone();
         let system = System::new(body, law, SolverChoice::Cholesky);
-        let mass = MassInverse::new(scene, &system)?;
+        let mass = MassInverse::new(&density, &system)?;
         let has_prescribed_motion = system.dirichlet.motions().any(|(_, motion)| moves(motion));
         let initial_velocity = initial_velocity(&velocities, &system);
         Ok(Self { system, mass, has_prescribed_motion, initial_velocity, kinks })

@@ -2,9 +2,25 @@
 
 use fem_engine::model::system::System;
 use fem_mesh::volumes;
-use fem_scene::Scene;
+use fem_scene::Body;
 
 use super::ldl::Ldl;
+
+/// Density of the elements, and whether the mass is lumped.
+pub(super) struct Density {
+    of_material: f64,
+    /// Relative density of each element; empty for a uniform body.
+    factors: Vec<f64>,
+    is_lumped: bool,
+}
+
+impl Density {
+    /// The density of a body.
+    pub fn new(body: &Body) -> Self {
+        let factors = body.density_factors.clone();
+        Self { of_material: body.material.density, factors, is_lumped: body.lumped_mass }
+    }
+}
 
 /// Factors of the mass matrix: directions that are free at the same nodes share one.
 pub(super) struct MassInverse(Vec<Factor>);
@@ -17,8 +33,8 @@ struct Factor {
 }
 
 impl MassInverse {
-    /// Factorises the consistent mass, or the lumped one if the scene asks for it.
-    pub fn new(scene: &Scene, system: &System<f64>) -> Result<Self, String> {
+    /// Factorises the consistent mass, or the lumped one if the body has that.
+    pub fn new(density: &Density, system: &System<f64>) -> Result<Self, String> {
         let mut is_free = vec![[1.0; 3]; system.nodes()];
         system.dirichlet.clear_constrained(&mut is_free);
         let mut factors: Vec<Factor> = Vec::new();
@@ -28,7 +44,7 @@ impl MassInverse {
                 known.directions[axis] = true;
                 continue;
             }
-            let factor = Ldl::new(&mass(scene, system, &nodes)).ok_or("the mass is not positive definite")?;
+            let factor = Ldl::new(&mass(density, system, &nodes)).ok_or("the mass is not positive definite")?;
             factors.push(Factor { nodes, factor, directions: std::array::from_fn(|i| i == axis) });
         }
         Ok(Self(factors))
@@ -51,7 +67,7 @@ impl MassInverse {
 }
 
 /// ∫ ρ φ_i φ_j of these nodes, or the row sums: the upper triangle by columns, kg.
-fn mass(scene: &Scene, system: &System<f64>, nodes: &[usize]) -> Vec<Vec<(usize, f64)>> {
+fn mass(density: &Density, system: &System<f64>, nodes: &[usize]) -> Vec<Vec<(usize, f64)>> {
     let mesh = &system.shape.mesh;
     let mut place = vec![usize::MAX; mesh.vertices.len()];
     for (i, &node) in nodes.iter().enumerate() {
@@ -67,12 +83,12 @@ fn mass(scene: &Scene, system: &System<f64>, nodes: &[usize]) -> Vec<Vec<(usize,
             None => columns[column].push((row, mass)),
         }
     };
-    for (element, volume) in mesh.elements.iter().zip(volumes(mesh)) {
-        let share = scene.material.density * volume / 20.0;
+    for (number, (element, volume)) in mesh.elements.iter().zip(volumes(mesh)).enumerate() {
+        let share = density.of_material * density.factors.get(number).copied().unwrap_or(1.0) * volume / 20.0;
         for (a, &row) in element.iter().enumerate() {
             for (b, &column) in element.iter().enumerate() {
                 let mass = if a == b { 2.0 * share } else { share };
-                let column = if scene.mass.lumped { row } else { column };
+                let column = if density.is_lumped { row } else { column };
                 add(place[row], place[column], mass);
             }
         }

@@ -26,7 +26,9 @@ pub fn error(scene: &Scene, simulation: &dyn Simulation) -> Option<f64> {
 
 /// Stretches along and across x of a neo-Hookean box on three symmetry planes under a dead traction along x.
 pub fn uniaxial(scene: &Scene) -> Option<(f64, f64)> {
-    let is_neo_hookean = scene.material.model == "neo_hookean" && scene.time.integrator == Integrator::Static;
+    let is_uniform = scene.materials.is_empty();
+    let is_neo_hookean =
+        is_uniform && scene.material.model == "neo_hookean" && scene.time.integrator == Integrator::Static;
     let is_alone =
         scene.gravity.is_none() && scene.body_force.is_none() && scene.springs.is_empty() && scene.drag.is_none();
     let [traction] = &scene.traction[..] else { return None };

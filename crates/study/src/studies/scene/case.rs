@@ -37,8 +37,11 @@ pub(super) fn errors(run: &PlannedRun, outcome: &RunResult, body: &StudyMesh, st
     let expected_energy = reference.kinetic + reference.potential;
     let size = reference.kinetic.abs().max(reference.potential.abs());
     errors.energy = Some((total(outcome.energies) - expected_energy) / size);
-    errors.momentum = Some(norms::distance(found.0, expected.0) / scale);
-    errors.angular = Some(norms::distance(found.1, expected.1) / (scale * length));
+    // Weights are volumes: momenta of several materials would need the density of each element.
+    if run.scene.materials.is_empty() {
+        errors.momentum = Some(norms::distance(found.0, expected.0) / scale);
+        errors.angular = Some(norms::distance(found.1, expected.1) / (scale * length));
+    }
     errors
 }
 

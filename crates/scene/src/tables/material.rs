@@ -2,6 +2,8 @@
 
 use crate::check::numbers::{Problem, check_finite, check_positive, problem};
 
+use super::{BoxTable, On, Selector, SphereTable};
+
 /// The laws: the name of each, and the sets of parameters of which a scene gives one.
 pub const MODELS: &[(&str, &[&[&str]])] = &[
     ("linear", &[ELASTIC]),
@@ -19,6 +21,33 @@ const ELASTIC: &[&str] = &["young", "poisson"];
 /// The table as a struct, with a list of its parameters: `name: range`, where `range` is a function that checks a number.
 macro_rules! material {
     ($($(#[$doc:meta])* $name:ident: $range:ident),* $(,)?) => {
+        /// `[[materials]]`: the material of a part of the body, named by one selector.
+        #[derive(Clone, Debug, serde::Deserialize, PartialEq)]
+        #[serde(deny_unknown_fields)]
+        pub struct MaterialsTable {
+            /// All elements, or those near one side of the mesh.
+            pub on: Option<On>,
+            /// The elements whose centroid lies in a box.
+            #[serde(rename = "box")]
+            pub cuboid: Option<BoxTable>,
+            /// The elements whose centroid lies in a sphere.
+            pub sphere: Option<SphereTable>,
+            /// The elements of a named set.
+            pub set: Option<String>,
+            /// Name of the law, one of [`MODELS`].
+            pub model: String,
+            /// Density, kg/m³.
+            pub density: f64,
+            $($(#[$doc])* pub $name: Option<f64>,)*
+        }
+
+        impl MaterialsTable {
+            /// The material without its place.
+            pub fn material(&self) -> Material {
+                Material { model: self.model.clone(), density: self.density, $($name: self.$name,)* }
+            }
+        }
+
         /// `[material]`
         #[derive(Clone, Debug, serde::Deserialize, PartialEq)]
         #[serde(deny_unknown_fields)]
@@ -37,9 +66,9 @@ macro_rules! material {
                 all.into_iter().filter_map(|(name, value)| Some((name, value?)))
             }
 
-            fn check_ranges(&self) -> Result<(), Problem> {
+            fn check_ranges(&self, table: &str) -> Result<(), Problem> {
                 $(if let Some(value) = self.$name {
-                    $range(concat!("material.", stringify!($name)), value)?;
+                    $range(&format!("{table}.{}", stringify!($name)), value)?;
                 })*
                 Ok(())
             }
@@ -68,6 +97,13 @@ material! {
     D: positive,
 }
 
+impl MaterialsTable {
+    /// The selectors that the table gives; exactly one in a checked scene.
+    pub fn selectors(&self) -> Vec<Selector> {
+        Selector::of_keys(&self.on, &self.cuboid, &self.sphere, &self.set)
+    }
+}
+
 impl Material {
     /// Lamé's constants μ = E/(2(1+ν)) and λ = Eν/((1+ν)(1−2ν)), Pa, of `young` and `poisson`.
     pub fn lame(&self) -> Option<(f64, f64)> {
@@ -85,12 +121,13 @@ impl Material {
         }
     }
 
-    pub(crate) fn check(&self) -> Result<(), Problem> {
-        check_positive("material.density", self.density, " of kg/m³")?;
+    /// Checks the material of a table, such as `material` or `materials[0]`.
+    pub(crate) fn check(&self, table: &str) -> Result<(), Problem> {
+        check_positive(&format!("{table}.density"), self.density, " of kg/m³")?;
         let Some((_, sets)) = MODELS.iter().find(|(name, _)| *name == self.model) else {
             let known: Vec<_> = MODELS.iter().map(|(name, _)| *name).collect();
             let text = format!("is `{}`, which is no law; write one of {}", self.model, known.join(", "));
-            return problem("material.model", text);
+            return problem(&format!("{table}.model"), text);
         };
         let given: Vec<&str> = self.parameters().map(|(name, _)| name).collect();
         let foreign: Vec<&str> =
@@ -99,16 +136,16 @@ impl Material {
             let rest: String = rest.iter().map(|name| format!("and {name} ")).collect();
             let verb = if rest.is_empty() { "belongs" } else { "belong" };
             let (owners, own) = (models_with(&foreign), alternatives(sets));
-            return problem(&format!("material.{first}"), format!("{rest}{verb} to {owners}; give this model {own}"));
+            return problem(&format!("{table}.{first}"), format!("{rest}{verb} to {owners}; give this model {own}"));
         }
         if !sets.iter().any(|set| set.len() == given.len() && is_subset(&given, set)) {
             let own = alternatives(sets);
             return match sets {
-                [_] => problem("material", format!("needs {own}; give these and no others")),
-                _ => problem("material", format!("needs either {own}; give one pair and only one")),
+                [_] => problem(table, format!("needs {own}; give these and no others")),
+                _ => problem(table, format!("needs either {own}; give one pair and only one")),
             };
         }
-        self.check_ranges()
+        self.check_ranges(table)
     }
 }
 

@@ -1,0 +1,172 @@
+//! The elements of a body, grouped by material: the loops over a group are compiled for its law.
+
+use fem_scene::Body;
+use nalgebra::{Matrix3, Vector3};
+
+use crate::elements::Elements;
+use crate::materials::{AnyLaw, Projected, match_law, with_law};
+use crate::number::Real;
+use crate::sparse::{Block, Pattern};
+
+/// All elements of a body. A body of one material is one group.
+pub struct Solids<T: Real> {
+    groups: Vec<Solid<T>>,
+    /// Number of elements.
+    pub count: usize,
+    /// Factor of the moduli of each of the mesh's elements; empty where all are 1.
+    factors: Vec<f64>,
+}
+
+/// The elements of one material.
+struct Solid<T: Real> {
+    law: AnyLaw<T::Lanes>,
+    elements: Elements<T, 3, 4>,
+    /// Number of each element in the mesh; empty where the group is the whole mesh in its order.
+    numbers: Vec<usize>,
+}
+
+impl<T: Real> Solid<T> {
+    /// The number in the mesh of an element of the group.
+    fn number(&self, element: usize) -> usize {
+        self.numbers.get(element).copied().unwrap_or(element)
+    }
+}
+
+impl<T: Real> Solids<T> {
+    /// Groups the elements of a body, with positions and corners in the engine's numbering. `law` is that of the body's own material.
+    pub fn new(
+        body: &Body,
+        law: AnyLaw<T::Lanes>,
+        rest: &[Vector3<f64>],
+        corners: &[[u32; 4]],
+        pattern: &Pattern,
+    ) -> Self {
+        let factors = &body.stiffness_factors;
+        let count = corners.len();
+        let group = |law: AnyLaw<T::Lanes>, numbers: Vec<usize>| {
+            let corners: Vec<_> = numbers.iter().map(|&element| corners[element]).collect();
+            let factors: Vec<f64> =
+                if factors.is_empty() { Vec::new() } else { numbers.iter().map(|&element| factors[element]).collect() };
+            Solid { law, elements: Elements::stiffened(rest, &corners, &factors, pattern), numbers }
+        };
+        let groups = if body.regions.is_empty() {
+            vec![Solid { law, elements: Elements::stiffened(rest, corners, factors, pattern), numbers: Vec::new() }]
+        } else {
+            let mut is_own = vec![true; count];
+            body.regions.iter().flat_map(|region| &region.elements).for_each(|&element| is_own[element] = false);
+            let own: Vec<usize> = (0..count).filter(|&element| is_own[element]).collect();
+            let own = (!own.is_empty()).then_some((law, own));
+            let regions = body.regions.iter().map(|region| {
+                let law = AnyLaw::new(&region.material);
+                (
+                    law.unwrap_or_else(|| unreachable!("a material without parameters is refused")),
+                    region.elements.clone(),
+                )
+            });
+            own.into_iter().chain(regions).map(|(law, numbers)| group(law, numbers)).collect()
+        };
+        Self { groups, count, factors: factors.clone() }
+    }
+
+    /// Whether the stress of every element is a linear function of the displacement gradient.
+    pub fn is_linear(&self) -> bool {
+        self.groups.iter().all(|group| group.law.is_linear())
+    }
+
+    /// Whether every law allows J = det F ≤ 0.
+    pub fn allow_inversion(&self) -> bool {
+        self.groups.iter().all(|group| group.law.allows_inversion())
+    }
+
+    /// Shear modulus and bulk modulus of each material at small strain, Pa.
+    pub fn moduli(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.groups.iter().map(|group| group.law.moduli())
+    }
+
+    /// Memory, bytes.
+    pub fn bytes(&self) -> usize {
+        self.groups.iter().map(|group| group.elements.bytes() + size_of_val(&group.numbers[..])).sum()
+    }
+
+    /// Elastic energy, J.
+    pub fn energy(&self, u: &[[T; 3]]) -> f64 {
+        self.groups.iter().map(|group| group.elements.energy(group.law.as_law(), u)).sum()
+    }
+
+    /// Adds the gradient of the energy, N.
+    pub fn add_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
+        for Solid { law, elements, .. } in &self.groups {
+            with_law!(law, law => elements.add_gradient(law, u, gradient));
+        }
+    }
+
+    /// Energy and gradient in one pass.
+    pub fn add_energy_and_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) -> f64 {
+        let mut energy = 0.0;
+        for Solid { law, elements, .. } in &self.groups {
+            energy += with_law!(law, law => elements.add_energy_and_gradient(law, u, gradient));
+        }
+        energy
+    }
+
+    /// Adds `factor` times the exact Hessian of the energy, N/m.
+    pub fn add_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
+        for Solid { law, elements, .. } in &self.groups {
+            with_law!(law, law => elements.add_stiffness(law, factor, u, values));
+        }
+    }
+
+    /// Adds `factor` times the Hessian of the energy, projected element by element to positive semi-definite, N/m.
+    pub fn add_projected_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
+        for Solid { law, elements, .. } in &self.groups {
+            elements.add_stiffness(&Projected(law.as_law()), factor, u, values);
+        }
+    }
+
+    /// Adds `factor` K(u) d without a matrix, N.
+    pub fn add_stiffness_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
+        for Solid { law, elements, .. } in &self.groups {
+            elements.add_stiffness_times(law.as_law(), factor, u, d, product);
+        }
+    }
+
+    /// Magnitude of the terms that cancel in the elastic energy of a rotated body, J.
+    pub fn cancelled(&self, u: &[[T; 3]]) -> f64 {
+        self.groups.iter().map(|group| group.law.size() * group.elements.squares(u)).sum()
+    }
+
+    /// Minimum of det F, and its element in the mesh.
+    pub fn min_det_F(&self, u: &[[T; 3]]) -> (T, usize) {
+        self.least(u, |_| true)
+    }
+
+    /// Minimum of det F over the elements whose law does not allow inversion, and its element in the mesh; infinite if there are none.
+    pub fn min_det_F_of_barriers(&self, u: &[[T; 3]]) -> (T, usize) {
+        self.least(u, |group| !group.law.allows_inversion())
+    }
+
+    fn least(&self, u: &[[T; 3]], is_meant: impl Fn(&Solid<T>) -> bool) -> (T, usize) {
+        let mut least = (T::of(f64::INFINITY), 0);
+        for group in self.groups.iter().filter(|group| is_meant(group)) {
+            let (J, element) = group.elements.min_det_F(u);
+            // NaN is the smallest of all.
+            if !(least.0 <= J) {
+                least = (J, group.number(element));
+            }
+        }
+        least
+    }
+
+    /// Cauchy stress of each element of the mesh, Pa.
+    pub fn cauchy_stresses(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
+        let mut stresses = vec![Matrix3::zeros(); self.count];
+        for group in &self.groups {
+            for (element, stress) in group.elements.cauchy_stresses(&group.law, u).into_iter().enumerate() {
+                let number = group.number(element);
+                let factor = self.factors.get(number).copied().unwrap_or(1.0);
+                stresses[number] = factor * Matrix3::from_fn(|i, j| stress[i][j]);
+            }
+        }
+        stresses
+    }
+}
