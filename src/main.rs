@@ -10,6 +10,7 @@ macro_rules! say {
 
 mod demo {
     pub mod build;
+    pub mod checkpoints;
     pub mod cli;
     pub mod data;
     pub mod end;
@@ -20,8 +21,10 @@ mod demo {
     pub mod mesh;
     pub mod missing;
     pub mod pictures;
+    pub mod probes;
     pub mod results;
     pub mod run;
+    pub mod signals;
     pub mod study;
     pub mod window;
 }

@@ -49,7 +49,9 @@ fn here(arguments: &RunArguments) -> Result<Measurement, End> {
     let seconds_setup = start.elapsed().as_secs_f64();
 
     let (wall, cpu) = (Instant::now(), processor_seconds()?);
-    let Ok(run) = simulate::run(&mut *simulation, steps, |_| Ok::<(), std::convert::Infallible>(()));
+    let Ok(run) = simulate::run(&mut *simulation, steps, |_| {
+        Ok::<_, std::convert::Infallible>(std::ops::ControlFlow::Continue(()))
+    });
     let (wall, cpu) = (wall.elapsed().as_secs_f64(), processor_seconds()? - cpu);
     let stats = Stats::of(&*simulation, &run, seconds_setup);
     if let Some(failure) = run.failure {

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use fem_scene::Integrator;
-use fem_scene::simulation::{Cause, Click, Counters, Energies, Failure, Parameter, Part, Pull, Shape, Simulation};
+use fem_scene::simulation::{
+    Cause, Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, Pull, Shape, Simulation,
+};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::build::{INTEGRATORS, extent};
@@ -44,6 +46,10 @@ impl Simulation for AssignmentSetup {
         self.time
     }
 
+    fn steps(&self) -> usize {
+        self.steps_since_reset
+    }
+
     fn dt(&self) -> f64 {
         self.dt
     }
@@ -69,6 +75,30 @@ impl Simulation for AssignmentSetup {
         self.qdot.fill(0.0);
         self.time = 0.0;
         self.steps_since_reset = 0;
+    }
+
+    fn checkpoint(&self) -> Checkpoint {
+        Checkpoint {
+            time: self.time,
+            steps: self.steps_since_reset,
+            positions: self.positions().as_slice().to_vec(),
+            velocities: self.velocities().as_slice().to_vec(),
+            ..Checkpoint::default()
+        }
+    }
+
+    fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), String> {
+        let coordinates = 3 * self.shape.mesh.vertices.len();
+        for (name, list) in [("q", &checkpoint.positions), ("qdot", &checkpoint.velocities)] {
+            if list.len() != coordinates {
+                self.reset();
+                return Err(format!("its `{name}` has {} numbers and not {coordinates}", list.len()));
+            }
+        }
+        self.q = self.constraints.free_coordinates(DVector::from_column_slice(&checkpoint.positions));
+        self.qdot = self.constraints.free_coordinates(DVector::from_column_slice(&checkpoint.velocities));
+        (self.time, self.steps_since_reset) = (checkpoint.time, checkpoint.steps);
+        Ok(())
     }
 
     fn energies(&self) -> Energies {

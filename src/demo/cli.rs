@@ -2,10 +2,12 @@
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
 use fem_scene::{Integrator, Override};
 
+use super::probes::ProbeArgument;
 use super::study::Study;
 
 /// Deformable solids by the finite element method: shows a scene in a window, or runs it without one.
@@ -21,7 +23,9 @@ pub struct Arguments {
 const EXIT_CODES: &str = "\
 Keys in the window: S skinned or simulation mesh, N next integrator, space pause, R reset; drag the body to pull it.
 
-Exit codes: 0 done, 1 the simulation failed, 2 unusable arguments or scene.";
+Ctrl-C ends a run without a window after its step and writes what the options ask for; a second one ends it at once.
+
+Exit codes: 0 done, 1 the simulation failed, 2 unusable arguments or scene, 130 ended by Ctrl-C, 143 by SIGTERM.";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -64,9 +68,21 @@ pub struct RunArguments {
     /// Override a key of the scene, such as material.young=1e5 or traction.0.pressure=5; repeatable
     #[arg(long, value_name = "TABLE.KEY=VALUE")]
     pub set: Vec<Override>,
-    /// Write time, positions and velocities at the end
+    /// Write time, positions and velocities at the end, and what --resume needs
     #[arg(long, value_name = "FILE.json")]
     pub state: Option<PathBuf>,
+    /// Go on from a file of --state or --checkpoint as if the run had not been interrupted
+    #[arg(long, value_name = "FILE.json")]
+    pub resume: Option<PathBuf>,
+    /// Write the state now and then, so that a run which is killed can go on; opens no window
+    #[arg(long, value_name = "FILE.json")]
+    pub checkpoint: Option<PathBuf>,
+    /// Minutes between checkpoints
+    #[arg(long, value_name = "MINUTES", default_value = "10", requires = "checkpoint", value_parser = minutes)]
+    pub checkpoint_every: Duration,
+    /// Write position, velocity and force of a node in every step; NODE is its index or `highest`; repeatable; opens no window
+    #[arg(long, value_name = "NODE=FILE.csv")]
+    pub probe: Vec<ProbeArgument>,
     /// Write counts and times
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
@@ -105,6 +121,12 @@ fn positive_seconds(text: &str) -> Result<f64, String> {
         Ok(seconds) if seconds > 0.0 && seconds.is_finite() => Ok(seconds),
         _ => Err("give a positive number of seconds, such as 0.01".to_owned()),
     }
+}
+
+fn minutes(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse::<f64>().ok().map(|minutes| 60.0 * minutes).filter(|seconds| *seconds >= 0.0);
+    let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    duration.ok_or_else(|| "give a number of minutes, 0 or more, such as 0.5; 0 writes after every step".to_owned())
 }
 
 fn integrator(text: &str) -> Result<Integrator, String> {

@@ -12,6 +12,13 @@ pub enum End {
     Failed(Failure),
     /// The simulation stopped with this message: exit code 1.
     Stopped(String),
+    /// A signal ended the run after a step; exit code 130 or 143.
+    Interrupted {
+        /// The exit code.
+        code: u8,
+        /// The step, and how to go on.
+        message: String,
+    },
     /// Arguments, scene or output files cannot be used: exit code 2.
     Unusable(String),
 }
@@ -26,17 +33,18 @@ impl End {
     pub fn message(&self) -> String {
         match self {
             Self::Failed(failure) => failure.to_string(),
-            Self::Stopped(message) | Self::Unusable(message) => message.clone(),
+            Self::Stopped(message) | Self::Interrupted { message, .. } | Self::Unusable(message) => message.clone(),
         }
     }
 
     /// Prints the message to stderr and returns the exit code.
     pub fn report(&self) -> ExitCode {
-        let code = match self {
-            Self::Failed(_) | Self::Stopped(_) => 1,
-            Self::Unusable(_) => 2,
+        let (code, kind) = match self {
+            Self::Failed(_) | Self::Stopped(_) => (1, "error"),
+            Self::Unusable(_) => (2, "error"),
+            Self::Interrupted { code, .. } => (*code, "interrupted"),
         };
-        eprintln!("error: {}", self.message());
+        eprintln!("{kind}: {}", self.message());
         ExitCode::from(code)
     }
 }

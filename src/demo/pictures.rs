@@ -25,6 +25,8 @@ mod with_viewer {
         screenshot: Option<PathBuf>,
         record: Option<PathBuf>,
         recorder: Option<Recorder>,
+        /// Time of the first state, s.
+        start: f64,
     }
 
     impl Pictures {
@@ -38,7 +40,7 @@ mod with_viewer {
                 renderer.set_up(up);
             }
             let (screenshot, record) = (arguments.screenshot.clone(), arguments.record.clone());
-            Self { renderer, screenshot, record, recorder: None }
+            Self { renderer, screenshot, record, recorder: None, start: 0.0 }
         }
 
         /// Writes the next frame of the recording, if one is due.
@@ -46,9 +48,10 @@ mod with_viewer {
             let (Some(renderer), Some(folder)) = (&mut self.renderer, &self.record) else { return Ok(()) };
             if self.recorder.is_none() {
                 self.recorder = Some(Recorder::new(folder).map_err(End::unusable)?);
+                self.start = simulation.time();
             }
             match &mut self.recorder {
-                Some(recorder) if recorder.due(simulation.time()) => {
+                Some(recorder) if recorder.due(simulation.time() - self.start) => {
                     let picture = renderer.render(simulation, DisplayedSurface::Skinned).map_err(End::unusable)?;
                     recorder.frame(&picture).map_err(End::unusable)
                 }

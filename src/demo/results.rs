@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use fem_mesh::write::Frame;
+use fem_scene::Scene;
 use fem_scene::output::{self, EXPORTS, Stats};
 use fem_scene::simulate::{Run, quantile};
 use fem_scene::simulation::{Energies, Reaction, Simulation};
@@ -16,7 +17,10 @@ use super::engine;
 /// A run that has ended, with or without a failure.
 pub struct Finished<'a> {
     pub simulation: &'a dyn Simulation,
+    pub scene: &'a Scene,
     pub run: Run,
+    /// Exit code of the signal that has ended the run, if one has.
+    pub signal: Option<u8>,
     pub seconds_setup: f64,
     pub energies: Vec<(f64, Energies)>,
     pub frames: Vec<Frame>,
@@ -26,17 +30,10 @@ pub struct Finished<'a> {
 
 /// Returns an error for output files that could not be written, before the first step.
 pub fn check(arguments: &RunArguments) -> Result<(), End> {
-    let files = [
-        ("--state", &arguments.state),
-        ("--stats", &arguments.stats),
-        ("--energies", &arguments.energies),
-        ("--export", &arguments.export),
-        ("--screenshot", &arguments.screenshot),
-    ];
+    let files = output_files(arguments);
     for (i, (option, file)) in files.iter().enumerate() {
-        let Some(file) = file else { continue };
         check_file(option, file)?;
-        if let Some((earlier, _)) = files[..i].iter().find(|(_, other)| other.as_ref() == Some(file)) {
+        if let Some((earlier, _)) = files[..i].iter().find(|(_, other)| other == file) {
             let problem = format!("{earlier} and {option} name the same file {}; give each its own", file.display());
             return Err(End::unusable(problem));
         }
@@ -53,6 +50,20 @@ pub fn check(arguments: &RunArguments) -> Result<(), End> {
     }
 }
 
+/// The options that name a file to write, with the files.
+fn output_files(arguments: &RunArguments) -> Vec<(&'static str, &Path)> {
+    let files = [
+        ("--state", &arguments.state),
+        ("--checkpoint", &arguments.checkpoint),
+        ("--stats", &arguments.stats),
+        ("--energies", &arguments.energies),
+        ("--export", &arguments.export),
+        ("--screenshot", &arguments.screenshot),
+    ];
+    let named = files.into_iter().filter_map(|(option, file)| Some((option, file.as_deref()?)));
+    named.chain(arguments.probe.iter().map(|probe| ("--probe", probe.file.as_path()))).collect()
+}
+
 fn check_file(option: &str, file: &Path) -> Result<(), End> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if file.is_dir() || file.file_name().is_none() {
@@ -66,9 +77,9 @@ fn check_file(option: &str, file: &Path) -> Result<(), End> {
 
 /// Writes the files that the options name and prints the summary.
 pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
-    let Finished { simulation, run, seconds_setup, energies, frames, expected_tip } = finished;
+    let Finished { simulation, scene, run, signal, seconds_setup, energies, frames, expected_tip } = finished;
     if let Some(path) = &arguments.state {
-        output::write_state(path, *simulation).map_err(End::unusable)?;
+        output::write_state(path, scene, *simulation).map_err(End::unusable)?;
     }
     if let Some(path) = &arguments.energies {
         output::write_energies(path, energies).map_err(End::unusable)?;
@@ -83,10 +94,20 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
     if let Some(expected) = expected_tip {
         engine::print_tip(*simulation, expected);
     }
-    match &run.failure {
-        Some(failure) => Err(End::Failed(failure.clone())),
-        None => Ok(()),
+    match (&run.failure, signal) {
+        (Some(failure), _) => Err(End::Failed(failure.clone())),
+        (None, Some(code)) => Err(End::Interrupted { code: *code, message: how_to_go_on(*simulation, arguments) }),
+        (None, None) => Ok(()),
     }
+}
+
+/// The step that an interrupted run has reached, and how to go on from there.
+fn how_to_go_on(simulation: &dyn Simulation, arguments: &RunArguments) -> String {
+    let remedy = match arguments.state.as_ref().or(arguments.checkpoint.as_ref()) {
+        Some(file) => format!("go on with --resume {}", file.display()),
+        None => "with --state FILE.json the run could be resumed from here".to_owned(),
+    };
+    format!("the run ended after step {} (t = {:.6} s); {remedy}", simulation.steps(), simulation.time())
 }
 
 fn print_summary(simulation: &dyn Simulation, run: &Run) {

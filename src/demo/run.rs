@@ -1,8 +1,10 @@
 //! Runs a scene, in a window if one can be opened.
 
-use fem_scene::Scene;
+use std::path::Path;
 
-use super::build::build;
+use fem_scene::{Scene, output};
+
+use super::build::{Ready, build};
 use super::cli::RunArguments;
 use super::end::End;
 use super::{data, explain, headless, results, window};
@@ -11,21 +13,37 @@ use super::{data, explain, headless, results, window};
 pub fn run(arguments: &RunArguments) -> Result<(), End> {
     results::check(arguments)?;
     let scene = scene_with_overrides(arguments)?;
-    let ready = build(&scene)?;
+    let mut ready = build(&scene)?;
     if arguments.explain {
         explain::print(&scene, &*ready.simulation);
         return Ok(());
     }
-    if arguments.headless || arguments.vtu_series.is_some() {
-        return headless::run(ready, arguments);
+    if let Some(file) = &arguments.resume {
+        resume(file, &scene, &mut ready)?;
+    }
+    let has_no_window = arguments.vtu_series.is_some() || arguments.checkpoint.is_some() || !arguments.probe.is_empty();
+    if arguments.headless || has_no_window {
+        return headless::run(ready, &scene, arguments);
     }
     match window::available() {
-        Ok(()) => window::run(ready, arguments),
+        Ok(()) => window::run(ready, &scene, arguments),
         Err(reason) => {
             eprintln!("no window ({reason}); running without one, as --headless does");
-            headless::run(ready, arguments)
+            headless::run(ready, &scene, arguments)
         }
     }
+}
+
+/// Continues from a state file; the steps that it has done count.
+fn resume(file: &Path, scene: &Scene, ready: &mut Ready) -> Result<(), End> {
+    output::resume(file, scene, &mut *ready.simulation).map_err(|error| End::unusable(format!("--resume {error}")))?;
+    let (done, all) = (ready.simulation.steps(), ready.steps);
+    if done >= all {
+        let problem = format!("is a state after step {done}, and the run ends after step {all}; give more by --steps");
+        return Err(End::unusable(format!("--resume {}: {problem}", file.display())));
+    }
+    ready.steps -= done;
+    Ok(())
 }
 
 fn scene_with_overrides(arguments: &RunArguments) -> Result<Scene, End> {

@@ -1,5 +1,7 @@
 //! A run in a window.
 
+use fem_scene::Scene;
+
 use super::build::Ready;
 use super::cli::RunArguments;
 use super::end::End;
@@ -18,7 +20,7 @@ pub fn available() -> Result<(), String> {
 
 /// Shows the simulation until the window is closed, then writes the files that the options name.
 #[cfg(feature = "viewer")]
-pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
+pub fn run(ready: Ready, scene: &Scene, arguments: &RunArguments) -> Result<(), End> {
     use fem_scene::simulate::Run;
     use fem_viewer::{Stop, WindowError, WindowOptions};
 
@@ -30,7 +32,7 @@ pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
         up,
         screenshot: arguments.screenshot.clone(),
         record: arguments.record.clone(),
-        quit_after_steps: arguments.steps,
+        quit_after_steps: arguments.steps.map(|_| steps),
         log_energies: arguments.energies.is_some(),
         ..WindowOptions::default()
     };
@@ -40,6 +42,7 @@ pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
             eprintln!("no window ({}); running without one, as --headless does", no_window.reason);
             return headless::run(
                 Ready { simulation: no_window.simulation, seconds_setup, steps, up, expected_tip },
+                scene,
                 arguments,
             );
         }
@@ -54,9 +57,11 @@ pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
         None => None,
     };
     let Some(simulation) = outcome.simulation else { return Err(End::Stopped("the simulation panicked".to_owned())) };
-    let run = Run { step_seconds: outcome.step_seconds, failure };
+    let run = Run { step_seconds: outcome.step_seconds, failure, interrupted: false };
     let finished = Finished {
         simulation: &*simulation,
+        scene,
+        signal: None,
         run,
         seconds_setup,
         energies: outcome.energies,
@@ -68,6 +73,6 @@ pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
 
 /// Never called, because no window is available.
 #[cfg(not(feature = "viewer"))]
-pub fn run(ready: Ready, arguments: &RunArguments) -> Result<(), End> {
-    super::headless::run(ready, arguments)
+pub fn run(ready: Ready, scene: &Scene, arguments: &RunArguments) -> Result<(), End> {
+    super::headless::run(ready, scene, arguments)
 }

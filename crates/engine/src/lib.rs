@@ -14,6 +14,7 @@ pub mod boundary;
 pub mod cantilever;
 pub mod elements;
 pub mod forces;
+mod history;
 pub mod integrators;
 pub mod materials;
 pub mod model;

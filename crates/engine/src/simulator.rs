@@ -1,5 +1,6 @@
 //! The engine's simulation of one scene: a [`System`] and its [`State`], advanced by an integrator, as a [`Simulation`].
 
+mod checkpoint;
 mod integrator;
 mod parts;
 mod range_check;
@@ -119,7 +120,16 @@ impl<T: Real> Simulator<T> {
         }
         self.integrator.forget();
     }
+
+    /// Lets the Dirichlet conditions apply that apply in a step from this time, s. Returns whether these are others than before.
+    fn apply_conditions_at(&mut self, time: f64) -> bool {
+        // Times are sums of steps, so the release may lie a rounding error beyond the one that was meant.
+        self.system.apply_conditions_at(time + ROUNDING * self.dt)
+    }
 }
+
+/// Part of a time step by which the time of a step may be rounded.
+const ROUNDING: f64 = 1e-6;
 
 /// The velocities of the mesh's nodes in the engine's numbering, zero at constrained degrees of freedom, m/s.
 fn initial_velocity<T: Real>(of_mesh: &[Vector3<f64>], system: &System<T>) -> Vec<[T; 3]> {

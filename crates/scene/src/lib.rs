@@ -12,6 +12,7 @@ mod body;
 mod check;
 mod curve;
 mod error;
+mod identity;
 mod integrator;
 mod interaction;
 mod load;
@@ -35,7 +36,7 @@ pub use tables::{Axis, MODELS, Material, Pipeline, Precision, Preconditioner, Pr
 pub use timer::Timer;
 pub use values::{
     DirichletCondition, Drag, MaterialRegion, Method, Motion, NewtonSettings, Pressure, RayleighDamping, Rotation,
-    SolverSettings, Spring, Traction,
+    SolverSettings, Spring, Traction, highest_node,
 };
 pub use warnings::warnings;
 

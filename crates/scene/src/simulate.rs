@@ -1,5 +1,6 @@
 //! The loop that steps a simulation and measures its time.
 
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 use crate::simulation::{Failure, Simulation};
@@ -11,17 +12,19 @@ pub struct Run {
     pub step_seconds: Vec<f64>,
     /// The failure, if a step failed.
     pub failure: Option<Failure>,
+    /// Whether `after_step` ended the run before its last step.
+    pub interrupted: bool,
 }
 
-/// Advances by `steps` steps, or up to the first that fails. `after_step` is not part of the measured time; its error ends the
-/// run.
+/// Advances by `steps` steps, or up to the first that fails. `after_step` is not part of the measured time; it ends the run by an
+/// error or by [`ControlFlow::Break`].
 pub fn run<E>(
     simulation: &mut dyn Simulation,
     steps: usize,
-    mut after_step: impl FnMut(&dyn Simulation) -> Result<(), E>,
+    mut after_step: impl FnMut(&dyn Simulation) -> Result<ControlFlow<()>, E>,
 ) -> Result<Run, E> {
     let mut run = Run::default();
-    for _ in 0..steps {
+    for step in 1..=steps {
         let start = Instant::now();
         let outcome = simulation.step();
         let seconds = start.elapsed().as_secs_f64();
@@ -30,7 +33,10 @@ pub fn run<E>(
             break;
         }
         run.step_seconds.push(seconds);
-        after_step(simulation)?;
+        if after_step(simulation)?.is_break() {
+            run.interrupted = step < steps;
+            break;
+        }
     }
     Ok(run)
 }

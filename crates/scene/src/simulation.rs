@@ -1,5 +1,6 @@
 //! The trait between a pipeline and the window, the headless loop and the reports.
 
+mod checkpoint;
 mod failure;
 mod parameter;
 mod part;
@@ -10,6 +11,7 @@ use nalgebra::{DVector, Matrix3, Matrix4, Vector3, Vector4};
 
 use fem_mesh::{SurfaceMesh, TetrahedralMesh};
 
+pub use checkpoint::{Checkpoint, History};
 pub use failure::{Breakdown, Cause, Failure};
 pub use parameter::Parameter;
 pub use part::Part;
@@ -34,6 +36,9 @@ pub trait Simulation: Send {
     /// Simulated time since the start or the last reset, s.
     fn time(&self) -> f64;
 
+    /// Steps since the start or the last reset.
+    fn steps(&self) -> usize;
+
     /// Time step, s.
     fn dt(&self) -> f64;
 
@@ -42,6 +47,13 @@ pub trait Simulation: Send {
 
     /// Returns to the initial state: undeformed, at rest, time zero. Parameters and integrator keep their values.
     fn reset(&mut self);
+
+    /// Everything that [`restore`](Self::restore) needs for the run to go on bit for bit as if it had not been interrupted.
+    fn checkpoint(&self) -> Checkpoint;
+
+    /// Takes over the state of a simulation of the same scene. Returns an error, and returns to the initial state, if the checkpoint
+    /// is one of another body or method.
+    fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), String>;
 
     /// Kinetic and potential energy now, J.
     fn energies(&self) -> Energies;

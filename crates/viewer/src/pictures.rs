@@ -1,8 +1,10 @@
 //! Pictures and recordings as PNG files.
 
 use std::fs;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
+use fem_mesh::Problem;
 use image::{ImageError, ImageFormat, RgbImage};
 use thiserror::Error;
 
@@ -35,10 +37,15 @@ impl Picture {
         self.image.as_raw()
     }
 
-    /// Writes a PNG file, whatever the extension of the path.
+    /// Writes a PNG file, whatever the extension of the path: complete or not at all.
     pub fn save(&self, path: &Path) -> Result<(), NotWritten> {
-        let result = self.image.save_with_format(path, ImageFormat::Png);
-        result.map_err(|error| NotWritten { path: path.to_owned(), cause: cause(error) })
+        let not_written = |cause: String| NotWritten { path: path.to_owned(), cause };
+        let mut png = Cursor::new(Vec::new());
+        self.image.write_to(&mut png, ImageFormat::Png).map_err(|error| not_written(cause(error)))?;
+        fem_mesh::write::save(path, |out| out.write_all(png.get_ref())).map_err(|error| match *error.problem {
+            Problem::Unwritable { reason } => not_written(reason),
+            other => not_written(other.to_string()),
+        })
     }
 }
 

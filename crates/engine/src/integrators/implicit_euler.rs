@@ -1,11 +1,12 @@
 //! Implicit Euler: M (v⁺ − v)/dt = f(u + dt v⁺), every force at the end of the step; first order, unconditionally stable.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_scene::simulation::{Cause, Counters, History};
 
 use super::followers::Followers;
 use super::initial_guess::InitialGuess;
 use super::{Convergence, Integrator, momentum};
 use crate::forces::Moment;
+use crate::history::{put, take};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::Newton;
@@ -57,6 +58,16 @@ impl<T: Real> Integrator<T> for ImplicitEuler<T> {
     fn forget(&mut self) {
         self.newton.forget();
         self.last_change.fill([T::default(); 3]);
+    }
+
+    fn save(&self, history: &mut History) {
+        put(history, "implicit_euler.last_change", self.last_change.as_flattened());
+        self.newton.save(history);
+    }
+
+    fn restore(&mut self, history: &History) -> Result<(), String> {
+        take(history, "implicit_euler.last_change", self.last_change.as_flattened_mut())?;
+        self.newton.restore(history)
     }
 
     fn solver(&self) -> Option<&Solver<T>> {

@@ -2,7 +2,7 @@
 //! Witkin, Large Steps in Cloth Simulation (1998). First order; no energy, no line search. Follower loads act on the surface at the
 //! start of the step.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_scene::simulation::{Cause, Counters, History};
 
 use super::followers::Followers;
 use super::{Convergence, Integrator, momentum};
@@ -86,6 +86,15 @@ impl<T: Real> Integrator<T> for LinearlyImplicitEuler<T> {
             }
         }
         Ok(Convergence::Converged)
+    }
+
+    fn save(&self, history: &mut History) {
+        // Every step has a matrix of its own.
+        self.solver.save(false, history);
+    }
+
+    fn restore(&mut self, history: &History) -> Result<(), String> {
+        self.solver.restore(false, history)
     }
 
     fn solver(&self) -> Option<&Solver<T>> {

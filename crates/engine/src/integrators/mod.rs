@@ -27,7 +27,7 @@ pub use verlet::Verlet;
 
 pub use crate::newton::Convergence;
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_scene::simulation::{Cause, Counters, History};
 
 use crate::forces::Moment;
 use crate::model::state::State;
@@ -52,6 +52,14 @@ pub trait Integrator<T: Real>: Send {
 
     /// Drops what depends on the external forces at the end of the last step: a user's pull has changed them.
     fn forget_forces(&mut self) {}
+
+    /// Adds what it keeps from step to step to a history.
+    fn save(&self, _history: &mut History) {}
+
+    /// Takes over what [`save`](Self::save) has added, so that steps go on bit for bit as they would have.
+    fn restore(&mut self, _history: &History) -> Result<(), String> {
+        Ok(())
+    }
 
     /// The moment at which the forces of a state are evaluated.
     fn moment(&self, state: &State<T>) -> Moment {

@@ -1,11 +1,12 @@
 //! Static equilibrium, ∇V(u) = 0, by load stepping: loads and prescribed motions grow in equal parts, one in each step.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_scene::simulation::{Cause, Counters, History};
 
 use super::followers::Followers;
 use super::initial_guess::infeasible;
 use super::{Convergence, Integrator};
 use crate::forces::{HessianKind, Moment};
+use crate::history::{put, take};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::Newton;
@@ -96,6 +97,27 @@ impl<T: Real> Integrator<T> for Statics<T> {
     fn forget(&mut self) {
         if let Method::Newton(newton) = &mut self.method {
             newton.forget();
+        }
+    }
+
+    fn save(&self, history: &mut History) {
+        match &self.method {
+            Method::Linear(linear) => {
+                // An iterative solver starts from the last solution.
+                put(history, "static.solution", linear.solution.as_flattened());
+                linear.solver.save(false, history);
+            }
+            Method::Newton(newton) => newton.save(history),
+        }
+    }
+
+    fn restore(&mut self, history: &History) -> Result<(), String> {
+        match &mut self.method {
+            Method::Linear(linear) => {
+                take(history, "static.solution", linear.solution.as_flattened_mut())?;
+                linear.solver.restore(false, history)
+            }
+            Method::Newton(newton) => newton.restore(history),
         }
     }
 

@@ -1,9 +1,10 @@
 //! Velocity Verlet, Swope et al. (1982): half a kick, a drift, half a kick. Second order; stable for ω dt < 2 of the fastest
 //! vibration; symplectic without damping.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_scene::simulation::{Cause, Counters, History};
 
 use super::{Accelerations, Convergence, Integrator};
+use crate::history::{put, take};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
@@ -51,6 +52,16 @@ impl<T: Real> Integrator<T> for Verlet<T> {
         // With damping it depends on the velocities, with a prescribed motion on their change.
         *is_known = system.damping.is_none() && !system.dirichlet.has_motion();
         Ok(Convergence::Converged)
+    }
+
+    fn save(&self, history: &mut History) {
+        let a: &[[T; 3]] = if self.is_known { &self.a } else { &[] };
+        put(history, "verlet.acceleration", a.as_flattened());
+    }
+
+    fn restore(&mut self, history: &History) -> Result<(), String> {
+        self.is_known = !history.get("verlet.acceleration")?.is_empty();
+        if self.is_known { take(history, "verlet.acceleration", self.a.as_flattened_mut()) } else { Ok(()) }
     }
 
     fn forget(&mut self) {

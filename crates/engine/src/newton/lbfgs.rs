@@ -2,6 +2,9 @@
 
 use std::collections::VecDeque;
 
+use fem_scene::simulation::History;
+
+use crate::history::{put, take};
 use crate::number::Real;
 use crate::vector::{axpy, dot};
 
@@ -55,6 +58,31 @@ impl<T: Real> Lbfgs<T> {
         } else {
             self.spare.push(pair);
         }
+    }
+
+    /// Adds its pairs.
+    pub fn save(&self, history: &mut History) {
+        let numbers = |pair: &Pair<T>| [&pair.step, &pair.change].map(|x| x.as_flattened().to_vec()).concat();
+        put(history, "lbfgs.pairs", &self.pairs.iter().flat_map(numbers).collect::<Vec<T>>());
+        history.put("lbfgs.curvatures", self.pairs.iter().map(|pair| pair.curvature));
+    }
+
+    /// Takes over the pairs that [`save`](Self::save) has added.
+    pub fn restore(&mut self, history: &History) -> Result<(), String> {
+        self.clear();
+        let curvatures = history.get("lbfgs.curvatures")?;
+        let length = 3 * self.spare.first().map_or(0, |pair| pair.step.len());
+        let mut numbers = vec![T::default(); 2 * length * curvatures.len()];
+        take(history, "lbfgs.pairs", &mut numbers)?;
+        for (number, &curvature) in curvatures.iter().enumerate() {
+            let Some(mut pair) = self.spare.pop() else { return Err("its history has too many pairs".to_owned()) };
+            let (step, change) = numbers[2 * length * number..][..2 * length].split_at(length);
+            pair.step.as_flattened_mut().copy_from_slice(step);
+            pair.change.as_flattened_mut().copy_from_slice(change);
+            pair.curvature = curvature;
+            self.pairs.push_back(pair);
+        }
+        Ok(())
     }
 
     /// Replaces x by H⁻¹ x by Nocedal's two-loop recursion; `solve` applies the kept inverse.

@@ -14,9 +14,10 @@ mod line_search;
 
 pub use limits::NewtonLimits;
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_scene::simulation::{Cause, Counters, History};
 
 use crate::forces::{Energy, HessianKind};
+use crate::history::{put, put_flag, put_option, take, take_flag, take_option};
 use crate::number::Real;
 use crate::solvers::Solver;
 use crate::sparse::Block;
@@ -111,6 +112,36 @@ impl<T: Real> Newton<T> {
         self.factor = Factor::Stale;
         self.first_iterations = None;
         self.lbfgs.clear();
+    }
+
+    /// Adds the kept factor and what decides how long it is kept.
+    pub fn save(&self, history: &mut History) {
+        let (is_kept, first_iterations) = (self.factor != Factor::Stale, self.first_iterations);
+        put_flag(history, "newton.is_matrix_kept", is_kept);
+        put_option(history, "newton.first_iterations", first_iterations.map(|count| count as f64));
+        put_flag(history, "newton.is_new_preconditioner", self.is_new_preconditioner);
+        self.solver.save(is_kept || first_iterations.is_some(), history);
+        if is_kept {
+            put(history, "newton.values", self.values.as_flattened().as_flattened());
+            self.lbfgs.save(history);
+        }
+    }
+
+    /// Takes over what [`save`](Self::save) has added.
+    pub fn restore(&mut self, history: &History) -> Result<(), String> {
+        self.forget();
+        let is_kept = take_flag(history, "newton.is_matrix_kept")?;
+        let first_iterations = take_option(history, "newton.first_iterations")?;
+        self.first_iterations = first_iterations.map(|count| count as usize);
+        self.is_new_preconditioner = take_flag(history, "newton.is_new_preconditioner")?;
+        self.solver.restore(is_kept || first_iterations.is_some(), history)?;
+        if is_kept {
+            take(history, "newton.values", self.values.as_flattened_mut().as_flattened_mut())?;
+            self.solver.prepare_again(&self.values)?;
+            self.lbfgs.restore(history)?;
+            self.factor = Factor::Kept;
+        }
+        Ok(())
     }
 
     /// Its limits.

@@ -4,20 +4,17 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use fem_scene::simulation::{
-    Cause, Click, Counters, Energies, Failure, Parameter, Part, Pull, Reaction, Shape, Simulation,
+    Cause, Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, Pull, Reaction, Shape, Simulation,
 };
 use nalgebra::{DVector, Matrix3, Vector3};
 
 use super::integrator::{build, integrators, solver_choice};
-use super::{Simulator, parts};
+use super::{Simulator, checkpoint, parts};
 use crate::boundary::reactions::reactions;
 use crate::integrators::Convergence;
 use crate::model::state::State;
 use crate::number::Real;
 use crate::pick;
-
-/// Part of a time step by which the time of a step may be rounded.
-const ROUNDING: f64 = 1e-6;
 
 impl<T: Real> Simulation for Simulator<T> {
     fn name(&self) -> &str {
@@ -54,13 +51,16 @@ impl<T: Real> Simulation for Simulator<T> {
         self.state.time
     }
 
+    fn steps(&self) -> usize {
+        self.state.steps
+    }
+
     fn dt(&self) -> f64 {
         self.dt
     }
 
     fn step(&mut self) -> Result<(), Failure> {
-        // Times are sums of steps, so the release may lie a rounding error beyond the one that was meant.
-        if self.system.apply_conditions_at(self.state.time + ROUNDING * self.dt) {
+        if self.apply_conditions_at(self.state.time) {
             self.integrator.forget();
         }
         let Self { integrator, system, state, dt, counters, last_good, .. } = self;
@@ -89,6 +89,18 @@ impl<T: Real> Simulation for Simulator<T> {
         self.state = State::at_start(self.system.nodes(), &self.initial_velocity);
         self.last_good.copy_from(&self.state);
         self.integrator.forget();
+    }
+
+    fn checkpoint(&self) -> Checkpoint {
+        checkpoint::of(self)
+    }
+
+    fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), String> {
+        let outcome = checkpoint::restore(self, checkpoint);
+        if outcome.is_err() {
+            self.reset();
+        }
+        outcome
     }
 
     fn energies(&self) -> Energies {

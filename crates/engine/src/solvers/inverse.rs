@@ -2,7 +2,7 @@
 
 use crate::number::Real;
 use crate::sparse::Block;
-use fem_scene::simulation::Breakdown;
+use fem_scene::simulation::{Breakdown, History};
 
 /// An approximate inverse P⁻¹ of a matrix A: a factor, which is exact up to round-off, or a preconditioner. It is created for
 /// one sparsity pattern and prepared for the values of a matrix. Neither `prepare` nor `apply` allocates after the first time.
@@ -17,6 +17,20 @@ pub(crate) trait ApproximateInverse<T: Real>: Send + Sync {
     /// iterations. Only methods that [copy the matrix](super::SolverChoice::copies_matrix) have such an iteration.
     fn correct(&mut self, _r: &[[T; 3]], _x: &mut [[T; 3]], _tolerance: f64) -> Result<usize, Breakdown> {
         Err(Breakdown::NotConverged { residual: 1.0 })
+    }
+
+    /// Adds what the next [`prepare`](Self::prepare) takes from earlier matrices, and, if P `is_kept`, what P takes from them. A
+    /// factor takes nothing.
+    fn save(&self, _is_kept: bool, _history: &mut History) {}
+
+    /// Takes over what [`save`](Self::save) has added.
+    fn restore(&mut self, _is_kept: bool, _history: &History) -> Result<(), String> {
+        Ok(())
+    }
+
+    /// Computes P after [`restore`](Self::restore), with the matrix that is still in use: P becomes what it was, bit for bit.
+    fn prepare_again(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        self.prepare(values)
     }
 
     /// Allocated bytes.

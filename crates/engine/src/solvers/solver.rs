@@ -10,7 +10,7 @@ use super::preconditioners::{BlockJacobi, Identity, IncompleteCholesky, Multigri
 use crate::number::Real;
 use crate::sparse::{Block, Pattern};
 use fem_scene::Timer;
-use fem_scene::simulation::Breakdown;
+use fem_scene::simulation::{Breakdown, History};
 
 /// Operations that a solver has carried out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -109,6 +109,24 @@ impl<T: Real> Solver<T> {
     pub fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
         let Self { pattern, inverse, solving, .. } = self;
         solving.time(|| inverse.apply(&r[..pattern.rows()], &mut z[..pattern.rows()]));
+    }
+
+    /// Adds what the next preparation takes from earlier matrices, and, if the factor or preconditioner `is_kept`, what it takes
+    /// from them.
+    pub fn save(&self, is_kept: bool, history: &mut History) {
+        self.inverse.save(is_kept, history);
+    }
+
+    /// Takes over what [`save`](Self::save) has added.
+    pub fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String> {
+        self.inverse.restore(is_kept, history)
+    }
+
+    /// Computes the kept factor or preconditioner after [`restore`](Self::restore), bit for bit as it was. `values` is the matrix that
+    /// is still in use.
+    pub fn prepare_again(&mut self, values: &[Block<T, 3>]) -> Result<(), String> {
+        let again = self.inverse.prepare_again(values);
+        again.map_err(|breakdown| format!("its matrix cannot be factored again: {breakdown}"))
     }
 
     /// Whether a solve iterates with the matrix that it is given, so that the prepared matrix only preconditions.

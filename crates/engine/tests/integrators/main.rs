@@ -18,6 +18,7 @@ mod parts;
 mod pressures;
 mod reactions;
 mod release;
+mod resume;
 mod shipped_scenes;
 mod statics;
 mod surface_loads;

@@ -1,17 +1,20 @@
 //! The files of a run: state, energies, statistics, the final mesh, a series of meshes.
 
 mod fields;
+mod probe;
 mod series;
+mod state;
 
 pub use fields::von_mises;
+pub use probe::Probe;
 pub use series::Series;
+pub use state::{ResumeError, resume, write_state};
 
 use fields::export_fields;
 
 use std::fmt::Write as _;
 use std::path::Path;
 
-use nalgebra::DVector;
 use serde::Serialize;
 
 use crate::simulate::{Run, quantile};
@@ -22,16 +25,7 @@ use fem_mesh::{MeshError, Problem, SurfaceMesh};
 /// File extensions that [`export`] supports.
 pub const EXPORTS: [&str; 3] = ["obj", "vtu", "glb"];
 
-/// Writes `{"time", "q", "qdot"}` of all nodes with 17 significant digits, enough for an exact round trip.
-pub fn write_state(path: &Path, simulation: &dyn Simulation) -> Result<(), MeshError> {
-    let list =
-        |values: &DVector<f64>| values.iter().map(|value| format!("{value:.16e}")).collect::<Vec<_>>().join(", ");
-    let time = format!("{:.16e}", simulation.time());
-    let (q, qdot) = (list(&simulation.positions()), list(&simulation.velocities()));
-    write_text(path, &format!("{{\n\"time\": {time},\n\"q\": [{q}],\n\"qdot\": [{qdot}]\n}}\n"))
-}
-
-/// Writes `time,kinetic,potential,total` (s and J), a line for each step.
+/// Writes `time,kinetic,potential,total` (s and J), a line for the first state and for each step.
 pub fn write_energies(path: &Path, rows: &[(f64, Energies)]) -> Result<(), MeshError> {
     let mut text = "time,kinetic,potential,total\n".to_owned();
     for (time, energies) in rows {
@@ -47,7 +41,7 @@ pub fn write_energies(path: &Path, rows: &[(f64, Energies)]) -> Result<(), MeshE
 #[allow(missing_docs)] // the names are the keys of the file; README.md explains them
 pub struct Stats {
     pub scene: String,
-    /// `done`, or `failed` with the reason.
+    /// `done`, `interrupted`, or `failed` with the reason.
     pub status: String,
     pub nodes: usize,
     pub elements: usize,
@@ -86,7 +80,11 @@ impl Stats {
         let cost = |part: &Part| serde_json::json!({ "bytes": part.bytes, "uses": part.uses, "seconds": part.seconds });
         Self {
             scene: simulation.name().to_owned(),
-            status: run.failure.as_ref().map_or("done".to_owned(), |failure| format!("failed: {failure}")),
+            status: match &run.failure {
+                Some(failure) => format!("failed: {failure}"),
+                None if run.interrupted => "interrupted".to_owned(),
+                None => "done".to_owned(),
+            },
             nodes: shape.mesh.vertices.len(),
             elements: shape.mesh.elements.len(),
             steps: counters.steps,

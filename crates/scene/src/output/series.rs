@@ -9,13 +9,14 @@ use crate::simulation::Simulation;
 use fem_mesh::write::write_pvd;
 use fem_mesh::{MeshError, Problem};
 
-/// Files of a run in a folder: `NAME_000000.vtu` of the initial state, one after every so many steps and after the last one, and `NAME.pvd` with the time
-/// of each. NAME is that of the simulation.
+/// Files of a run in a folder: `NAME_000000.vtu` of the first state, one after every so many steps and after the last one, and
+/// `NAME.pvd` with the time of each. NAME is that of the simulation, and files are numbered by the steps since its start.
 #[derive(Debug)]
 pub struct Series {
     folder: PathBuf,
     every: NonZeroUsize,
-    states: usize,
+    /// Step of the last file.
+    last: Option<usize>,
     written: Vec<(f64, String)>,
 }
 
@@ -24,31 +25,36 @@ impl Series {
     pub fn new(folder: &Path, every: NonZeroUsize) -> Result<Self, MeshError> {
         let unwritable = |error: std::io::Error| Problem::Unwritable { reason: error.to_string() };
         fs::create_dir_all(folder).map_err(|error| MeshError::in_file(folder, unwritable(error)))?;
-        Ok(Self { folder: folder.to_owned(), every, states: 0, written: Vec::new() })
+        Ok(Self { folder: folder.to_owned(), every, written: Vec::new() })
     }
 
-    /// Writes the state if its step is one of the series. Call it with the initial state and after every step.
+    /// Writes the state if its step is one of the series. Call it with the first state and after every step.
     pub fn add(&mut self, simulation: &dyn Simulation) -> Result<(), MeshError> {
-        self.states += 1;
-        if (self.states - 1).is_multiple_of(self.every.get()) { self.write(simulation) } else { Ok(()) }
+        let is_one = self.last.is_none() || simulation.steps().is_multiple_of(self.every.get());
+        if is_one { self.write(simulation) } else { Ok(()) }
     }
 
-    /// Writes the last state that was added.
     fn write(&mut self, simulation: &dyn Simulation) -> Result<(), MeshError> {
-        let step = self.states - 1;
+        let step = simulation.steps();
         let file = format!("{}_{step:06}.vtu", simulation.name());
         export_fields(&self.folder.join(&file), simulation)?;
         self.written.push((simulation.time(), file));
+        self.last = Some(step);
         Ok(())
     }
 
-    /// Writes the last state unless it is there, and the `.pvd` list of the files so far. Returns its path.
-    pub fn finish(&mut self, simulation: &dyn Simulation) -> Result<PathBuf, MeshError> {
-        if self.states > 0 && !(self.states - 1).is_multiple_of(self.every.get()) {
-            self.write(simulation)?;
-        }
+    /// Writes the `.pvd` list of the files so far, and returns its path.
+    pub fn write_list(&self, simulation: &dyn Simulation) -> Result<PathBuf, MeshError> {
         let path = self.folder.join(format!("{}.pvd", simulation.name()));
         write_pvd(&path, &self.written)?;
         Ok(path)
+    }
+
+    /// Writes the last state unless it is there, and the list. Returns its path.
+    pub fn finish(&mut self, simulation: &dyn Simulation) -> Result<PathBuf, MeshError> {
+        if self.last != Some(simulation.steps()) {
+            self.write(simulation)?;
+        }
+        self.write_list(simulation)
     }
 }

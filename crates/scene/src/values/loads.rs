@@ -111,13 +111,13 @@ pub(crate) fn drag(scene: &Scene, mesh: &TetrahedralMesh) -> Result<Option<Drag>
     let Some(DragTable { vertex, stiffness, direction, amplitude, frequency }) = scene.drag else { return Ok(None) };
     let node = match vertex {
         DragVertex::Index(node) => listed(scene, "drag.vertex", &[node], mesh).map(|_| node)?,
-        DragVertex::Highest => highest(mesh),
+        DragVertex::Highest => highest_node(mesh),
     };
     Ok(Some(Drag { node, stiffness, direction: direction.into(), amplitude, frequency }))
 }
 
-/// The first node of largest y.
-fn highest(mesh: &TetrahedralMesh) -> usize {
+/// The first node of largest y in the undeformed mesh.
+pub fn highest_node(mesh: &TetrahedralMesh) -> usize {
     let heights = mesh.vertices.iter().map(|vertex| vertex.y).enumerate();
     let higher = |best: (usize, f64), next: (usize, f64)| if next.1 > best.1 { next } else { best };
     heights.fold((0, f64::NEG_INFINITY), higher).0

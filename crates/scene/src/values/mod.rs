@@ -8,7 +8,7 @@ mod method;
 mod selection;
 
 pub use constraints::{DirichletCondition, Motion, Rotation};
-pub use loads::{Drag, Pressure, Spring, Traction};
+pub use loads::{Drag, Pressure, Spring, Traction, highest_node};
 pub use materials::MaterialRegion;
 pub use method::{Method, NewtonSettings, RayleighDamping, SolverSettings};
 

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicUsize;
 use std::time::{Duration, Instant};
 
 use fem_mesh::TetrahedralMesh;
-use fem_scene::simulation::{Cause, Counters, Part, Shape};
+use fem_scene::simulation::{Cause, Checkpoint, Counters, Part, Shape};
 use nalgebra::{DVector, Matrix3, Matrix4, Vector4};
 
 use super::*;
@@ -56,6 +56,9 @@ impl Simulation for Fake {
     fn time(&self) -> f64 {
         self.time
     }
+    fn steps(&self) -> usize {
+        self.steps
+    }
     fn dt(&self) -> f64 {
         0.01
     }
@@ -76,6 +79,12 @@ impl Simulation for Fake {
         self.time = 0.0;
         self.fails_at_step = usize::MAX;
         self.panics_at_step = usize::MAX;
+    }
+    fn checkpoint(&self) -> Checkpoint {
+        Checkpoint::default()
+    }
+    fn restore(&mut self, _: &Checkpoint) -> Result<(), String> {
+        Ok(())
     }
     fn energies(&self) -> Energies {
         Energies { kinetic: 1.0, potential: self.time }

@@ -1,10 +1,11 @@
 //! The block Jacobi preconditioner: the inverse of each diagonal block.
 
+use crate::history::{put, take};
 use crate::number::Real;
 use crate::solvers::ApproximateInverse;
 use crate::solvers::block::invert;
 use crate::sparse::{Block, Pattern};
-use fem_scene::simulation::Breakdown;
+use fem_scene::simulation::{Breakdown, History};
 
 /// The inverse of each diagonal block.
 pub(crate) struct BlockJacobi<T> {
@@ -32,6 +33,25 @@ impl<T: Real> ApproximateInverse<T> for BlockJacobi<T> {
         for ((z, r), inverse) in z.iter_mut().zip(r).zip(&self.inverses) {
             *z = inverse.map(|row| row[0] * r[0] + row[1] * r[1] + row[2] * r[2]);
         }
+    }
+
+    fn save(&self, is_kept: bool, history: &mut History) {
+        if !is_kept {
+            return;
+        }
+        put(history, "block_jacobi.inverses", self.inverses.as_flattened().as_flattened());
+    }
+
+    fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String> {
+        if !is_kept {
+            return Ok(());
+        }
+        take(history, "block_jacobi.inverses", self.inverses.as_flattened_mut().as_flattened_mut())
+    }
+
+    /// The inverses may be those of an earlier matrix; they are restored.
+    fn prepare_again(&mut self, _values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        Ok(())
     }
 
     fn bytes(&self) -> usize {

@@ -3,11 +3,12 @@
 //! enlarged: Manteuffel, An Incomplete Factorization Technique for Positive Definite Linear Systems (1980).
 
 use super::lower_half::LowerHalf;
+use crate::history::{put, take};
 use crate::number::Real;
 use crate::solvers::ApproximateInverse;
 use crate::solvers::block::{factor, invert_lower};
 use crate::sparse::{Block, Pattern};
-use fem_scene::simulation::Breakdown;
+use fem_scene::simulation::{Breakdown, History};
 
 /// Relative shifts of the diagonal, tried one after the other until the factorisation succeeds.
 const SHIFTS: [f64; 7] = [0.0, 1e-3, 4e-3, 1.6e-2, 6.4e-2, 0.25, 1.0];
@@ -109,6 +110,27 @@ impl<T: Real> ApproximateInverse<T> for IncompleteCholesky<T> {
                 (0..3).for_each(|i| rest[i] -= product[i]);
             }
         }
+    }
+
+    fn save(&self, is_kept: bool, history: &mut History) {
+        if !is_kept {
+            return;
+        }
+        put(history, "incomplete_cholesky.L", self.L.as_flattened().as_flattened());
+        put(history, "incomplete_cholesky.inverses", self.inverses.as_flattened().as_flattened());
+    }
+
+    fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String> {
+        if !is_kept {
+            return Ok(());
+        }
+        take(history, "incomplete_cholesky.L", self.L.as_flattened_mut().as_flattened_mut())?;
+        take(history, "incomplete_cholesky.inverses", self.inverses.as_flattened_mut().as_flattened_mut())
+    }
+
+    /// The factor may be that of an earlier matrix; it is restored.
+    fn prepare_again(&mut self, _values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        Ok(())
     }
 
     fn bytes(&self) -> usize {

@@ -4,9 +4,10 @@ use pulp::{Simd, WithSimd};
 
 use super::aggregate::{aggregate, centres, rigid};
 use super::blocks::{Blocks, Product, add_product, row_times, sum_products};
+use crate::history::{put, take};
 use crate::number::vectorized;
 use crate::solvers::block::invert;
-use fem_scene::simulation::Breakdown;
+use fem_scene::simulation::{Breakdown, History};
 
 /// Steps of the power iteration for the largest eigenvalue of D⁻¹A. It starts from the vector of the last preparation.
 const POWER_STEPS: usize = 4;
@@ -32,6 +33,8 @@ pub struct Level<const D: usize> {
     slots: Vec<u32>,
     /// Vector of the power iteration.
     power: Vec<[f32; D]>,
+    /// The same before the last preparation, for a checkpoint.
+    power_before: Vec<[f32; D]>,
     pub b: Vec<[f32; D]>,
     pub x: Vec<[f32; D]>,
     r: Vec<[f32; D]>,
@@ -55,6 +58,7 @@ impl<const D: usize> Level<D> {
             inverses: vec![[[0.0; D]; D]; rows],
             slots: vec![0; count],
             power: vector(),
+            power_before: vector(),
             b: vector(),
             x: vector(),
             r: vector(),
@@ -71,6 +75,7 @@ impl<const D: usize> Level<D> {
 
     /// Computes the smoother, the prolongation and the coarse matrix Pᵀ A P from the values of A.
     pub fn prepare(&mut self, coarse: &mut Blocks<6, 6>) -> Result<(), Breakdown> {
+        self.power_before.copy_from_slice(&self.power);
         for (inverse, &block) in self.inverses.iter_mut().zip(&self.diagonal) {
             *inverse = invert(&self.A.values[block])?;
         }
@@ -93,6 +98,16 @@ impl<const D: usize> Level<D> {
             (0..6).for_each(|i| block[i][i] += SHIFT * if block[i][i] > SHIFT * most { block[i][i] } else { most });
         }
         Ok(())
+    }
+
+    /// Adds the vector with which the last preparation began, if its result is kept, or else that of the next one.
+    pub fn save(&self, is_kept: bool, name: &str, history: &mut History) {
+        put(history, name, if is_kept { &self.power_before } else { &self.power }.as_flattened());
+    }
+
+    /// Takes over the vector with which the next preparation begins.
+    pub fn restore(&mut self, name: &str, history: &History) -> Result<(), String> {
+        take(history, name, self.power.as_flattened_mut())
     }
 
     /// Sets an oscillating start vector, at first and after a matrix that was not finite.
@@ -145,7 +160,7 @@ impl<const D: usize> Level<D> {
     }
 
     pub fn bytes(&self) -> usize {
-        let vectors = 4 * size_of_val(self.x.as_slice()) + size_of_val(self.inverses.as_slice());
+        let vectors = 5 * size_of_val(self.x.as_slice()) + size_of_val(self.inverses.as_slice());
         self.A.bytes() + self.rigid.bytes() + self.P.bytes() + self.R.bytes() + self.AP.bytes() + vectors
     }
 }

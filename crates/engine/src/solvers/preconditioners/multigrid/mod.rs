@@ -9,12 +9,13 @@ use blocks::Blocks;
 use level::Level;
 
 use super::single_precision_scale;
+use crate::history::{put, put_option, take, take_option};
 use crate::number::Real;
 use crate::solvers::ApproximateInverse;
 use crate::solvers::direct::SupernodalCholesky;
 use crate::sparse::{Block, Pattern, Stored};
 use crate::vector::norm;
-use fem_scene::simulation::Breakdown;
+use fem_scene::simulation::{Breakdown, History};
 
 /// Coarse matrices of up to this many nodes are factorised.
 const MAX_COARSEST: usize = 150;
@@ -81,14 +82,9 @@ impl Multigrid {
         }
         self.fine.ascend(self.coarser.first().map_or(&self.x, |level| &level.x));
     }
-}
 
-impl<T: Real> ApproximateInverse<T> for Multigrid {
-    fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
-        self.scale = single_precision_scale(values, &self.diagonal)?;
-        for (single, block) in self.fine.A.values.iter_mut().zip(values) {
-            *single = block.map(|row| row.map(|entry| (entry.as_f64() * self.scale) as f32));
-        }
+    /// Prepares all levels for the fine matrix in single precision.
+    fn prepare_levels(&mut self) -> Result<(), Breakdown> {
         let first = self.coarser.first_mut().map_or(&mut self.coarsest, |level| &mut level.A);
         self.fine.prepare(first)?;
         for number in 0..self.coarser.len() {
@@ -98,6 +94,16 @@ impl<T: Real> ApproximateInverse<T> for Multigrid {
         }
         copy_lower(&self.coarsest, &mut self.direct_values);
         self.direct.prepare(&self.direct_values)
+    }
+}
+
+impl<T: Real> ApproximateInverse<T> for Multigrid {
+    fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        self.scale = single_precision_scale(values, &self.diagonal)?;
+        for (single, block) in self.fine.A.values.iter_mut().zip(values) {
+            *single = block.map(|row| row.map(|entry| (entry.as_f64() * self.scale) as f32));
+        }
+        self.prepare_levels()
     }
 
     /// One cycle from x = 0.
@@ -115,6 +121,35 @@ impl<T: Real> ApproximateInverse<T> for Multigrid {
         for (z, x) in z.iter_mut().zip(&self.fine.x) {
             *z = x.map(|x| T::of(f64::from(x) * scale));
         }
+    }
+
+    fn save(&self, is_kept: bool, history: &mut History) {
+        self.fine.save(is_kept, "multigrid.power.0", history);
+        for (number, level) in self.coarser.iter().enumerate() {
+            level.save(is_kept, &format!("multigrid.power.{}", number + 1), history);
+        }
+        if is_kept {
+            put(history, "multigrid.values", self.fine.A.values.as_flattened().as_flattened());
+            put_option(history, "multigrid.scale", Some(self.scale));
+        }
+    }
+
+    fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String> {
+        self.fine.restore("multigrid.power.0", history)?;
+        for (number, level) in self.coarser.iter_mut().enumerate() {
+            level.restore(&format!("multigrid.power.{}", number + 1), history)?;
+        }
+        if !is_kept {
+            return Ok(());
+        }
+        take(history, "multigrid.values", self.fine.A.values.as_flattened_mut().as_flattened_mut())?;
+        self.scale = take_option(history, "multigrid.scale")?.unwrap_or(1.0);
+        self.prepare_levels().map_err(|breakdown| format!("its multigrid levels cannot be prepared again: {breakdown}"))
+    }
+
+    /// The levels may be those of an earlier matrix; they are restored.
+    fn prepare_again(&mut self, _values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        Ok(())
     }
 
     fn bytes(&self) -> usize {

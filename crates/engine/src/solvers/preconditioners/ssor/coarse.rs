@@ -1,6 +1,8 @@
 //! The coarse-grid correction P (Pᵀ A P)⁻¹ Pᵀ with trilinear functions P, for smooth errors, which sweeps reduce slowly. It is
 //! added to the sweeps: Bramble, Pasciak and Xu, Parallel Multilevel Preconditioners (1990), with two levels.
 
+mod history;
+
 use std::array::from_fn;
 
 use nalgebra::Vector3;

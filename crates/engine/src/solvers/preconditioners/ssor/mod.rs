@@ -20,7 +20,7 @@ use crate::solvers::ApproximateInverse;
 use crate::sparse::{Block, Pattern};
 use crate::vector::norm;
 use coarse::Coarse;
-use fem_scene::simulation::Breakdown;
+use fem_scene::simulation::{Breakdown, History};
 use scaled::Scaled;
 use sweeps::{Backward, Forward};
 
@@ -206,6 +206,20 @@ impl<T: Real> ApproximateInverse<T> for Ssor {
         }
         z.fill([T::default(); 3]);
         self.add_solution(z, size * self.matrix.scale);
+    }
+
+    fn save(&self, _is_kept: bool, history: &mut History) {
+        self.coarse.save(history);
+    }
+
+    fn restore(&mut self, _is_kept: bool, history: &History) -> Result<(), String> {
+        self.coarse.restore(history)
+    }
+
+    /// The coarse matrix may be that of an earlier matrix; it is restored.
+    fn prepare_again(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        self.matrix.scale = single_precision_scale(values, &self.matrix.pattern.diagonal)?;
+        self.matrix.prepare(values, &self.coarse.free)
     }
 
     fn bytes(&self) -> usize {

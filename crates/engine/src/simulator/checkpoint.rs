@@ -1,0 +1,48 @@
+//! Checkpoints of a simulator: its state, and what its integrator keeps from step to step.
+
+use fem_scene::simulation::{Checkpoint, History, Simulation};
+
+use super::Simulator;
+use crate::history::{put, take};
+use crate::number::Real;
+
+/// The checkpoint of a simulator, in the mesh's numbering; the history is in the engine's.
+pub(super) fn of<T: Real>(simulator: &Simulator<T>) -> Checkpoint {
+    let u = simulator.system.numbering.to_mesh(&simulator.state.u);
+    let mut history = History::default();
+    // Reactions take their accelerations from the state before the last step, and a release shows by its time.
+    put(&mut history, "before.time", &[simulator.last_good.time]);
+    put(&mut history, "before.u", simulator.last_good.u.as_flattened());
+    put(&mut history, "before.v", simulator.last_good.v.as_flattened());
+    simulator.integrator.save(&mut history);
+    Checkpoint {
+        time: simulator.state.time,
+        steps: simulator.state.steps,
+        positions: simulator.positions().as_slice().to_vec(),
+        velocities: simulator.velocities().as_slice().to_vec(),
+        displacements: u.as_flattened().iter().map(|u| u.as_f64()).collect(),
+        history,
+    }
+}
+
+/// Takes over a checkpoint of the same scene. After an error the simulator must be reset.
+pub(super) fn restore<T: Real>(simulator: &mut Simulator<T>, checkpoint: &Checkpoint) -> Result<(), String> {
+    let Checkpoint { displacements, velocities, .. } = checkpoint;
+    let coordinates = 3 * simulator.system.nodes();
+    for (name, list) in [("displacements", displacements), ("qdot", velocities)] {
+        if list.len() != coordinates {
+            return Err(format!("its `{name}` has {} numbers and not {coordinates}", list.len()));
+        }
+    }
+    let (u, _) = displacements.as_chunks::<3>();
+    let (v, _) = velocities.as_chunks::<3>();
+    simulator.set_state(u, v);
+    (simulator.state.time, simulator.state.steps) = (checkpoint.time, checkpoint.steps);
+    let (history, before) = (&checkpoint.history, &mut simulator.last_good);
+    take(history, "before.time", std::slice::from_mut(&mut before.time))?;
+    take(history, "before.u", before.u.as_flattened_mut())?;
+    take(history, "before.v", before.v.as_flattened_mut())?;
+    // Conditions are still those of the last step, so that the next one notices a release.
+    simulator.apply_conditions_at(simulator.last_good.time);
+    simulator.integrator.restore(history)
+}
