@@ -18,11 +18,15 @@ mod mesh_command;
 mod momentum;
 mod moral;
 mod one_step;
+mod probes;
 mod program;
 mod pulling;
 mod reference;
+mod resumed;
 mod scene_text;
 mod shipped;
+#[cfg(unix)]
+mod signals;
 mod skinning;
 mod statistics;
 mod unusual;

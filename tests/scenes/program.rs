@@ -48,15 +48,17 @@ impl Desk {
         serde_json::from_str(&self.read(name)).unwrap()
     }
 
-    /// Runs the program with these words as its arguments. No window can open.
+    /// The program with these words as its arguments. No window can open.
+    pub fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_finite-elements-3d"));
+        command.args(arguments.split_whitespace()).current_dir(self.0.path());
+        command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+        command
+    }
+
+    /// Runs the program with these words as its arguments.
     pub fn run(&self, arguments: &str) -> Outcome {
-        let output = Command::new(env!("CARGO_BIN_EXE_finite-elements-3d"))
-            .args(arguments.split_whitespace())
-            .current_dir(self.0.path())
-            .env_remove("DISPLAY")
-            .env_remove("WAYLAND_DISPLAY")
-            .output()
-            .unwrap();
+        let output = self.command(arguments).output().unwrap();
         let text = |bytes| String::from_utf8(bytes).unwrap();
         Outcome { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
     }

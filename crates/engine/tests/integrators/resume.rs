@@ -96,6 +96,14 @@ fn verlet_goes_on_with_the_acceleration_that_it_keeps() {
     }
 }
 
+#[test]
+fn a_release_before_or_after_the_interruption_is_kept() {
+    for (integrator, until) in [("implicit_euler", "0.08"), ("verlet", "8e-4")] {
+        let text = body_of(integrator, "f64", if integrator == "verlet" { "" } else { NEWTON }, 2);
+        assert_goes_on(&format!("{text}until = {until}\n"));
+    }
+}
+
 const SOLVERS: [&str; 7] = [
     "kind = \"cholesky\"",
     "kind = \"lu\"",
