@@ -80,8 +80,8 @@ pub struct RunArguments {
     /// Minutes between checkpoints
     #[arg(long, value_name = "MINUTES", default_value = "10", requires = "checkpoint", value_parser = minutes)]
     pub checkpoint_every: Duration,
-    /// Write position, velocity and force of a node in every step; NODE is its index or `highest`; repeatable; opens no window
-    #[arg(long, value_name = "NODE=FILE.csv")]
+    /// Write position, velocity and force of a node in every step; NAME is `highest` or a set of the mesh; repeatable
+    #[arg(long, value_name = "NODE|NAME=FILE.csv")]
     pub probe: Vec<ProbeArgument>,
     /// Write counts and times
     #[arg(long, value_name = "FILE.json")]

@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
+use fem_mesh::TetrahedralMesh;
 use fem_scene::highest_node;
 use fem_scene::output::Probe;
 use fem_scene::simulation::Simulation;
 
 use super::end::End;
 
-/// `NODE=FILE.csv`.
+/// `NODE|NAME=FILE.csv`.
 #[derive(Clone, Debug)]
 pub struct ProbeArgument {
     place: String,
@@ -24,35 +25,34 @@ impl FromStr for ProbeArgument {
             Some((place, file)) if !place.is_empty() && !file.is_empty() => {
                 Ok(Self { place: place.to_owned(), file: PathBuf::from(file) })
             }
-            _ => Err("give NODE=FILE.csv, such as 7=tip.csv or highest=top.csv".to_owned()),
+            _ => Err("give NODE|NAME=FILE.csv, such as 7=tip.csv or highest=top.csv".to_owned()),
         }
     }
 }
 
 impl ProbeArgument {
-    /// The probe of its node.
+    /// The probe of its node, or of the nodes of its set.
     pub fn probe(&self, simulation: &dyn Simulation) -> Result<Probe, End> {
-        Ok(Probe::new(&self.file, vec![self.node(simulation)?]))
+        let shape = simulation.shape();
+        let nodes = self
+            .nodes(&shape.mesh)
+            .map_err(|problem| End::unusable(format!("--probe {}={}: {problem}", self.place, self.file.display())))?;
+        Ok(Probe::new(&self.file, nodes))
     }
 
-    fn node(&self, simulation: &dyn Simulation) -> Result<usize, End> {
-        let shape = simulation.shape();
-        let nodes = shape.mesh.vertices.len();
+    fn nodes(&self, mesh: &TetrahedralMesh) -> Result<Vec<usize>, String> {
         if self.place == "highest" {
-            return Ok(highest_node(&shape.mesh));
+            return Ok(vec![highest_node(mesh)]);
         }
-        let place = &self.place;
-        match place.parse() {
-            Ok(node) if node < nodes => Ok(node),
-            Ok(_) => Err(End::unusable(format!(
-                "--probe {place}={}: the mesh has {nodes} nodes; give a node from 0 to {}",
-                self.file.display(),
-                nodes - 1
-            ))),
-            Err(_) => Err(End::unusable(format!(
-                "--probe {place}={}: there is no node `{place}`; give the index of a node, or highest",
-                self.file.display()
-            ))),
+        let nodes = mesh.vertices.len();
+        match (self.place.parse(), mesh.sets.get(&self.place)) {
+            (Ok(node), _) if node < nodes => Ok(vec![node]),
+            (_, Some(set)) => Ok(set.nodes(&mesh.elements)),
+            (Ok(_), None) => Err(format!("the mesh has {nodes} nodes; give a node from 0 to {}", nodes - 1)),
+            (Err(_), None) => {
+                let sets: String = mesh.sets.keys().map(|name| format!(", or {name}")).collect();
+                Err(format!("there is no such node or set; give the index of a node, or highest{sets}"))
+            }
         }
     }
 }

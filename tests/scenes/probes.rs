@@ -59,14 +59,37 @@ fn the_force_on_constrained_nodes_is_minus_their_reaction_in_equilibrium() {
     assert!((reaction[1] - 9810.0).abs() < 1e-3, "{reaction:?}");
 }
 
+/// Two tetrahedra on a floor of three nodes, in Gmsh's format 2.2.
+const MESH: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 3 \"floor\"\n3 4 \"all\"\n$EndPhysicalNames\n\
+    $Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n$EndNodes\n\
+    $Elements\n3\n1 2 2 3 1 1 3 2\n2 4 2 4 1 1 2 3 4\n3 4 2 4 2 2 3 4 5\n$EndElements\n";
+
+#[test]
+fn a_probe_of_a_set_gives_the_mean_of_its_positions_and_the_sum_of_its_forces() {
+    let scene = edit(&without(CUBE, "drag"), "box = { size = [1, 1, 1], cells_per_unit = 2 }", "file = \"a.msh\"");
+    let desk = Desk::with("cube.toml", without(&scene, "fixed"));
+    desk.write("a.msh", MESH);
+    let each: String = (0..3).map(|node| format!("--probe {node}={node}.csv ")).collect();
+    desk.run_well(&format!("cube.toml --headless --probe floor=p.csv {each}"));
+    let nodes = ["0.csv", "1.csv", "2.csv"].map(|file| rows(&desk, file));
+    for (step, row) in rows(&desk, "p.csv").iter().enumerate() {
+        for column in 1..10 {
+            let sum: f64 = nodes.iter().map(|rows| rows[step][column]).sum();
+            let expected = if column < 7 { sum / 3.0 } else { sum };
+            assert!((row[column] - expected).abs() <= 1e-12 * expected.abs().max(1.0), "{row:?}");
+        }
+    }
+    assert_names(&desk.refused("cube.toml --probe side=p.csv"), &["highest, or all, or floor"]);
+}
+
 #[test]
 fn a_probe_that_makes_no_sense_is_refused() {
     let desk = Desk::with("cube.toml", CUBE);
     for (probe, parts) in [
-        ("13", ["--probe", "NODE=FILE.csv"]),
-        ("=a.csv", ["--probe", "NODE=FILE.csv"]),
+        ("13", ["--probe", "NODE|NAME=FILE.csv"]),
+        ("=a.csv", ["--probe", "NODE|NAME=FILE.csv"]),
         ("27=a.csv", ["the mesh has 27 nodes", "give a node from 0 to 26"]),
-        ("tip=a.csv", ["there is no node `tip`", "highest"]),
+        ("tip=a.csv", ["there is no such node or set", "highest"]),
         ("1=nowhere/a.csv", ["--probe nowhere/a.csv", "its folder does not exist"]),
     ] {
         assert_names(&desk.refused(&format!("cube.toml --headless --probe {probe}")), &parts);

@@ -87,10 +87,11 @@ fn number(value: f64) -> String {
     format!("{value:?}")
 }
 
-/// A hash of nodes and elements: FNV-1a, which no version of Rust changes.
+/// A hash of nodes, elements and sets: FNV-1a, which no version of Rust changes.
 fn fingerprint(shape: &Shape) -> u64 {
     let coordinates = shape.mesh.vertices.iter().flat_map(|x| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>());
     let corners = shape.mesh.elements.iter().flatten().map(|&node| node as u64);
-    let bytes = coordinates.chain(corners).flat_map(u64::to_le_bytes);
+    let sets = shape.mesh.sets.values().flat_map(|set| set.nodes(&shape.mesh.elements)).map(|node| node as u64);
+    let bytes = coordinates.chain(corners).chain(sets).flat_map(u64::to_le_bytes);
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }

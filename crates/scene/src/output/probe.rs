@@ -3,8 +3,6 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use nalgebra::DVector;
-
 use super::write_text;
 use crate::simulation::Simulation;
 use fem_mesh::MeshError;
@@ -23,22 +21,23 @@ impl Probe {
         Self { file: file.to_owned(), nodes, text: "time,x,y,z,vx,vy,vz,fx,fy,fz\n".to_owned() }
     }
 
-    /// Adds a row: the mean position and velocity of the nodes, and the sum of the [forces](Simulation::nodal_forces) on them; NaN
-    /// for a pipeline that does not compute these.
+    /// Adds a row: the mean position and velocity of the nodes, and the sum of the [forces](Simulation::nodal_forces) on them,
+    /// without numbers if the pipeline does not compute these.
     pub fn add(&mut self, simulation: &dyn Simulation) {
         let (q, v) = (simulation.positions(), simulation.velocities());
-        let f = simulation.nodal_forces().unwrap_or_else(|| DVector::from_element(q.len(), f64::NAN));
+        let f = simulation.nodal_forces();
         let sum = |list: &[f64], i: usize| self.nodes.iter().map(|node| list[3 * node + i]).sum::<f64>();
         let mean = |list: &[f64], i: usize| sum(list, i) / self.nodes.len() as f64;
         // Writing to a string cannot fail.
         let _ = write!(self.text, "{:.9e}", simulation.time());
-        for i in 0..9 {
-            let value = match i / 3 {
-                0 => mean(q.as_slice(), i % 3),
-                1 => mean(v.as_slice(), i % 3),
-                _ => sum(f.as_slice(), i % 3),
-            };
+        for value in (0..3).map(|i| mean(q.as_slice(), i)).chain((0..3).map(|i| mean(v.as_slice(), i))) {
             let _ = write!(self.text, ",{value:.16e}");
+        }
+        for i in 0..3 {
+            let _ = match &f {
+                Some(f) => write!(self.text, ",{:.16e}", sum(f.as_slice(), i)),
+                None => write!(self.text, ","),
+            };
         }
         self.text.push('\n');
     }

@@ -25,7 +25,7 @@ impl Series {
     pub fn new(folder: &Path, every: NonZeroUsize) -> Result<Self, MeshError> {
         let unwritable = |error: std::io::Error| Problem::Unwritable { reason: error.to_string() };
         fs::create_dir_all(folder).map_err(|error| MeshError::in_file(folder, unwritable(error)))?;
-        Ok(Self { folder: folder.to_owned(), every, written: Vec::new() })
+        Ok(Self { folder: folder.to_owned(), every, last: None, written: Vec::new() })
     }
 
     /// Writes the state if its step is one of the series. Call it with the first state and after every step.
