@@ -56,12 +56,12 @@ impl DirichletConditions {
 
     /// Lets each condition apply or not as it does at a time, s. Returns whether that has changed any.
     pub fn apply_at(&mut self, time: f64, nodes: usize) -> bool {
-        let applies: Vec<_> =
-            self.conditions.iter().map(|condition| condition.until.is_none_or(|until| time < until)).collect();
-        if applies == self.applies {
+        let applies = |condition: &DirichletCondition| condition.until.is_none_or(|until| time < until);
+        // A step without a release allocates nothing.
+        if self.conditions().all(|(condition, before)| applies(condition) == before) {
             return false;
         }
-        self.applies = applies;
+        self.applies = self.conditions.iter().map(applies).collect();
         self.find_partly_constrained(nodes);
         true
     }
