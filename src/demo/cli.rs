@@ -23,7 +23,7 @@ pub struct Arguments {
 const EXIT_CODES: &str = "\
 Keys in the window: S skinned or simulation mesh, N next integrator, space pause, R reset; drag the body to pull it.
 
-Ctrl-C ends a run without a window after its step and writes what the options ask for; a second one ends it at once.
+Ctrl-C ends a run after its step, or closes the window, and writes what the options ask for; a second one ends it at once.
 
 Exit codes: 0 done, 1 the simulation failed, 2 unusable arguments or scene, 130 ended by Ctrl-C, 143 by SIGTERM.";
 

@@ -25,6 +25,12 @@ impl Signals {
         Ok(Self(number))
     }
 
+    /// The number of the signal that has been received, zero before.
+    #[cfg(feature = "viewer")]
+    pub fn number(&self) -> Arc<AtomicUsize> {
+        Arc::clone(&self.0)
+    }
+
     /// The exit code of the signal that has been received, if one has.
     pub fn received(&self) -> Option<u8> {
         let number = self.0.load(Ordering::Relaxed);

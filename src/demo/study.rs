@@ -2,6 +2,7 @@
 
 mod report;
 mod stability;
+mod sweep;
 
 use clap::Subcommand;
 

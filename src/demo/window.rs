@@ -26,14 +26,17 @@ pub fn run(ready: Ready, scene: &Scene, arguments: &RunArguments) -> Result<(), 
 
     use super::headless;
     use super::results::{Finished, finish};
+    use super::signals::Signals;
 
     let Ready { simulation, seconds_setup, steps, up, expected_tip } = ready;
+    let signals = Signals::catch()?;
     let options = WindowOptions {
         up,
         screenshot: arguments.screenshot.clone(),
         record: arguments.record.clone(),
         quit_after_steps: arguments.steps.map(|_| steps),
         log_energies: arguments.energies.is_some(),
+        close: signals.number(),
         ..WindowOptions::default()
     };
     let outcome = match fem_viewer::open(simulation, options) {
@@ -57,11 +60,12 @@ pub fn run(ready: Ready, scene: &Scene, arguments: &RunArguments) -> Result<(), 
         None => None,
     };
     let Some(simulation) = outcome.simulation else { return Err(End::Stopped("the simulation panicked".to_owned())) };
-    let run = Run { step_seconds: outcome.step_seconds, failure, interrupted: false };
+    let signal = signals.received();
+    let run = Run { step_seconds: outcome.step_seconds, failure, interrupted: signal.is_some() };
     let finished = Finished {
         simulation: &*simulation,
         scene,
-        signal: None,
+        signal,
         run,
         seconds_setup,
         energies: outcome.energies,

@@ -41,6 +41,25 @@ fn a_key_that_is_set_gives_the_same_motion_as_the_key_in_the_scene() {
 }
 
 #[test]
+fn a_sweep_has_a_row_for_every_combination_of_values_and_runs_go_on_from_its_states() {
+    let desk = Desk::with("cube.toml", CUBE);
+    let sweep = "--sweep material.C=1e5,2e5 --sweep gravity.acceleration=[0,-9.81,0],[0,0,0]";
+    desk.run_well(&format!("report cube.toml --out out {sweep}"));
+    let table = desk.read("out/sweep.csv");
+    let lines: Vec<_> = table.lines().collect();
+    assert!(lines[0].starts_with("scene,material.C,gravity.acceleration,status,steps,time,"), "{table}");
+    let starts = ["1e5,\"[0,-9.81,0]\"", "1e5,\"[0,0,0]\"", "2e5,\"[0,-9.81,0]\"", "2e5,\"[0,0,0]\""];
+    assert_eq!(lines.len(), 5, "{table}");
+    for (line, start) in lines[1..].iter().zip(starts) {
+        assert!(line.starts_with(&format!("cube,{start},done,4,4.0")), "{line}");
+    }
+    desk.run_well("cube.toml --headless --set material.C=2e5 --state flag.json");
+    assert_eq!(desk.read("flag.json"), desk.read("out/states/cube-0003.json"));
+    let message = desk.refused("report cube.toml --out out --sweep material.C=1e5,-1");
+    assert!(message.starts_with("error: --set material.C=-1: material.C"), "{message}");
+}
+
+#[test]
 fn the_default_number_of_steps_is_the_scenes_or_100() {
     let desk = Desk::with("cube.toml", CUBE);
     assert!(desk.run_well("cube.toml --headless").stdout.contains(": 4 steps to t = 0.0400 s"));

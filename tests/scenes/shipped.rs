@@ -59,7 +59,9 @@ fn the_program_writes_the_state_that_the_library_computes_with_17_digits() {
             assert!(found.iter().all(|number| number.is_finite()), "{name}: {key}");
             assert_eq!(found, expected.as_slice(), "{name}: {key}");
         }
-        assert_17_digits(&desk.read("q.json"));
+        // The scene's keys and the history follow the numbers.
+        let text = desk.read("q.json");
+        assert_17_digits(&text[..text.find("\"steps\"").unwrap()]);
     }
 }
 

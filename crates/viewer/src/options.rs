@@ -1,6 +1,8 @@
 //! Options of a window.
 
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicUsize;
 
 use nalgebra::Vector3;
 
@@ -19,6 +21,8 @@ pub struct WindowOptions {
     pub quit_after_steps: Option<usize>,
     /// Whether the energies of every step are kept for [`Outcome::energies`](crate::Outcome::energies).
     pub log_energies: bool,
+    /// The window closes once this is not zero, such as after a signal.
+    pub close: Arc<AtomicUsize>,
 }
 
 impl Default for WindowOptions {
@@ -30,6 +34,7 @@ impl Default for WindowOptions {
             record: None,
             quit_after_steps: None,
             log_energies: false,
+            close: Arc::default(),
         }
     }
 }

@@ -1,6 +1,8 @@
 //! The window's loop: input, latest snapshot, panel, frame.
 
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use fem_scene::simulation::Shape;
@@ -43,6 +45,7 @@ pub struct Session {
     closes_at_the_end: bool,
     not_written: Option<NotWritten>,
     closing: bool,
+    close: Arc<AtomicUsize>,
 }
 
 impl Session {
@@ -77,12 +80,13 @@ impl Session {
             closes_at_the_end: options.quit_after_steps.is_some(),
             not_written: None,
             closing: false,
+            close: Arc::clone(&options.close),
         }
     }
 
     /// Runs until the window is closed, and returns the simulation's thread.
     pub fn run(mut self) -> (Worker, Option<NotWritten>) {
-        while !self.closing {
+        while !self.closing && self.close.load(Ordering::Relaxed) == 0 {
             self.read_input();
             let fresh = self.read_snapshot();
             if !fresh && self.is_idle() {

@@ -9,6 +9,7 @@ use fem_study::report::{Report, first_files, report};
 use fem_study::studies::Settings;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::sweep::Sweep;
 use crate::demo::end::End;
 use crate::demo::{build, data};
 
@@ -23,6 +24,9 @@ pub struct Arguments {
     /// Small meshes and few steps: under a minute
     #[arg(long)]
     pub quick: bool,
+    /// Instead of the report, run each scene as it is for every value of a key, and write sweep.csv; repeatable
+    #[arg(long, value_name = "KEY=VALUE,VALUE", conflicts_with = "quick")]
+    pub sweep: Vec<Sweep>,
 }
 
 /// Studies the scenes, writes the report, and prints the fastest method for each error.
@@ -31,14 +35,13 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
     if folder.exists() && !folder.is_dir() {
         return Err(End::unusable(format!("--out {}: is a file; give the name of a folder", folder.display())));
     }
+    if !arguments.sweep.is_empty() {
+        return sweep(arguments);
+    }
     let scenes = arguments.scenes.iter().map(|name| fem_scene::load(name, &data).map_err(End::unusable));
     let scenes: Vec<Scene> = scenes.collect::<Result<_, _>>()?;
     let bar = progress_bar();
-    let tell = |done: usize, all: usize, what: &str| {
-        bar.set_length(all as u64);
-        bar.set_position(done as u64);
-        bar.set_message(what.to_owned());
-    };
+    let tell = |done: usize, all: usize, what: &str| show(&bar, done, all, what);
     let factory = |scene: &Scene| -> Result<Box<dyn Simulation>, String> {
         build::build(scene).map(|ready| ready.simulation).map_err(|end| end.message())
     };
@@ -50,6 +53,22 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
         say!("{}", file.display());
     }
     Ok(())
+}
+
+/// Runs each scene for every combination of values.
+fn sweep(arguments: &Arguments) -> Result<(), End> {
+    let bar = progress_bar();
+    let tell = |done: usize, all: usize, what: &str| show(&bar, done, all, what);
+    let table = super::sweep::run(&arguments.scenes, &arguments.sweep, &arguments.out, &tell)?;
+    bar.finish_and_clear();
+    say!("{}", table.display());
+    Ok(())
+}
+
+fn show(bar: &ProgressBar, done: usize, all: usize, what: &str) {
+    bar.set_length(all as u64);
+    bar.set_position(done as u64);
+    bar.set_message(what.to_owned());
 }
 
 fn print(found: &Report) {
