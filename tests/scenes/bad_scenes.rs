@@ -197,6 +197,8 @@ fn keys_of_the_engine_are_refused_in_a_course_scene() {
         "[[springs]]\nnodes = [0, 26]\nstiffness = 1\n".to_owned(),
         format!("[[traction]]\n{on}pressure = 1\n"),
         format!("[[prescribed]]\n{on}displacement = [1, 0, 0]\n"),
+        "[[initial_velocity]]\nvelocity = [1, 0, 0]\n".to_owned(),
+        "[[materials]]\non = \"all\"\nmodel = \"neo_hookean\"\nC = 1e5\nD = 4e5\ndensity = 1.0\n".to_owned(),
     ];
     for table in tables {
         assert_text_refused(&format!("{CUBE}{table}"), 24, &["belongs to the engine", "remove it"]);

@@ -146,6 +146,8 @@ fn explain_warns_of_locking() {
     let desk = Desk::with("beam.toml", edit(&scene, "poisson = 0.3", "poisson = 0.4999"));
     let text = desk.run_well("beam.toml --explain").stdout;
     assert!(text.contains("linear tetrahedra lock so close to ν = ½"), "{text}");
+    let warned = desk.run_well("beam.toml --headless").stderr;
+    assert!(warned.contains("linear tetrahedra lock near ½") && warned.contains("0.45 at ν = 0.49"), "{warned}");
     assert!(!desk.run_well("cantilever --explain").stdout.contains("lock"));
 }
 

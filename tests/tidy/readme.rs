@@ -74,6 +74,46 @@ fn every_scene_key_is_in_the_readme_and_every_key_there_is_one() {
     assert_none(problems);
 }
 
+/// The words in code of the README's chapters on scene files and materials.
+fn words_of_the_scene_format() -> BTreeSet<String> {
+    let text = read("README.md");
+    let chapter = text.split("\n## Scene files\n").nth(1).and_then(|rest| rest.split("\n## Integrators\n").next());
+    let chapter = chapter.expect("README.md has a chapter `Scene files`, and `Integrators` after it");
+    let code = chapter.split('`').skip(1).step_by(2);
+    let words = code.flat_map(|code| code.split(|c: char| !c.is_alphanumeric() && c != '_'));
+    words.map(str::to_owned).collect()
+}
+
+#[test]
+fn every_key_of_every_table_and_every_parameter_of_a_law_is_named_in_the_scene_format() {
+    let words = words_of_the_scene_format();
+    let (mut problems, mut count) = (Vec::new(), 0);
+    let folder = "crates/scene/src";
+    let is_table = |path: &std::path::PathBuf| {
+        path.starts_with(format!("{folder}/tables")) || path.ends_with(format!("{folder}/curve.rs"))
+    };
+    for path in files("rs").into_iter().filter(is_table) {
+        let text = read(&path);
+        let structs = text.lines().filter_map(|line| line.strip_prefix("pub struct ")?.strip_suffix(" {"));
+        let is_read = |name: &&str| {
+            text.split(&format!("pub struct {name} {{")).next().is_some_and(|before| {
+                before.rsplit("\n\n").next().is_some_and(|attributes| attributes.contains("Deserialize"))
+            })
+        };
+        let of_tables = structs.filter(is_read).flat_map(|name| keys(&text, name).into_keys());
+        let parameters = body(&text, "material! {").into_iter().filter(|line| !line.starts_with("///"));
+        let parameters = parameters.filter_map(|line| Some(line.split_once(':')?.0.to_owned()));
+        for key in of_tables.chain(parameters) {
+            count += 1;
+            if !words.contains(&key) {
+                problems.push(format!("{}: name its key `{key}` in README.md, Scene files", path.display()));
+            }
+        }
+    }
+    assert!(count > 80, "only {count} keys are found in {folder}");
+    assert_none(problems);
+}
+
 #[test]
 fn every_law_has_a_file_of_its_name_and_a_row_in_the_readme() {
     let cells = first_cells();

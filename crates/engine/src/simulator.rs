@@ -9,7 +9,9 @@ mod simulation;
 use std::sync::atomic::AtomicUsize;
 
 use fem_scene::simulation::{Counters, Simulation};
-use fem_scene::{Body, Integrator as IntegratorKind, Material, Method, Precision, Scene, SceneError, Timer};
+use fem_scene::{
+    Body, Integrator as IntegratorKind, Material, MaterialRegion, Method, Precision, Scene, SceneError, Timer,
+};
 use nalgebra::Vector3;
 
 use crate::boundary::rigid_modes;
@@ -28,6 +30,8 @@ pub use integrator::integrators;
 pub struct Simulator<T: Real> {
     method: Method,
     material: Material,
+    /// Name, number of elements and material of each `[[materials]]`.
+    regions: Vec<(String, usize, Material)>,
     system: System<T>,
     state: State<T>,
     /// Velocities at the start in the engine's numbering, m/s; empty for a body at rest.
@@ -78,6 +82,8 @@ impl<T: Real> Simulator<T> {
         let skinning = body.shape.display.as_ref().map(|display| Skinning::new(&body.shape.mesh, &display.vertices));
         let solver = integrator::solver_choice(&method, body.shape.mesh.vertices.len());
         let material = body.material.clone();
+        let of_region = |region: &MaterialRegion| (region.name.clone(), region.elements.len(), region.material.clone());
+        let regions = body.regions.iter().map(of_region).collect();
         let velocities = body.initial_velocity.clone();
         let system = System::with_forces(body, law, solver, own);
         range_check::check(&method, &system).map_err(refuse)?;
@@ -98,6 +104,7 @@ impl<T: Real> Simulator<T> {
             initial_velocity,
             system,
             material,
+            regions,
             method,
         })
     }

@@ -2,17 +2,38 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Body, Scene};
+use crate::{Body, Material, Scene};
 
-/// What is told before a run, each with its remedy: nodes that coincide without being merged, and parts that nothing constrains.
+/// What is told before a run, each with its remedy: nodes that coincide without being merged, parts that nothing constrains,
+/// and materials in which linear tetrahedra lock.
 pub fn warnings(scene: &Scene, body: &Body) -> Vec<String> {
     let file = scene.path.display();
     [coincident_nodes(body), unconstrained_parts(body)]
         .into_iter()
         .flatten()
+        .chain(locking(body))
         .map(|text| format!("{file}: {text}"))
         .collect()
 }
+
+/// Materials whose Poisson's ratio is so close to ½ that linear tetrahedra, which change their shape only with their volume, are far
+/// too stiff.
+fn locking(body: &Body) -> impl Iterator<Item = String> {
+    let regions = body.regions.iter().map(|region| (&region.name[..], &region.material));
+    let materials = std::iter::once(("material", &body.material)).chain(regions);
+    let warning = |(table, material): (&str, &Material)| {
+        let poisson = material.poissons_ratio().filter(|_| material.locks())?;
+        Some(format!(
+            "{table}: Poisson's ratio is {poisson:.4}, and linear tetrahedra lock near ½: {LOCKING}; refine the mesh until the \
+             result stays, or take a ratio of 0.45 or less"
+        ))
+    };
+    materials.filter_map(warning)
+}
+
+/// Tip displacement of the scene `cantilever`, relative to Timoshenko's; README.md has it for more meshes.
+const LOCKING: &str = "the tip of a cantilever of 8 × 1 × 1 m with 6 cells per metre moves by 0.89 of the true distance at ν = 0.3, \
+                       0.75 at ν = 0.45, 0.45 at ν = 0.49, 0.10 at ν = 0.499 and 0.03 at ν = 0.4999";
 
 fn coincident_nodes(body: &Body) -> Option<String> {
     let found = fem_mesh::coincident_nodes(&body.shape.mesh)?;

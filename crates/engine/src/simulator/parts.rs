@@ -10,9 +10,6 @@ use crate::number::Real;
 /// Uses and seconds of a part that is made once.
 const MADE_ONCE: (usize, f64) = (0, 0.0);
 
-/// Poisson's ratio above which linear tetrahedra lock.
-const LOCKS: f64 = 0.49;
-
 /// Every part that the engine can have.
 pub(super) fn parts<T: Real>(simulator: &Simulator<T>) -> Vec<Part> {
     let mut parts = body(simulator);
@@ -34,18 +31,29 @@ fn body<T: Real>(simulator: &Simulator<T>) -> Vec<Part> {
     let state = state.bytes() + last_good.bytes();
     vec![
         Part::mesh(system.nodes(), system.elements.count, mesh),
-        Part::built("material", material(&simulator.material), 0, MADE_ONCE),
+        Part::built("material", materials(simulator), 0, MADE_ONCE),
         Part::built("state", format!("displacements and velocities in {number}"), state, MADE_ONCE),
         Part::built("mass", mass, system.mass.bytes(), profile.mass.read()),
         Part::built("forces", "elastic forces, where no energy is needed", 0, profile.forces.read()),
     ]
 }
 
+/// The laws of all materials, the body's own first.
+fn materials<T: Real>(simulator: &Simulator<T>) -> String {
+    let regions = simulator
+        .regions
+        .iter()
+        .map(|(name, elements, table)| format!("; {name}: {elements} elements of {}", material(table)));
+    std::iter::once(material(&simulator.material)).chain(regions).collect()
+}
+
 /// The law and its parameters, with a warning where linear tetrahedra lock.
 fn material(material: &Material) -> String {
-    let locks = material.poisson.is_some_and(|poisson| poisson > LOCKS);
-    let note =
-        if locks { "; linear tetrahedra lock so close to ν = ½: displacements come out far too small" } else { "" };
+    let note = if material.locks() {
+        "; linear tetrahedra lock so close to ν = ½: displacements come out far too small"
+    } else {
+        ""
+    };
     let parameter = |(name, value)| match name {
         "young" => format!(", E = {value:.4e} Pa"),
         "poisson" => format!(", ν = {value}"),

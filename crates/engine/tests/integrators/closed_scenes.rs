@@ -1,5 +1,6 @@
 //! The scenes of `data` that have a closed form or an invariant.
 
+use fem_engine::cantilever;
 use fem_scene::simulation::Simulation;
 use fem_scene::{Integrator, Scene, load};
 use nalgebra::{DVector, Vector3};
@@ -128,8 +129,45 @@ fn the_glued_column_stretches_like_two_springs_in_series() {
         let found = node(&x, i) - X;
         assert!((found - Vector3::new(0.0, 0.0, expected)).norm() < 1e-9, "node {i}: {found} {expected}");
     }
+    assert_stress(&*simulation, 2);
+}
+
+#[test]
+fn the_bar_of_named_groups_stretches_like_two_springs_in_series() {
+    let mut simulation = built(&shipped("groups"));
+    run(&mut *simulation, 1);
+    let (x, shape) = (simulation.positions(), simulation.shape());
+    for (i, X) in shape.mesh.vertices.iter().enumerate() {
+        let expected = 0.01 * X.x.min(1.0) + 0.05 * (X.x - 1.0).max(0.0);
+        let found = node(&x, i) - X;
+        assert!((found - Vector3::new(expected, 0.0, 0.0)).norm() < 1e-9, "node {i}: {found} {expected}");
+    }
+    assert_stress(&*simulation, 0);
+    let reaction = simulation.reactions()[0].force;
+    assert!((reaction[0] + 250.0).abs() < 1e-6, "{reaction:?} N");
+}
+
+#[test]
+fn the_cantilever_locks_as_the_warning_says() {
+    for (poisson, part) in [(0.3, 0.885), (0.45, 0.750), (0.49, 0.452), (0.499, 0.104), (0.4999, 0.025)] {
+        let mut scene = shipped("cantilever");
+        scene.material.poisson = Some(poisson);
+        let warnings = fem_scene::warnings(&scene, &fem_scene::body(&scene, &data()).unwrap());
+        assert_eq!(warnings.len(), usize::from(poisson > 0.45), "{warnings:?}");
+        let told = format!("{part:.2} of the true distance at ν = {poisson}");
+        let told = if poisson > 0.3 { format!("{part:.2} at ν = {poisson}") } else { told };
+        assert!(warnings.iter().all(|text| text.contains(&told)), "{told}: {warnings:?}");
+        let mut simulation = built(&scene);
+        run(&mut *simulation, 1);
+        let expected = cantilever::expected_tip_displacement(&scene).unwrap();
+        let found = cantilever::tip_displacement(&*simulation).dot(&expected) / expected.norm_squared();
+        assert!((found - part).abs() < 1e-3, "ν = {poisson}: {found}");
+    }
+}
+
+/// The stress along the axis is 1000 Pa in every element, up to the strain of 5 % that tells Cauchy's from the engineering stress.
+fn assert_stress(simulation: &dyn Simulation, axis: usize) {
     for (element, stress) in simulation.stresses().into_iter().enumerate() {
-        // Cauchy stress on an area that keeps its size, ν = 0.
-        assert!((stress[(2, 2)] - 1000.0).abs() < 60.0, "element {element}: {stress}");
+        assert!((stress[(axis, axis)] - 1000.0).abs() < 60.0, "element {element}: {stress}");
     }
 }

@@ -15,6 +15,9 @@ pub const MODELS: &[(&str, &[&[&str]])] = &[
     ("yeoh", &[&["C1", "C2", "C3", "D"]]),
 ];
 
+/// Poisson's ratio above which linear tetrahedra lock visibly.
+const LOCKS_ABOVE: f64 = 0.45;
+
 /// Young's modulus and Poisson's ratio of small strain.
 const ELASTIC: &[&str] = &["young", "poisson"];
 
@@ -109,6 +112,18 @@ impl Material {
     pub fn lame(&self) -> Option<(f64, f64)> {
         let (E, nu) = (self.young?, self.poisson?);
         Some((E / (2.0 * (1.0 + nu)), E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))))
+    }
+
+    /// Poisson's ratio at small strain: as given, or (3K − 2G)/(2(3K + G)) of the shear modulus G and the bulk modulus K = 2D.
+    pub fn poissons_ratio(&self) -> Option<f64> {
+        let half_shear = self.C.or(self.C1).or(self.C10.zip(self.C01).map(|(C10, C01)| C10 + C01));
+        let of_moduli = |(C, D): (f64, f64)| (3.0 * D - 2.0 * C) / (2.0 * (3.0 * D + C));
+        self.poisson.or_else(|| half_shear.zip(self.D).map(of_moduli))
+    }
+
+    /// Whether linear tetrahedra lock: Poisson's ratio is above 0.45.
+    pub fn locks(&self) -> bool {
+        self.poissons_ratio().is_some_and(|poisson| poisson > LOCKS_ABOVE)
     }
 
     /// C and D, Pa: as given, or those with the same small-strain moduli as `young` and `poisson`,

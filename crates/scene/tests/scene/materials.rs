@@ -48,3 +48,36 @@ fn materials_are_checked_at_their_line() {
     let message = body(&outside).unwrap_err().to_string();
     assert!(message.contains("materials[0].box") && message.contains("names no element"), "{message}");
 }
+
+/// The warnings of a scene.
+fn warnings(text: &str) -> Vec<String> {
+    fem_scene::warnings(&crate::read(text), &body(text).unwrap())
+}
+
+#[test]
+fn a_poissons_ratio_above_0_45_is_warned_of_in_every_material() {
+    let of = |poisson: &str| edit(LEFT, "poisson = 0.3", &format!("poisson = {poisson}"));
+    assert!(warnings(&format!("{LEAST}{LEFT}{}", of("0.45"))).is_empty());
+    let found = warnings(&format!("{LEAST}{}{LEFT}", of("0.46").replace("[1, 1, 1]", "[2, 1, 1]")));
+    assert_eq!(found.len(), 1, "{found:?}");
+    let beginning = "folder/name.toml: materials[0]: Poisson's ratio is 0.4600, and linear tetrahedra lock near ½";
+    assert!(found[0].starts_with(beginning) && found[0].contains("; refine the mesh"), "{found:?}");
+}
+
+#[test]
+fn the_poissons_ratio_of_every_law_s_parameters_is_known() {
+    // K = 2D and G = 2C: K/G = 4 gives ν = 10/26, and K/G = 1000 locks.
+    let ratio = |parameters: &str| {
+        let text = edit(LEAST, "model = \"neo_hookean\"\nC = 1e5\nD = 4e5", parameters);
+        (crate::read(&text).material.poissons_ratio().unwrap(), warnings(&text).len())
+    };
+    for law in [
+        "model = \"neo_hookean\"\nC = 1e5",
+        "model = \"mooney_rivlin\"\nC10 = 6e4\nC01 = 4e4",
+        "model = \"yeoh\"\nC1 = 1e5\nC2 = 1\nC3 = 1",
+    ] {
+        let (usual, close) = (ratio(&format!("{law}\nD = 4e5")), ratio(&format!("{law}\nD = 1e8")));
+        assert!((usual.0 - 10.0 / 26.0).abs() < 1e-12 && usual.1 == 0, "{law}: {usual:?}");
+        assert!((close.0 - 2998.0 / 6002.0).abs() < 1e-12 && close.1 == 1, "{law}: {close:?}");
+    }
+}

@@ -111,6 +111,46 @@ fn prescribed_velocities_and_accelerations_match_finite_differences() {
 }
 
 #[test]
+fn a_thrown_body_under_growing_gravity_moves_in_closed_form() {
+    let curves = [
+        ("{ ramp = 0.3 }", 0.35, 0.35 * 0.35 / 2.0 + 0.3 * 0.3 / 24.0),
+        ("{ on = 0.1, off = 0.4 }", 0.3, 0.3 * 0.3 / 2.0 + 0.3 * 0.1),
+    ];
+    for (curve, impulse, fallen) in curves {
+        let equations = soft_box(&format!(
+            "[gravity]\nacceleration = [0, -10, 0]\ncurve = {curve}\n[[initial_velocity]]\nvelocity = [2, 3, 0]\n"
+        ));
+        let found = reference(&equations, 0.5, 60.0).unwrap();
+        let (moved, velocity) = (found.q.fixed_rows::<3>(0).into_owned(), found.qdot.fixed_rows::<3>(0).into_owned());
+        assert!((velocity - Vector3::new(2.0, 3.0 - 10.0 * impulse, 0.0)).norm() < 1e-11, "{curve}: {velocity}");
+        assert!((moved - Vector3::new(1.0, 1.5 - 10.0 * fallen, 0.0)).norm() < 1e-11, "{curve}: {moved}");
+    }
+}
+
+#[test]
+fn a_motion_on_a_sine_has_the_velocities_of_the_sine() {
+    let equations = soft_box(
+        "[[prescribed]]\nnodes = [4]\ndisplacement = [0.2, 0, 0]\ncurve = { sine = { frequency = 0.7 } }\n\
+         rotation = { axis = \"y\", center = [0.3, 0.1, 0.2], turns = 0.7 }\n",
+    );
+    let motion = &equations.system.dirichlet.motions().next().unwrap().1;
+    let at = |time: f64| kinematics(motion, &Vector3::new(1.0, 2.0, -1.0), 0.0, time);
+    let (h, [_, v, a]) = (1e-4, at(0.8));
+    let (before, after) = (at(0.8 - h), at(0.8 + h));
+    assert!(((after[0] - before[0]) / (2.0 * h) - v).norm() < 1e-5);
+    assert!(((after[1] - before[1]) / (2.0 * h) - a).norm() < 1e-5);
+}
+
+#[test]
+fn a_release_has_no_reference() {
+    let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 1 }\n[material]\nmodel = \"linear\"\n\
+        young = 1e3\npoisson = 0.0\ndensity = 1000.0\n[fixed]\nnodes = [0]\nuntil = 1\n[time]\ndt = 0.01\nintegrator = \"verlet\"\n";
+    let scene = parse(text, Path::new("folder/name.toml")).unwrap();
+    let body = body(&scene, Path::new("no data")).unwrap();
+    assert!(Equations::new(&scene, body).is_err_and(|reason| reason.contains("become free")));
+}
+
+#[test]
 fn displacements_that_jump_have_no_reference() {
     let equations = soft_box("[[prescribed]]\nnodes = [4]\ndisplacement = [0.2, 0, 0]\n");
     assert!(reference(&equations, 1.0, 60.0).unwrap_err().contains("over"));
