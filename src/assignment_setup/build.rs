@@ -106,7 +106,7 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         ("materials", !scene.materials.is_empty()),
         ("newton", scene.newton.is_some()),
         ("solver", scene.solver.is_some()),
-        ("mass.lumped", scene.mass.lumped),
+        ("mass.lumped", scene.mass.lumped == Some(true)),
         ("damping", scene.damping.is_some()),
         ("static", scene.statics.is_some()),
         ("body_force", scene.body_force.is_some()),

@@ -31,6 +31,12 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
     for warning in fem_scene::warnings(scene, &body) {
         eprintln!("warning: {warning}");
     }
+    if body.lumped_mass && scene.mass.lumped.is_none() {
+        eprintln!(
+            "note: {} lumps the mass of so large a body at its nodes; mass.lumped = false keeps it consistent",
+            scene.time.integrator.name()
+        );
+    }
     let simulation = match scene.pipeline {
         Pipeline::Course => course(scene, body)?,
         Pipeline::Engine => engine::build(scene, body)?,

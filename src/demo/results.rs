@@ -6,7 +6,7 @@ use fem_mesh::write::Frame;
 use fem_scene::Scene;
 use fem_scene::output::{self, EXPORTS, Stats};
 use fem_scene::simulate::{Run, quantile};
-use fem_scene::simulation::{Energies, Reaction, Simulation};
+use fem_scene::simulation::{Counters, Energies, Reaction, Simulation};
 
 use nalgebra::Vector3;
 
@@ -77,7 +77,8 @@ fn check_file(option: &str, file: &Path) -> Result<(), End> {
 
 /// Writes the files that the options name and prints the summary.
 pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
-    let Finished { simulation, scene, run, signal, seconds_setup, energies, frames, expected_tip } = finished;
+    let Finished { simulation, scene, run, seconds_setup, energies, frames, expected_tip, .. } = finished;
+    let end = end(finished, arguments);
     if let Some(path) = &arguments.state {
         output::write_state(path, scene, *simulation).map_err(End::unusable)?;
     }
@@ -88,16 +89,55 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
         output::export(path, *simulation, frames).map_err(End::unusable)?;
     }
     if let Some(path) = &arguments.stats {
-        Stats::of(*simulation, run, *seconds_setup).write(path).map_err(End::unusable)?;
+        let mut stats = Stats::of(*simulation, run, *seconds_setup);
+        if let Err(end @ End::Stopped(_)) = &end {
+            stats.status = format!("failed: {}", end.message());
+        }
+        stats.write(path).map_err(End::unusable)?;
     }
     print_summary(*simulation, run);
     if let Some(expected) = expected_tip {
         engine::print_tip(*simulation, expected);
     }
-    match (&run.failure, signal) {
-        (Some(failure), _) => Err(End::Failed(failure.clone())),
-        (None, Some(code)) => Err(End::Interrupted { code: *code, message: how_to_go_on(*simulation, arguments) }),
-        (None, None) => Ok(()),
+    warn(*simulation);
+    end
+}
+
+/// The failure of the run, a signal, or steps that have not converged unless the scene accepts those.
+fn end(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
+    let Finished { simulation, scene, run, signal, .. } = finished;
+    if let Some(failure) = &run.failure {
+        return Err(End::Failed(failure.clone()));
+    }
+    if let Some(code) = signal {
+        return Err(End::Interrupted { code: *code, message: how_to_go_on(*simulation, arguments) });
+    }
+    let Counters { unconverged_steps, steps, .. } = simulation.counters();
+    if unconverged_steps == 0 || scene.method().newton.accept_unconverged {
+        return Ok(());
+    }
+    Err(End::Stopped(format!(
+        "{unconverged_steps} of {steps} steps ended before Newton's method had converged, so the result is not to be trusted; \
+         use a shorter time step or more load steps, a larger newton.max_iterations, or newton.accept_unconverged = true"
+    )))
+}
+
+/// Warns of a result that is not what it seems: inverted elements, or loads that are not fully on.
+fn warn(simulation: &dyn Simulation) {
+    let (name, inverted) = (simulation.name(), simulation.inverted_elements());
+    if inverted > 0 {
+        let (least, element) = simulation.min_J();
+        eprintln!(
+            "warning: {name}: {inverted} elements are inverted (det F ≤ 0), element {element} most of all (det F = {least:.3e}); use \
+             smaller loads, a finer mesh, or a law that does not allow inversion"
+        );
+    }
+    if let Some(factor) = simulation.load_factor().filter(|factor| *factor < 1.0) {
+        let percent = (1e6 * factor).round() / 1e4;
+        eprintln!(
+            "warning: {name}: {percent} % of the loads and prescribed motions are on; make as many steps as \
+             static.load_steps, or leave --steps and time.steps out"
+        );
     }
 }
 
@@ -127,10 +167,6 @@ fn print_summary(simulation: &dyn Simulation, run: &Run) {
         energies.potential,
         energies.total(),
     );
-    let unconverged = simulation.counters().unconverged_steps;
-    if unconverged > 0 {
-        say!("{unconverged} steps ended before Newton's method had converged");
-    }
     for Reaction { name, force: [x, y, z] } in simulation.reactions() {
         say!("reaction force of {name}: ({x:.4e}, {y:.4e}, {z:.4e}) N");
     }

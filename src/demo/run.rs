@@ -49,7 +49,12 @@ fn resume(file: &Path, scene: &Scene, ready: &mut Ready) -> Result<(), End> {
 fn scene_with_overrides(arguments: &RunArguments) -> Result<Scene, End> {
     let mut scene = fem_scene::load_with(&arguments.scene, &data::folder(), &arguments.set).map_err(End::unusable)?;
     scene.time.dt = arguments.dt.or(scene.time.dt);
-    scene.time.integrator = arguments.integrator.unwrap_or(scene.time.integrator);
+    if let Some(integrator) = arguments.integrator {
+        scene.time.integrator = integrator;
+        for table in scene.remove_unused_tables() {
+            eprintln!("note: [{table}] of the scene has no effect with {}", integrator.name());
+        }
+    }
     scene.time.steps = arguments.steps.or(scene.time.steps);
     scene.check().map_err(End::unusable)?;
     Ok(scene)

@@ -29,4 +29,5 @@ mod shipped;
 mod signals;
 mod skinning;
 mod statistics;
+mod untrusted;
 mod unusual;

@@ -159,10 +159,18 @@ fn reaction_forces_of_an_engine_scene_are_printed_and_in_the_statistics() {
 }
 
 #[test]
-fn unconverged_steps_are_counted_and_printed() {
+fn steps_that_have_not_converged_end_in_exit_code_1_unless_the_scene_accepts_them() {
     let scene = std::fs::read_to_string(crate::program::data().join("scenes/beam.toml")).unwrap();
     let desk = Desk::with("beam.toml", format!("{scene}[newton]\nmax_iterations = 1\n"));
-    let said = desk.run_well("beam.toml --headless --steps 3 --stats s.json").stdout;
+    let outcome = desk.run("beam.toml --headless --steps 3 --stats s.json --state q.json");
+    assert_eq!(outcome.code, Some(1), "{outcome:?}");
+    assert!(outcome.stderr.contains("3 of 3 steps ended before Newton's method had converged"), "{outcome:?}");
     assert_eq!(count(&desk.json("s.json"), "unconverged_steps"), 3);
-    assert!(said.contains("3 steps ended before Newton's method had converged"), "{said}");
+    assert!(desk.json("s.json")["status"].as_str().unwrap().starts_with("failed: 3 of 3 steps"));
+    assert!(desk.json("q.json")["time"].as_f64().unwrap() > 0.0, "the files are there all the same");
+
+    desk.write("accepted.toml", format!("{scene}[newton]\nmax_iterations = 1\naccept_unconverged = true\n"));
+    desk.run_well("accepted.toml --headless --steps 3 --stats s.json");
+    assert_eq!(count(&desk.json("s.json"), "unconverged_steps"), 3);
+    assert_eq!(desk.json("s.json")["status"], "done");
 }

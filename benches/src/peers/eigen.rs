@@ -71,7 +71,7 @@ fn pair(name: &str, value: f64) -> [String; 2] {
 /// Mesh and material. The program wants E and ν, of which it takes C = μ/2 and D = λ/2.
 fn body(scene: &Scene, data: &Path) -> Option<Vec<String>> {
     let node = data.join(scene.mesh.file.as_ref()?);
-    let is_whole = scene.mesh.scale == 1.0 && scene.mesh.refine == 0 && !scene.mass.lumped;
+    let is_whole = scene.mesh.scale == 1.0 && scene.mesh.refine == 0 && scene.mass.lumped != Some(true);
     let (C, D) = scene.material.neo_hookean().filter(|_| is_whole)?;
     let (mu, lambda) = (2.0 * C, 2.0 * D);
     let young = mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu);

@@ -1,6 +1,7 @@
 //! The engine's simulation of one scene: a [`System`] and its [`State`], advanced by an integrator, as a [`Simulation`].
 
 mod checkpoint;
+mod divergence;
 mod integrator;
 mod parts;
 mod range_check;
@@ -24,6 +25,8 @@ use crate::refusal::Refusal;
 use crate::skinning::Skinning;
 use crate::solvers::SolverChoice;
 
+use divergence::SuppliedEnergy;
+
 pub use integrator::integrators;
 
 /// A body that the engine moves, in one number type.
@@ -38,6 +41,8 @@ pub struct Simulator<T: Real> {
     initial_velocity: Vec<[T; 3]>,
     /// The state before the last step, to which a failed step returns.
     last_good: State<T>,
+    /// What a method that can diverge is checked against.
+    supplied: SuppliedEnergy<T>,
     integrator: Box<dyn Integrator<T>>,
     kind: IntegratorKind,
     solver: SolverChoice,
@@ -76,6 +81,7 @@ impl<T: Real> Simulator<T> {
             range_check::check_shear_modulus(material).map_err(|problem| scene.refuse(table, &problem))?;
         }
         let method = scene.method();
+        range_check::check_tolerance::<T>(&method).map_err(refuse)?;
         if method.integrator == IntegratorKind::Static {
             rigid_modes::check(&body).map_err(refuse)?;
         }
@@ -91,6 +97,7 @@ impl<T: Real> Simulator<T> {
         let state = State::at_start(system.nodes(), &initial_velocity);
         Ok(Self {
             integrator: integrator::build(method.integrator, &method, &system, solver),
+            supplied: SuppliedEnergy::default(),
             kind: method.integrator,
             solver,
             dt: method.dt,
@@ -125,7 +132,19 @@ impl<T: Real> Simulator<T> {
             self.state.u[node] = displacements[mesh_node as usize].map(T::of);
             self.state.v[node] = velocities[mesh_node as usize].map(T::of);
         }
+        self.forget();
+    }
+
+    /// Lets a motion grow without bound, so that its growth can be measured, or ends it again at the step in which it shows.
+    pub fn accept_divergence(&mut self, is_accepted: bool) {
+        self.supplied.forget();
+        self.supplied.may_diverge = is_accepted;
+    }
+
+    /// Drops all that was derived from earlier states and parameters.
+    fn forget(&mut self) {
         self.integrator.forget();
+        self.supplied.forget();
     }
 
     /// Lets the Dirichlet conditions apply that apply in a step from this time, s. Returns whether these are others than before.

@@ -14,6 +14,10 @@ use crate::values::{
 use crate::{LoadCurve, Material, Scene, SceneError};
 use fem_mesh::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
+/// Largest number of nodes for which an explicit method takes the consistent mass by default. Its linear systems need some thirty
+/// products for each evaluation of the forces, a lumped mass one division.
+pub const CONSISTENT_MASS: usize = 2000;
+
 /// A body as a pipeline simulates it: checked meshes, material, constraints and external forces, in the mesh's node numbers and
 /// SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +30,8 @@ pub struct Body {
     pub material: Material,
     /// Parts of the body with materials of their own. No element belongs to two of them.
     pub regions: Vec<MaterialRegion>,
-    /// Whether the mass matrix is lumped instead of consistent.
+    /// Whether the mass matrix is lumped instead of consistent: as the scene says, else for an explicit method and a mesh of more than
+    /// [`CONSISTENT_MASS`] nodes.
     pub lumped_mass: bool,
     /// Factor on the moduli of each element; empty for a uniform body. Scene files have no key for it.
     pub stiffness_factors: Vec<f64>,
@@ -83,7 +88,7 @@ pub fn body_of(scene: &Scene, mesh: TetrahedralMesh, data: &Path) -> Result<Body
         name: scene.name.clone(),
         material: scene.material.clone(),
         regions,
-        lumped_mass: scene.mass.lumped,
+        lumped_mass: scene.mass.lumped.unwrap_or(lumps_by_default(scene, mesh.vertices.len())),
         stiffness_factors: Vec::new(),
         density_factors,
         gravity: scene.gravity.as_ref().map(|gravity| gravity.acceleration.into()),
@@ -99,6 +104,10 @@ pub fn body_of(scene: &Scene, mesh: TetrahedralMesh, data: &Path) -> Result<Body
         damping: damping(scene),
         shape: Shape { mesh, boundary, display },
     })
+}
+
+fn lumps_by_default(scene: &Scene, nodes: usize) -> bool {
+    scene.time.integrator.is_explicit() && nodes > CONSISTENT_MASS
 }
 
 /// Scales, checks and refines the tetrahedra.

@@ -44,6 +44,19 @@ impl Integrator {
         }
     }
 
+    /// Whether a step needs forces alone, and no matrix beside the mass.
+    pub fn is_explicit(self) -> bool {
+        match self {
+            Self::ExplicitEuler | Self::SemiImplicitEuler | Self::Rk2 | Self::Rk4 | Self::Verlet => true,
+            Self::LinearlyImplicitEuler | Self::ImplicitEuler | Self::Static => false,
+        }
+    }
+
+    /// Whether a step needs Newton's method.
+    pub fn has_newton(self) -> bool {
+        !self.is_explicit() && self != Self::LinearlyImplicitEuler
+    }
+
     /// The method that follows this one in a list, the first after the last.
     pub fn next_in(self, list: &[Self]) -> Self {
         let place = list.iter().position(|&integrator| integrator == self);

@@ -25,7 +25,7 @@ mod timer;
 mod values;
 mod warnings;
 
-pub use body::{Body, body, body_of};
+pub use body::{Body, CONSISTENT_MASS, body, body_of};
 pub use curve::LoadCurve;
 pub use error::SceneError;
 pub use integrator::Integrator;

@@ -58,8 +58,24 @@ pub trait Simulation: Send {
     /// Kinetic and potential energy now, J.
     fn energies(&self) -> Energies;
 
+    /// Part of the loads and prescribed motions that the load steps so far have applied; `None` for a motion.
+    fn load_factor(&self) -> Option<f64> {
+        None
+    }
+
     /// Minimum of J = det F over all elements now, and its element.
     fn min_J(&self) -> (f64, usize);
+
+    /// Number of elements with det F ≤ 0 now; zero for a pipeline in which an inverted element ends the run.
+    fn inverted_elements(&self) -> usize {
+        0
+    }
+
+    /// The longest stable time step of an explicit method for small vibrations about the undeformed body, s: zero for a method that
+    /// is unstable at any time step, `None` for implicit methods.
+    fn critical_time_step(&self) -> Option<f64> {
+        None
+    }
 
     /// Cauchy stress of each element now, Pa.
     fn stresses(&self) -> Vec<Matrix3<f64>>;

@@ -86,13 +86,13 @@ fn row(scene: &Scene, state: &Path) -> Result<String, End> {
     write_state(state, scene, &*simulation).map_err(End::unusable)?;
     let status = run.failure.as_ref().map_or("done".to_owned(), |failure| format!("failed: {failure}"));
     let median = quantile(&run.step_seconds, 0.5).map_or(String::new(), |seconds| format!("{seconds:.6e}"));
-    let (energies, (min_J, _)) = (simulation.energies(), simulation.min_J());
+    let (energies, (least, _)) = (simulation.energies(), simulation.min_J());
     let (shape, q) = (simulation.shape(), simulation.positions());
-    let moved = |(node, X): (usize, &nalgebra::Vector3<f64>)| (q.fixed_rows::<3>(3 * node) - X).norm();
+    let moved = |(node, rest): (usize, &nalgebra::Vector3<f64>)| (q.fixed_rows::<3>(3 * node) - rest).norm();
     let largest = shape.mesh.vertices.iter().enumerate().map(moved).fold(0.0, f64::max);
     let name = state.file_name().unwrap_or_default().to_string_lossy().into_owned();
     Ok(format!(
-        "{},{},{:.9e},{median},{},{:.9e},{:.9e},{:.9e},{min_J:.9e},{largest:.9e},{}",
+        "{},{},{:.9e},{median},{},{:.9e},{:.9e},{:.9e},{least:.9e},{largest:.9e},{}",
         cell(&status),
         simulation.steps(),
         simulation.time(),

@@ -90,6 +90,19 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
         }
         least
     }
+
+    /// Number of elements with det F ≤ 0.
+    pub fn inverted(&self, u: &[[T; D]]) -> usize {
+        let of_batch = |chunk: &Chunk<T, D, N>, number: usize, (batch, corners)| {
+            let J = volume_change(&displacement_gradient(batch, corners, u)).0 + constant(1.0);
+            // The lanes of the last batch that belong to no element are empty.
+            let elements = chunk.elements.len() - number * T::WIDTH;
+            T::each(&J).iter().take(elements).filter(|&&J| !(J > T::default())).count()
+        };
+        let of_chunk =
+            |chunk| -> usize { batches(chunk).enumerate().map(|(number, batch)| of_batch(chunk, number, batch)).sum() };
+        self.chunks.iter().map(of_chunk).sum()
+    }
 }
 
 /// Adds what the corners of a batch contribute to the nodes of its chunk.

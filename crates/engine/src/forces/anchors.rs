@@ -54,6 +54,10 @@ impl<T: Real> Potential<T> for Anchors {
         self.interaction.anchors(&self.shape.mesh.vertices, 0.0).next().is_some()
     }
 
+    fn is_steady(&self) -> bool {
+        false
+    }
+
     fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy {
         let energy = |(node, target): (usize, [T; 3])| {
             let square = |i: usize| (u[node][i] - target[i]).as_f64().powi(2);

@@ -101,6 +101,10 @@ impl<T: Real> Potential<T> for DeadLoad<T> {
         self.0.iter().map(|load| size_of_val(&load.force[..])).sum()
     }
 
+    fn is_steady(&self) -> bool {
+        self.0.iter().all(|load| load.curve.is_none())
+    }
+
     /// Energy of the forces of this moment. A force that changes with time does work on a body that does not move.
     fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy {
         let of_load = |load: &Load<T>| -> Energy {

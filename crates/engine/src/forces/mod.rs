@@ -41,6 +41,11 @@ pub trait Potential<T: Real>: Send + Sync {
         true
     }
 
+    /// Whether its energy depends on the displacements alone, and not on the time.
+    fn is_steady(&self) -> bool {
+        true
+    }
+
     /// Pairs of nodes, beyond those that share an element, which its Hessian couples.
     fn couplings(&self) -> Vec<[u32; 2]> {
         Vec::new()

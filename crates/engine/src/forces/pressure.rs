@@ -40,7 +40,8 @@ struct Face<T> {
 
 /// The pressures of a body; `None` where it has none.
 pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Potential<T>>> {
-    let pressures: Vec<_> = body.pressures.iter().map(|pressure| Pressure::new(body, pressure, numbering)).collect();
+    let joined = joined(&body.pressures);
+    let pressures: Vec<_> = joined.iter().map(|pressure| Pressure::new(body, pressure, numbering)).collect();
     (!pressures.is_empty()).then(|| Box::new(Pressures(pressures)) as Box<dyn Potential<T>>)
 }
 
@@ -129,6 +130,18 @@ impl<T: Real> Potential<T> for Pressures<T> {
         let is_finite = self.0.iter().all(|pressure| pressure.pressure.as_f64().is_finite());
         (!is_finite).then_some(("traction", "a pressure"))
     }
+}
+
+/// Tables of the same pressure and curve as one: six sides of a box together have a potential that none of them has alone.
+fn joined(tables: &[fem_scene::Pressure]) -> Vec<fem_scene::Pressure> {
+    let mut joined: Vec<fem_scene::Pressure> = Vec::new();
+    for table in tables {
+        match joined.iter_mut().find(|earlier| (earlier.pressure, &earlier.curve) == (table.pressure, &table.curve)) {
+            Some(earlier) => earlier.faces.extend(&table.faces),
+            None => joined.push(table.clone()),
+        }
+    }
+    joined
 }
 
 /// Corners relative to the first node, m: they keep their digits far from the origin.

@@ -7,6 +7,7 @@ use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
+use crate::vector::dot;
 
 /// Accelerations, with the vectors that they need.
 ///
@@ -19,6 +20,9 @@ pub struct Accelerations<T: Real> {
     /// Accelerations of the constrained degrees of freedom, m/s², and their velocities, m/s; empty without a prescribed motion.
     prescribed: Vec<[T; 3]>,
     velocity: Vec<[T; 3]>,
+    /// Time step, s, and power of the prescribed motions at the last evaluation, W.
+    dt: f64,
+    power: f64,
 }
 
 impl<T: Real> Accelerations<T> {
@@ -31,6 +35,8 @@ impl<T: Real> Accelerations<T> {
             force: zero(system.nodes()),
             prescribed: zero(moving),
             velocity: zero(moving),
+            dt: 0.0,
+            power: 0.0,
         }
     }
 
@@ -42,6 +48,7 @@ impl<T: Real> Accelerations<T> {
         // A reset can bring back a motion that had ended when the vectors were allocated.
         self.prescribed.resize(system.nodes(), [T::default(); 3]);
         self.velocity.resize(system.nodes(), [T::default(); 3]);
+        self.dt = dt;
         let over_dt = T::of(1.0 / dt);
         system.prescribe(&state.u, Moment::at(state.time + dt), &mut self.velocity);
         for node in 0..self.prescribed.len() {
@@ -63,12 +70,19 @@ impl<T: Real> Accelerations<T> {
         a: &mut [[T; 3]],
         counters: &mut Counters,
     ) -> Result<(), Cause> {
-        let Self { mass, force, prescribed, .. } = self;
+        let Self { mass, force, prescribed, velocity, power, .. } = self;
         counters.force_assemblies += 1;
         system.force(u, v, u, Moment::at(time), force);
         if system.dirichlet.has_motion() {
             system.profile.prescribed.time(|| system.mass.add_times(T::of(-1.0), prescribed, force));
+            // The reactions are minus the force, and free entries of the velocity are zero.
+            *power = -dot(force, velocity);
         }
         system.profile.mass.time(|| mass.solve(system, force, a))
+    }
+
+    /// Work of the prescribed motions on the body in the last step, with the power at its last evaluation, J.
+    pub fn work_of_motions(&self) -> f64 {
+        self.dt * self.power
     }
 }

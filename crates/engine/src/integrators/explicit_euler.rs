@@ -35,4 +35,8 @@ impl<T: Real> Integrator<T> for ExplicitEuler<T> {
         axpy(dt, &self.a, &mut state.v);
         Ok(Convergence::Converged)
     }
+
+    fn work_of_motions(&self) -> Option<f64> {
+        Some(self.accelerations.work_of_motions())
+    }
 }

@@ -1,6 +1,7 @@
 //! Time integration methods, one file each, behind the trait [`Integrator`].
 
 mod accelerations;
+mod critical_time_step;
 mod explicit_euler;
 mod followers;
 mod implicit_euler;
@@ -15,6 +16,7 @@ mod statics;
 mod verlet;
 
 pub use accelerations::Accelerations;
+pub use critical_time_step::critical_time_step;
 pub use explicit_euler::ExplicitEuler;
 pub use implicit_euler::ImplicitEuler;
 pub use linearly_implicit_euler::LinearlyImplicitEuler;
@@ -68,6 +70,16 @@ pub trait Integrator<T: Real>: Send {
 
     /// The linear solver of an implicit method.
     fn solver(&self) -> Option<&Solver<T>> {
+        None
+    }
+
+    /// Whether no time step lets its motion grow without bound.
+    fn is_unconditionally_stable(&self) -> bool {
+        false
+    }
+
+    /// Work of the prescribed motions on the body in the last step, J; `None` where the method does not know the reactions.
+    fn work_of_motions(&self) -> Option<f64> {
         None
     }
 

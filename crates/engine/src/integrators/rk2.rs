@@ -46,4 +46,8 @@ impl<T: Real> Integrator<T> for Rk2<T> {
         axpy(dt, a, &mut state.v);
         Ok(Convergence::Converged)
     }
+
+    fn work_of_motions(&self) -> Option<f64> {
+        Some(self.accelerations.work_of_motions())
+    }
 }

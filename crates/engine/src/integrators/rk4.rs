@@ -55,4 +55,8 @@ impl<T: Real> Integrator<T> for Rk4<T> {
         }
         Ok(Convergence::Converged)
     }
+
+    fn work_of_motions(&self) -> Option<f64> {
+        Some(self.accelerations.work_of_motions())
+    }
 }

@@ -37,4 +37,8 @@ impl<T: Real> Integrator<T> for SemiImplicitEuler<T> {
         axpy(dt, &state.v, &mut state.u);
         Ok(Convergence::Converged)
     }
+
+    fn work_of_motions(&self) -> Option<f64> {
+        Some(self.accelerations.work_of_motions())
+    }
 }

@@ -14,7 +14,7 @@ use crate::newton::incremental_potential::{Increment, IncrementalPotential, Work
 use crate::number::Real;
 use crate::solvers::Solver;
 use crate::sparse::Block;
-use crate::vector::axpy;
+use crate::vector::{axpy, max_norm};
 
 /// Load stepping with its solver and vectors.
 pub struct Statics<T: Real> {
@@ -40,6 +40,10 @@ struct Linear<T: Real> {
     right: Vec<[T; 3]>,
     solution: Vec<[T; 3]>,
 }
+
+/// Machine epsilon above which a linear solution is refined, and the largest number of refinements.
+const PRECISE: f64 = 1e-12;
+const REFINEMENTS: usize = 4;
 
 /// Largest number of times that a load step is halved.
 const HALVINGS: i32 = 10;
@@ -132,6 +136,10 @@ impl<T: Real> Integrator<T> for Statics<T> {
         })
     }
 
+    fn is_unconditionally_stable(&self) -> bool {
+        true
+    }
+
     fn has_line_search(&self) -> bool {
         matches!(self.method, Method::Newton(_))
     }
@@ -163,6 +171,27 @@ impl<T: Real> Linear<T> {
         solver.solve(values, right, solution, *tolerance).map_err(Cause::Solver)?;
         system.dirichlet.clear_constrained(solution);
         axpy(1.0, solution, u);
+        if T::EPSILON.as_f64() > PRECISE { self.refine(system, moment, u) } else { Ok(()) }
+    }
+
+    /// Iterative refinement, Wilkinson, Rounding Errors in Algebraic Processes (1963): the factor of an ill-conditioned matrix loses
+    /// digits that the forces of the elements keep.
+    fn refine(&mut self, system: &System<T>, moment: Moment, u: &mut [[T; 3]]) -> Result<(), Cause> {
+        let Self { solver, tolerance, values, right, solution, .. } = self;
+        for _ in 0..REFINEMENTS {
+            system.gradient(u, moment, right);
+            for right in right.as_flattened_mut() {
+                *right = -*right;
+            }
+            system.dirichlet.clear_constrained(right);
+            solution.fill([T::default(); 3]);
+            solver.solve(values, right, solution, *tolerance).map_err(Cause::Solver)?;
+            system.dirichlet.clear_constrained(solution);
+            axpy(1.0, solution, u);
+            if max_norm(solution) <= T::EPSILON.as_f64() * max_norm(u) {
+                break;
+            }
+        }
         Ok(())
     }
 }

@@ -54,6 +54,10 @@ impl<T: Real> Integrator<T> for Verlet<T> {
         Ok(Convergence::Converged)
     }
 
+    fn work_of_motions(&self) -> Option<f64> {
+        Some(self.accelerations.work_of_motions())
+    }
+
     fn save(&self, history: &mut History) {
         let a: &[[T; 3]] = if self.is_known { &self.a } else { &[] };
         put(history, "verlet.acceleration", a.as_flattened());

@@ -145,6 +145,11 @@ impl<T: Real> Solids<T> {
         self.least(u, |group| !group.law.allows_inversion())
     }
 
+    /// Number of elements with det F ≤ 0.
+    pub fn inverted(&self, u: &[[T; 3]]) -> usize {
+        self.groups.iter().map(|group| group.elements.inverted(u)).sum()
+    }
+
     fn least(&self, u: &[[T; 3]], is_meant: impl Fn(&Solid<T>) -> bool) -> (T, usize) {
         let mut least = (T::of(f64::INFINITY), 0);
         for group in self.groups.iter().filter(|group| is_meant(group)) {

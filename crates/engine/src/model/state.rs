@@ -1,6 +1,7 @@
 //! The state of a body: everything that changes in a run.
 
 use crate::number::Real;
+use crate::vector::max_norm;
 
 /// Displacements and velocities of all nodes, in the engine's numbering.
 ///
@@ -43,6 +44,11 @@ impl<T: Real> State<T> {
     pub fn first_not_finite(&self) -> Option<usize> {
         let finite = |x: &[T; 3]| x.iter().all(|x| x.as_f64().is_finite());
         self.u.iter().zip(&self.v).position(|(u, v)| !finite(u) || !finite(v))
+    }
+
+    /// A bound of the largest squared speed of a node, m²/s².
+    pub fn largest_squared_speed(&self) -> f64 {
+        3.0 * max_norm(&self.v).powi(2)
     }
 
     /// Memory, bytes.

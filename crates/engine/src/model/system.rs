@@ -200,6 +200,14 @@ impl<T: Real> System<T> {
         }
     }
 
+    /// Adds the Hessian of the external forces times d without a matrix, N.
+    pub fn add_external_hessian_times(&self, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
+        let is_external = |potential: &dyn Potential<T>| potential.is_conservative() && !potential.is_internal();
+        for (potential, _) in self.forces.active().filter(|(potential, _)| is_external(*potential)) {
+            potential.add_hessian_times(T::one(), u, d, product);
+        }
+    }
+
     /// Adds `factor` M x.
     pub fn add_mass_times(&self, factor: T, x: &[[T; 3]], product: &mut [[T; 3]]) {
         self.profile.mass.time(|| self.mass.add_times(factor, x, product));

@@ -15,6 +15,12 @@ use crate::solvers::{Preconditioner, Solver, SolverChoice};
 /// Smallest relative residual that a linear solver can be asked for, in units of the machine epsilon.
 const SMALLEST_RESIDUAL: f64 = 8.0;
 
+/// Relative tolerance of Newton's method on the update where the scene gives none.
+const TOLERANCE: f64 = 1e-10;
+
+/// The smallest one that rounding error lets an update reach, in units of the machine epsilon.
+pub(super) const SMALLEST_TOLERANCE: f64 = 8.0;
+
 /// Largest relative residual of a useful direction of Newton's method.
 const LARGEST_RESIDUAL: f64 = 0.05;
 
@@ -69,7 +75,8 @@ pub(super) fn build<T: Real>(
     };
     let tolerance = method.solver.as_ref().and_then(|solver| solver.tolerance).unwrap_or(1e-12);
     let tolerance = tolerance.max(SMALLEST_RESIDUAL * T::EPSILON.as_f64());
-    let newton = || Newton::new(limits(kind, method, tolerance), solver(), system.nodes(), system.pattern.blocks());
+    let newton =
+        || Newton::new(limits::<T>(kind, method, tolerance), solver(), system.nodes(), system.pattern.blocks());
     match kind {
         IntegratorKind::ExplicitEuler => Box::new(ExplicitEuler::new(system)),
         IntegratorKind::SemiImplicitEuler => Box::new(SemiImplicitEuler::new(system)),
@@ -83,11 +90,11 @@ pub(super) fn build<T: Real>(
 }
 
 /// The scene's limits of Newton's method, or the defaults.
-fn limits(kind: IntegratorKind, method: &Method, solver_tolerance: f64) -> NewtonLimits {
+fn limits<T: Real>(kind: IntegratorKind, method: &Method, solver_tolerance: f64) -> NewtonLimits {
     let most = if kind == IntegratorKind::Static { MOST_ITERATIONS.1 } else { MOST_ITERATIONS.0 };
     NewtonLimits {
         max_iterations: method.newton.max_iterations.unwrap_or(most),
-        tolerance: method.newton.tolerance.unwrap_or(1e-10),
+        tolerance: method.newton.tolerance.unwrap_or(TOLERANCE.max(SMALLEST_TOLERANCE * T::EPSILON.as_f64())),
         projection: method.newton.projection,
         solver_tolerance: solver_tolerance.min(LARGEST_RESIDUAL),
     }

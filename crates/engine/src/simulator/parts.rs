@@ -1,7 +1,7 @@
 //! The parts of a scene: which are built and which are left out, and why.
 
 use fem_scene::simulation::Part;
-use fem_scene::{Integrator as IntegratorKind, Material, Projection};
+use fem_scene::{CONSISTENT_MASS, Integrator as IntegratorKind, Material, Projection};
 
 use super::Simulator;
 use crate::forces::{self, anchors};
@@ -27,7 +27,7 @@ fn body<T: Real>(simulator: &Simulator<T>) -> Vec<Part> {
     let number = std::any::type_name::<T>();
     // The pattern is found with the mesh, whether or not a matrix is assembled.
     let mesh = system.elements.bytes() + system.pattern.bytes();
-    let mass = if system.mass.is_lumped() { "lumped: [mass]" } else { "consistent: couples the nodes of each element" };
+    let mass = mass(system.mass.is_lumped(), simulator.kind.is_explicit());
     let state = state.bytes() + last_good.bytes();
     vec![
         Part::mesh(system.nodes(), system.elements.count, mesh),
@@ -45,6 +45,14 @@ fn materials<T: Real>(simulator: &Simulator<T>) -> String {
         .iter()
         .map(|(name, elements, table)| format!("; {name}: {elements} elements of {}", material(table)));
     std::iter::once(material(&simulator.material)).chain(regions).collect()
+}
+
+fn mass(is_lumped: bool, is_explicit: bool) -> String {
+    if is_lumped {
+        return format!("lumped at the nodes: [mass], or an explicit method and more than {CONSISTENT_MASS} nodes");
+    }
+    let cost = if is_explicit { "; each evaluation solves with it, where mass.lumped = true divides" } else { "" };
+    format!("consistent: couples the nodes of each element{cost}")
 }
 
 /// The law and its parameters, with a warning where linear tetrahedra lock.

@@ -2,10 +2,25 @@
 
 use fem_scene::{Material, Method, Precision};
 
+use super::integrator::SMALLEST_TOLERANCE;
 use crate::materials::AnyLaw;
 use crate::model::system::System;
 use crate::number::{Real, is_positive};
 use crate::refusal::Refusal;
+
+/// Refuses a tolerance of Newton's method that rounding error does not let it reach: it would iterate to its limit in every step.
+pub(super) fn check_tolerance<T: Real>(method: &Method) -> Result<(), Refusal> {
+    let least = SMALLEST_TOLERANCE * T::EPSILON.as_f64();
+    match method.newton.tolerance {
+        Some(tolerance) if tolerance < least => {
+            let problem =
+                format!("is {tolerance:e}, which rounding error does not let a step reach; give {least:.1e} or more");
+            let remedy = if method.precision == Precision::F32 { ", or remove time.precision" } else { "" };
+            Err(("newton.tolerance", problem + remedy))
+        }
+        _ => Ok(()),
+    }
+}
 
 /// Refuses a scene with a derived quantity that would be zero or infinite. Each of its numbers has been checked when it was read;
 /// products of several can still be out of range, above all in single precision.

@@ -11,7 +11,7 @@ use nalgebra::{DVector, Matrix3, Vector3};
 use super::integrator::{build, integrators, solver_choice};
 use super::{Simulator, checkpoint, parts};
 use crate::boundary::reactions::reactions;
-use crate::integrators::Convergence;
+use crate::integrators::{Convergence, critical_time_step};
 use crate::model::state::State;
 use crate::number::Real;
 use crate::pick;
@@ -78,7 +78,7 @@ impl<T: Real> Simulation for Simulator<T> {
             }
             Err(cause) => {
                 self.state.copy_from(&self.last_good);
-                self.integrator.forget();
+                self.forget();
                 Err(self.failure(cause))
             }
         }
@@ -88,7 +88,7 @@ impl<T: Real> Simulation for Simulator<T> {
         self.system.apply_conditions_at(0.0);
         self.state = State::at_start(self.system.nodes(), &self.initial_velocity);
         self.last_good.copy_from(&self.state);
-        self.integrator.forget();
+        self.forget();
     }
 
     fn checkpoint(&self) -> Checkpoint {
@@ -109,9 +109,21 @@ impl<T: Real> Simulation for Simulator<T> {
         Energies { kinetic: system.mass.kinetic_energy(&state.v), potential }
     }
 
+    fn load_factor(&self) -> Option<f64> {
+        self.integrator.moment(&self.state).load_factor
+    }
+
     fn min_J(&self) -> (f64, usize) {
         let (J, element) = self.system.elements.min_det_F(&self.state.u);
         (J.as_f64(), element)
+    }
+
+    fn inverted_elements(&self) -> usize {
+        self.system.elements.inverted(&self.state.u)
+    }
+
+    fn critical_time_step(&self) -> Option<f64> {
+        critical_time_step(self.kind, &self.system)
     }
 
     fn stresses(&self) -> Vec<Matrix3<f64>> {
@@ -138,7 +150,7 @@ impl<T: Real> Simulation for Simulator<T> {
             "dt" => self.dt = value,
             _ => self.system.forces.anchors.interaction.stiffness = value,
         }
-        self.integrator.forget();
+        self.forget();
     }
 
     fn pick(&self, click: &Click) -> Vec<usize> {
@@ -193,19 +205,27 @@ impl<T: Real> Simulator<T> {
         V.iter().zip(u).map(|(X, u)| X + Vector3::from(u.map(T::as_f64))).collect()
     }
 
-    /// Whether the state that a step has reached is finite and has no inverted element, unless the law allows that.
-    fn check_state(&self) -> Result<(), Cause> {
+    /// Whether the state that a step has reached is finite, has no inverted element, unless the law allows that, and no more energy
+    /// than it can have.
+    fn check_state(&mut self) -> Result<(), Cause> {
         if let Some(node) = self.state.first_not_finite() {
             return Err(Cause::NotFinite { node: self.system.numbering.mesh_node[node] as usize });
         }
-        if self.system.elements.allow_inversion() {
+        if !self.system.elements.allow_inversion() {
+            let (J, element) = self.system.elements.min_det_F_of_barriers(&self.state.u);
+            Cause::inverted((J.as_f64(), element)).map_or(Ok(()), Err)?;
+        }
+        if self.integrator.is_unconditionally_stable() || self.supplied.may_diverge {
             return Ok(());
         }
-        let (J, element) = self.system.elements.min_det_F_of_barriers(&self.state.u);
-        Cause::inverted((J.as_f64(), element)).map_or(Ok(()), Err)
+        self.supplied.check(&self.system, &*self.integrator, &self.last_good, &self.state, self.dt)
     }
 
     fn failure(&self, cause: Cause) -> Failure {
-        Failure::of_step(self.state.steps, self.state.time, self.dt, self.kind, cause)
+        let failure = Failure::of_step(self.state.steps, self.state.time, self.dt, self.kind, cause);
+        match self.critical_time_step() {
+            Some(critical) => failure.with_critical_time_step(critical),
+            None => failure,
+        }
     }
 }

@@ -183,7 +183,9 @@ fn a_state_of_another_scene_is_refused_with_the_difference() {
         ("[newton]", &format!("{solver}[newton]"), "solver.kind is not given in the file and lu now"),
         ("cells_per_unit = 1", "cells_per_unit = 2", "number of nodes is 12 in the file and 45 now"),
     ] {
-        let message = refused(&text.replacen(from, to, 1));
+        let other = text.replacen(from, to, 1);
+        // Explicit methods do without Newton's.
+        let message = refused(&if to == "verlet" { other.replace(NEWTON, "") } else { other });
         assert!(message.contains(difference), "{message}");
         assert!(message.contains("state.json: is a state of another scene"), "{message}");
     }

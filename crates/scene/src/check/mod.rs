@@ -7,6 +7,7 @@ mod loads;
 mod materials;
 pub(crate) mod numbers;
 mod selector;
+mod unused;
 
 use crate::tables::{DampingTable, MeshTable, NewtonTable, SolverTable, StaticTable, TimeTable};
 use crate::{Integrator, Scene, SolverKind};
@@ -21,6 +22,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     scene.material.check("material")?;
     materials::check(scene)?;
     check_time(&scene.time)?;
+    unused::check(scene)?;
     loads::check(scene)?;
     constraints::check(scene)?;
     curves::check(scene)?;

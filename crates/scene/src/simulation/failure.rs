@@ -32,6 +32,13 @@ pub enum Cause {
         /// Its J = det F ≤ 0.
         J: f64,
     },
+    /// The motion has far more energy than it was supplied with: it grows without bound.
+    Diverged {
+        /// Kinetic energy, J.
+        kinetic: f64,
+        /// Largest energy that loads, prescribed motions and the initial state have supplied so far, J.
+        supplied: f64,
+    },
     /// At the start of a step, an energy or a force is too large for a number.
     Overflow,
     /// A linear system was not solved.
@@ -71,12 +78,28 @@ pub enum Breakdown {
 impl Failure {
     /// The failure of the step that follows the state at `time` (s) after `steps` steps of length `dt` (s).
     pub fn of_step(steps: usize, time: f64, dt: f64, integrator: Integrator, cause: Cause) -> Self {
+        let half = 0.5 * dt;
         let remedy = match integrator {
             Integrator::Static => "use more static.load_steps, or smaller loads".to_owned(),
-            Integrator::ImplicitEuler => format!("use a time step below {dt} s, smaller loads, or a gentler pull"),
-            _ => format!("use a time step below {dt} s, or implicit_euler"),
+            Integrator::ImplicitEuler => {
+                format!("use a time step of {half} s or less, smaller loads, or a gentler pull")
+            }
+            _ => format!("use a time step of {half} s or less, or implicit_euler"),
         };
         Self { step: steps + 1, time: time + dt, cause, remedy }
+    }
+
+    /// The same failure of an explicit method, with its critical time step (s) in the remedy; zero if there is no stable time step.
+    pub fn with_critical_time_step(mut self, critical: f64) -> Self {
+        self.remedy = if critical == 0.0 {
+            "without damping the method is unstable at any time step; use verlet, or implicit_euler".to_owned()
+        } else {
+            format!(
+                "the critical time step of the undeformed body is about {critical:.3e} s; use a time step well below \
+                 that, or implicit_euler"
+            )
+        };
+        self
     }
 }
 
@@ -99,6 +122,11 @@ impl fmt::Display for Failure {
         match self.cause {
             Cause::NotFinite { node } => write!(f, "the position or velocity of node {node} is no longer finite")?,
             Cause::Inverted { element, J } => write!(f, "element {element} is inverted (J = {J:.3e})")?,
+            Cause::Diverged { kinetic, supplied } => write!(
+                f,
+                "the motion grows without bound: its kinetic energy is {kinetic:.3e} J, and loads, prescribed motions and \
+                 initial state have supplied {supplied:.3e} J"
+            )?,
             Cause::Overflow => write!(f, "an energy or a force is too large for a number")?,
             Cause::Solver(breakdown) => write!(f, "{breakdown}")?,
             Cause::Stuck { unbalanced } => write!(

@@ -38,7 +38,7 @@ pub enum Precision {
 }
 
 /// `[newton]`
-#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct NewtonTable {
     /// Largest number of iterations in a step.
@@ -47,6 +47,9 @@ pub struct NewtonTable {
     pub tolerance: Option<f64>,
     /// Projection of element stiffnesses; [`Projection::WhenNeeded`] by default.
     pub projection: Option<Projection>,
+    /// Whether steps that end before Newton's method has converged are good enough.
+    #[serde(default)]
+    pub accept_unconverged: bool,
 }
 
 /// The iterations of Newton's method in which element stiffnesses are projected to positive semi-definite ones.

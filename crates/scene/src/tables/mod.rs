@@ -139,9 +139,9 @@ pub struct Cuboid {
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct MassTable {
-    /// Whether the mass matrix is lumped: each row is summed on the diagonal.
-    #[serde(default)]
-    pub lumped: bool,
+    /// Whether the mass matrix is lumped: each row is summed on the diagonal. By default it is for explicit methods and large bodies,
+    /// see [`Body::lumped_mass`](crate::Body::lumped_mass).
+    pub lumped: Option<bool>,
 }
 
 /// A coordinate axis; its number is the index of the coordinate.

@@ -29,6 +29,8 @@ pub struct NewtonSettings {
     pub tolerance: Option<f64>,
     /// Projection of element stiffnesses.
     pub projection: Projection,
+    /// Whether steps that end before Newton's method has converged are good enough.
+    pub accept_unconverged: bool,
 }
 
 /// Settings of the linear solver.
@@ -54,10 +56,11 @@ pub struct RayleighDamping {
 impl Scene {
     /// The numerical method, defaults filled in.
     pub fn method(&self) -> Method {
-        let newton = |&NewtonTable { max_iterations, tolerance, projection }: &NewtonTable| NewtonSettings {
-            max_iterations,
-            tolerance,
-            projection: projection.unwrap_or_default(),
+        let newton = |table: &NewtonTable| NewtonSettings {
+            max_iterations: table.max_iterations,
+            tolerance: table.tolerance,
+            projection: table.projection.unwrap_or_default(),
+            accept_unconverged: table.accept_unconverged,
         };
         let solver = |&SolverTable { kind, tolerance, preconditioner }: &SolverTable| SolverSettings {
             kind,

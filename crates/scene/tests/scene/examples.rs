@@ -52,7 +52,7 @@ fn every_table_of_a_scene_is_read() {
     let material = scene.material;
     assert_eq!((material.model.as_str(), material.C, material.D), ("neo_hookean", Some(2e5), Some(1e6)));
     assert_eq!((material.young, material.poisson, material.density), (None, None, 1000.0));
-    assert_eq!(scene.mass, MassTable { lumped: true });
+    assert_eq!(scene.mass, MassTable { lumped: Some(true) });
     assert_eq!(scene.gravity.unwrap().acceleration, [0.0, 0.0, -9.81]);
     let fixed = scene.fixed.unwrap();
     assert_eq!((fixed.plane, fixed.nodes), (Some(Plane { axis: Axis::X, below: 1e-9 }), None));
@@ -60,7 +60,15 @@ fn every_table_of_a_scene_is_read() {
         (scene.time.dt, scene.time.integrator, scene.time.steps),
         (Some(0.01), Integrator::ImplicitEuler, Some(50))
     );
-    assert_eq!(scene.newton, Some(NewtonTable { max_iterations: Some(50), tolerance: Some(1e-10), projection: None }));
+    assert_eq!(
+        scene.newton,
+        Some(NewtonTable {
+            max_iterations: Some(50),
+            tolerance: Some(1e-10),
+            projection: None,
+            accept_unconverged: false
+        })
+    );
     assert_eq!(
         scene.solver,
         Some(SolverTable { kind: SolverKind::Cholesky, tolerance: Some(1e-12), preconditioner: None })
@@ -78,7 +86,7 @@ fn every_table_of_a_scene_is_read() {
 #[test]
 fn tables_that_a_scene_leaves_out_are_absent() {
     let scene = read(LEAST);
-    assert_eq!((scene.about.as_str(), scene.mesh.scale, scene.mass.lumped), ("", 1.0, false));
+    assert_eq!((scene.about.as_str(), scene.mesh.scale, scene.mass.lumped), ("", 1.0, None));
     assert_eq!((scene.mesh.file, scene.mesh.display), (None, None));
     assert!(scene.gravity.is_none() && scene.fixed.is_none() && scene.drag.is_none());
     assert!(scene.newton.is_none() && scene.solver.is_none() && scene.time.steps.is_none());
@@ -134,6 +142,9 @@ fn a_drag_may_name_its_vertex_by_index_and_fixed_nodes_may_be_listed() {
 #[test]
 fn tables_of_newton_and_solver_may_leave_out_their_numbers() {
     let scene = read(&format!("{LEAST}[newton]\n[solver]\nkind = \"pcg\"\n"));
-    assert_eq!(scene.newton, Some(NewtonTable { max_iterations: None, tolerance: None, projection: None }));
+    assert_eq!(
+        scene.newton,
+        Some(NewtonTable { max_iterations: None, tolerance: None, projection: None, accept_unconverged: false })
+    );
     assert_eq!(scene.solver, Some(SolverTable { kind: SolverKind::Pcg, tolerance: None, preconditioner: None }));
 }

@@ -16,8 +16,8 @@ preconditioner = "multigrid"
 [damping]
 alpha = 0.5
 beta = 1e-3
-[static]
-load_steps = 4
+[mass]
+lumped = true
 [body_force]
 density = [0, 0, -9810]
 [[traction]]
@@ -43,7 +43,7 @@ fn the_tables_of_the_engine_are_read() {
     assert_eq!(scene.newton.unwrap().projection, Some(Projection::Always));
     assert_eq!(scene.solver.unwrap().preconditioner, Some(Preconditioner::Multigrid));
     assert_eq!(scene.damping, Some(DampingTable { alpha: 0.5, beta: 1e-3 }));
-    assert_eq!(scene.statics, Some(StaticTable { load_steps: 4 }));
+    assert_eq!(scene.mass.lumped, Some(true));
     assert_eq!(scene.body_force, Some(BodyForceTable { density: [0.0, 0.0, -9810.0], curve: None }));
     let on = Some(On::Side(SidePlane { axis: Axis::X, side: Side::Max, within: 1e-9 }));
     let dead = TractionTable { on, force_per_area: Some([1.0, 2.0, 3.0]), ..TractionTable::default() };
@@ -51,6 +51,13 @@ fn the_tables_of_the_engine_are_read() {
     let follower = TractionTable { faces, pressure: Some(-5.0), ..TractionTable::default() };
     assert_eq!(scene.traction, [dead, follower]);
     assert_eq!(scene.springs, [SpringTable { nodes: [0, 11], stiffness: 100.0, rest_length: Some(0.0) }]);
+}
+
+#[test]
+fn load_steps_are_read_for_equilibrium() {
+    let text = format!("{}[static]\nload_steps = 4\n", edit(LEAST, "implicit_euler", "static"));
+    assert_eq!(read(&text).statics, Some(StaticTable { load_steps: 4 }));
+    assert_refused(&edit(&text, "load_steps = 4", "load_steps = 0"), 13, "static.load_steps is 0; give at least one");
 }
 
 #[test]
@@ -84,7 +91,6 @@ fn numbers_out_of_range_are_refused_at_their_line() {
     };
     refused("alpha = 0.5", "alpha = -1", 19, "damping.alpha is -1; give 0 1/s or more");
     refused("beta = 1e-3", "beta = nan", 20, "damping.beta is NaN; give 0 s or more");
-    refused("load_steps = 4", "load_steps = 0", 22, "static.load_steps is 0; give at least one");
     refused("-9810]", "inf]", 24, "body_force.density is inf; give finite numbers");
     refused("within = 1e-9", "within = -1", 26, "traction[0].on has within = -1; give a distance");
     refused("[1, 2, 3]", "[1, nan, 3]", 27, "traction[0].force_per_area is NaN");

@@ -219,6 +219,8 @@ fn single(scene: &Scene) -> Scene {
 pub fn base(scene: &Scene, is_quick: bool) -> Scene {
     let mut scene = Scene { pipeline: Pipeline::Engine, ..scene.clone() };
     scene.mesh.display = None;
+    // Every method moves the same body, whatever its size.
+    scene.mass.lumped = Some(scene.mass.lumped == Some(true));
     if is_quick && let Some(cuboid) = &mut scene.mesh.cuboid {
         cuboid.cells_per_unit = cuboid.cells_per_unit.min(2);
     }
@@ -240,7 +242,7 @@ fn ladder(group: &'static str, method: &str, scene: &Scene, steps: &[usize], ext
 }
 
 fn newton(scene: &Scene) -> NewtonTable {
-    scene.newton.clone().unwrap_or(NewtonTable { max_iterations: None, tolerance: None, projection: None })
+    scene.newton.clone().unwrap_or_default()
 }
 
 /// Name of an integrator in prose.

@@ -11,9 +11,8 @@ use super::theory::{self, HighestMode};
 /// Initial amplitude of the highest mode, m; the body's elements have edges of 1 m.
 const AMPLITUDE: f64 = 1e-4;
 
-/// e-folds of that amplitude until an element inverts, and until numbers overflow.
-const TO_INVERSION: f64 = 12.0;
-const TO_OVERFLOW: f64 = 800.0;
+/// e-folds of that amplitude until its energy exceeds a thousand times that at the start, with a margin.
+const TO_DIVERGENCE: f64 = 5.0;
 
 /// e-folds that leave a vibration small.
 const SMALL: f64 = 2.0;
@@ -31,20 +30,19 @@ pub struct Forecast {
 }
 
 /// Predicts the outcome of the highest mode at z = ω dt within `most` steps.
-pub fn forecast(integrator: &str, model: &str, z: f64, most: usize) -> Forecast {
+pub fn forecast(integrator: &str, z: f64, most: usize) -> Forecast {
     let Some(limit) = theory::limit(integrator) else {
         return Forecast { steps: most.min(60), expected: Outcome::Survives, margin: None };
     };
     let growth = theory::growth(integrator, z);
-    let needed = if model == "neo_hookean" { TO_INVERSION } else { TO_OVERFLOW };
-    let (steps, expected) = if growth > 0.0 && 1.5 * needed / growth < most as f64 {
-        (20 + (1.5 * needed / growth) as usize, Outcome::Explodes)
+    let (steps, expected) = if growth > 0.0 && 1.5 * TO_DIVERGENCE / growth < most as f64 {
+        (20 + (1.5 * TO_DIVERGENCE / growth) as usize, Outcome::Explodes)
     } else if growth > 0.0 {
         (most.min((SMALL / growth) as usize).max(1), Outcome::Survives)
     } else {
         (most.min(500), Outcome::Survives)
     };
-    let margin = if limit > 0.0 { z / limit } else { growth * steps as f64 / needed };
+    let margin = if limit > 0.0 { z / limit } else { growth * steps as f64 / TO_DIVERGENCE };
     Forecast { steps, expected, margin: Some(margin) }
 }
 

@@ -120,7 +120,7 @@ pub fn picture(map: &Map) -> Picture {
         _ => String::new(),
     };
     let limit = match map.integrator {
-        "explicit_euler" | "rk2" => format!("growth by e¹⁸ in {} steps", map.most_steps),
+        "explicit_euler" | "rk2" => format!("growth by e⁷ in {} steps", map.most_steps),
         _ => "dt = limit / ω_max".to_owned(),
     };
     HeatMap {

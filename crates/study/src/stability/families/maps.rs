@@ -84,7 +84,7 @@ fn map(integrator: &'static str, omega: f64, most: usize, deadline: Deadline) ->
         for part in 0..TIME_STEPS as i32 {
             let (young, dt) = (10f64.powi(exponent), 10f64.powf(f64::from(part) / f64::from(PARTS_OF_DT) - 5.0));
             let z = omega * young.sqrt() * dt;
-            let forecast = forecast(integrator, "neo_hookean", z, most);
+            let forecast = forecast(integrator, z, most);
             let text = clamped(integrator, "neo_hookean", young, dt);
             let found = try_forecast(&text, forecast, deadline).unwrap_or_else(|finding| finding);
             let (steps, expected) = (forecast.steps, forecast.expected);
@@ -102,7 +102,7 @@ fn largest(integrator: &str, most: usize) -> Option<f64> {
         return Some(limit);
     }
     // Growth increases with z.
-    let explodes = |z: &f64| forecast(integrator, "neo_hookean", *z, most).expected == Outcome::Explodes;
+    let explodes = |z: &f64| forecast(integrator, *z, most).expected == Outcome::Explodes;
     (0..4000).map(|i| 10f64.powf(f64::from(i) / 1000.0 - 3.0)).find(explodes)
 }
 

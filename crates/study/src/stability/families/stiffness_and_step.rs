@@ -41,7 +41,7 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
 
 fn vibrating(integrator: &'static str, model: &'static str, young: f64, dt: f64, unit_omega: f64, quick: bool) -> Case {
     let z = unit_omega * young.sqrt() * dt;
-    let forecast = forecast(integrator, model, z, if quick { 2000 } else { 20_000 });
+    let forecast = forecast(integrator, z, if quick { 2000 } else { 20_000 });
     let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, dt omega_max = {z:.3e}, {} steps", forecast.steps);
     let text = clamped(integrator, model, young, dt);
     Case {

@@ -1,0 +1,103 @@
+//! The critical time step of explicit methods, from the fastest vibration of the undeformed body.
+
+use fem_scene::{Integrator as IntegratorKind, RayleighDamping};
+use nalgebra::Complex;
+
+use super::MassInverse;
+use crate::model::system::System;
+use crate::number::Real;
+use crate::vector::{dot, norm};
+
+/// Relative change of ω² at which the power iteration ends, and its largest number of iterations.
+const ACCURACY: (f64, usize) = (1e-5, 300);
+
+/// The longest stable time step of an explicit method for small vibrations about the undeformed body, s: zero for a method that is
+/// unstable at any time step, `None` for implicit methods and for bodies without stiffness.
+pub fn critical_time_step<T: Real>(kind: IntegratorKind, system: &System<T>) -> Option<f64> {
+    if !kind.is_explicit() {
+        return None;
+    }
+    let omega = largest_frequency(system)?;
+    let ratio = system.damping.as_ref().map_or(0.0, |damping| damping_ratio(damping, omega));
+    let limit = match kind {
+        // Central differences with the damping force of the step before: Belytschko, Liu, Moran, Nonlinear Finite Elements for
+        // Continua and Structures (2000), §6.2.
+        IntegratorKind::SemiImplicitEuler | IntegratorKind::Verlet => 2.0 * ((1.0 + ratio * ratio).sqrt() - ratio),
+        IntegratorKind::ExplicitEuler => limit_of_taylor_method(1, ratio),
+        IntegratorKind::Rk2 => limit_of_taylor_method(2, ratio),
+        IntegratorKind::Rk4 => limit_of_taylor_method(4, ratio),
+        IntegratorKind::LinearlyImplicitEuler | IntegratorKind::ImplicitEuler | IntegratorKind::Static => return None,
+    };
+    Some(limit / omega)
+}
+
+/// The largest stable ω dt for a vibration with damping ratio ξ of a method whose amplification factor is the Taylor polynomial of
+/// e^z of so high a degree, z = ω dt (−ξ ± √(ξ² − 1)); zero if there is none.
+fn limit_of_taylor_method(degree: u32, ratio: f64) -> f64 {
+    if ratio == 0.0 && degree <= 2 {
+        return 0.0;
+    }
+    let root = Complex::new(ratio * ratio - 1.0, 0.0).sqrt();
+    let is_stable = |limit: f64| {
+        [root, -root].into_iter().all(|root| {
+            let z = (root - ratio) * limit;
+            // Horner's rule: 1 + z (1 + z/2 (1 + z/3 (…))).
+            let amplification = (1..=degree).rev().fold(Complex::new(1.0, 0.0), |sum, k| sum * z / f64::from(k) + 1.0);
+            amplification.norm() <= 1.0
+        })
+    };
+    // Every such region of stability lies within |z| < 4.
+    let (mut stable, mut unstable) = (0.0, 4.0);
+    for _ in 0..40 {
+        let middle = 0.5 * (stable + unstable);
+        if is_stable(middle) { stable = middle } else { unstable = middle }
+    }
+    stable
+}
+
+/// Part of the critical damping of a vibration, ξ = (α/ω + β ω)/2.
+fn damping_ratio(damping: &RayleighDamping, omega: f64) -> f64 {
+    0.5 * (damping.alpha / omega + damping.beta * omega)
+}
+
+/// The largest angular frequency of the undeformed body, 1/s, by the power method for M⁻¹ K; `None` where it has no stiffness. The
+/// Rayleigh quotient approaches it from below.
+fn largest_frequency<T: Real>(system: &System<T>) -> Option<f64> {
+    let zero = || vec![[T::default(); 3]; system.nodes()];
+    let (undeformed, mut force, mut mass_times) = (zero(), zero(), zero());
+    let mut inverse = MassInverse::new(&system.mass);
+    let mut x = irregular(system.nodes());
+    let mut square = 0.0;
+    for _ in 0..ACCURACY.1 {
+        system.dirichlet.clear_constrained(&mut x);
+        scale(1.0 / norm(&x), &mut x);
+        mass_times.fill([T::default(); 3]);
+        system.add_mass_times(T::one(), &x, &mut mass_times);
+        force.fill([T::default(); 3]);
+        system.add_stiffness_times(T::one(), &undeformed, &x, &mut force);
+        system.add_external_hessian_times(&undeformed, &x, &mut force);
+        let before = square;
+        square = dot(&x, &force) / dot(&x, &mass_times);
+        // NaN and zero fail the comparison: all nodes are constrained, or nothing is stiff.
+        if !(square > 0.0 && square.is_finite()) {
+            return None;
+        }
+        if (square - before).abs() <= ACCURACY.0 * square {
+            break;
+        }
+        inverse.solve(system, &mut force, &mut x).ok()?;
+    }
+    Some(square.sqrt())
+}
+
+/// A vector in which every vibration takes part: multiples of the golden ratio, modulo 1.
+fn irregular<T: Real>(nodes: usize) -> Vec<[T; 3]> {
+    let entry = |k: usize| T::of((k as f64 * 0.618_033_988_749_894_9).fract() - 0.5);
+    (0..nodes).map(|node| std::array::from_fn(|i| entry(3 * node + i + 1))).collect()
+}
+
+fn scale<T: Real>(factor: f64, x: &mut [[T; 3]]) {
+    for x in x.as_flattened_mut() {
+        *x *= T::of(factor);
+    }
+}

@@ -1,0 +1,139 @@
+//! Detects a motion that grows without bound: an explicit method beyond its critical time step, or a linearized one on a body that
+//! is too stiff for it. Its kinetic energy exceeds all that loads, prescribed motions and the initial state have supplied.
+
+use fem_scene::simulation::Cause;
+
+use crate::forces::{Moment, Potential};
+use crate::integrators::Integrator;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::number::Real;
+use crate::vector::dot;
+
+/// Kinetic energy over supplied energy beyond which a motion has diverged. Just below its critical time step, semi-implicit Euler
+/// oscillates about the true energy by some hundred times that: it keeps a modified energy.
+const LIMIT: f64 = 1000.0;
+
+/// The energy that a body has been supplied with.
+#[derive(Default)]
+pub(super) struct SuppliedEnergy<T> {
+    /// Kinetic and elastic energy at the start, and the potential of the steady loads then; `None` before the first step.
+    start: Option<(f64, f64)>,
+    /// Work since the start of the loads and constraints whose work depends on the path, J.
+    work: f64,
+    /// Largest energy so far, J.
+    largest: f64,
+    /// Forces on the nodes, N, and changes of their displacements, m.
+    force: Vec<[T; 3]>,
+    change: Vec<[T; 3]>,
+    /// Whether a motion may diverge, as a study of its growth wants.
+    pub(super) may_diverge: bool,
+}
+
+impl<T: Real> SuppliedEnergy<T> {
+    /// Starts again: the state is a new one.
+    pub(super) fn forget(&mut self) {
+        (self.start, self.work, self.largest) = (None, 0.0, 0.0);
+    }
+
+    /// Adds what the step from `before` to `state` has supplied, and refuses a state with far more kinetic energy. The bound of the
+    /// largest speed comes first: most steps need no energy at all.
+    pub(super) fn check(
+        &mut self,
+        system: &System<T>,
+        integrator: &dyn Integrator<T>,
+        before: &State<T>,
+        state: &State<T>,
+        dt: f64,
+    ) -> Result<(), Cause> {
+        let moment = Moment::at(before.time + dt);
+        let (start, potential) = *self.start.get_or_insert_with(|| energies_at_start(system, before, moment));
+        self.work += self.work_of_loads(system, before, state, dt);
+        if system.dirichlet.has_motion() {
+            self.work += self.work_of_motions(system, integrator, before, state, dt);
+        }
+        if 0.5 * system.total_mass * state.largest_squared_speed() <= LIMIT * self.largest {
+            return Ok(());
+        }
+        self.make_room(system.nodes());
+        // In the first step of explicit Euler velocities change and displacements do not: look one step ahead.
+        add_scaled(&state.u, dt, &state.v, &mut self.change);
+        let work = |u: &[[T; 3]]| potential - steady_potential(system, u, moment);
+        let steady = f64::max(work(&state.u), work(&self.change));
+        self.largest = self.largest.max(start + self.work + steady);
+        let kinetic = system.mass.kinetic_energy(&state.v);
+        let shear = system.elements.moduli().map(|[shear, _]| shear).fold(0.0, f64::max);
+        let round_off = T::EPSILON.as_f64() * shear * system.length.powi(3);
+        if kinetic <= LIMIT * self.largest + round_off {
+            return Ok(());
+        }
+        Err(Cause::Diverged { kinetic, supplied: self.largest })
+    }
+
+    /// Work in a step of follower loads and of loads that change with the time, J: the force on the body as it was at the step's start,
+    /// at the step's end, times the velocity there.
+    fn work_of_loads(&mut self, system: &System<T>, before: &State<T>, state: &State<T>, dt: f64) -> f64 {
+        if !system.forces.active().any(|(potential, _)| !is_steady(potential)) {
+            return 0.0;
+        }
+        self.make_room(system.nodes());
+        self.force.fill([T::default(); 3]);
+        for (potential, _) in system.forces.active().filter(|(potential, _)| !is_steady(*potential)) {
+            potential.add_gradient(&before.u, Moment::at(before.time + dt), &mut self.force);
+        }
+        -dt * dot(&self.force, &state.v)
+    }
+
+    /// Work of the reactions in a step, J.
+    fn work_of_motions(
+        &mut self,
+        system: &System<T>,
+        integrator: &dyn Integrator<T>,
+        before: &State<T>,
+        state: &State<T>,
+        dt: f64,
+    ) -> f64 {
+        if let Some(work) = integrator.work_of_motions() {
+            return work;
+        }
+        self.make_room(system.nodes());
+        let Self { force, change, .. } = self;
+        system.force(&before.u, &before.v, &before.u, integrator.moment(before), force);
+        add_scaled(&state.v, -1.0, &before.v, change);
+        system.add_mass_times(T::of(-1.0 / dt), change, force);
+        add_scaled(&state.u, -1.0, &before.u, change);
+        system.dirichlet.clear_free(change);
+        -dot(force, change)
+    }
+
+    fn make_room(&mut self, nodes: usize) {
+        self.force.resize(nodes, [T::default(); 3]);
+        self.change.resize(nodes, [T::default(); 3]);
+    }
+}
+
+/// Whether the work of a force depends on the displacements at the start and now alone.
+fn is_steady<T: Real>(potential: &dyn Potential<T>) -> bool {
+    potential.is_conservative() && potential.is_steady()
+}
+
+/// Potential of the external forces whose work does not depend on the path, J.
+fn steady_potential<T: Real>(system: &System<T>, u: &[[T; 3]], moment: Moment) -> f64 {
+    let steady = system.forces.active().filter(|(potential, _)| is_steady(*potential) && !potential.is_internal());
+    steady.map(|(potential, _)| potential.energy(u, moment).value).sum()
+}
+
+fn energies_at_start<T: Real>(system: &System<T>, state: &State<T>, moment: Moment) -> (f64, f64) {
+    let internal = system.forces.active().filter(|(potential, _)| potential.is_internal());
+    let springs: f64 = internal.map(|(potential, _)| potential.energy(&state.u, moment).value).sum();
+    let elastic = system.elements.energy(&state.u) + springs;
+    (system.mass.kinetic_energy(&state.v) + elastic, steady_potential(system, &state.u, moment))
+}
+
+/// sum = x + a y
+fn add_scaled<T: Real>(x: &[[T; 3]], a: f64, y: &[[T; 3]], sum: &mut [[T; 3]]) {
+    let a = T::of(a);
+    for (sum, (x, y)) in sum.iter_mut().zip(x.iter().zip(y)) {
+        *sum = std::array::from_fn(|i| x[i] + a * y[i]);
+    }
+}

@@ -1,0 +1,73 @@
+//! Single precision ends where double precision does, with as many iterations, or is refused.
+
+use fem_scene::MODELS;
+use fem_scene::simulation::Simulation;
+
+use crate::{DYNAMIC, build, distance, of_law, run, soft, try_build};
+
+const LOADS: &str = "[gravity]\nacceleration = [0, 0, -2]\n[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n";
+
+/// The simulation after a number of steps in double and in single precision.
+fn ends(text: &str, steps: usize) -> [Box<dyn Simulation>; 2] {
+    ["f64", "f32"].map(|precision| {
+        let mut simulation = build(&text.replace("[time]", &format!("[time]\nprecision = \"{precision}\"")));
+        run(&mut *simulation, steps);
+        simulation
+    })
+}
+
+#[test]
+fn every_law_and_method_ends_where_double_precision_does() {
+    for (law, _) in MODELS {
+        for cells in [1, 3, 6] {
+            for integrator in DYNAMIC.iter().chain(&["static"]) {
+                let dt = if integrator.ends_with("implicit_euler") && *integrator != "semi_implicit_euler" {
+                    1e-2
+                } else {
+                    1e-3
+                };
+                let text = of_law(law, &soft(integrator, dt, LOADS));
+                let text = text.replace("cells_per_unit = 1", &format!("cells_per_unit = {cells}"));
+                let [double, single] = ends(&text, if *integrator == "static" { 1 } else { 20 });
+                let apart = distance(&double.positions(), &single.positions()) / 2.0;
+                assert!(apart < 1e-5, "{law}, {integrator}, {cells} cells: {apart:e} of the length");
+                let (double, single) = (double.counters(), single.counters());
+                assert_eq!(single.unconverged_steps, 0, "{law}, {integrator}, {cells} cells");
+                assert!(single.newton_iterations <= double.newton_iterations, "{law}, {integrator}, {cells} cells");
+            }
+        }
+    }
+}
+
+#[test]
+fn slender_bodies_keep_the_digits_that_their_matrix_loses() {
+    for law in ["linear", "corotated", "neo_hookean"] {
+        let text = of_law(
+            law,
+            &soft(
+                "static",
+                1.0,
+                "[gravity]\nacceleration = [0, 0, -0.01]\n[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n",
+            ),
+        );
+        let [double, single] = ends(&text.replace("[2, 1, 1]", "[30, 1, 1]").replace("unit = 1", "unit = 2"), 1);
+        let apart = distance(&double.positions(), &single.positions()) / 30.0;
+        assert!(apart < 1e-5, "{law}: {apart:e} of the length");
+        assert_eq!(single.counters().unconverged_steps, 0, "{law}");
+    }
+}
+
+#[test]
+fn a_tolerance_below_the_rounding_error_of_the_number_type_is_refused() {
+    for (precision, tolerance, least) in [("f32", "1e-10", "9.5e-7"), ("f64", "1e-16", "1.8e-15")] {
+        for integrator in ["implicit_euler", "static"] {
+            let text = soft(integrator, 1e-2, &format!("{LOADS}[newton]\ntolerance = {tolerance}\n"));
+            let text = text.replace("[time]", &format!("[time]\nprecision = \"{precision}\""));
+            let Err(error) = try_build(&text) else { panic!("taken: {text}") };
+            let said = error.to_string();
+            assert!(said.contains(&format!("newton.tolerance is {tolerance}, which rounding error")), "{said}");
+            assert!(said.contains(&format!("give {least} or more")), "{said}");
+            assert_eq!(said.contains("remove time.precision"), precision == "f32", "{said}");
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! Tables that have no effect with the integrator of the scene.
+
+use super::numbers::{Problem, problem};
+use crate::{Integrator, Pipeline, Scene};
+
+/// A table, whether the scene has it, whether its integrator uses it, and which integrators do.
+type Use = (&'static str, bool, bool, &'static str);
+
+fn uses(scene: &Scene) -> [Use; 4] {
+    let method = scene.time.integrator;
+    let is_static = method == Integrator::Static;
+    [
+        ("static", scene.statics.is_some(), is_static, "static"),
+        ("newton", scene.newton.is_some(), method.has_newton(), "implicit_euler or static"),
+        ("solver", scene.solver.is_some(), !method.is_explicit(), "an implicit method or static"),
+        ("damping", scene.damping.is_some(), !is_static, "a method that moves: equilibrium has no velocities"),
+    ]
+}
+
+/// Refuses the first table without effect. The course's pipeline has none of them, and says so itself.
+pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+    if scene.pipeline == Pipeline::Course {
+        return Ok(());
+    }
+    match uses(scene).into_iter().find(|(_, is_there, is_used, _)| *is_there && !is_used) {
+        Some((table, _, _, users)) => {
+            let method = scene.time.integrator.name();
+            problem(
+                table,
+                format!("has no effect with time.integrator = \"{method}\"; remove the table, or use {users}"),
+            )
+        }
+        None => Ok(()),
+    }
+}
+
+impl Scene {
+    /// Removes the tables that have no effect with the integrator, and returns their names: after another integrator was chosen for
+    /// a scene that was written for its own.
+    pub fn remove_unused_tables(&mut self) -> Vec<&'static str> {
+        let unused = uses(self).into_iter().filter(|(_, is_there, is_used, _)| *is_there && !is_used);
+        let names: Vec<_> = unused.map(|(table, ..)| table).collect();
+        for name in &names {
+            match *name {
+                "static" => self.statics = None,
+                "newton" => self.newton = None,
+                "solver" => self.solver = None,
+                "damping" => self.damping = None,
+                other => unreachable!("{other} is none of the tables above"),
+            }
+        }
+        names
+    }
+}
