@@ -1,6 +1,6 @@
 //! `mesh info` and `mesh convert`.
 
-use fem_mesh::{read_tetrahedra, volumes};
+use fem_mesh::{MeshSet, TetrahedralMesh, boundary, box_mesh, read_tetrahedra, volumes, write_tetrahedra};
 
 use crate::program::{Desk, data};
 
@@ -34,4 +34,57 @@ fn a_mesh_is_the_same_after_conversion_through_every_format() {
     for name in ["a.mesh", "a.msh", "a.vtu", "a.node", "b.node"] {
         assert_eq!(read_tetrahedra(&desk.path(name)).unwrap(), expected, "{name}");
     }
+}
+
+/// A box whose file names a side and the whole body.
+fn box_with_sets() -> TetrahedralMesh {
+    let mut mesh = box_mesh([2.0, 1.0, 1.0], 1).unwrap();
+    let side = boundary(&mesh).into_iter().filter(|face| face.iter().all(|&node| mesh.vertices[node].x == 0.0));
+    let mut faces: Vec<[usize; 3]> = side.collect();
+    faces.iter_mut().for_each(|face| face.sort_unstable());
+    faces.sort_unstable();
+    mesh.sets.insert("left".to_owned(), MeshSet { faces, ..MeshSet::default() });
+    mesh.sets.insert("body".to_owned(), MeshSet { elements: (0..12).collect(), ..MeshSet::default() });
+    mesh
+}
+
+#[test]
+fn info_prints_named_sets_and_connectivity() {
+    let desk = Desk::new();
+    let mut mesh = box_with_sets();
+    write_tetrahedra(&desk.path("m.msh.gz"), &mesh).unwrap();
+    let text = desk.run_well("mesh info m.msh.gz").stdout;
+    let lines = ["set \"left\": 2 triangles", "set \"body\": 12 tetrahedra"];
+    assert!(lines.iter().all(|line| text.lines().any(|found| found == *line)), "{text}");
+    let value = |text: &str, label: &str| {
+        let line = text.lines().find(|line| line.starts_with(label)).unwrap_or_else(|| panic!("{label}:\n{text}"));
+        line[label.len()..].trim().to_owned()
+    };
+    let counts = ["connected parts", "coincident nodes", "duplicate elements"];
+    assert_eq!(counts.map(|label| value(&text, label)), ["1", "0", "0"]);
+
+    let (vertices, elements) = (mesh.vertices.clone(), mesh.elements.clone());
+    mesh.vertices.extend(vertices.iter().map(|x| x + nalgebra::Vector3::x() * 2.0));
+    mesh.elements.extend(elements.iter().map(|element| element.map(|node| node + 12)));
+    write_tetrahedra(&desk.path("two.vtu"), &mesh).unwrap();
+    let text = desk.run_well("mesh info two.vtu").stdout;
+    assert_eq!(counts.map(|label| value(&text, label)), ["2", "4 (the first: 2 and 12)", "0"]);
+    mesh.elements.push(mesh.elements[3]);
+    write_tetrahedra(&desk.path("repeated.vtu"), &mesh).unwrap();
+    let message = desk.refused("mesh info repeated.vtu");
+    assert!(message.contains("element 24 (counted from 0) has the same four vertices as element 3"), "{message}");
+}
+
+#[test]
+fn a_conversion_keeps_sets_in_msh_and_warns_where_they_are_lost() {
+    let desk = Desk::new();
+    write_tetrahedra(&desk.path("m.msh"), &box_with_sets()).unwrap();
+    desk.run_well("mesh convert m.msh n.msh.gz");
+    assert_eq!(read_tetrahedra(&desk.path("n.msh.gz")).unwrap(), box_with_sets());
+    let outcome = desk.run("mesh convert m.msh m.vtu");
+    assert_eq!(outcome.code, Some(0));
+    assert!(
+        outcome.stderr.starts_with("warning: m.vtu: this format has no sets; .msh keeps the 2 of m.msh"),
+        "{outcome:?}"
+    );
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use nalgebra::Vector3;
 
 use super::boundary::FACES;
+use super::buckets::Buckets;
 use super::{MeshError, Problem, TetrahedralMesh, area_vector, sets, signed_volume};
 
 /// A tetrahedron is flat if its volume is below this fraction of its longest edge cubed.
@@ -80,16 +81,21 @@ fn largest_face(corners: [Vector3<f64>; 4]) -> f64 {
 }
 
 fn check_no_duplicates(mesh: &TetrahedralMesh) -> Result<(), Problem> {
-    let mut keys: Vec<([usize; 4], usize)> = mesh.elements.iter().copied().zip(0..).collect();
-    keys.iter_mut().for_each(|(nodes, _)| nodes.sort_unstable());
-    keys.sort_unstable();
-    // The first element of each chunk is the original.
-    let repeats = keys.chunk_by(|a, b| a.0 == b.0).flat_map(|equal| equal[1..].iter().map(|(_, e)| (*e, equal[0].1)));
-    let (count, first) = repeats.fold((0, None), |(count, first), repeat| {
-        let first = first.map_or(repeat, |first: (usize, usize)| first.min(repeat));
-        (count + 1, Some(first))
+    let keys = mesh.elements.iter().enumerate().map(|(element, nodes)| {
+        let mut nodes = *nodes;
+        nodes.sort_unstable();
+        // A mesh with more than 2³² nodes or elements fits into no memory.
+        (nodes[0], [nodes[1] as u32, nodes[2] as u32, nodes[3] as u32, element as u32])
     });
-    first.map_or(Ok(()), |(element, original)| Err(Problem::DuplicateElement { element, original, count }))
+    let (mut count, mut first) = (0, [usize::MAX; 2]);
+    for keys in Buckets::new(keys).iter() {
+        for pair in keys.windows(2).filter(|pair| pair[0][..3] == pair[1][..3]) {
+            count += 1;
+            first = first.min([pair[1][3] as usize, pair[0][3] as usize]);
+        }
+    }
+    let [element, original] = first;
+    if count == 0 { Ok(()) } else { Err(Problem::DuplicateElement { element, original, count }) }
 }
 
 fn check_all_referenced(mesh: &TetrahedralMesh) -> Result<(), Problem> {

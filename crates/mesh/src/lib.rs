@@ -14,6 +14,7 @@ use nalgebra::SVector;
 
 mod boundary;
 mod box_mesh;
+mod buckets;
 mod check;
 mod connectivity;
 mod error;

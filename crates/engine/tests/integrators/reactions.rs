@@ -51,3 +51,24 @@ fn an_unconstrained_body_has_no_reactions() {
         assert!(simulation.reactions().is_empty());
     }
 }
+
+#[test]
+fn in_equilibrium_nodal_forces_are_zero_at_free_nodes_and_minus_the_reactions_at_fixed_ones() {
+    let newton = "[newton]\ntolerance = 1e-14\n";
+    let mut simulation = build(&soft("static", 1.0, &format!("{WEIGHT}{CLAMP}{newton}")));
+    let before = simulation.nodal_forces().unwrap();
+    for i in 0..3 {
+        let sum: f64 = (0..12).map(|node| before[3 * node + i]).sum();
+        assert!((sum - 2000.0 * [1.0, -3.0, 2.0][i]).abs() < 1e-9 * 6000.0, "the weight alone: {before}");
+    }
+    run(&mut *simulation, 1);
+    let forces = simulation.nodal_forces().unwrap();
+    let reaction = &simulation.reactions()[0].force;
+    for i in 0..3 {
+        let fixed: f64 = [0, 3, 6, 9].iter().map(|node| forces[3 * node + i]).sum();
+        assert!((fixed + reaction[i]).abs() < 1e-10 * 6000.0, "{fixed} {reaction:?}");
+    }
+    let free = (0..12).filter(|node| node % 3 > 0).flat_map(|node| (0..3).map(move |i| 3 * node + i));
+    let largest = free.map(|i| forces[i].abs()).fold(0.0, f64::max);
+    assert!(largest < 1e-9 * 6000.0, "{largest:e}");
+}
