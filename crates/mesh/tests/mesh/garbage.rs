@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use tempfile::tempdir;
 
-use crate::{fixed_seed, folder_with};
+use crate::{fixed_seed, folder_with, gmsh, vtk};
 
 /// A good file of each format.
 static VALID: LazyLock<HashMap<&str, Vec<u8>>> = LazyLock::new(|| {
@@ -110,6 +110,14 @@ proptest! {
     }
 
     #[test]
+    fn damaged_binary_files_are_read_or_refused(which in 0..4_usize, damages in prop::collection::vec(damage(), 1..4)) {
+        let files = [("m.msh", gmsh::binary_2()), ("m.msh", gmsh::binary_4()), ("m.vtk", vtk::binary(false)), ("m.vtk", vtk::binary(true))];
+        let (name, mut bytes) = files[which].clone();
+        damages.iter().for_each(|damage| apply(&mut bytes, damage));
+        read_anything(&folder_with(&[(name, &bytes)]).1);
+    }
+
+    #[test]
     fn damaged_surfaces_are_read_or_refused(damages in prop::collection::vec(damage(), 1..4)) {
         let mut bytes = VALID["s.obj"].clone();
         damages.iter().for_each(|damage| apply(&mut bytes, damage));
@@ -120,7 +128,7 @@ proptest! {
 
     #[test]
     fn random_bytes_are_refused(
-        name in prop::sample::select(&["m.ele", "m.mesh", "m.msh", "m.vtu", "m.obj"][..]),
+        name in prop::sample::select(&["m.ele", "m.mesh", "m.msh", "m.vtu", "m.vtk", "m.obj.gz", "m.obj"][..]),
         bytes in prop::collection::vec(any::<u8>(), 0..300),
     ) {
         let path = folder_with(&[(name, &bytes), ("m.node", &bytes)]).1;

@@ -54,7 +54,7 @@ fn reals(values: &[f64]) -> Vec<u8> {
 }
 
 /// The same mesh as Gmsh 2.2 binary.
-fn binary_2() -> Vec<u8> {
+pub fn binary_2() -> Vec<u8> {
     let mut bytes = b"$MeshFormat\n2.2 1 8\n".to_vec();
     bytes.extend(ints(&[1]));
     bytes.extend(format!("\n$EndMeshFormat\n{NAMES}$Nodes\n5\n").bytes());
@@ -79,7 +79,7 @@ fn entity(dimension: usize, tag: i32, groups: &[i32]) -> Vec<u8> {
 }
 
 /// The same mesh as Gmsh 4.1 binary, with a section that is skipped.
-fn binary_4() -> Vec<u8> {
+pub fn binary_4() -> Vec<u8> {
     let mut bytes = b"$MeshFormat\n4.1 1 8\n".to_vec();
     bytes.extend(ints(&[1]));
     bytes.extend(format!("\n$EndMeshFormat\n{NAMES}$Entities\n").bytes());

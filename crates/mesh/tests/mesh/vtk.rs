@@ -33,7 +33,7 @@ fn big_endian(values: &[i32]) -> Vec<u8> {
 }
 
 /// The mesh in binary, as VTK 9 writes it or as before.
-fn binary(is_new: bool) -> Vec<u8> {
+pub fn binary(is_new: bool) -> Vec<u8> {
     let field = "FIELD FieldData 1\nTIME 1 1 double\n";
     let mut bytes = format!("# vtk DataFile Version 5.1\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\n{field}").into_bytes();
     bytes.extend(0.25_f64.to_be_bytes());
