@@ -6,7 +6,7 @@ use fem_mesh::write::Frame;
 use fem_scene::Scene;
 use fem_scene::output::{self, EXPORTS, Stats};
 use fem_scene::simulate::{Run, quantile};
-use fem_scene::simulation::{Counters, Energies, Reaction, Simulation};
+use fem_scene::simulation::{Energies, Reaction, Simulation};
 
 use nalgebra::Vector3;
 
@@ -112,7 +112,7 @@ fn end(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
     if let Some(code) = signal {
         return Err(End::Interrupted { code: *code, message: how_to_go_on(*simulation, arguments) });
     }
-    let Counters { unconverged_steps, steps, .. } = simulation.counters();
+    let (unconverged_steps, steps) = (simulation.counters().unconverged_steps, simulation.steps());
     if unconverged_steps == 0 || scene.method().newton.accept_unconverged {
         return Ok(());
     }

@@ -93,6 +93,16 @@ fn a_state_that_cannot_be_resumed_is_refused() {
     assert_names(&desk.refused("cube.toml --checkpoint c.json --checkpoint-every=-1"), &["a number of minutes"]);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_run_goes_on_with_a_warning_where_no_checkpoint_can_be_written() {
+    let desk = Desk::with("cube.toml", CUBE);
+    let outcome = desk.run("cube.toml --headless --checkpoint /dev/full --checkpoint-every 0 --state q.json");
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    assert_names(&outcome.stderr, &["warning: no checkpoint after step 1: /dev/full", "disk is not full"]);
+    assert_eq!(desk.json("q.json")["steps"], 4);
+}
+
 #[cfg(unix)]
 #[test]
 fn a_run_that_is_killed_at_any_moment_goes_on_from_its_last_checkpoint() {

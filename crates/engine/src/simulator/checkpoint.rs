@@ -14,6 +14,8 @@ pub(super) fn of<T: Real>(simulator: &Simulator<T>) -> Checkpoint {
     put(&mut history, "before.time", &[simulator.last_good.time]);
     put(&mut history, "before.u", simulator.last_good.u.as_flattened());
     put(&mut history, "before.v", simulator.last_good.v.as_flattened());
+    history.put("unconverged_steps", [simulator.counters.unconverged_steps as f64]);
+    simulator.supplied.save(&mut history);
     simulator.integrator.save(&mut history);
     Checkpoint {
         time: simulator.state.time,
@@ -44,5 +46,10 @@ pub(super) fn restore<T: Real>(simulator: &mut Simulator<T>, checkpoint: &Checkp
     take(history, "before.v", before.v.as_flattened_mut())?;
     // Conditions are still those of the last step, so that the next one notices a release.
     simulator.apply_conditions_at(simulator.last_good.time);
+    // Steps that have not converged show at the end of the whole run.
+    let mut unconverged_steps = [0.0];
+    take(history, "unconverged_steps", &mut unconverged_steps)?;
+    simulator.counters.unconverged_steps = unconverged_steps[0] as usize;
+    simulator.supplied.restore(history)?;
     simulator.integrator.restore(history)
 }

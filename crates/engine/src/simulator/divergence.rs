@@ -1,9 +1,10 @@
 //! Detects a motion that grows without bound: an explicit method beyond its critical time step, or a linearized one on a body that
 //! is too stiff for it. Its kinetic energy exceeds all that loads, prescribed motions and the initial state have supplied.
 
-use fem_scene::simulation::Cause;
+use fem_scene::simulation::{Cause, History};
 
 use crate::forces::{Moment, Potential};
+use crate::history::{put_option, take, take_option};
 use crate::integrators::Integrator;
 use crate::model::state::State;
 use crate::model::system::System;
@@ -34,6 +35,25 @@ impl<T: Real> SuppliedEnergy<T> {
     /// Starts again: the state is a new one.
     pub(super) fn forget(&mut self) {
         (self.start, self.work, self.largest) = (None, 0.0, 0.0);
+    }
+
+    /// Adds its sums to a history.
+    pub(super) fn save(&self, history: &mut History) {
+        let (energy, potential) = self.start.unzip();
+        put_option(history, "supplied.energy", energy);
+        put_option(history, "supplied.potential", potential);
+        history.put("supplied.sums", [self.work, self.largest]);
+    }
+
+    /// Takes over what [`save`](Self::save) has added.
+    pub(super) fn restore(&mut self, history: &History) -> Result<(), String> {
+        let (energy, potential) =
+            (take_option(history, "supplied.energy")?, take_option(history, "supplied.potential")?);
+        self.start = energy.zip(potential);
+        let mut sums = [0.0; 2];
+        take(history, "supplied.sums", &mut sums)?;
+        [self.work, self.largest] = sums;
+        Ok(())
     }
 
     /// Adds what the step from `before` to `state` has supplied, and refuses a state with far more kinetic energy. The bound of the
