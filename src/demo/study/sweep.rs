@@ -84,7 +84,11 @@ fn row(scene: &Scene, state: &Path) -> Result<String, End> {
     let Ready { mut simulation, steps, .. } = build::build(scene)?;
     let run = simulate::run(&mut *simulation, steps, |_| Ok::<_, End>(ControlFlow::Continue(())))?;
     write_state(state, scene, &*simulation).map_err(End::unusable)?;
-    let status = run.failure.as_ref().map_or("done".to_owned(), |failure| format!("failed: {failure}"));
+    let status = match (&run.failure, simulation.counters().unconverged_steps) {
+        (Some(failure), _) => format!("failed: {failure}"),
+        (None, 0) => "done".to_owned(),
+        (None, unconverged) => format!("{unconverged} steps not converged"),
+    };
     let median = quantile(&run.step_seconds, 0.5).map_or(String::new(), |seconds| format!("{seconds:.6e}"));
     let (energies, (least, _)) = (simulation.energies(), simulation.min_J());
     let (shape, q) = (simulation.shape(), simulation.positions());
