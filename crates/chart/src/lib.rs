@@ -2,6 +2,11 @@
 //!
 //! A [`Picture`] is drawn inline in a page that includes [`STYLE`], or written as a file of its own. Values that are not finite, or
 //! not positive on a logarithmic axis, are left out: no picture contains a NaN.
+//!
+//! ```
+//! let picture = fem_chart::histogram("share of elements", &[0.1, 0.25, 0.3, 0.9]);
+//! assert!(picture.standalone().contains("<svg"));
+//! ```
 
 #![deny(missing_docs)]
 

@@ -2,6 +2,20 @@
 //!
 //! [`read_tetrahedra`] and [`read_surface`] read a mesh file by its extension, [`write`](mod@write) writes one. A mesh is plain data;
 //! [`check`] tests the properties that computations rely on.
+//!
+//! ```
+//! let mesh = fem_mesh::box_mesh([2.0, 1.0, 1.0], 2)?;
+//! fem_mesh::check(&mesh, "box".as_ref())?;
+//! let volume: f64 = fem_mesh::volumes(&mesh).iter().sum();
+//! assert!((volume - 2.0).abs() < 1e-12); // m³
+//! assert_eq!(fem_mesh::boundary(&mesh).len(), 80); // 40 squares of two triangles
+//!
+//! let file = std::env::temp_dir().join("fem-mesh-example.vtu");
+//! fem_mesh::write_tetrahedra(&file, &mesh)?;
+//! assert_eq!(fem_mesh::read_tetrahedra(&file)?.vertices, mesh.vertices);
+//! # std::fs::remove_file(&file).ok();
+//! # Ok::<(), fem_mesh::MeshError>(())
+//! ```
 
 #![deny(missing_docs)]
 #![allow(non_snake_case)] // J, F, C and D are the names that the mathematics and the course use

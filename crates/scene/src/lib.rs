@@ -2,6 +2,36 @@
 //!
 //! [`load`] reads and checks a file; [`tables`] are its tables as they stand there. [`body`] reads the meshes that the scene names
 //! and turns the tables into values in the mesh's node numbers; [`Scene::method`] does the same for the numerical method.
+//!
+//! ```
+//! let text = r#"
+//! pipeline = "engine"
+//! [mesh]
+//! box = { size = [2, 1, 1], cells_per_unit = 1 }
+//! [material]
+//! model = "neo_hookean"
+//! young = 1e5
+//! poisson = 0.3
+//! density = 1000
+//! [gravity]
+//! acceleration = [0, 0, -9.81]
+//! [fixed]
+//! plane = { axis = "x", below = 1e-9 }
+//! [time]
+//! dt = 0.01
+//! integrator = "implicit_euler"
+//! "#;
+//! let scene = fem_scene::parse(text, "beam.toml".as_ref())?;
+//! let body = fem_scene::body(&scene, "data".as_ref())?;
+//! assert_eq!(body.shape.mesh.vertices.len(), 12);
+//! assert_eq!(body.fixed_nodes(), Some(&[0, 3, 6, 9][..]));
+//! assert_eq!(scene.method().dt, 0.01);
+//!
+//! // A mistake is refused with file, line, field and remedy.
+//! let error = fem_scene::parse(&text.replace("0.01", "-1"), "beam.toml".as_ref()).unwrap_err();
+//! assert_eq!(error.to_string(), "beam.toml, line 15: time.dt is -1; give a positive number of seconds");
+//! # Ok::<(), fem_scene::SceneError>(())
+//! ```
 
 #![deny(missing_docs)]
 #![allow(non_snake_case)] // J, F, C and D are the names that the mathematics and the course use

@@ -3,6 +3,18 @@
 //! - [`open`] shows a simulation in a window until it is closed; the simulation runs on a thread of its own.
 //! - [`OffscreenRenderer`] draws the same pictures without a window or a display server.
 //! - [`display_available`] tells in advance whether a window can be opened, and if not, why.
+//!
+//! ```no_run
+//! # fn simulation() -> Box<dyn fem_scene::simulation::Simulation> { unimplemented!() }
+//! use fem_viewer::{DisplayedSurface, OffscreenRenderer, WindowOptions};
+//!
+//! let mut simulation = simulation(); // such as `fem_engine::simulator::build(&scene, body)?`
+//! let mut renderer = OffscreenRenderer::new(1280, 800)?;
+//! simulation.step()?;
+//! renderer.render(&*simulation, DisplayedSurface::Skinned)?.save("step.png".as_ref())?;
+//! fem_viewer::open(simulation, WindowOptions::default())?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #![deny(missing_docs)]
 

@@ -1,6 +1,7 @@
 //! Families of cases, one file each.
 
 mod degenerate_bodies;
+mod explosions;
 pub mod incompressibility;
 mod invariance;
 mod large_strains;
@@ -22,6 +23,7 @@ pub fn cases(quick: bool, maps: &maps::Found) -> Vec<Case> {
     stiffness_and_step::add(&mut cases, quick);
     maps::add(&mut cases, quick, maps);
     stability_limits::add(&mut cases, quick);
+    explosions::add(&mut cases);
     incompressibility::add(&mut cases, quick);
     invariance::add(&mut cases, quick);
     slivers::add(&mut cases, quick);
