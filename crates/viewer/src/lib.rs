@@ -5,15 +5,19 @@
 //! - [`display_available`] tells in advance whether a window can be opened, and if not, why.
 //!
 //! ```no_run
-//! # fn simulation() -> Box<dyn fem_scene::simulation::Simulation> { unimplemented!() }
+//! use std::error::Error;
+//!
+//! use fem_scene::simulation::Simulation;
 //! use fem_viewer::{DisplayedSurface, OffscreenRenderer, WindowOptions};
 //!
-//! let mut simulation = simulation(); // such as `fem_engine::simulator::build(&scene, body)?`
-//! let mut renderer = OffscreenRenderer::new(1280, 800)?;
-//! simulation.step()?;
-//! renderer.render(&*simulation, DisplayedSurface::Skinned)?.save("step.png".as_ref())?;
-//! fem_viewer::open(simulation, WindowOptions::default())?;
-//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! /// `simulation` is such as `fem_engine::simulator::build` returns.
+//! fn show(mut simulation: Box<dyn Simulation>) -> Result<(), Box<dyn Error>> {
+//!     let mut renderer = OffscreenRenderer::new(1280, 800)?;
+//!     simulation.step()?;
+//!     renderer.render(&*simulation, DisplayedSurface::Skinned)?.save("step.png".as_ref())?;
+//!     fem_viewer::open(simulation, WindowOptions::default())?;
+//!     Ok(())
+//! }
 //! ```
 
 #![deny(missing_docs)]
