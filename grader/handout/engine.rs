@@ -1,6 +1,6 @@
 //! Scenes that the engine runs. It is not in this repository, since it holds solutions of the exercises.
 
-use fem_scene::simulation::Simulation;
+use fem_scene::simulation::{Part, Simulation};
 use fem_scene::{Body, Scene};
 use nalgebra::Vector3;
 
@@ -8,8 +8,16 @@ use super::end::End;
 
 /// Refuses: your own functions run the course's scenes.
 pub fn build(scene: &Scene, _: Body) -> Result<Box<dyn Simulation>, End> {
-    let problem = "is \"engine\", which this repository does not have; write \"course\"";
-    Err(End::unusable(scene.refuse("pipeline", problem)))
+    Err(refused(scene))
+}
+
+/// Refuses as [`build`] does.
+pub fn planned_parts(scene: &Scene, _: &Body) -> Result<Vec<Part>, End> {
+    Err(refused(scene))
+}
+
+fn refused(scene: &Scene) -> End {
+    End::unusable(scene.refuse("pipeline", "is \"engine\", which this repository does not have; write \"course\""))
 }
 
 /// Returns `None`: no scene of the course has a closed form.

@@ -27,16 +27,7 @@ pub struct Ready {
 /// Reads the meshes of a scene and builds its simulation.
 pub fn build(scene: &Scene) -> Result<Ready, End> {
     let start = Instant::now();
-    let body = fem_scene::body(scene, &data::folder()).map_err(End::unusable)?;
-    for warning in fem_scene::warnings(scene, &body) {
-        eprintln!("warning: {warning}");
-    }
-    if body.lumped_mass && scene.mass.lumped.is_none() {
-        eprintln!(
-            "note: {} lumps the mass of so large a body at its nodes; mass.lumped = false keeps it consistent",
-            scene.time.integrator.name()
-        );
-    }
+    let body = body(scene)?;
     let simulation = match scene.pipeline {
         Pipeline::Course => course(scene, body)?,
         Pipeline::Engine => engine::build(scene, body)?,
@@ -49,6 +40,21 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
     let down = down.or_else(|| expected_tip.and_then(|tip| tip.try_normalize(0.0)));
     let up = down.map_or(Vector3::y(), |down| -down);
     Ok(Ready { simulation, seconds_setup, steps: steps(scene), up, expected_tip })
+}
+
+/// Reads the meshes of a scene, with warnings of what is seldom meant.
+pub fn body(scene: &Scene) -> Result<Body, End> {
+    let body = fem_scene::body(scene, &data::folder()).map_err(End::unusable)?;
+    for warning in fem_scene::warnings(scene, &body) {
+        eprintln!("warning: {warning}");
+    }
+    if body.lumped_mass && scene.mass.lumped.is_none() {
+        eprintln!(
+            "note: {} lumps the mass of so large a body at its nodes; mass.lumped = false keeps it consistent",
+            scene.time.integrator.name()
+        );
+    }
+    Ok(body)
 }
 
 /// The scene's number of steps; by default that of its load steps if it is static.

@@ -1,7 +1,7 @@
 //! Scenes that the engine runs.
 
 use fem_engine::cantilever;
-use fem_scene::simulation::Simulation;
+use fem_scene::simulation::{Part, Simulation};
 use fem_scene::{Body, Scene};
 use nalgebra::Vector3;
 
@@ -10,6 +10,11 @@ use super::end::End;
 /// The engine's simulation of a scene.
 pub fn build(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, End> {
     fem_engine::simulator::build(scene, body).map_err(End::unusable)
+}
+
+/// The parts of the engine's simulation of a scene, without building it.
+pub fn planned_parts(scene: &Scene, body: &Body) -> Result<Vec<Part>, End> {
+    fem_engine::simulator::planned_parts(scene, body).map_err(End::unusable)
 }
 
 /// Timoshenko's displacement of the tip, m, if the scene is a cantilever.

@@ -1,10 +1,26 @@
 //! `--explain`: the parts that a scene builds and those that it leaves out.
 
-use fem_scene::simulation::{Part, Simulation};
-use fem_scene::{Integrator, Pipeline, Scene};
+use fem_scene::simulation::Part;
+use fem_scene::{Body, Integrator, Pipeline, Scene};
+
+use super::build;
+use super::end::End;
+use super::engine;
+
+/// Largest number of nodes for which the critical time step is computed: it needs the whole body.
+const MOST_NODES: usize = 50_000;
 
 /// Prints a line for every part.
-pub fn print(scene: &Scene, simulation: &dyn Simulation) {
+pub fn print(scene: &Scene) -> Result<(), End> {
+    let (parts, stability) = match scene.pipeline {
+        Pipeline::Course => (parts(scene)?, None),
+        Pipeline::Engine => {
+            let body = build::body(scene)?;
+            let parts = engine::planned_parts(scene, &body)?;
+            let is_explicit = scene.time.integrator.is_explicit();
+            (parts, is_explicit.then(|| stability(scene, body)).transpose()?)
+        }
+    };
     say!("{}: {}", scene.name, scene.about);
     let pipeline = match scene.pipeline {
         Pipeline::Course => "course",
@@ -12,22 +28,39 @@ pub fn print(scene: &Scene, simulation: &dyn Simulation) {
     };
     let step = match scene.time.integrator {
         Integrator::Static => format!("load steps: {}", scene.method().load_steps),
-        _ => format!("dt = {} s", simulation.dt()),
+        _ => format!("dt = {} s", scene.time.dt()),
     };
-    say!("pipeline {pipeline}, {}, {step}", simulation.integrator());
-    if let Some(critical) = simulation.critical_time_step() {
-        say!("{}", stability(critical, simulation.dt()));
+    say!("pipeline {pipeline}, {}, {step}", scene.time.integrator.name());
+    if let Some(line) = stability {
+        say!("{line}");
     }
-    for part in simulation.parts() {
+    for part in parts {
         let word = if part.built { "builds" } else { "leaves out" };
-        let size =
-            if part.built && part.bytes > 0 { format!(" ({} KiB)", part.bytes.div_ceil(1024)) } else { String::new() };
-        say!("  {word:<10} {:<14} {}{size}", part.name, part.why);
+        say!("  {word:<10} {:<14} {}", part.name, part.why);
+    }
+    Ok(())
+}
+
+/// The parts of a scene. Those of the engine are known before anything is built.
+pub fn parts(scene: &Scene) -> Result<Vec<Part>, End> {
+    match scene.pipeline {
+        Pipeline::Course => Ok(build::build(scene)?.simulation.parts()),
+        Pipeline::Engine => engine::planned_parts(scene, &build::body(scene)?),
     }
 }
 
 /// The critical time step of an explicit method beside the one in use, s.
-fn stability(critical: f64, dt: f64) -> String {
+fn stability(scene: &Scene, body: Body) -> Result<String, End> {
+    if body.shape.mesh.vertices.len() > MOST_NODES {
+        return Ok(format!("critical time step: not computed for more than {MOST_NODES} nodes"));
+    }
+    let critical = engine::build(scene, body)?.critical_time_step();
+    Ok(critical.map_or("critical time step: none, as the body has no stiffness".to_owned(), |critical| {
+        verdict(critical, scene.time.dt())
+    }))
+}
+
+fn verdict(critical: f64, dt: f64) -> String {
     if critical == 0.0 {
         return "critical time step: none, as the method is unstable at any time step without damping".to_owned();
     }

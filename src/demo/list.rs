@@ -1,7 +1,7 @@
 //! `list`: the scenes.
 
 use super::end::End;
-use super::{build, data, explain};
+use super::{data, explain};
 
 /// Prints a line for each scene: its name, its line `about`, and the parts that it builds.
 pub fn print_scenes() -> Result<(), End> {
@@ -14,8 +14,8 @@ pub fn print_scenes() -> Result<(), End> {
     for name in names {
         let scene = fem_scene::load(&name, &data).map_err(End::unusable)?;
         // One scene that cannot be built does not hide the others.
-        match build::build(&scene) {
-            Ok(ready) => say!("{name:<width$} {} [{}]", scene.about, explain::built(&ready.simulation.parts())),
+        match explain::parts(&scene) {
+            Ok(parts) => say!("{name:<width$} {} [{}]", scene.about, explain::built(&parts)),
             Err(end) => say!("{name:<width$} {} [cannot be built: {}]", scene.about, end.message()),
         }
     }

@@ -13,11 +13,10 @@ use super::{data, explain, headless, results, window};
 pub fn run(arguments: &RunArguments) -> Result<(), End> {
     results::check(arguments)?;
     let scene = scene_with_overrides(arguments)?;
-    let mut ready = build(&scene)?;
     if arguments.explain {
-        explain::print(&scene, &*ready.simulation);
-        return Ok(());
+        return explain::print(&scene);
     }
+    let mut ready = build(&scene)?;
     if let Some(file) = &arguments.resume {
         resume(file, &scene, &mut ready)?;
     }

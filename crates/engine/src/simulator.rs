@@ -4,20 +4,21 @@ mod checkpoint;
 mod divergence;
 mod integrator;
 mod parts;
+mod plan;
 mod range_check;
 mod simulation;
 
 use std::sync::atomic::AtomicUsize;
 
-use fem_scene::simulation::{Counters, Simulation};
-use fem_scene::{
-    Body, Integrator as IntegratorKind, Material, MaterialRegion, Method, Precision, Scene, SceneError, Timer,
-};
+use fem_scene::simulation::{Counters, Part, Simulation};
+use fem_scene::{Body, Integrator as IntegratorKind, Material, Method, Precision, Scene, SceneError, Timer};
 use nalgebra::Vector3;
 
 use crate::boundary::rigid_modes;
+use crate::forces::{self, anchors};
 use crate::integrators::Integrator;
 use crate::materials::AnyLaw;
+use crate::model::numbering::Numbering;
 use crate::model::state::State;
 use crate::model::system::{OwnForces, System};
 use crate::number::Real;
@@ -26,22 +27,21 @@ use crate::skinning::Skinning;
 use crate::solvers::SolverChoice;
 
 use divergence::SuppliedEnergy;
+use plan::Plan;
 
 pub use integrator::integrators;
 
 /// A body that the engine moves, in one number type.
 pub struct Simulator<T: Real> {
     method: Method,
-    material: Material,
-    /// Name, number of elements and material of each `[[materials]]`.
-    regions: Vec<(String, usize, Material)>,
+    plan: Plan,
     system: System<T>,
     state: State<T>,
     /// Velocities at the start in the engine's numbering, m/s; empty for a body at rest.
     initial_velocity: Vec<[T; 3]>,
     /// The state before the last step, to which a failed step returns.
     last_good: State<T>,
-    /// What a method that can diverge is checked against.
+    /// The energy that the kinetic energy of a method that can diverge is compared with.
     supplied: SuppliedEnergy<T>,
     integrator: Box<dyn Integrator<T>>,
     kind: IntegratorKind,
@@ -64,6 +64,43 @@ pub fn build(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, SceneErro
     })
 }
 
+/// The parts that the simulation of a scene would have, without building it. Returns the same errors.
+pub fn planned_parts(scene: &Scene, body: &Body) -> Result<Vec<Part>, SceneError> {
+    let method = scene.method();
+    let epsilon = match method.precision {
+        Precision::F64 => f64::EPSILON,
+        Precision::F32 => f64::from(f32::EPSILON),
+    };
+    let is_linear = |material: &Material| AnyLaw::<f64>::new(material).is_some_and(|law| law.is_linear());
+    check::<f64>(scene, body, epsilon)?;
+    let is_law_linear = is_linear(&body.material) && body.regions.iter().all(|region| is_linear(&region.material));
+    let nodes = body.shape.mesh.vertices.len();
+    let numbering = Numbering::of_mesh(nodes);
+    let forces: Vec<_> = forces::kinds::<f64>().into_iter().filter_map(|kind| (kind.build)(body, &numbering)).collect();
+    let is_linear = is_law_linear && forces.iter().all(|force| force.is_conservative() && !force.is_internal());
+    let mut plan = Plan::new(body);
+    plan.add_forces(forces.iter().map(|force| &**force));
+    Ok(plan.parts(method.integrator, &method, integrator::solver_choice(&method, nodes), is_linear))
+}
+
+/// The law of a body that the engine can simulate with numbers of this machine epsilon.
+fn check<T: Real>(scene: &Scene, body: &Body, epsilon: f64) -> Result<AnyLaw<T::Lanes>, SceneError> {
+    let refuse = |(field, problem): Refusal| scene.refuse(field, &problem);
+    let Some(law) = AnyLaw::<T::Lanes>::new(&body.material) else {
+        return Err(refuse(("material", "lacks the parameters of its model; see README.md for them".to_owned())));
+    };
+    let materials = body.regions.iter().map(|region| (&region.name[..], &region.material));
+    for (table, material) in std::iter::once(("material", &body.material)).chain(materials) {
+        range_check::check_shear_modulus(material).map_err(|problem| scene.refuse(table, &problem))?;
+    }
+    let method = scene.method();
+    range_check::check_tolerance(&method, epsilon).map_err(refuse)?;
+    if method.integrator == IntegratorKind::Static {
+        rigid_modes::check(body).map_err(refuse)?;
+    }
+    Ok(law)
+}
+
 impl<T: Real> Simulator<T> {
     /// Builds what the scene names, and nothing else, in the scene's initial state.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
@@ -72,27 +109,15 @@ impl<T: Real> Simulator<T> {
 
     /// The same with forces of one's own beside those that the scene names.
     pub fn with_forces(scene: &Scene, body: Body, own: OwnForces<T>) -> Result<Self, SceneError> {
-        let refuse = |(field, problem): Refusal| scene.refuse(field, &problem);
-        let Some(law) = AnyLaw::<T::Lanes>::new(&body.material) else {
-            return Err(refuse(("material", "lacks the parameters of its model; see README.md for them".to_owned())));
-        };
-        let materials = body.regions.iter().map(|region| (&region.name[..], &region.material));
-        for (table, material) in std::iter::once(("material", &body.material)).chain(materials) {
-            range_check::check_shear_modulus(material).map_err(|problem| scene.refuse(table, &problem))?;
-        }
+        let law = check::<T>(scene, &body, T::EPSILON.as_f64())?;
         let method = scene.method();
-        range_check::check_tolerance::<T>(&method).map_err(refuse)?;
-        if method.integrator == IntegratorKind::Static {
-            rigid_modes::check(&body).map_err(refuse)?;
-        }
         let skinning = body.shape.display.as_ref().map(|display| Skinning::new(&body.shape.mesh, &display.vertices));
         let solver = integrator::solver_choice(&method, body.shape.mesh.vertices.len());
-        let material = body.material.clone();
-        let of_region = |region: &MaterialRegion| (region.name.clone(), region.elements.len(), region.material.clone());
-        let regions = body.regions.iter().map(of_region).collect();
         let velocities = body.initial_velocity.clone();
+        let mut plan = Plan::new(&body);
         let system = System::with_forces(body, law, solver, own);
-        range_check::check(&method, &system).map_err(refuse)?;
+        range_check::check(&method, &system).map_err(|(field, problem)| scene.refuse(field, &problem))?;
+        plan.add_forces(system.forces.all().map(|(force, _)| force).filter(|force| force.name() != anchors::NAME));
         let initial_velocity = initial_velocity(&velocities, &system);
         let state = State::at_start(system.nodes(), &initial_velocity);
         Ok(Self {
@@ -110,8 +135,7 @@ impl<T: Real> Simulator<T> {
             state,
             initial_velocity,
             system,
-            material,
-            regions,
+            plan,
             method,
         })
     }

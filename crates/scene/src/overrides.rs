@@ -46,7 +46,7 @@ impl Override {
         outcome
     }
 
-    /// Sets the value below `place`, which the first `depth` keys lead to.
+    /// Sets the value below `place`, at which the first `depth` keys end.
     fn set(&self, place: &mut Value, depth: usize) -> Result<(), String> {
         let Some(key) = self.path.get(depth) else {
             *place = self.value.clone();
@@ -75,7 +75,7 @@ impl Override {
         }
     }
 
-    /// A new value that the first `depth` keys lead to: an empty array or table if keys follow.
+    /// A new value at which the first `depth` keys end: an empty array or table if keys follow.
     fn missing(&self, depth: usize) -> Value {
         match self.path.get(depth) {
             Some(key) if key.parse::<usize>().is_ok() => Value::Array(Vec::new()),

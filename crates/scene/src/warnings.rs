@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::{Body, Material, Scene};
 
-/// What is told before a run, each with its remedy: nodes that coincide without being merged, parts that nothing constrains,
+/// The warnings before a run, each with its remedy: nodes that coincide without being merged, parts that nothing constrains,
 /// and materials in which linear tetrahedra lock.
 pub fn warnings(scene: &Scene, body: &Body) -> Vec<String> {
     let file = scene.path.display();
@@ -55,17 +55,17 @@ fn unconstrained_parts(body: &Body) -> Option<String> {
         let [a, b] = spring.nodes.map(|node| part[node]);
         part.iter_mut().filter(|part| **part == a.max(b)).for_each(|part| *part = a.min(b));
     }
-    let mut is_held: BTreeMap<usize, bool> = part.iter().map(|&part| (part, false)).collect();
+    let mut is_constrained: BTreeMap<usize, bool> = part.iter().map(|&part| (part, false)).collect();
     let conditions = body.dirichlet.iter().flat_map(|condition| &condition.nodes);
     for &node in conditions.chain(body.drag.as_ref().map(|drag| &drag.node)) {
-        is_held.insert(part[node], true);
+        is_constrained.insert(part[node], true);
     }
-    let mut free = is_held.iter().filter(|(_, is_held)| !**is_held).map(|(part, _)| part);
+    let mut free = is_constrained.iter().filter(|(_, is_constrained)| !**is_constrained).map(|(part, _)| part);
     let count = free.clone().count();
     let first = free.next()?;
     Some(format!(
         "mesh: {count} of {} connected parts have no Dirichlet condition and move freely, the first with node {first}; constrain them \
          by [fixed] or [[prescribed]], or connect them, unless that is meant",
-        is_held.len()
+        is_constrained.len()
     ))
 }

@@ -3,8 +3,8 @@
 //! With F = U diag(σ) Vᵀ, p_i = ∂ψ/∂σ_i and (i, j, k) the three axes in any order, ∂P/∂F has the eigenvalues
 //! (p_i + p_j)/(σ_i + σ_j) for the twist (u_i v_jᵀ − u_j v_iᵀ)/√2, (p_i − p_j)/(σ_i − σ_j) for the flip (u_i v_jᵀ + u_j v_iᵀ)/√2,
 //! and those of ∂²ψ/∂σ_i∂σ_j for the scalings u_i v_iᵀ: Smith, de Goes and Kim, Analytic Eigensystems for Isotropic Distortion
-//! Energies (2019). Laws give the ratios with their denominators divided out, so that equal stretches do not
-//! lead to 0/0.
+//! Energies (2019). Laws give the ratios with their denominators divided out, so that equal stretches give
+//! no 0/0.
 
 use crate::number::Number;
 use crate::svd::{Svd, largest_entry, rotation, turn, unit};

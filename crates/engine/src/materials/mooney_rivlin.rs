@@ -111,7 +111,7 @@ impl<T: Number> Law<T> for MooneyRivlin<T> {
         H
     }
 
-    /// For J > 0. Of I2 = Σ σ_i² σ_j², the ratios of `isotropic.rs` are 2 (σ_k² ± σ_i σ_j).
+    /// Requires J > 0. Of I2 = Σ σ_i² σ_j², the ratios of `isotropic.rs` are 2 (σ_k² ± σ_i σ_j).
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         let (terms, h, h1) = self.terms(G);

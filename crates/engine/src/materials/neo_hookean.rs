@@ -45,7 +45,7 @@ impl<T: Number> Law<T> for NeoHookean<T> {
         Some(self.terms(G))
     }
 
-    /// For J > 0.
+    /// Requires J > 0.
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         self.terms(G).projected_derivative()

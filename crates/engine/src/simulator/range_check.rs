@@ -9,8 +9,8 @@ use crate::number::{Real, is_positive};
 use crate::refusal::Refusal;
 
 /// Refuses a tolerance of Newton's method that rounding error does not let it reach: it would iterate to its limit in every step.
-pub(super) fn check_tolerance<T: Real>(method: &Method) -> Result<(), Refusal> {
-    let least = SMALLEST_TOLERANCE * T::EPSILON.as_f64();
+pub(super) fn check_tolerance(method: &Method, epsilon: f64) -> Result<(), Refusal> {
+    let least = SMALLEST_TOLERANCE * epsilon;
     match method.newton.tolerance {
         Some(tolerance) if tolerance < least => {
             let problem =

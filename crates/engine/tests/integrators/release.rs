@@ -11,7 +11,7 @@ use crate::{DYNAMIC, distance, node_masses, run, scene, soft};
 const DT: f64 = 1e-3;
 const GRAVITY: &str = "[gravity]\nacceleration = [0, -10, 0]\n";
 
-/// Both ends pulled apart along x in 20 steps and held for 10; the other directions are free.
+/// Both ends pulled apart along x in 20 steps and kept there for 10; the other directions are free.
 const STRETCHED: &str = r#"[[prescribed]]
 on = { axis = "x", side = "min", within = 1e-9 }
 displacement = [-0.2, 0, 0]
@@ -52,7 +52,7 @@ fn nodes_stay_until_their_time_and_move_in_the_step_after_it() {
         run(&mut simulation, 30);
         assert_eq!(simulation.positions().rows(0, 3), start.rows(0, 3), "{integrator}");
         run(&mut simulation, 2);
-        assert!((simulation.positions()[1] - start[1]).abs() > 1e-7, "{integrator}: node 0 is still held");
+        assert!((simulation.positions()[1] - start[1]).abs() > 1e-7, "{integrator}: node 0 is still fixed");
     }
 }
 

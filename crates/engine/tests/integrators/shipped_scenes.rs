@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use fem_scene::{body, load};
+use fem_engine::simulator::{build, planned_parts};
+use fem_scene::simulation::Part;
+use fem_scene::{Integrator, Pipeline, body, load, names};
 
 /// The repository's `data`.
 pub fn data() -> PathBuf {
@@ -24,5 +26,28 @@ fn engine_scenes_that_repeat_one_of_the_course_differ_in_name_and_pipeline_alone
         (engine.name, engine.path, engine.about) = (course.name.clone(), course.path.clone(), course.about.clone());
         (engine.pipeline, engine.source) = (course.pipeline, course.source.clone());
         assert_eq!(engine, course);
+    }
+}
+
+#[test]
+fn the_planned_parts_of_every_scene_and_method_are_those_that_are_built() {
+    let scenes = names(&data()).into_iter().map(|name| load(&name, &data()).unwrap());
+    for scene in scenes.filter(|scene| scene.pipeline == Pipeline::Engine && scene.name != "arma-large") {
+        for integrator in Integrator::ALL {
+            let mut scene = scene.clone();
+            scene.time.integrator = integrator;
+            scene.time.dt = Some(1e-3);
+            scene.remove_unused_tables();
+            let body = body(&scene, &data()).unwrap();
+            // A free body has no equilibrium.
+            let Ok(planned) = planned_parts(&scene, &body) else {
+                assert_eq!(integrator, Integrator::Static, "{}", scene.name);
+                assert!(build(&scene, body).is_err(), "{}", scene.name);
+                continue;
+            };
+            let all = |parts: Vec<Part>| parts.into_iter().map(|part| (part.name, part.built, part.why));
+            let simulation = build(&scene, body).unwrap();
+            assert!(all(planned).eq(all(simulation.parts())), "{}, {}", scene.name, integrator.name());
+        }
     }
 }

@@ -50,6 +50,12 @@ impl Numbering {
         Self { mesh_node, engine_node, free }
     }
 
+    /// The mesh's own numbers of so many nodes.
+    pub fn of_mesh(nodes: usize) -> Self {
+        let mesh_node: Vec<u32> = (0..nodes as u32).collect();
+        Self { engine_node: mesh_node.clone(), mesh_node, free: nodes }
+    }
+
     /// Elements with the engine's node numbers.
     pub fn elements<const N: usize>(&self, elements: &[[usize; N]]) -> Vec<[u32; N]> {
         elements.iter().map(|element| element.map(|node| self.engine_node[node])).collect()

@@ -23,7 +23,7 @@ pub(crate) struct IncompleteCholesky<T> {
     L: Vec<Block<T, 3>>,
     /// Inverses of the diagonal blocks of L.
     inverses: Vec<Block<T, 3>>,
-    /// For each column its block in the current row, or [`NONE`].
+    /// Block of each column in the current row, or [`NONE`].
     block_of: Vec<u32>,
 }
 

@@ -32,7 +32,7 @@ pub struct Coarse {
     pub grid: Grid,
     /// The pair of cells that each block of the lower half couples, diagonal blocks last in their rows.
     pairs: Vec<u32>,
-    /// For each pair of cells, the coarse blocks of the products of their functions.
+    /// The coarse blocks of the products of the functions of each pair of cells.
     slots: Vec<[Slot; 64]>,
     sums: Vec<[Row; 3]>,
     values: Vec<Block<f32, 3>>,
