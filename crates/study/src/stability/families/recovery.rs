@@ -1,9 +1,10 @@
 //! Recovery of the undeformed shape from inverted and degenerate states with the stable neo-Hookean material (Smith, de Goes and
 //! Kim, 2018), whose energy is finite for every shape.
 //!
-//! A reflected body and one that is flattened to a plane must return to the undeformed shape. From a state in which nodes have
-//! passed through others, the body must reach an equilibrium with J > 0: an inner edge that its elements surround twice is an
-//! equilibrium that the energies of single elements cannot distinguish from the undeformed state.
+//! A free body that is reflected and one that is flattened to a plane must return to the undeformed shape. From a state in which
+//! nodes have passed through others, or beside a clamp that is not reflected with the body, it must reach an equilibrium with
+//! J > 0: an inner edge that its elements surround twice is an equilibrium that the energies of single elements cannot
+//! distinguish from the undeformed state.
 
 use fem_engine::simulator::Simulator;
 use fem_scene::simulation::Simulation;
@@ -94,6 +95,7 @@ pub const MARGIN_IS: &str = "distance from rest / 1e-3 of the length; recovered 
 fn recovering(name: &str, tangle: Tangle, expected: Outcome, is_clamped: bool, seed: u64) -> Case {
     let text = SceneText { dt: 0.05, poisson: 0.4, ..SceneText::finer("implicit_euler", "stable_neo_hookean") };
     let text = if is_clamped { text.with(CLAMPED) } else { text }.with(DAMPED);
+    let expected = if name == "reflected" && is_clamped { Outcome::Untangles } else { expected };
     let name = format!("{name}, {}", if is_clamped { "clamped" } else { "free" });
     let parameters = format!("E = 1e5 Pa, nu = 0.4, dt = {} s, up to {STEPS} steps", text.dt);
     let case = text.clone().case(FAMILY, name, parameters, move |deadline| {
