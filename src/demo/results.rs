@@ -90,7 +90,7 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
     }
     if let Some(path) = &arguments.stats {
         let mut stats = Stats::of(*simulation, run, *seconds_setup);
-        if let Err(end @ End::Stopped(_)) = &end {
+        if let Err(end @ (End::Stopped(_) | End::Failed(_))) = &end {
             stats.status = format!("failed: {}", end.message());
         }
         stats.write(path).map_err(End::unusable)?;
@@ -107,7 +107,11 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
 fn end(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
     let Finished { simulation, scene, run, signal, .. } = finished;
     if let Some(failure) = &run.failure {
-        return Err(End::Failed(failure.clone()));
+        let failure = failure.clone();
+        return Err(End::Failed(match simulation.critical_time_step() {
+            Some(critical) => failure.with_critical_time_step(critical),
+            None => failure,
+        }));
     }
     if let Some(code) = signal {
         return Err(End::Interrupted { code: *code, message: how_to_go_on(*simulation, arguments) });

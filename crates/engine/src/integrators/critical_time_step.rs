@@ -1,15 +1,18 @@
 //! The critical time step of explicit methods, from the fastest vibration of the undeformed body.
 
 use fem_scene::{Integrator as IntegratorKind, RayleighDamping};
-use nalgebra::Complex;
+use nalgebra::{Complex, DMatrix};
 
 use super::MassInverse;
 use crate::model::system::System;
 use crate::number::Real;
-use crate::vector::{dot, norm};
+use crate::vector::{axpy, dot};
 
-/// Relative change of ω² at which the power iteration ends, and its largest number of iterations.
-const ACCURACY: (f64, usize) = (1e-5, 300);
+/// Relative change of ω² within [`BLOCK`] iterations at which Lanczos's method ends, and its largest number of iterations.
+const ACCURACY: (f64, usize) = (1e-5, 96);
+
+/// Iterations between two looks at the eigenvalues.
+const BLOCK: usize = 8;
 
 /// The longest stable time step of an explicit method for small vibrations about the undeformed body, s: zero for a method that is
 /// unstable at any time step, `None` for implicit methods and for bodies without stiffness.
@@ -60,34 +63,62 @@ fn damping_ratio(damping: &RayleighDamping, omega: f64) -> f64 {
     0.5 * (damping.alpha / omega + damping.beta * omega)
 }
 
-/// The largest angular frequency of the undeformed body, 1/s, by the power method for M⁻¹ K; `None` where it has no stiffness. The
-/// Rayleigh quotient approaches it from below.
+/// The largest angular frequency of the undeformed body, 1/s, by Lanczos's method for M⁻¹ K, Golub and Van Loan, Matrix Computations
+/// (2013), §10.1; `None` where it has no stiffness. It approaches the frequency from below.
 fn largest_frequency<T: Real>(system: &System<T>) -> Option<f64> {
     let zero = || vec![[T::default(); 3]; system.nodes()];
-    let (undeformed, mut force, mut mass_times) = (zero(), zero(), zero());
+    let (undeformed, mut force, mut mass_times, mut before, mut next) = (zero(), zero(), zero(), zero(), zero());
     let mut inverse = MassInverse::new(&system.mass);
-    let mut x = irregular(system.nodes());
-    let mut square = 0.0;
-    for _ in 0..ACCURACY.1 {
-        system.dirichlet.clear_constrained(&mut x);
-        scale(1.0 / norm(&x), &mut x);
+    let mut mass_norm = |x: &[[T; 3]]| {
         mass_times.fill([T::default(); 3]);
-        system.add_mass_times(T::one(), &x, &mut mass_times);
+        system.add_mass_times(T::one(), x, &mut mass_times);
+        dot(x, &mass_times).sqrt()
+    };
+    let mut x = irregular(system.nodes());
+    system.dirichlet.clear_constrained(&mut x);
+    scale(1.0 / mass_norm(&x), &mut x);
+    let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
+    let (mut square, mut last) = (0.0, 0.0);
+    while diagonal.len() < ACCURACY.1 {
         force.fill([T::default(); 3]);
         system.add_stiffness_times(T::one(), &undeformed, &x, &mut force);
         system.add_external_hessian_times(&undeformed, &x, &mut force);
-        let before = square;
-        square = dot(&x, &force) / dot(&x, &mass_times);
-        // NaN and zero fail the comparison: all nodes are constrained, or nothing is stiff.
-        if !(square > 0.0 && square.is_finite()) {
-            return None;
+        let alpha = dot(&x, &force);
+        inverse.solve(system, &mut force, &mut next).ok()?;
+        axpy(-alpha, &x, &mut next);
+        axpy(-last, &before, &mut next);
+        diagonal.push(alpha);
+        last = mass_norm(&next);
+        // A body of few degrees of freedom has no further direction.
+        let is_exhausted = !(last > 1e-9 * alpha.abs());
+        if is_exhausted || diagonal.len() % BLOCK == 0 {
+            let found = largest_eigenvalue(&diagonal, &beside);
+            let is_settled = (found - square).abs() <= ACCURACY.0 * found;
+            square = found;
+            if is_exhausted || is_settled {
+                break;
+            }
         }
-        if (square - before).abs() <= ACCURACY.0 * square {
-            break;
-        }
-        inverse.solve(system, &mut force, &mut x).ok()?;
+        beside.push(last);
+        scale(1.0 / last, &mut next);
+        std::mem::swap(&mut before, &mut x);
+        std::mem::swap(&mut x, &mut next);
     }
-    Some(square.sqrt())
+    // NaN and zero fail the comparison: all nodes are constrained, or nothing is stiff.
+    (square > 0.0 && square.is_finite()).then(|| square.sqrt())
+}
+
+/// The largest eigenvalue of a symmetric tridiagonal matrix; NaN where an entry is.
+fn largest_eigenvalue(diagonal: &[f64], beside: &[f64]) -> f64 {
+    if !diagonal.iter().chain(beside).all(|x| x.is_finite()) {
+        return f64::NAN;
+    }
+    let matrix = DMatrix::from_fn(diagonal.len(), diagonal.len(), |i, j| match i.abs_diff(j) {
+        0 => diagonal[i],
+        1 => beside[i.min(j)],
+        _ => 0.0,
+    });
+    matrix.symmetric_eigenvalues().max()
 }
 
 /// A vector in which every vibration takes part: multiples of the golden ratio, modulo 1.

@@ -222,10 +222,6 @@ impl<T: Real> Simulator<T> {
     }
 
     fn failure(&self, cause: Cause) -> Failure {
-        let failure = Failure::of_step(self.state.steps, self.state.time, self.dt, self.kind, cause);
-        match self.critical_time_step() {
-            Some(critical) => failure.with_critical_time_step(critical),
-            None => failure,
-        }
+        Failure::of_step(self.state.steps, self.state.time, self.dt, self.kind, cause)
     }
 }
