@@ -1,4 +1,4 @@
-//! Meshes of simplices: files, checks, measures, refinement.
+//! Meshes of simplices: files, checks, measures, refinement, joining.
 //!
 //! [`read_tetrahedra`] and [`read_surface`] read a mesh file by its extension, [`write`](mod@write) writes one. A mesh is plain data;
 //! [`check`] tests the properties that computations rely on.
@@ -32,6 +32,7 @@ mod buckets;
 mod check;
 mod connectivity;
 mod error;
+mod join;
 mod measures;
 mod quality;
 mod read;
@@ -45,6 +46,7 @@ pub use box_mesh::box_mesh;
 pub use check::check;
 pub use connectivity::{CoincidentNodes, coincident_nodes, parts};
 pub use error::{MeshError, Place, Problem};
+pub use join::join;
 pub(crate) use measures::signed_volume;
 pub use measures::{area_vector, volumes};
 pub use quality::{Extreme, Quality, quality};

@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 use crate::check::check;
 use crate::load::{line_of, refused};
 use crate::simulation::Shape;
+use crate::tables::MeshTable;
 use crate::values::{
     DirichletCondition, Drag, MaterialRegion, Pressure, RayleighDamping, Spring, Traction, curve, damping,
     density_factors, dirichlet_conditions, drag, initial_velocity, regions, springs, surface_loads,
@@ -113,7 +114,8 @@ fn lumps_by_default(scene: &Scene, nodes: usize) -> bool {
 /// Scales, checks and refines the tetrahedra.
 fn checked(scene: &Scene, mesh: TetrahedralMesh) -> Result<TetrahedralMesh, SceneError> {
     let mesh = scale(mesh, scene.mesh.scale);
-    let source = scene.mesh.file.clone().unwrap_or_else(|| PathBuf::from("box"));
+    let kind = if scene.mesh.files.is_some() { "files" } else { "box" };
+    let source = scene.mesh.file.clone().unwrap_or_else(|| PathBuf::from(kind));
     fem_mesh::check(&mesh, &source).map_err(|error| mesh_error(scene, "mesh", error))?;
     if scene.mesh.refine == 0 {
         return Ok(mesh);
@@ -125,16 +127,32 @@ fn checked(scene: &Scene, mesh: TetrahedralMesh) -> Result<TetrahedralMesh, Scen
 }
 
 fn tetrahedra(scene: &Scene, data: &Path) -> Result<TetrahedralMesh, SceneError> {
-    match (&scene.mesh.file, &scene.mesh.cuboid) {
-        (Some(file), _) => {
-            let path = find(scene, data, file);
-            fem_mesh::read_tetrahedra(&path).map_err(|error| mesh_error(scene, "mesh.file", error))
+    let read = |field: &'static str, file: &Path| {
+        fem_mesh::read_tetrahedra(&find(scene, data, file)).map_err(|error| mesh_error(scene, field, error))
+    };
+    let MeshTable { file, files, cuboid, .. } = &scene.mesh;
+    match (file, files, cuboid) {
+        (Some(file), ..) => read("mesh.file", file),
+        (None, Some(files), _) => {
+            // Each is checked alone, so that an error names its file.
+            let checked = |file: &PathBuf| {
+                let mesh = read("mesh.files", file)?;
+                fem_mesh::check(&mesh, file).map_err(|error| mesh_error(scene, "mesh.files", error))?;
+                Ok((name_of(file), mesh))
+            };
+            Ok(fem_mesh::join(files.iter().map(checked).collect::<Result<Vec<_>, SceneError>>()?))
         }
-        (None, Some(cuboid)) => {
+        (None, None, Some(cuboid)) => {
             fem_mesh::box_mesh(cuboid.size, cuboid.cells_per_unit).map_err(|error| mesh_error(scene, "mesh.box", error))
         }
-        (None, None) => unreachable!("a scene without tetrahedra is refused when it is read"),
+        (None, None, None) => unreachable!("a scene without tetrahedra is refused when it is read"),
     }
+}
+
+/// The name of a mesh file without its extensions: `wheel` of `meshes/wheel.node.gz`.
+fn name_of(file: &Path) -> String {
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    name.split('.').next().unwrap_or_default().to_owned()
 }
 
 fn surface(scene: &Scene, data: &Path, file: &Path) -> Result<SurfaceMesh, SceneError> {

@@ -14,7 +14,7 @@ use crate::simulation::{Shape, Simulation};
 pub(crate) struct Identity(BTreeMap<String, String>);
 
 /// Keys without an effect on a step. Meshes are compared by what is in them.
-const IRRELEVANT: [&str; 4] = ["about", "mesh.display", "mesh.file", "time.steps"];
+const IRRELEVANT: [&str; 5] = ["about", "mesh.display", "mesh.file", "mesh.files", "time.steps"];
 
 /// Largest number of differences in a message.
 const MOST: usize = 5;

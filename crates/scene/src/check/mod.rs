@@ -39,10 +39,14 @@ fn check_mesh(mesh: &MeshTable) -> Result<(), Problem> {
         let text = format!("is {}; cut every tetrahedron at most {MOST_REFINEMENTS} times", mesh.refine);
         return problem("mesh.refine", text);
     }
-    match (&mesh.file, &mesh.cuboid) {
-        (Some(_), Some(_)) => problem("mesh.box", "stands beside `file`; keep one of the two"),
-        (None, None) => problem("mesh", "names no tetrahedra; give it `file` or `box`"),
-        _ => Ok(()),
+    match (&mesh.file, &mesh.files, &mesh.cuboid) {
+        (Some(_), _, Some(_)) => problem("mesh.box", "stands beside `file`; keep one of the two"),
+        (Some(_), Some(_), _) | (_, Some(_), Some(_)) => {
+            problem("mesh.files", "stands beside `file` or `box`; keep one of them")
+        }
+        (None, Some(files), None) if files.is_empty() => problem("mesh.files", "is empty; name a file"),
+        (None, None, None) => problem("mesh", "names no tetrahedra; give it `file`, `files` or `box`"),
+        (Some(_), None, None) | (None, Some(_), None) | (None, None, Some(_)) => Ok(()),
     }
 }
 

@@ -107,6 +107,8 @@ pub enum Pipeline {
 pub struct MeshTable {
     /// A file of tetrahedra.
     pub file: Option<PathBuf>,
+    /// Several files of tetrahedra; all tetrahedra of each are a set of the file's name without its extension.
+    pub files: Option<Vec<PathBuf>>,
     /// A box.
     #[serde(rename = "box")]
     pub cuboid: Option<Cuboid>,

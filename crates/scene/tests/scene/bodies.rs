@@ -91,3 +91,33 @@ fn the_highest_vertex_is_the_first_of_largest_y() {
     // Nodes 3, 4, 5 and 9, 10, 11 of the box have y = 1.
     assert_eq!(body(&format!("{LEAST}{drag}")).unwrap().drag.unwrap().node, 3);
 }
+
+#[test]
+fn several_files_are_bodies_of_one_scene_and_sets_of_their_names() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, shift) in [("left.node", 0.0), ("right.vtu", 3.0)] {
+        let mut mesh = fem_mesh::box_mesh([1.0, 1.0, 1.0], 1).unwrap();
+        mesh.vertices.iter_mut().for_each(|vertex| vertex.x += shift);
+        fem_mesh::write_tetrahedra(&folder.path().join(name), &mesh).unwrap();
+    }
+    let files = edit(LEAST, "box = { size = [2, 1, 1], cells_per_unit = 1 }", "files = [\"left.node\", \"right.vtu\"]");
+    let file = folder.path().join("a.toml");
+    let read = |text: &str| {
+        std::fs::write(&file, text).unwrap();
+        fem_scene::load(file.to_str().unwrap(), folder.path()).and_then(|scene| fem_scene::body(&scene, folder.path()))
+    };
+    let body = read(&format!("{files}[fixed]\nset = \"right\"\n")).unwrap();
+    assert_eq!(
+        (body.shape.mesh.vertices.len(), body.shape.mesh.elements.len(), body.shape.boundary.len()),
+        (16, 12, 24)
+    );
+    assert_eq!(body.fixed_nodes(), Some(&(8..16).collect::<Vec<_>>()[..]));
+
+    let message = |text: &str| read(text).unwrap_err().to_string();
+    let beside = edit(&files, "[material]", "file = \"left.node\"\n[material]");
+    assert!(message(&beside).contains("mesh.files stands beside `file` or `box`; keep one of them"));
+    let empty = edit(&files, "\"left.node\", \"right.vtu\"", "");
+    assert!(message(&empty).contains("mesh.files is empty; name a file"));
+    let missing = edit(&files, "right.vtu", "wrong.vtu");
+    assert!(message(&missing).contains("wrong.vtu"), "{}", message(&missing));
+}
