@@ -1,4 +1,4 @@
-//! What makes two runs the same: their scene, mesh, method and parameters.
+//! The identity of a run: its scene, mesh, method and parameters. A state file belongs to one identity.
 
 use std::collections::{BTreeMap, BTreeSet};
 

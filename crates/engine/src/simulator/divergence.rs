@@ -90,8 +90,8 @@ impl<T: Real> SuppliedEnergy<T> {
         Err(Cause::Diverged { kinetic, supplied: self.largest })
     }
 
-    /// Work in a step of follower loads and of loads that change with the time, J: the force on the body as it was at the step's start,
-    /// at the step's end, times the velocity there.
+    /// Work in a step of follower loads and of loads that change with the time, J. Their forces take the displacements at the start of
+    /// the step and the time of its end, and the velocities are those at its end.
     fn work_of_loads(&mut self, system: &System<T>, before: &State<T>, state: &State<T>, dt: f64) -> f64 {
         if !system.forces.active().any(|(potential, _)| !is_steady(potential)) {
             return 0.0;
