@@ -14,7 +14,7 @@ use crate::{block, scene};
 /// A body of 1 m³ whose inner nodes are where chance has put them.
 struct Patch {
     system: System<f64>,
-    /// For each of the engine's nodes, whether it lies inside.
+    /// Whether each of the engine's nodes lies inside.
     inner: Vec<bool>,
 }
 

@@ -22,7 +22,7 @@ pub struct Level {
 pub struct RichardsonEstimate {
     /// Observed orders in L2 and H1.
     pub orders: (f64, f64),
-    /// For each level: cells per metre, error in L2 relative to the body's length, error of the displacement gradient in L2 relative to
+    /// Of each level: cells per metre, error in L2 relative to the body's length, error of the displacement gradient in L2 relative to
     /// the gradient's norm.
     pub errors: Vec<(usize, f64, f64)>,
     /// Extrapolated displacements at the coarsest level's nodes, m.

@@ -118,7 +118,7 @@ pub const SMALLEST_J: &str = "smallest J at the end of a step; must be above 0";
 pub struct Case {
     /// The family of the case.
     pub family: &'static str,
-    /// What is extreme about the case.
+    /// The extreme property of the case.
     pub case: String,
     /// Its parameters.
     pub parameters: String,

@@ -15,7 +15,7 @@ use fem_engine::cantilever::moduli;
 pub struct SpaceStudy {
     /// A row for each material and mesh of the manufactured solution.
     pub rows: Vec<Row>,
-    /// For each material: scene, orders in L2 and H1.
+    /// Scene, and orders in L2 and H1, of each material.
     pub orders: Vec<(String, Option<ConvergenceOrder>, Option<ConvergenceOrder>)>,
     /// Tip deflections of the cantilever.
     pub tip_deflections: Vec<TipDeflection>,

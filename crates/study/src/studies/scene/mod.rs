@@ -33,7 +33,7 @@ pub struct SceneStudy {
     pub fastest: f64,
     /// Rows of all runs.
     pub rows: Vec<Row>,
-    /// For each row: samples of time, s, and change of the total energy, J.
+    /// Samples of each row: time, s, and change of the total energy, J.
     pub histories: Vec<Vec<(f64, f64)>>,
     /// References: file, self-checks of displacements and velocities, force evaluations.
     pub references: Vec<(String, (f64, f64), usize)>,
