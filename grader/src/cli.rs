@@ -21,6 +21,9 @@ pub enum Command {
         /// A new or empty folder.
         #[arg(value_name = "DIR")]
         to: PathBuf,
+        /// The assignment: its functions are empty, the others are given solved.
+        #[arg(long, value_name = "FILE")]
+        rubric: Option<PathBuf>,
     },
     /// Hold the functions of a repository to the public checks.
     Check(grader::check::Options),

@@ -44,8 +44,9 @@ fn unusable(error: impl Display) -> Problem {
     Problem { message: error.to_string(), code: UNUSABLE }
 }
 
-pub fn handout(to: &Path) -> Done {
-    handout::write(&repository(), to).map_err(unusable)?;
+pub fn handout(to: &Path, rubric: Option<&Path>) -> Done {
+    let rubric = Rubric::load(rubric).map_err(unusable)?;
+    handout::write(&repository(), &rubric, to).map_err(unusable)?;
     println!("The students' repository is in {}; its README.md tells how to begin.", to.display());
     Ok(())
 }

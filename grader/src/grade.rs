@@ -25,7 +25,7 @@ pub struct Grade {
     pub sandbox: BTreeMap<String, bool>,
     /// Remarks on the submission as a whole: it cannot be read, files were ignored, …
     pub remarks: Vec<String>,
-    /// In teaching order, all 22.
+    /// The functions of the assignment, in the order of the rubric.
     pub functions: Vec<FunctionGrade>,
     /// The whole simulation with the submission's functions alone.
     pub simulation: FunctionGrade,

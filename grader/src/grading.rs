@@ -25,7 +25,8 @@ use grader::submission::{Source, Submission};
 use thiserror::Error;
 
 use crate::grade::{FORMAT_VERSION, FunctionGrade, Grade};
-use crate::rubric::{Function, Rubric};
+use crate::handout::unmarked;
+use crate::rubric::{Function, Role, Rubric};
 use programs::Programs;
 use timer::CpuTimer;
 use workspace::Workspace;
@@ -81,6 +82,8 @@ impl Grading {
     /// Trouble of the grader, not of the submission.
     pub fn grade(&self, submission: &Submission) -> Result<Grade, GradingError> {
         let timer = CpuTimer::start();
+        let hash = submission.hash();
+        let submission = &self.as_assigned(submission);
         let mut graded = BTreeMap::new();
         for function in &self.rubric.functions {
             if let Some(grade) = without_running(function, submission) {
@@ -105,7 +108,7 @@ impl Grading {
         Ok(Grade {
             format_version: FORMAT_VERSION,
             submission: submission.name.clone(),
-            files: submission.hash(),
+            files: hash,
             score: parts().map(|part| part.score).sum(),
             max_score: parts().map(|part| part.max_score).sum(),
             seed: self.seed,
@@ -117,6 +120,25 @@ impl Grading {
             study,
             seconds: timer.seconds(),
         })
+    }
+
+    /// The submission with the reference in place of what is given solved, and without what a later assignment asks for.
+    fn as_assigned(&self, submission: &Submission) -> Submission {
+        let mut assigned = submission.clone();
+        for (name, source) in &mut assigned.functions {
+            match self.rubric.role(name) {
+                Role::Asked => {}
+                Role::Later => *source = Source::Missing("a later assignment asks for it".to_owned()),
+                Role::Given => {
+                    let text = self.programs.text(name).cloned().unwrap_or_default();
+                    if matches!(source, Source::Written(own) if unmarked(own) != text) {
+                        assigned.remarks.push(format!("src/{name}.rs is given solved; the changes in it do not count"));
+                    }
+                    *source = Source::Written(text);
+                }
+            }
+        }
+        assigned
     }
 
     fn limit(&self) -> Duration {

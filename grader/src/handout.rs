@@ -1,4 +1,5 @@
-//! Writes the students' repository from this one: the same layout, the 22 functions empty, and no solution anywhere.
+//! Writes the students' repository from this one: the same layout, the functions of the assignment empty, and no solution of them
+//! anywhere.
 //!
 //! Everything is put together in memory and looked through for leaks before the first file is written.
 
@@ -14,8 +15,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::new_folder::{self, FolderError};
+use crate::rubric::Rubric;
 pub use leak::{Leak, leaks};
-pub use stub::stub;
+pub use stub::{stub, unmarked};
 
 /// Files by their path from the root of the students' repository.
 pub type Files = BTreeMap<PathBuf, Vec<u8>>;
@@ -45,11 +47,11 @@ impl HandoutError {
     }
 }
 
-/// Writes the students' repository of the repository `root` into the new or empty folder `to`.
-pub fn write(root: &Path, to: &Path) -> Result<(), HandoutError> {
+/// Writes the students' repository of the repository `root` for the assignment of a rubric into the new or empty folder `to`.
+pub fn write(root: &Path, rubric: &Rubric, to: &Path) -> Result<(), HandoutError> {
     check_place(root, to)?;
-    let files = collect::collect(root)?;
-    let found = leaks(root, &files)?;
+    let files = collect::collect(root, rubric)?;
+    let found = leaks(root, rubric, &files)?;
     if !found.is_empty() {
         return Err(HandoutError::Leaks(found));
     }

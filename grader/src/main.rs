@@ -36,7 +36,7 @@ fn main() -> ExitCode {
     // Checks catch panics of what they judge; those are part of the result and not to be printed.
     panic::set_hook(Box::new(|_| {}));
     let done = panic::catch_unwind(|| match arguments.command {
-        Command::Handout { to } => commands::handout(&to),
+        Command::Handout { to, rubric } => commands::handout(&to, rubric.as_deref()),
         Command::Check(options) => commands::check(&options),
         Command::Grade { submission, options, ends_with } => commands::grade(&submission, &options, ends_with),
         Command::Class { folder, options, jobs, shard } => commands::class(&folder, &options, jobs, shard),

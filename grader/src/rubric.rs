@@ -26,9 +26,23 @@ pub struct Rubric {
     pub compile_seconds: f64,
     pub students: Students,
     pub simulation: Simulation,
-    /// The functions in the order of the reports.
+    /// Functions of a later assignment: neither asked for nor given solved.
+    #[serde(default)]
+    pub later: Vec<Spanned<String>>,
+    /// The functions of this assignment in the order of the reports. All others but the `later` ones are given solved.
     #[serde(rename = "function")]
     pub functions: Vec<Function>,
+}
+
+/// The part of a function in an assignment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Students write it, and it is graded.
+    Asked,
+    /// Students receive it solved.
+    Given,
+    /// Students receive it empty, and it is not graded.
+    Later,
 }
 
 /// The parts of a grade that students see.
@@ -95,10 +109,7 @@ impl Rubric {
         };
         for (index, function) in self.functions.iter().enumerate() {
             let name = function.name.get_ref();
-            if !NAMES.contains(&name.as_str()) {
-                let problem = format!("`{name}` is not a function of the course; the README lists the names");
-                return Err(at(function.name.span(), problem));
-            }
+            known(name).map_err(|problem| at(function.name.span(), problem))?;
             if self.functions[..index].iter().any(|earlier| earlier.name.get_ref() == name) {
                 return Err(at(function.name.span(), format!("`{name}` stands here a second time; remove one")));
             }
@@ -113,16 +124,19 @@ impl Rubric {
                 return Err(at(function.level.span(), "level = 0; levels count from 1".to_owned()));
             }
         }
+        for name in &self.later {
+            known(name.get_ref()).map_err(|problem| at(name.span(), problem))?;
+            if self.functions.iter().any(|function| function.name.get_ref() == name.get_ref()) {
+                let problem = format!("`{}` has a table [[function]] and is `later`; remove one", name.get_ref());
+                return Err(at(name.span(), problem));
+            }
+        }
         self.check_whole().map_err(|problem| RubricError::Whole(file.to_owned(), problem))
     }
 
     fn check_whole(&self) -> Result<(), String> {
-        if let Some(missing) =
-            NAMES.into_iter().find(|name| !self.functions.iter().any(|function| function.name.get_ref() == name))
-        {
-            return Err(format!(
-                "`{missing}` is missing; add a table [[function]] for it, with 0 points if it is not asked for"
-            ));
+        if self.functions.is_empty() {
+            return Err("it asks for no function; add a table [[function]]".to_owned());
         }
         let own =
             self.functions.iter().filter_map(|function| Some((function.name.get_ref().as_str(), function.tolerance?)));
@@ -140,7 +154,18 @@ impl Rubric {
             let points = self.simulation.points;
             return Err(format!("points = {points} of [simulation]; give a number from 0 to {MOST_POINTS}"));
         }
+        if !self.later.is_empty() && self.simulation.points > 0.0 {
+            return Err("[simulation] has points, but needs functions that are `later`; give it 0 points".to_owned());
+        }
         Ok(())
+    }
+
+    /// The part of a function in this assignment.
+    pub fn role(&self, name: &str) -> Role {
+        if self.functions.iter().any(|function| function.name.get_ref() == name) {
+            return Role::Asked;
+        }
+        if self.later.iter().any(|later| later.get_ref() == name) { Role::Later } else { Role::Given }
     }
 
     /// Levels in ascending order.
@@ -151,11 +176,19 @@ impl Rubric {
         levels
     }
 
-    /// The level of a function.
-    pub fn level(&self, name: &str) -> u32 {
-        let function = self.functions.iter().find(|function| function.name.get_ref() == name);
-        function.map_or(1, |function| *function.level.get_ref())
+    /// The level of a function that is asked for.
+    pub fn level(&self, name: &str) -> Option<u32> {
+        let function = self.functions.iter().find(|function| function.name.get_ref() == name)?;
+        Some(*function.level.get_ref())
     }
+}
+
+/// Refuses a name that no function has.
+fn known(name: &str) -> Result<(), String> {
+    if NAMES.contains(&name) {
+        return Ok(());
+    }
+    Err(format!("`{name}` is not a function of the course; the README lists the names"))
 }
 
 /// More than any exercise is worth, so that sums stay numbers.
@@ -218,5 +251,9 @@ mod tests {
         let own = OURS.replacen("name = \"psi_neo_hookean\"", "name = \"psi_neo_hookean\"\ntolerance = 2.0", 1);
         assert!(problem(own).contains("tolerance = 2 of psi_neo_hookean; give"));
         assert!(problem(OURS.replacen("seconds = 5.0", "seconds = 1e-12", 1)).contains("from 0.1 to 600"));
+        let both = OURS.replacen("seconds = 5.0", "later = [\"newtons_method\"]\nseconds = 5.0", 1);
+        assert!(problem(both).contains("`newtons_method` has a table [[function]] and is `later`"));
+        let head = OURS.split("[[function]]").next().unwrap();
+        assert!(problem(format!("function = []\n{head}")).contains("asks for no function"));
     }
 }

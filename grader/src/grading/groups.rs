@@ -53,7 +53,7 @@ fn needs(name: &str, below: &Names, own: &Calls, reference: &Calls) -> Names {
 }
 
 /// A function and all that it leads to.
-fn closure(name: &'static str, calls: &Calls) -> Names {
+pub fn closure(name: &'static str, calls: &Calls) -> Names {
     let (mut found, mut next) = (Names::new(), vec![name]);
     while let Some(name) = next.pop() {
         if found.insert(name) {

@@ -9,7 +9,7 @@ use grader::implementation::sandboxed::Sandboxed;
 use grader::status::Status;
 use grader::submission::{NAMES, Source, Submission, mentions};
 
-use super::groups::{Calls, Group, Names, groups};
+use super::groups::{Calls, Group, groups};
 use super::programs::start;
 use super::whole::Whole;
 use super::{Grading, GradingError, finished};
@@ -26,9 +26,9 @@ impl Grading {
         whole: Option<&Whole>,
         graded: &mut BTreeMap<String, FunctionGrade>,
     ) -> Result<(), GradingError> {
-        let is_due = |name: &&str| self.rubric.level(name) == level && !graded.contains_key(*name);
+        let is_due = |name: &&str| self.rubric.level(name) == Some(level) && !graded.contains_key(*name);
         let judged: Vec<&'static str> = NAMES.into_iter().filter(is_due).collect();
-        let below: Names = NAMES.into_iter().filter(|name| self.rubric.level(name) < level).collect();
+        let below = self.programs.names_below(level);
         let own = calls_of(submission);
         for group in groups(&judged, &below, &own, &self.programs.calls) {
             if let Some((program, folder)) = whole.filter(|_| group.reference.is_empty()).and_then(Whole::program) {

@@ -12,8 +12,8 @@ use grader::sandbox::{Confined, Limits, Profile, Running, Sandbox, library_folde
 use grader::submission::{NAMES, mentions};
 
 use super::GradingError;
-use super::groups::{Calls, Names};
-use crate::rubric::Rubric;
+use super::groups::{Calls, Names, closure};
+use crate::rubric::{Role, Rubric};
 
 /// The grader's own programs.
 pub struct Programs {
@@ -21,6 +21,7 @@ pub struct Programs {
     lowest: u32,
     /// The functions that each function of the reference calls.
     pub calls: Calls,
+    levels: BTreeMap<&'static str, u32>,
     texts: BTreeMap<&'static str, String>,
 }
 
@@ -34,16 +35,32 @@ impl Programs {
         for name in NAMES {
             texts.insert(name, fs::read_to_string(root.join(format!("src/{name}.rs")))?);
         }
-        let levels: Vec<u32> = NAMES.into_iter().map(|name| rubric.level(name)).collect();
+        let calls: Calls = texts.iter().map(|(name, text)| (*name, mentions(text))).collect();
+        let levels: BTreeMap<_, _> = NAMES.map(|name| (name, level(name, rubric, &calls))).into();
         let mut hasher = DefaultHasher::new();
         // Times are compared only between programs that were compiled alike.
-        (&texts, levels, prebuilt.arguments()).hash(&mut hasher);
+        (&texts, &levels, rubric.levels(), prebuilt.arguments()).hash(&mut hasher);
         let folder = prebuilt.folder.join(format!("reference-{:016x}", hasher.finish()));
-        let lowest = rubric.levels().first().copied().unwrap_or(1);
-        let calls = texts.iter().map(|(name, text)| (*name, mentions(text))).collect();
-        let programs = Self { folder, lowest, calls, texts };
+        let lowest = levels.values().copied().min().unwrap_or(1);
+        let programs = Self { folder, lowest, calls, levels, texts };
         once(&programs.folder, || programs.build(rubric, prebuilt))?;
         Ok(programs)
+    }
+
+    /// The level of a function: the rubric's; for one that is given, the level from which on the reference answers all that it
+    /// calls, 0 where it calls nothing that is asked for.
+    pub fn level(&self, name: &str) -> u32 {
+        self.levels.get(name).copied().unwrap_or(u32::MAX)
+    }
+
+    /// The functions whose reference the programs of a level are linked with.
+    pub fn names_below(&self, level: u32) -> Names {
+        NAMES.into_iter().filter(|name| self.level(name) < level).collect()
+    }
+
+    /// The reference's text of a function.
+    pub fn text(&self, name: &str) -> Option<&String> {
+        self.texts.get(name)
     }
 
     /// The library with the reference of all levels below this one.
@@ -78,8 +95,7 @@ impl Programs {
 
     fn build(&self, rubric: &Rubric, prebuilt: &Prebuilt) -> Result<(), GradingError> {
         for level in rubric.levels().into_iter().filter(|level| *level > self.lowest) {
-            let below = NAMES.into_iter().filter(|name| rubric.level(name) < level).collect();
-            self.library(prebuilt, &below, &self.folder.join(format!("below-{level}")))?;
+            self.library(prebuilt, &self.names_below(level), &self.folder.join(format!("below-{level}")))?;
         }
         let whole = self.folder.join("whole");
         fs::create_dir_all(&whole)?;
@@ -90,6 +106,19 @@ impl Programs {
             return Err(GradingError::Reference(format!("{:?}", built.faults)));
         }
         Ok(fs::remove_dir_all(whole.join("src"))?)
+    }
+}
+
+/// The level of one function. A function of a later assignment comes after all levels, and so does what calls it.
+fn level(name: &'static str, rubric: &Rubric, calls: &Calls) -> u32 {
+    let of = |name: &&'static str| match rubric.role(name) {
+        Role::Asked => rubric.level(name).unwrap_or(u32::MAX),
+        Role::Given => 0,
+        Role::Later => u32::MAX,
+    };
+    match rubric.role(name) {
+        Role::Given => closure(name, calls).iter().map(of).max().unwrap_or(0),
+        Role::Asked | Role::Later => of(&name),
     }
 }
 

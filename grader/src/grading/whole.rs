@@ -53,7 +53,7 @@ impl Grading {
         submission: &Submission,
         graded: &BTreeMap<String, FunctionGrade>,
     ) -> Result<Option<Whole>, GradingError> {
-        if !absent(graded).is_empty() {
+        if !absent(graded).is_empty() || !self.rubric.later.is_empty() {
             return Ok(None);
         }
         let own = NAMES.into_iter().filter_map(|name| match submission.functions.get(name) {
@@ -88,7 +88,10 @@ impl Grading {
         };
         let absent = absent(functions);
         let Some(Whole { attempt, folder }) = whole.filter(|_| absent.is_empty()) else {
-            grade.message = Some(format!("the whole simulation needs {}", absent.join(", ")));
+            grade.message = Some(match &absent[..] {
+                [] => "the whole simulation needs functions of a later assignment".to_owned(),
+                names => format!("the whole simulation needs {}", names.join(", ")),
+            });
             return Ok(grade);
         };
         let program = match attempt {

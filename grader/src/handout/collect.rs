@@ -8,6 +8,7 @@ use grader::submission::NAMES;
 use syn::Item;
 
 use super::{Files, HandoutError, manifest, stub};
+use crate::rubric::{Role, Rubric};
 
 /// Files and folders that are handed out whole. The tests of the repository, its map and its history are not.
 const WHOLE: [&str; 15] = [
@@ -37,13 +38,17 @@ const README: &str = include_str!("../../handout/README.md");
 const PROGRAM: &str = include_str!("../../handout/main.rs");
 
 /// All files of the handout.
-pub fn collect(root: &Path) -> Result<Files, HandoutError> {
+pub fn collect(root: &Path, rubric: &Rubric) -> Result<Files, HandoutError> {
     let mut files = Files::new();
     for name in WHOLE {
         add(root, Path::new(name), &mut files)?;
     }
     for name in NAMES {
-        edit(&mut files, &format!("src/{name}.rs"), |text| stub::stub(name, text))?;
+        edit(&mut files, &format!("src/{name}.rs"), |text| match rubric.role(name) {
+            Role::Asked => stub::stub(name, text),
+            Role::Given => Ok(stub::marked(text)),
+            Role::Later => Ok(stub::stub(name, text)?.replace("write this function", "a later assignment asks for it")),
+        })?;
     }
     leave_out_the_engine(&mut files);
     add_module(root, Path::new("grader/src/lib.rs"), &mut files)?;
@@ -58,7 +63,7 @@ pub fn collect(root: &Path) -> Result<Files, HandoutError> {
     let has: Vec<_> = files.keys().cloned().collect();
     let is_there = |path: &str| has.iter().any(|found| found == Path::new(path));
     edit(&mut files, "Cargo.toml", |text| manifest::root_manifest(text, is_there))?;
-    files.insert("README.md".into(), readme(root)?.into_bytes());
+    files.insert("README.md".into(), readme(root, rubric)?.into_bytes());
     Ok(files)
 }
 
@@ -143,7 +148,7 @@ fn normal(path: &Path) -> PathBuf {
 }
 
 /// The students' first page, with the table of functions and that of scenes as they stand on ours.
-fn readme(root: &Path) -> Result<String, HandoutError> {
+fn readme(root: &Path, rubric: &Rubric) -> Result<String, HandoutError> {
     let path = root.join("README.md");
     let ours = fs::read_to_string(&path).map_err(HandoutError::io(&path))?;
     let table = |head: &str| -> String {
@@ -151,5 +156,17 @@ fn readme(root: &Path) -> Result<String, HandoutError> {
         let handed_out = |line: &&str| !line.contains("engine");
         lines.filter(handed_out).flat_map(|line| [line, "\n"]).collect()
     };
-    Ok(README.replace("{functions}\n", &table("| | function |")).replace("{scenes}\n", &table("| scene |")))
+    let functions: String = table("| | function |").lines().map(|line| with_role(line, rubric) + "\n").collect();
+    Ok(README.replace("{functions}\n", &functions).replace("{scenes}\n", &table("| scene |")))
+}
+
+/// A line of the table of functions; one that is not asked for says so.
+fn with_role(line: &str, rubric: &Rubric) -> String {
+    let name = NAMES.into_iter().find(|name| line.contains(&format!("[`{name}`]")));
+    let note = match name.map(|name| rubric.role(name)) {
+        Some(Role::Given) => " (given solved)",
+        Some(Role::Later) => " (a later assignment)",
+        Some(Role::Asked) | None => return line.to_owned(),
+    };
+    format!("{}{note} |", line.trim_end().trim_end_matches('|').trim_end())
 }

@@ -12,6 +12,7 @@ use syn::spanned::Spanned;
 use syn::visit::Visit;
 
 use super::{Files, HandoutError};
+use crate::rubric::{Role, Rubric};
 
 /// So many words and signs of a body in a row are no coincidence. Every sign counts by itself – `::` is two, `2.0` three – so
 /// this is about a line, and the smallest number without a false alarm. With 23, three lines of the checks that say in Rust what
@@ -36,18 +37,19 @@ impl fmt::Display for Leak {
     }
 }
 
-/// Pieces of the bodies in the repository `root` that these files contain; the first of each function in each file.
-pub fn leaks(root: &Path, files: &Files) -> Result<Vec<Leak>, HandoutError> {
+/// Pieces of the bodies in the repository `root` that these files contain; the first of each function in each file. A piece that a
+/// given function has too is no secret.
+pub fn leaks(root: &Path, rubric: &Rubric, files: &Files) -> Result<Vec<Leak>, HandoutError> {
+    let is_given = |name: &str| rubric.role(name) == Role::Given;
     let mut pieces: HashMap<Vec<String>, &'static str> = HashMap::new();
-    for name in NAMES {
-        let path = root.join(format!("src/{name}.rs"));
-        let text = fs::read_to_string(&path).map_err(HandoutError::io(&path))?;
-        for body in bodies(&text).map_err(|error| HandoutError::unusable(&path, error))? {
-            let words = words(&body);
-            pieces.extend(words.windows(WINDOW.min(words.len())).map(|window| (window.to_vec(), name)));
+    for name in NAMES.into_iter().filter(|name| !is_given(name)) {
+        pieces.extend(windows(root, name)?.into_iter().map(|window| (window, name)));
+    }
+    for name in NAMES.into_iter().filter(|name| is_given(name)) {
+        for window in windows(root, name)? {
+            pieces.remove(&window);
         }
     }
-    // A body that is shorter than a window counts as a whole.
     let lengths: BTreeSet<usize> = pieces.keys().map(Vec::len).collect();
     let mut found = BTreeMap::new();
     for (path, bytes) in files {
@@ -64,6 +66,18 @@ pub fn leaks(root: &Path, files: &Files) -> Result<Vec<Leak>, HandoutError> {
         }
     }
     Ok(found.into_values().collect())
+}
+
+/// All pieces of a function's solution. A body that is shorter than a window counts as a whole.
+fn windows(root: &Path, name: &str) -> Result<Vec<Vec<String>>, HandoutError> {
+    let path = root.join(format!("src/{name}.rs"));
+    let text = fs::read_to_string(&path).map_err(HandoutError::io(&path))?;
+    let mut found = Vec::new();
+    for body in bodies(&text).map_err(|error| HandoutError::unusable(&path, error))? {
+        let words = words(&body);
+        found.extend(words.windows(WINDOW.min(words.len())).map(<[String]>::to_vec));
+    }
+    Ok(found)
 }
 
 /// The bodies of all functions in a file, without comments.

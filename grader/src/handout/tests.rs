@@ -8,14 +8,19 @@ use std::process::Command;
 use grader::submission::{NAMES, is_stub};
 
 use super::{Files, leaks, write};
+use crate::rubric::{Role, Rubric};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
 }
 
+fn whole_course() -> Rubric {
+    Rubric::load(None).unwrap()
+}
+
 fn written() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    write(&root(), folder.path()).unwrap_or_else(|error| panic!("{error}"));
+    write(&root(), &whole_course(), folder.path()).unwrap_or_else(|error| panic!("{error}"));
     folder
 }
 
@@ -69,7 +74,7 @@ fn a_solution_in_any_text_is_found() {
     let solved = fs::read_to_string(root().join("src/newtons_method.rs")).unwrap();
     let inside = format!("# Hints\n\n{}", solved.replace("    ", " ").replace('\n', "  \n"));
     let files = Files::from([("include-docs/hints.md".into(), inside.into_bytes())]);
-    assert_eq!(leaks(&root(), &files).unwrap().len(), 1);
+    assert_eq!(leaks(&root(), &whole_course(), &files).unwrap().len(), 1);
 }
 
 #[test]
@@ -91,9 +96,9 @@ fn links_of_its_pages_lead_somewhere() {
 fn folders_that_hold_something_or_lie_in_the_sources_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("mine"), "").unwrap();
-    assert!(write(&root(), folder.path()).is_err_and(|error| error.to_string().contains("not empty")));
+    assert!(write(&root(), &whole_course(), folder.path()).is_err_and(|error| error.to_string().contains("not empty")));
     let inside = root().join("src/handout");
-    assert!(write(&root(), &inside).is_err_and(|error| error.to_string().contains("inside")));
+    assert!(write(&root(), &whole_course(), &inside).is_err_and(|error| error.to_string().contains("inside")));
     assert!(!inside.exists());
 }
 
@@ -112,4 +117,36 @@ fn it_compiles_with_its_lock_file_and_without_a_warning() {
         .unwrap();
     let messages = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && !messages.contains("warning"), "{messages}");
+}
+
+#[test]
+fn an_assignment_gives_some_functions_solved_and_leaves_some_for_later() {
+    for file in ["first.toml", "second.toml"] {
+        let rubric = Rubric::load(Some(&root().join("grader/rubrics").join(file))).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        write(&root(), &rubric, folder.path()).unwrap_or_else(|error| panic!("{error}"));
+        let readme = fs::read_to_string(folder.path().join("README.md")).unwrap();
+        for name in NAMES {
+            let text = fs::read_to_string(folder.path().join(format!("src/{name}.rs"))).unwrap();
+            let solved = fs::read_to_string(root().join(format!("src/{name}.rs"))).unwrap();
+            let line = readme.lines().find(|line| line.contains(&format!("[`{name}`]"))).unwrap();
+            match rubric.role(name) {
+                Role::Asked => assert!(is_stub(name, &text) && !line.contains("assignment"), "{text}\n{line}"),
+                Role::Later => assert!(is_stub(name, &text) && line.ends_with("(a later assignment) |"), "{line}"),
+                Role::Given => {
+                    assert!(text.starts_with("// Given solved") && line.ends_with("(given solved) |"), "{line}");
+                    assert_eq!(super::unmarked(&text), solved);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_given_solution_hides_no_leak_of_another() {
+    let rubric = Rubric::load(Some(&root().join("grader/rubrics/second.toml"))).unwrap();
+    let read = |name: &str| fs::read(root().join(format!("src/{name}.rs"))).unwrap();
+    let inside = |name: &str| Files::from([("include-docs/hints.md".into(), read(name))]);
+    assert_eq!(leaks(&root(), &rubric, &inside("psi_neo_hookean")).unwrap(), []);
+    assert_eq!(leaks(&root(), &rubric, &inside("newtons_method")).unwrap().len(), 1);
 }

@@ -1,0 +1,98 @@
+//! Rubrics that ask for some of the functions, graded by the real program.
+#![cfg(target_os = "linux")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use grader::submission::NAMES;
+use serde_json::Value;
+use tempfile::TempDir;
+
+fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the grader lies in the repository").to_owned()
+}
+
+fn solution(name: &str) -> String {
+    fs::read_to_string(repository().join(format!("src/{name}.rs"))).expect("a solution")
+}
+
+/// A submission with the solutions of these functions.
+fn submission(names: &[&str]) -> TempDir {
+    let folder = TempDir::new().expect("a folder");
+    fs::create_dir(folder.path().join("src")).expect("a folder");
+    names.iter().for_each(|name| add(&folder, name, &solution(name)));
+    folder
+}
+
+fn add(folder: &TempDir, name: &str, text: &str) {
+    fs::write(folder.path().join(format!("src/{name}.rs")), text).expect("a file");
+}
+
+fn graded(submission: &Path, rubric: &Path, out: &Path) -> Output {
+    let mut grader = Command::new(env!("CARGO_BIN_EXE_grader"));
+    grader.arg("grade").arg(submission).arg("--rubric").arg(rubric).arg("--out").arg(out);
+    grader.output().expect("the grader starts")
+}
+
+fn grade(submission: &Path, rubric: &Path) -> Value {
+    let out = TempDir::new().expect("a folder");
+    let output = graded(submission, rubric, out.path());
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&fs::read(out.path().join("grade.json")).expect("a grade")).expect("JSON")
+}
+
+fn functions(grade: &Value) -> Vec<(&str, &str)> {
+    let all = grade["functions"].as_array().expect("functions").iter();
+    all.map(|function| (function["name"].as_str().unwrap_or(""), function["status"].as_str().unwrap_or(""))).collect()
+}
+
+#[test]
+fn what_a_later_assignment_asks_for_is_neither_graded_nor_needed() {
+    let folder = submission(&NAMES[..12]);
+    let grade = grade(folder.path(), &repository().join("grader/rubrics/first.toml"));
+    assert_eq!(functions(&grade), NAMES[..12].iter().map(|name| (*name, "passed")).collect::<Vec<_>>());
+    assert_eq!((&grade["score"], &grade["max_score"]), (&Value::from(49.0), &Value::from(49.0)));
+    assert!(grade["simulation"]["message"].as_str().is_some_and(|told| told.contains("later assignment")));
+}
+
+#[test]
+fn the_reference_stands_in_for_what_is_given_also_in_the_simulation() {
+    let folder = submission(&NAMES[12..]);
+    add(&folder, "psi_neo_hookean", &solution("psi_neo_hookean").replace("- 3.0", "- 2.0"));
+    add(&folder, "fixed_point_constraints", "pub fn fixed_point_constraints() {}");
+    let grade = grade(folder.path(), &repository().join("grader/rubrics/second.toml"));
+    let expected =
+        |name: &&'static str| (*name, if *name == "fixed_point_constraints" { "did_not_compile" } else { "passed" });
+    assert_eq!(functions(&grade), NAMES[12..].iter().map(expected).collect::<Vec<_>>());
+    assert_eq!((&grade["score"], &grade["max_score"]), (&Value::from(48.0), &Value::from(51.0)));
+    let remarks = grade["remarks"].to_string();
+    assert!(
+        remarks.contains("src/psi_neo_hookean.rs is given solved") && remarks.matches("given").count() == 1,
+        "{remarks}"
+    );
+
+    add(&folder, "fixed_point_constraints", &solution("fixed_point_constraints"));
+    let whole = self::grade(folder.path(), &repository().join("grader/rubrics/second.toml"));
+    assert_eq!((&whole["simulation"]["status"], &whole["score"]), (&Value::from("passed"), &Value::from(51.0)));
+}
+
+#[test]
+fn a_given_function_that_calls_what_is_asked_for_calls_the_students_own() {
+    let all = fs::read_to_string(repository().join("grader/rubric.toml")).expect("the rubric");
+    let tables: Vec<&str> = all.split("[[function]]\n").collect();
+    let is_asked =
+        |table: &&&str| ["\"psi_neo_hookean\"", "\"newtons_method\""].iter().any(|name| table.contains(name));
+    let asked = tables[1..].iter().filter(is_asked).map(|table| format!("[[function]]\n{table}")).collect::<String>();
+    let folder = submission(&["psi_neo_hookean", "newtons_method"]);
+    let rubric = folder.path().join("rubric.toml");
+    fs::write(&rubric, format!("{}{asked}", tables[0])).expect("a file");
+    let right = grade(folder.path(), &rubric);
+    assert_eq!(functions(&right), [("psi_neo_hookean", "passed"), ("newtons_method", "passed")]);
+    assert_eq!(right["simulation"]["status"], "passed");
+
+    add(&folder, "psi_neo_hookean", &solution("psi_neo_hookean").replace("C *", "2.0 * C *"));
+    let wrong = grade(folder.path(), &rubric);
+    assert_eq!(functions(&wrong), [("psi_neo_hookean", "failed"), ("newtons_method", "passed")]);
+    assert_eq!(wrong["simulation"]["status"], "failed", "the energy that the simulation minimises is the student's");
+}
