@@ -31,7 +31,7 @@ pub enum Trouble {
     TimedOut(Duration),
     /// The answer is not valid: wrong number of bytes, inconsistent sparse matrix.
     Malformed,
-    /// The function was not called again after earlier trouble.
+    /// The function was not called again after earlier trouble in the same check, or after too many time-outs.
     GivenUp,
 }
 
@@ -57,6 +57,9 @@ macro_rules! methods {
         /// The 22 functions as the grader calls them. The generic `quadrature_single_point` is called with vectors.
         #[allow(clippy::too_many_arguments)] // the course's signatures
         pub trait Implementation {
+            /// Begins a check: an earlier panic, crash or time-out costs the check in which it happened, and no other.
+            fn begin_check(&self) {}
+
             $(
                 #[doc = concat!("See the page of `", stringify!($name), "`.")]
                 #[allow(missing_docs)]

@@ -15,7 +15,7 @@ use crate::diagnosis::diagnose;
 use crate::grade::{CheckGrade, FunctionGrade};
 use crate::reference::REFERENCE;
 use crate::reference::compare::Check;
-use crate::reference::judge::judge;
+use crate::reference::judge::{Reason, judge};
 use crate::rubric::Function;
 use crate::variants;
 
@@ -40,6 +40,7 @@ impl Grading {
         let course = Course { subject, trusted: &trusted, seed: self.seed };
         let properties = FUNCTIONS.iter().find(|(found, _)| *found == name).map_or(&[][..], |(_, checks)| checks);
         for check in properties {
+            subject.next_check();
             // A check may stumble over an answer that makes no sense; that is the answer's fault.
             let outcome = panic::catch_unwind(AssertUnwindSafe(|| (check.run)(&course)));
             let stumbled = || Err(Mistake::Trouble(Trouble::Malformed));
@@ -63,11 +64,11 @@ impl Grading {
             return;
         };
         grade.error = judgement.worst_error.filter(|error| error.is_finite());
-        for (check, failure) in judgement.checks(name) {
-            let outcome = match (&judgement.trouble, failure) {
-                (Some(trouble), _) => Err(Mistake::Trouble(trouble.clone())),
-                (None, None) => Ok(()),
-                (None, Some(failure)) => Err(Mistake::Wrong {
+        for (check, reason) in judgement.checks(name) {
+            let outcome = match reason {
+                None => Ok(()),
+                Some(Reason::Trouble(trouble)) => Err(Mistake::Trouble(trouble.clone())),
+                Some(Reason::Wrong(failure)) => Err(Mistake::Wrong {
                     rule: failure.rule.to_owned(),
                     figures: failure.figures.clone(),
                     counterexample: format!("{} (trial {}, {})", failure.input, failure.trial.0, failure.trial.1),
@@ -77,12 +78,12 @@ impl Grading {
         }
     }
 
-    /// Partial credit, and the mistake that explains the answers.
+    /// Partial credit, also where some checks end in a panic or a time-out, and the mistake that explains the answers.
     fn explain(&self, grade: &mut FunctionGrade, name: &str, subject: &Sandboxed) {
         let passed = grade.checks.iter().filter(|check| check.status == Status::Passed).count();
         let is_right_at_heart =
             grade.checks.iter().any(|check| check.name == Check::Agrees.name() && check.status == Status::Passed);
-        if self.rubric.partial_credit && is_right_at_heart && grade.status == Status::Failed {
+        if self.rubric.partial_credit && is_right_at_heart {
             let share = passed as f64 / grade.checks.len() as f64;
             grade.score = (grade.max_score * share * 100.0).floor() / 100.0;
         }
@@ -140,17 +141,25 @@ fn check_grade(name: &str, outcome: Result<(), Mistake>) -> CheckGrade {
                 Trouble::Panicked { message, .. } => Some(message.clone()),
                 _ => None,
             };
-            (status_of(&trouble), trouble.to_string(), told)
+            (status_of(&trouble), told_of(&trouble), told)
         }
         Err(Mistake::Waits { needs, trouble }) => (Status::Failed, format!("{needs}: {trouble}"), None),
     };
     CheckGrade { name: name.to_owned(), status, message, counterexample }
 }
 
+/// The sentence for students. A file that holds nothing but the handout's `todo!` is never run, so one that is met here stands in
+/// a branch.
+fn told_of(trouble: &Trouble) -> String {
+    match trouble {
+        Trouble::Missing => "the function comes to a `todo!`; write what is missing there".to_owned(),
+        other => other.to_string(),
+    }
+}
+
 fn status_of(trouble: &Trouble) -> Status {
     match trouble {
-        Trouble::Missing => Status::Missing,
-        Trouble::Panicked { .. } | Trouble::Crashed(_) => Status::Crashed,
+        Trouble::Missing | Trouble::Panicked { .. } | Trouble::Crashed(_) => Status::Crashed,
         Trouble::TimedOut(_) => Status::TimedOut,
         // The trouble that came before giving up is no milder, so it decides how the function fared.
         Trouble::Malformed | Trouble::GivenUp => Status::Failed,

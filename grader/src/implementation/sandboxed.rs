@@ -19,21 +19,38 @@ pub struct Sandboxed {
     start: Box<dyn Fn() -> io::Result<Running>>,
     running: RefCell<Option<Running>>,
     limit: Duration,
-    /// Once a process has died or been late, the function that it was asked for gets no further chance.
+    /// Once a process has died or been late, it is not asked again in the same check.
     given_up: Cell<bool>,
+    /// How often the present function has been late.
+    time_outs: Cell<usize>,
 }
+
+/// After so many time-outs the remaining checks of a function are not waited for.
+const MOST_TIME_OUTS: usize = 3;
 
 impl Sandboxed {
     /// A program that `start` starts; each call must be answered within `limit`.
     pub fn new(start: impl Fn() -> io::Result<Running> + 'static, limit: Duration) -> Self {
-        Self { start: Box::new(start), running: RefCell::new(None), limit, given_up: Cell::new(false) }
+        Self {
+            start: Box::new(start),
+            running: RefCell::new(None),
+            limit,
+            given_up: Cell::new(false),
+            time_outs: Cell::new(0),
+        }
     }
 
     /// Forgets earlier trouble: the next function is asked afresh, in a process of its own, where no thread and no panic hook of
     /// the one before can speak for it.
     pub fn next_function(&self) {
         *self.running.borrow_mut() = None;
-        self.given_up.set(false);
+        self.time_outs.set(0);
+        self.next_check();
+    }
+
+    /// Lets a function that has died or been late answer the next check, unless it has been late too often.
+    pub fn next_check(&self) {
+        self.given_up.set(self.time_outs.get() >= MOST_TIME_OUTS);
     }
 
     /// Duration of a series of calls of a function with these arguments, s.
@@ -77,6 +94,7 @@ impl Sandboxed {
         {
             *place = None;
             self.given_up.set(true);
+            self.time_outs.set(self.time_outs.get() + usize::from(matches!(trouble, Trouble::TimedOut(_))));
         }
         answer
     }
@@ -121,6 +139,10 @@ macro_rules! with_closures {
 macro_rules! calls {
     ($($kind:ident $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
         impl Implementation for Sandboxed {
+            fn begin_check(&self) {
+                self.next_check();
+            }
+
             $($kind! { $name($($argument: $type),*) -> $result })*
 
             fn quadrature_single_point(

@@ -74,7 +74,7 @@ fn every_row_is_that_of_a_search_through_all_elements(course: &Course) -> Outcom
 
 fn each_display_vertex_has_its_own_row_in_order(course: &Course) -> Outcome {
     let mesh = Mesh::uneven_box([1, 1, 1], 1.0);
-    let skin: Vec<_> = (0..9).map(|k| Vector3::new(0.1 * k as f64, 0.7 - 0.05 * k as f64, 0.4)).collect();
+    let skin: Vec<_> = (0..9).map(|k| Vector3::new(0.3 + 0.04 * k as f64, 0.7 - 0.05 * k as f64, 0.4)).collect();
     let all = dense(course, &mesh.V, &mesh.T, &skin)?;
     holds("one row for each display vertex, one column for each vertex", all.shape() == (9, mesh.V.len()))?;
     for (k, x) in skin.iter().enumerate() {

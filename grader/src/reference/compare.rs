@@ -37,6 +37,11 @@ pub enum Check {
 }
 
 impl Check {
+    /// The check to which the values of a trial belong.
+    pub fn of(trial: &Trial) -> Self {
+        if trial.edge { Self::EdgeCases } else { Self::Agrees }
+    }
+
     /// Name in the report.
     pub fn name(self) -> &'static str {
         match self {
@@ -50,7 +55,7 @@ impl Check {
 /// Compares an answer with the reference's.
 pub fn compare(trial: &Trial, observed: &Observed, expected: &Observed, tolerance: f64) -> Verdict {
     let mut verdict = Verdict::default();
-    let check = if trial.edge { Check::EdgeCases } else { Check::Agrees };
+    let check = Check::of(trial);
     if observed.shape != expected.shape || observed.numbers.len() != expected.numbers.len() {
         let ([rows, columns], [wanted_rows, wanted_columns]) = (observed.shape, expected.shape);
         let figures = format!("{rows} × {columns}, expected {wanted_rows} × {wanted_columns}");

@@ -1,5 +1,7 @@
 //! All trials of a function and their results.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::compare::{Check, compare};
 use super::random::Random;
 use super::trial::{Observed, Trial};
@@ -16,8 +18,10 @@ pub struct Judgement {
     pub worst_error: Option<f64>,
     /// Failures in the order of the trials.
     pub failures: Vec<Failure>,
-    /// Why the function did not answer; of several reasons the last.
-    pub trouble: Option<Trouble>,
+    /// Why the function did not answer, in the check of the trial; the first reason of each check.
+    pub troubles: BTreeMap<Check, Trouble>,
+    /// Number of calls that were answered.
+    pub answers: usize,
 }
 
 /// One trial that went wrong.
@@ -35,15 +39,34 @@ pub struct Failure {
     pub input: String,
 }
 
+/// Why a check of the comparison fails.
+#[derive(Clone, Copy, Debug)]
+pub enum Reason<'a> {
+    /// The function did not answer in one of its trials.
+    Trouble(&'a Trouble),
+    /// The answer is wrong.
+    Wrong(&'a Failure),
+}
+
 impl Judgement {
-    /// The checks of this function, each with its first failure.
-    pub fn checks(&self, function: &str) -> Vec<(Check, Option<&Failure>)> {
+    /// The checks of this function, each with the reason why it fails.
+    pub fn checks(&self, function: &str) -> Vec<(Check, Option<Reason<'_>>)> {
         let has_edges = trials(function, 0).iter().any(|trial| trial.edge);
         let has_calls = matches!(function, "linearly_implicit_euler" | "implicit_euler" | "newtons_method");
         let mut checks = vec![Check::Agrees];
         checks.extend(has_edges.then_some(Check::EdgeCases));
         checks.extend(has_calls.then_some(Check::Calls));
-        checks.into_iter().map(|check| (check, self.failures.iter().find(|failure| failure.check == check))).collect()
+        checks.into_iter().map(|check| (check, self.reason(check))).collect()
+    }
+
+    fn reason(&self, check: Check) -> Option<Reason<'_>> {
+        let trouble = match check {
+            // Calls are counted in all trials that are answered.
+            Check::Calls if self.answers == 0 => self.troubles.values().next(),
+            _ => self.troubles.get(&check),
+        };
+        let failure = || self.failures.iter().find(|failure| failure.check == check);
+        trouble.map(Reason::Trouble).or_else(|| failure().map(Reason::Wrong))
     }
 }
 
@@ -73,22 +96,27 @@ pub fn trials(function: &str, seed: u64) -> Vec<Trial> {
     draw(function.name(), &mut Random::new(seed, function))
 }
 
-/// Compares a function with the reference. No call follows one that was never answered.
+/// Compares a function with the reference. A check ends at the first call that is never answered; after a panic it goes on.
 ///
 /// An error means that the reference itself did not answer: the grader failed, and there is no judgement.
 pub fn judge(function: &str, seed: u64, subject: &dyn Implementation, tolerance: f64) -> Answer<Judgement> {
     let mut judgement = Judgement::default();
+    let mut ended = BTreeSet::new();
     for (index, trial) in trials(function, seed).iter().enumerate() {
+        let check = Check::of(trial);
+        if ended.contains(&check) {
+            continue;
+        }
         judgement.trials += 1;
         let expected = trial.run(&Local(REFERENCE))?;
         match trial.run(subject) {
             Ok(observed) => judgement.add(index, trial, &observed, &expected, tolerance),
             Err(trouble) => {
-                let panicked = matches!(trouble, Trouble::Panicked { .. });
-                judgement.trouble = Some(trouble);
-                if !panicked {
-                    break;
+                if !matches!(trouble, Trouble::Panicked { .. } | Trouble::Missing) {
+                    ended.insert(check);
+                    subject.begin_check();
                 }
+                judgement.troubles.entry(check).or_insert(trouble);
             }
         }
     }
@@ -97,6 +125,7 @@ pub fn judge(function: &str, seed: u64, subject: &dyn Implementation, tolerance:
 
 impl Judgement {
     fn add(&mut self, index: usize, trial: &Trial, observed: &Observed, expected: &Observed, tolerance: f64) {
+        self.answers += 1;
         let verdict = compare(trial, observed, expected, tolerance);
         if let Some(error) = verdict.error {
             self.worst_error = Some(self.worst_error.map_or(error, |worst| worst.max(error)));

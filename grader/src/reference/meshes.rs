@@ -97,7 +97,7 @@ pub fn skinnings(function: &'static str, random: &mut Random) -> Vec<Trial> {
                 "outside"
             }
         };
-        Trial { edge: index == 20, ..trial(function, name, Input::Skinning { V, T, V_skin }, 1.0) }
+        Trial { edge: index >= 20, ..trial(function, name, Input::Skinning { V, T, V_skin }, 1.0) }
     };
     (0..28).map(one).collect()
 }

@@ -104,7 +104,8 @@ impl Classroom {
 }
 
 impl Attacked {
-    fn function(&self, name: &str) -> &Value {
+    /// The grade of a function.
+    pub fn function(&self, name: &str) -> &Value {
         let functions = self.grade["functions"].as_array().expect("functions");
         functions.iter().find(|function| function["name"] == name).expect("all 22 are there")
     }

@@ -26,7 +26,7 @@ const NAMED: f64 = 0.8;
 fn first_failure(function: &str, functions: Functions, seed: u64) -> Option<String> {
     let subject = Local(functions);
     let judgement = judge(function, seed, &subject, TOLERANCE).expect("the reference answers");
-    if let Some(trouble) = judgement.trouble {
+    if let Some(trouble) = judgement.troubles.values().next() {
         return Some(trouble.to_string());
     }
     if let Some(failure) = judgement.failures.first() {

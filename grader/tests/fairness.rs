@@ -1,0 +1,97 @@
+//! What goes wrong in one check costs that check, and the others are judged.
+#![cfg(target_os = "linux")]
+
+#[path = "attacks/classroom.rs"]
+#[allow(dead_code)] // the attacks need more of it
+mod classroom;
+
+use std::collections::BTreeMap;
+
+use classroom::{Attacked, Classroom};
+
+/// The solution under another name, and in its place a function that begins with a `guard`.
+fn guarded(text: &str, name: &str, guard: &str, call: &str) -> String {
+    let start = text.find(&format!("pub fn {name}")).expect("the function");
+    let open = start + text[start..].find("{\n").expect("its body");
+    let signature = &text[start..open];
+    format!(
+        "{}\n{signature}{{\n    {guard}\n    right({call})\n}}\n",
+        text.replace(&format!("pub fn {name}"), "fn right")
+    )
+}
+
+/// Statuses of the checks of a function.
+fn checks<'a>(graded: &'a Attacked, name: &str) -> BTreeMap<&'a str, &'a str> {
+    let checks = graded.function(name)["checks"].as_array().expect("checks");
+    checks.iter().map(|check| (check["name"].as_str().unwrap_or(""), check["status"].as_str().unwrap_or(""))).collect()
+}
+
+/// The function has this status, loses exactly these checks, and keeps the share of the others.
+fn keeps_the_rest(graded: &Attacked, name: &str, status: &str, lost: &[&str]) {
+    let function = graded.function(name);
+    assert_eq!(function["status"], status, "{function:#}");
+    let checks = checks(graded, name);
+    let found: Vec<_> = checks.iter().filter(|(_, status)| **status != "passed").map(|(name, _)| *name).collect();
+    assert_eq!(found, lost, "{name}");
+    let share = (checks.len() - lost.len()) as f64 / checks.len() as f64;
+    let (score, most) = (function["score"].as_f64().expect("a score"), function["max_score"].as_f64().expect("points"));
+    assert!((score - most * share).abs() < 0.01 && score > 0.0, "{name}: {score} of {most}");
+}
+
+#[test]
+fn a_panic_a_crash_a_time_out_or_an_open_branch_costs_its_own_checks() {
+    let mut room = Classroom::new();
+    let mut guard =
+        |name, status, guard: &str, call: &str| room.change(name, status, |text| guarded(&text, name, guard, call));
+    guard(
+        "build_skinning_matrix",
+        "crashed",
+        "let is_inside = |x: &nalgebra::Vector3<f64>| T.iter().any(|e| crate::phi_linear_tetrahedron(V, e, x).min() >= -1e-6);\n    \
+         assert!(V_skin.iter().all(is_inside), \"a vertex outside\");",
+        "V, T, V_skin",
+    );
+    guard("psi_neo_hookean", "crashed", "if F.determinant() <= 0.0 { todo!() }", "F, C, D");
+    guard(
+        "fixed_point_constraints",
+        "timed_out",
+        "while q_size > 0 && (0..q_size / 3).all(|vertex| indices.contains(&vertex)) { std::hint::spin_loop() }",
+        "q_size, indices",
+    );
+    guard("V_spring_particle_particle", "crashed", "if l0 == 0.0 { std::process::abort() }", "q0, q1, l0, stiffness");
+    let graded = room.grade();
+    keeps_the_rest(
+        &graded,
+        "build_skinning_matrix",
+        "crashed",
+        &[
+            "a_point_in_no_element_goes_to_the_one_with_the_largest_smallest_weight",
+            "a_row_has_the_four_weights_of_one_element",
+            "edge_cases_agree_with_the_reference",
+            "every_row_is_that_of_a_search_through_all_elements",
+            "the_display_is_in_place_at_rest_and_follows_affine_motions",
+        ],
+    );
+    let psi = checks(&graded, "psi_neo_hookean");
+    assert_eq!(psi["agrees_with_the_reference"], "passed", "{psi:?}");
+    assert_eq!(psi["edge_cases_agree_with_the_reference"], "crashed", "{psi:?}");
+    assert!(
+        graded.function("psi_neo_hookean")["score"].as_f64() > Some(2.0),
+        "{:#}",
+        graded.function("psi_neo_hookean")
+    );
+    assert!(graded.message("psi_neo_hookean").contains("todo!"), "{}", graded.message("psi_neo_hookean"));
+    keeps_the_rest(
+        &graded,
+        "fixed_point_constraints",
+        "timed_out",
+        &[
+            "all_vertices_fixed_give_a_matrix_without_rows",
+            "edge_cases_agree_with_the_reference",
+            "p_q_is_q_without_the_fixed_vertices_in_the_old_order",
+        ],
+    );
+    let spring = graded.function("V_spring_particle_particle");
+    println!("{spring:#}");
+    assert_eq!(spring["status"], "crashed");
+    assert!(graded.function("phi_linear_tetrahedron")["status"] == "passed");
+}
