@@ -78,6 +78,11 @@ pub trait Integrator<T: Real>: Send {
         false
     }
 
+    /// Whether its velocities lie half a step behind its displacements, so that their mean over a step is the velocity at its start.
+    fn has_staggered_velocities(&self) -> bool {
+        false
+    }
+
     /// Work of the prescribed motions on the body in the last step, J; `None` where the method does not know the reactions.
     fn work_of_motions(&self) -> Option<f64> {
         None

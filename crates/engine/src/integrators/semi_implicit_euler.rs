@@ -38,6 +38,10 @@ impl<T: Real> Integrator<T> for SemiImplicitEuler<T> {
         Ok(Convergence::Converged)
     }
 
+    fn has_staggered_velocities(&self) -> bool {
+        true
+    }
+
     fn work_of_motions(&self) -> Option<f64> {
         Some(self.accelerations.work_of_motions())
     }

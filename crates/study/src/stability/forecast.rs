@@ -11,11 +11,11 @@ use super::theory::{self, HighestMode};
 /// Initial amplitude of the highest mode, m; the body's elements have edges of 1 m.
 const AMPLITUDE: f64 = 1e-4;
 
-/// e-folds of that amplitude until its energy exceeds a thousand times that at the start, with a margin.
-const TO_DIVERGENCE: f64 = 5.0;
+/// e-folds of that amplitude until its energy exceeds ten times that at the start, with a margin.
+const TO_DIVERGENCE: f64 = 2.5;
 
-/// e-folds that leave a vibration small.
-const SMALL: f64 = 2.0;
+/// e-folds that leave its energy below that.
+const SMALL: f64 = 0.9;
 
 /// The prediction for an integrator at a time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
