@@ -6,6 +6,7 @@ mod errors;
 mod formats;
 mod garbage;
 mod gmsh;
+mod other_programs;
 mod packed;
 mod refined;
 mod round_trip;
