@@ -110,7 +110,7 @@ pub fn check(folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckErro
         subject.next_function();
         trusted.next_function();
         let (status, messages) = match (submission.functions.get(name), built.faults.get(name)) {
-            (_, Some(fault)) => (Status::DidNotCompile, vec![fault.clone()]),
+            (_, Some(fault)) => (fault.status, vec![fault.message.clone()]),
             (Some(Source::Written(text)), None) => {
                 let course = Course { subject: &subject, trusted: &trusted, seed: SEED };
                 held_to(name, checks, &course, &missing_that(text, name, &submission))

@@ -24,8 +24,9 @@ pub const GRADER_FAILED: u8 = 1;
 /// An argument, the rubric or a path cannot be used.
 pub const UNUSABLE: u8 = 2;
 
-/// Longest time for one submission of a class; the slowest honest ones take some seconds.
-const LONGEST: Duration = Duration::from_secs(600);
+/// Time for one submission of a class by the clock on the wall, in budgets of the rubric. The grader ends every submission
+/// within its budget; only a grader that hangs itself, or a machine that stands still, reaches this.
+const LONGEST: f64 = 10.0;
 
 /// Why a command did not do its work.
 pub struct Problem {
@@ -114,6 +115,7 @@ fn sandbox(options: &GradeOptions) -> Result<Sandbox, Problem> {
 
 pub fn class(folder: &Path, options: &GradeOptions, jobs: Option<usize>, shard: Option<(usize, usize)>) -> Done {
     let rubric = Rubric::load(options.rubric.as_deref()).map_err(unusable)?;
+    let longest = Duration::from_secs_f64(LONGEST * rubric.submission_seconds.max(60.0));
     class::apart(folder, &options.out).map_err(unusable)?;
     writable(&options.out)?;
     // What all submissions share is built before the first one, and the sandbox is looked at once.
@@ -128,7 +130,7 @@ pub fn class(folder: &Path, options: &GradeOptions, jobs: Option<usize>, shard: 
         shard,
         seed: options.seed,
         grader: env::current_exe().map_err(failed)?,
-        time_limit: LONGEST,
+        time_limit: longest,
         rubric: options.rubric.clone(),
         extra,
         report: reports::write_class,

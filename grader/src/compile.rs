@@ -3,16 +3,19 @@
 
 mod diagnostics;
 pub mod prebuilt;
+mod read;
 mod sources;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use std::{env, fs, io};
 
 use thiserror::Error;
 
+use crate::implementation::budget::Budget;
 use crate::sandbox::{Confined, Limits, Profile, Sandbox};
+use crate::status::Status;
 use diagnostics::faults;
 use prebuilt::Prebuilt;
 
@@ -22,6 +25,9 @@ const PATIENCE: u32 = 6;
 /// Part of its limit after which a compiler that was killed is one that did not finish: the kernel counts processor time in two ways,
 /// which differ on a busy machine.
 const ALMOST: f64 = 0.7;
+
+/// Where rustc lists what it has read.
+const LIST: &str = "program.d";
 
 /// The parts of a program.
 #[derive(Clone)]
@@ -40,8 +46,17 @@ pub struct Plan {
 pub struct Built {
     /// The program; `None` if the build failed.
     pub program: Option<PathBuf>,
-    /// Messages for the authors of functions that do not compile, by function.
-    pub faults: BTreeMap<&'static str, String>,
+    /// The functions that could not be compiled, and why.
+    pub faults: BTreeMap<&'static str, Fault>,
+}
+
+/// Why a file could not become part of a program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// It does not compile, is refused, or its time was over.
+    pub status: Status,
+    /// A message for its author.
+    pub message: String,
 }
 
 /// Result of one call of rustc.
@@ -50,8 +65,12 @@ pub enum Attempt {
     Built(PathBuf),
     /// Messages for the authors of the functions with errors; empty if the compiler names no file.
     Failed(BTreeMap<&'static str, String>),
+    /// The file reads others while it is compiled; what it reads, in words.
+    Refused(String),
     /// The compiler itself broke down; its end in words.
     GaveUp(String),
+    /// The submission has no time left, so the compiler was not started.
+    OutOfTime,
 }
 
 /// Why nothing was built: trouble of the grader or its machine, never a verdict on a file.
@@ -75,19 +94,40 @@ pub enum BuildError {
 /// # Errors
 /// The reason if the machine or the compiler fails.
 pub fn build(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path) -> Result<Built, BuildError> {
+    build_within(prebuilt, sandbox, plan, folder, &Budget::unlimited())
+}
+
+/// The same within a budget of time. Files that are not compiled when it is used up are faults.
+///
+/// # Errors
+/// The reason if the machine or the compiler fails.
+pub fn build_within(
+    prebuilt: &Prebuilt,
+    sandbox: &Sandbox,
+    plan: &Plan,
+    folder: &Path,
+    budget: &Budget,
+) -> Result<Built, BuildError> {
     let mut plan = plan.clone();
     let mut all_faults = BTreeMap::new();
     loop {
-        let (mut found, gave_up) = match attempt(prebuilt, sandbox, &plan, folder)? {
+        let (mut found, gave_up) = match attempt(prebuilt, sandbox, &plan, folder, budget)? {
             Attempt::Built(program) => return Ok(Built { program: Some(program), faults: all_faults }),
-            Attempt::Failed(faults) => (faults, None),
+            Attempt::Failed(faults) => {
+                (faults.into_iter().map(|(name, message)| (name, does_not_compile(message))).collect(), None)
+            }
+            Attempt::Refused(_) => (BTreeMap::new(), None),
             Attempt::GaveUp(why) => (BTreeMap::new(), Some(why)),
+            Attempt::OutOfTime => {
+                all_faults.extend(plan.own.keys().map(|name| (*name, out_of_time())));
+                return Ok(Built { program: None, faults: all_faults });
+            }
         };
         if plan.own.is_empty() {
             return Err(BuildError::Nothing);
         }
         if found.is_empty() {
-            found = one_by_one(prebuilt, sandbox, &plan, folder)?;
+            found = one_by_one(prebuilt, sandbox, &plan, folder, budget)?;
         }
         if found.is_empty() {
             if let Some(why) = gave_up {
@@ -95,7 +135,7 @@ pub fn build(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path)
             }
             // The compiler fails although each file compiles alone, so all of them are to blame.
             let sentence = "the files compile one by one, but not together";
-            found = plan.own.keys().map(|name| (*name, sentence.to_owned())).collect();
+            found = plan.own.keys().map(|name| (*name, does_not_compile(sentence.to_owned()))).collect();
         }
         plan.own.retain(|name, _| !found.contains_key(name));
         all_faults.extend(found);
@@ -108,38 +148,70 @@ fn one_by_one(
     sandbox: &Sandbox,
     plan: &Plan,
     folder: &Path,
-) -> io::Result<BTreeMap<&'static str, String>> {
+    budget: &Budget,
+) -> io::Result<BTreeMap<&'static str, Fault>> {
     let mut found = BTreeMap::new();
     for (name, text) in &plan.own {
         let alone = Plan { own: BTreeMap::from([(*name, text.clone())]), ..plan.clone() };
-        let fault = match attempt(prebuilt, sandbox, &alone, folder)? {
+        let fault = match attempt(prebuilt, sandbox, &alone, folder, budget)? {
             Attempt::Built(_) => continue,
-            Attempt::Failed(mut faults) => faults.remove(name),
-            Attempt::GaveUp(why) => Some(why),
+            Attempt::Failed(mut faults) => {
+                does_not_compile(faults.remove(name).unwrap_or_else(|| "the file does not compile".to_owned()))
+            }
+            Attempt::Refused(what) => refused(&what),
+            Attempt::GaveUp(why) => does_not_compile(why),
+            Attempt::OutOfTime => out_of_time(),
         };
-        found.insert(*name, fault.unwrap_or_else(|| "the file does not compile".to_owned()));
+        found.insert(*name, fault);
     }
     Ok(found)
+}
+
+fn does_not_compile(message: String) -> Fault {
+    Fault { status: Status::DidNotCompile, message }
+}
+
+fn refused(what: &str) -> Fault {
+    let message = format!("the file reads {what} while it is compiled, which is not allowed; do without it");
+    Fault { status: Status::Refused, message }
+}
+
+fn out_of_time() -> Fault {
+    let message = "the time of the submission was used up before this file was compiled".to_owned();
+    Fault { status: Status::TimedOut, message }
 }
 
 /// Calls rustc once, for all files of a plan.
 ///
 /// # Errors
 /// The reason if files cannot be written or rustc cannot be started.
-pub fn attempt(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Path) -> io::Result<Attempt> {
+pub fn attempt(
+    prebuilt: &Prebuilt,
+    sandbox: &Sandbox,
+    plan: &Plan,
+    folder: &Path,
+    budget: &Budget,
+) -> io::Result<Attempt> {
+    let limit = plan.limit.min(budget.left_in_all());
+    if limit.is_zero() {
+        return Ok(Attempt::OutOfTime);
+    }
     sources::write(plan, &folder.join("src"))?;
     let file = format!("program{}", env::consts::EXE_SUFFIX);
     let program = folder.join(&file);
-    if program.exists() {
-        fs::remove_file(&program)?;
+    let list = folder.join(LIST);
+    for left in [&program, &list].into_iter().filter(|path| path.exists()) {
+        fs::remove_file(left)?;
     }
     let mut arguments = prebuilt.arguments();
-    arguments.extend(["--crate-name=submission", "--crate-type=bin", "-o", &file, "src/main.rs"].map(str::to_owned));
+    let emitted = format!("--emit=link={file},dep-info={LIST}");
+    arguments.extend(["--crate-name=submission", "--crate-type=bin", &emitted, "src/main.rs"].map(str::to_owned));
     let mut readable = prebuilt.readable();
     if let Some((library, _)) = &plan.reference {
         arguments.extend(["--extern".to_owned(), format!("course_below={}", library.display())]);
         readable.extend(library.parent().map(Path::to_owned));
     }
+    let begin = Instant::now();
     let ended = sandbox.run(&Confined {
         program: prebuilt.rustc.clone(),
         arguments,
@@ -154,8 +226,8 @@ pub fn attempt(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Pat
         writable: vec![folder.to_owned()],
         profile: Profile::Compiler,
         limits: Limits {
-            wall: plan.limit * PATIENCE,
-            cpu: plan.limit,
+            wall: limit * PATIENCE,
+            cpu: limit,
             memory: 4 << 30,
             processes: 64,
             file_size: 256 << 20,
@@ -163,10 +235,16 @@ pub fn attempt(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Pat
             output: 4 << 20,
         },
     })?;
+    let used = Duration::try_from_secs_f64(ended.seconds).unwrap_or_default();
+    budget.spend_apart(used.max(begin.elapsed() / PATIENCE));
     Ok(if ended.code == Some(0) && program.exists() {
-        Attempt::Built(program)
-    } else if ended.timed_out || (ended.signal.is_some() && ended.seconds >= ALMOST * plan.limit.as_secs_f64()) {
-        Attempt::GaveUp(format!("the compiler did not finish within {} s", plan.limit.as_secs_f64()))
+        // Without its list, nobody knows what the compiler has read.
+        match fs::read_to_string(&list).map_or(Some("unknown files".to_owned()), |list| read::first_stray(&list)) {
+            None => Attempt::Built(program),
+            Some(what) => Attempt::Refused(what),
+        }
+    } else if ended.timed_out || (ended.signal.is_some() && ended.seconds >= ALMOST * limit.as_secs_f64()) {
+        Attempt::GaveUp(format!("the compiler did not finish within {:.0} s", limit.as_secs_f64()))
     } else if ended.signal.is_none() && ended.stderr.starts_with(b"{") {
         let mut found = faults(&String::from_utf8_lossy(&ended.stderr));
         found.retain(|name, _| plan.own.contains_key(name));
@@ -174,8 +252,8 @@ pub fn attempt(prebuilt: &Prebuilt, sandbox: &Sandbox, plan: &Plan, folder: &Pat
     } else {
         let how =
             ended.signal.map_or_else(|| format!("exit code {:?}", ended.code), |signal| format!("signal {signal}"));
-        let most = plan.limit.as_secs_f64();
-        Attempt::GaveUp(format!("the compiler ended with {how}; it may compute for {most} s and take 4 GiB"))
+        let most = limit.as_secs_f64();
+        Attempt::GaveUp(format!("the compiler ended with {how}; it may compute for {most:.0} s and take 4 GiB"))
     })
 }
 
@@ -198,7 +276,7 @@ mod tests {
     }
 
     /// Ends a script here where there are not two files.
-    const FEW: &str = "[ $(ls src/calls | wc -l) != 2 ] && touch program && exit 0";
+    const FEW: &str = "[ $(ls src/calls | wc -l) != 2 ] && touch program program.d && exit 0";
 
     #[test]
     fn a_compiler_that_breaks_down_over_files_that_it_takes_one_by_one_is_no_fault_of_theirs() {
@@ -217,8 +295,14 @@ mod tests {
     fn a_compiler_that_refuses_them_together_or_breaks_down_over_each_blames_them() {
         let together = built_by(&format!("{FEW}\necho '{{\"level\":\"error\"}}' >&2\nexit 1")).unwrap();
         assert_eq!(together.faults.len(), 2);
-        assert!(together.faults["newtons_method"].contains("not together"));
-        let each = built_by("[ $(ls src/calls | wc -l) = 0 ] && touch program && exit 0\nexit 101").unwrap();
+        assert!(together.faults["newtons_method"].message.contains("not together"));
+        let refuses = "[ $(ls src/calls | wc -l) = 0 ] && touch program program.d && exit 0";
+        let reads =
+            built_by(&format!("{refuses}\ntouch program; echo 'program: src/main.rs /etc/passwd' >program.d")).unwrap();
+        assert!(reads.faults.values().all(|fault| fault.status == Status::Refused), "{:?}", reads.faults);
+        let silent = built_by(&format!("{refuses}\ntouch program")).unwrap();
+        assert_eq!(silent.faults.len(), 2);
+        let each = built_by("[ $(ls src/calls | wc -l) = 0 ] && touch program program.d && exit 0\nexit 101").unwrap();
         assert!(each.program.is_some() && each.faults.len() == 2);
     }
 }

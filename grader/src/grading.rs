@@ -14,10 +14,12 @@ mod workspace;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use std::time::Duration;
 
 use grader::compile::BuildError;
 use grader::compile::prebuilt::{PrebuildError, Prebuilt};
+use grader::implementation::budget::Budget;
 use grader::implementation::sandboxed::Sandboxed;
 use grader::sandbox::Sandbox;
 use grader::status::Status;
@@ -93,15 +95,16 @@ impl Grading {
         // From the top: the lowest level, which calls nothing, is judged in the program of the whole simulation, and that is
         // worth building only where everything above compiles.
         let levels = self.rubric.levels();
+        let budget = Rc::new(self.budget());
         for level in levels.iter().skip(1).rev() {
-            self.grade_level(*level, submission, None, &mut graded)?;
+            self.grade_level(*level, submission, None, &mut graded, &budget)?;
         }
-        let whole = self.whole(submission, &graded)?;
+        let whole = self.whole(submission, &graded, &budget)?;
         if let Some(level) = levels.first() {
-            self.grade_level(*level, submission, whole.as_ref(), &mut graded)?;
+            self.grade_level(*level, submission, whole.as_ref(), &mut graded, &budget)?;
         }
-        let simulation = self.grade_simulation(whole.as_ref(), &graded)?;
-        let study = self.studies.then(|| self.study(whole.as_ref(), &simulation)).transpose()?;
+        let simulation = self.grade_simulation(whole.as_ref(), &graded, &budget)?;
+        let study = self.studies.then(|| self.study(whole.as_ref(), &simulation, &budget)).transpose()?;
         let functions: Vec<FunctionGrade> =
             self.rubric.functions.iter().filter_map(|function| graded.remove(function.name.get_ref())).collect();
         let parts = || functions.iter().chain([&simulation]);
@@ -114,7 +117,7 @@ impl Grading {
             seed: self.seed,
             toolchain: self.prebuilt.toolchain.clone(),
             sandbox: self.sandbox.layers(),
-            remarks: submission.remarks.clone(),
+            remarks: self.remarks(submission, &budget),
             functions,
             simulation,
             study,
@@ -139,6 +142,19 @@ impl Grading {
             }
         }
         assigned
+    }
+
+    fn budget(&self) -> Budget {
+        let Rubric { check_seconds, function_seconds, submission_seconds, .. } = self.rubric;
+        let [check, function, whole] =
+            [check_seconds, function_seconds, submission_seconds].map(Duration::from_secs_f64);
+        Budget::new(check, function, whole)
+    }
+
+    fn remarks(&self, submission: &Submission, budget: &Budget) -> Vec<String> {
+        let seconds = self.rubric.submission_seconds;
+        let late = format!("the submission took longer than {seconds} s in all; what was left was not waited for");
+        submission.remarks.iter().cloned().chain(budget.is_used_up().then_some(late)).collect()
     }
 
     fn limit(&self) -> Duration {

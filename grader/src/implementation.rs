@@ -1,6 +1,7 @@
 //! Implementations of the 22 functions: in this process, in a sandboxed child, deliberately wrong ones. A property is written once
 //! and judges all of them.
 
+pub mod budget;
 mod local;
 pub mod sandboxed;
 

@@ -24,6 +24,15 @@ pub struct Rubric {
     pub seconds: f64,
     /// Longest processor time for the compiler and one program, s.
     pub compile_seconds: f64,
+    /// Longest time for all answers of one check, s.
+    #[serde(default = "check_seconds")]
+    pub check_seconds: f64,
+    /// Longest time for all answers of one function, s.
+    #[serde(default = "function_seconds")]
+    pub function_seconds: f64,
+    /// Longest time for a submission, the compiler's included, s.
+    #[serde(default = "submission_seconds")]
+    pub submission_seconds: f64,
     pub students: Students,
     pub simulation: Simulation,
     /// Functions of a later assignment: neither asked for nor given solved.
@@ -145,7 +154,13 @@ impl Rubric {
                 return Err(format!("tolerance = {tolerance} of {whose}; give a number between 0 and 1, such as 1e-9"));
             }
         }
-        for (what, seconds) in [("seconds", self.seconds), ("compile_seconds", self.compile_seconds)] {
+        for (what, seconds) in [
+            ("seconds", self.seconds),
+            ("compile_seconds", self.compile_seconds),
+            ("check_seconds", self.check_seconds),
+            ("function_seconds", self.function_seconds),
+            ("submission_seconds", self.submission_seconds),
+        ] {
             if !(0.1..=600.0).contains(&seconds) {
                 return Err(format!("{what} = {seconds}; give a number from 0.1 to 600"));
             }
@@ -189,6 +204,18 @@ fn known(name: &str) -> Result<(), String> {
         return Ok(());
     }
     Err(format!("`{name}` is not a function of the course; the README lists the names"))
+}
+
+fn check_seconds() -> f64 {
+    10.0
+}
+
+fn function_seconds() -> f64 {
+    20.0
+}
+
+fn submission_seconds() -> f64 {
+    120.0
 }
 
 /// More than any exercise is worth, so that sums stay numbers.

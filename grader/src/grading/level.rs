@@ -3,8 +3,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::rc::Rc;
 
-use grader::compile::{Plan, build};
+use grader::compile::{BuildError, Fault, Plan, build_within};
+use grader::implementation::budget::Budget;
 use grader::implementation::sandboxed::Sandboxed;
 use grader::status::Status;
 use grader::submission::{NAMES, Source, Submission, mentions};
@@ -25,6 +27,7 @@ impl Grading {
         submission: &Submission,
         whole: Option<&Whole>,
         graded: &mut BTreeMap<String, FunctionGrade>,
+        budget: &Rc<Budget>,
     ) -> Result<(), GradingError> {
         let is_due = |name: &&str| self.rubric.level(name) == Some(level) && !graded.contains_key(*name);
         let judged: Vec<&'static str> = NAMES.into_iter().filter(is_due).collect();
@@ -32,7 +35,7 @@ impl Grading {
         let own = calls_of(submission);
         for group in groups(&judged, &below, &own, &self.programs.calls) {
             if let Some((program, folder)) = whole.filter(|_| group.reference.is_empty()).and_then(Whole::program) {
-                let subject = self.subject(Some(program), folder);
+                let subject = self.subject(Some(program), folder, budget);
                 for (function, name) in self.judged(&group) {
                     graded.insert(name.to_owned(), self.judge(function, &subject)?);
                 }
@@ -51,7 +54,7 @@ impl Grading {
                 helpers: BTreeMap::new(),
                 limit: self.compile_limit(),
             };
-            self.grade_group(&group, &plan, submission, folder.path(), graded)?;
+            self.grade_group(&group, &plan, submission, folder.path(), graded, budget)?;
         }
         Ok(())
     }
@@ -63,13 +66,50 @@ impl Grading {
         submission: &Submission,
         folder: &Path,
         graded: &mut BTreeMap<String, FunctionGrade>,
+        budget: &Rc<Budget>,
     ) -> Result<(), GradingError> {
-        let built = build(&self.prebuilt, &self.sandbox, plan, folder)?;
-        let subject = self.subject(built.program.as_deref(), folder);
+        let built = match build_within(&self.prebuilt, &self.sandbox, plan, folder, budget) {
+            Err(BuildError::GaveUp(why)) => return self.grade_apart(group, plan, submission, &why, graded, budget),
+            built => built?,
+        };
+        let subject = self.subject(built.program.as_deref(), folder, budget);
         for (function, name) in self.judged(group) {
             let grade = match built.faults.get(name) {
                 None => self.judge(function, &subject)?,
-                Some(fault) => self.judge_with_helpers(function, name, fault, plan, submission)?,
+                Some(fault) => self.judge_with_helpers(function, name, fault, plan, submission, budget)?,
+            };
+            graded.insert(name.to_owned(), grade);
+        }
+        Ok(())
+    }
+
+    /// Grades functions whose files the compiler takes one by one and not together, each in a program of its own.
+    fn grade_apart(
+        &self,
+        group: &Group,
+        plan: &Plan,
+        submission: &Submission,
+        why: &str,
+        graded: &mut BTreeMap<String, FunctionGrade>,
+        budget: &Rc<Budget>,
+    ) -> Result<(), GradingError> {
+        let own = calls_of(submission);
+        for (function, name) in self.judged(group) {
+            let folder = self.workspace.folder()?;
+            let alone = Group { judged: vec![name], reference: group.reference.clone() };
+            let alone = Plan { own: with_what_they_call(&alone, &own, submission), ..plan.clone() };
+            let grade = match build_within(&self.prebuilt, &self.sandbox, &alone, folder.path(), budget) {
+                Err(BuildError::GaveUp(_)) => {
+                    let message = format!("the file compiles, but not with the others that it calls: {why}");
+                    finished(function, Status::DidNotCompile, Some(message))
+                }
+                built => {
+                    let built = built?;
+                    match built.faults.get(name) {
+                        None => self.judge(function, &self.subject(built.program.as_deref(), folder.path(), budget))?,
+                        Some(fault) => without_program(function, fault),
+                    }
+                }
             };
             graded.insert(name.to_owned(), grade);
         }
@@ -82,22 +122,23 @@ impl Grading {
         &self,
         function: &Function,
         name: &'static str,
-        fault: &str,
+        fault: &Fault,
         plan: &Plan,
         submission: &Submission,
+        budget: &Rc<Budget>,
     ) -> Result<FunctionGrade, GradingError> {
         let own: BTreeMap<_, _> =
             plan.own.get_key_value(name).map(|(name, text)| (*name, text.clone())).into_iter().collect();
         let helpers = helpers(name, plan, submission);
-        if !helpers.is_empty() {
+        if !helpers.is_empty() && fault.status == Status::DidNotCompile {
             let folder = self.workspace.folder()?;
             let alone = Plan { own, helpers, ..plan.clone() };
-            let built = build(&self.prebuilt, &self.sandbox, &alone, folder.path())?;
+            let built = build_within(&self.prebuilt, &self.sandbox, &alone, folder.path(), budget)?;
             if built.faults.is_empty() {
-                return self.judge(function, &self.subject(built.program.as_deref(), folder.path()));
+                return self.judge(function, &self.subject(built.program.as_deref(), folder.path(), budget));
             }
         }
-        Ok(finished(function, Status::DidNotCompile, Some(format!("the file does not compile:\n{fault}"))))
+        Ok(without_program(function, fault))
     }
 
     /// The functions of a group, in the order of the rubric.
@@ -108,9 +149,19 @@ impl Grading {
         })
     }
 
-    fn subject(&self, program: Option<&Path>, folder: &Path) -> Sandboxed {
-        Sandboxed::new(start(&self.sandbox, program.map(Path::to_owned), folder), self.limit())
+    fn subject(&self, program: Option<&Path>, folder: &Path, budget: &Rc<Budget>) -> Sandboxed {
+        let start = start(&self.sandbox, program.map(Path::to_owned), folder);
+        Sandboxed::new(start, self.limit()).within(budget.clone())
     }
+}
+
+fn without_program(function: &Function, fault: &Fault) -> FunctionGrade {
+    let Fault { status, message } = fault;
+    let message = match status {
+        Status::DidNotCompile => format!("the file does not compile:\n{message}"),
+        _ => message.clone(),
+    };
+    finished(function, *status, Some(message))
 }
 
 /// The text of a function, where the submission has one that may be compiled.

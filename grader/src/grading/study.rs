@@ -1,7 +1,9 @@
 //! Error against run time of the whole simulation, at several time steps, beside the reference. No points depend on it.
 
+use std::rc::Rc;
 use std::time::Duration;
 
+use grader::implementation::budget::Budget;
 use grader::implementation::sandboxed::Sandboxed;
 use grader::status::Status;
 use grader_child::simulation::Scene;
@@ -27,14 +29,20 @@ const LONG: Duration = Duration::from_secs(1);
 
 impl Grading {
     /// Runs the simulations. Where the submission has no program, or one that does not come to an end, there are none.
-    pub(super) fn study(&self, whole: Option<&Whole>, simulation: &FunctionGrade) -> Result<Study, GradingError> {
+    pub(super) fn study(
+        &self,
+        whole: Option<&Whole>,
+        simulation: &FunctionGrade,
+        budget: &Rc<Budget>,
+    ) -> Result<Study, GradingError> {
         let truth = truth(&scene(0, TIME_STEPS[0])).map_err(GradingError::Reference)?;
         let mut study = Study { runs: Vec::new(), uncertainty: truth.uncertainty };
         let runs_to_the_end = matches!(simulation.status, Status::Passed | Status::Failed);
         let Some((program, folder)) = whole.and_then(Whole::program).filter(|_| runs_to_the_end) else {
             return Ok(study);
         };
-        let subject = Sandboxed::new(start(&self.sandbox, Some(program.to_owned()), folder), LIMIT);
+        let subject =
+            Sandboxed::new(start(&self.sandbox, Some(program.to_owned()), folder), LIMIT).within(budget.clone());
         let reference = Sandboxed::new(self.programs.start_reference(&self.sandbox), LIMIT);
         let mut answers = true;
         for (number, integrator) in INTEGRATORS.into_iter().enumerate() {

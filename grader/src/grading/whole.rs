@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::rc::Rc;
 use std::time::Duration;
 
-use grader::compile::{Attempt, BuildError, Plan, attempt};
+use grader::compile::{Attempt, Plan, attempt};
 use grader::implementation::Trouble;
+use grader::implementation::budget::Budget;
 use grader::implementation::sandboxed::Sandboxed;
 use grader::status::Status;
 use grader::submission::{NAMES, Source, Submission};
@@ -41,7 +43,7 @@ impl Whole {
     pub(super) fn program(&self) -> Option<(&Path, &Path)> {
         match &self.attempt {
             Attempt::Built(program) => Some((program, self.folder.path())),
-            Attempt::Failed(_) | Attempt::GaveUp(_) => None,
+            _ => None,
         }
     }
 }
@@ -52,6 +54,7 @@ impl Grading {
         &self,
         submission: &Submission,
         graded: &BTreeMap<String, FunctionGrade>,
+        budget: &Budget,
     ) -> Result<Option<Whole>, GradingError> {
         if !absent(graded).is_empty() || !self.rubric.later.is_empty() {
             return Ok(None);
@@ -63,7 +66,7 @@ impl Grading {
         let folder = self.workspace.folder()?;
         let limit = self.compile_limit();
         let plan = Plan { own: own.collect(), reference: None, helpers: BTreeMap::new(), limit };
-        let attempt = attempt(&self.prebuilt, &self.sandbox, &plan, folder.path())?;
+        let attempt = attempt(&self.prebuilt, &self.sandbox, &plan, folder.path(), budget)?;
         Ok(Some(Whole { attempt, folder }))
     }
 
@@ -72,6 +75,7 @@ impl Grading {
         &self,
         whole: Option<&Whole>,
         functions: &BTreeMap<String, FunctionGrade>,
+        budget: &Rc<Budget>,
     ) -> Result<FunctionGrade, GradingError> {
         let mut grade = FunctionGrade {
             name: "simulation".to_owned(),
@@ -96,7 +100,22 @@ impl Grading {
         };
         let program = match attempt {
             Attempt::Built(program) => program,
-            Attempt::GaveUp(why) => return Err(BuildError::GaveUp(why.clone()).into()),
+            // The parts have been compiled on this machine, so it is the submission as a whole that is too much.
+            Attempt::GaveUp(why) => {
+                grade.status = Status::DidNotCompile;
+                grade.message = Some(format!("the files compile one by one, but not together: {why}"));
+                return Ok(grade);
+            }
+            Attempt::Refused(what) => {
+                grade.status = Status::Refused;
+                grade.message = Some(format!("a file reads {what} while it is compiled, which is not allowed"));
+                return Ok(grade);
+            }
+            Attempt::OutOfTime => {
+                grade.status = Status::TimedOut;
+                grade.message = Some("the time of the submission was used up before".to_owned());
+                return Ok(grade);
+            }
             Attempt::Failed(faults) => {
                 grade.status = Status::DidNotCompile;
                 grade.message = Some(match faults.first_key_value() {
@@ -106,7 +125,9 @@ impl Grading {
                 return Ok(grade);
             }
         };
-        let subject = Sandboxed::new(start(&self.sandbox, Some(program.clone()), folder.path()), LIMIT);
+        let subject =
+            Sandboxed::new(start(&self.sandbox, Some(program.clone()), folder.path()), LIMIT).within(budget.clone());
+        budget.next_function();
         self.compare_simulations(grade, &subject)
     }
 

@@ -2,6 +2,7 @@
 
 use std::cell::{Cell, RefCell};
 use std::io;
+use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 use grader_child::simulation::Scene;
@@ -10,6 +11,7 @@ use grader_child::{Exercise, Force, Gradient, Hessian, Integrand, Objective, Sol
 use nalgebra::{DVector, Matrix3, Matrix4, Matrix4x3, SMatrix, SVector, Vector3, Vector4};
 use nalgebra_sparse::CsrMatrix;
 
+use super::budget::Budget;
 use super::{Answer, Implementation, Trouble};
 use crate::protocol::{self, Closures};
 use crate::sandbox::Running;
@@ -23,6 +25,9 @@ pub struct Sandboxed {
     given_up: Cell<bool>,
     /// How often the present function has been late.
     time_outs: Cell<usize>,
+    budget: Rc<Budget>,
+    /// How long answers of the present process were waited for.
+    waited: Cell<Duration>,
 }
 
 /// After so many time-outs the remaining checks of a function are not waited for.
@@ -37,20 +42,29 @@ impl Sandboxed {
             limit,
             given_up: Cell::new(false),
             time_outs: Cell::new(0),
+            budget: Rc::new(Budget::unlimited()),
+            waited: Cell::new(Duration::ZERO),
         }
+    }
+
+    /// The same, and all its calls together stay within a budget.
+    pub fn within(self, budget: Rc<Budget>) -> Self {
+        Self { budget, ..self }
     }
 
     /// Forgets earlier trouble: the next function is asked afresh, in a process of its own, where no thread and no panic hook of
     /// the one before can speak for it.
     pub fn next_function(&self) {
-        *self.running.borrow_mut() = None;
+        self.end(&mut self.running.borrow_mut());
         self.time_outs.set(0);
+        self.budget.next_function();
         self.next_check();
     }
 
     /// Lets a function that has died or been late answer the next check, unless it has been late too often.
     pub fn next_check(&self) {
         self.given_up.set(self.time_outs.get() >= MOST_TIME_OUTS);
+        self.budget.next_check();
     }
 
     /// Duration of a series of calls of a function with these arguments, s.
@@ -84,28 +98,51 @@ impl Sandboxed {
         if self.given_up.get() {
             return Err(Trouble::GivenUp);
         }
+        if let Some(allowed) = self.budget.over() {
+            return Err(Trouble::TimedOut(allowed));
+        }
+        let limit = limit.min(self.budget.left());
         let mut place = self.running.borrow_mut();
-        let answer = match self.alive(&mut place) {
+        let begin = Instant::now();
+        let answer = match self.alive(&mut place, limit) {
             Ok(running) => protocol::call(running, frames, limit, closures),
             Err(trouble) => Err(trouble),
         };
+        self.spend(begin.elapsed());
+        let answer = answer.map_err(|trouble| match (trouble, self.budget.over()) {
+            (Trouble::TimedOut(_), Some(allowed)) => Trouble::TimedOut(allowed),
+            (trouble, _) => trouble,
+        });
         if let Err(trouble) = &answer
             && !matches!(trouble, Trouble::Panicked { .. } | Trouble::Missing)
         {
-            *place = None;
+            self.end(&mut place);
             self.given_up.set(true);
             self.time_outs.set(self.time_outs.get() + usize::from(matches!(trouble, Trouble::TimedOut(_))));
         }
         answer
     }
 
-    fn alive<'a>(&self, place: &'a mut Option<Running>) -> Answer<&'a mut Running> {
+    fn spend(&self, time: Duration) {
+        self.budget.spend(time);
+        self.waited.set(self.waited.get() + time);
+    }
+
+    /// Ends the process, if there is one. Threads may have used more processor time than was waited for.
+    fn end(&self, place: &mut Option<Running>) {
+        let Some(mut running) = place.take() else { return };
+        let used = running.kill();
+        self.budget.spend(used.saturating_sub(self.waited.get()));
+        self.waited.set(Duration::ZERO);
+    }
+
+    fn alive<'a>(&self, place: &'a mut Option<Running>, limit: Duration) -> Answer<&'a mut Running> {
         match place {
             Some(running) => Ok(running),
             None => {
                 let mut started =
                     (self.start)().map_err(|error| Trouble::Crashed(format!("cannot be started: {error}")))?;
-                protocol::greet(&mut started, self.limit)?;
+                protocol::greet(&mut started, limit)?;
                 Ok(place.insert(started))
             }
         }

@@ -25,9 +25,11 @@ pub struct Running {
 }
 
 impl Running {
-    /// Kills the program and all that it has started.
-    pub fn kill(&mut self) {
+    /// Kills the program and all that it has started. Returns its processor time, zero outside a sandbox.
+    pub fn kill(&mut self) -> Duration {
         self.tree.kill();
+        let seconds = self.tree.end.as_ref().map_or(0.0, |end| end.seconds);
+        Duration::try_from_secs_f64(seconds).unwrap_or_default()
     }
 
     /// Waits at most so long for the end of the program. Says how it ended: `exit code 0`, `signal 9 (killed)`, …
@@ -177,10 +179,10 @@ impl Tree {
 
     /// Kills everything and waits until it is gone.
     pub fn kill(&mut self) {
+        let until = Instant::now() + PATIENCE;
         if !self.closes_control() {
             self.kill_plain();
         }
-        let until = Instant::now() + PATIENCE;
         while matches!(self.child.try_wait(), Ok(None)) {
             if Instant::now() >= until {
                 self.kill_plain();
@@ -192,7 +194,7 @@ impl Tree {
     /// Tells the launcher to kill everything, if there is one.
     fn closes_control(&mut self) -> bool {
         #[cfg(target_os = "linux")]
-        return self.control.take().is_some();
+        return self.launcher_ends_it();
         #[cfg(not(target_os = "linux"))]
         false
     }

@@ -1,6 +1,7 @@
 //! Programs that the launcher confines, and what it tells about them.
 
 use std::io::{self, BufRead, BufReader};
+use std::net::Shutdown;
 use std::os::fd::OwnedFd;
 use std::os::unix::net::UnixStream;
 use std::os::unix::process::CommandExt;
@@ -61,6 +62,23 @@ impl Tree {
             Err(error) if matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut) => Ok(None),
             Err(error) => Err(error),
         }
+    }
+
+    /// Tells the launcher to end the program and waits for its last words, which hold the processor time.
+    pub(super) fn launcher_ends_it(&mut self) -> bool {
+        let Some(control) = &self.control else { return false };
+        // The launcher may be gone, which the next line finds out.
+        let _ = control.get_ref().shutdown(Shutdown::Write);
+        if self.end.is_none() {
+            self.end = match self.news(PATIENCE) {
+                Ok(Some(News::Ended { code, signal, timed_out, seconds })) => {
+                    Some(End { code, signal, timed_out, seconds })
+                }
+                _ => None,
+            };
+        }
+        self.control = None;
+        true
     }
 
     pub(super) fn launched_end(&mut self, wait: Duration) -> Option<End> {
