@@ -53,6 +53,8 @@ fn a_sweep_has_a_row_for_every_combination_of_values_and_runs_go_on_from_its_sta
     for (line, start) in lines[1..].iter().zip(starts) {
         assert!(line.starts_with(&format!("cube,{start},done,4,4.0")), "{line}");
     }
+    let page = desk.read("out/sweep.html");
+    assert_eq!(page.matches("<figure").count(), 2, "charts over material.C alone: the other key has no numbers");
     desk.run_well("cube.toml --headless --set material.C=2e5 --state flag.json");
     assert_eq!(desk.read("flag.json"), desk.read("out/states/cube-0003.json"));
     let message = desk.refused("report cube.toml --out out --sweep material.C=1e5,-1");

@@ -25,3 +25,4 @@ pub mod runs;
 pub mod space;
 pub mod stability;
 pub mod studies;
+pub mod sweep;

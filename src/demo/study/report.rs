@@ -24,7 +24,7 @@ pub struct Arguments {
     /// Small meshes and few steps: under a minute
     #[arg(long)]
     pub quick: bool,
-    /// Instead of the report, run each scene as it is for every value of a key, and write sweep.csv; repeatable
+    /// Instead of the report, run each scene as it is for every value of a key, and write sweep.csv and sweep.html; repeatable
     #[arg(long, value_name = "KEY=VALUE,VALUE", conflicts_with = "quick")]
     pub sweep: Vec<Sweep>,
 }
@@ -59,9 +59,11 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
 fn sweep(arguments: &Arguments) -> Result<(), End> {
     let bar = progress_bar();
     let tell = |done: usize, all: usize, what: &str| show(&bar, done, all, what);
-    let table = super::sweep::run(&arguments.scenes, &arguments.sweep, &arguments.out, &tell)?;
+    let files = super::sweep::run(&arguments.scenes, &arguments.sweep, &arguments.out, &tell)?;
     bar.finish_and_clear();
-    say!("{}", table.display());
+    for file in files {
+        say!("{}", file.display());
+    }
     Ok(())
 }
 

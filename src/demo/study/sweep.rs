@@ -1,6 +1,5 @@
-//! `report --sweep KEY=VALUE,VALUE`: a scene with its own method for each combination of values, as a table.
+//! `report --sweep KEY=VALUE,VALUE`: a scene with its own method for each combination of values, as a table and a page.
 
-use std::fmt::Write as _;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -9,6 +8,7 @@ use fem_mesh::write::save;
 use fem_scene::output::write_state;
 use fem_scene::simulate::{self, quantile};
 use fem_scene::{Override, Scene, load_with};
+use fem_study::sweep::{self, SweptRun};
 
 use crate::demo::build::{self, Ready};
 use crate::demo::data;
@@ -37,14 +37,16 @@ impl FromStr for Sweep {
     }
 }
 
-/// Columns after the scene and the keys.
-const RESULTS: &str =
-    "status,steps,time,median_step_seconds,newton_iterations,kinetic,potential,total,min_J,largest_displacement,state";
-
-/// Runs every combination of values, writes `sweep.csv` and the states at the ends, and returns the path of the table.
+/// Runs every combination of values, writes `sweep.csv`, `sweep.html` and the states at the ends, and returns the paths of the
+/// first two.
 ///
 /// All scenes are read before the first run, so that an error ends the sweep at once.
-pub fn run(scenes: &[String], sweeps: &[Sweep], out: &Path, tell: &dyn Fn(usize, usize, &str)) -> Result<PathBuf, End> {
+pub fn run(
+    scenes: &[String],
+    sweeps: &[Sweep],
+    out: &Path,
+    tell: &dyn Fn(usize, usize, &str),
+) -> Result<[PathBuf; 2], End> {
     let states = out.join("states");
     std::fs::create_dir_all(&states).map_err(|error| {
         End::unusable(format!("--out {}: {error}; name a folder that can be created", states.display()))
@@ -55,19 +57,21 @@ pub fn run(scenes: &[String], sweeps: &[Sweep], out: &Path, tell: &dyn Fn(usize,
             runs.push((load_with(name, &data::folder(), &values).map_err(End::unusable)?, values));
         }
     }
-    let keys: String = sweeps.iter().map(|sweep| format!("{},", cell(&sweep.key))).collect();
-    let mut table = format!("scene,{keys}{RESULTS}\n");
+    let mut results = Vec::new();
     for (number, (scene, values)) in runs.iter().enumerate() {
         let names: Vec<String> = values.iter().map(Override::to_string).collect();
         tell(number, runs.len(), &format!("{} {}", scene.name, names.join(" ")));
         let state = states.join(format!("{}-{:04}.json", scene.name, number + 1));
-        let values: String = names.iter().map(|name| format!("{},", cell(value_of(name)))).collect();
-        // Writing to a string cannot fail.
-        let _ = writeln!(table, "{},{values}{}", cell(&scene.name), row(scene, &state)?);
+        let values = names.iter().map(|name| value_of(name).to_owned()).collect();
+        results.push(result(scene, values, &state)?);
     }
-    let file = out.join("sweep.csv");
-    save(&file, |out| out.write_all(table.as_bytes())).map_err(End::unusable)?;
-    Ok(file)
+    let keys: Vec<&str> = sweeps.iter().map(|sweep| &*sweep.key).collect();
+    let table = sweep::csv(&keys, &results).map_err(|error| End::Stopped(error.to_string()))?;
+    let files = [out.join("sweep.csv"), out.join("sweep.html")];
+    for (file, text) in files.iter().zip([table, sweep::html_page(&keys, &results)]) {
+        save(file, |out| out.write_all(text.as_bytes())).map_err(End::unusable)?;
+    }
+    Ok(files)
 }
 
 /// Every choice of one value of each key, the last key fastest.
@@ -79,8 +83,8 @@ fn combinations(sweeps: &[Sweep]) -> Vec<Vec<Override>> {
     })
 }
 
-/// Runs a scene to its end or its failure, writes its state, and returns the results.
-fn row(scene: &Scene, state: &Path) -> Result<String, End> {
+/// Runs a scene to its end or its failure, and writes its state.
+fn result(scene: &Scene, values: Vec<String>, state: &Path) -> Result<SweptRun, End> {
     let Ready { mut simulation, steps, .. } = build::build(scene)?;
     let run = simulate::run(&mut *simulation, steps, |_| Ok::<_, End>(ControlFlow::Continue(())))?;
     write_state(state, scene, &*simulation).map_err(End::unusable)?;
@@ -89,34 +93,25 @@ fn row(scene: &Scene, state: &Path) -> Result<String, End> {
         (None, 0) => "done".to_owned(),
         (None, unconverged) => format!("{unconverged} steps not converged"),
     };
-    let median = quantile(&run.step_seconds, 0.5).map_or(String::new(), |seconds| format!("{seconds:.6e}"));
     let (energies, (least, _)) = (simulation.energies(), simulation.min_J());
     let (shape, q) = (simulation.shape(), simulation.positions());
     let moved = |(node, rest): (usize, &nalgebra::Vector3<f64>)| (q.fixed_rows::<3>(3 * node) - rest).norm();
-    let largest = shape.mesh.vertices.iter().enumerate().map(moved).fold(0.0, f64::max);
-    let name = state.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    Ok(format!(
-        "{},{},{:.9e},{median},{},{:.9e},{:.9e},{:.9e},{least:.9e},{largest:.9e},{}",
-        cell(&status),
-        simulation.steps(),
-        simulation.time(),
-        simulation.counters().newton_iterations,
-        energies.kinetic,
-        energies.potential,
-        energies.total(),
-        cell(&name),
-    ))
+    Ok(SweptRun {
+        scene: scene.name.clone(),
+        values,
+        status,
+        steps: simulation.steps(),
+        time: simulation.time(),
+        median_step_seconds: quantile(&run.step_seconds, 0.5),
+        newton_iterations: simulation.counters().newton_iterations,
+        energies: [energies.kinetic, energies.potential],
+        min_J: least,
+        largest_displacement: shape.mesh.vertices.iter().enumerate().map(moved).fold(0.0, f64::max),
+        state: state.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+    })
 }
 
 /// The value of `KEY=VALUE`.
 fn value_of(text: &str) -> &str {
     text.split_once('=').map_or(text, |(_, value)| value)
-}
-
-/// A cell of a table of comma-separated values.
-fn cell(text: &str) -> String {
-    match text.contains([',', '"', '\n']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text.to_owned(),
-    }
 }

@@ -5,7 +5,7 @@ mod charts;
 mod notes;
 mod scene_page;
 mod space_page;
-mod text;
+pub(crate) mod text;
 
 use std::path::{Path, PathBuf};
 
