@@ -11,6 +11,12 @@ use grader::submission::{MAX_FILE_BYTES, Submission, Unreadable};
 /// All that is unpacked of one archive, bytes.
 const MAX_BYTES: u64 = 64 << 20;
 
+/// The largest archive that is opened, bytes: a table of contents is read whole.
+pub const MAX_ARCHIVE_BYTES: u64 = 128 << 20;
+
+/// The longest path in an archive, bytes.
+const MAX_PATH_BYTES: usize = 1024;
+
 /// Files, folders and links of one archive.
 const MAX_ENTRIES: usize = 10_000;
 
@@ -26,6 +32,10 @@ pub fn read_submission(path: &Path) -> Result<Submission, Unreadable> {
         return Err(unreadable("it is neither a folder nor a .zip, .tar.gz, .tgz or .tar; hand in one of these"));
     };
     let file = File::open(path).map_err(|error| unreadable(format!("it cannot be opened: {error}")))?;
+    let is_large = file.metadata().is_ok_and(|metadata| metadata.len() > MAX_ARCHIVE_BYTES);
+    if is_large {
+        return Err(unreadable("the archive is larger than 128 MiB; hand in `src` alone"));
+    }
     let entries = match ending {
         ".zip" => zip_entries(file),
         ".tar" => tar_entries(file),
@@ -56,7 +66,8 @@ fn unreadable(reason: impl Into<String>) -> Unreadable {
 }
 
 fn broken(error: impl ToString) -> Unreadable {
-    unreadable(format!("the archive is damaged: {}; pack it again", error.to_string()))
+    let why: String = error.to_string().chars().filter(|c| !c.is_control()).take(200).collect();
+    unreadable(format!("the archive is damaged: {why}; pack it again"))
 }
 
 /// Counts what is unpacked, and stops at the limits.
@@ -104,6 +115,9 @@ impl Unpacked {
 /// A path in an archive with `/` between its parts and no `./`. Such as lead out of the archive are refused, together with it:
 /// they are not packed by accident.
 fn inner_path(path: &str) -> Result<String, Unreadable> {
+    if path.len() > MAX_PATH_BYTES {
+        return Err(unreadable("the archive holds a path of more than 1024 bytes; hand in `src` alone"));
+    }
     let path = path.replace('\\', "/");
     let has_drive = path.as_bytes().get(1) == Some(&b':');
     let mut parts = path.split('/');

@@ -59,6 +59,8 @@ pub enum Command {
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
     },
+    /// Name the layers of this machine's sandbox; fails where they are not enough to grade.
+    Sandbox,
     /// Write the files with which a platform runs the grader.
     Pack {
         platform: Platform,

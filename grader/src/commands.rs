@@ -105,12 +105,29 @@ fn sandbox(options: &GradeOptions) -> Result<Sandbox, Problem> {
     if options.without_sandbox {
         return Ok(Sandbox::none());
     }
-    let sandbox = Sandbox::probe(&env::current_exe().map_err(failed)?);
-    if !sandbox.is_some_layer() {
-        let advice = "grade on Linux, or give --without-sandbox if you trust the submissions as you trust yourself";
-        return Err(failed(format!("this machine has no layer of a sandbox; {advice}")));
+    enough(Sandbox::probe(&env::current_exe().map_err(failed)?))
+}
+
+/// Refuses a sandbox that leaves files or the network within reach.
+fn enough(sandbox: Sandbox) -> Result<Sandbox, Problem> {
+    let missing: Vec<_> = sandbox.missing().iter().map(ToString::to_string).collect();
+    if missing.is_empty() {
+        return Ok(sandbox);
     }
-    Ok(sandbox)
+    let advice = "grade on Linux, as root or where the kernel and the container allow user namespaces or Landlock and seccomp \
+        (README.md, Sandbox), or give --without-sandbox if you trust the submissions as you trust yourself";
+    Err(failed(format!("this machine cannot confine submissions: {}; {advice}", missing.join("; "))))
+}
+
+/// Prints the layers of this machine's sandbox. Fails where submissions would be refused.
+pub fn sandbox_layers() -> Done {
+    let sandbox = Sandbox::probe(&env::current_exe().map_err(failed)?);
+    for (layer, holds) in sandbox.layers() {
+        println!("{layer}: {}", if holds { "yes" } else { "no" });
+    }
+    enough(sandbox)?;
+    println!("Submissions are isolated from files and from the network.");
+    Ok(())
 }
 
 pub fn class(folder: &Path, options: &GradeOptions, jobs: Option<usize>, shard: Option<(usize, usize)>) -> Done {
@@ -167,4 +184,18 @@ pub fn pack(options: PackOptions) -> Done {
     pack::pack(&options).map_err(unusable)?;
     println!("{} is ready; the page in it tells what to do with it.", options.out.display());
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grading_refuses_to_start_without_isolation_and_names_what_is_missing() {
+        let problem = enough(Sandbox::none()).err().unwrap();
+        assert_eq!(problem.code, GRADER_FAILED);
+        for words in ["the files of others", "landlock", "the network", "seccomp", "--without-sandbox"] {
+            assert!(problem.message.contains(words), "{}", problem.message);
+        }
+    }
 }

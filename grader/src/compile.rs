@@ -2,6 +2,7 @@
 //! compile costs its own function alone.
 
 mod diagnostics;
+mod paths;
 pub mod prebuilt;
 mod read;
 mod sources;

@@ -3,10 +3,14 @@
 use std::collections::BTreeMap;
 
 use grader::status::Status;
+use grader_child::wire;
 use serde::{Deserialize, Serialize};
 
 /// Version of the format of `grade.json`.
 pub const FORMAT_VERSION: u32 = 1;
+
+/// Size of the largest `grade.json`, bytes. Every text that a submission can make long is cut until all of it fits.
+pub const MOST_BYTES: u64 = 1 << 20;
 
 /// One graded submission.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -97,4 +101,36 @@ pub struct CheckGrade {
     pub message: String,
     /// Input and figures of the failure: the instructor's.
     pub counterexample: Option<String>,
+}
+
+impl Grade {
+    /// The same with its texts cut so that `grade.json` has at most [`MOST_BYTES`].
+    pub fn bounded(mut self) -> Self {
+        for most in [4000, 1000, 250, 60] {
+            self.cut(most);
+            let length = serde_json::to_vec_pretty(&self).map_or(0, |text| text.len() as u64);
+            if length < MOST_BYTES {
+                break;
+            }
+        }
+        self
+    }
+
+    /// Cuts every text that can hold words of a submission to so many bytes.
+    fn cut(&mut self, most: usize) {
+        self.remarks.iter_mut().for_each(|remark| cut(remark, most));
+        for part in self.functions.iter_mut().chain([&mut self.simulation]) {
+            part.message.iter_mut().chain(&mut part.diagnosis).for_each(|text| cut(text, most));
+            for check in &mut part.checks {
+                cut(&mut check.message, most);
+                check.counterexample.iter_mut().for_each(|text| cut(text, most));
+            }
+        }
+    }
+}
+
+fn cut(text: &mut String, most: usize) {
+    if text.len() > most {
+        *text = format!("{} …", wire::start(text, most));
+    }
 }

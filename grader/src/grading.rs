@@ -108,7 +108,7 @@ impl Grading {
         let functions: Vec<FunctionGrade> =
             self.rubric.functions.iter().filter_map(|function| graded.remove(function.name.get_ref())).collect();
         let parts = || functions.iter().chain([&simulation]);
-        Ok(Grade {
+        let grade = Grade {
             format_version: FORMAT_VERSION,
             submission: submission.name.clone(),
             files: hash,
@@ -122,7 +122,8 @@ impl Grading {
             simulation,
             study,
             seconds: timer.seconds(),
-        })
+        };
+        Ok(grade.bounded())
     }
 
     /// The submission with the reference in place of what is given solved, and without what a later assignment asks for.

@@ -41,6 +41,7 @@ fn main() -> ExitCode {
         Command::Grade { submission, options, ends_with } => commands::grade(&submission, &options, ends_with),
         Command::Class { folder, options, jobs, shard } => commands::class(&folder, &options, jobs, shard),
         Command::Merge { folders, out } => commands::merge(&folders, &out),
+        Command::Sandbox => commands::sandbox_layers(),
         Command::Pack { platform, out, seed, vendor } => {
             commands::pack(PackOptions { platform, out, repository: grading::repository(), seed, vendor })
         }

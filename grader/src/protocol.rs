@@ -6,7 +6,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::time::{Duration, Instant};
 
 use grader_child::socket::Socket;
-use grader_child::wire::{self, kind, read};
+use grader_child::wire::{self, LONGEST_MESSAGE, kind, read};
 
 use crate::implementation::Trouble;
 use crate::sandbox::Running;
@@ -79,6 +79,8 @@ fn panicked(message: String, place: String) -> Trouble {
     if message.starts_with("not yet implemented") {
         return Trouble::Missing;
     }
+    // The child cuts its messages, and a submission can send others in its name.
+    let message = wire::start(&message, LONGEST_MESSAGE).to_owned();
     // Students read the place, and a submission can forge it to carry inputs out.
     let place = if is_place(&place) { place } else { String::new() };
     Trouble::Panicked { message, place }
@@ -125,7 +127,15 @@ impl Read for Timed<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::is_place;
+    use super::*;
+
+    #[test]
+    fn the_text_of_a_panic_has_an_end() {
+        let long = "ä".repeat(1 << 20);
+        let Trouble::Panicked { message, place } = panicked(long.clone(), long) else { panic!("it panicked") };
+        assert_eq!((message.len(), place.len()), (LONGEST_MESSAGE, 0));
+        assert_eq!(wire::start("aä", 2), "a");
+    }
 
     #[test]
     fn a_place_is_a_line_of_a_file_of_the_course() {

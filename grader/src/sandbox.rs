@@ -27,6 +27,7 @@ mod spec;
 mod supervise;
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -102,6 +103,28 @@ pub struct Ended {
     pub stderr: Vec<u8>,
 }
 
+/// Something that a submission is kept from, and the layers each of which does that.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Isolation {
+    /// What is out of reach: the files of others, the network.
+    pub from: &'static str,
+    /// Names of layers; one is enough.
+    pub layers: [&'static str; 2],
+}
+
+/// The isolations without which a submission could read the solutions or send out what it is asked.
+const ISOLATIONS: [Isolation; 2] = [
+    Isolation { from: "the files of others", layers: ["mount_namespace", "landlock"] },
+    Isolation { from: "the network", layers: ["network_namespace", "seccomp"] },
+];
+
+impl fmt::Display for Isolation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [first, second] = self.layers;
+        write!(f, "no layer isolates submissions from {} (neither {first} nor {second} holds)", self.from)
+    }
+}
+
 /// The layers that this machine has.
 #[derive(Clone, Debug)]
 pub struct Sandbox {
@@ -141,6 +164,12 @@ impl Sandbox {
     /// `own_user` holds only if the program runs as a user that owns nothing else, which takes root.
     pub fn layers(&self) -> BTreeMap<String, bool> {
         self.layers.clone()
+    }
+
+    /// The isolations that a submission must not run without and that this machine does not have.
+    pub fn missing(&self) -> Vec<Isolation> {
+        let holds = |layer: &&str| self.layers.get(*layer) == Some(&true);
+        ISOLATIONS.into_iter().filter(|isolation| !isolation.layers.iter().any(holds)).collect()
     }
 
     /// Whether there is any layer.
@@ -194,5 +223,26 @@ pub fn confine(arguments: &[String]) -> ExitCode {
     {
         eprintln!("there is no sandbox on this system for {arguments:?}");
         ExitCode::FAILURE
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with(layers: &[(&str, bool)]) -> Vec<&'static str> {
+        let layers = layers.iter().map(|(name, there)| (name.to_string(), *there)).collect();
+        let sandbox = Sandbox { layers, ..Sandbox::none() };
+        sandbox.missing().into_iter().map(|isolation| isolation.from).collect()
+    }
+
+    #[test]
+    fn a_sandbox_isolates_from_files_and_from_the_network() {
+        assert_eq!(with(&[]), ["the files of others", "the network"]);
+        assert_eq!(with(&[("resource_limits", true), ("process_tree", true)]), ["the files of others", "the network"]);
+        assert_eq!(with(&[("landlock", true), ("seccomp", false)]), ["the network"]);
+        assert_eq!(with(&[("mount_namespace", false), ("network_namespace", true)]), ["the files of others"]);
+        assert!(with(&[("mount_namespace", true), ("seccomp", true)]).is_empty());
+        assert!(with(&[("landlock", true), ("network_namespace", true)]).is_empty());
     }
 }

@@ -17,6 +17,7 @@ use sha2::{Digest, Sha256};
 pub use entries::Unreadable;
 pub use grader_child::NAMES;
 pub use mentions::mentions;
+use scan::Macros;
 pub use stub::is_stub;
 
 /// A file may have as many bytes as this; a function of the course has a few thousand.
@@ -83,14 +84,25 @@ fn display_name(folder: &Path) -> String {
     path.file_name().map_or_else(|| "submission".to_owned(), |name| name.to_string_lossy().into_owned())
 }
 
-/// Reads and scans one file.
-pub fn source(name: &str, bytes: &[u8]) -> Source {
+/// A file's text without a byte-order mark and with `\n` at the end of each line.
+fn plain(text: &str) -> String {
+    text.trim_start_matches('\u{feff}').replace("\r\n", "\n")
+}
+
+/// The macros that some files define.
+fn macros<'a>(files: impl Iterator<Item = &'a [u8]>) -> Macros {
+    let texts: Vec<_> = files.filter_map(|bytes| std::str::from_utf8(bytes).ok()).map(plain).collect();
+    Macros::of(texts.iter().map(String::as_str))
+}
+
+/// Reads and scans one file, next to the `macros` of all files of its submission.
+pub fn source(name: &str, bytes: &[u8], macros: &Macros) -> Source {
     let refused = |line, reason: &str| Source::Refused { line, reason: reason.to_owned() };
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return refused(None, "the file is larger than 1 MiB; shorten it");
     }
     let text = match std::str::from_utf8(bytes) {
-        Ok(text) => text.trim_start_matches('\u{feff}').replace("\r\n", "\n"),
+        Ok(text) => plain(text),
         Err(error) => {
             let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() + 1;
             return refused(Some(line), "the file is not UTF-8 text; save it as UTF-8");
@@ -102,7 +114,7 @@ pub fn source(name: &str, bytes: &[u8]) -> Source {
     if is_stub(name, &text) {
         return Source::Missing(format!("src/{name}.rs still holds the `todo!` of the handout"));
     }
-    match scan::scan(&text) {
+    match scan::scan(&text, macros) {
         Some(found) => Source::Refused { line: Some(found.line), reason: found.reason },
         None => Source::Written(text),
     }

@@ -13,7 +13,7 @@ use nalgebra_sparse::CsrMatrix;
 use crate::simulation::simulate;
 use crate::socket::{self, Socket};
 use crate::standard;
-use crate::wire::{self, Argument, Wire, bytes, kind, read};
+use crate::wire::{self, Argument, LONGEST_MESSAGE, Wire, bytes, kind, read};
 use crate::{Exercise, Functions, GivenSolve, course_functions};
 
 /// Answers calls that arrive on the parent's socket until the parent closes it.
@@ -78,12 +78,13 @@ fn remember_where_panics_happen() {
 }
 
 fn place() -> String {
-    PLACE.lock().map(|place| place.clone()).unwrap_or_default()
+    // A macro may claim any file.
+    PLACE.lock().map(|place| wire::start(&place, LONGEST_MESSAGE).to_owned()).unwrap_or_default()
 }
 
 fn message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
-    text.unwrap_or("a panic without a message").to_owned()
+    wire::start(text.unwrap_or("a panic without a message"), LONGEST_MESSAGE).to_owned()
 }
 
 macro_rules! plain {

@@ -10,6 +10,15 @@ use nalgebra_sparse::CsrMatrix;
 /// Length of the longest frame that is read, bytes.
 pub const LONGEST_FRAME: usize = 1 << 26;
 
+/// Length of the longest text of a panic, bytes.
+pub const LONGEST_MESSAGE: usize = 2048;
+
+/// The start of a text, at most so many bytes of it.
+pub fn start(text: &str, most: usize) -> &str {
+    let end = (0..=most.min(text.len())).rev().find(|&end| text.is_char_boundary(end));
+    &text[..end.unwrap_or(0)]
+}
+
 /// Kinds of frames beside the calls, whose kind is the number of their function.
 pub mod kind {
     /// The next call is to be made this often (u64) in a row; its last answer counts. Its closures are the child's own.

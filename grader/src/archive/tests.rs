@@ -127,6 +127,12 @@ fn a_bomb_costs_neither_memory_nor_the_grader() {
     assert!(matches!(large_file.functions["psi_neo_hookean"], Source::Refused { .. }));
     let bomb = read("a.tgz", &gzip(&tar_of(&[("data/zeros", &zeros), ("src/psi_neo_hookean.rs", b"")])));
     assert!(bomb.is_err_and(|error| error.to_string().contains("64 MiB")));
+    let long = format!("src/{}", "x".repeat(2000));
+    assert!(read("a.zip", &zip_of(&[(&long, b"")])).is_err_and(|error| error.to_string().contains("1024 bytes")));
+    let folder = tempfile::tempdir().unwrap();
+    let sparse = folder.path().join("a.zip");
+    fs::File::create(&sparse).unwrap().set_len(1 << 40).unwrap();
+    assert!(read_submission(&sparse).is_err_and(|error| error.to_string().contains("128 MiB")));
     let names: Vec<_> = (0..10_001).map(|i| format!("data/{i}")).collect();
     let many: Vec<_> = names.iter().map(|name| (name.as_str(), &b""[..])).collect();
     assert!(read("a.zip", &zip_of(&many)).is_err_and(|error| error.to_string().contains("10000")));

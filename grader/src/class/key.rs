@@ -8,7 +8,10 @@ use std::process::Command;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use grader::submission::MAX_FILE_BYTES;
+
 use super::{ClassError, at};
+use crate::archive::MAX_ARCHIVE_BYTES;
 
 /// Settings that all grades of a class share. Without a file, the rubric is part of the grader's program.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -45,7 +48,7 @@ impl Identity {
         for text in [&self.grader, &self.toolchain, &seed, rubric, &self.extra.join("\0"), name] {
             add(&mut hash, text.as_bytes());
         }
-        add_path(&mut hash, submission)?;
+        add_path(&mut hash, submission, DEPTH, MAX_ARCHIVE_BYTES)?;
         Ok(hex(hash))
     }
 }
@@ -84,26 +87,44 @@ fn add_file(hash: &mut Sha256, path: &Path) -> io::Result<()> {
     }
 }
 
-/// Adds all files below `path`, by name. Links count as the path that they hold: following one could lead anywhere.
-fn add_path(hash: &mut Sha256, path: &Path) -> io::Result<()> {
-    let kind = fs::symlink_metadata(path)?.file_type();
+/// A grader looks for `TOP/src/NAME.rs` and no deeper.
+const DEPTH: usize = 3;
+
+/// With more entries than this, a grader looks at none of a folder.
+const MOST_ENTRIES: usize = 10_000;
+
+/// Adds the files below `path` that a grader may look at, by name; of those that are larger than it reads, the size alone.
+/// Links count as the path that they hold: following one could lead anywhere.
+fn add_path(hash: &mut Sha256, path: &Path, depth: usize, largest: u64) -> io::Result<()> {
+    let metadata = fs::symlink_metadata(path)?;
+    let kind = metadata.file_type();
     if kind.is_symlink() {
         add(hash, b"link");
         add(hash, fs::read_link(path)?.as_os_str().as_encoded_bytes());
     } else if kind.is_dir() {
-        let mut names = fs::read_dir(path)?.map(|entry| Ok(entry?.file_name())).collect::<io::Result<Vec<_>>>()?;
+        add(hash, b"folder");
+        let entries = if depth == 0 { 0 } else { MOST_ENTRIES + 1 };
+        let listing = fs::read_dir(path)?.take(entries);
+        let mut names = listing.map(|entry| Ok(entry?.file_name())).collect::<io::Result<Vec<_>>>()?;
+        if names.len() > MOST_ENTRIES {
+            add(hash, b"too many");
+            return Ok(());
+        }
         // What cargo and git keep is large and never graded.
         names.retain(|name| name != "target" && name != ".git");
         names.sort();
-        add(hash, b"folder");
         hash.update((names.len() as u64).to_le_bytes());
         for name in names {
             add(hash, name.as_encoded_bytes());
-            add_path(hash, &path.join(name))?;
+            add_path(hash, &path.join(name), depth - 1, MAX_FILE_BYTES)?;
         }
     } else if kind.is_file() {
         add(hash, b"file");
-        add_file(hash, path)?;
+        if metadata.len() > largest {
+            hash.update(metadata.len().to_le_bytes());
+        } else {
+            add_file(hash, path)?;
+        }
     } else {
         // A pipe or a device never ends, and is no answer.
         add(hash, b"other");

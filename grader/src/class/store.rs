@@ -3,7 +3,7 @@
 //! A folder of grades appears under its key by one renaming, when it is complete. The index is written beside its place and renamed.
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::Duration;
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::folders::FOLDERS;
 use super::{ClassError, Entry, Identity, Outcome, Report, Shard, Summary, at};
-use crate::grade::{FORMAT_VERSION, Grade};
+use crate::grade::{FORMAT_VERSION, Grade, MOST_BYTES};
 
 const INDEX: &str = "class.json";
 const PARTIAL: &str = ".partial-";
@@ -149,7 +149,12 @@ pub fn folder(key: &str) -> PathBuf {
 
 /// Reads the `grade.json` of a folder.
 pub fn read_grade(folder: &Path) -> Result<Grade, String> {
-    let text = fs::read(folder.join("grade.json")).map_err(|error| format!("grade.json: {error}"))?;
+    let mut text = Vec::new();
+    let read = File::open(folder.join("grade.json")).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut text));
+    read.map_err(|error| format!("grade.json: {error}"))?;
+    if text.len() as u64 > MOST_BYTES {
+        return Err(format!("grade.json is larger than {MOST_BYTES} bytes, which no grade is"));
+    }
     let grade: Grade = serde_json::from_slice(&text).map_err(|error| format!("grade.json: {error}"))?;
     if grade.format_version != FORMAT_VERSION {
         return Err(format!("grade.json has format {}, expected is {FORMAT_VERSION}", grade.format_version));

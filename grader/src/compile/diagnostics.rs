@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use grader_child::Exercise;
+use grader_child::{Exercise, wire};
 use serde::Deserialize;
 
+use super::paths::without_paths;
 use super::sources::signature;
 
 /// How much of the compiler's text is kept for one function, bytes.
@@ -41,14 +42,14 @@ pub fn faults(messages: &str) -> BTreeMap<&'static str, String> {
         let text = if is_call {
             format!("the signature is not the course's, which is `{}`", signature(function))
         } else {
-            message.rendered.unwrap_or(message.message)
+            without_paths(&message.rendered.unwrap_or(message.message))
         };
         let told = found.entry(function.name()).or_default();
         if told.len() + text.len() < MOST_TEXT && !told.contains(&text) {
             told.push_str(&text);
             told.push('\n');
         } else if told.is_empty() {
-            told.extend(text.chars().take(MOST_TEXT));
+            told.push_str(wire::start(&text, MOST_TEXT));
         }
     }
     found

@@ -205,10 +205,33 @@ fn classroom_50_gets_the_graders_result_and_nothing_from_a_grader_that_failed() 
         command.arg(out.join("autograder.py")).env("GRADER", &grader).current_dir(folder.path());
         (command.output().unwrap().status.code(), fs::read_to_string(folder.path().join("result.json")).ok())
     };
-    assert_eq!(run("#!/bin/sh\necho \"$6\" >\"$4/result.json\"\n"), (Some(0), Some("42\n".to_owned())));
+    let graded = "#!/bin/sh\n[ \"$1\" = sandbox ] || echo \"$6\" >\"$4/result.json\"\n";
+    assert_eq!(run(graded), (Some(0), Some("42\n".to_owned())));
+    let unconfined = format!("{graded}[ \"$1\" != sandbox ]\n");
+    assert_eq!(run(&unconfined), (Some(1), None), "without a sandbox nothing is graded");
     // A grader that does not know whose submission it is writes no such file.
-    for text in ["#!/bin/sh\nexit 1\n", "#!/bin/sh\nexit 0\n", "#!/bin/sh\necho '{}' >\"$4/result.json\"; exit 1\n"] {
+    for text in [
+        "#!/bin/sh\nexit 1\n",
+        "#!/bin/sh\nexit 0\n",
+        "#!/bin/sh\n[ \"$1\" = sandbox ] && exit\necho '{}' >\"$4/result.json\"; exit 1\n",
+    ] {
         assert_eq!(run(text), (Some(1), None), "{text}");
+    }
+}
+
+#[test]
+fn each_platform_asks_for_the_sandbox_before_it_grades() {
+    for (platform, script, grades) in [
+        (Platform::Gradescope, "autograder/setup.sh", "grader grade"),
+        (Platform::Classroom50, "autograder.py", "\"grade\""),
+        (Platform::Slurm, "array.sbatch", "\" class"),
+    ] {
+        let folder = packed(platform);
+        let text = fs::read_to_string(folder.path().join("repository/out").join(script)).unwrap();
+        let calls = |asked: &str| text.find(asked).unwrap_or_else(|| panic!("{script} has no {asked}"));
+        let asks =
+            text.find("grader sandbox").or(text.find("\"$grader\" sandbox")).or(text.find("GRADER, \"sandbox\""));
+        assert!(asks.is_some_and(|at| at < text.rfind(grades).unwrap_or(calls(grades))), "{script}");
     }
 }
 

@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{MAX_FILE_BYTES, NAMES, Source, Submission, source};
+use super::scan::Macros;
+use super::{MAX_FILE_BYTES, NAMES, Source, Submission, macros, source};
 
 /// One thing in a folder or an archive.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,13 +43,19 @@ impl Submission {
     /// Takes the 22 files out of all entries.
     pub fn from_entries(name: String, entries: Vec<Entry>) -> Result<Self, Unreadable> {
         let top = top(&entries)?;
-        let inside =
-            entries.into_iter().filter_map(|(path, content)| Some((path.strip_prefix(&top)?.to_owned(), content)));
+        let inside: Vec<Entry> = entries
+            .into_iter()
+            .filter_map(|(path, content)| Some((path.strip_prefix(&top)?.to_owned(), content)))
+            .collect();
+        let macros = macros(inside.iter().filter_map(|(path, content)| match content {
+            Content::File(bytes) if taken_name(path).is_some() => Some(bytes.as_slice()),
+            _ => None,
+        }));
         let (mut found, mut remarks) = (BTreeMap::new(), BTreeSet::new());
         for (path, content) in inside {
             match taken_name(&path) {
                 Some(name) => {
-                    let source = judged(name, content);
+                    let source = judged(name, content, &macros);
                     let twice = |_: &mut Source| Source::Refused {
                         line: None,
                         reason: "the file is there twice; hand in one".to_owned(),
@@ -60,8 +67,18 @@ impl Submission {
         }
         let missing = |name| Source::Missing(format!("there is no src/{name}.rs"));
         let functions = NAMES.map(|name| (name, found.remove(name).unwrap_or_else(|| missing(name)))).into();
-        Ok(Self { name, functions, remarks: remarks.into_iter().collect() })
+        Ok(Self { name, functions, remarks: first(remarks) })
     }
+}
+
+/// So many remarks on ignored files are made.
+const MOST_REMARKS: usize = 20;
+
+/// The first remarks, and how many more there would be.
+fn first(remarks: BTreeSet<String>) -> Vec<String> {
+    let more = remarks.len().saturating_sub(MOST_REMARKS);
+    let told = (more > 0).then(|| format!("{more} more files are ignored"));
+    remarks.into_iter().take(MOST_REMARKS).chain(told).collect()
 }
 
 /// The part before `src/` in the paths of a submission: empty, or one folder that wraps it all.
@@ -83,7 +100,7 @@ fn top(entries: &[Entry]) -> Result<String, Unreadable> {
 }
 
 fn list(tops: &BTreeSet<String>) -> String {
-    let shown: Vec<_> = tops.iter().take(3).map(|top| top.trim_end_matches('/')).collect();
+    let shown: Vec<_> = tops.iter().take(3).map(|top| shown(top.trim_end_matches('/'))).collect();
     format!("{}{}", shown.join(", "), if tops.len() > 3 { ", …" } else { "" })
 }
 
@@ -92,13 +109,13 @@ fn taken_name(path: &str) -> Option<&'static str> {
     NAMES.into_iter().find(|name| *name == stem)
 }
 
-fn judged(name: &str, content: Content) -> Source {
+fn judged(name: &str, content: Content, macros: &Macros) -> Source {
     let refused = |reason: String| Source::Refused { line: None, reason };
     match content {
-        Content::File(bytes) => source(name, &bytes),
+        Content::File(bytes) => source(name, &bytes, macros),
         Content::Unread => refused(format!("the file is larger than {} MiB; shorten it", MAX_FILE_BYTES >> 20)),
         Content::Link => refused("the file is a link; hand in the file itself".to_owned()),
-        Content::Broken(why) => refused(format!("the file cannot be read: {why}")),
+        Content::Broken(why) => refused(format!("the file cannot be read: {}", shown(&why))),
     }
 }
 

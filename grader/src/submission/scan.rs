@@ -3,12 +3,14 @@
 //!
 //! This is the first line of defence; the sandbox confines code that passes it.
 
+mod macros;
 mod words;
 
 use std::thread;
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
+pub use macros::Macros;
 use words::{ALWAYS, AS_MACROS, IN_ATTRIBUTES, as_text};
 
 /// A refused word.
@@ -26,9 +28,9 @@ const MAX_NESTING: usize = 256;
 /// Stack of the thread that walks a file's tokens, bytes.
 const STACK: usize = 64 << 20;
 
-/// The first thing in a file that is refused. A file that is not Rust is left for the compiler to complain about, as long as no
-/// refused word is in it.
-pub fn scan(text: &str) -> Option<Found> {
+/// The first thing in a file that is refused, next to the `macros` of all files of its submission. A file that is not Rust is
+/// left for the compiler to complain about, as long as no refused word is in it.
+pub fn scan(text: &str, macros: &Macros) -> Option<Found> {
     if text.starts_with("#!") && !text[2..].trim_start().starts_with('[') {
         // The compiler skips such a line as a shell's; a tokeniser might see a comment begin there.
         return Some(found(1, "the first line is for a shell; remove it"));
@@ -37,7 +39,7 @@ pub fn scan(text: &str) -> Option<Found> {
         return Some(found(line, "brackets are nested more than 256 deep; split the expression"));
     }
     with_tokens(text, |tokens| {
-        let mut walk = Walk { has_macros: contains(&tokens, "macro_rules"), first: None };
+        let mut walk = Walk { macros, first: None };
         walk.stream(tokens, Place::default());
         walk.first
     })
@@ -77,21 +79,12 @@ fn too_deep(text: &str) -> Option<usize> {
     None
 }
 
-fn contains(tokens: &TokenStream, word: &str) -> bool {
-    tokens.clone().into_iter().any(|token| match token {
-        TokenTree::Ident(ident) => ident == word,
-        TokenTree::Group(group) => contains(&group.stream(), word),
-        _ => false,
-    })
-}
-
-struct Walk {
-    /// With macros of one's own a word can be put together with what makes it dangerous, so it counts wherever it stands.
-    has_macros: bool,
+struct Walk<'a> {
+    macros: &'a Macros,
     first: Option<Found>,
 }
 
-impl Walk {
+impl Walk<'_> {
     fn stream(&mut self, tokens: TokenStream, place: Place) {
         let tokens: Vec<_> = tokens.into_iter().collect();
         let mut in_use = false;
@@ -105,7 +98,13 @@ impl Walk {
             match token {
                 TokenTree::Group(group) => {
                     let is_attribute = group.delimiter() == Delimiter::Bracket && follows_hash(before);
-                    self.stream(group.stream(), Place { in_attribute: place.in_attribute || is_attribute, ..place });
+                    let inside = Place {
+                        in_attribute: place.in_attribute || is_attribute,
+                        in_definition: place.in_definition || macros::defines(before),
+                        in_arguments: place.in_arguments || self.macros.gets(before),
+                        ..place
+                    };
+                    self.stream(group.stream(), inside);
                 }
                 TokenTree::Ident(ident) => {
                     let name = ident.to_string();
@@ -125,6 +124,9 @@ impl Walk {
         if ALWAYS.contains(&word) {
             return Some(format!("`{word}` is not allowed; do without it"));
         }
+        if word == "mod" && place.in_arguments {
+            return Some("`mod` is not allowed in what a macro gets; write the module without the macro".to_owned());
+        }
         if word == "mod" && !has_body(after) {
             return Some("a `mod` without a body needs another file; write its body here".to_owned());
         }
@@ -135,8 +137,9 @@ impl Walk {
         if is_attribute && place.in_attribute {
             return Some(format!("the attribute `{word}` is not allowed; do without it"));
         }
-        let anywhere = (is_macro || is_attribute) && self.has_macros;
-        anywhere.then(|| format!("`{word}` is not allowed in a file with macros of its own; use another name"))
+        // A macro can put a word together with what makes it dangerous, so there it counts as such.
+        let in_macro = (is_macro || is_attribute) && (place.in_definition || place.in_arguments);
+        in_macro.then(|| format!("`{word}` is not allowed in a macro of one's own; use another name"))
     }
 }
 
@@ -145,6 +148,8 @@ impl Walk {
 struct Place {
     in_attribute: bool,
     in_use: bool,
+    in_definition: bool,
+    in_arguments: bool,
 }
 
 /// Whether `#` or `#!` stands last.

@@ -19,6 +19,12 @@ cd "$root/source"
 # Also a plain Cargo.lock pins every dependency; with a folder `vendor` none is fetched.
 cargo build --release --locked --package grader
 
+# Grading refuses to start where submissions could reach files or the network; better to know that now.
+target/release/grader sandbox || {
+    echo "This container allows no sandbox; AUTOGRADER.md tells what it must allow." >&2
+    exit 1
+}
+
 # The solved sources are graded once: that builds what submissions are linked with, and where they do not pass, no image is made.
 selftest=$(mktemp -d)
 CARGO_NET_OFFLINE=true target/release/grader grade . --out "$selftest" --seed @SEED@

@@ -74,6 +74,34 @@ fn what_is_left_aside_and_may_surprise_is_remarked() {
 }
 
 #[test]
+fn remarks_and_files_that_are_looked_at_have_an_end() {
+    let names: Vec<_> = (0..1000).map(|i| format!("src/{i}{}.rs", "x".repeat(300))).collect();
+    let files: Vec<_> = names.iter().map(|name| (name.as_str(), &b""[..])).collect();
+    let remarks = of(&files).remarks;
+    assert_eq!((remarks.len(), remarks[20].as_str()), (21, "980 more files are ignored"));
+    assert!(remarks.iter().all(|remark| remark.len() < 300));
+    let folder = tempfile::tempdir().unwrap();
+    for top in ["a", "b"] {
+        fs::create_dir_all(folder.path().join(top).join("src")).unwrap();
+        for i in 0..5001 {
+            fs::write(folder.path().join(top).join(format!("src/{i}")), "").unwrap();
+        }
+    }
+    let refused = Submission::read_folder(folder.path()).unwrap_err().to_string();
+    assert!(refused.contains("more than 10000 files"), "{refused}");
+}
+
+#[test]
+fn a_macro_of_one_file_makes_words_of_another_suspect() {
+    let define = b"macro_rules! call { ($m:ident $a:tt) => { $m!$a } } pub(crate) use call;";
+    let submission = of(&[
+        ("src/newtons_method.rs", define),
+        ("src/psi_neo_hookean.rs", b"const X: &str = crate::newtons_method::call!(env (\"HOME\"));"),
+    ]);
+    assert!(matches!(psi(&submission), Source::Refused { line: Some(1), .. }), "{:?}", psi(&submission));
+}
+
+#[test]
 fn a_file_that_is_there_twice_is_refused() {
     let twice = of(&[("src/psi_neo_hookean.rs", BODY.as_bytes()), ("src/psi_neo_hookean.rs", b"fn f() {}")]);
     assert!(matches!(psi(&twice), Source::Refused { line: None, .. }));

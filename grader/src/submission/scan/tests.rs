@@ -1,4 +1,9 @@
-use super::scan;
+use super::{Found, Macros};
+
+/// Scans a file that is alone.
+fn scan(text: &str) -> Option<Found> {
+    super::scan(text, &Macros::of([text]))
+}
 
 fn refused_at(text: &str) -> Option<usize> {
     scan(text).map(|found| found.line)
@@ -65,6 +70,45 @@ fn words_that_a_macro_of_ones_own_puts_together_are_refused() {
     }
     let unfinished = "macro_rules! m { ($x:ident $b:tt) => { mod $x $b } }";
     assert_eq!(refused_at(unfinished), Some(1), "{unfinished}");
+}
+
+#[test]
+fn a_macro_of_another_file_gets_no_word_that_it_could_make_dangerous() {
+    let other = "macro_rules! call { ($m:ident $a:tt) => { $m!$a } }\nmacro_rules! vec { ($($t:tt)*) => { $($t)* } }\n\
+        use call as println;";
+    for text in [
+        "\nconst X: &str = crate::call!(env (\"HOME\"));",
+        "\ncrate::psi_neo_hookean::call!(mod h {});",
+        "\ncrate::m!(mod h {});",
+        "\ncrate::call! { path = \"x\" }",
+        "\nfn f() { vec![env]; }",
+        "\nfn f() { println!(include) }",
+        "\nfn f() { grader_child::course_functions!(env => \"HOME\") }",
+        "\nfn f() { assert!(crate::call!(env (\"HOME\")) == \"\") }",
+    ] {
+        let found = super::scan(text, &Macros::of([other, text]));
+        assert_eq!(found.map(|found| found.line), Some(2), "{text}");
+    }
+    // A name that a macro makes, or a file that cannot be read, can be that of any macro.
+    for other in ["macro_rules! name { ($n:ident) => { macro_rules! $n { () => {} } } }", "fn f( {"] {
+        let text = "fn f() { println!(\"{}\", env); }";
+        assert!(super::scan(text, &Macros::of([other, text])).is_some(), "{other}");
+    }
+}
+
+#[test]
+fn harmless_macros_are_not_refused() {
+    let at = "macro_rules! at { ($i:expr, $j:expr) => { 3 * $i + $j } }";
+    for text in [
+        format!("{at}\nfn f(path: usize) -> usize {{ let env = at!(1, path2); env + path }}").replace("path2", "2"),
+        format!(
+            "{at}\nfn f() {{ if !(link && used) {{}} println!(\"{{path}} {{env}}\"); assert!(path > 0, \"{{}}\", env); }}"
+        ),
+        format!("{at}\nmod parts {{ pub fn f() {{}} }}"),
+        "fn f() { let v = vec![path.x, env.y]; let m = nalgebra::matrix![include, 1.0; link, 2.0]; }".to_owned(),
+    ] {
+        assert_eq!(scan(&text), None, "{text}");
+    }
 }
 
 #[test]
