@@ -63,7 +63,7 @@ impl LoadCurve {
             Self::Ramp(duration) => (time / duration).clamp(0.0, 1.0),
             Self::Table(points) => interpolated(points, time),
             Self::Sine { frequency, phase } => (TAU * frequency * time + phase).sin(),
-            Self::Switch { on, off } => f64::from(u8::from(*on <= time && time < *off)),
+            Self::Switch { on, off } => f64::from(u8::from(!is_before(time, *on) && is_before(time, *off))),
         }
     }
 
@@ -103,6 +103,12 @@ impl LoadCurve {
     pub fn has_jumps(&self) -> bool {
         matches!(self, Self::Switch { .. })
     }
+}
+
+/// Whether a time precedes an instant, s. A time is a sum of steps, and counts as the instant when round-off alone separates them, so
+/// that a load or a constraint that ends with a step ends with that step.
+pub fn is_before(time: f64, instant: f64) -> bool {
+    time < instant * (1.0 - 1e-9)
 }
 
 /// The factor on the line between two points.

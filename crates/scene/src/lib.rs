@@ -56,7 +56,7 @@ mod values;
 mod warnings;
 
 pub use body::{Body, CONSISTENT_MASS, body, body_of};
-pub use curve::LoadCurve;
+pub use curve::{LoadCurve, is_before};
 pub use error::SceneError;
 pub use integrator::Integrator;
 pub use interaction::{Anchor, Interaction};

@@ -4,7 +4,7 @@
 //! that become free at a time, keep their rows; their constrained degrees of freedom are eliminated from the matrix. A release
 //! therefore changes neither the numbering nor the pattern of the matrix.
 
-use fem_scene::{Body, DirichletCondition, Motion};
+use fem_scene::{Body, DirichletCondition, Motion, is_before};
 use nalgebra::Vector3;
 
 use crate::forces::Moment;
@@ -56,7 +56,7 @@ impl DirichletConditions {
 
     /// Lets each condition apply or not as it does at a time, s. Returns whether that has changed any.
     pub fn apply_at(&mut self, time: f64, nodes: usize) -> bool {
-        let applies = |condition: &DirichletCondition| condition.until.is_none_or(|until| time < until);
+        let applies = |condition: &DirichletCondition| condition.until.is_none_or(|until| is_before(time, until));
         // A step without a release allocates nothing.
         if self.conditions().all(|(condition, before)| applies(condition) == before) {
             return false;

@@ -106,3 +106,17 @@ fn a_curve_without_time_or_beside_over_is_refused() {
     let motion = "[[prescribed]]\nnodes = [1]\ndisplacement = [1, 0, 0]\nover = 1\ncurve = { ramp = 1 }\n";
     assert_refused(&format!("{LEAST}{motion}"), 16, "prescribed[0].curve stands beside over");
 }
+
+#[test]
+fn a_load_that_ends_with_a_step_ends_there_whatever_the_round_off() {
+    for dt in [0.1, 1e-3, 1.0 / 3.0] {
+        let mut time = 0.0;
+        for step in 1..=10_000 {
+            time += dt;
+            let end: f64 = format!("{:.9}", dt * f64::from(step)).parse().unwrap();
+            let curve = LoadCurve::Switch { on: f64::NEG_INFINITY, off: end };
+            assert_eq!(curve.factor(time), 0.0, "step {step} of {dt} s");
+            assert_eq!(curve.factor(time - dt), 1.0, "the step before step {step} of {dt} s");
+        }
+    }
+}
