@@ -4,7 +4,7 @@ use std::panic::{self, AssertUnwindSafe};
 
 use grader::implementation::sandboxed::Sandboxed;
 use grader::implementation::{Local, Trouble};
-use grader::properties::outcome::Mistake;
+use grader::properties::outcome::{Mistake, with_tolerance};
 use grader::properties::{Course, FUNCTIONS};
 use grader::status::Status;
 use grader_child::Exercise;
@@ -42,7 +42,7 @@ impl Grading {
         for check in properties {
             subject.next_check();
             // A check may stumble over an answer that makes no sense; that is the answer's fault.
-            let outcome = panic::catch_unwind(AssertUnwindSafe(|| (check.run)(&course)));
+            let outcome = panic::catch_unwind(AssertUnwindSafe(|| with_tolerance(tolerance, || (check.run)(&course))));
             let stumbled = || Err(Mistake::Trouble(Trouble::Malformed));
             grade.checks.push(check_grade(check.name, outcome.unwrap_or_else(|_| stumbled())));
         }
@@ -51,8 +51,10 @@ impl Grading {
             grade.score = grade.max_score;
             grade.hint = None;
         } else {
+            subject.next_check();
             self.explain(&mut grade, name, subject);
         }
+        subject.next_check();
         self.time(&mut grade, name, subject)?;
         Ok(grade)
     }

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use super::bodies::without_negative_eigenvalues;
 use super::finite_differences::jacobian;
 use super::meshes::{Mesh, Tetrahedron, stacked};
-use super::outcome::{Mistake, Outcome, dense_of, eigenvalues_of, holds, near, waits, with_input};
+use super::outcome::{Mistake, Outcome, dense_of, eigenvalues_of, holds, near, slack, waits, with_input};
 use super::random::{for_all, vector};
 use super::{Check, Course};
 use crate::implementation::Trouble;
@@ -89,7 +89,7 @@ fn it_is_negative_semi_definite(course: &Course) -> Outcome {
         let K = stiffness(course, &mesh, &q)?;
         near("K is symmetric", &K, &K.transpose(), 1e-12 * K.amax())?;
         let eigenvalues = eigenvalues_of(&K)?;
-        holds("K is negative semi-definite", eigenvalues.max() <= 1e-11 * -eigenvalues.min())?;
+        holds("K is negative semi-definite", eigenvalues.max() <= slack(1e-11) * -eigenvalues.min())?;
         let translation = &K * mesh.placed(|_| Vector3::new(1.0, 2.0, 3.0));
         let zero = DVector::<f64>::zeros(translation.len());
         near("translations meet no resistance, also after projecting", &translation, &zero, 1e-10 * K.amax())
@@ -104,7 +104,7 @@ fn at_rest_only_the_six_rigid_motions_have_no_stiffness(course: &Course) -> Outc
         near("K times a rotation, at rest", &torque, &DVector::<f64>::zeros(torque.len()), 1e-11 * K.amax())?;
     }
     let eigenvalues = eigenvalues_of(&K)?;
-    let zeros = eigenvalues.iter().filter(|value| value.abs() < 1e-10 * K.amax()).count();
+    let zeros = eigenvalues.iter().filter(|value| value.abs() < slack(1e-10) * K.amax()).count();
     holds("at rest exactly six eigenvalues are zero", zeros == 6)
 }
 
@@ -122,8 +122,7 @@ fn a_squeezed_element_is_projected_and_not_flipped(course: &Course) -> Outcome {
 
 fn vertices_without_elements_have_no_stiffness_and_the_matrix_keeps_its_size(course: &Course) -> Outcome {
     let t = Tetrahedron::new([7, 1, 4, 2], &Matrix3::identity(), &Vector3::zeros());
-    let mut q = t.moved(&(Matrix3::identity() * 1.5), &Vector3::zeros());
-    q.iter_mut().filter(|entry| entry.is_nan()).for_each(|entry| *entry = 0.0);
+    let q = t.moved(&(Matrix3::identity() * 1.5), &Vector3::zeros());
     let K = course.subject.assemble_stiffness(&q, &t.V, &[t.element, t.element], &[1.0, 10.0], C, D)?;
     let K = dense_of((27, 27), &K)?;
     let mut expected = DMatrix::zeros(27, 27);

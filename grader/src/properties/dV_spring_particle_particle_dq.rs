@@ -77,6 +77,7 @@ fn a_spring_shorter_than_any_square_is_finite(course: &Course) -> Outcome {
         let found = course.subject.dV_spring_particle_particle_dq(&Vector3::zeros(), &d, l0, 3.0)?;
         holds("at any length, however short, the gradient is finite", found.iter().all(|entry| entry.is_finite()))?;
         holds("and not larger than k l0 (but for round-off)", found.amax() <= 3.0 * l0 * 1.5 + 1e-100)?;
-        near("the gradients at the two ends are opposite", &found.fixed_rows::<3>(0), &-found.fixed_rows::<3>(3), 0.0)
+        let (first, second) = (found.fixed_rows::<3>(0), -found.fixed_rows::<3>(3));
+        near("the gradients at the two ends are opposite", &first, &second, 1e-15 * found.amax())
     })
 }

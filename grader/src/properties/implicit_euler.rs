@@ -16,7 +16,7 @@ pub const CHECKS: &[Check] = checks![
     the_force_is_that_at_the_end_of_the_step,
     newton_starts_from_the_old_velocity_at_the_positions_it_leads_to,
     the_linear_systems_are_those_of_the_page,
-    at_most_five_hessians_are_evaluated,
+    at_most_five_directions_are_followed,
     the_energy_is_evaluated_at_velocities,
     free_fall_is_the_sum_of_its_steps,
     a_body_at_rest_stays_without_a_solve,
@@ -38,8 +38,17 @@ struct Asked {
     energies: RefCell<Vec<DVector<f64>>>,
     forces: RefCell<Vec<(DVector<f64>, DVector<f64>)>>,
     stiffnesses: RefCell<Vec<(DVector<f64>, DVector<f64>)>>,
-    systems: RefCell<Vec<(CsrMatrix<f64>, DVector<f64>)>>,
+    systems: RefCell<Vec<Solved>>,
     misfits: Cell<usize>,
+}
+
+/// A linear system that was solved.
+struct Solved {
+    A: CsrMatrix<f64>,
+    b: DVector<f64>,
+    solution: DVector<f64>,
+    /// How many forces and stiffnesses had been evaluated by then.
+    after: [usize; 2],
 }
 
 impl Asked {
@@ -81,10 +90,12 @@ fn step(
         sparse(&(potential.K)(q))
     };
     let solve = |A: &CsrMatrix<f64>, b: &DVector<f64>| {
+        let solution = by_elimination(A, b);
         if asked.fits(n, &[A.nrows(), A.ncols(), b.len()]) {
-            asked.systems.borrow_mut().push((A.clone(), b.clone()));
+            let after = [asked.forces.borrow().len(), asked.stiffnesses.borrow().len()];
+            asked.systems.borrow_mut().push(Solved { A: A.clone(), b: b.clone(), solution: solution.clone(), after });
         }
-        by_elimination(A, b)
+        solution
     };
     course.subject.implicit_euler(q, v, dt, M, &energy, &force, &stiffness, &solve)?;
     holds("closures are called with vectors as long as q", asked.misfits.get() == 0)?;
@@ -167,22 +178,38 @@ fn the_linear_systems_are_those_of_the_page(course: &Course) -> Outcome {
     let (q0, v0, dt) = (dvector![1.0, 2.0], dvector![3.0, -4.0], 0.3);
     let (mut q, mut v) = (q0.clone(), v0.clone());
     let asked = step(course, &mut q, &mut v, dt, &sparse(&mass), &quartic())?;
-    let stiffnesses = asked.stiffnesses.borrow();
-    holds("one Hessian for each solve", stiffnesses.len() == asked.systems.borrow().len())?;
-    for ((A, b), (q, v)) in asked.systems.borrow().iter().zip(stiffnesses.iter()) {
-        near("H = M − dt² K", &dense_of((2, 2), A)?, &(&mass - (quartic().K)(q) * (dt * dt)), 1e-13)?;
-        let g = residual(&sparse(&mass), dt, &v0, v, (quartic().f)(q));
-        near("the right-hand side is −g, with g = M (v − qdot) − dt f", b, &-g, 1e-12)?;
+    holds("a step that is not at rest needs a linear system", !asked.systems.borrow().is_empty())?;
+    let (forces, stiffnesses) = (asked.forces.borrow(), asked.stiffnesses.borrow());
+    for Solved { A, b, solution, after: [f, k] } in asked.systems.borrow().iter() {
+        let states = forces[..*f].last().zip(stiffnesses[..*k].last());
+        let Some(((_, of_force), (q, v))) = states else {
+            return holds("force and stiffness are evaluated before the linear system is solved", false);
+        };
+        near("force and stiffness of a Newton step belong to the same velocity", of_force, v, 1e-13)?;
+        let H = sparse(&(&mass - (quartic().K)(q) * (dt * dt)));
+        let direction = by_elimination(&H, &-residual(&sparse(&mass), dt, &v0, v, (quartic().f)(q)));
+        // H d = −g, or H d = g for the opposite; and both sides of the equations may be multiplied by a number.
+        let solution = solution * solution.dot(&direction).signum();
+        let rule =
+            "a linear system has Newton's direction as its solution, with H = M − dt² K and g = M (v − qdot) − dt f";
+        near(rule, &solution, &direction, 1e-12)?;
+        near(
+            "the matrix that is solved with is symmetric",
+            &dense_of((2, 2), A)?,
+            &dense_of((2, 2), A)?.transpose(),
+            1e-12,
+        )?;
+        holds("the right-hand side is finite", b.iter().all(|entry| entry.is_finite()))?;
     }
     Ok(())
 }
 
-fn at_most_five_hessians_are_evaluated(course: &Course) -> Outcome {
+fn at_most_five_directions_are_followed(course: &Course) -> Outcome {
     // Far out on ¼ |x|⁴ each Newton step goes a third of the way, so five do not get to the bottom.
     let M = sparse(&dmatrix![1.0]);
     let (mut q, mut v) = (dvector![1e6], dvector![0.0]);
     let asked = step(course, &mut q, &mut v, 10.0, &M, &quartic())?;
-    holds("five Newton steps, no more and no fewer", asked.stiffnesses.borrow().len() == 5)?;
+    holds("five Newton steps, no more and no fewer", asked.systems.borrow().len() == 5)?;
     let ratio = q[0] / 1e6;
     near_number("each of them goes as far as Newton's method does", ratio, (2.0f64 / 3.0).powi(5), 1e-6)
 }

@@ -42,7 +42,7 @@ fn the_mass_along_each_axis_is_density_times_volume(course: &Course) -> Outcome 
             let mass = along.dot(&(M * along));
             near_number("mass of a translation", mass, density * volume, 1e-13 * density * volume)?;
         }
-        near("a mass matrix is symmetric", &M, &M.transpose(), 0.0)
+        near("a mass matrix is symmetric", &M, &M.transpose(), 1e-15 * M.amax())
     })
 }
 

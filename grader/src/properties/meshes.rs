@@ -1,4 +1,4 @@
-//! Elements and meshes to check with. Vertices that belong to no element are NaN, so that reading them shows.
+//! Elements and meshes to check with. Vertices that belong to no element lie far away, so that reading them shows.
 
 use nalgebra::{DVector, Matrix3, Vector3};
 
@@ -16,7 +16,7 @@ pub struct Tetrahedron {
 impl Tetrahedron {
     /// The unit tetrahedron (vertices 0, e_x, e_y, e_z), mapped by X → `shape` X + `offset`.
     pub fn new(element: [usize; 4], shape: &Matrix3<f64>, offset: &Vector3<f64>) -> Self {
-        let mut V = vec![Vector3::repeat(f64::NAN); 9];
+        let mut V: Vec<_> = (0..9).map(far_away).collect();
         let corners = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
         for (vertex, corner) in element.into_iter().zip(corners) {
             V[vertex] = shape * corner + offset;
@@ -57,9 +57,9 @@ impl Tetrahedron {
         DVector::from_fn(12, |row, _| q[3 * self.element[row / 3] + row % 3])
     }
 
-    /// `q` with the element's twelve entries in place, and NaN elsewhere.
+    /// `q` with the element's twelve entries in place, and large numbers elsewhere.
     pub fn scatter(&self, entries: &DVector<f64>) -> DVector<f64> {
-        let mut q = DVector::from_element(3 * self.V.len(), f64::NAN);
+        let mut q = stacked(&(0..self.V.len()).map(far_away).collect::<Vec<_>>());
         for row in 0..12 {
             q[3 * self.element[row / 3] + row % 3] = entries[row];
         }
@@ -70,6 +70,12 @@ impl Tetrahedron {
     pub fn reordered(&self, order: [usize; 4]) -> Self {
         Self { element: order.map(|a| self.element[a]), ..self.clone() }
     }
+}
+
+/// A position that no element has. It is finite: a solution may multiply by a matrix of zeros and ones that selects an element's.
+fn far_away(vertex: usize) -> Vector3<f64> {
+    let x = vertex as f64;
+    Vector3::new(3e7 + 1e6 * x, -2e7 + 3e5 * x * x, 1e7 - 7e5 * x)
 }
 
 /// All 24 orders of four things.

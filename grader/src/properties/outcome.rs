@@ -1,5 +1,6 @@
 //! How a check passes or fails. No comparison trusts an answer: a wrong shape and NaN fail, and nothing panics.
 
+use std::cell::Cell;
 use std::fmt;
 
 use nalgebra::{DMatrix, DVector, Dim, Matrix, RawStorage, SymmetricEigen};
@@ -93,11 +94,46 @@ pub fn with_input(input: &str, outcome: Outcome) -> Outcome {
     })
 }
 
+/// The error relative to the terms of an answer that the tolerances of the checks are made for: round-off stays below it.
+pub const ROUND_OFF: f64 = 1e-9;
+
+thread_local! {
+    /// The rubric's tolerance while [`with_tolerance`] runs.
+    static TOLERANCE: Cell<f64> = const { Cell::new(ROUND_OFF) };
+}
+
+/// Runs a check with a rubric's tolerance: a larger one than [`ROUND_OFF`] makes every comparison laxer, by as much, and lets an answer
+/// differ from the expected one by this part of its largest entry. A smaller one is for the comparison with the reference alone, as the
+/// checks stand near round-off already.
+pub fn with_tolerance<T>(tolerance: f64, run: impl FnOnce() -> T) -> T {
+    struct Restore(f64);
+    impl Drop for Restore {
+        fn drop(&mut self) {
+            TOLERANCE.set(self.0);
+        }
+    }
+    let _restore = Restore(TOLERANCE.replace(tolerance.max(ROUND_OFF)));
+    run()
+}
+
+/// A tolerance of a check as the rubric wants it.
+pub fn slack(allowed: f64) -> f64 {
+    allowed * (TOLERANCE.get() / ROUND_OFF)
+}
+
+/// The same for the comparison with an answer of this size.
+fn slack_for(allowed: f64, size: f64) -> f64 {
+    let lax = TOLERANCE.get();
+    let of_size = if lax > ROUND_OFF && size.is_finite() { lax * size } else { 0.0 };
+    slack(allowed) + of_size
+}
+
 /// Compares two numbers; NaN is never near, equal infinities are.
 ///
 /// # Errors
 /// The mistake, with both numbers.
 pub fn near_number(rule: &str, actual: f64, expected: f64, allowed: f64) -> Outcome {
+    let allowed = slack_for(allowed, expected.abs());
     if is_near(actual, expected, allowed) {
         return Ok(());
     }
@@ -119,6 +155,8 @@ where
     S2: RawStorage<f64, R2, C2>,
 {
     has_shape(rule, actual.shape(), expected.shape())?;
+    let entries = (0..expected.ncols()).flat_map(|column| (0..expected.nrows()).map(move |row| (row, column)));
+    let allowed = slack_for(allowed, entries.map(|entry| expected[entry].abs()).fold(0.0, f64::max));
     for column in 0..actual.ncols() {
         for row in 0..actual.nrows() {
             let (a, e) = (actual[(row, column)], expected[(row, column)]);
@@ -179,3 +217,26 @@ pub fn eigenvalues_of<R: Dim, S: RawStorage<f64, R, R>>(
 
 /// Iterations after which the search for eigenvalues ends; a few for each eigenvalue are usual.
 const MOST_SWEEPS: usize = 10_000;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::dvector;
+
+    #[test]
+    fn a_laxer_rubric_makes_every_comparison_laxer_and_a_stricter_one_none_stricter() {
+        let (far, near_it) = (|| near_number("", 1.0 + 1e-7, 1.0, 1e-12), || near_number("", 1.0 + 1e-13, 1.0, 1e-12));
+        assert!(far().is_err() && near_it().is_ok());
+        assert!(with_tolerance(1e-6, far).is_ok());
+        assert!(with_tolerance(1e-12, near_it).is_ok());
+        let entries = || near("", &dvector![1e-8, 3.0], &dvector![0.0, 3.0], 0.0);
+        assert!(with_tolerance(1e-6, entries).is_ok() && entries().is_err());
+        assert!(with_tolerance(1e-6, || near_number("", f64::NAN, 1.0, 1.0)).is_err());
+    }
+
+    #[test]
+    fn a_check_that_panics_leaves_no_lax_tolerance_behind() {
+        let _ = std::panic::catch_unwind(|| with_tolerance(1e-3, || panic!("a check stumbles")));
+        assert!(near_number("", 1.001, 1.0, 1e-12).is_err());
+    }
+}

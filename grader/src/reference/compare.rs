@@ -152,6 +152,7 @@ fn residual(check: Check, observed: &Observed, expected: &Observed) -> Option<Wr
 type Holds = fn(usize, usize, Option<usize>) -> bool;
 
 fn calls(trial: &Trial, observed: &Observed, expected: &Observed) -> Vec<Wrong> {
+    let most = if let Input::Minimum { max_steps, .. } = trial.input { Some(max_steps) } else { None };
     let (rule, holds): (_, Holds) = match trial.function {
         "linearly_implicit_euler" => {
             ("one force, one stiffness and one solve in each step", |n, wanted, _| n == wanted)
@@ -162,11 +163,15 @@ fn calls(trial: &Trial, observed: &Observed, expected: &Observed) -> Vec<Wrong> 
             n == wanted || wanted != 0 && n <= (wanted + 3).min(most.unwrap_or(usize::MAX))
         }),
     };
-    let most = if let Input::Minimum { max_steps, .. } = trial.input { Some(max_steps) } else { None };
+    // A direction is a solve; how often its matrix is evaluated is left open, but for a start that needs none.
+    let counts = |name: &str, wanted: usize| {
+        let is_at_rest = wanted == 0 && most != Some(0);
+        trial.function == "linearly_implicit_euler" || name == "solve" || name == "H" && is_at_rest
+    };
     let pairs = observed.calls.iter().zip(&expected.calls);
     let wrong = |&(name, n): &(&str, usize), &(_, wanted): &(&str, usize)| {
         let figures = format!("{name}: {n} calls, {wanted} by the reference");
-        (!holds(n, wanted, most)).then_some(Wrong { check: Check::Calls, rule, figures })
+        (counts(name, wanted) && !holds(n, wanted, most)).then_some(Wrong { check: Check::Calls, rule, figures })
     };
     pairs.filter_map(|(observed, expected)| wrong(observed, expected)).collect()
 }

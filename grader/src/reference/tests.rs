@@ -4,6 +4,8 @@ mod reworded;
 
 use finite_elements_3d as solved;
 use grader::implementation::Local;
+use grader::properties::outcome::with_tolerance;
+use grader::properties::{Course, FUNCTIONS};
 use grader_child::{Functions, NAMES};
 
 use reworded::REWORDED;
@@ -58,6 +60,59 @@ fn other_round_off_is_no_mistake() {
             let first = judgement.failures.first();
             assert!(first.is_none(), "{function}: {first:?}");
         }
+    }
+}
+
+#[test]
+fn every_check_is_named_on_the_page_of_its_function_and_no_other_is() {
+    for (function, checks) in FUNCTIONS {
+        let path = format!("{}/../include-docs/{function}.md", env!("CARGO_MANIFEST_DIR"));
+        let page = std::fs::read_to_string(&path).expect("a page");
+        let (_, list) = page.split_once("\nEach check has a name").expect("a list of names");
+        let (list, _) = list.split_once("\n## ").expect("a next part");
+        let named: Vec<_> = list.lines().filter_map(|line| line.strip_prefix("- ")).collect();
+        let compared = judge(function, 1, &Local(REFERENCE), TOLERANCE).expect("the reference answers");
+        let compared = compared.checks(function).into_iter().map(|(check, _)| check.name());
+        let expected = checks.iter().map(|check| check.name).chain(compared).map(|name| name.replace('_', " "));
+        assert_eq!(named, expected.collect::<Vec<_>>(), "{path}");
+    }
+}
+
+/// The reference with answers that are wrong by a hundred-millionth.
+const ROUGH: Functions = Functions {
+    phi_linear_tetrahedron: |V, e, x| solved::phi_linear_tetrahedron(V, e, x) * ROUGHLY_ONE,
+    psi_neo_hookean: |F, C, D| solved::psi_neo_hookean(F, C, D) * ROUGHLY_ONE,
+    dpsi_neo_hookean_dF: |F, C, D| solved::dpsi_neo_hookean_dF(F, C, D) * ROUGHLY_ONE,
+    T_linear_tetrahedron: |v, e, density, volume| solved::T_linear_tetrahedron(v, e, density, volume) * ROUGHLY_ONE,
+    dV_linear_tetrahedron_dq: |q, V, e, v, C, D| solved::dV_linear_tetrahedron_dq(q, V, e, v, C, D) * ROUGHLY_ONE,
+    mass_matrix_mesh: |n, T, density, v0| solved::mass_matrix_mesh(n, T, density, v0) * ROUGHLY_ONE,
+    assemble_forces: |q, V, T, v0, C, D| solved::assemble_forces(q, V, T, v0, C, D) * ROUGHLY_ONE,
+    ..REFERENCE
+};
+const ROUGHLY_ONE: f64 = 1.0 + 1e-8;
+
+#[test]
+fn a_laxer_tolerance_in_the_rubric_holds_for_every_check() {
+    let names = [
+        "phi_linear_tetrahedron",
+        "psi_neo_hookean",
+        "dpsi_neo_hookean_dF",
+        "T_linear_tetrahedron",
+        "dV_linear_tetrahedron_dq",
+        "mass_matrix_mesh",
+        "assemble_forces",
+    ];
+    let (subject, trusted) = (Local(ROUGH), Local(REFERENCE));
+    let course = Course { subject: &subject, trusted: &trusted, seed: 5 };
+    for (function, checks) in FUNCTIONS.into_iter().filter(|(function, _)| names.contains(function)) {
+        let failures = |tolerance: f64| {
+            let judgement = judge(function, 5, &subject, tolerance).expect("the reference answers");
+            let compared = judgement.checks(function).into_iter().filter_map(|(check, why)| why.map(|_| check.name()));
+            let held = checks.iter().filter(|check| with_tolerance(tolerance, || (check.run)(&course)).is_err());
+            compared.chain(held.map(|check| check.name)).collect::<Vec<_>>()
+        };
+        assert_eq!(failures(1e-6), [""; 0], "{function}");
+        assert!(failures(TOLERANCE).len() > 1, "{function}");
     }
 }
 

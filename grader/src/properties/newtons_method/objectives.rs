@@ -26,8 +26,8 @@ pub struct Objective {
 pub enum Asked {
     Value(DVector<f64>),
     Hessian,
-    /// The right-hand side and the solution.
-    Solve(DVector<f64>, DVector<f64>),
+    /// The solution.
+    Solve(DVector<f64>),
 }
 
 pub struct NewtonRun {
@@ -43,7 +43,7 @@ impl NewtonRun {
 
     pub fn directions(&self) -> Vec<&DVector<f64>> {
         let solves = self.asked.iter();
-        solves.filter_map(|asked| if let Asked::Solve(_, d) = asked { Some(d) } else { None }).collect()
+        solves.filter_map(|asked| if let Asked::Solve(d) = asked { Some(d) } else { None }).collect()
     }
 
     /// The points at which f was evaluated after each direction.
@@ -105,7 +105,7 @@ impl Objective {
         let solve = |A: &CsrMatrix<f64>, b: &DVector<f64>| {
             let d = by_elimination(A, b);
             if fits((A.nrows(), A.ncols(), b.len()) == (n, n, n)) {
-                note(Asked::Solve(b.clone(), d.clone()));
+                note(Asked::Solve(d.clone()));
             }
             d
         };

@@ -1,0 +1,6 @@
+use nalgebra::Vector3;
+
+/// Hooke's law.
+pub fn V_spring_particle_particle(q0: &Vector3<f64>, q1: &Vector3<f64>, l0: f64, stiffness: f64) -> f64 {
+    stiffness * ((q0 - q1).magnitude() - l0).powi(2) * 0.5
+}
