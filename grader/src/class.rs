@@ -6,7 +6,10 @@ mod find;
 mod folders;
 mod key;
 mod merge;
+mod person;
 mod process;
+mod regrade;
+mod roster;
 mod schedule;
 mod store;
 #[cfg(test)]
@@ -18,13 +21,20 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use crate::assess::Accounts;
 use crate::grade::Grade;
 pub use folders::{apart, distinct};
 pub use key::Identity;
+pub use person::Person;
 pub use process::end_with;
+pub use regrade::Change;
+pub use store::student_folder;
 
 /// Writes what is known of a class into a folder; called again and again as a run goes on.
 pub type Report = fn(&Summary, &Path) -> io::Result<()>;
+
+/// Writes the reports of one student into a folder, with the diagnosis or without.
+pub type Write = fn(&Grade, &Path, bool) -> io::Result<()>;
 
 /// How to grade a class.
 #[derive(Clone, Debug)]
@@ -42,12 +52,19 @@ pub struct ClassOptions {
     pub grader: PathBuf,
     /// A submission that takes longer, by the clock on the wall, is given up.
     pub time_limit: Duration,
-    /// Handed on as `--rubric FILE`; what stands in it decides whether an earlier grade still counts.
+    /// Handed on as `--rubric FILE`.
     pub rubric: Option<PathBuf>,
+    /// The rubric with adjustments by hand. The part of it that judges decides whether an earlier grade still counts.
+    pub accounts: Accounts,
+    /// Students or submissions to grade again; all others stay as they are. Empty: every submission that has no grade yet.
+    pub only: Vec<String>,
+    /// Functions to grade again, the others' results being kept. Empty: all.
+    pub functions: Vec<String>,
     /// Further arguments for the grader.
     pub extra: Vec<String>,
     /// Writes what people read of a class: tables, pages.
     pub report: Report,
+    pub write: Write,
 }
 
 /// A class as far as it is graded.
@@ -57,6 +74,13 @@ pub struct Summary {
     pub shard: Option<(usize, usize)>,
     /// By name of the student, then of the submission.
     pub entries: Vec<Entry>,
+    /// The students that `students.csv` names.
+    pub people: Vec<Person>,
+    /// Name of the assignment in gradebooks.
+    pub title: String,
+    pub max_score: f64,
+    /// Points that are others than after the run before.
+    pub changes: Vec<Change>,
     /// Remarks for the instructor: other files, students that may be one, conflicts, …
     pub remarks: Vec<String>,
     /// How many this run graded.
@@ -85,8 +109,10 @@ pub enum Outcome {
     NotGraded(String),
     /// Its turn has not come.
     Waiting,
-    /// A newer submission of the same student counts.
+    /// Another submission of the same student counts: a newer one, or a better one.
     Older { newer: String },
+    /// A student of the roster has submitted nothing; the score, if that is one.
+    NoSubmission(Option<f64>),
 }
 
 /// Why a class could not be graded or joined.
@@ -110,6 +136,8 @@ pub enum ClassError {
     NoResults { path: PathBuf, source: io::Error },
     #[error("{path}: lies where {what}; name another folder for the results", path = path.display())]
     InTheWay { path: PathBuf, what: &'static str },
+    #[error("`{0}` is neither a student nor a submission of this class; --only takes their names")]
+    NoSuchSubmission(String),
     #[error("name at least one folder to merge")]
     Nothing,
     #[error("the report: {0}")]
@@ -137,11 +165,14 @@ pub fn run(options: &ClassOptions) -> Result<Summary, ClassError> {
     {
         return Err(ClassError::Shard(k, n));
     }
-    let mut class = find::class(&options.folder)?;
+    let rubric = options.accounts.rubric();
+    let mut class = find::class(&options.folder, rubric.counts)?;
+    class.remarks.extend(roster::strangers(options, &class)?);
     if let Some((k, n)) = options.shard {
         class.submissions.retain(|submission| key::shard(&submission.student, n) == k);
+        class.people.retain(|person| key::shard(&person.student, n) == k);
     }
-    let identity = Identity::of(&options.grader, options.seed, options.rubric.as_deref(), &options.extra)?;
+    let identity = Identity::of(&options.grader, options.seed, rubric, &options.extra)?;
     let store = store::Store::open(&options.out)?;
     schedule::grade(options, class, identity, &store)
 }

@@ -33,6 +33,11 @@ pub enum Command {
         submission: PathBuf,
         #[command(flatten)]
         options: GradeOptions,
+        /// Gradescope's submission_metadata.json: whose the submission is and when it came, for the rubric's deadline.
+        #[arg(long, value_name = "FILE")]
+        metadata: Option<PathBuf>,
+        #[command(flatten)]
+        again: Again,
         /// Ends as soon as the process with this number does, which must be the one that starts this one.
         #[arg(long, value_name = "PID", hide = true)]
         ends_with: Option<u32>,
@@ -49,6 +54,12 @@ pub enum Command {
         /// The K-th of N parts of the class, for several machines; `merge` joins them.
         #[arg(long, value_name = "K/N", value_parser = shard)]
         shard: Option<(usize, usize)>,
+        /// Grade these students or submissions again, and leave all others as they are.
+        #[arg(long, value_name = "NAME", num_args = 1..)]
+        only: Vec<String>,
+        /// Grade these functions again, and keep the results of the others.
+        #[arg(long, value_name = "NAME", num_args = 1..)]
+        function: Vec<String>,
     },
     /// Join the results of shards.
     Merge {
@@ -74,6 +85,17 @@ pub enum Command {
         #[arg(long)]
         vendor: bool,
     },
+}
+
+/// What `class --function` asks of `grade`.
+#[derive(clap::Args)]
+pub struct Again {
+    /// The grade whose other functions are kept.
+    #[arg(long, value_name = "FILE", hide = true, requires = "function")]
+    pub earlier: Option<PathBuf>,
+    /// A function to grade again.
+    #[arg(long, value_name = "NAME", hide = true, requires = "earlier")]
+    pub function: Vec<String>,
 }
 
 #[derive(clap::Args)]

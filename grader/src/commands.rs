@@ -11,12 +11,13 @@ use std::time::Duration;
 use grader::sandbox::Sandbox;
 use grader::submission::{NAMES, Source, Submission};
 
+use crate::assess::{Accounts, Adjustments, Metadata};
 use crate::class::Outcome;
-use crate::cli::GradeOptions;
+use crate::cli::{Again, GradeOptions};
 use crate::grading::{Grading, repository};
 use crate::pack::{self, PackOptions};
 use crate::reports::{self, Options};
-use crate::rubric::Rubric;
+use crate::rubric::{Role, Rubric};
 use crate::{archive, class, handout};
 
 /// The grader or its machine failed; there is no grade.
@@ -56,7 +57,13 @@ pub fn check(options: &grader::check::Options) -> Done {
     grader::check::run(options).map_err(|error| if error.is_unusable() { unusable(error) } else { failed(error) })
 }
 
-pub fn grade(submission: &Path, options: &GradeOptions, ends_with: Option<u32>) -> Done {
+pub fn grade(
+    submission: &Path,
+    options: &GradeOptions,
+    metadata: Option<&Path>,
+    again: &Again,
+    ends_with: Option<u32>,
+) -> Done {
     if let Some(parent) = ends_with {
         class::end_with(parent).map_err(failed)?;
     }
@@ -71,9 +78,19 @@ pub fn grade(submission: &Path, options: &GradeOptions, ends_with: Option<u32>) 
     let origin = reports::classroom50::Origin::from_environment();
     let reports = Options { show_diagnosis: rubric.students.diagnosis, origin };
     let show_hints = rubric.students.hints;
+    let metadata = metadata.map(Metadata::read).transpose().map_err(unusable)?;
+    let accounts = Accounts::new(rubric.clone(), Adjustments::default());
     let grading = Grading::new(&repository(), rubric, sandbox(options)?, options.seed).map_err(failed)?;
     let grading = if options.report { grading.with_study() } else { grading };
-    let mut grade = grading.grade(&read(submission)).map_err(failed)?;
+    let read = read(submission);
+    let graded = match &again.earlier {
+        Some(earlier) => grading.grade_again(&read, &reports::json::read(earlier).map_err(failed)?, &again.function),
+        None => grading.grade(&read),
+    };
+    let mut grade = graded.map_err(failed)?;
+    if let Some(Metadata { submitted, students }) = &metadata {
+        grade = accounts.assess(grade, &students.iter().map(String::as_str).collect::<Vec<_>>(), Some(*submitted));
+    }
     if !show_hints {
         grade.functions.iter_mut().for_each(|function| function.hint = None);
     }
@@ -130,8 +147,19 @@ pub fn sandbox_layers() -> Done {
     Ok(())
 }
 
-pub fn class(folder: &Path, options: &GradeOptions, jobs: Option<usize>, shard: Option<(usize, usize)>) -> Done {
+pub fn class(
+    folder: &Path,
+    options: &GradeOptions,
+    jobs: Option<usize>,
+    shard: Option<(usize, usize)>,
+    (only, functions): (Vec<String>, Vec<String>),
+) -> Done {
     let rubric = Rubric::load(options.rubric.as_deref()).map_err(unusable)?;
+    if let Some(name) = functions.iter().find(|name| rubric.role(name) != Role::Asked) {
+        return Err(unusable(format!("--function {name}: the rubric asks for no such function")));
+    }
+    let adjustments = Adjustments::of_class(folder, &rubric).map_err(unusable)?;
+    let accounts = Accounts::new(rubric.clone(), adjustments);
     let longest = Duration::from_secs_f64(LONGEST * rubric.submission_seconds.max(60.0));
     class::apart(folder, &options.out).map_err(unusable)?;
     writable(&options.out)?;
@@ -149,8 +177,12 @@ pub fn class(folder: &Path, options: &GradeOptions, jobs: Option<usize>, shard: 
         grader: env::current_exe().map_err(failed)?,
         time_limit: longest,
         rubric: options.rubric.clone(),
+        accounts,
+        only,
+        functions,
         extra,
         report: reports::write_class,
+        write: reports::write_final,
     });
     told(summary, &options.out)
 }
@@ -165,15 +197,20 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Done {
 fn told(summary: Result<class::Summary, class::ClassError>, out: &Path) -> Done {
     let summary = summary.map_err(unusable)?;
     let count = |wanted: fn(&Outcome) -> bool| summary.entries.iter().filter(|entry| wanted(&entry.outcome)).count();
-    let graded = count(|outcome| matches!(outcome, Outcome::Graded(..)));
-    println!("{graded} graded: {} now, {} before", summary.graded_now, summary.kept);
+    println!("{} graded: {} now, {} before", summary.graded_now + summary.kept, summary.graded_now, summary.kept);
+    match count(|outcome| matches!(outcome, Outcome::NoSubmission(_))) {
+        0 => {}
+        1 => println!("1 student of students.csv has submitted nothing"),
+        several => println!("{several} students of students.csv have submitted nothing"),
+    }
+    print!("{}", reports::regrade::text(&summary.changes));
     for entry in &summary.entries {
         if let Outcome::NotGraded(reason) = &entry.outcome {
             println!("not graded: {} ({reason}); it has no score, which is not zero", entry.submission);
         }
     }
     summary.remarks.iter().for_each(|remark| println!("{remark}"));
-    println!("grades.csv and class.html are in {}", out.display());
+    println!("grades.csv, canvas.csv, moodle.csv and class.html are in {}", out.display());
     if summary.interrupted {
         return Err(failed("stopped; the same command goes on from here"));
     }

@@ -6,6 +6,8 @@ use grader::status::Status;
 use grader_child::wire;
 use serde::{Deserialize, Serialize};
 
+use crate::rubric::Lateness;
+
 /// Version of the format of `grade.json`.
 pub const FORMAT_VERSION: u32 = 1;
 
@@ -33,11 +35,37 @@ pub struct Grade {
     pub functions: Vec<FunctionGrade>,
     /// The whole simulation with the submission's functions alone.
     pub simulation: FunctionGrade,
+    /// Points by hand and lateness, where they have been taken into account.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub account: Option<Account>,
     /// The whole simulation at several time steps, with `--report`; it does not count for points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub study: Option<Study>,
     /// Processor time of this grading with all its processes, s; on a system that does not tell it, the time that passed.
     pub seconds: f64,
+}
+
+/// From the points of the checks to the score that counts.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Account {
+    pub student: String,
+    /// The points of the checks, before adjustments and penalty.
+    pub raw_score: f64,
+    /// `None` without a deadline or a time of submission.
+    pub late: Option<Lateness>,
+    pub adjustments: Vec<Adjustment>,
+}
+
+/// Points or a comment by hand.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Adjustment {
+    /// `None`: the whole.
+    pub function: Option<String>,
+    pub points: Option<f64>,
+    /// The instructor's.
+    pub reason: Option<String>,
+    /// Words for the student.
+    pub comment: Option<String>,
 }
 
 /// Error against run time of the whole simulation, the submission beside the reference.

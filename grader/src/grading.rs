@@ -1,5 +1,6 @@
 //! Grades one submission: builds its functions level by level, holds each to its checks, and asks which mistake explains a failure.
 
+mod again;
 mod groups;
 mod judge;
 mod level;
@@ -120,6 +121,7 @@ impl Grading {
             remarks: self.remarks(submission, &budget),
             functions,
             simulation,
+            account: None,
             study,
             seconds: timer.seconds(),
         };

@@ -3,6 +3,7 @@
 #![allow(non_snake_case)] // V, T, F, C and D are the names that the mathematics and the course use
 
 mod archive;
+mod assess;
 mod class;
 mod cli;
 mod commands;
@@ -38,8 +39,12 @@ fn main() -> ExitCode {
     let done = panic::catch_unwind(|| match arguments.command {
         Command::Handout { to, rubric } => commands::handout(&to, rubric.as_deref()),
         Command::Check(options) => commands::check(&options),
-        Command::Grade { submission, options, ends_with } => commands::grade(&submission, &options, ends_with),
-        Command::Class { folder, options, jobs, shard } => commands::class(&folder, &options, jobs, shard),
+        Command::Grade { submission, options, metadata, again, ends_with } => {
+            commands::grade(&submission, &options, metadata.as_deref(), &again, ends_with)
+        }
+        Command::Class { folder, options, jobs, shard, only, function } => {
+            commands::class(&folder, &options, jobs, shard, (only, function))
+        }
         Command::Merge { folders, out } => commands::merge(&folders, &out),
         Command::Sandbox => commands::sandbox_layers(),
         Command::Pack { platform, out, seed, vendor } => {

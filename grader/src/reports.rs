@@ -1,18 +1,20 @@
 //! Every report of a graded submission and of a class, each format in its own file.
 //!
-//! `grade.json`, `grades.csv`, `errors.csv` and `class.html` are the instructor's. All other files may be read by students: they hold
+//! `grade.json` and all tables and pages of a class are the instructor's. All other files may be read by students: they hold
 //! names, statuses, messages and hints, never an input, an expected value or a path.
 
 mod class_html;
 pub mod classroom50;
 mod csv;
 mod escape;
+mod gradebooks;
 mod gradescope;
 mod html;
 pub mod json;
 mod junit;
 mod markdown;
 mod page;
+pub mod regrade;
 mod rows;
 mod study;
 pub mod terminal;
@@ -54,12 +56,24 @@ pub fn write_all(grade: &Grade, folder: &Path, options: &Options) -> io::Result<
     write_file(folder, "grade.json", &record)
 }
 
-/// Writes `grades.csv`, `errors.csv` and `class.html` into `folder`, as far as the class is graded.
+/// Writes all reports of a student into a folder, which is made where needed.
+pub fn write_final(grade: &Grade, folder: &Path, show_diagnosis: bool) -> io::Result<()> {
+    write_all(grade, folder, &Options { show_diagnosis, origin: None })
+}
+
+/// Writes `grades.csv`, `errors.csv`, `class.html` and the gradebooks into `folder`, as far as the class is graded; after a change of
+/// points `regrade.csv` and `regrade.html` too.
 pub fn write_class(summary: &Summary, folder: &Path) -> io::Result<()> {
     let rows = rows::rows(&summary.entries);
     fs::create_dir_all(folder)?;
     write_file(folder, "grades.csv", &csv::grades(&rows)?)?;
     write_file(folder, "errors.csv", &csv::errors(&rows)?)?;
+    write_file(folder, "canvas.csv", &gradebooks::canvas(&rows, summary)?)?;
+    write_file(folder, "moodle.csv", &gradebooks::moodle(&rows, summary)?)?;
+    if !summary.changes.is_empty() {
+        write_file(folder, "regrade.csv", &regrade::csv(&summary.changes)?)?;
+        write_file(folder, "regrade.html", &regrade::html(&summary.changes))?;
+    }
     write_file(folder, "class.html", &class_html::render(&rows))
 }
 

@@ -1,5 +1,8 @@
 //! `rubric.toml`: points, levels, tolerances and what students see. Data for the instructor to change, not code.
 
+mod deadline;
+mod judging;
+
 use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -8,6 +11,8 @@ use grader::submission::NAMES;
 use serde::Deserialize;
 use thiserror::Error;
 use toml::Spanned;
+
+pub use deadline::{Deadline, Extension, Lateness};
 
 /// The rubric that comes with the grader.
 const OURS: &str = include_str!("../rubric.toml");
@@ -35,6 +40,19 @@ pub struct Rubric {
     pub submission_seconds: f64,
     pub students: Students,
     pub simulation: Simulation,
+    /// Name of the assignment in gradebooks.
+    #[serde(default = "title")]
+    pub title: String,
+    /// The submission of a student that counts.
+    #[serde(default)]
+    pub counts: Counts,
+    /// What a student without a submission gets.
+    #[serde(default)]
+    pub no_submission: NoSubmission,
+    pub deadline: Option<Deadline>,
+    /// Later deadlines of single students.
+    #[serde(default, rename = "extension")]
+    pub extensions: Vec<Extension>,
     /// Functions of a later assignment: neither asked for nor given solved.
     #[serde(default)]
     pub later: Vec<Spanned<String>>,
@@ -60,6 +78,27 @@ pub enum Role {
 pub struct Students {
     pub diagnosis: bool,
     pub hints: bool,
+    /// Time from which on `feedback` may be given.
+    pub release: Option<deadline::Time>,
+}
+
+/// The submission of a student that counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Counts {
+    #[default]
+    Newest,
+    /// The one with the most points, after the penalty for lateness.
+    Best,
+}
+
+/// What a student on the roster who has submitted nothing gets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NoSubmission {
+    #[default]
+    Blank,
+    Zero,
 }
 
 /// The whole simulation.
@@ -133,6 +172,11 @@ impl Rubric {
                 return Err(at(function.level.span(), "level = 0; levels count from 1".to_owned()));
             }
         }
+        for (index, extension) in self.extensions.iter().enumerate() {
+            let earlier = &self.extensions[..index];
+            let span = extension.student.span();
+            extension.check(self.deadline.as_ref(), earlier).map_err(|problem| at(span, problem))?;
+        }
         for name in &self.later {
             known(name.get_ref()).map_err(|problem| at(name.span(), problem))?;
             if self.functions.iter().any(|function| function.name.get_ref() == name.get_ref()) {
@@ -169,6 +213,9 @@ impl Rubric {
             let points = self.simulation.points;
             return Err(format!("points = {points} of [simulation]; give a number from 0 to {MOST_POINTS}"));
         }
+        if let Some(deadline) = &self.deadline {
+            deadline.check()?;
+        }
         if !self.later.is_empty() && self.simulation.points > 0.0 {
             return Err("[simulation] has points, but needs functions that are `later`; give it 0 points".to_owned());
         }
@@ -181,6 +228,11 @@ impl Rubric {
             return Role::Asked;
         }
         if self.later.iter().any(|later| later.get_ref() == name) { Role::Later } else { Role::Given }
+    }
+
+    /// All points that can be earned.
+    pub fn max_score(&self) -> f64 {
+        self.functions.iter().map(|function| *function.points.get_ref()).sum::<f64>() + self.simulation.points
     }
 
     /// Levels in ascending order.
@@ -204,6 +256,10 @@ fn known(name: &str) -> Result<(), String> {
         return Ok(());
     }
     Err(format!("`{name}` is not a function of the course; the README lists the names"))
+}
+
+fn title() -> String {
+    "Finite elements".to_owned()
 }
 
 fn check_seconds() -> f64 {
@@ -236,51 +292,4 @@ fn text(path: &Path) -> Result<String, RubricError> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn problem(text: impl AsRef<[u8]>) -> String {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("rubric.toml");
-        fs::write(&path, text).unwrap();
-        Rubric::load(Some(&path)).unwrap_err().to_string()
-    }
-
-    #[test]
-    fn our_rubric_is_worth_100_points_and_names_every_function() {
-        let rubric = Rubric::load(None).unwrap();
-        assert_eq!(rubric.functions.iter().map(|function| function.points.get_ref()).sum::<f64>(), 100.0);
-        assert_eq!(rubric.functions.len(), 22);
-        assert_eq!(rubric.levels(), [1, 2, 3, 4]);
-    }
-
-    #[test]
-    fn mistakes_are_named_with_their_line() {
-        let unknown = OURS.replacen("name = \"psi_neo_hookean\"", "name = \"psi_neo_hooke\"", 1);
-        let line = OURS.lines().position(|line| line == "name = \"psi_neo_hookean\"").unwrap() + 1;
-        assert!(
-            problem(&unknown).contains(&format!("line {line}: `psi_neo_hooke` is not a function")),
-            "{}",
-            problem(&unknown)
-        );
-        assert!(problem(OURS.replacen("points = 4.0", "points = -4.0", 1)).contains("points = -4"));
-        assert!(problem(OURS.replacen("points = 4.0", "points = 1e308", 1)).contains("from 0 to 1000000"));
-        assert!(problem(OURS.replacen("points = 4.0", "points = \"four\"", 1)).contains("line "));
-        assert!(problem(OURS.replacen("hints = true", "hint = true", 1)).contains("hint"));
-        assert!(problem(OURS.replacen("tolerance = 1e-9", "tolerance = nan", 1)).contains("tolerance"));
-        assert!(
-            problem(OURS.replacen("compile_seconds = 20.0", "compile_seconds = 0.0", 1)).contains("compile_seconds")
-        );
-        let twice = format!("{OURS}\n[[function]]\nname = \"psi_neo_hookean\"\npoints = 1.0\nlevel = 1\n");
-        assert!(problem(twice).contains("second time"));
-        assert!(problem(b"partial_credit = true\n# \xff").contains("line 2: is not UTF-8 text"));
-        assert!(problem("").contains("grader/rubric.toml shows"));
-        let own = OURS.replacen("name = \"psi_neo_hookean\"", "name = \"psi_neo_hookean\"\ntolerance = 2.0", 1);
-        assert!(problem(own).contains("tolerance = 2 of psi_neo_hookean; give"));
-        assert!(problem(OURS.replacen("seconds = 5.0", "seconds = 1e-12", 1)).contains("from 0.1 to 600"));
-        let both = OURS.replacen("seconds = 5.0", "later = [\"newtons_method\"]\nseconds = 5.0", 1);
-        assert!(problem(both).contains("`newtons_method` has a table [[function]] and is `later`"));
-        let head = OURS.split("[[function]]").next().unwrap();
-        assert!(problem(format!("function = []\n{head}")).contains("asks for no function"));
-    }
-}
+mod tests;

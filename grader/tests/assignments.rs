@@ -29,15 +29,19 @@ fn add(folder: &TempDir, name: &str, text: &str) {
     fs::write(folder.path().join(format!("src/{name}.rs")), text).expect("a file");
 }
 
-fn graded(submission: &Path, rubric: &Path, out: &Path) -> Output {
+fn graded(submission: &Path, rubric: &Path, out: &Path, more: &[&str]) -> Output {
     let mut grader = Command::new(env!("CARGO_BIN_EXE_grader"));
-    grader.arg("grade").arg(submission).arg("--rubric").arg(rubric).arg("--out").arg(out);
+    grader.arg("grade").arg(submission).arg("--rubric").arg(rubric).arg("--out").arg(out).args(more);
     grader.output().expect("the grader starts")
 }
 
 fn grade(submission: &Path, rubric: &Path) -> Value {
+    grade_with(submission, rubric, &[])
+}
+
+fn grade_with(submission: &Path, rubric: &Path, more: &[&str]) -> Value {
     let out = TempDir::new().expect("a folder");
-    let output = graded(submission, rubric, out.path());
+    let output = graded(submission, rubric, out.path(), more);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     serde_json::from_slice(&fs::read(out.path().join("grade.json")).expect("a grade")).expect("JSON")
 }
@@ -95,4 +99,32 @@ fn a_given_function_that_calls_what_is_asked_for_calls_the_students_own() {
     let wrong = grade(folder.path(), &rubric);
     assert_eq!(functions(&wrong), [("psi_neo_hookean", "failed"), ("newtons_method", "passed")]);
     assert_eq!(wrong["simulation"]["status"], "failed", "the energy that the simulation minimises is the student's");
+}
+
+#[test]
+fn one_function_is_graded_again_and_a_deadline_counts_for_a_single_submission() {
+    let folder = submission(&NAMES[..12]);
+    let rubric = folder.path().join("rubric.toml");
+    let first = fs::read_to_string(repository().join("grader/rubrics/first.toml")).expect("the rubric");
+    let late = "\n[deadline]\nat = 2026-05-04T12:00:00Z\npenalty_per_day = 0.5\n";
+    fs::write(&rubric, format!("{first}{late}")).expect("a file");
+    let metadata = folder.path().join("submission_metadata.json");
+    let who = r#"{"created_at": "2026-05-04T06:00:00-07:00", "users": [{"email": "anna@x.org"}]}"#;
+    fs::write(&metadata, who).expect("a file");
+    let late = grade_with(folder.path(), &rubric, &["--seed", "5", "--metadata", &metadata.display().to_string()]);
+    assert_eq!((&late["score"], &late["account"]["raw_score"]), (&Value::from(24.5), &Value::from(49.0)));
+    assert!(late["remarks"].to_string().contains("1 day late: 49 points, less 50 %, are 24.5"), "{}", late["remarks"]);
+
+    let mut earlier = late.clone();
+    for function in earlier["functions"].as_array_mut().expect("functions") {
+        function["diagnosis"] = Value::from("of the first time");
+    }
+    let path = folder.path().join("earlier.json");
+    fs::write(&path, earlier.to_string()).expect("a file");
+    let again = ["--seed", "5", "--earlier", &path.display().to_string(), "--function", "T_linear_tetrahedron"];
+    let again = grade_with(folder.path(), &rubric, &again);
+    assert_eq!(again["functions"][5]["diagnosis"], Value::Null);
+    let kept = again["functions"].as_array().expect("functions").iter();
+    assert_eq!(kept.filter(|function| function["diagnosis"] == "of the first time").count(), 11);
+    assert_eq!(functions(&again), functions(&late));
 }

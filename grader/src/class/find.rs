@@ -1,9 +1,11 @@
 //! Finds the submissions of a folder and whose they are.
 //!
-//! `students.csv` decides where it names a submission (columns `submission`, `student` and, if wanted, `time`). Elsewhere the
-//! student is the name up to the first `__` or `@`, or all of it. Nothing else is guessed: two students taken for one would
-//! cost one of them the grade. Of a student's submissions the newest counts: by `time` where there is one, else by the
-//! newest modification, else by name.
+//! `students.csv` decides where it names a submission; see [`students`]. Elsewhere the student is the name up to the first `__` or `@`,
+//! or all of it, and what follows may be the time. Nothing else is guessed: two students taken for one would cost one of them the
+//! grade. Of a student's submissions the newest counts: by its time where there is one, else by the newest modification, else by name;
+//! or the best, if the rubric says so.
+
+mod students;
 
 use std::collections::{BTreeMap, HashMap};
 use std::ffi::OsStr;
@@ -12,20 +14,26 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use serde::Deserialize;
+use jiff::Timestamp;
 
-use super::{ClassError, at};
+use super::{ClassError, Person, at};
+use crate::assess::ADJUSTMENTS;
+use crate::rubric::Counts;
+use students::{STUDENTS, Time, apply};
 
-const STUDENTS: &str = "students.csv";
 const ENDINGS: [&str; 3] = [".tar.gz", ".tgz", ".zip"];
 
 /// Contents of a class folder.
 pub struct Class {
+    /// A group's submission stands here once for each of its students.
     pub submissions: Vec<Submission>,
+    /// The students that `students.csv` names.
+    pub people: Vec<Person>,
     pub remarks: Vec<String>,
 }
 
-/// One submission as it was handed in.
+/// One submission of one student as it was handed in.
+#[derive(Clone)]
 pub struct Submission {
     pub name: String,
     pub path: PathBuf,
@@ -36,33 +44,22 @@ pub struct Submission {
     modified: SystemTime,
 }
 
-/// A time of `students.csv`: a number, or a text that sorts by time such as `2026-05-01T12:00`.
-#[derive(Clone, PartialEq, PartialOrd)]
-enum Time {
-    Number(f64),
-    Text(String),
-}
-
-#[derive(Deserialize)]
-struct Row {
-    submission: String,
-    student: String,
-    time: Option<String>,
-}
-
 /// The submissions of `folder`, by student and name.
-pub fn class(folder: &Path) -> Result<Class, ClassError> {
+pub fn class(folder: &Path, counts: Counts) -> Result<Class, ClassError> {
     let (mut submissions, mut remarks) = list(folder)?;
     unique_names(&mut submissions);
     let path = folder.join(STUDENTS);
+    let mut people = Vec::new();
     if path.is_file() {
-        apply(&path, &mut submissions, &mut remarks)?;
+        people = apply(&path, &mut submissions, &mut remarks)?;
     } else {
         remarks.extend(lookalikes(&submissions));
     }
-    mark_older(&mut submissions);
+    if counts == Counts::Newest {
+        mark_older(&mut submissions);
+    }
     submissions.sort_by(|a, b| (&a.student, &a.name).cmp(&(&b.student, &b.name)));
-    Ok(Class { submissions, remarks })
+    Ok(Class { submissions, people, remarks })
 }
 
 fn list(folder: &Path) -> Result<(Vec<Submission>, Vec<String>), ClassError> {
@@ -71,7 +68,7 @@ fn list(folder: &Path) -> Result<(Vec<Submission>, Vec<String>), ClassError> {
     for entry in fs::read_dir(folder).map_err(at(folder))? {
         let path = entry.map_err(at(folder))?.path();
         let name = shown(path.file_name().unwrap_or_default());
-        if name == STUDENTS {
+        if name == STUDENTS || name == ADJUSTMENTS {
             continue;
         }
         if name.starts_with('.') || !(path.is_dir() || stem(&name).is_some()) {
@@ -80,7 +77,8 @@ fn list(folder: &Path) -> Result<(Vec<Submission>, Vec<String>), ClassError> {
         }
         // Grading will tell what cannot be read; here it must not keep the others from being graded.
         let modified = newest(&path, &mut MOST_LOOKED_AT.clone()).unwrap_or(SystemTime::UNIX_EPOCH);
-        submissions.push(Submission { student: student(&name), name, path, newer: None, time: None, modified });
+        let (student, time) = student(&name);
+        submissions.push(Submission { student, name, path, newer: None, time, modified });
     }
     remarks.sort();
     Ok((submissions, remarks))
@@ -103,10 +101,12 @@ fn stem(name: &str) -> Option<&str> {
     name.get(..name.len() - ending.len())
 }
 
-fn student(name: &str) -> String {
+/// The student in a name, and the time, if that is what follows.
+fn student(name: &str) -> (String, Option<Time>) {
     let name = stem(name).unwrap_or(name);
     let end = [name.find("__"), name.find('@')].into_iter().flatten().filter(|&end| end > 0).min();
-    name[..end.unwrap_or(name.len())].to_string()
+    let (student, rest) = name.split_at(end.unwrap_or(name.len()));
+    (student.to_string(), Time::in_name(rest.trim_start_matches(['_', '@'])))
 }
 
 /// Takes off the endings, except where `anna.zip` and `anna` would then bear one name.
@@ -142,36 +142,6 @@ fn newest(path: &Path, room: &mut usize) -> io::Result<SystemTime> {
         time = files.into_iter().max().unwrap_or(time);
     }
     Ok(time)
-}
-
-fn apply(path: &Path, submissions: &mut [Submission], remarks: &mut Vec<String>) -> Result<(), ClassError> {
-    let unreadable =
-        |error: csv::Error| ClassError::Unreadable { path: path.to_path_buf(), message: error.to_string() };
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(unreadable)?;
-    for row in reader.deserialize() {
-        let row: Row = row.map_err(unreadable)?;
-        let is_it = |submission: &&mut Submission| {
-            submission.name == row.submission
-                || submission.path.file_name().is_some_and(|name| *name == *row.submission)
-        };
-        match submissions.iter_mut().find(is_it) {
-            Some(_) if row.student.is_empty() => {
-                remarks.push(format!("{STUDENTS}: {} has no student", row.submission));
-            }
-            Some(submission) => {
-                submission.student = row.student;
-                submission.time = row.time.filter(|time| !time.is_empty()).map(Time::read);
-            }
-            None => remarks.push(format!("{STUDENTS}: there is no submission {}", row.submission)),
-        }
-    }
-    Ok(())
-}
-
-impl Time {
-    fn read(text: String) -> Self {
-        text.parse().map_or(Self::Text(text), Self::Number)
-    }
 }
 
 /// Names such as `anna` and `anna-2`, or `anna` and `Anna`, that only an instructor can tell to be one student.
@@ -212,6 +182,16 @@ fn mark_older(submissions: &mut [Submission]) {
 }
 
 impl Submission {
+    /// When it was handed in: by `students.csv`, by its name, or by the newest of its files.
+    pub fn submitted(&self) -> Option<Timestamp> {
+        self.stated_time().or_else(|| Timestamp::try_from(self.modified).ok())
+    }
+
+    /// When it was handed in by `students.csv` or by its name.
+    pub fn stated_time(&self) -> Option<Timestamp> {
+        self.time.as_ref().and_then(Time::moment)
+    }
+
     fn is_newer_than(&self, other: &Self) -> bool {
         let by_time = self.time.partial_cmp(&other.time).unwrap_or(std::cmp::Ordering::Equal);
         by_time.then(self.modified.cmp(&other.modified)).then(self.name.cmp(&other.name)).is_gt()
@@ -220,6 +200,8 @@ impl Submission {
 
 #[cfg(test)]
 mod tests {
+    use super::Counts;
+
     #[cfg(target_os = "linux")]
     #[test]
     fn names_that_no_table_can_show_stay_different_students() {
@@ -229,7 +211,7 @@ mod tests {
         for name in names.into_iter().chain([&b"bin\xfe"[..], b"bin\xff"]) {
             std::fs::create_dir(room.path().join(std::ffi::OsStr::from_bytes(name))).unwrap();
         }
-        let class = super::class(room.path()).unwrap();
+        let class = super::class(room.path(), Counts::Newest).unwrap();
         let names: Vec<_> = class.submissions.iter().map(|found| found.name.as_str()).collect();
         assert_eq!(names, ["Anna", "Jörg Müller", "anna", r"bin\xfe", r"bin\xff", r"new\nline"]);
         assert!(class.submissions.iter().all(|found| found.newer.is_none()));

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf, absolute};
 use super::{ClassError, at};
 
 /// Folders that hold results, in the folder of the results.
-pub const FOLDERS: [&str; 3] = ["grades", "failed", "submissions"];
+pub const FOLDERS: [&str; 4] = ["grades", "failed", "submissions", "students"];
 
 /// Refuses results among the submissions, where the next run would take them for one, and submissions where results are
 /// written, which would overwrite them.

@@ -12,8 +12,9 @@ use grader::submission::MAX_FILE_BYTES;
 
 use super::{ClassError, at};
 use crate::archive::MAX_ARCHIVE_BYTES;
+use crate::rubric::Rubric;
 
-/// Settings that all grades of a class share. Without a file, the rubric is part of the grader's program.
+/// Settings that all grades of a class share.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Identity {
@@ -22,7 +23,8 @@ pub struct Identity {
     /// Output of `rustc --version`.
     pub toolchain: String,
     pub seed: u64,
-    /// Hash of the rubric's file, if there is one.
+    /// Hash of the part of the rubric that decides what checks find. Points and deadlines are not in it: a change of them counts
+    /// without a new grading.
     pub rubric: Option<String>,
     /// Further arguments of the grader.
     pub extra: Vec<String>,
@@ -30,13 +32,13 @@ pub struct Identity {
 
 impl Identity {
     /// Reads the program and asks the toolchain.
-    pub fn of(grader: &Path, seed: u64, rubric: Option<&Path>, extra: &[String]) -> Result<Self, ClassError> {
+    pub fn of(grader: &Path, seed: u64, rubric: &Rubric, extra: &[String]) -> Result<Self, ClassError> {
         let hashed = |path: &Path| {
             let mut hash = Sha256::new();
             add_file(&mut hash, path).map_err(at(path))?;
             Ok(hex(hash))
         };
-        let rubric = rubric.map(hashed).transpose()?;
+        let rubric = Some(hex(Sha256::new_with_prefix(rubric.judging())));
         Ok(Self { grader: hashed(grader)?, toolchain: toolchain()?, seed, rubric, extra: extra.to_vec() })
     }
 

@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::store::{self, Index, IndexState, Store, read_grade};
-use super::{ClassError, Entry, Identity, Outcome, Report, Summary, at};
+use super::{ClassError, Entry, Identity, Outcome, Person, Report, Summary, at};
 
 /// Implementation of [`super::merge`].
 pub fn join(dirs: &[PathBuf], out: &Path, report: Report) -> Result<Summary, ClassError> {
@@ -21,10 +21,13 @@ pub fn join(dirs: &[PathBuf], out: &Path, report: Report) -> Result<Summary, Cla
     let mut remarks = missing_shards(&indices);
     let mut joined: BTreeMap<(String, String), Outcome> = BTreeMap::new();
     let identity = first.identity.clone();
+    let (title, max_score) = (first.title.clone(), first.max_score);
+    let mut people = Vec::new();
     for (dir, index) in dirs.iter().zip(indices) {
         remarks.extend(index.remarks);
+        people.extend(index.people);
         for row in index.submissions {
-            let outcome = outcome(row.state, &row.submission, dir, &store);
+            let outcome = outcome(row.state, (&row.submission, &row.student), dir, &store);
             let name = row.submission.clone();
             let outcome = match joined.remove(&(row.student.clone(), name.clone())) {
                 Some(before) => one_of(&name, before, outcome, &mut remarks),
@@ -37,11 +40,22 @@ pub fn join(dirs: &[PathBuf], out: &Path, report: Report) -> Result<Summary, Cla
         joined.into_iter().map(|((student, submission), outcome)| Entry { submission, student, outcome }).collect();
     forbid_two_that_count(&mut entries, &mut remarks);
     remarks.dedup();
-    finish(
-        &store,
-        Summary { identity, shard: None, kept: 0, graded_now: 0, entries, remarks, interrupted: false },
-        report,
-    )
+    people.sort_by(|a: &Person, b| a.student.cmp(&b.student));
+    people.dedup();
+    let summary = Summary {
+        identity,
+        shard: None,
+        kept: 0,
+        graded_now: 0,
+        entries,
+        people,
+        title,
+        max_score,
+        changes: Vec::new(),
+        remarks,
+        interrupted: false,
+    };
+    finish(&store, summary, report)
 }
 
 fn finish(store: &Store, mut summary: Summary, report: Report) -> Result<Summary, ClassError> {
@@ -79,11 +93,11 @@ fn missing_shards(indices: &[Index]) -> Vec<String> {
 }
 
 /// Reads what an index names, and copies it.
-fn outcome(state: IndexState, name: &str, dir: &Path, store: &Store) -> Outcome {
+fn outcome(state: IndexState, (name, student): (&str, &str), dir: &Path, store: &Store) -> Outcome {
     match state {
-        IndexState::Graded(folder) => match read_grade(&dir.join(&folder)) {
+        IndexState::Graded(folder) => match read_grade(&dir.join(store::student_folder(student))) {
             Err(reason) => Outcome::NotGraded(format!("{}: {reason}", dir.join(&folder).display())),
-            Ok(grade) => match copy(&dir.join(&folder), &store.out.join(&folder)) {
+            Ok(grade) => match copy_all(dir, &store.out, &folder, student) {
                 Err(error) => Outcome::NotGraded(format!("its reports could not be copied: {error}")),
                 Ok(()) => Outcome::Graded(Box::new(grade), folder),
             },
@@ -94,6 +108,17 @@ fn outcome(state: IndexState, name: &str, dir: &Path, store: &Store) -> Outcome 
         },
         IndexState::Waiting => Outcome::Waiting,
         IndexState::Older(newer) => Outcome::Older { newer },
+        IndexState::NoSubmission(score) => Outcome::NoSubmission(score),
+    }
+}
+
+/// Copies a grade, and what is handed back to the student, which may have changed since an earlier merge.
+fn copy_all(from: &Path, to: &Path, grade: &Path, student: &str) -> io::Result<()> {
+    copy(&from.join(grade), &to.join(grade))?;
+    let own = store::student_folder(student);
+    match fs::remove_dir_all(to.join(&own)) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => copy(&from.join(&own), &to.join(&own)),
     }
 }
 
@@ -153,7 +178,7 @@ fn one_of(name: &str, before: Outcome, after: Outcome, remarks: &mut Vec<String>
 fn forbid_two_that_count(entries: &mut [Entry], remarks: &mut Vec<String>) {
     let mut counting: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, entry) in entries.iter().enumerate() {
-        if !matches!(entry.outcome, Outcome::Older { .. }) {
+        if !matches!(entry.outcome, Outcome::Older { .. } | Outcome::NoSubmission(_)) {
             counting.entry(entry.student.clone()).or_default().push(i);
         }
     }

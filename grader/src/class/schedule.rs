@@ -12,7 +12,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::find::{Class, Submission};
 use super::process::{Interrupt, Process, State};
 use super::store::{self, Store};
-use super::{ClassError, ClassOptions, Entry, Identity, Outcome, Summary, at};
+use super::{ClassError, ClassOptions, Entry, Identity, Outcome, Summary, at, regrade, roster};
+use crate::grade::Grade;
+use crate::rubric::{Counts, NoSubmission};
 
 /// How often processes are looked at.
 const TICK: Duration = Duration::from_millis(20);
@@ -42,7 +44,8 @@ struct Job {
 /// Grades until nothing waits or the user stops it.
 pub fn grade(options: &ClassOptions, class: Class, identity: Identity, store: &Store) -> Result<Summary, ClassError> {
     let mut interrupt = Interrupt::watch().map_err(at(&options.out))?;
-    let mut schedule = Schedule::new(options, &class.submissions, class.remarks, identity, store);
+    let before = regrade::read(&options.out);
+    let mut schedule = Schedule::new(options, &class, identity, store)?;
     store.publish(&schedule.summary, options.report)?;
     let mut published = (schedule.summary.graded_now, Instant::now());
     while !(schedule.waiting.is_empty() && schedule.running.is_empty()) {
@@ -59,23 +62,33 @@ pub fn grade(options: &ClassOptions, class: Class, identity: Identity, store: &S
         sleep(TICK);
     }
     schedule.bar.finish_and_clear();
+    let after = regrade::table(&schedule.summary.entries);
+    schedule.summary.changes = regrade::changes(&before, &after);
     store.publish(&schedule.summary, options.report)?;
+    if !schedule.summary.interrupted {
+        regrade::write(&options.out, &after).map_err(at(&options.out))?;
+    }
     Ok(schedule.summary)
 }
 
 impl<'a> Schedule<'a> {
     fn new(
         options: &'a ClassOptions,
-        submissions: &'a [Submission],
-        remarks: Vec<String>,
+        class: &'a Class,
         identity: Identity,
         store: &'a Store,
-    ) -> Self {
+    ) -> Result<Self, ClassError> {
+        let submissions = &class.submissions[..];
+        let rubric = options.accounts.rubric();
         let summary = Summary {
             identity,
             shard: options.shard,
             entries: Vec::with_capacity(submissions.len()),
-            remarks,
+            people: class.people.clone(),
+            title: rubric.title.clone(),
+            max_score: rubric.max_score(),
+            changes: Vec::new(),
+            remarks: class.remarks.clone(),
             graded_now: 0,
             kept: 0,
             interrupted: false,
@@ -88,10 +101,15 @@ impl<'a> Schedule<'a> {
             let entry = Entry { submission: submission.name.clone(), student: submission.student.clone(), outcome };
             schedule.summary.entries.push(entry);
         }
+        for index in 0..submissions.len() {
+            schedule.hand_back(index).map_err(at(&options.out))?;
+        }
+        let zero = rubric.no_submission == NoSubmission::Zero;
+        schedule.summary.entries.extend(roster::without_a_submission(class, zero.then_some(0.0)));
         let style = ProgressStyle::with_template("{bar:30} {pos}/{len} graded, {eta} left");
         schedule.bar =
             ProgressBar::new(schedule.waiting.len() as u64).with_style(style.unwrap_or(ProgressStyle::default_bar()));
-        schedule
+        Ok(schedule)
     }
 
     /// Outcome of a submission before any process is started: kept, superseded, unreadable or waiting.
@@ -103,12 +121,42 @@ impl<'a> Schedule<'a> {
             Ok(key) => key,
             Err(error) => return Outcome::NotGraded(format!("it cannot be read: {error}")),
         };
-        if let Some(grade) = self.store.find(&key) {
-            self.summary.kept += 1;
-            return Outcome::Graded(Box::new(grade), store::folder(&key));
+        // A group's submission is graded once.
+        let is_repeated = self.submissions[..index].iter().any(|other| other.path == submission.path);
+        let regrades = !(self.options.only.is_empty() && self.options.functions.is_empty());
+        if regrades && self.is_named(submission) {
+            if !is_repeated {
+                self.waiting.push_back((index, key));
+            }
+            return Outcome::Waiting;
         }
-        self.waiting.push_back((index, key));
+        let found = match regrades {
+            true => self
+                .store
+                .find(&key)
+                .map(|grade| (grade, key.clone()))
+                .or_else(|| self.store.find_any(&submission.name)),
+            false => self.store.find(&key).map(|grade| (grade, key.clone())),
+        };
+        if let Some((grade, key)) = found {
+            self.summary.kept += usize::from(!is_repeated);
+            return Outcome::Graded(Box::new(self.assessed(submission, grade)), store::folder(&key));
+        }
+        if !is_repeated && !regrades {
+            self.waiting.push_back((index, key));
+        }
         Outcome::Waiting
+    }
+
+    /// Whether a submission is to be graded again.
+    fn is_named(&self, submission: &Submission) -> bool {
+        let only = &self.options.only;
+        only.is_empty() || only.contains(&submission.student) || only.contains(&submission.name)
+    }
+
+    /// The grade that counts for the student.
+    fn assessed(&self, submission: &Submission, grade: Grade) -> Grade {
+        self.options.accounts.assess(grade, &[&submission.student], submission.submitted())
     }
 
     /// Number of submissions that got their outcome since the start.
@@ -134,6 +182,11 @@ impl<'a> Schedule<'a> {
         command.arg("--ends-with").arg(std::process::id().to_string()).args(&self.options.extra);
         if let Some(rubric) = &self.options.rubric {
             command.arg("--rubric").arg(rubric);
+        }
+        let earlier = self.options.out.join("submissions").join(&self.submissions[index].name).join("grade.json");
+        if !self.options.functions.is_empty() && earlier.exists() {
+            command.arg("--earlier").arg(earlier);
+            command.args(self.options.functions.iter().map(|name| format!("--function={name}")));
         }
         let process = Process::start(&mut command, &partial.join("log.txt"), self.options.time_limit)?;
         Ok((partial, process))
@@ -176,6 +229,22 @@ impl<'a> Schedule<'a> {
         Ok(Outcome::Graded(Box::new(grade), store::folder(key)))
     }
 
+    /// Writes the reports of the submission that counts for a student.
+    fn hand_back(&mut self, index: usize) -> io::Result<()> {
+        let student = self.submissions[index].student.clone();
+        if self.options.accounts.rubric().counts == Counts::Best {
+            roster::keep_the_best(&mut self.summary.entries, &student);
+        }
+        let of_student = |entry: &&Entry| entry.student == student;
+        for entry in self.summary.entries.iter().filter(of_student) {
+            if let Outcome::Graded(grade, _) = &entry.outcome {
+                let folder = self.options.out.join(store::student_folder(&student));
+                (self.options.write)(grade, &folder, self.options.accounts.rubric().students.diagnosis)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Adds to `reason` where the log is.
     fn reject(&self, index: usize, partial: &Path, reason: String) -> String {
         let name = &self.submissions[index].name;
@@ -185,16 +254,31 @@ impl<'a> Schedule<'a> {
         }
     }
 
+    /// Gives a submission's outcome to its student, or to all students of a group.
     fn settle(&mut self, index: usize, result: Result<Outcome, String>) {
         let outcome = result.unwrap_or_else(Outcome::NotGraded);
-        let entry = &mut self.summary.entries[index];
+        let name = &self.submissions[index].name;
         let line = match &outcome {
-            Outcome::Graded(grade, _) => format!("{}: {} of {}", entry.submission, grade.score, grade.max_score),
-            Outcome::NotGraded(reason) => format!("{}: not graded: {reason}", entry.submission),
-            Outcome::Waiting | Outcome::Older { .. } => entry.submission.clone(),
+            Outcome::Graded(grade, _) => format!("{name}: {} of {}", grade.score, grade.max_score),
+            Outcome::NotGraded(reason) => format!("{name}: not graded: {reason}"),
+            _ => name.clone(),
         };
         self.summary.graded_now += usize::from(matches!(outcome, Outcome::Graded(..)));
-        entry.outcome = outcome;
+        for of_group in 0..self.submissions.len() {
+            let submission = &self.submissions[of_group];
+            if submission.path != self.submissions[index].path || submission.newer.is_some() {
+                continue;
+            }
+            let own = match outcome.clone() {
+                Outcome::Graded(grade, folder) => Outcome::Graded(Box::new(self.assessed(submission, *grade)), folder),
+                other => other,
+            };
+            self.summary.entries[of_group].outcome = own;
+            if let Err(error) = self.hand_back(of_group) {
+                self.summary.entries[of_group].outcome =
+                    Outcome::NotGraded(format!("its reports cannot be written: {error}"));
+            }
+        }
         self.bar.inc(1);
         self.bar.suspend(|| eprintln!("{line}"));
     }

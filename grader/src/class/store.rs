@@ -9,9 +9,10 @@ use std::thread::sleep;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 
 use super::folders::FOLDERS;
-use super::{ClassError, Entry, Identity, Outcome, Report, Shard, Summary, at};
+use super::{ClassError, Entry, Identity, Outcome, Person, Report, Shard, Summary, at};
 use crate::grade::{FORMAT_VERSION, Grade, MOST_BYTES};
 
 const INDEX: &str = "class.json";
@@ -31,6 +32,12 @@ pub struct Index {
     pub identity: Identity,
     pub shard: Option<Shard>,
     pub remarks: Vec<String>,
+    #[serde(default)]
+    pub people: Vec<Person>,
+    #[serde(default)]
+    pub title: String,
+    #[serde(default)]
+    pub max_score: f64,
     pub submissions: Vec<IndexRow>,
 }
 
@@ -52,8 +59,10 @@ pub enum IndexState {
     /// Why not.
     NotGraded(String),
     Waiting,
-    /// The newer one that counts.
+    /// The newer or better one that counts.
     Older(String),
+    /// The student's score without a submission.
+    NoSubmission(Option<f64>),
 }
 
 impl Store {
@@ -117,6 +126,12 @@ impl Store {
         read_grade(&self.out.join(folder(key))).ok()
     }
 
+    /// The grade of an earlier run, whatever it was graded with, and its key.
+    pub fn find_any(&self, name: &str) -> Option<(Grade, String)> {
+        let folder = self.out.join("submissions").join(name).canonicalize().ok()?;
+        Some((read_grade(&folder).ok()?, folder.file_name()?.to_string_lossy().into_owned()))
+    }
+
     /// Leads from a submission's name to its reports.
     pub fn point(&self, name: &str, key: &str) -> io::Result<()> {
         let target = Path::new("..").join(folder(key));
@@ -145,6 +160,18 @@ pub fn log(out: &Path, name: &str) -> PathBuf {
 /// Path of the grade of a key, in the output folder.
 pub fn folder(key: &str) -> PathBuf {
     Path::new("grades").join(key)
+}
+
+/// Path of what is handed back to a student, in the output folder. The name is safe for a folder, and two students have two.
+pub fn student_folder(student: &str) -> PathBuf {
+    let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.' | '@' | '+' | ' ');
+    let mut name: String = student.chars().map(|c| if is_plain(c) { c } else { '_' }).take(80).collect();
+    if name != student || name.starts_with('.') || name.trim() != name || name.is_empty() {
+        let digest = Sha256::digest(student.as_bytes());
+        let digits: String = digest.iter().take(4).map(|byte| format!("{byte:02x}")).collect();
+        name = format!("{}-{digits}", name.trim().trim_start_matches('.'));
+    }
+    Path::new("students").join(name)
 }
 
 /// Reads the `grade.json` of a folder.
@@ -187,7 +214,7 @@ fn remove_if_there(path: &Path) -> io::Result<()> {
 }
 
 /// Puts a file in its place as a whole: a reader sees the old one or the new one.
-fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let mut file = tempfile::NamedTempFile::new_in(folder)?;
     file.write_all(bytes)?;
@@ -215,6 +242,9 @@ impl Index {
             identity: summary.identity.clone(),
             shard: summary.shard.map(|(k, n)| Shard { k, n }),
             remarks: summary.remarks.clone(),
+            people: summary.people.clone(),
+            title: summary.title.clone(),
+            max_score: summary.max_score,
             submissions: summary.entries.iter().map(IndexRow::of).collect(),
         }
     }
@@ -227,6 +257,7 @@ impl IndexRow {
             Outcome::NotGraded(reason) => IndexState::NotGraded(reason.clone()),
             Outcome::Waiting => IndexState::Waiting,
             Outcome::Older { newer } => IndexState::Older(newer.clone()),
+            Outcome::NoSubmission(score) => IndexState::NoSubmission(*score),
         };
         Self { submission: entry.submission.clone(), student: entry.student.clone(), state }
     }

@@ -7,7 +7,15 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant, SystemTime};
 
 use super::*;
+use crate::assess::Adjustments;
 use crate::reports;
+use crate::rubric::{Counts, Rubric};
+
+mod people;
+mod regrading;
+mod shards;
+
+const OURS: &str = include_str!("../../rubric.toml");
 
 /// Notes the call and obeys; `base` is the folder of the test, `out` where the grade belongs.
 const GRADER: &str = r#"#!/bin/sh
@@ -99,9 +107,22 @@ fn options(base: &Path) -> ClassOptions {
         grader: base.join("grader"),
         time_limit: Duration::from_secs(60),
         rubric: None,
+        accounts: accounts(OURS, base),
+        only: Vec::new(),
+        functions: Vec::new(),
         extra: Vec::new(),
         report: reports::write_class,
+        write: reports::write_final,
     }
+}
+
+/// The rules of a rubric's text, with the adjustments of the class.
+fn accounts(text: &str, base: &Path) -> Accounts {
+    let path = base.join("rubric.toml");
+    fs::write(&path, text).unwrap();
+    let rubric = Rubric::load(Some(&path)).unwrap_or_else(|error| panic!("{error}"));
+    let adjustments = Adjustments::of_class(&base.join("hw"), &rubric).unwrap_or_else(|error| panic!("{error}"));
+    Accounts::new(rubric, adjustments)
 }
 
 fn grade(seed: u64) -> String {
@@ -120,6 +141,7 @@ fn outcomes(summary: &Summary) -> String {
         Outcome::NotGraded(_) => '-',
         Outcome::Older { .. } => 'o',
         Outcome::Waiting => '.',
+        Outcome::NoSubmission(_) => 'n',
     };
     summary.entries.iter().map(letter).collect()
 }
@@ -175,12 +197,12 @@ fn a_second_run_repeats_what_failed_or_changed_and_nothing_else() {
 }
 
 #[test]
-fn another_rubric_in_the_same_file_grades_all_again() {
+fn a_rubric_that_judges_in_another_way_grades_all_again_and_other_points_do_not() {
     let room = Room::new(&[("a", GOOD)]);
-    let options = ClassOptions { rubric: Some(room.path("rubric.toml")), ..options(room.0.path()) };
-    for (text, calls) in [("points = 1", 1), ("points = 1", 1), ("points = 2", 2)] {
-        fs::write(room.path("rubric.toml"), text).unwrap();
-        run(&options).unwrap();
+    let strict = OURS.replacen("tolerance = 1e-9", "tolerance = 1e-12", 1);
+    let richer = OURS.replacen("points = 4.0", "points = 8.0", 1);
+    for (text, calls) in [(OURS, 1), (OURS, 1), (&strict, 2), (&richer, 2), (&strict, 2)] {
+        run(&ClassOptions { accounts: accounts(text, room.0.path()), ..options(room.0.path()) }).unwrap();
         assert_eq!(room.calls().len(), calls, "{text}");
     }
 }
@@ -271,44 +293,8 @@ fn archives_and_folders_are_found_under_names_that_differ() {
     for name in ["anna.zip", "bob@2026.tar.gz", "carl__hw1.TGZ", "dora.rar", ".zip"] {
         fs::write(room.path("hw").join(name), name).unwrap();
     }
-    let class = find::class(&room.path("hw")).unwrap();
+    let class = find::class(&room.path("hw"), Counts::Newest).unwrap();
     let names: Vec<_> = class.submissions.iter().map(|found| (found.student.as_str(), found.name.as_str())).collect();
     assert_eq!(names, [("anna", "anna"), ("anna", "anna.zip"), ("bob", "bob@2026"), ("carl", "carl__hw1")]);
     assert_eq!(class.remarks.len(), 3, "{:?}", class.remarks);
-}
-
-#[test]
-fn shards_join_to_the_whole_class() {
-    let names: Vec<String> = (0..12).map(|i| format!("student{i}")).collect();
-    let room = Room::new(&names.iter().map(|name| (name.as_str(), GOOD)).collect::<Vec<_>>());
-    let dirs: Vec<PathBuf> = (1..=3).map(|k| room.path(&format!("shard{k}"))).collect();
-    let mut seen = BTreeSet::new();
-    for (k, out) in dirs.iter().enumerate() {
-        let options = ClassOptions { shard: Some((k + 1, 3)), out: out.clone(), jobs: 2, ..options(room.0.path()) };
-        seen.extend(run(&options).unwrap().entries.into_iter().map(|entry| entry.submission));
-    }
-    assert_eq!((seen.len(), room.calls().len()), (12, 12));
-    let merged = merge(&dirs, &room.path("merged"), reports::write_class).unwrap();
-    assert_eq!((merged.kept, merged.remarks.len()), (12, 0), "{:?}", merged.remarks);
-    room.run();
-    let read = |folder: &str| fs::read_to_string(room.path(folder).join("grades.csv")).unwrap();
-    assert_eq!(read("merged"), read("out"));
-    assert!(room.path("merged/submissions/student3/grade.json").exists());
-
-    let part = merge(&dirs[..2], &room.path("part"), reports::write_class).unwrap();
-    assert!(part.remarks.iter().any(|remark| remark.starts_with("shard 3/3 is missing")));
-}
-
-#[test]
-fn a_merge_refuses_strangers_and_tells_doubles_and_conflicts() {
-    let room = Room::new(&[("a", GOOD), ("b", GOOD)]);
-    let dir = |name: &str| ClassOptions { out: room.path(name), ..options(room.0.path()) };
-    run(&dir("one")).unwrap();
-    fs::write(room.path("hw/b/do.sh"), format!("{GOOD}\n")).unwrap();
-    run(&dir("two")).unwrap();
-    run(&ClassOptions { seed: 8, ..dir("three") }).unwrap();
-    let join = |names: [&str; 2]| merge(&names.map(|name| room.path(name)), &room.path("merged"), reports::write_class);
-    let joined = join(["one", "two"]).unwrap();
-    assert_eq!((outcomes(&joined).as_str(), joined.remarks.len()), ("+-", 2), "{:?}", joined.remarks);
-    assert!(matches!(join(["one", "three"]), Err(ClassError::Mismatch { what: "seeds", .. })));
 }

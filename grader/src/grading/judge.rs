@@ -11,6 +11,7 @@ use grader_child::Exercise;
 
 use super::load::load;
 use super::{Grading, GradingError, finished};
+use crate::assess::points;
 use crate::diagnosis::diagnose;
 use crate::grade::{CheckGrade, FunctionGrade};
 use crate::reference::REFERENCE;
@@ -82,13 +83,7 @@ impl Grading {
 
     /// Partial credit, also where some checks end in a panic or a time-out, and the mistake that explains the answers.
     fn explain(&self, grade: &mut FunctionGrade, name: &str, subject: &Sandboxed) {
-        let passed = grade.checks.iter().filter(|check| check.status == Status::Passed).count();
-        let is_right_at_heart =
-            grade.checks.iter().any(|check| check.name == Check::Agrees.name() && check.status == Status::Passed);
-        if self.rubric.partial_credit && is_right_at_heart {
-            let share = passed as f64 / grade.checks.len() as f64;
-            grade.score = (grade.max_score * share * 100.0).floor() / 100.0;
-        }
+        grade.score = points(grade.max_score, self.rubric.partial_credit, grade.status, &grade.checks);
         if grade.status == Status::Failed {
             let asked = AssertUnwindSafe(|| diagnose(name, self.seed, subject, variants::of(name)));
             if let Some(diagnosis) = panic::catch_unwind(asked).ok().flatten() {

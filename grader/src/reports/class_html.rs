@@ -23,7 +23,7 @@ pub fn render(rows: &[Row]) -> String {
     let grades: Vec<&Grade> = rows.iter().filter_map(Row::grade).collect();
     let shares: Vec<f64> = grades.iter().map(|grade| share(grade)).collect();
     let body = html! {
-        (head(rows.len(), &grades))
+        (head(rows, &grades))
         div class="charts" {
             (chart("Scores", &histogram("Distribution of scores", &shares), "Submissions by share of the points."))
             (error_against_time(rows))
@@ -35,7 +35,8 @@ pub fn render(rows: &[Row]) -> String {
     page("Class", body)
 }
 
-fn head(submissions: usize, grades: &[&Grade]) -> Markup {
+fn head(rows: &[Row], grades: &[&Grade]) -> Markup {
+    let submissions = rows.iter().filter(|row| row.has_submission()).count();
     let mut shares: Vec<f64> = grades.iter().map(|grade| share(grade)).collect();
     shares.sort_by(f64::total_cmp);
     let percent = |share: Option<f64>| share.map_or("–".to_owned(), |share| format!("{:.0} %", 100.0 * share));
@@ -46,6 +47,7 @@ fn head(submissions: usize, grades: &[&Grade]) -> Markup {
         div class="figures" {
             (figure(&submissions.to_string(), "submissions"))
             @if grades.len() < submissions { (figure(&(submissions - grades.len()).to_string(), "without a grade")) }
+            @if submissions < rows.len() { (figure(&(rows.len() - submissions).to_string(), "students without a submission")) }
             (figure(&percent(median(&shares)), "median score"))
             (figure(&percent(mean), "mean score"))
             (figure(&complete.to_string(), "pass everything"))

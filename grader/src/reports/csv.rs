@@ -13,6 +13,10 @@ const BYTE_ORDER_MARK: &str = "\u{feff}";
 /// Columns at the start of each row. Without a grade the cells of the scores are empty and `note` gives the reason.
 const FIRST: [&str; 5] = ["student", "submission", "score", "max_score", "note"];
 
+/// Columns at the end of each row. `raw_score` is the one before points by hand and the penalty for lateness.
+const LAST: [&str; 8] =
+    ["diagnoses", "worst_error", "run_time_s", "seconds", "raw_score", "submitted", "days_late", "penalty"];
+
 /// The text of `grades.csv`: points of every function first, then their statuses, then the diagnoses.
 pub fn grades(rows: &[Row]) -> io::Result<String> {
     let names = columns(rows);
@@ -30,7 +34,7 @@ pub fn errors(rows: &[Row]) -> io::Result<String> {
     text(["student", "submission", "reason"].map(str::to_owned).to_vec(), failed)
 }
 
-fn text(heading: Vec<String>, rows: impl Iterator<Item = Vec<String>>) -> io::Result<String> {
+pub(super) fn text(heading: Vec<String>, rows: impl Iterator<Item = Vec<String>>) -> io::Result<String> {
     let mut writer = ::csv::WriterBuilder::new().terminator(::csv::Terminator::CRLF).from_writer(Vec::new());
     writer.write_record(heading)?;
     for row in rows {
@@ -56,18 +60,19 @@ fn heading(names: &[&str]) -> Vec<String> {
     let mut cells: Vec<String> = FIRST.map(str::to_owned).to_vec();
     cells.extend(names.iter().map(|name| escape::cell(name)));
     cells.extend(names.iter().map(|name| escape::cell(&format!("{name} status"))));
-    cells.extend(["diagnoses", "worst_error", "run_time_s", "seconds"].map(str::to_owned));
+    cells.extend(LAST.map(str::to_owned));
     cells
 }
 
 fn cells(row: &Row, names: &[&str]) -> Vec<String> {
     let grade = row.grade();
     let mut cells = vec![escape::cell(&row.entry.student), escape::cell(&row.entry.submission)];
-    cells.extend([points(grade.map(|grade| grade.score)), points(grade.map(|grade| grade.max_score))]);
+    let (score, max_score) = row.score();
+    cells.extend([points(score), points(max_score)]);
     cells.push(escape::cell(&row.notes().join("; ")));
     match grade {
         Some(grade) => cells.extend(figures(grade, names)),
-        None => cells.resize(FIRST.len() + 2 * names.len() + 4, String::new()),
+        None => cells.resize(FIRST.len() + 2 * names.len() + LAST.len(), String::new()),
     }
     cells
 }
@@ -79,6 +84,12 @@ fn figures(grade: &Grade, names: &[&str]) -> Vec<String> {
     let mut cells: Vec<String> = scores.chain(names.iter().map(status)).collect();
     cells.push(escape::cell(&diagnoses(view::parts(grade))));
     cells.extend([view::worst_error(grade), view::total_seconds(grade).0, Some(grade.seconds)].map(figure));
+    let account = grade.account.as_ref();
+    cells.push(points(Some(account.map_or(grade.score, |account| account.raw_score))));
+    match account.and_then(|account| account.late.as_ref()) {
+        Some(late) => cells.extend([late.submitted.clone(), late.days.to_string(), points(Some(late.penalty))]),
+        None => cells.extend([const { String::new() }; 3]),
+    }
     cells
 }
 

@@ -1,12 +1,9 @@
 //! `grade.json`: everything that is known of a submission, for the instructor and for later commands.
 
-#[cfg(test)]
 use std::fs;
 use std::io;
-#[cfg(test)]
 use std::path::Path;
 
-#[cfg(test)]
 use crate::grade::FORMAT_VERSION;
 use crate::grade::Grade;
 
@@ -22,7 +19,6 @@ pub fn render(grade: &Grade) -> io::Result<String> {
 }
 
 /// Reads a `grade.json` back.
-#[cfg(test)]
 pub fn read(path: &Path) -> io::Result<Grade> {
     let explain = |kind, reason: String| io::Error::new(kind, format!("cannot read {}: {reason}", path.display()));
     let text = fs::read_to_string(path).map_err(|error| explain(error.kind(), error.to_string()))?;

@@ -1,6 +1,6 @@
 //! A class as its table and its page show it: one row for each submission that counts, graded or not.
 
-use crate::class::{Entry, Outcome};
+use crate::class::{Entry, Outcome, student_folder};
 use crate::grade::Grade;
 
 /// A submission that counts, with the older ones of its student.
@@ -32,10 +32,27 @@ impl Row<'_> {
         }
     }
 
+    /// The score and the most that could be had; `None` where there is no grade.
+    pub fn score(&self) -> (Option<f64>, Option<f64>) {
+        match (&self.entry.outcome, self.grade()) {
+            (_, Some(grade)) => (Some(grade.score), Some(grade.max_score)),
+            (Outcome::NoSubmission(score), None) => (*score, None),
+            _ => (None, None),
+        }
+    }
+
+    /// Whether the student has handed in something.
+    pub fn has_submission(&self) -> bool {
+        !matches!(self.entry.outcome, Outcome::NoSubmission(_))
+    }
+
     /// Path of the submission's page, relative to the class's, parts divided by `/`.
     pub fn page(&self) -> Option<String> {
         match &self.entry.outcome {
-            Outcome::Graded(_, folder) => Some(folder.join("report.html").to_string_lossy().replace('\\', "/")),
+            Outcome::Graded(..) => {
+                let page = student_folder(&self.entry.student).join("report.html");
+                Some(page.to_string_lossy().replace('\\', "/"))
+            }
             _ => None,
         }
     }
@@ -46,7 +63,8 @@ impl Row<'_> {
             Outcome::Graded(grade, _) => grade.remarks.clone(),
             Outcome::NotGraded(reason) => vec![format!("not graded: {reason}")],
             Outcome::Waiting => vec!["not graded yet".to_owned()],
-            Outcome::Older { newer } => vec![format!("{newer} is newer")],
+            Outcome::Older { newer } => vec![format!("{newer} counts")],
+            Outcome::NoSubmission(_) => vec!["no submission".to_owned()],
         };
         if !self.older.is_empty() {
             notes.push(format!("in place of {}", self.older.join(", ")));

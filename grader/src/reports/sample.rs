@@ -32,6 +32,7 @@ pub fn grade(variant: usize) -> Grade {
         remarks: if variant % 5 == 1 { vec!["README.txt was left aside".to_owned()] } else { Vec::new() },
         functions,
         simulation: FunctionGrade { name: "simulation".to_owned(), max_score: 12.0, score: 0.0, ..function(3, 0) },
+        account: None,
         study: None,
         seconds: 12.345678,
     }
@@ -160,6 +161,10 @@ pub fn empty_class() -> Summary {
         },
         shard: None,
         entries: Vec::new(),
+        people: Vec::new(),
+        title: "Homework".to_owned(),
+        max_score: 100.0,
+        changes: Vec::new(),
         remarks: Vec::new(),
         graded_now: 0,
         kept: 0,

@@ -1,0 +1,121 @@
+//! From what the checks of a submission found to the score that counts: the rubric's points, adjustments by hand, lateness. A change of
+//! any of these needs no new grading.
+
+mod adjustments;
+mod metadata;
+#[cfg(test)]
+mod tests;
+
+use grader::status::Status;
+use jiff::Timestamp;
+
+use crate::grade::{Account, CheckGrade, FunctionGrade, Grade};
+use crate::reference::compare::Check;
+use crate::rubric::Rubric;
+pub use adjustments::{ADJUSTMENTS, Adjustments};
+pub use metadata::Metadata;
+
+/// The points of a function. A part of them is kept where the answers agree with the reference and other checks fail.
+pub fn points(max_score: f64, partial_credit: bool, status: Status, checks: &[CheckGrade]) -> f64 {
+    if status == Status::Passed {
+        return max_score;
+    }
+    let passed = checks.iter().filter(|check| check.status == Status::Passed).count();
+    let is_right_at_heart =
+        checks.iter().any(|check| check.name == Check::Agrees.name() && check.status == Status::Passed);
+    if !(partial_credit && is_right_at_heart) {
+        return 0.0;
+    }
+    let share = passed as f64 / checks.len() as f64;
+    (max_score * share * 100.0).floor() / 100.0
+}
+
+/// All that decides about points, once a submission is graded.
+#[derive(Clone, Debug)]
+pub struct Accounts {
+    rubric: Rubric,
+    adjustments: Adjustments,
+}
+
+impl Accounts {
+    /// The rubric's rules, with adjustments by hand.
+    pub fn new(rubric: Rubric, adjustments: Adjustments) -> Self {
+        Self { rubric, adjustments }
+    }
+
+    /// The rubric.
+    pub fn rubric(&self) -> &Rubric {
+        &self.rubric
+    }
+
+    /// Names in the table of adjustments that are not among the students.
+    pub fn strangers(&self, students: &[&str]) -> Vec<String> {
+        self.adjustments.strangers(students)
+    }
+
+    /// The grade that counts for a student, known by any of these names. Without a time, a submission is not late.
+    pub fn assess(&self, mut grade: Grade, students: &[&str], submitted: Option<Timestamp>) -> Grade {
+        self.recount(&mut grade);
+        let raw_score = grade.score;
+        let adjustments = self.adjustments.of(students);
+        for adjustment in &adjustments {
+            if let (Some(name), Some(points)) = (&adjustment.function, adjustment.points) {
+                let parts = grade.functions.iter_mut().chain([&mut grade.simulation]);
+                let change = parts.filter(|part| part.name == *name).map(|part| {
+                    let change = points - part.score;
+                    part.score = points;
+                    change
+                });
+                grade.score += change.sum::<f64>();
+                grade.remarks.push(format!("{name}: {points} points, given by hand"));
+            }
+        }
+        let deadline = self.rubric.deadline.as_ref();
+        let late =
+            deadline.zip(submitted).map(|(deadline, at)| deadline.lateness(&self.rubric.extensions, students, at));
+        if let Some(late) = late.as_ref().filter(|late| late.days > 0) {
+            let days = if late.days == 1 { "1 day".to_owned() } else { format!("{} days", late.days) };
+            let before = rounded(grade.score);
+            grade.score *= 1.0 - late.penalty;
+            let share = rounded(100.0 * late.penalty);
+            grade.remarks.push(format!("{days} late: {before} points, less {share} %, are {}", rounded(grade.score)));
+        }
+        if let Some(points) = adjustments.iter().rfind(|one| one.function.is_none()).and_then(|whole| whole.points) {
+            grade.score = points;
+            grade.remarks.push(format!("{points} points in all, given by hand"));
+        }
+        grade.remarks.extend(adjustments.iter().filter_map(|adjustment| adjustment.comment.clone()));
+        grade.score = rounded(grade.score).clamp(0.0, grade.max_score);
+        let student = students.first().map(|student| (*student).to_owned()).unwrap_or_default();
+        grade.account = Some(Account { student, raw_score: rounded(raw_score), late, adjustments });
+        grade
+    }
+
+    /// Takes points and hints from the rubric as it is now.
+    fn recount(&self, grade: &mut Grade) {
+        let Rubric { partial_credit, students, functions, simulation, .. } = &self.rubric;
+        let mut change = (0.0, 0.0);
+        let mut count = |part: &mut FunctionGrade, max_score: f64| {
+            let score = points(max_score, *partial_credit, part.status, &part.checks);
+            change = (change.0 + score - part.score, change.1 + max_score - part.max_score);
+            (part.score, part.max_score) = (score, max_score);
+        };
+        for part in &mut grade.functions {
+            if let Some(function) = functions.iter().find(|function| *function.name.get_ref() == part.name) {
+                count(part, *function.points.get_ref());
+                let is_shown = students.hints && part.status != Status::Passed;
+                part.hint = function.hint.clone().filter(|_| is_shown);
+            }
+        }
+        if grade.simulation.name == "simulation" {
+            count(&mut grade.simulation, simulation.points);
+        }
+        grade.score = rounded(grade.score + change.0);
+        grade.max_score = rounded(grade.max_score + change.1);
+    }
+}
+
+/// Points without the round-off of sums and shares.
+fn rounded(points: f64) -> f64 {
+    (points * 1e4).round() / 1e4
+}

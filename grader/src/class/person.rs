@@ -1,0 +1,28 @@
+//! One student of the roster.
+
+use serde::{Deserialize, Serialize};
+
+/// A student of the roster. What gradebooks know them by is empty where `students.csv` does not tell.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Person {
+    pub student: String,
+    pub name: String,
+    pub id: String,
+    pub login: String,
+    pub email: String,
+    pub section: String,
+}
+
+impl Person {
+    /// Fills in what another row tells.
+    pub fn complete(&mut self, other: Self) {
+        let Self { name, id, login, email, section, .. } = other;
+        let own = [&mut self.name, &mut self.id, &mut self.login, &mut self.email, &mut self.section];
+        for (own, told) in own.into_iter().zip([name, id, login, email, section]) {
+            if own.is_empty() {
+                *own = told;
+            }
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! Rosters, groups, deadlines and the submission that counts.
+
+use super::*;
+
+const DEADLINE: &str = "\n[deadline]\nat = 2026-05-04T12:00:00Z\npenalty_per_day = 0.5\n";
+
+/// The named columns of `grades.csv`, by row.
+fn columns(room: &Room, names: &[&str]) -> Vec<Vec<String>> {
+    let table = room.table("out/grades.csv");
+    let places: Vec<usize> = names.iter().map(|name| table[0].iter().position(|cell| cell == name).unwrap()).collect();
+    table[1..].iter().map(|row| places.iter().map(|&place| row[place].clone()).collect()).collect()
+}
+
+fn run_with(room: &Room, rubric: &str) -> Summary {
+    run(&ClassOptions { accounts: accounts(rubric, room.0.path()), ..options(room.0.path()) }).unwrap()
+}
+
+fn score(room: &Room, student: &str) -> f64 {
+    let text = fs::read(room.path(&format!("out/students/{student}/grade.json"))).unwrap();
+    serde_json::from_slice::<Grade>(&text).unwrap().score
+}
+
+#[test]
+fn a_group_is_graded_once_and_a_student_without_a_submission_has_a_row() {
+    let room = Room::new(&[("team", GOOD), ("dora", GOOD)]);
+    let students = "submission,student,name,id,login,email,section\nteam,anna,\"=Ünal, Anna\",17,anna1,anna@x.org,A\n\
+                    team,bob,Bob,18,,,\n,carl,Carl,19,,carl@x.org,B\ngone,emil,,,,,\n";
+    fs::write(room.path("hw/students.csv"), students).unwrap();
+    let summary = room.run();
+    assert_eq!((room.calls(), summary.graded_now), (vec!["dora".to_owned(), "team".to_owned()], 2));
+    assert_eq!(summary.remarks, ["students.csv: there is no submission gone"]);
+    let rows = columns(&room, &["student", "submission", "score", "note"]);
+    let expected = [
+        ["anna", "team", "1.5", ""],
+        ["bob", "team", "1.5", ""],
+        ["carl", "", "", "no submission"],
+        ["dora", "dora", "1.5", ""],
+        ["emil", "", "", "no submission"],
+    ];
+    assert_eq!(rows, expected);
+    let canvas = room.table("out/canvas.csv");
+    assert_eq!(canvas[0], ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "Finite elements"]);
+    assert_eq!(canvas[1], ["    Points Possible", "", "", "", "", "100"]);
+    assert!(
+        canvas.contains(&["'=Ünal, Anna", "", "17", "anna1", "A", "1.5"].map(str::to_owned).to_vec()),
+        "{canvas:?}"
+    );
+    assert!(canvas.contains(&["Carl", "", "19", "", "B", ""].map(str::to_owned).to_vec()));
+    let moodle = room.table("out/moodle.csv");
+    assert!(
+        moodle.contains(&["Carl", "19", "", "carl@x.org", "", "100", ""].map(str::to_owned).to_vec()),
+        "{moodle:?}"
+    );
+    assert_eq!((canvas.len(), moodle.len()), (7, 6));
+
+    run_with(
+        &room,
+        &OURS.replacen("partial_credit", "no_submission = \"zero\"\ntitle = \"One (7)\"\npartial_credit", 1),
+    );
+    assert_eq!(columns(&room, &["score"])[2], ["0"]);
+    let canvas = room.table("out/canvas.csv");
+    assert_eq!(canvas[0][5], "One (7)");
+    assert!(canvas.contains(&["Carl", "", "19", "", "B", "0"].map(str::to_owned).to_vec()));
+    assert_eq!(room.calls().len(), 2);
+}
+
+#[test]
+fn a_deadline_counts_for_each_student_of_a_group_and_shows_both_scores() {
+    let room = Room::new(&[("team", GOOD), ("dora@2026-05-05T11-00-00Z", GOOD)]);
+    let students = "submission,student,time\nteam,anna,2026-05-04T15:00:00+02:00\nteam,bob,2026-05-04T15:00:00+02:00\n";
+    fs::write(room.path("hw/students.csv"), students).unwrap();
+    let extension = "[[extension]]\nstudent = \"anna\"\ndays = 7\n[[extension]]\nstudent = \"fritz\"\ndays = 1\n";
+    let summary = run_with(&room, &format!("{OURS}{DEADLINE}{extension}"));
+    let rows = columns(&room, &["student", "score", "raw_score", "submitted", "days_late", "penalty"]);
+    let expected = [
+        ["anna", "1.5", "1.5", "2026-05-04T13:00:00Z", "0", "0"],
+        ["bob", "0.75", "1.5", "2026-05-04T13:00:00Z", "1", "0.5"],
+        ["dora", "0.75", "1.5", "2026-05-05T11:00:00Z", "1", "0.5"],
+    ];
+    assert_eq!(rows, expected);
+    assert_eq!((score(&room, "anna"), score(&room, "bob")), (1.5, 0.75));
+    assert_eq!(summary.remarks, ["the rubric has an extension for fritz, who is no student"]);
+    let page = fs::read_to_string(room.path("out/students/bob/report.html")).unwrap();
+    assert!(page.contains("1 day late: 1.5 points, less 50 %, are 0.75"), "{page}");
+    assert_eq!(room.calls().len(), 2);
+}
+
+#[test]
+fn the_best_submission_counts_after_the_penalty_if_the_rubric_says_so() {
+    let better = r#"sed 's/"score": 1.5/"score": 1.75/' "$base/grade.json" >"$out/grade.json""#;
+    let room =
+        Room::new(&[("anna@2026-05-04T11-00-00Z", GOOD), ("anna@2026-05-04T13-00-00Z", better), ("bob", "exit 1")]);
+    let best = OURS.replacen("partial_credit", "counts = \"best\"\npartial_credit", 1);
+    for (rubric, score, old) in
+        [(OURS.to_owned(), "1.75", "11"), (format!("{best}{DEADLINE}"), "1.5", "13"), (best, "1.75", "11")]
+    {
+        let summary = run_with(&room, &rubric);
+        let rows = columns(&room, &["student", "score", "note"]);
+        assert_eq!(rows[0], ["anna", score, &format!("in place of anna@2026-05-04T{old}-00-00Z")]);
+        assert_eq!(self::score(&room, "anna").to_string(), score);
+        assert_eq!((rows.len(), outcomes(&summary).matches('o').count()), (2, 1));
+    }
+    assert_eq!(room.calls().iter().filter(|name| name.starts_with("anna")).count(), 2, "none is graded twice");
+}
+
+#[test]
+fn adjustments_reach_the_student_and_need_no_new_grading() {
+    let room = Room::new(&[("anna", GOOD), ("bob", GOOD)]);
+    room.run();
+    fs::write(
+        room.path("hw/adjustments.csv"),
+        "student,function,points,reason,comment\nanna,,2,appeal of May,Sorry!\nx,,1,y,\n",
+    )
+    .unwrap();
+    let summary = room.run();
+    let rows = columns(&room, &["student", "score", "raw_score", "note"]);
+    assert_eq!(rows, [["anna", "2", "1.5", "2 points in all, given by hand; Sorry!"], ["bob", "1.5", "1.5", ""]]);
+    let page = fs::read_to_string(room.path("out/students/anna/report.md")).unwrap();
+    assert!(page.contains("Sorry") && !page.contains("appeal of May"));
+    assert_eq!((room.calls().len(), summary.remarks), (2, vec!["adjustments.csv: there is no student x".to_owned()]));
+}
+
+#[test]
+fn no_name_of_a_student_leads_out_of_the_results() {
+    let room = Room::new(&[("a", GOOD), ("b", GOOD)]);
+    fs::write(room.path("hw/students.csv"), "submission,student\na,../../evil\nb,..\n").unwrap();
+    room.run();
+    let names: Vec<_> =
+        fs::read_dir(room.path("out/students")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(names.len(), 2, "{names:?}");
+    assert!(!room.path("evil").exists() && !room.path("out/evil").exists() && !room.path("out/grade.json").exists());
+}
