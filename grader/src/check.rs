@@ -1,5 +1,6 @@
 //! The public checks on a student's own machine: every function of a repository, those that do not compile included.
 
+mod confined;
 mod program;
 mod watch;
 
@@ -18,9 +19,10 @@ use crate::implementation::Trouble;
 use crate::implementation::sandboxed::Sandboxed;
 use crate::properties::outcome::{Mistake, message_of};
 use crate::properties::{Check, Course, FUNCTIONS};
-use crate::sandbox::{Confined, Limits, Profile, Sandbox};
+use crate::sandbox::{Isolation, Sandbox};
 use crate::status::Status;
 use crate::submission::{Source, Submission, Unreadable};
+use confined::{own_repository, sandbox, starter};
 pub use program::{Options, main};
 use watch::watch;
 
@@ -56,6 +58,9 @@ pub enum CheckError {
     /// A name that no function has.
     #[error("`{0}` is not a function of the course; the README lists the names")]
     Unknown(String),
+    /// The functions are another's, and this machine cannot confine them.
+    #[error("{0}; add `--without-sandbox` if you trust the functions as you trust yourself")]
+    Unconfined(Isolation),
     /// Saved files cannot be noticed.
     #[error("{0}; run `check` without `--watch`")]
     Watch(#[from] notify::Error),
@@ -85,19 +90,27 @@ pub struct Report {
 /// Number of failing checks of one function that are shown at once.
 const MOST_MESSAGES: usize = 3;
 
-/// Checks the functions of the repository at `folder`, or one of them.
+/// Checks the functions of the repository at `folder`, or one of them, without a sandbox.
 ///
 /// # Errors
 /// The reason if no function can be checked; a function that fails is not an error.
 pub fn check(folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckError> {
+    check_in(&Sandbox::none(), folder, only)
+}
+
+/// The same with the functions in a sandbox.
+///
+/// # Errors
+/// The reason if no function can be checked.
+pub fn check_in(sandbox: &Sandbox, folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckError> {
     let submission = usable(folder, only)?;
     let bar = bar();
-    let prebuilt = Prebuilt::new(&library_root(folder))?;
+    let prebuilt = Prebuilt::new(&own_repository())?;
     bar.set_message("compiling");
     let work = tempfile::Builder::new().prefix("check-").tempdir_in(&prebuilt.folder)?;
     let wanted = wanted(&submission, only);
-    let built = build(&prebuilt, &Sandbox::none(), &plan(&submission, &wanted), work.path())?;
-    let start = |program: Option<PathBuf>| Sandboxed::new(starter(program, work.path().to_owned()), LIMIT);
+    let built = build(&prebuilt, sandbox, &plan(&submission, &wanted), work.path())?;
+    let start = |program: Option<PathBuf>| Sandboxed::new(starter(sandbox, program, work.path().to_owned()), LIMIT);
     // Two processes, because a check may need another function while the one that it judges is not done.
     let (subject, trusted) = (start(built.program.clone()), start(built.program.clone()));
     let mut reports = Vec::new();
@@ -143,15 +156,6 @@ fn bar() -> ProgressBar {
     bar.set_message("preparing libraries; the first time takes a minute");
     bar.tick();
     bar
-}
-
-/// The grader builds its libraries from the repository that is checked; where that is only a folder of functions, from its own.
-fn library_root(folder: &Path) -> PathBuf {
-    if folder.join("grader/child/Cargo.toml").exists() {
-        return folder.to_owned();
-    }
-    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
-    own.parent().unwrap_or(own).to_owned()
 }
 
 fn refused(line: Option<usize>, reason: &str) -> String {
@@ -214,31 +218,6 @@ fn held_to(name: &str, checks: &[Check], course: &Course, missing: &[&str]) -> (
     (status, messages)
 }
 
-fn starter(program: Option<PathBuf>, folder: PathBuf) -> impl Fn() -> io::Result<crate::sandbox::Running> + 'static {
-    move || {
-        let Some(program) = program.clone() else { return Err(io::ErrorKind::NotFound.into()) };
-        let limits = Limits {
-            wall: Duration::from_secs(600),
-            cpu: Duration::from_secs(600),
-            memory: 4 << 30,
-            processes: 64,
-            file_size: 0,
-            open_files: 64,
-            output: 0,
-        };
-        Sandbox::none().start(&Confined {
-            program,
-            arguments: Vec::new(),
-            environment: Vec::new(),
-            folder: folder.clone(),
-            readable: Vec::new(),
-            writable: Vec::new(),
-            profile: Profile::Submission,
-            limits,
-        })
-    }
-}
-
 /// Prints what was found, one line for each function and what to do below those that fail.
 pub fn print(reports: &[Report]) {
     for report in reports {
@@ -269,10 +248,11 @@ pub fn print(reports: &[Report]) {
 /// # Errors
 /// The reason if no function can be checked.
 pub fn run(options: &Options) -> Result<(), CheckError> {
+    let sandbox = sandbox(options)?;
     if options.watch {
-        return watch(&options.folder, options.only.as_deref());
+        return watch(&sandbox, &options.folder, options.only.as_deref());
     }
-    print(&check(&options.folder, options.only.as_deref())?);
+    print(&check_in(&sandbox, &options.folder, options.only.as_deref())?);
     Ok(())
 }
 

@@ -28,7 +28,7 @@ pub use key::Identity;
 pub use person::Person;
 pub use process::end_with;
 pub use regrade::Change;
-pub use store::student_folder;
+pub use store::{Index, student_folder};
 
 /// Writes what is known of a class into a folder; called again and again as a run goes on.
 pub type Report = fn(&Summary, &Path) -> io::Result<()>;
@@ -153,7 +153,7 @@ fn at(path: &Path) -> impl FnOnce(io::Error) -> ClassError {
 /// The part of a class that a run was given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Shard {
+pub struct Shard {
     k: usize,
     n: usize,
 }

@@ -78,9 +78,9 @@ pub enum Command {
         /// A new or empty folder.
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
-        /// Seed of the random inputs.
-        #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed, allow_hyphen_values = true)]
-        seed: u64,
+        /// Seed of the random inputs; drawn now unless given.
+        #[arg(long, value_name = "N", value_parser = seed, allow_hyphen_values = true)]
+        seed: Option<u64>,
         /// Pack the sources of all dependencies too, so that setting up needs no crates from the network.
         #[arg(long)]
         vendor: bool,
@@ -103,9 +103,9 @@ pub struct GradeOptions {
     /// Folder for the results.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Seed of the random inputs.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed, allow_hyphen_values = true)]
-    pub seed: u64,
+    /// Seed of the random inputs, to repeat a grading. Otherwise one is drawn and written into the results, for a class once.
+    #[arg(long, value_name = "N", value_parser = seed, allow_hyphen_values = true)]
+    pub seed: Option<u64>,
     /// Points, levels and tolerances, instead of the grader's own.
     #[arg(long, value_name = "FILE")]
     pub rubric: Option<PathBuf>,

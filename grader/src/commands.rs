@@ -18,7 +18,7 @@ use crate::grading::{Grading, repository};
 use crate::pack::{self, PackOptions};
 use crate::reports::{self, Options};
 use crate::rubric::{Role, Rubric};
-use crate::{archive, class, handout};
+use crate::{archive, class, handout, seed};
 
 /// The grader or its machine failed; there is no grade.
 pub const GRADER_FAILED: u8 = 1;
@@ -79,12 +79,14 @@ pub fn grade(
     let reports = Options { show_diagnosis: rubric.students.diagnosis, origin };
     let show_hints = rubric.students.hints;
     let metadata = metadata.map(Metadata::read).transpose().map_err(unusable)?;
+    let earlier = again.earlier.as_deref().map(reports::json::read).transpose().map_err(failed)?;
+    let seed = options.seed.or(earlier.as_ref().map(|earlier| earlier.seed)).unwrap_or_else(seed::drawn);
     let accounts = Accounts::new(rubric.clone(), Adjustments::default());
-    let grading = Grading::new(&repository(), rubric, sandbox(options)?, options.seed).map_err(failed)?;
+    let grading = Grading::new(&repository(), rubric, sandbox(options)?, seed).map_err(failed)?;
     let grading = if options.report { grading.with_study() } else { grading };
     let read = read(submission);
-    let graded = match &again.earlier {
-        Some(earlier) => grading.grade_again(&read, &reports::json::read(earlier).map_err(failed)?, &again.function),
+    let graded = match &earlier {
+        Some(earlier) => grading.grade_again(&read, earlier, &again.function),
         None => grading.grade(&read),
     };
     let mut grade = graded.map_err(failed)?;
@@ -164,7 +166,8 @@ pub fn class(
     class::apart(folder, &options.out).map_err(unusable)?;
     writable(&options.out)?;
     // What all submissions share is built before the first one, and the sandbox is looked at once.
-    let _ = Grading::new(&repository(), rubric, sandbox(options)?, options.seed).map_err(failed)?;
+    let seed = seed::of_class(&options.out, options.seed, shard.is_some()).map_err(unusable)?;
+    let _ = Grading::new(&repository(), rubric, sandbox(options)?, seed).map_err(failed)?;
     let flags = [(options.without_sandbox, "--without-sandbox"), (options.report, "--report")];
     let extra = flags.iter().filter(|(is_given, _)| *is_given).map(|(_, flag)| (*flag).to_owned()).collect();
     let cores = thread::available_parallelism().map_or(1, Into::into);
@@ -173,7 +176,7 @@ pub fn class(
         out: options.out.clone(),
         jobs: jobs.unwrap_or(cores).max(1),
         shard,
-        seed: options.seed,
+        seed,
         grader: env::current_exe().map_err(failed)?,
         time_limit: longest,
         rubric: options.rubric.clone(),

@@ -87,6 +87,14 @@ pub struct Run {
     /// `None` if the submission gave no answer.
     pub submission: Option<Outcome>,
     pub reference: Outcome,
+    /// Whether the submission's positions are the reference's. Of another run the time means nothing.
+    #[serde(default = "right")]
+    pub is_right: bool,
+}
+
+/// Records of before do not say.
+fn right() -> bool {
+    true
 }
 
 /// Result of a simulation.

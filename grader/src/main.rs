@@ -16,6 +16,7 @@ mod pack;
 mod reference;
 mod reports;
 mod rubric;
+mod seed;
 mod variants;
 
 use std::env;
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
         Command::Merge { folders, out } => commands::merge(&folders, &out),
         Command::Sandbox => commands::sandbox_layers(),
         Command::Pack { platform, out, seed, vendor } => {
+            let seed = seed.unwrap_or_else(seed::drawn);
             commands::pack(PackOptions { platform, out, repository: grading::repository(), seed, vendor })
         }
     });

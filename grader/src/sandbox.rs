@@ -13,6 +13,8 @@ mod confine;
 mod enter;
 #[cfg(target_os = "linux")]
 mod files;
+#[cfg(target_os = "linux")]
+mod memory;
 mod output;
 #[cfg(target_os = "linux")]
 mod owner;
@@ -53,7 +55,7 @@ pub struct Limits {
     pub wall: Duration,
     /// Processor time of one process, rounded up to seconds.
     pub cpu: Duration,
-    /// Address space of one process, bytes.
+    /// Address space of one process, and what all processes together hold, bytes.
     pub memory: u64,
     /// Processes and threads.
     pub processes: u64,

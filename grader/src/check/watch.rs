@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use notify::{RecursiveMode, Watcher, recommended_watcher};
 
-use super::{CheckError, check, print, usable};
+use super::{CheckError, check_in, print, usable};
+use crate::sandbox::Sandbox;
 
 /// Editors save in several strokes; this long without another one counts as saved.
 const QUIET: Duration = Duration::from_millis(200);
@@ -16,7 +17,7 @@ const QUIET: Duration = Duration::from_millis(200);
 /// # Errors
 /// The reason if the folder or the name is not usable or cannot be watched. Problems that a later check finds are printed, and
 /// watching goes on.
-pub fn watch(folder: &Path, only: Option<&str>) -> Result<(), CheckError> {
+pub fn watch(sandbox: &Sandbox, folder: &Path, only: Option<&str>) -> Result<(), CheckError> {
     usable(folder, only)?;
     let (sender, changes) = channel();
     let mut watcher = recommended_watcher(move |event: notify::Result<notify::Event>| {
@@ -28,7 +29,7 @@ pub fn watch(folder: &Path, only: Option<&str>) -> Result<(), CheckError> {
     })?;
     watcher.watch(&folder.join("src"), RecursiveMode::NonRecursive)?;
     loop {
-        match check(folder, only) {
+        match check_in(sandbox, folder, only) {
             Ok(reports) => print(&reports),
             Err(error) => eprintln!("{error}"),
         }

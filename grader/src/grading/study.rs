@@ -11,7 +11,7 @@ use nalgebra::DVector;
 
 use super::programs::start;
 use super::truth::{Truth, truth};
-use super::whole::{LIMIT, Whole, scene};
+use super::whole::{LIMIT, Whole, distance, scene};
 use super::{Grading, GradingError};
 use crate::grade::{FunctionGrade, Outcome, Run, Study};
 
@@ -23,6 +23,9 @@ const TIME_STEPS: [f64; 4] = [0.02, 0.01, 0.005, 0.0025];
 
 /// Runs, the fastest of which counts.
 const REPEATS: usize = 3;
+
+/// Largest distance from the reference's positions at which a run is right, m. The methods themselves err a thousand times as much.
+const RIGHT: f64 = 1e-5;
 
 /// A run that takes longer than this is not repeated: it is long enough to be timed once.
 const LONG: Duration = Duration::from_secs(1);
@@ -53,11 +56,15 @@ impl Grading {
                 // One time-out is waited for, and no second one.
                 let found = if answers { outcome(&subject, &scene, &truth) } else { None };
                 answers = found.is_some();
+                let (reference, expected) = expected.ok_or_else(silent)?;
+                let own = found.iter().flat_map(|(_, answers)| answers);
+                let is_right = own.zip(&expected).all(|(own, expected)| distance(own, expected) <= RIGHT);
                 study.runs.push(Run {
                     integrator: integrator.to_owned(),
                     dt,
-                    submission: found,
-                    reference: expected.ok_or_else(silent)?,
+                    submission: found.map(|(outcome, _)| outcome),
+                    reference,
+                    is_right,
                 });
             }
         }
@@ -65,20 +72,24 @@ impl Grading {
     }
 }
 
-/// Runs a scene a few times; `None` if an answer is missing or not valid.
-fn outcome(program: &Sandboxed, scene: &Scene, truth: &Truth) -> Option<Outcome> {
-    let mut best: Option<Outcome> = None;
+/// Positions after each step of a run.
+type Positions = Vec<DVector<f64>>;
+
+/// Runs a scene a few times, and keeps all their positions; `None` if an answer is missing or not valid.
+fn outcome(program: &Sandboxed, scene: &Scene, truth: &Truth) -> Option<(Outcome, Vec<Positions>)> {
+    let (mut best, mut answers): (Option<Outcome>, _) = (None, Vec::new());
     for _ in 0..REPEATS {
         // In a process of its own, whose time is not yet used up.
         program.next_function();
         let (positions, seconds) = program.simulate(scene, LIMIT).ok()?;
         let error = error(&positions, scene, truth)?;
+        answers.push(positions);
         best = best.filter(|best| best.seconds <= seconds).or(Some(Outcome { error, seconds }));
         if seconds > LONG.as_secs_f64() {
             break;
         }
     }
-    best
+    best.map(|best| (best, answers))
 }
 
 /// Distance from the truth after the last step, m. One more vector follows it: that of the display surface.

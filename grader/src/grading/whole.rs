@@ -175,7 +175,7 @@ fn absent(functions: &BTreeMap<String, FunctionGrade>) -> Vec<&str> {
 }
 
 /// Largest distance between two simulations; ∞ where they cannot be compared.
-fn distance(positions: &[DVector<f64>], expected: &[DVector<f64>]) -> f64 {
+pub(super) fn distance(positions: &[DVector<f64>], expected: &[DVector<f64>]) -> f64 {
     let is_comparable = positions.len() == expected.len()
         && positions.iter().zip(expected).all(|(a, b)| a.len() == b.len() && a.iter().all(|x| x.is_finite()));
     if !is_comparable {

@@ -64,7 +64,7 @@ fn median(sorted: &[f64]) -> Option<f64> {
     if sorted.len() % 2 == 1 { Some(upper) } else { Some(0.5 * (upper + sorted[sorted.len() / 2 - 1])) }
 }
 
-/// Every submission that answers, and the reference among them.
+/// Every submission with a right function, and the reference among them.
 fn error_against_time(rows: &[Row]) -> Markup {
     let heading = "Error against run time";
     let dots = |is_full: bool| rows.iter().filter_map(|row| dot(row, is_full)).collect::<Vec<_>>();
@@ -86,31 +86,31 @@ fn error_against_time(rows: &[Row]) -> Markup {
         Chart::new(heading, Axis::log("run time, sum over the functions (s)"), Axis::log("worst relative error"));
     figure.size = CHART;
     figure.series = vec![
-        series("all functions answer", SUBMISSION, false, dots(true)),
-        series("some functions give no answer: their time is not in the sum", SUBMISSION, true, dots(false)),
+        series("all functions are right", SUBMISSION, false, dots(true)),
+        series("some functions are wrong: their time is not in the sum", SUBMISSION, true, dots(false)),
         series("reference, at round-off", REFERENCE, false, reference.into_iter().collect()),
     ];
     figure.series.retain(|series| !series.dots.is_empty());
     if figure.series.is_empty() {
-        return html! { figure { h2 { (heading) } p class="soft" { "No submission has answered yet." } } };
+        return html! { figure { h2 { (heading) } p class="soft" { "No submission has a right function yet." } } };
     }
     chart(heading, &figure.draw(), "Errors below 1e-16 are drawn at 1e-16.")
 }
 
-/// A submission's error and time; `None` unless all functions answer, or some do not, as asked.
+/// A submission's error and time; `None` unless all functions are right, or some are not, as asked.
 fn dot(row: &Row, is_full: bool) -> Option<Dot> {
     let grade = row.grade()?;
-    let (seconds, answered) = view::total_seconds(grade);
+    let (seconds, right) = view::total_seconds(grade);
     let (x, error) = (seconds?, view::worst_error(grade)?);
     let title = format!(
-        "{}: error {}, {}, {answered} of {} functions answer, {} points",
+        "{}: error {}, {}, {right} of {} functions right, {} points",
         escape::line(&row.entry.student),
         view::error(Some(error)),
         view::seconds(Some(x)),
         grade.functions.len(),
         view::points(grade.score)
     );
-    let is_wanted = (answered == grade.functions.len()) == is_full;
+    let is_wanted = (right == grade.functions.len()) == is_full;
     is_wanted.then(|| Dot { x, y: error.max(view::ERROR_FLOOR), title, ..Dot::default() })
 }
 

@@ -4,8 +4,7 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-use crate::grade::FORMAT_VERSION;
-use crate::grade::Grade;
+use crate::grade::{FORMAT_VERSION, Grade, MOST_BYTES};
 
 /// The text of `grade.json`. Errors and times that are no finite numbers become null; scores must be numbers.
 pub fn render(grade: &Grade) -> io::Result<String> {
@@ -21,6 +20,13 @@ pub fn render(grade: &Grade) -> io::Result<String> {
 /// Reads a `grade.json` back.
 pub fn read(path: &Path) -> io::Result<Grade> {
     let explain = |kind, reason: String| io::Error::new(kind, format!("cannot read {}: {reason}", path.display()));
+    let length = fs::metadata(path).map_err(|error| explain(error.kind(), error.to_string()))?.len();
+    if length > MOST_BYTES {
+        return Err(explain(
+            io::ErrorKind::InvalidData,
+            format!("it is larger than {MOST_BYTES} bytes, which no grade is"),
+        ));
+    }
     let text = fs::read_to_string(path).map_err(|error| explain(error.kind(), error.to_string()))?;
     let grade: Grade =
         serde_json::from_str(&text).map_err(|error| explain(io::ErrorKind::InvalidData, error.to_string()))?;

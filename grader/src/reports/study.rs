@@ -45,13 +45,13 @@ fn times(grade: &Grade) -> Markup {
             let x = seconds.filter(|seconds| seconds.is_finite() && *seconds > 0.0)?;
             Some((Dot { x, title: format!("{name}, {who}: {}", view::seconds(seconds)), ..Dot::default() }, colour))
         };
-        let own = dot(part.seconds, "submission", SUBMISSION);
+        let own = dot(view::timed(part), "submission", SUBMISSION);
         let reference = own.is_some().then(|| dot(part.reference_seconds, "reference", REFERENCE)).flatten();
         DotRow { dots: reference.into_iter().chain(own).collect(), figure: view::ratio(part), name }
     };
     let rows: Vec<DotRow> = view::parts(grade).map(row).collect();
     let picture = dot_rows("Run time of each function", &Axis::log("run time (s)"), &rows);
-    let caption = "One call on a standard load, and the whole simulation. Red: the reference on the same machine. On the right: time relative to the \
+    let caption = "One call of each right function on a standard load, and the whole simulation. Red: the reference on the same machine. On the right: time relative to the \
         reference. On a busy machine short times are uncertain.";
     chart("Run time", &picture, caption)
 }
@@ -69,11 +69,15 @@ fn whole_simulation(study: &Study) -> Markup {
     let mut figure = Chart::new(heading, Axis::log("run time (s)"), Axis::log("error (m)"));
     (figure.size, figure.series) = (CHART, curves(&study.runs));
     let silent = study.runs.iter().filter(|run| run.submission.is_none()).count();
+    let wrong = study.runs.iter().filter(|run| run.submission.is_some() && !run.is_right).count();
     let caption = html! {
         "A cube of 1 m for 0.2 s; each curve has one point for each time step. Error: largest distance of a vertex at the end from a motion \
          computed with a method of fourth order, whose uncertainty is " (format!("{:.0e}", study.uncertainty)) " m."
         @if silent > 0 {
             " " (silent) " of " (study.runs.len()) " runs of the submission gave no finite positions."
+        }
+        @if wrong > 0 {
+            " " (wrong) " of " (study.runs.len()) " gave other positions than the reference's and are not drawn."
         }
     };
     html! { div { (chart(heading, &figure.draw(), caption)) (table(&study.runs)) } }
@@ -103,7 +107,7 @@ fn curves(runs: &[Run]) -> Vec<Series> {
     let both = integrators.into_iter().flat_map(|integrator| {
         [
             curve(integrator, "reference", REFERENCE, |run| Some(run.reference)),
-            curve(integrator, "submission", SUBMISSION, |run| run.submission),
+            curve(integrator, "submission", SUBMISSION, |run| run.submission.filter(|_| run.is_right)),
         ]
     });
     both.collect()

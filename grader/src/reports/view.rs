@@ -117,9 +117,14 @@ pub fn worst_error(grade: &Grade) -> Option<f64> {
     grade.functions.iter().filter_map(|f| f.error.filter(|error| error.is_finite())).reduce(f64::max)
 }
 
-/// The sum of the times of the functions that answer, and how many do.
+/// The sum of the times of the functions that are right, and how many are: a wrong answer may take no time at all.
 pub fn total_seconds(grade: &Grade) -> (Option<f64>, usize) {
-    sum(grade.functions.iter().map(|f| f.seconds))
+    sum(grade.functions.iter().map(timed))
+}
+
+/// The time of a function that is right.
+pub fn timed(function: &FunctionGrade) -> Option<f64> {
+    function.seconds.filter(|_| function.status == Status::Passed)
 }
 
 /// The reference's time for the same functions, and how many were timed.

@@ -78,7 +78,8 @@ fn limit(spec: &Spec) -> nix::Result<()> {
     let limits = &spec.confined.limits;
     let cpu = limits.cpu.as_secs() + u64::from(limits.cpu.subsec_nanos() > 0);
     let mut values = vec![
-        (Resource::RLIMIT_CORE, 0),
+        // Zero would still let a system with a collector of cores have one; one byte is too little for either.
+        (Resource::RLIMIT_CORE, 1),
         (Resource::RLIMIT_CPU, cpu),
         (Resource::RLIMIT_AS, limits.memory),
         (Resource::RLIMIT_FSIZE, limits.file_size),

@@ -104,7 +104,7 @@ fn meaning(signal: i32) -> &'static str {
         4 => "abort or invalid instruction",
         6 => "abort or stack overflow",
         8 => "arithmetic",
-        9 => "killed, or out of processor time",
+        9 => "killed: out of memory or of processor time",
         11 => "stack overflow, abort or invalid access",
         24 => "out of processor time",
         25 => "file too large",

@@ -1,13 +1,13 @@
 //! The process between the grader and the program: makes the namespaces, starts the program, ends everything.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, Read, Write};
 use std::os::fd::{AsFd, AsRawFd};
 use std::os::unix::net::UnixStream;
 use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use nix::errno::Errno;
 use nix::sched::{CloneFlags, unshare};
@@ -17,6 +17,8 @@ use nix::sys::signal::{Signal, kill};
 use nix::sys::wait::{Id, WaitPidFlag, WaitStatus, waitid, waitpid};
 use nix::unistd::{Pid, pipe};
 
+use super::Profile;
+use super::memory;
 use super::owner;
 use super::spec::{Control, News, Spec};
 
@@ -137,18 +139,48 @@ fn lock(watch: &Mutex<Watch>) -> MutexGuard<'_, Watch> {
     watch.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Ends the program when its time is over or the grader is gone.
+/// The memory of the tree is looked at so often at most,
+const LOOK: Duration = Duration::from_millis(100);
+
+/// and looking takes less than one part in so many of the time.
+const RARELY: u32 = 20;
+
+/// Ends the program when its time is over, its memory is used up or the grader is gone.
 fn watch(spec: &Spec, control: &UnixStream) -> io::Result<Arc<Mutex<Watch>>> {
     let watch = Arc::new(Mutex::new(Watch::default()));
     let shared = watch.clone();
     let ear = control.try_clone()?;
-    ear.set_read_timeout(Some(spec.confined.limits.wall.max(Duration::from_millis(1))))?;
+    let until = Instant::now() + spec.confined.limits.wall;
+    // A submission is one process, whose own limit is enough.
+    let most = match spec.confined.profile {
+        Profile::Compiler => spec.confined.limits.memory,
+        Profile::Submission => u64::MAX,
+    };
+    let mut pause = if most == u64::MAX { Duration::MAX } else { LOOK };
     thread::Builder::new().spawn(move || {
-        // The grader says nothing: this returns when it closes the socket or dies, or when the time is over.
-        let heard = (&ear).read(&mut [0]);
+        let timed_out = loop {
+            let left = until.saturating_duration_since(Instant::now());
+            // The grader says nothing: a read returns when it closes the socket or dies, or when it is time to look.
+            let heard = ear.set_read_timeout(Some(left.min(pause).max(Duration::from_millis(1))));
+            let heard = heard.and_then(|()| (&ear).read(&mut [0]));
+            if left.is_zero() && heard.is_err() {
+                break true;
+            }
+            let is_quiet = |error: &io::Error| {
+                matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut | io::ErrorKind::Interrupted)
+            };
+            if !heard.is_err_and(|error| is_quiet(&error)) {
+                break false;
+            }
+            let begin = Instant::now();
+            if most < u64::MAX && memory::of_descendants() > most {
+                break false;
+            }
+            pause = pause.max(begin.elapsed() * RARELY);
+        };
         let mut watch = lock(&shared);
         watch.over = true;
-        watch.timed_out = watch.program.is_some() && heard.is_err();
+        watch.timed_out = watch.program.is_some() && timed_out;
         watch.kill_if_over();
     })?;
     Ok(watch)
@@ -191,15 +223,9 @@ fn sweep(spec: &Spec) {
 
 /// The processes whose parent is this one.
 fn children() -> Vec<Pid> {
-    let own = std::process::id().to_string();
-    let Ok(processes) = fs::read_dir("/proc") else { return Vec::new() };
-    let numbers = processes.flatten().filter_map(|entry| entry.file_name().to_str()?.parse::<i32>().ok());
-    let parent_is_own = |pid: &i32| {
-        let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
-        // After the name, which may hold anything: `) state parent …`.
-        stat.rsplit_once(')').and_then(|(_, rest)| rest.split_whitespace().nth(1)) == Some(&own)
-    };
-    numbers.filter(parent_is_own).map(Pid::from_raw).collect()
+    let own = std::process::id();
+    let children = memory::processes().filter(|(_, parent)| *parent == own);
+    children.map(|(pid, _)| Pid::from_raw(pid.cast_signed())).collect()
 }
 
 fn ended(status: WaitStatus, timed_out: bool) -> Result<News, String> {
