@@ -125,7 +125,41 @@ pub struct FunctionGrade {
     pub seconds: Option<f64>,
     /// The same for the reference on the same machine in the same minute, s.
     pub reference_seconds: Option<f64>,
+    /// How the time of an assembly grows with the mesh, where that was measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub growth: Option<Growth>,
     pub checks: Vec<CheckGrade>,
+}
+
+/// Growth of the time t ~ nᵉ with the number of elements n.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct Growth {
+    /// The exponent e of the submission.
+    pub exponent: f64,
+    /// That of the reference, which is measured where the submission's is not near 1.
+    pub reference_exponent: Option<f64>,
+    /// Elements of the largest mesh that was measured.
+    pub elements: usize,
+}
+
+impl Growth {
+    /// A larger exponent than this is no noise of the clock.
+    pub const CLEAR: f64 = 1.5;
+
+    /// Whether the submission clearly grows faster than the reference.
+    pub fn is_faster(&self) -> bool {
+        self.exponent > Self::CLEAR && self.reference_exponent.is_some_and(|reference| reference < self.exponent - 0.4)
+    }
+
+    /// The sentence for the student, where the submission clearly grows faster than the reference.
+    pub fn sentence(&self) -> Option<String> {
+        let reference = self.reference_exponent.filter(|_| self.is_faster())?;
+        Some(format!(
+            "The time of your function grows as n^{:.1} with the number of elements, the reference's as n^{reference:.1}: look for a \
+             loop over the whole mesh, or a full matrix, inside of the loop over the elements.",
+            self.exponent
+        ))
+    }
 }
 
 /// One check of a function.

@@ -2,6 +2,7 @@
 
 mod again;
 mod groups;
+mod growth;
 mod judge;
 mod level;
 mod load;
@@ -195,6 +196,7 @@ fn finished(function: &Function, status: Status, message: Option<String>) -> Fun
         error: None,
         seconds: None,
         reference_seconds: None,
+        growth: None,
         checks: Vec::new(),
     }
 }

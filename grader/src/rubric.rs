@@ -23,6 +23,9 @@ const OURS: &str = include_str!("../rubric.toml");
 pub struct Rubric {
     /// Whether a function that is right on ordinary inputs keeps the share of checks that it passes.
     pub partial_credit: bool,
+    /// Share of its points that a right assembly loses if its time clearly grows faster with the mesh than the reference's.
+    #[serde(default)]
+    pub growth_costs: f64,
     /// Largest relative error that counts as round-off.
     pub tolerance: f64,
     /// Longest time for one answer, s.
@@ -208,6 +211,9 @@ impl Rubric {
             if !(0.1..=600.0).contains(&seconds) {
                 return Err(format!("{what} = {seconds}; give a number from 0.1 to 600"));
             }
+        }
+        if !(0.0..=1.0).contains(&self.growth_costs) {
+            return Err(format!("growth_costs = {}; give a share from 0 to 1", self.growth_costs));
         }
         if !is_points(self.simulation.points) {
             let points = self.simulation.points;

@@ -95,3 +95,50 @@ fn a_panic_a_crash_a_time_out_or_an_open_branch_costs_its_own_checks() {
     assert_eq!(spring["status"], "crashed");
     assert!(graded.function("phi_linear_tetrahedron")["status"] == "passed");
 }
+
+/// A full matrix, and a search through all elements for each vertex: right, and slow on large meshes.
+const FULL: &str = "    let mut M = nalgebra::DMatrix::<f64>::zeros(q_size, q_size);
+    for (element, &volume) in T.iter().zip(v0) {
+        let own = crate::mass_matrix_linear_tetrahedron(density, volume);
+        for (i, j) in (0..144).map(|k| (k / 12, k % 12)) {
+            M[(3 * element[i / 3] + i % 3, 3 * element[j / 3] + j % 3)] += own[(i, j)];
+        }
+    }
+    CsrMatrix::from(&M)";
+const SEARCH: &str = "    let gradients: Vec<_> =
+        T.iter().zip(v0).map(|(element, &volume)| crate::dV_linear_tetrahedron_dq(q, V, element, volume, C, D)).collect();
+    let mut f = DVector::zeros(q.len());
+    for vertex in 0..V.len() {
+        for (element, gradient) in T.iter().zip(&gradients) {
+            for i in 0..4 {
+                if element[i] == vertex {
+                    for k in 0..3 {
+                        f[3 * vertex + k] -= gradient[3 * i + k];
+                    }
+                }
+            }
+        }
+    }
+    f";
+
+#[test]
+#[ignore = "measures times"]
+fn an_assembly_whose_time_grows_as_n_squared_passes_and_is_told() {
+    let mut room = Classroom::new();
+    room.replace_body("mass_matrix_mesh", "passed", FULL);
+    room.replace_body("assemble_forces", "passed", SEARCH);
+    let graded = room.grade();
+    graded.is_as_expected();
+    for (name, is_told) in [
+        ("mass_matrix_mesh", true),
+        ("assemble_forces", true),
+        ("assemble_stiffness", false),
+        ("fixed_point_constraints", false),
+    ] {
+        let growth = &graded.function(name)["growth"];
+        println!("{name}: {growth}");
+        let exponent = growth["exponent"].as_f64().expect("it was measured");
+        assert_eq!(exponent > 1.5, is_told, "{name}: {growth}");
+        assert_eq!(growth["reference_exponent"].is_number(), is_told, "{name}: {growth}");
+    }
+}

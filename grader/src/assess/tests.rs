@@ -37,6 +37,7 @@ fn grade() -> Grade {
         error: None,
         seconds: None,
         reference_seconds: None,
+        growth: None,
         checks,
     };
     let half = vec![check(Check::Agrees.name(), Status::Passed), check("is zero at rest", Status::Failed)];

@@ -57,6 +57,12 @@ impl Grading {
         }
         subject.next_check();
         self.time(&mut grade, name, subject)?;
+        if grade.status == Status::Passed {
+            subject.next_check();
+            grade.growth = self.growth(name, subject);
+            let is_faster = grade.growth.is_some_and(|growth| growth.is_faster());
+            grade.score *= if is_faster { 1.0 - self.rubric.growth_costs } else { 1.0 };
+        }
         Ok(grade)
     }
 
@@ -115,7 +121,7 @@ impl Grading {
         Ok(())
     }
 
-    fn reference_seconds(&self, function: Exercise, body: &[u8], times: u64) -> Result<f64, GradingError> {
+    pub(super) fn reference_seconds(&self, function: Exercise, body: &[u8], times: u64) -> Result<f64, GradingError> {
         let seconds = self.reference.seconds(function, body, times).or_else(|_| {
             // One process serves all functions, and it may have come to the end of its time while a submission took its own.
             self.reference.next_function();

@@ -19,8 +19,13 @@ impl Body {
 
 /// A function, the arguments of the call, and how often it is made; `None` if no function has this name.
 pub fn load(name: &str) -> Option<(Exercise, Vec<u8>, u64)> {
+    load_of(name, 3)
+}
+
+/// The same with a cube of so many cells a side.
+pub fn load_of(name: &str, cells: usize) -> Option<(Exercise, Vec<u8>, u64)> {
     let function = Exercise::from_name(name)?;
-    let (V, T, v0) = cube(3);
+    let (V, T, v0) = cube(cells);
     let F = Matrix3::new(1.1, 0.1, 0.0, -0.05, 0.9, 0.02, 0.0, 0.1, 1.05);
     let q = DVector::from_iterator(3 * V.len(), V.iter().flat_map(|X| <[f64; 3]>::from(F * X)));
     let inside = Vector3::new(0.31, 0.42, 0.53);
@@ -44,7 +49,10 @@ pub fn load(name: &str) -> Option<(Exercise, Vec<u8>, u64)> {
             let display: Vec<Vector3<f64>> = V.iter().map(|X| X * 0.9 + inside * 0.1).collect();
             (start.with(&V[..]).with(&T[..]).with(&display[..]), 20)
         }
-        "fixed_point_constraints" => (start.with(q.len()).with(&[0usize, 5, 9, 2][..]), 200),
+        "fixed_point_constraints" => {
+            let fixed: Vec<usize> = (0..V.len()).rev().step_by(16).collect();
+            (start.with(q.len()).with(&fixed[..]), 200)
+        }
         "pick_nearest_vertices" => {
             let view = Matrix4::new_translation(&Vector3::new(-0.5, -0.5, -3.0));
             let proj = Matrix4::new_perspective(1.0, 0.8, 0.1, 10.0);

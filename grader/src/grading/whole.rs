@@ -88,6 +88,7 @@ impl Grading {
             error: None,
             seconds: None,
             reference_seconds: None,
+            growth: None,
             checks: Vec::new(),
         };
         let absent = absent(functions);

@@ -42,7 +42,7 @@ fn head(grade: &Grade) -> Markup {
 
 fn function(part: &FunctionGrade, show_diagnosis: bool) -> Markup {
     html! {
-        details open[part.status != Status::Passed] { (summary(part)) "\n" (inside(part, show_diagnosis)) } "\n"
+        details open[view::has_notes(part)] { (summary(part)) "\n" (inside(part, show_diagnosis)) } "\n"
     }
 }
 

@@ -21,7 +21,7 @@ pub fn render(grade: &Grade, show_diagnosis: bool) -> String {
     for part in view::parts(grade) {
         text.push_str(&row(part));
     }
-    for part in view::parts(grade).filter(|part| part.status != Status::Passed) {
+    for part in view::parts(grade).filter(|part| view::has_notes(part)) {
         text.push_str(&section(part, show_diagnosis));
     }
     text

@@ -7,7 +7,7 @@ use grader::status::Status;
 use grader::submission::NAMES;
 
 use crate::class::{Entry, Identity, Outcome, Summary};
-use crate::grade::{CheckGrade, FORMAT_VERSION, FunctionGrade, Grade, Outcome as Ended, Run, Study};
+use crate::grade::{CheckGrade, FORMAT_VERSION, FunctionGrade, Grade, Growth, Outcome as Ended, Run, Study};
 
 /// Text that only the instructor may read; no student's file may hold it.
 pub const SECRET: &str = "SECRET-INPUT-0.4711";
@@ -68,6 +68,7 @@ fn function(i: usize, variant: usize) -> FunctionGrade {
         error: answers.then(|| if failed { 10_f64.powf(-spread) } else { 1e-15 * (1.0 + spread) }),
         seconds: answers.then(|| 1e-6 * (1.0 + spread) * 10_f64.powi((i % 4) as i32)),
         reference_seconds: Some(2e-6 * 10_f64.powi((i % 4) as i32)),
+        growth: (i == 1).then_some(Growth { exponent: 1.97, reference_exponent: Some(1.02), elements: 24_576 }),
         checks: if answers { checks(status) } else { Vec::new() },
     }
 }

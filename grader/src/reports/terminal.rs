@@ -31,7 +31,7 @@ pub fn render(grade: &Grade, show_diagnosis: bool, colour: bool) -> String {
         let status = paint(shade(part.status), &format!("{:<16}", view::label(part.status)));
         text.push_str(&format!("{:<width$}  {status}  {}\n", escape::line(&part.name), figures(part)));
     }
-    for part in view::parts(grade).filter(|part| part.status != Status::Passed) {
+    for part in view::parts(grade).filter(|part| view::has_notes(part)) {
         let story = story(part, show_diagnosis);
         if !story.is_empty() {
             text.push_str(&format!("\n{}\n{story}", paint(BOLD, &escape::line(&part.name))));

@@ -55,8 +55,14 @@ pub fn notes(function: &FunctionGrade, show_diagnosis: bool) -> Vec<String> {
     if function.status != Status::Passed {
         notes.extend(function.hint.as_ref().map(|hint| format!("Hint: {hint}")));
     }
+    notes.extend(function.growth.and_then(|growth| growth.sentence()));
     notes.retain(|note| !note.trim().is_empty());
     notes
+}
+
+/// Whether there is something to say of a function beside its figures.
+pub fn has_notes(function: &FunctionGrade) -> bool {
+    function.status != Status::Passed || function.growth.is_some_and(|growth| growth.is_faster())
 }
 
 /// How many functions pass, out of how many.

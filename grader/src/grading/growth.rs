@@ -1,0 +1,125 @@
+//! How the time of an assembly grows with the mesh. One pass over the elements grows as n¹; a search through all of them for each, or a
+//! full matrix on the way, as n². It is told, and costs points only where the rubric says so.
+
+use grader::implementation::sandboxed::Sandboxed;
+use grader::implementation::{Answer, Trouble};
+use grader_child::Exercise;
+
+use super::Grading;
+use super::load::load_of;
+use crate::grade::Growth;
+
+/// The functions whose reference grows as n¹, and how often each is called in a row, so that the way to the program does not count.
+const FUNCTIONS: [(&str, u64); 4] =
+    [("mass_matrix_mesh", 1), ("assemble_forces", 5), ("assemble_stiffness", 1), ("fixed_point_constraints", 20)];
+
+/// Cells along a side of the cubes that are measured: 384, 3 072, 10 368 and 24 576 elements.
+const CUBES: [usize; 4] = [4, 8, 12, 16];
+
+/// A mesh is measured where n² growth would not take it longer than this, s.
+const LONGEST: f64 = 0.5;
+
+/// A measurement is repeated until it took so long in all, s, but three times at most.
+const ENOUGH: f64 = 0.02;
+
+/// Fewer elements than this say nothing of large meshes.
+const LARGE: usize = 3000;
+
+/// Time of a call on a mesh of so many elements.
+struct Measured {
+    elements: usize,
+    seconds: f64,
+}
+
+impl Grading {
+    /// The growth of a function that passes; `None` where it is not measured or meshes of a telling size take too long.
+    pub(super) fn growth(&self, name: &str, subject: &Sandboxed) -> Option<Growth> {
+        let &(_, times) = FUNCTIONS.iter().find(|(found, _)| *found == name)?;
+        let own = || exponent(&measured(name, |function, body| subject.seconds(function, body, times)));
+        let (mut found, elements) = own()?;
+        let mut reference = None;
+        if found > Growth::CLEAR {
+            // Other programs may have kept the machine busy: the second time decides as well.
+            found = own().map_or(found, |(again, _)| found.min(again));
+            // Not clear without the reference, so a reference that does not answer is no failure of the grading.
+            let of_reference = measured(name, |function, body| {
+                self.reference_seconds(function, body, times).map_err(|_| Trouble::GivenUp)
+            });
+            reference = exponent(&of_reference).map(|(exponent, _)| exponent);
+        }
+        Some(Growth { exponent: found, reference_exponent: reference, elements })
+    }
+}
+
+/// Times on larger and larger meshes, for as long as they are answered and short.
+fn measured(name: &str, seconds: impl Fn(Exercise, &[u8]) -> Answer<f64>) -> Vec<Measured> {
+    let mut found: Vec<Measured> = Vec::new();
+    for cells in CUBES {
+        let elements = 6 * cells * cells * cells;
+        let is_too_long = |last: &Measured| last.seconds * (elements as f64 / last.elements as f64).powi(2) > LONGEST;
+        if found.last().is_some_and(is_too_long) {
+            break;
+        }
+        let Some((function, body, _)) = load_of(name, cells) else { break };
+        let (mut best, mut spent) = (f64::INFINITY, 0.0);
+        for _ in 0..3 {
+            let Ok(time) = seconds(function, &body) else { return found };
+            (best, spent) = (best.min(time), spent + time);
+            if spent > ENOUGH {
+                break;
+            }
+        }
+        found.push(Measured { elements, seconds: best });
+    }
+    found
+}
+
+/// The exponent over all sizes, and the elements of the largest. Where it is clear that they grow faster than n¹, the last two sizes tell
+/// better where it leads to, because in a small mesh the work for each element hides the rest.
+fn exponent(times: &[Measured]) -> Option<(f64, usize)> {
+    let (first, last) = (times.first()?, times.last()?);
+    let before = times.len().checked_sub(2).map(|index| &times[index])?;
+    let between =
+        |a: &Measured, b: &Measured| (b.seconds / a.seconds).ln() / (b.elements as f64 / a.elements as f64).ln();
+    let overall = between(first, last);
+    let is_known = last.elements >= LARGE && overall.is_finite();
+    is_known
+        .then(|| (if overall > Growth::CLEAR { overall.max(between(before, last)) } else { overall }, last.elements))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn times(of: impl Fn(f64) -> f64) -> Vec<Measured> {
+        let elements = CUBES.map(|cells| 6 * cells * cells * cells);
+        elements.map(|elements| Measured { elements, seconds: of(elements as f64) }).into()
+    }
+
+    #[test]
+    fn one_pass_grows_as_n_and_a_search_for_each_element_as_n_squared() {
+        let (linear, elements) = exponent(&times(|n| 1e-7 * n)).unwrap();
+        assert!((linear - 1.0).abs() < 1e-9 && elements == 24_576);
+        let (quadratic, _) = exponent(&times(|n| 1e-6 * n + 1e-9 * n * n)).unwrap();
+        assert!((1.9..2.0).contains(&quadratic), "{quadratic}");
+    }
+
+    #[test]
+    fn memory_that_grows_slower_than_the_caches_is_no_clear_growth() {
+        let (exponent, _) = exponent(&times(|n| if n > 5000.0 { 3e-7 * n } else { 1e-7 * n })).unwrap();
+        assert!(exponent < Growth::CLEAR, "{exponent}");
+    }
+
+    #[test]
+    fn small_meshes_alone_say_nothing() {
+        assert!(exponent(&times(|n| n * n)[..1]).is_none());
+        assert!(exponent(&[]).is_none());
+    }
+
+    #[test]
+    fn the_measurement_ends_before_a_mesh_that_would_take_too_long() {
+        let slow = measured("mass_matrix_mesh", |_, body| Ok(1e-6 * body.len() as f64));
+        assert!(slow.len() < CUBES.len(), "{}", slow.len());
+        assert!(measured("mass_matrix_mesh", |_, _| Err(Trouble::Malformed)).is_empty());
+    }
+}
