@@ -32,6 +32,7 @@ mod buckets;
 mod check;
 mod connectivity;
 mod error;
+pub mod generate;
 mod join;
 mod measures;
 mod quality;

@@ -2,6 +2,7 @@
 
 mod box_rule;
 mod checks;
+mod delaunay;
 mod errors;
 mod formats;
 mod garbage;

@@ -1,0 +1,3 @@
+//! Meshes from points: Delaunay triangulations and tetrahedralizations.
+
+pub mod delaunay;
