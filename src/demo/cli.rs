@@ -42,10 +42,12 @@ pub enum Command {
 
 #[derive(Debug, Subcommand)]
 pub enum MeshAction {
-    /// Counts, volume and quality of a tetrahedral mesh (.node, .mesh, .msh, .vtu)
+    /// Counts, volume and quality of a tetrahedral mesh (.node, .mesh, .msh, .vtu), or of a surface (.obj, .ply, .stl)
     Info { file: PathBuf },
-    /// Reads a tetrahedral mesh and writes it in another format
+    /// Reads a tetrahedral mesh or a surface and writes it in another format
     Convert { from: PathBuf, to: PathBuf },
+    /// Delaunay triangles of points in the plane, or tetrahedra of points in space (.csv, .node)
+    Delaunay { points: PathBuf, out: PathBuf },
 }
 
 #[derive(Debug, Args)]

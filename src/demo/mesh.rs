@@ -1,7 +1,10 @@
-//! `mesh`: measures meshes and converts them.
+//! `mesh`: measures, converts and makes meshes.
 
 use std::collections::HashSet;
 use std::path::Path;
+
+use fem_mesh::generate::delaunay::{DelaunayError, tetrahedralize, triangulate};
+use fem_mesh::{MeshError, Points, SurfaceMesh, TetrahedralMesh};
 
 use super::cli::MeshAction;
 use super::end::End;
@@ -9,13 +12,17 @@ use super::end::End;
 /// Runs a subcommand of `mesh`.
 pub fn run(action: &MeshAction) -> Result<(), End> {
     match action {
-        MeshAction::Info { file } => info(file),
-        MeshAction::Convert { from, to } => convert(from, to),
+        MeshAction::Info { file } if fem_mesh::is_surface(file) => surface_info(file).map_err(End::unusable),
+        MeshAction::Info { file } => info(file).map_err(End::unusable),
+        MeshAction::Convert { from, to } if fem_mesh::is_surface(from) => {
+            fem_mesh::read_surface(from).and_then(|mesh| write_surface(to, &mesh)).map_err(End::unusable)
+        }
+        MeshAction::Convert { from, to } => convert(from, to).map_err(End::unusable),
+        MeshAction::Delaunay { points, out } => delaunay(points, out),
     }
-    .map_err(End::unusable)
 }
 
-fn info(file: &Path) -> Result<(), fem_mesh::MeshError> {
+fn info(file: &Path) -> Result<(), MeshError> {
     let mesh = fem_mesh::read_tetrahedra(file)?;
     fem_mesh::check(&mesh, file)?;
     say!("{}", fem_mesh::quality(&mesh).to_string().trim_end());
@@ -34,10 +41,16 @@ fn info(file: &Path) -> Result<(), fem_mesh::MeshError> {
     Ok(())
 }
 
-fn convert(from: &Path, to: &Path) -> Result<(), fem_mesh::MeshError> {
+fn surface_info(file: &Path) -> Result<(), MeshError> {
+    let mesh = fem_mesh::read_surface(file)?;
+    say!("{}", fem_mesh::surface_quality(&mesh).to_string().trim_end());
+    Ok(())
+}
+
+fn convert(from: &Path, to: &Path) -> Result<(), MeshError> {
     let mesh = fem_mesh::read_tetrahedra(from)?;
     fem_mesh::check(&mesh, from)?;
-    fem_mesh::write_tetrahedra(to, &mesh)?;
+    write_tetrahedra(to, &mesh)?;
     if !mesh.sets.is_empty() && fem_mesh::read_tetrahedra(to)?.sets.is_empty() {
         eprintln!(
             "warning: {}: this format has no sets; .msh keeps the {} of {}",
@@ -46,6 +59,39 @@ fn convert(from: &Path, to: &Path) -> Result<(), fem_mesh::MeshError> {
             from.display()
         );
     }
+    Ok(())
+}
+
+/// Triangles or tetrahedra, as the points have two or three coordinates.
+fn delaunay(points: &Path, out: &Path) -> Result<(), End> {
+    let unusable = |error: DelaunayError| End::unusable(format!("{}: {error}", points.display()));
+    let (count, vertices) = match fem_mesh::read_points(points).map_err(End::unusable)? {
+        Points::InPlane(points) => {
+            let found = triangulate(&points).map_err(unusable)?.mesh;
+            let vertices = found.vertices.iter().map(|x| x.push(0.0)).collect();
+            write_surface(out, &SurfaceMesh::new(vertices, found.elements)).map_err(End::unusable)?;
+            (points.len(), found.vertices.len())
+        }
+        Points::InSpace(points) => {
+            let found = tetrahedralize(&points).map_err(unusable)?.mesh;
+            write_tetrahedra(out, &found).map_err(End::unusable)?;
+            (points.len(), found.vertices.len())
+        }
+    };
+    if vertices < count {
+        say!("{} points are at the place of an earlier one and share its node", count - vertices);
+    }
+    Ok(())
+}
+
+fn write_tetrahedra(to: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
+    fem_mesh::write_tetrahedra(to, mesh)?;
     say!("{}: {} nodes, {} tetrahedra", to.display(), mesh.vertices.len(), mesh.elements.len());
+    Ok(())
+}
+
+fn write_surface(to: &Path, mesh: &SurfaceMesh) -> Result<(), MeshError> {
+    fem_mesh::write_surface(to, mesh)?;
+    say!("{}: {} nodes, {} triangles", to.display(), mesh.vertices.len(), mesh.elements.len());
     Ok(())
 }

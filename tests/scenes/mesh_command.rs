@@ -88,3 +88,50 @@ fn a_conversion_keeps_sets_in_msh_and_warns_where_they_are_lost() {
         "{outcome:?}"
     );
 }
+
+#[test]
+fn points_in_the_plane_become_triangles_and_points_in_space_tetrahedra() {
+    let desk = Desk::new();
+    desk.write("square.csv", "x,y\n0,0\n1,0\n1,1\n0,1\n0.5,0.5\n1,1\n");
+    let text = desk.run_well("mesh delaunay square.csv square.ply").stdout;
+    assert_eq!(
+        text,
+        "square.ply: 5 nodes, 4 triangles\n1 points are at the place of an earlier one and share its node\n"
+    );
+    let text = desk.run_well("mesh info square.ply").stdout;
+    assert!(text.lines().any(|line| line.starts_with("open edges") && line.ends_with(" 4")), "{text}");
+    desk.write("cube.csv", "0;0;0\n1;0;0\n0;1;0\n1;1;0\n0;0;1\n1;0;1\n0;1;1\n1;1;1\n0.5;0.5;0.5\n");
+    assert_eq!(desk.run_well("mesh delaunay cube.csv cube.vtu").stdout, "cube.vtu: 9 nodes, 12 tetrahedra\n");
+    let volume: f64 = volumes(&read_tetrahedra(&desk.path("cube.vtu")).unwrap()).iter().sum();
+    assert!((volume - 1.0).abs() < 1e-14);
+    desk.run_well("mesh delaunay cube.csv cube.node");
+    assert_eq!(desk.run_well("mesh delaunay cube.node again.node").stdout, "again.node: 9 nodes, 12 tetrahedra\n");
+}
+
+#[test]
+fn points_without_a_mesh_are_refused_with_the_file_and_the_remedy() {
+    let desk = Desk::new();
+    for (text, part) in [
+        ("0,0\n1,1\n2,2\n", "p.csv: all 3 points lie on one line; add a point outside of it"),
+        ("0,0,0\n1,0,0\n0,1,0\n5,5,0\n", "p.csv: all 4 points lie in one plane"),
+        ("x,y\n", "p.csv: the mesh has no points"),
+        ("0,0\n1,nan\n", "p.csv, line 2: the coordinate `nan` is not finite"),
+        ("0,0\n1\n", "p.csv, line 2: a coordinate, which is a number is missing here"),
+        ("0,0\n1,2,3\n", "p.csv, line 2: `3` is not expected: the first line has fewer numbers"),
+        ("1\n2\n", "p.csv: a file with 1 coordinates for each point is not supported; give two or three"),
+    ] {
+        desk.write("p.csv", text);
+        let message = desk.refused("mesh delaunay p.csv out.vtu");
+        assert!(message.contains(part), "{message}");
+    }
+}
+
+#[test]
+fn a_surface_is_converted_and_measured() {
+    let desk = Desk::new();
+    let bunny = data().join("stanford/bunny_10k.obj");
+    desk.run_well(&format!("mesh convert {} bunny.ply.gz", bunny.display()));
+    let of = |file: &str| desk.run_well(&format!("mesh info {file}")).stdout;
+    assert_eq!(of("bunny.ply.gz"), of(&bunny.display().to_string()));
+    assert!(desk.refused("mesh convert bunny.ply.gz bunny.vtu").contains("use one of .obj"));
+}

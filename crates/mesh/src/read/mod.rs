@@ -5,6 +5,9 @@ mod cells;
 mod gmsh;
 mod medit;
 mod obj;
+mod ply;
+mod points;
+mod stl;
 mod tetgen;
 mod vtk;
 mod vtu;
@@ -16,17 +19,17 @@ use std::path::{Path, PathBuf};
 
 use flate2::read::MultiGzDecoder;
 
+pub use self::points::{Points, read_points};
 use super::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
 /// Largest ratio of the sizes of a file unpacked and packed. Meshes have less than 10; gzip can reach 1032.
 const MOST_UNPACKED: u64 = 200;
 
 /// Extensions of the tetrahedral meshes that can be read.
-const TETRAHEDRAL: &str =
-    ".node with .ele (TetGen), .mesh (MEDIT), .msh (Gmsh), .vtu or .vtk (VTK), each also as .gz; surfaces are .obj";
+const TETRAHEDRAL: &str = ".node with .ele (TetGen), .mesh (MEDIT), .msh (Gmsh), .vtu or .vtk (VTK), each also as .gz; surfaces are .obj, .ply or .stl";
 
 /// Extensions of the surfaces that can be read and written.
-pub(super) const SURFACES: &str = ".obj (Wavefront), also as .obj.gz";
+pub(super) const SURFACES: &str = ".obj (Wavefront), .ply (Stanford) or .stl, each also as .gz";
 
 /// Reads a tetrahedral mesh: `.node` and `.ele` (TetGen; either name), `.mesh` (MEDIT), `.msh` (Gmsh 2 and 4), `.vtu` and
 /// `.vtk` (VTK), each also compressed, with `.gz` after its extension. Lengths as in the file, m; indices in range; orientation,
@@ -42,12 +45,20 @@ pub fn read_tetrahedra(path: &Path) -> Result<TetrahedralMesh, MeshError> {
     }
 }
 
-/// Reads a triangle mesh: `.obj` (Wavefront). Polygons become fans of triangles; indices are in range.
+/// Reads a triangle mesh: `.obj` (Wavefront), `.ply` (Stanford) or `.stl`, text and binary, each also compressed. Polygons become fans of
+/// triangles; indices are in range. Equal corners of an `.stl` are one vertex.
 pub fn read_surface(path: &Path) -> Result<SurfaceMesh, MeshError> {
     match extension(path).as_str() {
         "obj" => obj::read(path, &text(path)?),
+        "ply" => ply::read(path, &bytes(path)?),
+        "stl" => stl::read(path, &bytes(path)?),
         _ => Err(unknown_extension(path, SURFACES)),
     }
+}
+
+/// Whether a path has the extension of a surface.
+pub fn is_surface(path: &Path) -> bool {
+    ["obj", "ply", "stl"].contains(&extension(path).as_str())
 }
 
 /// A path's extension in lower case, without the dot and without a `.gz` after it.

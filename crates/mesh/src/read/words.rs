@@ -88,7 +88,8 @@ impl<'a> Words<'a> {
         Ok(Vector3::new(self.coordinate()?, self.coordinate()?, self.coordinate()?))
     }
 
-    fn coordinate(&mut self) -> Result<f64, MeshError> {
+    /// The next word as a finite coordinate.
+    pub(super) fn coordinate(&mut self) -> Result<f64, MeshError> {
         let start = self.clone();
         let value: f64 = self.parse("a coordinate, which is a number")?;
         let word = || start.peek().unwrap_or_default().to_owned();

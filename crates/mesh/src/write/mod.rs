@@ -6,7 +6,9 @@ mod glb;
 mod gmsh;
 mod medit;
 mod obj;
+mod ply;
 mod pvd;
+mod stl;
 mod tetgen;
 mod vtu;
 
@@ -27,8 +29,7 @@ use super::read::{SURFACES, extension, is_packed, unknown_extension};
 use super::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
 /// Extensions of the tetrahedral meshes that can be written.
-const TETRAHEDRAL: &str =
-    ".node with .ele (TetGen), .mesh (MEDIT), .msh (Gmsh 4), .vtu (VTK), each also as .gz; surfaces are .obj";
+const TETRAHEDRAL: &str = ".node with .ele (TetGen), .mesh (MEDIT), .msh (Gmsh 4), .vtu (VTK), each also as .gz; surfaces are .obj, .ply or .stl";
 
 /// Writes a tetrahedral mesh: `.node` and `.ele` (TetGen; both files by either name), `.mesh` (MEDIT), `.msh` (Gmsh 4.1),
 /// `.vtu` (VTK), each also compressed, with `.gz` after its extension. Reading the file gives the same mesh, bit for bit; named
@@ -43,10 +44,13 @@ pub fn write_tetrahedra(path: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshE
     }
 }
 
-/// Writes a triangle mesh: `.obj` (Wavefront). Reading the file gives the same mesh, bit for bit.
+/// Writes a triangle mesh: `.obj` (Wavefront), `.ply` (Stanford, binary) or `.stl` (binary), each also compressed. Reading an `.obj` or a
+/// `.ply` gives the same mesh, bit for bit; an `.stl` keeps single precision.
 pub fn write_surface(path: &Path, mesh: &SurfaceMesh) -> Result<(), MeshError> {
     match extension(path).as_str() {
         "obj" => save_mesh(path, |out| obj::write(out, mesh)),
+        "ply" => save_mesh(path, |out| ply::write(out, mesh)),
+        "stl" => save_mesh(path, |out| stl::write(out, mesh)),
         _ => Err(unknown_extension(path, SURFACES)),
     }
 }

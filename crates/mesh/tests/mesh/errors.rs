@@ -64,7 +64,7 @@ fn an_unknown_extension_is_refused_with_the_known_ones() {
     assert!(message.contains(".node") && message.contains(".msh") && message.contains(".vtu"), "{message}");
     assert!(read_surface(Path::new("bunny")).unwrap_err().to_string().contains(".obj"));
     assert!(write_tetrahedra(Path::new("a.stl"), &two_tetrahedra()).unwrap_err().to_string().contains("use one of"));
-    assert!(write_surface(Path::new("a.stl"), &Default::default()).unwrap_err().to_string().contains("use one of"));
+    assert!(write_surface(Path::new("a.dae"), &Default::default()).unwrap_err().to_string().contains("use one of"));
 }
 
 #[test]

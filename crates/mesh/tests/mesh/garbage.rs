@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use tempfile::tempdir;
 
-use crate::{fixed_seed, folder_with, gmsh, vtk};
+use crate::{fixed_seed, folder_with, gmsh, surfaces, vtk};
 
 /// A good file of each format.
 static VALID: LazyLock<HashMap<&str, Vec<u8>>> = LazyLock::new(|| {
@@ -21,8 +21,10 @@ static VALID: LazyLock<HashMap<&str, Vec<u8>>> = LazyLock::new(|| {
         write_tetrahedra(&folder.path().join(name), &mesh).unwrap();
     }
     let surface = SurfaceMesh::new(mesh.vertices.clone(), boundary(&mesh));
-    write_surface(&folder.path().join("s.obj"), &surface).unwrap();
-    let names = ["m.node", "m.ele", "m.mesh", "m.msh", "m.vtu", "s.obj"];
+    for name in ["s.obj", "s.ply", "s.stl"] {
+        write_surface(&folder.path().join(name), &surface).unwrap();
+    }
+    let names = ["m.node", "m.ele", "m.mesh", "m.msh", "m.vtu", "s.obj", "s.ply", "s.stl"];
     names.into_iter().map(|name| (name, fs::read(folder.path().join(name)).unwrap())).collect()
 });
 
@@ -118,17 +120,25 @@ proptest! {
     }
 
     #[test]
-    fn damaged_surfaces_are_read_or_refused(damages in prop::collection::vec(damage(), 1..4)) {
-        let mut bytes = VALID["s.obj"].clone();
+    fn damaged_surfaces_are_read_or_refused(
+        name in prop::sample::select(&["s.obj", "s.ply", "s.stl", "text.ply", "text.stl"][..]),
+        damages in prop::collection::vec(damage(), 1..4),
+    ) {
+        let text = match name {
+            "text.ply" => Some(surfaces::TEXT_PLY),
+            "text.stl" => Some(surfaces::TEXT_STL),
+            _ => None,
+        };
+        let mut bytes = text.map_or_else(|| VALID[name].clone(), |text| text.as_bytes().to_vec());
         damages.iter().for_each(|damage| apply(&mut bytes, damage));
-        if let Ok(surface) = read_surface(&folder_with(&[("s.obj", &bytes)]).1) {
+        if let Ok(surface) = read_surface(&folder_with(&[(name, &bytes)]).1) {
             assert!(surface.elements.iter().flatten().all(|&i| i < surface.vertices.len()));
         }
     }
 
     #[test]
     fn random_bytes_are_refused(
-        name in prop::sample::select(&["m.ele", "m.mesh", "m.msh", "m.vtu", "m.vtk", "m.obj.gz", "m.obj"][..]),
+        name in prop::sample::select(&["m.ele", "m.mesh", "m.msh", "m.vtu", "m.vtk", "m.obj.gz", "m.obj", "m.ply", "m.stl"][..]),
         bytes in prop::collection::vec(any::<u8>(), 0..300),
     ) {
         let path = folder_with(&[(name, &bytes), ("m.node", &bytes)]).1;

@@ -1,0 +1,230 @@
+//! Measures and faults of a surface: whether it is closed, a manifold, and turned outwards.
+
+use std::collections::HashMap;
+use std::fmt;
+
+use nalgebra::Vector3;
+
+use crate::{SurfaceMesh, area_vector};
+
+/// Measures of a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceQuality {
+    /// Number of vertices.
+    pub vertices: usize,
+    /// Number of triangles.
+    pub triangles: usize,
+    /// Number of parts that share no vertex.
+    pub parts: usize,
+    /// Vertices − edges + triangles: 2 for a sphere, 0 for a torus.
+    pub euler_characteristic: i64,
+    /// Area, m².
+    pub area: f64,
+    /// Enclosed volume, m³; negative if the triangles are clockwise seen from outside. It has no meaning for an open surface.
+    pub volume: f64,
+    /// Edges of one triangle alone. A closed surface has none.
+    pub open_edges: usize,
+    /// Edges of more than two triangles. A manifold has none.
+    pub branching_edges: usize,
+    /// Edges of two triangles that run through them in one direction. An oriented surface has none.
+    pub flipped_edges: usize,
+    /// Triangles without area within rounding.
+    pub flat_triangles: usize,
+    /// Smallest and largest angle of the others, degrees.
+    pub angles: [f64; 2],
+    /// Largest circumradius over shortest edge; 1/√3 for an equilateral triangle.
+    pub worst_radius_to_edge: f64,
+    /// Shortest and longest edge, m.
+    pub edges: [f64; 2],
+}
+
+impl SurfaceQuality {
+    /// Whether the surface encloses a volume: closed, a manifold, all triangles turned alike.
+    pub fn is_closed(&self) -> bool {
+        self.triangles > 0
+            && [self.open_edges, self.branching_edges, self.flipped_edges].iter().all(|&edges| edges == 0)
+    }
+}
+
+/// Measures a surface. Indices have to be in range, as those of a surface from a file are.
+pub fn surface_quality(mesh: &SurfaceMesh) -> SurfaceQuality {
+    let shapes: Vec<Shape> = mesh.elements.iter().map(|element| measure(element.map(|i| mesh.vertices[i]))).collect();
+    let solid = || shapes.iter().filter(|shape| !shape.is_flat);
+    let edges = edges(mesh);
+    let count = |is_wanted: fn(&Edge) -> bool| edges.values().filter(|edge| is_wanted(edge)).count();
+    let lengths = edges.keys().map(|&[a, b]| (mesh.vertices[a] - mesh.vertices[b]).norm());
+    // Relative to a vertex, volumes keep their digits far from the origin.
+    let origin = mesh.vertices.first().copied().unwrap_or_default();
+    let volume = |element: &[usize; 3]| {
+        let [a, b, c] = element.map(|i| mesh.vertices[i] - origin);
+        a.dot(&b.cross(&c)) / 6.0
+    };
+    let used = mesh.elements.iter().flatten().collect::<std::collections::HashSet<_>>().len();
+    SurfaceQuality {
+        vertices: mesh.vertices.len(),
+        triangles: mesh.elements.len(),
+        parts: parts(mesh),
+        euler_characteristic: used as i64 - edges.len() as i64 + mesh.elements.len() as i64,
+        area: shapes.iter().map(|shape| shape.area).sum(),
+        volume: mesh.elements.iter().map(volume).sum(),
+        open_edges: count(|edge| edge.triangles == 1),
+        branching_edges: count(|edge| edge.triangles > 2),
+        flipped_edges: count(|edge| edge.triangles == 2 && edge.direction != 0),
+        flat_triangles: shapes.iter().filter(|shape| shape.is_flat).count(),
+        angles: [
+            solid().map(|shape| shape.angles[0]).fold(f64::INFINITY, f64::min),
+            solid().map(|shape| shape.angles[1]).fold(0.0, f64::max),
+        ],
+        worst_radius_to_edge: solid().map(|shape| shape.radius_to_edge).fold(0.0, f64::max),
+        edges: lengths.fold([f64::INFINITY, 0.0], |[least, largest], x| [least.min(x), largest.max(x)]),
+    }
+}
+
+/// The triangles at an edge.
+#[derive(Default)]
+struct Edge {
+    triangles: usize,
+    /// How many of them run from the smaller to the larger vertex, less those that run back.
+    direction: i32,
+}
+
+fn edges(mesh: &SurfaceMesh) -> HashMap<[usize; 2], Edge> {
+    let mut edges: HashMap<[usize; 2], Edge> = HashMap::with_capacity(3 * mesh.elements.len() / 2);
+    for &[a, b, c] in &mesh.elements {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let edge = edges.entry([from.min(to), from.max(to)]).or_default();
+            edge.triangles += 1;
+            edge.direction += if from < to { 1 } else { -1 };
+        }
+    }
+    edges
+}
+
+/// Number of parts that share no vertex, by union of sets, Tarjan (1975).
+fn parts(mesh: &SurfaceMesh) -> usize {
+    let mut parent: Vec<usize> = (0..mesh.vertices.len()).collect();
+    fn root(parent: &mut [usize], mut at: usize) -> usize {
+        while parent[at] != at {
+            parent[at] = parent[parent[at]];
+            at = parent[at];
+        }
+        at
+    }
+    for &[a, b, c] in &mesh.elements {
+        for (a, b) in [(a, b), (b, c)] {
+            let (a, b) = (root(&mut parent, a), root(&mut parent, b));
+            parent[a] = b;
+        }
+    }
+    let mut roots: Vec<usize> = mesh.elements.iter().map(|element| root(&mut parent, element[0])).collect();
+    roots.sort_unstable();
+    roots.dedup();
+    roots.len()
+}
+
+/// One triangle's area (m²), smallest and largest angle (degrees), and circumradius over shortest edge.
+struct Shape {
+    area: f64,
+    angles: [f64; 2],
+    radius_to_edge: f64,
+    is_flat: bool,
+}
+
+fn measure(corners: [Vector3<f64>; 3]) -> Shape {
+    let sides = [0, 1, 2].map(|i| corners[(i + 1) % 3] - corners[i]);
+    let lengths = sides.map(|side| side.norm());
+    let twice_area = area_vector(corners).norm() * 2.0;
+    let [shortest, longest] =
+        [lengths.into_iter().fold(f64::INFINITY, f64::min), lengths.into_iter().fold(0.0, f64::max)];
+    // The arc tangent keeps the digits of angles near 0° and 180°.
+    let angles = [0, 1, 2].map(|i| twice_area.atan2(-sides[i].dot(&sides[(i + 2) % 3])).to_degrees());
+    Shape {
+        area: 0.5 * twice_area,
+        angles: [angles.into_iter().fold(f64::INFINITY, f64::min), angles.into_iter().fold(0.0, f64::max)],
+        radius_to_edge: lengths.iter().product::<f64>() / (2.0 * twice_area * shortest),
+        is_flat: !(twice_area > 8.0 * f64::EPSILON * longest * longest),
+    }
+}
+
+impl fmt::Display for SurfaceQuality {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let counts = [
+            ("vertices", self.vertices),
+            ("triangles", self.triangles),
+            ("connected parts", self.parts),
+            ("open edges", self.open_edges),
+            ("edges of over 2 triangles", self.branching_edges),
+            ("edges of flipped triangles", self.flipped_edges),
+            ("triangles without area", self.flat_triangles),
+        ];
+        let figures = [
+            ("area, m²", format!("{:.6e}", self.area)),
+            (
+                "enclosed volume, m³",
+                if self.is_closed() { format!("{:.6e}", self.volume) } else { "not closed".to_owned() },
+            ),
+            ("Euler characteristic", self.euler_characteristic.to_string()),
+            ("shortest edge, m", format!("{:.4e}", self.edges[0])),
+            ("longest edge, m", format!("{:.4e}", self.edges[1])),
+            ("smallest angle, °", format!("{:.4}", self.angles[0])),
+            ("largest angle, °", format!("{:.4}", self.angles[1])),
+            ("worst circumradius / edge", format!("{:.4}", self.worst_radius_to_edge)),
+        ];
+        counts.iter().try_for_each(|(name, count)| writeln!(f, "{name:<26}{count:>12}"))?;
+        figures.iter().try_for_each(|(name, figure)| writeln!(f, "{name:<26}{figure:>12}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::{boundary, box_mesh};
+
+    fn cube() -> SurfaceMesh {
+        let mesh = box_mesh([1.0, 1.0, 1.0], 2).unwrap();
+        SurfaceMesh::new(mesh.vertices.clone(), boundary(&mesh))
+    }
+
+    #[test]
+    fn the_surface_of_a_cube_is_closed_and_has_its_area_volume_and_angles() {
+        let found = surface_quality(&cube());
+        assert!(found.is_closed());
+        assert_relative_eq!(found.area, 6.0, max_relative = 1e-14);
+        assert_relative_eq!(found.volume, 1.0, max_relative = 1e-14);
+        assert_eq!((found.euler_characteristic, found.parts, found.flat_triangles), (2, 1, 0));
+        assert_relative_eq!(found.angles[0], 45.0, max_relative = 1e-14);
+        assert_relative_eq!(found.angles[1], 90.0, max_relative = 1e-14);
+        assert_relative_eq!(found.worst_radius_to_edge, 0.5_f64.sqrt(), max_relative = 1e-14);
+        assert_relative_eq!(found.edges[1], 0.5_f64.sqrt(), max_relative = 1e-14);
+    }
+
+    #[test]
+    fn an_equilateral_triangle_has_the_best_ratio_and_open_edges() {
+        let corners = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(Vector3::from);
+        let found = surface_quality(&SurfaceMesh::new(corners.to_vec(), vec![[0, 1, 2]]));
+        assert_relative_eq!(found.worst_radius_to_edge, 1.0 / 3.0_f64.sqrt(), max_relative = 1e-14);
+        assert_eq!((found.open_edges, found.is_closed()), (3, false));
+        assert!(found.to_string().contains("not closed"));
+    }
+
+    #[test]
+    fn holes_flipped_triangles_and_third_triangles_at_an_edge_are_counted() {
+        let mut open = cube();
+        open.elements.pop();
+        assert_eq!(surface_quality(&open).open_edges, 3);
+        let mut flipped = cube();
+        flipped.elements[0].swap(0, 1);
+        assert_eq!(surface_quality(&flipped).flipped_edges, 3);
+        let mut branching = cube();
+        let [a, b, _] = branching.elements[0];
+        branching.vertices.push(Vector3::repeat(3.0));
+        branching.elements.push([a, b, branching.vertices.len() - 1]);
+        assert_eq!(surface_quality(&branching).branching_edges, 1);
+        assert!(!surface_quality(&branching).is_closed());
+        let mut flat = cube();
+        flat.elements.push([a, b, a]);
+        assert_eq!(surface_quality(&flat).flat_triangles, 1);
+    }
+}
