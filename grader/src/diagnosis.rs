@@ -1,14 +1,22 @@
 //! Finds the common mistake that explains wrong answers. It is named only if it explains every trial in which it shows.
 
+mod algorithms;
 mod answers;
+mod differences;
+mod entries;
+mod fit;
 mod formulas;
 mod inputs;
+mod kinds;
+mod location;
+mod switches;
+mod terms;
 #[cfg(test)]
 mod tests;
 
 use grader::implementation::{Implementation, Local, Trouble};
 
-use crate::reference::trial::{Observed, Trial};
+use crate::reference::trial::{Input, Observed, Trial};
 use crate::reference::{REFERENCE, TOLERANCE, compare, trials};
 use crate::variants::Variant;
 
@@ -51,10 +59,25 @@ struct Case {
 /// How far, relative to the numbers at hand, a mistake's answer may be from the one that it explains.
 const PRECISION: f64 = 1e-6;
 
-/// The simplest mistake that explains the answers of a function; `None` if they are right or if no known mistake explains them.
-pub fn diagnose(function: &str, seed: u64, subject: &dyn Implementation, variants: &[Variant]) -> Option<Diagnosis> {
+/// What can be said about a function that fails.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Explanation {
+    /// The simplest mistake that explains the answers; `None` if they are right or if no known mistake explains them.
+    pub diagnosis: Option<Diagnosis>,
+    /// Where the answers are right and where they are wrong; `None` if there is no pattern.
+    pub location: Option<String>,
+}
+
+/// Explains the answers of a function.
+pub fn explain(function: &str, seed: u64, subject: &dyn Implementation, variants: &[Variant]) -> Explanation {
     let cases = cases(function, seed, subject);
-    let right = |case: &Case| compare(&case.trial, &case.observed, &case.expected, TOLERANCE).wrongs.is_empty();
+    let location = location::locate(&cases, subject);
+    Explanation { diagnosis: diagnose(function, cases, variants), location }
+}
+
+fn diagnose(function: &str, mut cases: Vec<Case>, variants: &[Variant]) -> Option<Diagnosis> {
+    // Wrong answers tell most, so that most candidates need no second look.
+    cases.sort_by_cached_key(right);
     // A second mistake in a limiting case must not hide the first.
     let (ordinary, edges): (Vec<_>, Vec<_>) = cases.iter().partition(|case| !case.trial.edge);
     let all: Vec<_> = ordinary.iter().chain(&edges).copied().collect();
@@ -63,19 +86,72 @@ pub fn diagnose(function: &str, seed: u64, subject: &dyn Implementation, variant
         .chain(inputs::candidates())
         .chain(formulas::candidates(function))
         .chain(variants.iter().filter(|variant| variant.function == function).filter_map(from_variant))
+        .chain(entries::candidates(&ordinary))
+        .chain(terms::candidates(function, &ordinary))
+        .chain(algorithms::candidates(function))
+        .chain(entries::exchanged(&ordinary))
+        .chain(differences::candidates(function))
         .collect();
     let explained = |cases: &[&Case]| {
         let wrong = cases.iter().any(|case| !right(case));
         candidates.iter().find(|candidate| wrong && explains(candidate, cases))
     };
-    let found = explained(&all).or_else(|| explained(&ordinary))?;
-    Some(Diagnosis { name: found.name.clone(), sentence: found.sentence.clone() })
+    let diagnosis = |of: &Candidate| Diagnosis { name: of.name.clone(), sentence: of.sentence.clone() };
+    if let Some(nothing) = kinds::not_a_number(&ordinary) {
+        return Some(nothing);
+    }
+    if let Some(found) = explained(&all).or_else(|| explained(&ordinary)) {
+        return Some(diagnosis(found));
+    }
+    if cases.iter().all(right) {
+        return candidates.iter().find(|candidate| explains_finely(candidate, &all)).map(diagnosis);
+    }
+    let scaled = || candidates.iter().find_map(|candidate| with_factor(candidate, &ordinary));
+    kinds::limiting_case(&all).or_else(scaled).or_else(|| kinds::inexact(&all))
+}
+
+/// A candidate's answers times a constant, where that explains what the candidate alone does not.
+fn with_factor(candidate: &Candidate, cases: &[&Case]) -> Option<Diagnosis> {
+    let first = cases.first().filter(|case| has_size(&case.trial.input))?;
+    let mistaken = (candidate.answers)(&first.trial, &first.expected)?;
+    let size = |x: &f64| if x.is_finite() { x.abs() } else { 0.0 };
+    let pairs = mistaken.numbers.iter().zip(&first.observed.numbers);
+    let (largest, observed) = pairs.max_by(|a, b| size(a.0).total_cmp(&size(b.0)))?;
+    let factor = observed / largest;
+    if !factor.is_finite() || factor == 0.0 || (factor - 1.0).abs() < 1e-6 {
+        return None;
+    }
+    let scaled = Candidate::new("", "", |trial, expected| {
+        let answer = (candidate.answers)(trial, expected)?;
+        Some(Observed { numbers: answer.numbers.iter().map(|x| x * factor).collect(), ..answer })
+    });
+    let by = answers::written(factor);
+    // A factor that nobody would write explains nothing.
+    (!by.contains('.') || by.len() < 6).then_some(())?;
+    let (name, sentence) = match by == "-1" {
+        true => ("negated".to_owned(), "Besides, every entry has the opposite sign.".to_owned()),
+        false => (format!("scaled by {by}"), format!("Besides, every entry is {by} times as large as it should be.")),
+    };
+    explains(&scaled, cases).then(|| Diagnosis {
+        name: format!("{} and {name}", candidate.name),
+        sentence: format!("{} {sentence}", candidate.sentence),
+    })
+}
+
+/// Whether the answers are quantities, which a factor may make wrong.
+fn has_size(input: &Input) -> bool {
+    !matches!(
+        input,
+        Input::Pick(_) | Input::Fixed { .. } | Input::Skinning { .. } | Input::Step(_) | Input::Minimum { .. }
+    )
 }
 
 /// The trials that are answered. After an answer that never comes, nothing more is asked.
 fn cases(function: &str, seed: u64, subject: &dyn Implementation) -> Vec<Case> {
     let mut cases = Vec::new();
-    for trial in trials(function, seed) {
+    let trials = trials(function, seed);
+    let more: Vec<_> = trials.iter().filter_map(turned).take(TURNED).collect();
+    for trial in trials.into_iter().chain(more) {
         let Ok(expected) = trial.run(&Local(REFERENCE)) else { break };
         match trial.run(subject) {
             Ok(observed) => cases.push(Case { trial, expected, observed }),
@@ -84,6 +160,27 @@ fn cases(function: &str, seed: u64, subject: &dyn Implementation) -> Vec<Case> {
         }
     }
     cases
+}
+
+/// Trials that are repeated with elements of the opposite orientation.
+const TURNED: usize = 5;
+
+/// The trial with two of each element's vertices exchanged; `None` if it has no elements.
+fn turned(trial: &Trial) -> Option<Trial> {
+    let mut trial = trial.clone();
+    match &mut trial.input {
+        Input::Shape { element, .. } | Input::Kinetic { element, .. } | Input::Quadrature { element, .. } => {
+            element.swap(1, 2);
+        }
+        Input::Elastic(elastic) => elastic.element.swap(1, 2),
+        _ => return None,
+    }
+    Some(Trial { name: "of the opposite orientation", ..trial })
+}
+
+/// Whether the answer of a case breaks no rule.
+fn right(case: &Case) -> bool {
+    compare(&case.trial, &case.observed, &case.expected, TOLERANCE).wrongs.is_empty()
 }
 
 fn from_variant(variant: &Variant) -> Option<Candidate<'_>> {
@@ -95,12 +192,16 @@ fn explains(candidate: &Candidate, cases: &[&Case]) -> bool {
     let mut telling = 0;
     for case in cases {
         let Some(mistaken) = (candidate.answers)(&case.trial, &case.expected) else { return false };
-        let size = mistaken.numbers.iter().filter(|x| x.is_finite()).fold(0.0, |size: f64, x| size.max(x.abs()));
-        let shows = distance(&mistaken, &case.expected, |i| case.trial.scale(i)) > PRECISION;
+        let size = size(&mistaken);
+        // Their scales allow for what a line search does to round-off, which hides mistakes.
+        let iterates = matches!(case.trial.input, Input::Step(_) | Input::Minimum { .. });
+        let scale = |i| if iterates { size.max(f64::MIN_POSITIVE) } else { case.trial.scale(i) };
+        let shows = distance(&mistaken, &case.expected, scale) > PRECISION;
         // Where the mistake shows, its own size counts: it may be far larger or smaller than the right answer.
         let off = match shows {
-            true => distance(&case.observed, &mistaken, |i| size + 1e-3 * case.trial.scale(i)),
-            false => distance(&case.observed, &mistaken, |i| 2.0 * case.trial.scale(i)),
+            true if iterates => distance(&case.observed, &mistaken, scale),
+            true => distance(&case.observed, &mistaken, |i| size + 1e-3 * scale(i)),
+            false => distance(&case.observed, &mistaken, |i| 2.0 * scale(i)),
         };
         let fits = off <= PRECISION;
         if !fits {
@@ -109,6 +210,26 @@ fn explains(candidate: &Candidate, cases: &[&Case]) -> bool {
         telling += usize::from(shows);
     }
     telling >= 3 || telling > 0 && telling == cases.len()
+}
+
+fn size(answer: &Observed) -> f64 {
+    answer.numbers.iter().filter(|x| x.is_finite()).fold(0.0, |size: f64, x| size.max(x.abs()))
+}
+
+/// Whether a mistake explains answers that are right within tolerance, by their smallest digits.
+fn explains_finely(candidate: &Candidate, cases: &[&Case]) -> bool {
+    let mut telling = 0;
+    for case in cases {
+        let Some(mistaken) = (candidate.answers)(&case.trial, &case.expected) else { return false };
+        let difference = distance(&mistaken, &case.expected, |_| 1.0);
+        let round_off = 1e-14 * size(&mistaken);
+        let fits = distance(&case.observed, &mistaken, |_| 1.0) <= 1e-3 * difference + round_off;
+        if !fits {
+            return false;
+        }
+        telling += usize::from(difference.is_finite() && difference > 100.0 * round_off);
+    }
+    telling >= 3
 }
 
 /// The largest difference; infinite where shapes differ or one side alone is not a number.

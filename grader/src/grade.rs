@@ -115,6 +115,9 @@ pub struct FunctionGrade {
     pub status: Status,
     /// Short name of the mistake that explains the answers, such as `negated`.
     pub diagnosis: Option<String>,
+    /// Sentences about the inputs and entries for which the answers are right, and those for which they are wrong.
+    #[serde(default)]
+    pub location: Option<String>,
     /// A sentence for the student: what the diagnosis means, why the file was refused, what the compiler says, …
     pub message: Option<String>,
     /// The rubric's hint, if the function does not pass.
@@ -190,7 +193,11 @@ impl Grade {
     fn cut(&mut self, most: usize) {
         self.remarks.iter_mut().for_each(|remark| cut(remark, most));
         for part in self.functions.iter_mut().chain([&mut self.simulation]) {
-            part.message.iter_mut().chain(&mut part.diagnosis).for_each(|text| cut(text, most));
+            part.message
+                .iter_mut()
+                .chain(&mut part.diagnosis)
+                .chain(&mut part.location)
+                .for_each(|text| cut(text, most));
             for check in &mut part.checks {
                 cut(&mut check.message, most);
                 check.counterexample.iter_mut().for_each(|text| cut(text, most));

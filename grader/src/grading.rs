@@ -191,6 +191,7 @@ fn finished(function: &Function, status: Status, message: Option<String>) -> Fun
         max_score: *function.points.get_ref(),
         status,
         diagnosis: None,
+        location: None,
         message,
         hint: function.hint.clone(),
         error: None,

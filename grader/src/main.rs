@@ -11,6 +11,8 @@ mod diagnosis;
 mod grade;
 mod grading;
 mod handout;
+#[cfg(test)]
+mod mistakes;
 mod new_folder;
 mod pack;
 mod reference;

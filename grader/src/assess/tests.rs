@@ -32,6 +32,7 @@ fn grade() -> Grade {
         max_score,
         status,
         diagnosis: None,
+        location: None,
         message: None,
         hint: None,
         error: None,

@@ -45,7 +45,7 @@ fn constant<'a>(cases: &[&Case]) -> Option<Candidate<'a>> {
 }
 
 /// A factor as a person would write it: 0.5, 20, 1/6.
-fn written(factor: f64) -> String {
+pub(super) fn written(factor: f64) -> String {
     let near = |denominator: &u32| {
         let numerator = factor * f64::from(*denominator);
         numerator.round() != 0.0 && (numerator - numerator.round()).abs() < 1e-6 * numerator.abs()

@@ -23,6 +23,18 @@ const FORMULAS: &[(&str, &str, &str, Formula)] = &[
         "The stress is multiplied from the wrong side. Which of its indices does the gradient of a shape function meet?",
         transposed_stress,
     ),
+    ("dpsi_neo_hookean_dF", "Cauchy stress", STRESS, |trial, answer| {
+        other_stress(trial, answer, |P, F| P * F.transpose() / F.determinant())
+    }),
+    ("dpsi_neo_hookean_dF", "Kirchhoff stress", STRESS, |trial, answer| {
+        other_stress(trial, answer, |P, F| P * F.transpose())
+    }),
+    ("dpsi_neo_hookean_dF", "second Piola–Kirchhoff stress", STRESS, |trial, answer| {
+        other_stress(trial, answer, |P, F| F.try_inverse().unwrap_or_default() * P)
+    }),
+    ("dpsi_neo_hookean_dF", "symmetric part of the stress", STRESS, |trial, answer| {
+        other_stress(trial, answer, |P, _| (P + P.transpose()) * 0.5)
+    }),
     (
         "d2V_linear_tetrahedron_dq2",
         "projected",
@@ -65,6 +77,8 @@ const FORMULAS: &[(&str, &str, &str, Formula)] = &[
     ),
 ];
 
+const STRESS: &str =
+    "The stress is another one: force on which area, the undeformed or the deformed one, and measured in which frame?";
 const LUMPED: &str = "The mass is concentrated at the vertices. Which integral of two shape functions does a consistent mass matrix hold?";
 const OVERWRITTEN: &str =
     "A vertex keeps the contribution of its last element alone. What happens to those of the elements before it?";
@@ -91,6 +105,16 @@ fn transposed_stress(trial: &Trial, _: &Observed) -> Option<Observed> {
     let P = solved::dpsi_neo_hookean_dF(&given::deformation_gradient(q, element, &dphi), *C, *D);
     let gradient = Matrix3::from_column_slice(P.as_slice()) * dphi.transpose() * *volume;
     Some(Observed::vector(gradient.as_slice().to_vec()))
+}
+
+fn other_stress(
+    trial: &Trial,
+    answer: &Observed,
+    of: fn(Matrix3<f64>, &Matrix3<f64>) -> Matrix3<f64>,
+) -> Option<Observed> {
+    let Input::Density { F, .. } = &trial.input else { return None };
+    let stress = of(Matrix3::from_row_slice(&answer.numbers), F);
+    Some(Observed::vector(stress.transpose().as_slice().to_vec()))
 }
 
 fn projected(trial: &Trial, answer: &Observed) -> Option<Observed> {

@@ -41,6 +41,11 @@ const CHANGES: &[(&str, &str, Change)] = &[
         "The first four vertices of q are taken, whatever the element. What do the entries of element count?",
         local_in_q,
     ),
+    (
+        "factor 3 left out in q",
+        "The wrong entries of the velocities are read: where does a vertex's x stand?",
+        factor_3_left_out,
+    ),
     ("missing rest length", "The spring pulls as if its rest length were zero. Where does l0 enter?", no_rest_length),
     ("F transposed", "The deformation gradient is read column by column. What are its rows?", transposed_F),
     (
@@ -135,6 +140,15 @@ fn local_in_q(input: &Input) -> Option<Input> {
         q.fixed_rows_mut::<3>(3 * vertex).copy_from(&of.q.fixed_rows::<3>(3 * i));
     }
     Some(Input::Elastic(Elastic { q, ..of.clone() }))
+}
+
+fn factor_3_left_out(input: &Input) -> Option<Input> {
+    let Input::Kinetic { qdot, element, density, volume } = input else { return None };
+    let mut read = qdot.clone();
+    for &vertex in element {
+        read.fixed_rows_mut::<3>(3 * vertex).copy_from(&qdot.fixed_rows::<3>(vertex));
+    }
+    Some(Input::Kinetic { qdot: read, element: *element, density: *density, volume: *volume })
 }
 
 fn swapped(input: &Input) -> Option<Input> {

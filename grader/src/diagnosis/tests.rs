@@ -7,7 +7,7 @@ use grader::implementation::Local;
 use grader_child::Functions;
 use nalgebra::Matrix3;
 
-use super::diagnose;
+use super::explain;
 use crate::reference::REFERENCE;
 use crate::variants::Variant;
 use mistakes::{ELEMENTS, ENERGIES, MESHES, STEPS};
@@ -17,7 +17,7 @@ fn named(function: &str, functions: Functions) -> Option<String> {
 }
 
 fn named_from(seed: u64, function: &str, functions: Functions) -> Option<String> {
-    diagnose(function, seed, &Local(functions), &[]).map(|diagnosis| diagnosis.name)
+    explain(function, seed, &Local(functions), &[]).diagnosis.map(|diagnosis| diagnosis.name)
 }
 
 #[test]
@@ -60,6 +60,6 @@ fn a_variant_is_recognised() {
     }
     let functions = Functions { psi_neo_hookean: without_three, ..REFERENCE };
     let variants = [Variant { function: "psi_neo_hookean", diagnosis: Some("missing 3"), sentence: "", functions }];
-    let found = diagnose("psi_neo_hookean", 1, &Local(functions), &variants);
+    let found = explain("psi_neo_hookean", 1, &Local(functions), &variants).diagnosis;
     assert_eq!(found.map(|diagnosis| diagnosis.name).as_deref(), Some("missing 3"));
 }

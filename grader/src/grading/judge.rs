@@ -12,7 +12,7 @@ use grader_child::Exercise;
 use super::load::load;
 use super::{Grading, GradingError, finished};
 use crate::assess::points;
-use crate::diagnosis::diagnose;
+use crate::diagnosis::{Explanation, explain};
 use crate::grade::{CheckGrade, FunctionGrade};
 use crate::reference::REFERENCE;
 use crate::reference::compare::Check;
@@ -91,8 +91,10 @@ impl Grading {
     fn explain(&self, grade: &mut FunctionGrade, name: &str, subject: &Sandboxed) {
         grade.score = points(grade.max_score, self.rubric.partial_credit, grade.status, &grade.checks);
         if grade.status == Status::Failed {
-            let asked = AssertUnwindSafe(|| diagnose(name, self.seed, subject, variants::of(name)));
-            if let Some(diagnosis) = panic::catch_unwind(asked).ok().flatten() {
+            let asked = AssertUnwindSafe(|| explain(name, self.seed, subject, variants::of(name)));
+            let Explanation { diagnosis, location } = panic::catch_unwind(asked).unwrap_or_default();
+            grade.location = location;
+            if let Some(diagnosis) = diagnosis {
                 grade.diagnosis = Some(diagnosis.name);
                 grade.message = Some(diagnosis.sentence);
             }

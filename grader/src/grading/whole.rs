@@ -83,6 +83,7 @@ impl Grading {
             max_score: self.rubric.simulation.points,
             status: Status::Missing,
             diagnosis: None,
+            location: None,
             message: None,
             hint: None,
             error: None,

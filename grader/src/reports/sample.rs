@@ -62,6 +62,7 @@ fn function(i: usize, variant: usize) -> FunctionGrade {
         },
         max_score: 4.0,
         status,
+        location: failed.then(|| "Right: the diagonal; wrong entries are elsewhere.".to_owned()),
         diagnosis: failed.then(|| ["negated", "scaled by 0.5", "transposed"][(i + variant) % 3].to_owned()),
         message: message(status),
         hint: (status != Status::Passed).then(|| "compare with a finite difference of the energy".to_owned()),

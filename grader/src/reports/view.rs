@@ -52,6 +52,9 @@ pub fn notes(function: &FunctionGrade, show_diagnosis: bool) -> Vec<String> {
         }
         None => notes.extend(function.message.clone()),
     }
+    if show_diagnosis {
+        notes.extend(function.location.clone());
+    }
     if function.status != Status::Passed {
         notes.extend(function.hint.as_ref().map(|hint| format!("Hint: {hint}")));
     }

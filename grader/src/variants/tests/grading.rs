@@ -9,7 +9,7 @@ use grader::properties::{Course, FUNCTIONS};
 use grader_child::{Functions, course_functions};
 
 use super::super::{ALL, Variant, of};
-use crate::diagnosis::diagnose;
+use crate::diagnosis::explain;
 use crate::reference::judge::judge;
 use crate::reference::{REFERENCE, TOLERANCE};
 
@@ -98,7 +98,8 @@ fn most_mistakes_are_named() {
     let named = in_parallel(|variants| {
         let with_names = variants.iter().filter_map(|one| Some((one, one.diagnosis?)));
         let told = |(one, wanted, seed): (&'static Variant, &str, u64)| {
-            let found = diagnose(one.function, seed, &Local(one.functions), of(one.function)).map(|found| found.name);
+            let explanation = explain(one.function, seed, &Local(one.functions), of(one.function));
+            let found = explanation.diagnosis.map(|found| found.name);
             (found.as_deref() != Some(wanted)).then(|| format!("{}, seed {seed}, but found {found:?}", label(one)))
         };
         with_names.flat_map(|(one, wanted)| SEEDS.map(|seed| (one, wanted, seed))).map(told).collect()

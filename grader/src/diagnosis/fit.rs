@@ -1,0 +1,117 @@
+//! Formulas as sums of terms: the coefficient of each is read off the answers by least squares.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::answers::written;
+use super::{Candidate, Case};
+use crate::reference::trial::{Observed, Trial};
+
+/// The terms of a trial, each as long as the answer.
+type Values<'a> = Box<dyn Fn(&Trial) -> Option<Vec<Vec<f64>>> + 'a>;
+
+/// A sum of terms that may have been computed.
+pub struct Formula<'a> {
+    /// What is wrong about it even where all coefficients are right; `None` for the right formula.
+    pub name: Option<(&'a str, &'a str)>,
+    /// The name of each term, as in `missing NAME`, and its right coefficient.
+    pub terms: &'a [(&'a str, f64)],
+    /// The terms of a trial one after the other; `None` if it has other input.
+    pub values: Values<'a>,
+}
+
+/// Largest misfit of a coefficient that still counts as the right one.
+const NEAR: f64 = 1e-6;
+
+/// Small beside the ones on the diagonal, and no smaller than their round-off.
+const SMALL: f64 = 1e-14;
+
+/// Cases that decide whether a formula is worth a closer look.
+const FIRST: usize = 4;
+
+/// The mistake that explains the answers by these terms; `None` if none does or if too many of its coefficients are wrong.
+pub fn candidate<'a>(formula: Formula<'a>, cases: &[&Case]) -> Option<Candidate<'a>> {
+    let few = &cases[..cases.len().min(FIRST)];
+    fitted(&formula, few)?;
+    let coefficients = fitted(&formula, cases)?;
+    let (name, sentence) = told(&formula, &coefficients)?;
+    let values = formula.values;
+    Some(Candidate::new(name, sentence, move |trial, answer| {
+        let terms = values(trial)?;
+        let sum = |k: usize| terms.iter().zip(&coefficients).map(|(term, c)| term[k] * c).sum();
+        Some(Observed { numbers: (0..answer.numbers.len()).map(sum).collect(), ..answer.clone() })
+    }))
+}
+
+/// Coefficients that fit the answers; `None` if none do.
+fn fitted(formula: &Formula, cases: &[&Case]) -> Option<Vec<f64>> {
+    let n = formula.terms.len();
+    let (mut rows, mut right) = (Vec::new(), Vec::new());
+    for case in cases {
+        let terms = (formula.values)(&case.trial)?;
+        for k in 0..case.observed.numbers.len() {
+            let size: f64 = terms.iter().map(|term| term[k].abs()).sum();
+            let observed = case.observed.numbers[k];
+            // What is no number must come from the terms as well, which the comparison of answers shows.
+            if !observed.is_finite() || !size.is_finite() {
+                continue;
+            }
+            let scale = size.max(1e-3 * case.trial.scale(k));
+            rows.extend(terms.iter().map(|term| term[k] / scale));
+            right.push(observed / scale);
+        }
+    }
+    if right.len() < n {
+        return None;
+    }
+    let (A, b) = (DMatrix::from_row_slice(right.len(), n, &rows), DVector::from_vec(right));
+    // Columns of the same length, so that small terms are not lost.
+    let lengths: Vec<f64> = A.column_iter().map(|column| column.norm().max(f64::MIN_POSITIVE)).collect();
+    let scaled = DMatrix::from_fn(A.nrows(), n, |i, j| A[(i, j)] / lengths[j]);
+    // A term that is zero in these trials has no coefficient, which must not spoil those of the others.
+    let normal = scaled.transpose() * &scaled + DMatrix::identity(n, n) * SMALL;
+    let x = normal.cholesky()?.solve(&(scaled.transpose() * &b));
+    let coefficients: Vec<f64> = x.iter().zip(&lengths).map(|(x, length)| x / length).collect();
+    let misfit = (&A * DVector::from_column_slice(&coefficients) - b).amax();
+    (misfit <= NEAR && coefficients.iter().all(|c| c.is_finite())).then_some(coefficients)
+}
+
+/// Name and sentence of what is wrong.
+fn told(formula: &Formula, coefficients: &[f64]) -> Option<(String, String)> {
+    let wrong: Vec<(String, String)> = formula
+        .terms
+        .iter()
+        .zip(coefficients)
+        .filter_map(|(&(name, right), &c)| told_of_term(name, c, right))
+        .collect();
+    let own = formula.name.map(|(name, sentence)| (name.to_owned(), sentence.to_owned()));
+    // Where no term is right, the terms explain nothing.
+    let explains = wrong.len() <= 2 && (own.is_none() || wrong.len() < 2) && (own.is_some() || !wrong.is_empty());
+    let all: Vec<_> = own.into_iter().chain(wrong).collect();
+    let (names, sentences): (Vec<_>, Vec<_>) = all.into_iter().unzip();
+    explains.then(|| (names.join(" and "), sentences.join(" ")))
+}
+
+fn told_of_term(name: &str, c: f64, right: f64) -> Option<(String, String)> {
+    let near = |wanted: f64| (c - wanted).abs() <= NEAR * 10.0 * (1.0 + wanted.abs());
+    if near(right) {
+        return None;
+    }
+    Some(if near(0.0) {
+        (
+            format!("missing {name}"),
+            format!("The answer is as if {name} were not there: derive the formula term by term."),
+        )
+    } else if right == 0.0 {
+        (format!("additional {name}"), format!("The answer contains {name}, which the formula does not have."))
+    } else if near(-right) {
+        (format!("{name} with the wrong sign"), format!("Look at the sign of {name}."))
+    } else {
+        let factor = written(c / right);
+        (
+            format!("{name} scaled by {factor}"),
+            format!(
+                "Of the terms, {name} is {factor} times as large as it should be: which constant is missing in it, or there twice?"
+            ),
+        )
+    })
+}

@@ -1,0 +1,90 @@
+//! The second derivative of the energy density.
+
+use nalgebra::{Matrix3, SMatrix, SVector};
+
+use super::densities::State;
+use crate::diagnosis::fit::Formula;
+use crate::reference::trial::Trial;
+
+type Matrix9 = SMatrix<f64, 9, 9>;
+
+/// The terms, the last of which is not in the formula.
+const TERMS: &[(&str, f64)] = &[
+    ("the term along the identity", 2.0),
+    ("the product of F and the cofactors", -4.0 / 3.0),
+    ("the product of the cofactors and F", -4.0 / 3.0),
+    ("the square of the cofactors with C", 10.0 / 9.0),
+    ("the square of the cofactors with D", 2.0),
+    ("the derivative of the cofactors with C", -2.0 / 3.0),
+    ("the derivative of the cofactors with D", 2.0),
+    ("another term", 0.0),
+];
+
+/// Terms that are taken for one of the formula's.
+const OTHERS: [fn(&State) -> Matrix9; 9] = [
+    |s| square(s) * (s.D * s.J),
+    |s| square(s) * (s.D * (s.J - 1.0)),
+    |s| change_of_cofactors(s) * (s.D * s.J),
+    |s| change_of_cofactors(s) * s.D,
+    |s| square(s) * (s.C * s.I * s.g() / s.J),
+    |s| square(s) * (s.C * s.I * s.g()),
+    |s| change_of_cofactors(s) * (s.C * s.I * s.g()),
+    |s| flat(&s.F) * flat(&s.F).transpose() * (s.C * s.g()),
+    |s| Matrix9::identity() * s.C,
+];
+
+/// The right terms, and the right terms with one more.
+pub fn formulas<'a>() -> Vec<Formula<'a>> {
+    let right = Formula {
+        name: None,
+        terms: &TERMS[..7],
+        values: Box::new(|trial| Some(terms(&State::of(trial)?).map(|term| by_rows(&term)).to_vec())),
+    };
+    let with = |other: fn(&State) -> Matrix9| Formula {
+        name: None,
+        terms: TERMS,
+        values: Box::new(move |trial: &Trial| {
+            let s = State::of(trial)?;
+            Some(terms(&s).iter().chain([&other(&s)]).map(by_rows).collect())
+        }),
+    };
+    std::iter::once(right).chain(OTHERS.map(with)).collect()
+}
+
+fn terms(s: &State) -> [Matrix9; 7] {
+    let (F, cofactors, derivative) = (flat(&s.F), flat(&s.cofactors()), change_of_cofactors(s));
+    [
+        Matrix9::identity() * (s.C * s.g()),
+        F * cofactors.transpose() * (s.C * s.g() / s.J),
+        cofactors * F.transpose() * (s.C * s.g() / s.J),
+        square(s) * (s.C * s.I * s.g() / (s.J * s.J)),
+        square(s) * s.D,
+        derivative * (s.C * s.I * s.g() / s.J),
+        derivative * (s.D * (s.J - 1.0)),
+    ]
+}
+
+fn by_rows(matrix: &Matrix9) -> Vec<f64> {
+    matrix.transpose().as_slice().to_vec()
+}
+
+fn flat(matrix: &Matrix3<f64>) -> SVector<f64, 9> {
+    SVector::from_fn(|k, _| matrix[(k / 3, k % 3)])
+}
+
+fn square(s: &State) -> Matrix9 {
+    let cofactors = flat(&s.cofactors());
+    cofactors * cofactors.transpose()
+}
+
+/// ∂²J/∂F²: ε_ikm ε_jln F_mn in row (i, j) and column (k, l).
+fn change_of_cofactors(s: &State) -> Matrix9 {
+    Matrix9::from_fn(|row, column| {
+        let (i, j, k, l) = (row / 3, row % 3, column / 3, column % 3);
+        if i == k || j == l {
+            return 0.0;
+        }
+        let sign = if ((i + 1) % 3 == k) == ((j + 1) % 3 == l) { 1.0 } else { -1.0 };
+        sign * s.F[(3 - i - k, 3 - j - l)]
+    })
+}

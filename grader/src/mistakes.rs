@@ -1,0 +1,36 @@
+//! Wrong functions as students write them, each with the names that a teacher would give to the mistake. They measure the
+//! diagnosis and take no part in it.
+
+use grader_child::Functions;
+
+/// Calls one of the 22 functions as the course's solution has it.
+macro_rules! right {
+    ($name:ident($($argument:expr),* $(,)?)) => {
+        ($crate::reference::REFERENCE.$name)($($argument),*)
+    };
+}
+
+/// A [`Mistake`]: the function, the names that fit, and the wrong body.
+macro_rules! wrong {
+    ($name:ident, [$($diagnosis:literal),*], $body:expr $(,)?) => {
+        Mistake {
+            function: stringify!($name),
+            names: &[$($diagnosis),*],
+            functions: grader_child::Functions { $name: $body, ..$crate::reference::REFERENCE },
+        }
+    };
+}
+
+mod by_hand;
+mod seen;
+mod tests;
+
+/// One wrong function.
+pub struct Mistake {
+    /// The function that is wrong.
+    pub function: &'static str,
+    /// The names that a teacher would agree with.
+    pub names: &'static [&'static str],
+    /// The course's solution with this mistake in it.
+    pub functions: Functions,
+}

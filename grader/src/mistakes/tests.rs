@@ -1,0 +1,68 @@
+//! How many of the wrong functions are named, how many of those are named right, and how many are located.
+
+use std::thread;
+
+use grader::implementation::Local;
+
+use super::{Mistake, seen};
+use crate::diagnosis::{Explanation, explain};
+use crate::variants;
+
+/// Inputs are the same ones in every run.
+const SEED: u64 = 11;
+
+/// A wrong function and what is said about it.
+struct Told {
+    mistake: &'static Mistake,
+    name: Option<String>,
+    is_located: bool,
+}
+
+impl Told {
+    fn is_named_right(&self) -> bool {
+        self.name.as_deref().is_some_and(|name| self.mistake.names.contains(&name))
+    }
+}
+
+/// What is said about each mistake; they are shared between two threads.
+fn told(mistakes: &[&'static [Mistake]]) -> Vec<Told> {
+    let told = |mistake: &'static Mistake| {
+        let subject = Local(mistake.functions);
+        let Explanation { diagnosis, location } =
+            explain(mistake.function, SEED, &subject, variants::of(mistake.function));
+        Told { mistake, name: diagnosis.map(|diagnosis| diagnosis.name), is_located: location.is_some() }
+    };
+    let half = |first: usize| {
+        let mistakes = mistakes.iter().copied().flatten().skip(first).step_by(2);
+        mistakes.map(told).collect::<Vec<_>>()
+    };
+    thread::scope(|scope| {
+        let others = scope.spawn(|| half(1));
+        let mut all = half(0);
+        all.extend(others.join().expect("a diagnosis does not panic"));
+        all
+    })
+}
+
+/// Holds shares of the mistakes: those named right, and those named right or located.
+fn hold(mistakes: &[&'static [Mistake]], named: f64, named_or_located: f64) {
+    let all = told(mistakes);
+    let share = |counts: fn(&Told) -> bool| all.iter().filter(|told| counts(told)).count() as f64 / all.len() as f64;
+    let (right, either) =
+        (share(Told::is_named_right), share(|told| told.is_named_right() || told.is_located && told.name.is_none()));
+    let others: Vec<_> = all
+        .iter()
+        .filter(|told| !told.is_named_right())
+        .map(|told| format!("{}: {:?} for {:?}", told.mistake.function, told.name, told.mistake.names))
+        .collect();
+    println!("of {}: {right:.3} named, {either:.3} named or located; the others: {others:#?}", all.len());
+    assert!(
+        right >= named && either >= named_or_located,
+        "{right:.3} named, {either:.3} named or located: {others:#?}"
+    );
+}
+
+#[test]
+fn mistakes_of_before_the_rules_are_named() {
+    hold(&seen::ALL, 0.97, 0.98);
+}
