@@ -23,6 +23,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::assess::Accounts;
 use crate::grade::Grade;
+use crate::rubric::Counts;
 pub use folders::{apart, distinct};
 pub use key::Identity;
 pub use person::Person;
@@ -79,6 +80,8 @@ pub struct Summary {
     /// Name of the assignment in gradebooks.
     pub title: String,
     pub max_score: f64,
+    /// Time from which on students may have their reports, in UTC.
+    pub release: Option<String>,
     /// Points that are others than after the run before.
     pub changes: Vec<Change>,
     /// Remarks for the instructor: other files, students that may be one, conflicts, …
@@ -175,6 +178,35 @@ pub fn run(options: &ClassOptions) -> Result<Summary, ClassError> {
     let identity = Identity::of(&options.grader, options.seed, rubric, &options.extra)?;
     let store = store::Store::open(&options.out)?;
     schedule::grade(options, class, identity, &store)
+}
+
+/// A submission as it lies in a folder, with its student or the students of its group.
+pub struct Listed {
+    pub submission: String,
+    pub path: PathBuf,
+    pub students: Vec<String>,
+}
+
+/// All submissions of a folder, with remarks on what else is there.
+pub fn list(folder: &Path) -> Result<(Vec<Listed>, Vec<String>), ClassError> {
+    let class = find::class(folder, Counts::Best)?;
+    let mut listed: Vec<Listed> = Vec::new();
+    for found in class.submissions {
+        match listed.iter_mut().find(|listed| listed.path == found.path) {
+            Some(group) => group.students.push(found.student),
+            None => listed.push(Listed { submission: found.name, path: found.path, students: vec![found.student] }),
+        }
+    }
+    Ok((listed, class.remarks))
+}
+
+/// Folders of what the graded students of a class may have back, and when they may have it.
+pub fn handed_back(results: &Path) -> Result<(Vec<PathBuf>, Option<String>), ClassError> {
+    let index = store::Index::read(results)?;
+    let graded = index.submissions.into_iter().filter(|row| matches!(row.state, store::IndexState::Graded(_)));
+    let mut folders: Vec<PathBuf> = graded.map(|row| results.join(student_folder(&row.student))).collect();
+    folders.dedup();
+    Ok((folders, index.release))
 }
 
 /// Joins the outputs `dirs` of shards into `out`, with copies of the reports.

@@ -61,6 +61,28 @@ pub enum Command {
         #[arg(long, value_name = "NAME", num_args = 1..)]
         function: Vec<String>,
     },
+    /// Write what students may see, and nothing else: a folder each.
+    Feedback {
+        /// A result folder of `class`.
+        results: PathBuf,
+        /// A new or empty folder.
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+        /// The same in one archive, to upload.
+        #[arg(long, value_name = "FILE")]
+        zip: Option<PathBuf>,
+    },
+    /// Compare the submissions of a folder with each other, and write pages to read similar ones side by side.
+    Similar {
+        /// A folder with a folder or archive for each submission.
+        folder: PathBuf,
+        /// A new or empty folder.
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+        /// The assignment, whose handout's text is left out.
+        #[arg(long, value_name = "FILE")]
+        rubric: Option<PathBuf>,
+    },
     /// Join the results of shards.
     Merge {
         /// Result folders of `class`.

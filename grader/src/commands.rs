@@ -10,15 +10,18 @@ use std::time::Duration;
 
 use grader::sandbox::Sandbox;
 use grader::submission::{NAMES, Source, Submission};
+use jiff::Timestamp;
 
 use crate::assess::{Accounts, Adjustments, Metadata};
 use crate::class::Outcome;
 use crate::cli::{Again, GradeOptions};
 use crate::grading::{Grading, repository};
+use crate::new_folder::{self, FolderError};
 use crate::pack::{self, PackOptions};
 use crate::reports::{self, Options};
 use crate::rubric::{Role, Rubric};
-use crate::{archive, class, handout, seed};
+use crate::similar::fingerprints::Document;
+use crate::{archive, class, feedback, handout, seed, similar};
 
 /// The grader or its machine failed; there is no grade.
 pub const GRADER_FAILED: u8 = 1;
@@ -188,6 +191,41 @@ pub fn class(
         write: reports::write_final,
     });
     told(summary, &options.out)
+}
+
+pub fn feedback(results: &Path, out: &Path, archive: Option<&Path>) -> Done {
+    let count = feedback::write(results, out, archive, Timestamp::now()).map_err(unusable)?;
+    println!("{count} students have a folder in {}: {}", out.display(), feedback::FILES.join(", "));
+    Ok(())
+}
+
+pub fn similar(folder: &Path, out: &Path, rubric: Option<&Path>) -> Done {
+    let rubric = Rubric::load(rubric).map_err(unusable)?;
+    class::apart(folder, out).map_err(unusable)?;
+    new_folder::check(out).map_err(unusable)?;
+    let (listed, remarks) = class::list(folder).map_err(unusable)?;
+    let given = similar::given(&handout::files(&repository(), &rubric).map_err(failed)?);
+    let document = |listed: class::Listed| {
+        let mut texts = similar::texts(&read(&listed.path));
+        texts.retain(|(name, _)| rubric.role(name) == Role::Asked);
+        Document::new(listed.submission, listed.students, texts, &given)
+    };
+    let documents: Vec<Document> = listed.into_iter().map(document).collect();
+    let pairs = similar::pairs::pairs(&documents);
+    let written = new_folder::create(out, |out| {
+        reports::similar::write(&documents, &pairs, out)
+            .map_err(|error| FolderError::Io { path: out.to_owned(), error })
+    });
+    written.map_err(unusable)?;
+    remarks.iter().for_each(|remark| println!("{remark}"));
+    let told = pairs.iter().filter(|pair| pair.share >= similar::LEAST_SHARE).count();
+    let share = 100.0 * similar::LEAST_SHARE;
+    println!(
+        "{} submissions; {told} pairs share {share} % or more: {}",
+        documents.len(),
+        out.join("similar.html").display()
+    );
+    Ok(())
 }
 
 pub fn merge(folders: &[PathBuf], out: &Path) -> Done {

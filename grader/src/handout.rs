@@ -47,6 +47,11 @@ impl HandoutError {
     }
 }
 
+/// What students receive for the assignment of a rubric.
+pub fn files(root: &Path, rubric: &Rubric) -> Result<Files, HandoutError> {
+    collect::collect(root, rubric)
+}
+
 /// Writes the students' repository of the repository `root` for the assignment of a rubric into the new or empty folder `to`.
 pub fn write(root: &Path, rubric: &Rubric, to: &Path) -> Result<(), HandoutError> {
     check_place(root, to)?;

@@ -8,6 +8,7 @@ mod class;
 mod cli;
 mod commands;
 mod diagnosis;
+mod feedback;
 mod grade;
 mod grading;
 mod handout;
@@ -19,6 +20,7 @@ mod reference;
 mod reports;
 mod rubric;
 mod seed;
+mod similar;
 mod variants;
 
 use std::env;
@@ -48,6 +50,8 @@ fn main() -> ExitCode {
         Command::Class { folder, options, jobs, shard, only, function } => {
             commands::class(&folder, &options, jobs, shard, (only, function))
         }
+        Command::Feedback { results, out, zip } => commands::feedback(&results, &out, zip.as_deref()),
+        Command::Similar { folder, out, rubric } => commands::similar(&folder, &out, rubric.as_deref()),
         Command::Merge { folders, out } => commands::merge(&folders, &out),
         Command::Sandbox => commands::sandbox_layers(),
         Command::Pack { platform, out, seed, vendor } => {

@@ -16,6 +16,7 @@ mod markdown;
 mod page;
 pub mod regrade;
 mod rows;
+pub mod similar;
 mod study;
 pub mod terminal;
 mod view;

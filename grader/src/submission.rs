@@ -18,6 +18,7 @@ pub use entries::Unreadable;
 pub use grader_child::NAMES;
 pub use mentions::mentions;
 use scan::Macros;
+pub use scan::with_tokens;
 pub use stub::is_stub;
 
 /// A file may have as many bytes as this; a function of the course has a few thousand.

@@ -21,7 +21,7 @@ pub fn join(dirs: &[PathBuf], out: &Path, report: Report) -> Result<Summary, Cla
     let mut remarks = missing_shards(&indices);
     let mut joined: BTreeMap<(String, String), Outcome> = BTreeMap::new();
     let identity = first.identity.clone();
-    let (title, max_score) = (first.title.clone(), first.max_score);
+    let (title, max_score, release) = (first.title.clone(), first.max_score, first.release.clone());
     let mut people = Vec::new();
     for (dir, index) in dirs.iter().zip(indices) {
         remarks.extend(index.remarks);
@@ -51,6 +51,7 @@ pub fn join(dirs: &[PathBuf], out: &Path, report: Report) -> Result<Summary, Cla
         people,
         title,
         max_score,
+        release,
         changes: Vec::new(),
         remarks,
         interrupted: false,

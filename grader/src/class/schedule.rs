@@ -87,6 +87,7 @@ impl<'a> Schedule<'a> {
             people: class.people.clone(),
             title: rubric.title.clone(),
             max_score: rubric.max_score(),
+            release: rubric.students.release.map(|time| time.0.to_string()),
             changes: Vec::new(),
             remarks: class.remarks.clone(),
             graded_now: 0,

@@ -38,6 +38,8 @@ pub struct Index {
     pub title: String,
     #[serde(default)]
     pub max_score: f64,
+    #[serde(default)]
+    pub release: Option<String>,
     pub submissions: Vec<IndexRow>,
 }
 
@@ -245,6 +247,7 @@ impl Index {
             people: summary.people.clone(),
             title: summary.title.clone(),
             max_score: summary.max_score,
+            release: summary.release.clone(),
             submissions: summary.entries.iter().map(IndexRow::of).collect(),
         }
     }

@@ -167,6 +167,7 @@ pub fn empty_class() -> Summary {
         people: Vec::new(),
         title: "Homework".to_owned(),
         max_score: 100.0,
+        release: None,
         changes: Vec::new(),
         remarks: Vec::new(),
         graded_now: 0,

@@ -47,7 +47,7 @@ pub fn scan(text: &str, macros: &Macros) -> Option<Found> {
 }
 
 /// Tokenises a text on a thread with a large stack and works on the tokens there; `None` if it is not Rust.
-pub(super) fn with_tokens<R: Send>(text: &str, work: impl FnOnce(TokenStream) -> R + Send) -> Option<R> {
+pub fn with_tokens<R: Send>(text: &str, work: impl FnOnce(TokenStream) -> R + Send) -> Option<R> {
     if too_deep(text).is_some() {
         return None;
     }

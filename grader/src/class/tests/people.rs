@@ -130,3 +130,37 @@ fn no_name_of_a_student_leads_out_of_the_results() {
     assert_eq!(names.len(), 2, "{names:?}");
     assert!(!room.path("evil").exists() && !room.path("out/evil").exists() && !room.path("out/grade.json").exists());
 }
+
+#[test]
+fn students_get_back_what_they_may_see_and_not_before_its_time() {
+    let room = Room::new(&[("anna", GOOD), ("bob", "exit 1"), ("carl", GOOD)]);
+    let secret = r#""checks": [{"name": "c", "status": "failed", "message": "", "counterexample": "SECRET"}]"#;
+    fs::write(room.path("grade.json"), grade(7).replacen(r#""checks": []"#, secret, 1)).unwrap();
+    run_with(&room, &OURS.replacen("hints = true", "hints = true\nrelease = 2026-06-01T12:00:00+02:00", 1));
+    assert!(fs::read_to_string(room.path("out/students/anna/grade.json")).unwrap().contains("SECRET"));
+    let write = |to: &str, now: &str| {
+        let archive = room.path("all.zip");
+        crate::feedback::write(&room.path("out"), &room.path(to), Some(&archive), now.parse().unwrap())
+    };
+    let early = write("back", "2026-06-01T09:59:59Z").unwrap_err().to_string();
+    assert!(early.contains("2026-06-01T10:00:00Z") && !room.path("back").exists(), "{early}");
+    assert_eq!(write("back", "2026-06-01T10:00:00Z").unwrap(), 2);
+    let mut found = Vec::new();
+    for student in fs::read_dir(room.path("back")).unwrap() {
+        for file in fs::read_dir(student.unwrap().path()).unwrap() {
+            let path = file.unwrap().path();
+            assert!(!fs::read_to_string(&path).unwrap().contains("SECRET"), "{}", path.display());
+            found.push(path.strip_prefix(room.path("back")).unwrap().display().to_string());
+        }
+    }
+    found.sort();
+    let files = ["junit.xml", "report.html", "report.md", "results.json"];
+    let expected: Vec<String> =
+        ["anna", "carl"].iter().flat_map(|name| files.map(|file| format!("{name}/{file}"))).collect();
+    assert_eq!(found, expected);
+    let archive = zip::ZipArchive::new(fs::File::open(room.path("all.zip")).unwrap()).unwrap();
+    let mut names: Vec<String> = archive.file_names().map(|name| name.unwrap().into_owned()).collect();
+    names.sort();
+    assert_eq!(names, expected);
+    assert!(write("back", "2026-06-01T10:00:00Z").unwrap_err().to_string().contains("not empty"));
+}

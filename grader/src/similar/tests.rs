@@ -1,0 +1,196 @@
+//! Planted copies of right solutions are found, and independent ones are not taken for copies.
+
+use std::fs;
+use std::path::Path;
+
+use grader::submission::NAMES;
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
+
+use super::fingerprints::Document;
+use super::pairs::pairs;
+use super::*;
+use crate::grading::repository;
+use crate::reports::similar;
+use crate::rubric::Rubric;
+
+const STYLES: [&str; 8] = [
+    "src",
+    "grader/tests/other_style/src",
+    "grader/tests/styles/algebra/src",
+    "grader/tests/styles/dense/src",
+    "grader/tests/styles/indices/src",
+    "grader/tests/styles/iterators/src",
+    "grader/tests/styles/recursive/src",
+    "grader/tests/styles/triplets/src",
+];
+
+/// A change of one text.
+type Disguise = fn(&str) -> String;
+
+/// What a student in a hurry does to a copy.
+const DISGUISES: [(&str, Disguise); 4] = [
+    ("renamed", renamed),
+    ("reordered", reordered),
+    ("split", split),
+    ("all three", |text| split(&renamed(&reordered(text)))),
+];
+
+fn handout() -> HashSet<u64> {
+    given(&crate::handout::files(&repository(), &Rubric::load(None).unwrap()).unwrap())
+}
+
+fn texts_in(folder: &Path) -> Vec<(&'static str, String)> {
+    NAMES.map(|name| (name, fs::read_to_string(folder.join(format!("{name}.rs"))).unwrap())).to_vec()
+}
+
+fn map_idents(tokens: TokenStream, change: &impl Fn(String) -> String) -> TokenStream {
+    let one = |token| match token {
+        TokenTree::Ident(word) => TokenTree::Ident(Ident::new(&change(word.to_string()), Span::call_site())),
+        TokenTree::Group(group) => TokenTree::Group(Group::new(group.delimiter(), map_idents(group.stream(), change))),
+        other => other,
+    };
+    tokens.into_iter().map(one).collect()
+}
+
+/// Another name for everything that the file's own `let`, closures and arguments name: for simplicity, for each short word.
+fn renamed(text: &str) -> String {
+    let is_kept = |word: &str| syn::parse_str::<syn::Ident>(word).is_err() || word == "f64" || word.len() > 5;
+    let change = |word: String| if is_kept(&word) { word } else { format!("my_{word}") };
+    map_idents(text.parse().unwrap(), &change).to_string()
+}
+
+/// The file's items, and in each body neighbouring pairs of `let`, the other way round.
+fn reordered(text: &str) -> String {
+    let file = syn::parse_file(text).unwrap();
+    let mut items: Vec<String> = file.items.iter().map(|item| body_reordered(&quoted(item, text))).collect();
+    items.reverse();
+    items.join("\n")
+}
+
+fn quoted(item: &syn::Item, text: &str) -> String {
+    use syn::spanned::Spanned;
+    text[item.span().byte_range()].to_owned()
+}
+
+fn body_reordered(item: &str) -> String {
+    let lines: Vec<&str> = item.lines().collect();
+    let is_let = |line: &str| line.starts_with("    let ") && line.ends_with(';');
+    let mut changed: Vec<&str> = Vec::new();
+    let mut next = 0;
+    while next < lines.len() {
+        if next + 1 < lines.len() && is_let(lines[next]) && is_let(lines[next + 1]) {
+            changed.extend([lines[next + 1], lines[next]]);
+            next += 2;
+        } else {
+            changed.push(lines[next]);
+            next += 1;
+        }
+    }
+    changed.join("\n")
+}
+
+/// Each long body divided among helper functions of four statements.
+fn split(text: &str) -> String {
+    let tokens: TokenStream = text.parse().unwrap();
+    let divided = tokens.into_iter().map(|token| match token {
+        TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => divided(group.stream()),
+        other => other.to_string(),
+    });
+    divided.collect::<Vec<_>>().join(" ")
+}
+
+fn divided(body: TokenStream) -> String {
+    let (mut text, mut statements) = (String::from("{ "), 0);
+    for token in body {
+        let is_end = matches!(&token, TokenTree::Punct(mark) if mark.as_char() == ';');
+        text.push_str(&format!("{token} "));
+        statements += usize::from(is_end);
+        if is_end && statements % 4 == 0 {
+            text.push_str(&format!("helper{statements}(a, b) }} fn helper{statements}(a: &[f64], b: f64) -> f64 {{ "));
+        }
+    }
+    text + "}"
+}
+
+/// Originals, and for each author a copy in this disguise; the author of each.
+fn class(disguise: Disguise, handout: &HashSet<u64>) -> (Vec<Document>, Vec<usize>) {
+    let document = |author: usize, style: &str, change: Disguise| {
+        let copy = texts_in(&repository().join(style)).iter().map(|(name, text)| (*name, change(text))).collect();
+        (
+            Document::new(format!("{style} {author}"), vec![format!("{style} {author}")], copy, handout),
+            author % STYLES.len(),
+        )
+    };
+    let originals = STYLES.iter().enumerate().map(|(author, style)| document(author, style, str::to_owned));
+    let copies = STYLES.iter().enumerate().map(|(author, style)| document(author + STYLES.len(), style, disguise));
+    originals.chain(copies).unzip()
+}
+
+#[test]
+fn planted_copies_are_found_and_independent_solutions_are_not_taken_for_copies() {
+    let handout = handout();
+    let mut table = Vec::new();
+    for (disguise, change) in DISGUISES {
+        let (documents, authors) = class(change, &handout);
+        let found = pairs(&documents);
+        let is_copy = |pair: &&pairs::Pair| authors[pair.members[0]] == authors[pair.members[1]];
+        let told: Vec<_> = found.iter().filter(|pair| pair.share >= LEAST_SHARE).collect();
+        let right = told.iter().filter(|pair| is_copy(pair)).count();
+        let (precision, recall) = (right as f64 / told.len() as f64, right as f64 / STYLES.len() as f64);
+        let least = found.iter().filter(is_copy).map(|pair| pair.share).fold(1.0, f64::min);
+        let most = found.iter().filter(|pair| !is_copy(pair)).map(|pair| pair.share).fold(0.0, f64::max);
+        println!(
+            "{disguise:>10}: precision {precision:.2}, recall {recall:.2}; copies {least:.2}.., others ..{most:.2}"
+        );
+        table.push((disguise, precision, recall));
+        assert!(least > 0.6 && most < 0.2, "the line of {LEAST_SHARE} is far from both: {least}, {most}");
+    }
+    assert_eq!(table, DISGUISES.map(|(disguise, _)| (disguise, 1.0, 1.0)));
+}
+
+#[test]
+fn half_a_copy_is_found_beside_both_of_its_sources() {
+    let handout = handout();
+    let sources: Vec<_> = STYLES.iter().map(|style| texts_in(&repository().join(style))).collect();
+    let mixed = (0..NAMES.len()).map(|i| (NAMES[i], renamed(&sources[i % 2][i].1))).collect();
+    let document = |i: usize, texts| Document::new(i.to_string(), vec![i.to_string()], texts, &handout);
+    let mut class: Vec<_> = sources.into_iter().enumerate().map(|(i, texts)| document(i, texts)).collect();
+    class.push(document(8, mixed));
+    let told = pairs(&class).into_iter().filter(|pair| pair.share >= LEAST_SHARE).map(|pair| pair.members);
+    let mut told: Vec<_> = told.collect();
+    told.sort();
+    assert_eq!(told, [[0, 8], [1, 8]]);
+}
+
+#[test]
+fn what_the_handout_gave_and_what_a_group_shares_is_no_copy() {
+    let handout = handout();
+    let solved = texts_in(&repository().join("src"));
+    let document = |students: &[&str], handout: &HashSet<u64>| {
+        let students = students.iter().map(|name| (*name).to_owned()).collect();
+        Document::new(String::new(), students, solved.clone(), handout)
+    };
+    let all_given: HashSet<u64> = solved.iter().flat_map(|(_, text)| all_pieces(text)).collect();
+    assert!(pairs(&[document(&["anna"], &all_given), document(&["bob"], &all_given)]).is_empty());
+    assert!(pairs(&[document(&["anna", "carl"], &handout), document(&["carl"], &handout)]).is_empty());
+    let whole = pairs(&[document(&["anna"], &handout), document(&["bob"], &handout)]);
+    assert!(whole.len() == 1 && whole[0].share > 0.95, "{}", whole[0].share);
+}
+
+#[test]
+fn a_pair_side_by_side_marks_what_both_share_and_shows_text_as_text() {
+    let handout = HashSet::new();
+    let shared = "let x = a * b + c[0] - d(e, f).g() / 2.0; if x > 1.0 { return x - 3.0 * y[1] + z; }";
+    let document = |student: &str, own: &str| {
+        let text = format!("fn f() {{\n    {own}\n    {shared}\n}}\n// </pre><script>alert(1)</script>\n");
+        Document::new(student.to_owned(), vec![student.to_owned()], vec![("psi_neo_hookean", text)], &handout)
+    };
+    let class = [document("<b>anna", "loop {}"), document("bob", "for i in 0..3 { [i, i, i]; }")];
+    let found = pairs(&class);
+    let page = similar::side_by_side(&class, &found[0]);
+    assert!(!page.contains("<script") && !page.contains("<b>anna") && page.contains("&lt;/pre&gt;&lt;script&gt;"));
+    assert_eq!(page.matches("<mark").count(), page.matches("</mark>").count());
+    assert!(page.matches("<mark").count() >= 2 && page.contains("psi_<wbr>neo_<wbr>hookean"), "{page}");
+    let list = similar::list(&class, &found);
+    assert!(list.contains("pairs/001.html") && list.contains("&lt;b&gt;anna") && !list.contains("<b>anna"), "{list}");
+}
