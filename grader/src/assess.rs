@@ -93,10 +93,10 @@ impl Accounts {
 
     /// Takes points and hints from the rubric as it is now.
     fn recount(&self, grade: &mut Grade) {
-        let Rubric { partial_credit, students, functions, simulation, .. } = &self.rubric;
+        let Rubric { partial_credit, growth_costs, students, functions, simulation, .. } = &self.rubric;
         let mut change = (0.0, 0.0);
         let mut count = |part: &mut FunctionGrade, max_score: f64| {
-            let score = points(max_score, *partial_credit, part.status, &part.checks);
+            let score = points(max_score, *partial_credit, part.status, &part.checks) * part.kept(*growth_costs);
             change = (change.0 + score - part.score, change.1 + max_score - part.max_score);
             (part.score, part.max_score) = (score, max_score);
         };

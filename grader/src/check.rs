@@ -1,12 +1,15 @@
 //! The public checks on a student's own machine: every function of a repository, those that do not compile included.
 
 mod confined;
+mod held;
 mod program;
+mod report;
+mod reset;
 mod watch;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io;
-use std::panic::{self, AssertUnwindSafe};
+use std::env;
+use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -15,15 +18,17 @@ use thiserror::Error;
 
 use crate::compile::prebuilt::{PrebuildError, Prebuilt};
 use crate::compile::{BuildError, Plan, build};
-use crate::implementation::Trouble;
 use crate::implementation::sandboxed::Sandboxed;
-use crate::properties::outcome::{Mistake, message_of};
-use crate::properties::{Check, Course, FUNCTIONS};
+use crate::properties::{Course, FUNCTIONS};
 use crate::sandbox::{Isolation, Sandbox};
 use crate::status::Status;
 use crate::submission::{Source, Submission, Unreadable};
 use confined::{own_repository, sandbox, starter};
+use held::{held_to, summary};
 pub use program::{Options, main};
+use report::View;
+pub use report::{Checked, Report};
+pub use reset::{HANDED_OUT, reset};
 use watch::watch;
 
 /// Seed of the random inputs; the same in every run, so that a corrected function shows.
@@ -61,34 +66,32 @@ pub enum CheckError {
     /// The functions are another's, and this machine cannot confine them.
     #[error("{0}; add `--without-sandbox` if you trust the functions as you trust yourself")]
     Unconfined(Isolation),
+    /// No file as it was handed out.
+    #[error("{}: {error}; `reset` works in a repository that `handout` wrote", .path.display())]
+    NotHandedOut {
+        /// The file.
+        path: PathBuf,
+        /// The problem.
+        error: io::Error,
+    },
+    /// Functions do not pass, and `--exit-code` asks for it.
+    #[error("functions that do not pass: {0}")]
+    Open(usize),
     /// Saved files cannot be noticed.
     #[error("{0}; run `check` without `--watch`")]
     Watch(#[from] notify::Error),
 }
 
 impl CheckError {
-    /// Whether an argument is to blame.
-    pub fn is_unusable(&self) -> bool {
-        matches!(self, Self::Unknown(_) | Self::Unreadable { .. })
+    /// 1 the checks themselves failed, 2 an argument is to blame, 3 functions do not pass.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Unknown(_) | Self::Unreadable { .. } | Self::NotHandedOut { .. } => 2,
+            Self::Open(_) => 3,
+            _ => 1,
+        }
     }
 }
-
-/// Result of the checks of one function.
-pub struct Report {
-    /// The function.
-    pub name: &'static str,
-    /// Its place in the course, from 1.
-    pub place: usize,
-    /// The outcome.
-    pub status: Status,
-    /// Number of its checks.
-    pub checks: usize,
-    /// Messages for the author.
-    pub messages: Vec<String>,
-}
-
-/// Number of failing checks of one function that are shown at once.
-const MOST_MESSAGES: usize = 3;
 
 /// Checks the functions of the repository at `folder`, or one of them, without a sandbox.
 ///
@@ -122,16 +125,25 @@ pub fn check_in(sandbox: &Sandbox, folder: &Path, only: Option<&str>) -> Result<
         bar.set_message(*name);
         subject.next_function();
         trusted.next_function();
+        let mut checked = Vec::new();
         let (status, messages) = match (submission.functions.get(name), built.faults.get(name)) {
             (_, Some(fault)) => (fault.status, vec![fault.message.clone()]),
             (Some(Source::Written(text)), None) => {
                 let course = Course { subject: &subject, trusted: &trusted, seed: SEED };
-                held_to(name, checks, &course, &missing_that(text, name, &submission))
+                checked = held_to(checks, &course, &missing_that(text, name, &submission));
+                summary(name, &checked)
             }
             (Some(Source::Refused { line, reason }), None) => (Status::Refused, vec![refused(*line, reason)]),
             _ => (Status::Missing, Vec::new()),
         };
-        reports.push(Report { name, place: index + 1, status, checks: checks.len(), messages });
+        reports.push(Report {
+            name,
+            place: index + 1,
+            status,
+            checks: checks.len(),
+            messages,
+            checked: checked.into_iter().map(|(checked, _)| checked).collect(),
+        });
     }
     bar.finish_and_clear();
     Ok(reports)
@@ -186,86 +198,43 @@ fn missing_that(text: &str, name: &str, submission: &Submission) -> Vec<&'static
     others.filter(|other| *other != name && text.contains(other)).filter(is_missing).collect()
 }
 
-fn held_to(name: &str, checks: &[Check], course: &Course, missing: &[&str]) -> (Status, Vec<String>) {
-    let (mut status, mut messages) = (Status::Passed, Vec::new());
-    for check in checks {
-        course.subject.begin_check();
-        course.trusted.begin_check();
-        // A check may stumble over an answer that makes no sense; that is the answer's fault.
-        let outcome = panic::catch_unwind(AssertUnwindSafe(|| (check.run)(course)));
-        let Err(mistake) = outcome.unwrap_or(Err(Mistake::Trouble(Trouble::Malformed))) else { continue };
-        // What made it give up has been told.
-        if mistake == Mistake::Trouble(Trouble::GivenUp) && status != Status::Passed {
-            continue;
-        }
-        let found = match &mistake {
-            Mistake::Wrong { .. } | Mistake::Trouble(Trouble::Malformed) => Status::Failed,
-            Mistake::Trouble(Trouble::TimedOut(_)) => Status::TimedOut,
-            Mistake::Trouble(Trouble::Missing) | Mistake::Waits { .. } => Status::Missing,
-            Mistake::Trouble(_) => Status::Crashed,
-        };
-        // A wrong answer says more than a check that has to wait.
-        status = if status == Status::Passed { found } else { status.min(found) };
-        let message = match &mistake {
-            Mistake::Trouble(Trouble::Missing) if !missing.is_empty() => format!("waits for {}", missing.join(", ")),
-            Mistake::Trouble(Trouble::Panicked { message, .. }) => format!("{}: {message}", message_of(name, &mistake)),
-            _ => message_of(name, &mistake),
-        };
-        if !messages.contains(&message) && messages.len() < MOST_MESSAGES {
-            messages.push(message);
-        }
-    }
-    (status, messages)
-}
-
-/// Prints what was found, one line for each function and what to do below those that fail.
-pub fn print(reports: &[Report]) {
-    for report in reports {
-        let word = match report.status {
-            Status::Passed => format!("passed ({} checks)", report.checks),
-            Status::Failed => "failed".to_owned(),
-            Status::Crashed => "crashed".to_owned(),
-            Status::TimedOut => "took too long".to_owned(),
-            Status::DidNotCompile => "does not compile".to_owned(),
-            Status::Refused => "refused".to_owned(),
-            Status::Missing if report.messages.is_empty() => "not written yet".to_owned(),
-            Status::Missing => "waits".to_owned(),
-        };
-        println!("{:2} {:32} {word}", report.place, report.name);
-        for line in report.messages.iter().flat_map(|message| message.lines()) {
-            println!("      {line}");
-        }
-    }
-    let passed = reports.iter().filter(|report| report.status == Status::Passed).count();
-    println!("\n{passed} of {} functions pass", reports.len());
-    if let Some(next) = reports.iter().find(|report| report.status != Status::Passed) {
-        println!("next: src/{0}.rs, with the page include-docs/{0}.md", next.name);
-    }
+/// Prints what was found: a table, and the failing checks of the function `about`, or of the first that fails.
+fn show(options: &Options, reports: &[Report], about: Option<&str>) {
+    let is_terminal = io::stdout().is_terminal();
+    let colour = is_terminal && env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+    let text = View { hints: options.hint, colour, folder: &options.folder }.render(reports, about);
+    // Clears the screen and what was scrolled away.
+    let clear = if options.watch && is_terminal { "\x1b[2J\x1b[3J\x1b[H" } else { "" };
+    print!("{clear}{text}");
 }
 
 /// Checks once and prints, or again and again whenever a file is saved.
 ///
 /// # Errors
-/// The reason if no function can be checked.
+/// The reason if no function can be checked; with `--exit-code` also if one does not pass.
 pub fn run(options: &Options) -> Result<(), CheckError> {
     let sandbox = sandbox(options)?;
     if options.watch {
-        return watch(&sandbox, &options.folder, options.only.as_deref());
+        return watch(&sandbox, options);
     }
-    print(&check_in(&sandbox, &options.folder, options.only.as_deref())?);
-    Ok(())
+    let reports = check_in(&sandbox, &options.folder, options.only.as_deref())?;
+    show(options, &reports, None);
+    let open = reports.iter().filter(|report| report.status != Status::Passed).count();
+    if options.exit_code && open > 0 { Err(CheckError::Open(open)) } else { Ok(()) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::implementation::{Implementation, Local};
+    use crate::implementation::{Implementation, Local, Trouble};
+    use crate::properties::Check;
+    use crate::properties::outcome::Mistake;
     use grader_child::UNWRITTEN;
 
     fn outcome(checks: &[Check]) -> (Status, usize) {
         let nothing = Local(UNWRITTEN);
         let course = Course { subject: &nothing, trusted: &nothing, seed: SEED };
-        let (status, messages) = held_to("psi_neo_hookean", checks, &course, &[]);
+        let (status, messages) = summary("psi_neo_hookean", &held_to(checks, &course, &[]));
         (status, messages.len())
     }
 

@@ -57,7 +57,7 @@ pub fn handout(to: &Path, rubric: Option<&Path>) -> Done {
 }
 
 pub fn check(options: &grader::check::Options) -> Done {
-    grader::check::run(options).map_err(|error| if error.is_unusable() { unusable(error) } else { failed(error) })
+    grader::check::run(options).map_err(|error| Problem { message: error.to_string(), code: error.exit_code() })
 }
 
 pub fn grade(

@@ -145,13 +145,21 @@ pub struct Growth {
     pub elements: usize,
 }
 
+impl FunctionGrade {
+    /// The part of its points that a function keeps, if a growth faster than the reference's costs this part.
+    pub fn kept(&self, growth_costs: f64) -> f64 {
+        let is_faster = self.growth.is_some_and(|growth| growth.is_faster());
+        if is_faster && self.status == Status::Passed { 1.0 - growth_costs } else { 1.0 }
+    }
+}
+
 impl Growth {
-    /// A larger exponent than this is no noise of the clock.
-    pub const CLEAR: f64 = 1.5;
+    /// A larger exponent than this is neither noise of the clock nor the memory of a larger mesh.
+    pub const CLEAR: f64 = 1.6;
 
     /// Whether the submission clearly grows faster than the reference.
     pub fn is_faster(&self) -> bool {
-        self.exponent > Self::CLEAR && self.reference_exponent.is_some_and(|reference| reference < self.exponent - 0.4)
+        self.exponent > Self::CLEAR && self.reference_exponent.is_some_and(|reference| reference < self.exponent - 0.5)
     }
 
     /// The sentence for the student, where the submission clearly grows faster than the reference.

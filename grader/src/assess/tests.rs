@@ -4,6 +4,7 @@ use std::fs;
 
 use super::adjustments::AdjustmentsError;
 use super::*;
+use crate::grade::Growth;
 
 const RUBRIC: &str = include_str!("../../rubric.toml");
 
@@ -73,6 +74,17 @@ fn the_points_of_a_rubric_apply_to_a_submission_that_is_graded_already() {
     let changed = Accounts::new(rubric(&doubled), Adjustments::default()).assess(grade(), &["anna"], None);
     assert_eq!((changed.score, changed.max_score), (10.0, 14.0));
     assert_eq!((changed.functions[0].score, changed.functions[1].score), (10.0, 0.0));
+}
+
+#[test]
+fn a_growth_that_costs_points_costs_them_again_when_they_are_counted_again() {
+    let mut fast = grade();
+    fast.functions[0].growth = Some(Growth { exponent: 2.0, reference_exponent: Some(1.0), elements: 24_576 });
+    assert_eq!(accounts("", "student\n").assess(fast.clone(), &["anna"], None).score, 6.0);
+    let strict = RUBRIC.replacen("growth_costs = 0.0", "growth_costs = 0.25", 1);
+    let strict = Accounts::new(rubric(&strict), Adjustments::default());
+    assert_eq!(strict.assess(fast, &["anna"], None).score, 5.0);
+    assert_eq!(strict.assess(grade(), &["anna"], None).score, 6.0);
 }
 
 #[test]

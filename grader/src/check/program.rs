@@ -5,9 +5,9 @@ use std::panic;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{ArgAction, Parser, Subcommand};
 
-use super::run;
+use super::{CheckError, reset, run};
 use crate::sandbox::confine;
 
 #[derive(Parser)]
@@ -21,6 +21,14 @@ struct Arguments {
 enum Command {
     /// Hold the functions of this repository to the public checks.
     Check(Options),
+    /// Put a function back as it was handed out; the present file is kept beside it.
+    Reset {
+        /// The function.
+        name: String,
+        /// The repository.
+        #[arg(value_name = "DIR", default_value = ".")]
+        folder: PathBuf,
+    },
 }
 
 /// Options of `check`.
@@ -38,28 +46,48 @@ pub struct Options {
     /// Check another's folder even where this machine has no sandbox: its functions may then do what you may.
     #[arg(long)]
     pub without_sandbox: bool,
+    /// Tell the broken rules with figures and inputs; twice: common mistakes as well.
+    #[arg(long, action = ArgAction::Count)]
+    pub hint: u8,
+    /// End with exit code 3 if a function does not pass.
+    #[arg(long, conflicts_with = "watch")]
+    pub exit_code: bool,
 }
 
-/// The whole program: 0 checked (passed or not), 1 the checks themselves failed, 2 unusable arguments.
+/// The whole program: 0 checked (passed or not), 1 the checks themselves failed, 2 unusable arguments, 3 a function does not pass and
+/// `--exit-code` asks for it.
 pub fn main() -> ExitCode {
     // The sandbox starts this program a second time.
     let words: Vec<String> = env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
     if words.first().is_some_and(|word| word == "confine") {
         return confine(&words[1..]);
     }
-    let Command::Check(options) = Arguments::parse().command;
+    let command = Arguments::parse().command;
     // Panics of what is checked are told with its check.
     panic::set_hook(Box::new(|_| {}));
-    match panic::catch_unwind(|| run(&options)) {
+    match panic::catch_unwind(|| done(&command)) {
         Ok(Ok(())) => ExitCode::SUCCESS,
         Ok(Err(error)) => {
             eprintln!("{error}");
-            ExitCode::from(if error.is_unusable() { 2 } else { 1 })
+            ExitCode::from(error.exit_code())
         }
         Err(panic) => {
             let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
             eprintln!("the checks themselves failed ({}); nothing was checked", text.unwrap_or("without a message"));
             ExitCode::FAILURE
+        }
+    }
+}
+
+fn done(command: &Command) -> Result<(), CheckError> {
+    match command {
+        Command::Check(options) => run(options),
+        Command::Reset { name, folder } => {
+            match reset(folder, name)? {
+                Some(kept) => println!("src/{name}.rs is as it was handed out; your file is {}", kept.display()),
+                None => println!("src/{name}.rs is as it was handed out"),
+            }
+            Ok(())
         }
     }
 }

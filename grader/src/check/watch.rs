@@ -1,42 +1,101 @@
 //! Checks again whenever a file is saved.
 
-use std::path::Path;
-use std::sync::mpsc::channel;
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use notify::{RecursiveMode, Watcher, recommended_watcher};
 
-use super::{CheckError, check_in, print, usable};
+use super::report::Report;
+use super::{CheckError, Options, check_in, show, usable};
+use crate::properties::FUNCTIONS;
 use crate::sandbox::Sandbox;
+use crate::status::Status;
 
 /// Editors save in several strokes; this long without another one counts as saved.
 const QUIET: Duration = Duration::from_millis(200);
 
-/// Checks whenever a file in `src` changes, until the program is stopped.
+/// Checks all functions, then those whose file in `src` changes, until the program is stopped.
 ///
 /// # Errors
 /// The reason if the folder or the name is not usable or cannot be watched. Problems that a later check finds are printed, and
 /// watching goes on.
-pub fn watch(sandbox: &Sandbox, folder: &Path, only: Option<&str>) -> Result<(), CheckError> {
+pub fn watch(sandbox: &Sandbox, options: &Options) -> Result<(), CheckError> {
+    let (folder, only) = (&options.folder, options.only.as_deref());
     usable(folder, only)?;
     let (sender, changes) = channel();
     let mut watcher = recommended_watcher(move |event: notify::Result<notify::Event>| {
         // Reading a file is an event too, and the checks read them all.
-        if event.is_ok_and(|event| !event.kind.is_access()) {
+        if let Some(event) = event.ok().filter(|event| !event.kind.is_access()) {
             // The receiver is gone when watching ends.
-            let _ = sender.send(());
+            let _ = sender.send(event.paths);
         }
     })?;
     watcher.watch(&folder.join("src"), RecursiveMode::NonRecursive)?;
+    let mut reports = Vec::new();
+    let mut changed = None;
     loop {
-        match check_in(sandbox, folder, only) {
-            Ok(reports) => print(&reports),
+        let check = |only: Option<&str>| check_in(sandbox, folder, only);
+        match checked_again(check, only, changed, &mut reports) {
+            Ok(()) => show(options, &reports, changed),
             Err(error) => eprintln!("{error}"),
         }
         println!("waiting for a file to be saved in {}; stop with Ctrl-C", folder.join("src").display());
-        if changes.recv().is_err() {
+        let Some(paths) = saved(&changes) else { return Ok(()) };
+        changed = function_of(&paths);
+    }
+}
+
+/// Checks the function that has changed, and all of them where more has, or where others may have waited for this one.
+fn checked_again(
+    check: impl Fn(Option<&str>) -> Result<Vec<Report>, CheckError>,
+    only: Option<&str>,
+    changed: Option<&'static str>,
+    reports: &mut Vec<Report>,
+) -> Result<(), CheckError> {
+    let before = reports.iter_mut().find(|report| Some(report.name) == changed).filter(|_| only.is_none());
+    if let Some(before) = before {
+        let passed = before.status == Status::Passed;
+        if let Some(now) = check(Some(before.name))?.into_iter().next() {
+            *before = now;
+        }
+        if (before.status == Status::Passed) == passed {
             return Ok(());
         }
-        while changes.recv_timeout(QUIET).is_ok() {}
+    }
+    *reports = check(only)?;
+    Ok(())
+}
+
+/// The files that are saved next; `None` where there will be no more.
+fn saved(changes: &Receiver<Vec<PathBuf>>) -> Option<BTreeSet<PathBuf>> {
+    let mut paths = BTreeSet::from_iter(changes.recv().ok()?);
+    while let Ok(more) = changes.recv_timeout(QUIET) {
+        paths.extend(more);
+    }
+    Some(paths)
+}
+
+/// The function that these files are about, if it is one: editors also write copies and locks beside it.
+fn function_of(paths: &BTreeSet<PathBuf>) -> Option<&'static str> {
+    let file = |name: &str| format!("{name}.rs");
+    let is_saved =
+        |name: &&str| paths.iter().any(|path| path.file_name().is_some_and(|found| found == file(name).as_str()));
+    let mut names = FUNCTIONS.iter().map(|(name, _)| *name).filter(is_saved);
+    names.next().filter(|_| names.next().is_none())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_saved_function_is_known_among_an_editors_copies_and_two_at_once_are_not() {
+        let found =
+            |names: &[&str]| function_of(&names.iter().map(|name| PathBuf::from("/a/src").join(name)).collect());
+        assert_eq!(found(&["psi_neo_hookean.rs", ".psi_neo_hookean.rs.swp", "4913"]), Some("psi_neo_hookean"));
+        assert_eq!(found(&["psi_neo_hookean.rs", "dpsi_neo_hookean_dF.rs"]), None);
+        assert_eq!(found(&["lib.rs"]), None);
     }
 }

@@ -60,8 +60,7 @@ impl Grading {
         if grade.status == Status::Passed {
             subject.next_check();
             grade.growth = self.growth(name, subject);
-            let is_faster = grade.growth.is_some_and(|growth| growth.is_faster());
-            grade.score *= if is_faster { 1.0 - self.rubric.growth_costs } else { 1.0 };
+            grade.score *= grade.kept(self.rubric.growth_costs);
         }
         Ok(grade)
     }

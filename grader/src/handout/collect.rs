@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use grader::check::HANDED_OUT;
 use grader::submission::NAMES;
 use syn::Item;
 
@@ -49,6 +50,12 @@ pub fn collect(root: &Path, rubric: &Rubric) -> Result<Files, HandoutError> {
             Role::Given => Ok(stub::marked(text)),
             Role::Later => Ok(stub::stub(name, text)?.replace("write this function", "a later assignment asks for it")),
         })?;
+    }
+    for name in NAMES {
+        // What `reset` puts back.
+        if let Some(text) = files.get(Path::new(&format!("src/{name}.rs"))).cloned() {
+            files.insert(format!("{HANDED_OUT}/{name}.rs").into(), text);
+        }
     }
     leave_out_the_engine(&mut files);
     add_module(root, Path::new("grader/src/lib.rs"), &mut files)?;

@@ -50,7 +50,10 @@ fn the_handout_has_no_strays() {
     ];
     assert_eq!(names(folder.path()), expected.map(str::to_owned).into());
     assert_eq!(names(&folder.path().join("tests")), ["functions".to_owned()].into());
-    assert_eq!(names(&folder.path().join("grader")), ["Cargo.toml", "child", "src"].map(str::to_owned).into());
+    assert_eq!(
+        names(&folder.path().join("grader")),
+        ["Cargo.toml", "child", "handed_out", "src"].map(str::to_owned).into()
+    );
     for private in ["reference.rs", "reference", "variants.rs", "variants", "grade.rs", "handout.rs", "archive.rs"] {
         assert!(!folder.path().join("grader/src").join(private).exists(), "{private} is the instructor's");
     }

@@ -1,0 +1,73 @@
+//! Holds a function to its checks, and tells what each comes to.
+
+use std::panic::{self, AssertUnwindSafe};
+
+use super::report::Checked;
+use crate::implementation::Trouble;
+use crate::properties::outcome::{Mistake, message_of};
+use crate::properties::{Check, Course};
+use crate::status::Status;
+
+/// Number of failing checks of one function whose messages are kept.
+const MOST_MESSAGES: usize = 3;
+
+/// A check and why it fails.
+pub type Held = (Checked, Option<Mistake>);
+
+/// Holds a function to its checks; `missing` are those that its text names and that are not written.
+pub fn held_to(checks: &[Check], course: &Course, missing: &[&str]) -> Vec<Held> {
+    let one = |check: &Check| {
+        course.subject.begin_check();
+        course.trusted.begin_check();
+        // A check may stumble over an answer that makes no sense; that is the answer's fault.
+        let outcome = panic::catch_unwind(AssertUnwindSafe(|| (check.run)(course)));
+        let mistake = outcome.unwrap_or(Err(Mistake::Trouble(Trouble::Malformed))).err();
+        let (rule, details) = mistake.as_ref().map(|mistake| told(mistake, missing)).unwrap_or_default();
+        (Checked { name: check.name.replace('_', " "), passed: mistake.is_none(), rule, details }, mistake)
+    };
+    checks.iter().map(one).collect()
+}
+
+/// The rule and the details of a mistake.
+fn told(mistake: &Mistake, missing: &[&str]) -> (String, String) {
+    match mistake {
+        Mistake::Wrong { rule, figures, counterexample } => {
+            let input = if counterexample.is_empty() { String::new() } else { format!("with input {counterexample}") };
+            (rule.clone(), [figures.clone(), input].join("\n").trim().to_owned())
+        }
+        Mistake::Trouble(Trouble::Missing) if !missing.is_empty() => {
+            (format!("waits for {}", missing.join(", ")), String::new())
+        }
+        // The message of one's own panic is no secret on one's own machine.
+        Mistake::Trouble(Trouble::Panicked { message, .. }) => (format!("{mistake:?}: {message}"), String::new()),
+        other => (format!("{other:?}"), String::new()),
+    }
+}
+
+/// The status of a function, and messages of its first failing checks.
+pub fn summary(name: &str, checked: &[Held]) -> (Status, Vec<String>) {
+    let (mut status, mut messages) = (Status::Passed, Vec::new());
+    for (check, mistake) in checked {
+        let Some(mistake) = mistake else { continue };
+        // What made it give up has been told.
+        if *mistake == Mistake::Trouble(Trouble::GivenUp) && status != Status::Passed {
+            continue;
+        }
+        let found = match mistake {
+            Mistake::Wrong { .. } | Mistake::Trouble(Trouble::Malformed) => Status::Failed,
+            Mistake::Trouble(Trouble::TimedOut(_)) => Status::TimedOut,
+            Mistake::Trouble(Trouble::Missing) | Mistake::Waits { .. } => Status::Missing,
+            Mistake::Trouble(_) => Status::Crashed,
+        };
+        // A wrong answer says more than a check that has to wait.
+        status = if status == Status::Passed { found } else { status.min(found) };
+        let message = match mistake {
+            Mistake::Wrong { .. } => message_of(name, mistake),
+            _ => check.rule.clone(),
+        };
+        if !messages.contains(&message) && messages.len() < MOST_MESSAGES {
+            messages.push(message);
+        }
+    }
+    (status, messages)
+}
