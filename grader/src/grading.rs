@@ -1,6 +1,7 @@
 //! Grades one submission: builds its functions level by level, holds each to its checks, and asks which mistake explains a failure.
 
 mod again;
+mod exposure;
 mod groups;
 mod growth;
 mod judge;
@@ -31,6 +32,7 @@ use thiserror::Error;
 use crate::grade::{FORMAT_VERSION, FunctionGrade, Grade};
 use crate::handout::unmarked;
 use crate::rubric::{Function, Role, Rubric};
+use exposure::exposed;
 use programs::Programs;
 use timer::CpuTimer;
 use workspace::Workspace;
@@ -44,6 +46,8 @@ pub enum GradingError {
     Build(#[from] BuildError),
     #[error("{0}; the grader needs a folder to work in and a compiler to start")]
     Io(#[from] io::Error),
+    #[error("{} lies in {}, which the compiler of a submission can read; move the repository elsewhere", .0.display(), .1.display())]
+    Exposed(PathBuf, PathBuf),
     #[error("the reference itself gives no answer ({0}); something is wrong with this machine or with the sandbox")]
     Reference(String),
 }
@@ -70,6 +74,12 @@ impl Grading {
     pub fn new(root: &Path, rubric: Rubric, sandbox: Sandbox, seed: u64) -> Result<Self, GradingError> {
         let prebuilt = Prebuilt::new(root)?;
         let programs = Programs::new(root, &rubric, &prebuilt)?;
+        let secrets = [root.join("src"), root.join("grader"), programs.whole()];
+        if sandbox.is_some_layer()
+            && let Some((secret, folder)) = exposed(&prebuilt.readable(), &secrets)
+        {
+            return Err(GradingError::Exposed(secret.to_owned(), folder.to_owned()));
+        }
         let limit = Duration::from_secs_f64(rubric.seconds);
         let reference = Sandboxed::new(programs.start_reference(&sandbox), limit);
         Ok(Self { rubric, prebuilt, sandbox, programs, reference, seed, workspace: Workspace::new()?, studies: false })

@@ -2,14 +2,17 @@
 #![cfg(target_os = "linux")]
 
 mod attacks {
+    pub mod checked;
     pub mod classroom;
+    pub mod compiler;
     pub mod hostile;
+    pub mod limits;
 }
 
 use std::fs;
 use std::net::TcpListener;
 
-use attacks::classroom::{Attacked, Classroom};
+use attacks::classroom::{Attacked, Classroom, repository};
 use attacks::hostile;
 
 #[test]
@@ -83,6 +86,11 @@ fn refused(room: &mut Classroom) {
     room.change("linearly_implicit_euler", "refused", |text| {
         before("unsafe extern \"C\" { safe fn getpid() -> i32; }", text)
     });
+    // The macros are those of two other files.
+    room.change("V_linear_tetrahedron", "refused", |text| {
+        before("const HOME: &str = crate::quadrature_single_point::read!(env (\"HOME\"));", text)
+    });
+    room.change("assemble_forces", "refused", |text| before("crate::m!(mod h {});", text));
     room.change("dpsi_neo_hookean_dF", "refused", |text| {
         before("macro_rules! m { ($a:tt $b:tt) => { $a $b { () } } }\nfn f() { m!(unsafe {}) }", text)
     });
@@ -92,6 +100,22 @@ fn refused(room: &mut Classroom) {
 fn not_compiling(room: &mut Classroom) {
     let before = |line: &str, text: String| format!("{line}\n{text}");
     room.change("V_spring_particle_particle", "did_not_compile", |text| text.replace("q1: &Vector3<f64>, ", ""));
+    // Notes of the compiler point into the standard library, nalgebra and what the course gives.
+    room.change("mass_matrix_mesh", "did_not_compile", |text| {
+        let notes = "let _ = \"\".parse::<CsrMatrix<f64>>(); crate::given::solve(1); CsrMatrix::<f64>::identity(); }";
+        format!("{text}\nfn notes() {{ {notes}")
+    });
+    // No program holds the reference of a function that is asked for, under whatever name.
+    room.replace_body(
+        "mass_matrix_linear_tetrahedron",
+        "did_not_compile",
+        "course_below::mass_matrix_linear_tetrahedron(density, volume)",
+    );
+    room.replace_body(
+        "dV_spring_particle_particle_dq",
+        "did_not_compile",
+        "course_below::dV_spring_particle_particle_dq(q0, q1, l0, stiffness)",
+    );
     room.change("T_linear_tetrahedron", "did_not_compile", |text| {
         before("compile_error!(\"</failure><script>alert(1)</script> 100 points\");", text)
     });
@@ -143,6 +167,13 @@ fn attacks_at_compile_time_cost_their_own_function_alone() {
     let told = attacked.message("V_spring_particle_particle");
     for check in ["CALL", "src/calls", "course_below", "grader_child"] {
         assert!(!told.contains(check), "{check} is quoted: {told}");
+    }
+    assert!(attacked.message("mass_matrix_mesh").contains("error"), "{}", attacked.message("mass_matrix_mesh"));
+    let repository = repository().display().to_string();
+    for path in
+        [repository.as_str(), "/rustc/", "/registry/", "/lib/", "/tmp/", "/home/", "/root/", "-->  /", "::: /", ".rlib"]
+    {
+        attacked.shows_students_nothing_of(path);
     }
     assert!(!fs::exists("/tmp/attacks-build").expect("a look"));
     attacked.shows_no_browser("<script>alert");

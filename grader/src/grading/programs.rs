@@ -68,9 +68,14 @@ impl Programs {
         (level > self.lowest).then(|| self.folder.join(format!("below-{level}/libcourse_below.rlib")))
     }
 
+    /// The folder with the reference's own program.
+    pub fn whole(&self) -> PathBuf {
+        self.folder.join("whole")
+    }
+
     /// How the reference is started, in a process of its own like a submission's, so that times can be compared.
     pub fn start_reference(&self, sandbox: &Sandbox) -> impl Fn() -> io::Result<Running> + use<> {
-        let folder = self.folder.join("whole");
+        let folder = self.whole();
         start(sandbox, Some(folder.join(format!("program{}", env::consts::EXE_SUFFIX))), &folder)
     }
 
@@ -97,7 +102,7 @@ impl Programs {
         for level in rubric.levels().into_iter().filter(|level| *level > self.lowest) {
             self.library(prebuilt, &self.names_below(level), &self.folder.join(format!("below-{level}")))?;
         }
-        let whole = self.folder.join("whole");
+        let whole = self.whole();
         fs::create_dir_all(&whole)?;
         let limit = Duration::from_secs(600);
         let plan = Plan { own: self.texts.clone(), reference: None, helpers: BTreeMap::new(), limit };

@@ -18,22 +18,23 @@ use nix::sys::wait::{Id, WaitPidFlag, WaitStatus, waitid, waitpid};
 use nix::unistd::{Pid, pipe};
 
 use super::Profile;
-use super::memory;
+use super::memory::Processes;
 use super::owner;
 use super::spec::{Control, News, Spec};
 
 /// Runs the program of a spec and tells the grader about it, until the program ends, its time is over or the grader is gone.
 pub fn supervise(spec: Spec) -> Result<(), String> {
     let control = control(spec.control).map_err(|error| format!("no way to the grader: {error}"))?;
+    let processes = Arc::new(Processes::open().map_err(|error| format!("/proc: {error}"))?);
     if let Err(why) = separate(&spec) {
         return tell(&control, &News::Refused(why));
     }
-    let watch = watch(&spec, &control).map_err(|error| format!("no ear for the grader: {error}"))?;
+    let watch = watch(&spec, &control, processes.clone()).map_err(|error| format!("no ear for the grader: {error}"))?;
     match begin(&spec, &watch) {
         Ok(program) => {
             tell(&control, &News::Started)?;
             let (status, timed_out) = attend(program, &watch)?;
-            sweep(&spec);
+            sweep(&spec, &processes);
             tell(&control, &ended(status, timed_out)?)
         }
         Err(why) => tell(&control, &News::Refused(why)),
@@ -146,7 +147,7 @@ const LOOK: Duration = Duration::from_millis(100);
 const RARELY: u32 = 20;
 
 /// Ends the program when its time is over, its memory is used up or the grader is gone.
-fn watch(spec: &Spec, control: &UnixStream) -> io::Result<Arc<Mutex<Watch>>> {
+fn watch(spec: &Spec, control: &UnixStream, processes: Arc<Processes>) -> io::Result<Arc<Mutex<Watch>>> {
     let watch = Arc::new(Mutex::new(Watch::default()));
     let shared = watch.clone();
     let ear = control.try_clone()?;
@@ -173,7 +174,7 @@ fn watch(spec: &Spec, control: &UnixStream) -> io::Result<Arc<Mutex<Watch>>> {
                 break false;
             }
             let begin = Instant::now();
-            if most < u64::MAX && memory::of_descendants() > most {
+            if most < u64::MAX && processes.memory_below() > most {
                 break false;
             }
             pause = pause.max(begin.elapsed() * RARELY);
@@ -207,25 +208,18 @@ fn retry<T>(mut call: impl FnMut() -> nix::Result<T>) -> nix::Result<T> {
 }
 
 /// Kills what the program has left behind. In a namespace of its own, the kernel has done so.
-fn sweep(spec: &Spec) {
+fn sweep(spec: &Spec, processes: &Processes) {
     // Orphans become children of this process, generation by generation.
     loop {
         if !spec.layers.contains("pid_namespace") {
-            children().into_iter().for_each(|pid| {
-                let _ = kill(pid, Signal::SIGKILL);
+            processes.children().into_iter().for_each(|pid| {
+                let _ = kill(Pid::from_raw(pid.cast_signed()), Signal::SIGKILL);
             });
         }
         if let Err(Errno::ECHILD) = waitpid(None, None) {
             return;
         }
     }
-}
-
-/// The processes whose parent is this one.
-fn children() -> Vec<Pid> {
-    let own = std::process::id();
-    let children = memory::processes().filter(|(_, parent)| *parent == own);
-    children.map(|(pid, _)| Pid::from_raw(pid.cast_signed())).collect()
 }
 
 fn ended(status: WaitStatus, timed_out: bool) -> Result<News, String> {

@@ -15,10 +15,10 @@ use tempfile::TempDir;
 const LIMIT: Duration = Duration::from_secs(400);
 
 /// Files that students may read.
-const OPEN: [&str; 4] = ["results.json", "report.md", "report.html", "junit.xml"];
+pub const OPEN: [&str; 4] = ["results.json", "report.md", "report.html", "junit.xml"];
 
 /// The first grading prepares libraries, which two at a time must not do.
-static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+pub static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 /// A submission before it is graded.
 pub struct Classroom {
@@ -34,11 +34,13 @@ pub struct Attacked {
     grade: Value,
 }
 
-fn repository() -> PathBuf {
+/// The repository that the grader is built from.
+pub fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the grader lies in the repository").to_owned()
 }
 
-fn solutions() -> BTreeMap<&'static str, String> {
+/// The 22 files of the solved repository.
+pub fn solutions() -> BTreeMap<&'static str, String> {
     let read = |name| fs::read_to_string(repository().join(format!("src/{name}.rs"))).expect("a solution");
     NAMES.map(|name| (name, read(name))).into()
 }
@@ -76,13 +78,23 @@ impl Classroom {
 
     /// Grades it, and makes sure that the repository is as before.
     pub fn grade(self) -> Attacked {
+        self.grade_with(&[])
+    }
+
+    /// The same with a rubric in which some lines are others.
+    pub fn grade_with(self, lines: &[(&str, &str)]) -> Attacked {
         let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let out = TempDir::new().expect("a folder");
         let rubric = self.folder.path().join("rubric.toml");
         let text = fs::read_to_string(repository().join("grader/rubric.toml")).expect("the rubric");
         assert!(text.contains("\nseconds = 5.0") && text.contains("compile_seconds = 20.0"));
         let strict = text.replace("\nseconds = 5.0", "\nseconds = 1.0");
-        fs::write(&rubric, strict.replace("compile_seconds = 20.0", "compile_seconds = 5.0")).expect("a file");
+        let mut strict = strict.replace("compile_seconds = 20.0", "compile_seconds = 5.0");
+        for (line, other) in lines {
+            assert!(strict.contains(line), "{line}");
+            strict = strict.replace(line, other);
+        }
+        fs::write(&rubric, strict).expect("a file");
         let begun = Instant::now();
         let output = Command::new(env!("CARGO_BIN_EXE_grader"))
             .arg("grade")
@@ -91,6 +103,7 @@ impl Classroom {
             .arg(out.path())
             .arg("--rubric")
             .arg(&rubric)
+            .args(["--seed", "1"])
             .output()
             .expect("the grader starts");
         println!("{}\n{:?}", String::from_utf8_lossy(&output.stdout), begun.elapsed());
@@ -142,6 +155,11 @@ impl Attacked {
             let text = fs::read_to_string(self.out.path().join(name)).expect("a report");
             assert!(!text.contains(markup), "{name} holds {markup}");
         }
+    }
+
+    /// Bytes of a report.
+    pub fn length(&self, name: &str) -> u64 {
+        fs::metadata(self.out.path().join(name)).expect("a report").len()
     }
 
     /// A word of the instructor's is in no file that students read.

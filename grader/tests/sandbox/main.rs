@@ -117,6 +117,45 @@ fn memory_is_limited() {
 }
 
 #[test]
+fn the_memory_of_a_tree_of_processes_is_limited() {
+    let mut program = Program::new("");
+    program.confined.program = "/bin/sh".into();
+    program.confined.readable = system_folders();
+    program.confined.profile = Profile::Compiler;
+    program.confined.environment = vec![("PATH".into(), "/usr/bin:/bin".into())];
+    program.confined.limits.memory = 512 << 20;
+    program.confined.limits.processes = 64;
+    program.confined.limits.wall = Duration::from_secs(60);
+    // Six processes, each of which may have what it holds.
+    let script = "for i in 1 2 3 4 5 6; do head -c 120000000 /dev/zero | tail -c 110000000 | sleep 20 & done; wait";
+    program.confined.arguments = vec!["-c".into(), script.into()];
+    let ended = program.run();
+    assert!(ended.signal == Some(9) && !ended.timed_out, "{ended:?}");
+    program.confined.arguments[1] = script.replace("1 2 3 4 5 6", "1").replace("20", "1");
+    assert_eq!(program.run().code, Some(0), "one of them is not too much");
+}
+
+#[test]
+fn the_processor_time_of_threads_that_compute_behind_an_answer_is_told() {
+    let program =
+        Program::new("for _ in 0..4 { thread::spawn(|| loop { std::hint::spin_loop() }); } loop { thread::park() }");
+    let mut running = SANDBOX.start(&program.confined).expect("it starts");
+    assert_eq!(running.ended(Duration::from_millis(1500)), None);
+    assert!(running.kill() > Duration::from_millis(100));
+}
+
+#[test]
+fn no_core_is_written() {
+    use nix::sys::resource::{Resource, getrlimit, setrlimit};
+    let (_, most) = getrlimit(Resource::RLIMIT_CORE).expect("a limit");
+    setrlimit(Resource::RLIMIT_CORE, most, most).expect("a limit");
+    let program = Program::new("std::process::abort()");
+    assert!(program.run().signal.is_some());
+    let left: Vec<_> = fs::read_dir(program.folder.path().join("scratch")).expect("a folder").flatten().collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
+#[test]
 fn files_are_limited_in_size() {
     let program = Program::new(
         "let mut f = fs::File::create(\"big\").unwrap(); let chunk = vec![0; 1 << 20];
