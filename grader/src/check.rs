@@ -245,6 +245,8 @@ mod tests {
         let trips = Check { name: "trips", run: |_| panic!("a check stumbles") };
         assert_eq!(outcome(&[late, given_up]), (Status::TimedOut, 1));
         assert_eq!(outcome(&[trips]), (Status::Failed, 1));
+        let open_branch = Check { name: "open", run: |_| Err(Mistake::Trouble(Trouble::Missing)) };
+        assert_eq!(outcome(&[open_branch]), (Status::Crashed, 1));
     }
 
     #[test]

@@ -64,6 +64,11 @@ pub struct Check {
     pub run: fn(&Course) -> Outcome,
 }
 
+/// The name of a check as people read it: `it_ends_at_1e_10` is "it ends at 1e-10".
+pub fn sentence(check: &str) -> String {
+    check.replace("_1e_", " 1e-").replace('_', " ")
+}
+
 macro_rules! list {
     ($($kind:ident $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
         /// The functions of the course in teaching order, each with its checks.

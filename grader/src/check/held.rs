@@ -5,14 +5,14 @@ use std::panic::{self, AssertUnwindSafe};
 use super::report::Checked;
 use crate::implementation::Trouble;
 use crate::properties::outcome::{Mistake, message_of};
-use crate::properties::{Check, Course};
+use crate::properties::{Check, Course, sentence};
 use crate::status::Status;
 
 /// Number of failing checks of one function whose messages are kept.
 const MOST_MESSAGES: usize = 3;
 
-/// A check and why it fails.
-pub type Held = (Checked, Option<Mistake>);
+/// A check and why it fails, with the status that follows from it.
+pub type Held = (Checked, Option<(Mistake, Status)>);
 
 /// Holds a function to its checks; `missing` are those that its text names and that are not written.
 pub fn held_to(checks: &[Check], course: &Course, missing: &[&str]) -> Vec<Held> {
@@ -23,9 +23,22 @@ pub fn held_to(checks: &[Check], course: &Course, missing: &[&str]) -> Vec<Held>
         let outcome = panic::catch_unwind(AssertUnwindSafe(|| (check.run)(course)));
         let mistake = outcome.unwrap_or(Err(Mistake::Trouble(Trouble::Malformed))).err();
         let (rule, details) = mistake.as_ref().map(|mistake| told(mistake, missing)).unwrap_or_default();
-        (Checked { name: check.name.replace('_', " "), passed: mistake.is_none(), rule, details }, mistake)
+        let checked = Checked { name: sentence(check.name), passed: mistake.is_none(), rule, details };
+        let status = |mistake: &Mistake| status_of(mistake, missing);
+        (checked, mistake.map(|mistake| (mistake.clone(), status(&mistake))))
     };
     checks.iter().map(one).collect()
+}
+
+fn status_of(mistake: &Mistake, missing: &[&str]) -> Status {
+    match mistake {
+        Mistake::Wrong { .. } | Mistake::Trouble(Trouble::Malformed) => Status::Failed,
+        Mistake::Trouble(Trouble::TimedOut(_)) => Status::TimedOut,
+        // A `todo!` that is not another function's stands in a branch of this one.
+        Mistake::Trouble(Trouble::Missing) if missing.is_empty() => Status::Crashed,
+        Mistake::Trouble(Trouble::Missing) | Mistake::Waits { .. } => Status::Missing,
+        Mistake::Trouble(_) => Status::Crashed,
+    }
 }
 
 /// The rule and the details of a mistake.
@@ -38,6 +51,9 @@ fn told(mistake: &Mistake, missing: &[&str]) -> (String, String) {
         Mistake::Trouble(Trouble::Missing) if !missing.is_empty() => {
             (format!("waits for {}", missing.join(", ")), String::new())
         }
+        Mistake::Trouble(Trouble::Missing) => {
+            ("the function comes to a `todo!`; write what is missing there".to_owned(), String::new())
+        }
         // The message of one's own panic is no secret on one's own machine.
         Mistake::Trouble(Trouble::Panicked { message, .. }) => (format!("{mistake:?}: {message}"), String::new()),
         other => (format!("{other:?}"), String::new()),
@@ -48,19 +64,13 @@ fn told(mistake: &Mistake, missing: &[&str]) -> (String, String) {
 pub fn summary(name: &str, checked: &[Held]) -> (Status, Vec<String>) {
     let (mut status, mut messages) = (Status::Passed, Vec::new());
     for (check, mistake) in checked {
-        let Some(mistake) = mistake else { continue };
+        let Some((mistake, found)) = mistake else { continue };
         // What made it give up has been told.
         if *mistake == Mistake::Trouble(Trouble::GivenUp) && status != Status::Passed {
             continue;
         }
-        let found = match mistake {
-            Mistake::Wrong { .. } | Mistake::Trouble(Trouble::Malformed) => Status::Failed,
-            Mistake::Trouble(Trouble::TimedOut(_)) => Status::TimedOut,
-            Mistake::Trouble(Trouble::Missing) | Mistake::Waits { .. } => Status::Missing,
-            Mistake::Trouble(_) => Status::Crashed,
-        };
         // A wrong answer says more than a check that has to wait.
-        status = if status == Status::Passed { found } else { status.min(found) };
+        status = if status == Status::Passed { *found } else { status.min(*found) };
         let message = match mistake {
             Mistake::Wrong { .. } => message_of(name, mistake),
             _ => check.rule.clone(),

@@ -5,7 +5,7 @@ mod reworded;
 use finite_elements_3d as solved;
 use grader::implementation::Local;
 use grader::properties::outcome::with_tolerance;
-use grader::properties::{Course, FUNCTIONS};
+use grader::properties::{Course, FUNCTIONS, sentence};
 use grader_child::{Functions, NAMES};
 
 use reworded::REWORDED;
@@ -73,7 +73,7 @@ fn every_check_is_named_on_the_page_of_its_function_and_no_other_is() {
         let named: Vec<_> = list.lines().filter_map(|line| line.strip_prefix("- ")).collect();
         let compared = judge(function, 1, &Local(REFERENCE), TOLERANCE).expect("the reference answers");
         let compared = compared.checks(function).into_iter().map(|(check, _)| check.name());
-        let expected = checks.iter().map(|check| check.name).chain(compared).map(|name| name.replace('_', " "));
+        let expected = checks.iter().map(|check| check.name).chain(compared).map(sentence);
         assert_eq!(named, expected.collect::<Vec<_>>(), "{path}");
     }
 }

@@ -37,7 +37,7 @@ pub fn key(status: Status) -> &'static str {
 
 /// The name of a check as a sentence.
 pub fn sentence(check: &str) -> String {
-    escape::line(&check.replace('_', " "))
+    escape::line(&grader::properties::sentence(check))
 }
 
 /// The texts for a student about a function: the diagnosis, its sentence or the compiler's message, the hint.
