@@ -48,6 +48,14 @@ pub enum MeshAction {
     Convert { from: PathBuf, to: PathBuf },
     /// Delaunay triangles of points in the plane, or tetrahedra of points in space (.csv, .node)
     Delaunay { points: PathBuf, out: PathBuf },
+    /// Tetrahedra inside a surface (.obj, .ply, .stl), which may have holes and cross itself
+    FromSurface {
+        surface: PathBuf,
+        out: PathBuf,
+        /// Mean length of an edge, m
+        #[arg(long, value_name = "M", allow_negative_numbers = true)]
+        edge: f64,
+    },
 }
 
 #[derive(Debug, Args)]

@@ -4,7 +4,8 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use fem_mesh::generate::delaunay::{DelaunayError, tetrahedralize, triangulate};
-use fem_mesh::{MeshError, Points, SurfaceMesh, TetrahedralMesh};
+use fem_mesh::generate::stuff;
+use fem_mesh::{MeshError, Points, Problem, SurfaceMesh, TetrahedralMesh};
 
 use super::cli::MeshAction;
 use super::end::End;
@@ -19,6 +20,7 @@ pub fn run(action: &MeshAction) -> Result<(), End> {
         }
         MeshAction::Convert { from, to } => convert(from, to).map_err(End::unusable),
         MeshAction::Delaunay { points, out } => delaunay(points, out),
+        MeshAction::FromSurface { surface, out, edge } => from_surface(surface, out, *edge).map_err(End::unusable),
     }
 }
 
@@ -82,6 +84,32 @@ fn delaunay(points: &Path, out: &Path) -> Result<(), End> {
         say!("{} points are at the place of an earlier one and share its node", count - vertices);
     }
     Ok(())
+}
+
+fn from_surface(file: &Path, out: &Path, edge: f64) -> Result<(), MeshError> {
+    let surface = fem_mesh::read_surface(file)?;
+    let mesh = stuff(&surface, edge).map_err(|error| MeshError::in_file(file, Problem::Stuffing(error)))?;
+    fem_mesh::check(&mesh, file)?;
+    let faults = fem_mesh::surface_quality(&surface);
+    if !faults.is_closed() {
+        eprintln!(
+            "warning: {}: the surface has {} open edges, {} edges of over 2 triangles and {} of flipped triangles; its inside is \
+             where it winds around more than half",
+            file.display(),
+            faults.open_edges,
+            faults.branching_edges,
+            faults.flipped_edges
+        );
+    }
+    let parts = fem_mesh::parts(&mesh).into_iter().collect::<HashSet<_>>().len();
+    if parts != faults.parts {
+        eprintln!(
+            "warning: {}: the mesh has {parts} connected parts and the surface {}; shorter edges keep thin places",
+            out.display(),
+            faults.parts
+        );
+    }
+    write_tetrahedra(out, &mesh)
 }
 
 fn write_tetrahedra(to: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {

@@ -35,7 +35,11 @@ fn the_mesh_of_these_tests_runs_without_changes() {
 fn a_scene_needs_one_source_of_tetrahedra_and_only_one() {
     let both = format!("{BOX}\nfile = \"m.node\"");
     assert_refused(&desk(&both, NODES, ELEMENTS), 4, &["mesh.box stands beside `file`", "keep one of the two"]);
-    assert_refused(&desk("scale = 1.0", NODES, ELEMENTS), 3, &["mesh names no tetrahedra", "`file`, `files` or `box`"]);
+    assert_refused(
+        &desk("scale = 1.0", NODES, ELEMENTS),
+        3,
+        &["mesh names no tetrahedra", "`file`, `files`, `box` or `surface`"],
+    );
 }
 
 #[test]

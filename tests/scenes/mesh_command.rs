@@ -1,6 +1,9 @@
 //! `mesh info` and `mesh convert`.
 
-use fem_mesh::{MeshSet, TetrahedralMesh, boundary, box_mesh, read_tetrahedra, volumes, write_tetrahedra};
+use fem_mesh::{
+    MeshSet, TetrahedralMesh, boundary, box_mesh, read_surface, read_tetrahedra, surface_quality, volumes,
+    write_surface, write_tetrahedra,
+};
 
 use crate::program::{Desk, data};
 
@@ -134,4 +137,44 @@ fn a_surface_is_converted_and_measured() {
     let of = |file: &str| desk.run_well(&format!("mesh info {file}")).stdout;
     assert_eq!(of("bunny.ply.gz"), of(&bunny.display().to_string()));
     assert!(desk.refused("mesh convert bunny.ply.gz bunny.vtu").contains("use one of .obj"));
+}
+
+#[test]
+fn tetrahedra_are_made_inside_a_surface_by_a_command_and_by_a_scene() {
+    let desk = Desk::new();
+    let bunny = data().join("stanford/bunny_10k.obj");
+    let text = desk.run_well(&format!("mesh from-surface {} bunny.vtu --edge 0.08", bunny.display())).stdout;
+    let mesh = read_tetrahedra(&desk.path("bunny.vtu")).unwrap();
+    assert_eq!(text, format!("bunny.vtu: {} nodes, {} tetrahedra\n", mesh.vertices.len(), mesh.elements.len()));
+    let enclosed = surface_quality(&read_surface(&bunny).unwrap()).volume;
+    let volume: f64 = volumes(&mesh).iter().sum();
+    assert!((volume / enclosed - 1.0).abs() < 0.07, "{volume} {enclosed}");
+    let body = "[material]\nmodel = \"neo_hookean\"\nyoung = 1e5\npoisson = 0.3\ndensity = 1000.0\n[gravity]\n\
+                acceleration = [0, -9.81, 0]\n[fixed]\nplane = { axis = \"y\", below = 0.1 }\n[time]\nintegrator = \"static\"\n";
+    let scene = |edge: f64| {
+        format!("pipeline = \"engine\"\n[mesh]\nsurface = {{ file = \"{}\", edge = {edge} }}\n{body}", bunny.display())
+    };
+    desk.write("s.toml", scene(0.08));
+    let text = desk.run_well("s.toml --headless --steps 1 --stats s.json").stdout;
+    assert!(text.contains("reaction force of fixed"), "{text}");
+    let reaction = desk.json("s.json")["reactions"]["fixed"][1].as_f64().unwrap();
+    assert!((reaction / (9.81 * 1000.0 * volume) - 1.0).abs() < 1e-6, "{reaction}");
+    desk.write("s.toml", scene(1e-5));
+    assert!(desk.refused("s.toml --headless").contains("take longer edges"));
+    desk.write("s.toml", scene(0.08).replace("surface", "box = { size = [1, 1, 1], cells_per_unit = 1 }\nsurface"));
+    assert!(desk.refused("s.toml --headless").contains("mesh.surface stands beside `box`; keep one of the two"));
+}
+
+#[test]
+fn an_open_surface_is_filled_with_a_warning() {
+    let desk = Desk::new();
+    let mut surface = read_surface(&data().join("stanford/bunny_10k.obj")).unwrap();
+    surface.elements.truncate(surface.elements.len() - 30);
+    write_surface(&desk.path("open.stl"), &surface).unwrap();
+    let outcome = desk.run("mesh from-surface open.stl b.msh --edge 0.15");
+    assert!(outcome.code == Some(0) && outcome.stderr.contains("open edges"), "{}", outcome.stderr);
+    let outcome = desk.run("mesh from-surface open.stl b.msh --edge 0.1");
+    assert!(outcome.stderr.contains("the mesh has 2 connected parts and the surface 1"), "{}", outcome.stderr);
+    assert!(desk.refused("mesh from-surface open.stl b.msh --edge 0").contains("give a length above 0"));
+    assert!(desk.refused("mesh from-surface open.stl b.msh --edge 1e-4").contains("is the most; take longer edges"));
 }

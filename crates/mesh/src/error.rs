@@ -135,6 +135,8 @@ pub enum Problem {
         "the field `{name}` has {found} numbers, and {expected} are needed ({components} for each {per}); pass one entry for each {per}"
     )]
     FieldSize { name: String, found: usize, expected: usize, components: usize, per: &'static str },
+    #[error(transparent)]
+    Stuffing(crate::generate::StuffingError),
     #[error("frame {frame} (counted from 0) {reason}; pass frames of one mesh in the order of their times")]
     Frame { frame: usize, reason: String },
 }

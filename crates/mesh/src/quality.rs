@@ -66,6 +66,11 @@ struct Shape {
     radius_ratio: f64,
 }
 
+/// Smallest dihedral angle of a tetrahedron, degrees.
+pub(crate) fn smallest_dihedral_angle(corners: [Vector3<f64>; 4]) -> f64 {
+    dihedral_angles(FACES.map(|face| area_vector(face.map(|i| corners[i]))))[0]
+}
+
 fn measure(corners: [Vector3<f64>; 4]) -> Shape {
     let volume = signed_volume(corners);
     let normals = FACES.map(|face| area_vector(face.map(|i| corners[i])));

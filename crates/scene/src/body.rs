@@ -7,12 +7,13 @@ use nalgebra::Vector3;
 use crate::check::check;
 use crate::load::{line_of, refused};
 use crate::simulation::Shape;
-use crate::tables::MeshTable;
+use crate::tables::{MeshTable, SurfaceTable};
 use crate::values::{
     DirichletCondition, Drag, MaterialRegion, Pressure, RayleighDamping, Spring, Traction, curve, damping,
     density_factors, dirichlet_conditions, drag, initial_velocity, regions, springs, surface_loads,
 };
 use crate::{LoadCurve, Material, Scene, SceneError};
+use fem_mesh::generate::stuff;
 use fem_mesh::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
 /// Largest number of nodes for which an explicit method takes the consistent mass by default. Its linear systems need some thirty
@@ -114,8 +115,11 @@ fn lumps_by_default(scene: &Scene, nodes: usize) -> bool {
 /// Scales, checks and refines the tetrahedra.
 fn checked(scene: &Scene, mesh: TetrahedralMesh) -> Result<TetrahedralMesh, SceneError> {
     let mesh = scale(mesh, scene.mesh.scale);
-    let kind = if scene.mesh.files.is_some() { "files" } else { "box" };
-    let source = scene.mesh.file.clone().unwrap_or_else(|| PathBuf::from(kind));
+    let source = match &scene.mesh {
+        MeshTable { file: Some(file), .. } | MeshTable { surface: Some(SurfaceTable { file, .. }), .. } => file.clone(),
+        MeshTable { files: Some(_), .. } => PathBuf::from("files"),
+        _ => PathBuf::from("box"),
+    };
     fem_mesh::check(&mesh, &source).map_err(|error| mesh_error(scene, "mesh", error))?;
     if scene.mesh.refine == 0 {
         return Ok(mesh);
@@ -130,10 +134,9 @@ fn tetrahedra(scene: &Scene, data: &Path) -> Result<TetrahedralMesh, SceneError>
     let read = |field: &'static str, file: &Path| {
         fem_mesh::read_tetrahedra(&find(scene, data, file)).map_err(|error| mesh_error(scene, field, error))
     };
-    let MeshTable { file, files, cuboid, .. } = &scene.mesh;
-    match (file, files, cuboid) {
-        (Some(file), ..) => read("mesh.file", file),
-        (None, Some(files), _) => {
+    match &scene.mesh {
+        MeshTable { file: Some(file), .. } => read("mesh.file", file),
+        MeshTable { files: Some(files), .. } => {
             // Each is checked alone, so that an error names its file.
             let checked = |file: &PathBuf| {
                 let mesh = read("mesh.files", file)?;
@@ -142,10 +145,17 @@ fn tetrahedra(scene: &Scene, data: &Path) -> Result<TetrahedralMesh, SceneError>
             };
             Ok(fem_mesh::join(files.iter().map(checked).collect::<Result<Vec<_>, SceneError>>()?))
         }
-        (None, None, Some(cuboid)) => {
+        MeshTable { cuboid: Some(cuboid), .. } => {
             fem_mesh::box_mesh(cuboid.size, cuboid.cells_per_unit).map_err(|error| mesh_error(scene, "mesh.box", error))
         }
-        (None, None, None) => unreachable!("a scene without tetrahedra is refused when it is read"),
+        MeshTable { surface: Some(surface), .. } => {
+            let path = find(scene, data, &surface.file);
+            let mesh = fem_mesh::read_surface(&path).and_then(|triangles| {
+                stuff(&triangles, surface.edge).map_err(|error| MeshError::in_file(&path, Problem::Stuffing(error)))
+            });
+            mesh.map_err(|error| mesh_error(scene, "mesh.surface", error))
+        }
+        _ => unreachable!("a scene without tetrahedra is refused when it is read"),
     }
 }
 

@@ -18,6 +18,14 @@ fn the_large_armadillo_has_as_many_nodes_and_tetrahedra_as_it_says() {
 }
 
 #[test]
+fn the_fine_armadillo_is_made_inside_its_surface_with_the_angles_of_isosurface_stuffing() {
+    let mesh = body(&load("armadillo-fine", &data()).unwrap(), &data()).unwrap().shape.mesh;
+    assert_eq!((mesh.vertices.len(), mesh.elements.len()), (9331, 42382));
+    let [smallest, largest] = fem_mesh::quality(&mesh).dihedral_angles.map(|angle| angle.value);
+    assert!(smallest >= 10.7 && largest <= 164.8, "{smallest} {largest}");
+}
+
+#[test]
 fn engine_scenes_that_repeat_one_of_the_course_differ_in_name_and_pipeline_alone() {
     for name in ["arma", "bunny"] {
         let course = load(name, &data()).unwrap();
@@ -29,10 +37,14 @@ fn engine_scenes_that_repeat_one_of_the_course_differ_in_name_and_pipeline_alone
     }
 }
 
+fn is_large(name: &str) -> bool {
+    ["arma-large", "armadillo-fine"].contains(&name)
+}
+
 #[test]
 fn the_planned_parts_of_every_scene_and_method_are_those_that_are_built() {
     let scenes = names(&data()).into_iter().map(|name| load(&name, &data()).unwrap());
-    for scene in scenes.filter(|scene| scene.pipeline == Pipeline::Engine && scene.name != "arma-large") {
+    for scene in scenes.filter(|scene| scene.pipeline == Pipeline::Engine && !is_large(&scene.name)) {
         for integrator in Integrator::ALL {
             let mut scene = scene.clone();
             scene.time.integrator = integrator;

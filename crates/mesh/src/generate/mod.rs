@@ -1,3 +1,8 @@
-//! Meshes from points: Delaunay triangulations and tetrahedralizations.
+//! Meshes from points and from surfaces.
 
 pub mod delaunay;
+mod solid;
+mod stuffing;
+
+pub use solid::Solid;
+pub use stuffing::{StuffingError, stuff};

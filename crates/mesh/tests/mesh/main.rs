@@ -13,6 +13,7 @@ mod refined;
 mod round_trip;
 mod shipped;
 mod sides;
+mod stuffing;
 mod surfaces;
 mod vtk;
 mod written;

@@ -39,14 +39,20 @@ fn check_mesh(mesh: &MeshTable) -> Result<(), Problem> {
         let text = format!("is {}; cut every tetrahedron at most {MOST_REFINEMENTS} times", mesh.refine);
         return problem("mesh.refine", text);
     }
-    match (&mesh.file, &mesh.files, &mesh.cuboid) {
-        (Some(_), _, Some(_)) => problem("mesh.box", "stands beside `file`; keep one of the two"),
-        (Some(_), Some(_), _) | (_, Some(_), Some(_)) => {
-            problem("mesh.files", "stands beside `file` or `box`; keep one of them")
+    let sources = [
+        ("file", mesh.file.is_some()),
+        ("files", mesh.files.is_some()),
+        ("box", mesh.cuboid.is_some()),
+        ("surface", mesh.surface.is_some()),
+    ];
+    let mut given = sources.iter().filter(|(_, is_given)| *is_given).map(|(key, _)| key);
+    match (given.next(), given.next()) {
+        (None, _) => problem("mesh", "names no tetrahedra; give it `file`, `files`, `box` or `surface`"),
+        (Some(first), Some(second)) => {
+            problem(&format!("mesh.{second}"), format!("stands beside `{first}`; keep one of the two"))
         }
-        (None, Some(files), None) if files.is_empty() => problem("mesh.files", "is empty; name a file"),
-        (None, None, None) => problem("mesh", "names no tetrahedra; give it `file`, `files` or `box`"),
-        (Some(_), None, None) | (None, Some(_), None) | (None, None, Some(_)) => Ok(()),
+        _ if mesh.files.as_ref().is_some_and(Vec::is_empty) => problem("mesh.files", "is empty; name a file"),
+        _ => Ok(()),
     }
 }
 

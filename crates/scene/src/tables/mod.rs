@@ -112,6 +112,8 @@ pub struct MeshTable {
     /// A box.
     #[serde(rename = "box")]
     pub cuboid: Option<Cuboid>,
+    /// The inside of a surface.
+    pub surface: Option<SurfaceTable>,
     /// A surface file to display instead of the boundary of the tetrahedra.
     pub display: Option<PathBuf>,
     /// Factor on all coordinates of the tetrahedra and the display surface.
@@ -135,6 +137,16 @@ pub struct Cuboid {
     pub size: [f64; 3],
     /// Cubes per metre.
     pub cells_per_unit: usize,
+}
+
+/// `surface`: tetrahedra are made inside a surface.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceTable {
+    /// A file of triangles.
+    pub file: PathBuf,
+    /// Mean edge of the tetrahedra in the file's unit of length, m unless `scale` changes it.
+    pub edge: f64,
 }
 
 /// `[mass]`

@@ -115,7 +115,7 @@ fn several_files_are_bodies_of_one_scene_and_sets_of_their_names() {
 
     let message = |text: &str| read(text).unwrap_err().to_string();
     let beside = edit(&files, "[material]", "file = \"left.node\"\n[material]");
-    assert!(message(&beside).contains("mesh.files stands beside `file` or `box`; keep one of them"));
+    assert!(message(&beside).contains("mesh.files stands beside `file`; keep one of the two"));
     let empty = edit(&files, "\"left.node\", \"right.vtu\"", "");
     assert!(message(&empty).contains("mesh.files is empty; name a file"));
     let missing = edit(&files, "right.vtu", "wrong.vtu");
