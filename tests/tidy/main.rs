@@ -2,6 +2,7 @@
 //!
 //! Needs no feature: `cargo test --no-default-features --test tidy`. Every message ends with what to do.
 
+mod attacks;
 mod dependencies;
 mod exercises;
 mod layout;
