@@ -6,7 +6,8 @@ use super::{assert_none, files, read};
 fn every_attack_of_the_table_has_tests_that_exist() {
     let sources: String = files("rs").iter().filter(|path| path.starts_with("grader")).map(read).collect();
     let text = read("docs/attacks.md");
-    let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| attack |")).collect();
+    let rows: Vec<&str> =
+        text.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| attack |")).collect();
     assert!(rows.len() >= 30, "docs/attacks.md has {} attacks; keep the table", rows.len());
     let mut problems = Vec::new();
     for row in rows {

@@ -57,8 +57,7 @@ impl Grading {
                 let found = if answers { outcome(&subject, &scene, &truth) } else { None };
                 answers = found.is_some();
                 let (reference, expected) = expected.ok_or_else(silent)?;
-                let own = found.iter().flat_map(|(_, answers)| answers);
-                let is_right = own.zip(&expected).all(|(own, expected)| distance(own, expected) <= RIGHT);
+                let is_right = found.as_ref().is_none_or(|(_, answers)| agree(answers, &expected));
                 study.runs.push(Run {
                     integrator: integrator.to_owned(),
                     dt,
@@ -70,6 +69,12 @@ impl Grading {
         }
         Ok(study)
     }
+}
+
+/// Whether every run has the positions of the first run of the reference.
+fn agree(runs: &[Positions], expected: &[Positions]) -> bool {
+    let Some(expected) = expected.first() else { return false };
+    runs.iter().all(|run| distance(run, expected) <= RIGHT)
 }
 
 /// Positions after each step of a run.
@@ -115,5 +120,16 @@ mod tests {
             assert_eq!(error(&ends_at(wrong), &scene, &truth), None);
         }
         assert_eq!(error(&ends_at(vec![0.0; 3])[..1], &scene, &truth), None);
+    }
+
+    #[test]
+    fn a_run_whose_positions_are_not_the_references_is_not_right() {
+        let run = |x: f64| vec![DVector::repeat(3, x), DVector::repeat(6, x)];
+        let expected = [run(1.0), run(1.0)];
+        assert!(agree(&[run(1.0), run(1.0 + 1e-7)], &expected));
+        // One that answers wrongly once gains time by it.
+        assert!(!agree(&[run(1.0), run(1.0 + 1e-3)], &expected));
+        assert!(!agree(&[run(f64::NAN)], &expected) && !agree(&[run(1.0)[..1].to_vec()], &expected));
+        assert!(!agree(&[run(1.0)], &[]));
     }
 }
