@@ -76,7 +76,7 @@ impl Accounts {
         if let Some(late) = late.as_ref().filter(|late| late.days > 0) {
             let days = if late.days == 1 { "1 day".to_owned() } else { format!("{} days", late.days) };
             let before = rounded(grade.score);
-            grade.score *= 1.0 - late.penalty;
+            grade.score = (100.0 * grade.score * (1.0 - late.penalty)).round() / 100.0;
             let share = rounded(100.0 * late.penalty);
             grade.remarks.push(format!("{days} late: {before} points, less {share} %, are {}", rounded(grade.score)));
         }

@@ -21,7 +21,7 @@ use crate::pack::{self, PackOptions};
 use crate::reports::{self, Options};
 use crate::rubric::{Role, Rubric};
 use crate::similar::fingerprints::Document;
-use crate::{archive, class, feedback, handout, seed, similar};
+use crate::{archive, class, feedback, handout, own_checks, seed, similar};
 
 /// The grader or its machine failed; there is no grade.
 pub const GRADER_FAILED: u8 = 1;
@@ -71,6 +71,7 @@ pub fn grade(
         class::end_with(parent).map_err(failed)?;
     }
     let rubric = Rubric::load(options.rubric.as_deref()).map_err(unusable)?;
+    own_checks::have(&rubric, &repository()).map_err(unusable)?;
     if !submission.exists() {
         return Err(unusable(format!(
             "{}: there is no such submission; name a folder or archive",
@@ -160,6 +161,7 @@ pub fn class(
     (only, functions): (Vec<String>, Vec<String>),
 ) -> Done {
     let rubric = Rubric::load(options.rubric.as_deref()).map_err(unusable)?;
+    own_checks::have(&rubric, &repository()).map_err(unusable)?;
     if let Some(name) = functions.iter().find(|name| rubric.role(name) != Role::Asked) {
         return Err(unusable(format!("--function {name}: the rubric asks for no such function")));
     }
@@ -219,12 +221,9 @@ pub fn similar(folder: &Path, out: &Path, rubric: Option<&Path>) -> Done {
     written.map_err(unusable)?;
     remarks.iter().for_each(|remark| println!("{remark}"));
     let told = pairs.iter().filter(|pair| pair.share >= similar::LEAST_SHARE).count();
+    let pairs = if told == 1 { "1 pair shares".to_owned() } else { format!("{told} pairs share") };
     let share = 100.0 * similar::LEAST_SHARE;
-    println!(
-        "{} submissions; {told} pairs share {share} % or more: {}",
-        documents.len(),
-        out.join("similar.html").display()
-    );
+    println!("{} submissions; {pairs} {share} % or more: {}", documents.len(), out.join("similar.html").display());
     Ok(())
 }
 

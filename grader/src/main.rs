@@ -15,6 +15,7 @@ mod handout;
 #[cfg(test)]
 mod mistakes;
 mod new_folder;
+mod own_checks;
 mod pack;
 mod reference;
 mod reports;

@@ -1,13 +1,12 @@
 //! `rubric.toml`: points, levels, tolerances and what students see. Data for the instructor to change, not code.
 
+mod checked;
 mod deadline;
 mod judging;
 
 use std::fs;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use grader::submission::NAMES;
 use serde::Deserialize;
 use thiserror::Error;
 use toml::Spanned;
@@ -59,6 +58,9 @@ pub struct Rubric {
     /// Functions of a later assignment: neither asked for nor given solved.
     #[serde(default)]
     pub later: Vec<Spanned<String>>,
+    /// Checks of the instructor's own.
+    #[serde(default, rename = "check")]
+    pub checks: Vec<OwnCheck>,
     /// The functions of this assignment in the order of the reports. All others but the `later` ones are given solved.
     #[serde(rename = "function")]
     pub functions: Vec<Function>,
@@ -123,6 +125,18 @@ pub struct Function {
     pub tolerance: Option<f64>,
 }
 
+/// A check of the instructor's own, as a Rust file.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OwnCheck {
+    /// The function that it judges.
+    pub function: Spanned<String>,
+    /// The rule as a sentence, which students read.
+    pub name: String,
+    /// The file, beside the rubric.
+    pub file: PathBuf,
+}
+
 /// Why a rubric cannot be used.
 #[derive(Debug, Error)]
 pub enum RubricError {
@@ -147,85 +161,12 @@ impl Rubric {
             None => OURS.to_owned(),
             Some(path) => text(path)?,
         };
-        let rubric: Self = toml::from_str(&text).map_err(|error| RubricError::Toml(file.to_owned(), error))?;
+        let mut rubric: Self = toml::from_str(&text).map_err(|error| RubricError::Toml(file.to_owned(), error))?;
+        let folder =
+            path.and_then(|path| std::path::absolute(path).ok()?.parent().map(Path::to_owned)).unwrap_or_default();
+        rubric.checks.iter_mut().for_each(|check| check.file = folder.join(&check.file));
         rubric.check(file, &text)?;
         Ok(rubric)
-    }
-
-    fn check(&self, file: &Path, text: &str) -> Result<(), RubricError> {
-        let at = |span: Range<usize>, problem: String| RubricError::Value {
-            file: file.to_owned(),
-            line: text[..span.start].matches('\n').count() + 1,
-            problem,
-        };
-        for (index, function) in self.functions.iter().enumerate() {
-            let name = function.name.get_ref();
-            known(name).map_err(|problem| at(function.name.span(), problem))?;
-            if self.functions[..index].iter().any(|earlier| earlier.name.get_ref() == name) {
-                return Err(at(function.name.span(), format!("`{name}` stands here a second time; remove one")));
-            }
-            let points = *function.points.get_ref();
-            if !is_points(points) {
-                return Err(at(
-                    function.points.span(),
-                    format!("points = {points}; give a number from 0 to {MOST_POINTS}"),
-                ));
-            }
-            if *function.level.get_ref() == 0 {
-                return Err(at(function.level.span(), "level = 0; levels count from 1".to_owned()));
-            }
-        }
-        for (index, extension) in self.extensions.iter().enumerate() {
-            let earlier = &self.extensions[..index];
-            let span = extension.student.span();
-            extension.check(self.deadline.as_ref(), earlier).map_err(|problem| at(span, problem))?;
-        }
-        for name in &self.later {
-            known(name.get_ref()).map_err(|problem| at(name.span(), problem))?;
-            if self.functions.iter().any(|function| function.name.get_ref() == name.get_ref()) {
-                let problem = format!("`{}` has a table [[function]] and is `later`; remove one", name.get_ref());
-                return Err(at(name.span(), problem));
-            }
-        }
-        self.check_whole().map_err(|problem| RubricError::Whole(file.to_owned(), problem))
-    }
-
-    fn check_whole(&self) -> Result<(), String> {
-        if self.functions.is_empty() {
-            return Err("it asks for no function; add a table [[function]]".to_owned());
-        }
-        let own =
-            self.functions.iter().filter_map(|function| Some((function.name.get_ref().as_str(), function.tolerance?)));
-        for (whose, tolerance) in own.chain([("all functions", self.tolerance)]) {
-            if !(tolerance > 0.0 && tolerance < 1.0) {
-                return Err(format!("tolerance = {tolerance} of {whose}; give a number between 0 and 1, such as 1e-9"));
-            }
-        }
-        for (what, seconds) in [
-            ("seconds", self.seconds),
-            ("compile_seconds", self.compile_seconds),
-            ("check_seconds", self.check_seconds),
-            ("function_seconds", self.function_seconds),
-            ("submission_seconds", self.submission_seconds),
-        ] {
-            if !(0.1..=600.0).contains(&seconds) {
-                return Err(format!("{what} = {seconds}; give a number from 0.1 to 600"));
-            }
-        }
-        if !(0.0..=1.0).contains(&self.growth_costs) {
-            return Err(format!("growth_costs = {}; give a share from 0 to 1", self.growth_costs));
-        }
-        if !is_points(self.simulation.points) {
-            let points = self.simulation.points;
-            return Err(format!("points = {points} of [simulation]; give a number from 0 to {MOST_POINTS}"));
-        }
-        if let Some(deadline) = &self.deadline {
-            deadline.check()?;
-        }
-        if !self.later.is_empty() && self.simulation.points > 0.0 {
-            return Err("[simulation] has points, but needs functions that are `later`; give it 0 points".to_owned());
-        }
-        Ok(())
     }
 
     /// The part of a function in this assignment.
@@ -256,14 +197,6 @@ impl Rubric {
     }
 }
 
-/// Refuses a name that no function has.
-fn known(name: &str) -> Result<(), String> {
-    if NAMES.contains(&name) {
-        return Ok(());
-    }
-    Err(format!("`{name}` is not a function of the course; the README lists the names"))
-}
-
 fn title() -> String {
     "Finite elements".to_owned()
 }
@@ -278,13 +211,6 @@ fn function_seconds() -> f64 {
 
 fn submission_seconds() -> f64 {
     120.0
-}
-
-/// More than any exercise is worth, so that sums stay numbers.
-const MOST_POINTS: f64 = 1e6;
-
-fn is_points(points: f64) -> bool {
-    (0.0..=MOST_POINTS).contains(&points)
 }
 
 /// A file as text, or the line that is not UTF-8.

@@ -106,8 +106,9 @@ fn one_function_is_graded_again_and_a_deadline_counts_for_a_single_submission() 
     let folder = submission(&NAMES[..12]);
     let rubric = folder.path().join("rubric.toml");
     let first = fs::read_to_string(repository().join("grader/rubrics/first.toml")).expect("the rubric");
-    let late = "\n[deadline]\nat = 2026-05-04T12:00:00Z\npenalty_per_day = 0.5\n";
-    fs::write(&rubric, format!("{first}{late}")).expect("a file");
+    let strict =
+        first.replace("2026-05-04T23:59:00+02:00", "2026-05-04T12:00:00Z").replace("per_day = 0.1", "per_day = 0.5");
+    fs::write(&rubric, strict).expect("a file");
     let metadata = folder.path().join("submission_metadata.json");
     let who = r#"{"created_at": "2026-05-04T06:00:00-07:00", "users": [{"email": "anna@x.org"}]}"#;
     fs::write(&metadata, who).expect("a file");
@@ -127,4 +128,49 @@ fn one_function_is_graded_again_and_a_deadline_counts_for_a_single_submission() 
     let kept = again["functions"].as_array().expect("functions").iter();
     assert_eq!(kept.filter(|function| function["diagnosis"] == "of the first time").count(), 11);
     assert_eq!(functions(&again), functions(&late));
+}
+
+/// Grades with an own check of psi_neo_hookean.
+fn with_own_check(submission: &Path, check: &str) -> (Output, Value) {
+    let folder = TempDir::new().expect("a folder");
+    let rubric = folder.path().join("rubric.toml");
+    let first = fs::read_to_string(repository().join("grader/rubrics/first.toml")).expect("the rubric");
+    let own = "\n[[check]]\nfunction = \"psi_neo_hookean\"\nname = \"it is linear in its constants\"\nfile = \"checks/own.rs\"\n";
+    fs::write(&rubric, format!("{first}{own}")).expect("a file");
+    fs::create_dir(folder.path().join("checks")).expect("a folder");
+    fs::write(folder.path().join("checks/own.rs"), check).expect("a file");
+    let output = graded(submission, &rubric, &folder.path().join("out"), &["--seed", "3"]);
+    let grade = fs::read(folder.path().join("out/grade.json")).ok().and_then(|text| serde_json::from_slice(&text).ok());
+    (output, grade.unwrap_or_default())
+}
+
+#[test]
+#[ignore = "builds the grader anew, with its dependencies the first time; run it after a change of own_checks.rs or build.rs"]
+fn a_check_beside_the_rubric_judges_like_any_other_and_its_mistakes_are_named_with_their_line() {
+    let example = repository().join("grader/rubrics/checks/energy_is_linear_in_its_constants.rs");
+    let check = fs::read_to_string(example).expect("the example");
+    let folder = submission(&NAMES[..12]);
+    let (output, right) = with_own_check(folder.path(), &check);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let checks = right["functions"][2]["checks"].as_array().expect("checks");
+    assert_eq!(checks.last().map(|check| check["name"].clone()), Some(Value::from("it is linear in its constants")));
+    assert_eq!(right["score"], right["max_score"]);
+
+    add(
+        &folder,
+        "psi_neo_hookean",
+        &solution("psi_neo_hookean").replace("+ D * J_minus_1 * J_minus_1", "+ D * D * J_minus_1 * J_minus_1"),
+    );
+    let (_, wrong) = with_own_check(folder.path(), &check);
+    let psi = &wrong["functions"][2];
+    let failed = psi["checks"].as_array().and_then(|checks| checks.last()).expect("checks");
+    assert_eq!(
+        (&failed["status"], &failed["message"]),
+        (&Value::from("failed"), &Value::from("three times C and D is three times the energy"))
+    );
+
+    let (output, none) = with_own_check(folder.path(), &check.replace("near_number(rule,", "near_numbers(rule,"));
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!((output.status.code(), none), (Some(2), Value::Null));
+    assert!(told.contains("checks/own.rs:12:") && told.contains("near_numbers"), "{told}");
 }

@@ -14,6 +14,7 @@ use super::{Grading, GradingError, finished};
 use crate::assess::points;
 use crate::diagnosis::{Explanation, explain};
 use crate::grade::{CheckGrade, FunctionGrade};
+use crate::own_checks;
 use crate::reference::REFERENCE;
 use crate::reference::compare::Check;
 use crate::reference::judge::{Reason, judge};
@@ -40,7 +41,7 @@ impl Grading {
         let trusted = Local(REFERENCE);
         let course = Course { subject, trusted: &trusted, seed: self.seed };
         let properties = FUNCTIONS.iter().find(|(found, _)| *found == name).map_or(&[][..], |(_, checks)| checks);
-        for check in properties {
+        for check in properties.iter().chain(own_checks::of(name, &self.rubric)) {
             subject.next_check();
             // A check may stumble over an answer that makes no sense; that is the answer's fault.
             let outcome = panic::catch_unwind(AssertUnwindSafe(|| with_tolerance(tolerance, || (check.run)(&course))));

@@ -2,7 +2,7 @@
 
 use toml::Spanned;
 
-use super::{Counts, Function, NoSubmission, Rubric};
+use super::{Counts, Function, NoSubmission, OwnCheck, Rubric};
 
 impl Rubric {
     /// A text that stays the same as long as no submission needs to be graded again.
@@ -15,6 +15,12 @@ impl Rubric {
             ..function.clone()
         };
         let later = |name: &Spanned<String>| Spanned::new(0..0, name.get_ref().clone());
+        let check = |check: &OwnCheck| OwnCheck {
+            function: Spanned::new(0..0, check.function.get_ref().clone()),
+            // Where the file lies makes no difference; what is in it is part of the grader.
+            file: Default::default(),
+            ..check.clone()
+        };
         let mut rubric = Self {
             title: String::new(),
             partial_credit: true,
@@ -23,6 +29,7 @@ impl Rubric {
             deadline: None,
             extensions: Vec::new(),
             functions: self.functions.iter().map(function).collect(),
+            checks: self.checks.iter().map(check).collect(),
             later: self.later.iter().map(later).collect(),
             ..self.clone()
         };

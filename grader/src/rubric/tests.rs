@@ -47,6 +47,10 @@ fn mistakes_are_named_with_their_line() {
     assert!(with("[deadline]\nat = 2026-05-04T23:59:00").contains("offset included"));
     assert!(with("[deadline]\nat = 2026-05-04T23:59:00Z\npenalty_per_day = 10.0").contains("such as 0.1 for 10 %"));
     assert!(with("[[extension]]\nstudent = \"anna\"\ndays = 1").contains("without a table [deadline]"));
+    let own =
+        |function: &str| with(&format!("[[check]]\nfunction = \"{function}\"\nname = \"x\"\nfile = \"checks/x.rs\""));
+    assert!(own("psi").contains("a [[check]] of `psi`, which the rubric does not ask for"));
+    assert!(own("psi_neo_hookean").contains("checks/x.rs: there is no such file; name one beside the rubric"));
     let late = "[deadline]\nat = 2026-05-04T23:59:00Z\n[[extension]]\nstudent = \"anna\"\n";
     assert!(with(late).contains("needs `until` or `days`"));
     assert!(with(&format!("{late}days = 1\n[[extension]]\nstudent = \"anna\"\ndays = 2")).contains("second extension"));
