@@ -22,6 +22,7 @@ macro_rules! wrong {
 }
 
 mod by_hand;
+mod held_back;
 mod seen;
 mod tests;
 

@@ -115,6 +115,10 @@ fn reordered<'a>() -> Vec<Candidate<'a>> {
                 (columns > 1).then(|| Observed::matrix(columns, rows, |i, j| answer.entry(j, i)))
             },
         ),
+        Candidate::new("rows in reverse", "The rows are right, and in reverse order.", |_, answer| {
+            let [rows, columns] = answer.shape;
+            (rows > 1).then(|| Observed::matrix(rows, columns, |i, j| answer.entry(rows - 1 - i, j)))
+        }),
         Candidate::new(
             "columns for rows",
             "The entries are right, but a matrix is flattened column by column. In which order does this course flatten it?",

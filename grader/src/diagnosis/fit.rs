@@ -22,33 +22,40 @@ pub struct Formula<'a> {
 /// Largest misfit of a coefficient that still counts as the right one.
 const NEAR: f64 = 1e-6;
 
+/// The name of a term that does not belong to the formula.
+pub const OTHER: &str = "another term";
+
 /// Small beside the ones on the diagonal, and no smaller than their round-off.
 const SMALL: f64 = 1e-14;
 
 /// Cases that decide whether a formula is worth a closer look.
 const FIRST: usize = 4;
 
-/// The mistake that explains the answers by these terms; `None` if none does or if too many of its coefficients are wrong.
-pub fn candidate<'a>(formula: Formula<'a>, cases: &[&Case]) -> Option<Candidate<'a>> {
+/// The mistake that explains the answers by these terms in the entries that are `among` them; `None` if none does or if too many of its coefficients are wrong.
+pub fn candidate<'a>(formula: Formula<'a>, cases: &[&Case], among: &[bool]) -> Option<Candidate<'a>> {
     let few = &cases[..cases.len().min(FIRST)];
-    fitted(&formula, few)?;
-    let coefficients = fitted(&formula, cases)?;
+    fitted(&formula, few, among)?;
+    let coefficients = fitted(&formula, cases, among)?;
     let (name, sentence) = told(&formula, &coefficients)?;
-    let values = formula.values;
+    let (values, among) = (formula.values, among.to_vec());
+    let name = if among.iter().all(|of| *of) { name } else { format!("in some entries {name}") };
     Some(Candidate::new(name, sentence, move |trial, answer| {
         let terms = values(trial)?;
-        let sum = |k: usize| terms.iter().zip(&coefficients).map(|(term, c)| term[k] * c).sum();
+        let sum = |k: usize| match among[k] {
+            true => terms.iter().zip(&coefficients).map(|(term, c)| term[k] * c).sum(),
+            false => answer.numbers[k],
+        };
         Some(Observed { numbers: (0..answer.numbers.len()).map(sum).collect(), ..answer.clone() })
     }))
 }
 
 /// Coefficients that fit the answers; `None` if none do.
-fn fitted(formula: &Formula, cases: &[&Case]) -> Option<Vec<f64>> {
+fn fitted(formula: &Formula, cases: &[&Case], among: &[bool]) -> Option<Vec<f64>> {
     let n = formula.terms.len();
     let (mut rows, mut right) = (Vec::new(), Vec::new());
     for case in cases {
         let terms = (formula.values)(&case.trial)?;
-        for k in 0..case.observed.numbers.len() {
+        for k in (0..case.observed.numbers.len()).filter(|&k| among[k]) {
             let size: f64 = terms.iter().map(|term| term[k].abs()).sum();
             let observed = case.observed.numbers[k];
             // What is no number must come from the terms as well, which the comparison of answers shows.
@@ -77,6 +84,9 @@ fn fitted(formula: &Formula, cases: &[&Case]) -> Option<Vec<f64>> {
 
 /// Name and sentence of what is wrong.
 fn told(formula: &Formula, coefficients: &[f64]) -> Option<(String, String)> {
+    if let Some(replaced) = replaced(formula, coefficients) {
+        return Some(replaced);
+    }
     let wrong: Vec<(String, String)> = formula
         .terms
         .iter()
@@ -84,11 +94,47 @@ fn told(formula: &Formula, coefficients: &[f64]) -> Option<(String, String)> {
         .filter_map(|(&(name, right), &c)| told_of_term(name, c, right))
         .collect();
     let own = formula.name.map(|(name, sentence)| (name.to_owned(), sentence.to_owned()));
+    if let Some((name, sentence)) = formula.name
+        && let Some(factor) = common_factor(formula, coefficients)
+    {
+        let factor = written(factor);
+        return Some((
+            format!("{name} and scaled by {factor}"),
+            format!("{sentence} Besides, every entry is {factor} times as large as it should be."),
+        ));
+    }
     // Where no term is right, the terms explain nothing.
     let explains = wrong.len() <= 2 && (own.is_none() || wrong.len() < 2) && (own.is_some() || !wrong.is_empty());
     let all: Vec<_> = own.into_iter().chain(wrong).collect();
     let (names, sentences): (Vec<_>, Vec<_>) = all.into_iter().unzip();
     explains.then(|| (names.join(" and "), sentences.join(" ")))
+}
+
+/// A term that is missing while the last one, which does not belong to the formula, is there.
+fn replaced(formula: &Formula, coefficients: &[f64]) -> Option<(String, String)> {
+    let near = |a: f64, b: f64| (a - b).abs() <= NEAR * 10.0 * (1.0 + b.abs());
+    let other =
+        formula.terms.last().zip(coefficients.last()).filter(|((name, _), c)| *name == OTHER && !near(**c, 0.0));
+    other?;
+    let changed = formula.terms.iter().zip(coefficients).filter(|((_, right), c)| *right != 0.0 && !near(**c, *right));
+    let changed: Vec<_> = changed.map(|((name, _), _)| *name).collect();
+    // Two terms, where the one is the transpose of the other.
+    let [first, ..] = changed[..] else { return None };
+    let names = changed.join(" and ");
+    (formula.name.is_none() && changed.len() <= 2).then(|| {
+        (
+            format!("{first} with another factor"),
+            format!("Of the terms, look at {names}: its factor depends on F in another way."),
+        )
+    })
+}
+
+/// The factor that all coefficients have, other than 1.
+fn common_factor(formula: &Formula, coefficients: &[f64]) -> Option<f64> {
+    let mut factors = formula.terms.iter().zip(coefficients).map(|((_, right), c)| c / right);
+    let first = factors.next()?;
+    let others = factors.all(|factor| (factor - first).abs() <= NEAR * 10.0);
+    (others && (first - 1.0).abs() > 1e-3 && first.abs() > 1e-3 && first.is_finite()).then_some(first)
 }
 
 fn told_of_term(name: &str, c: f64, right: f64) -> Option<(String, String)> {

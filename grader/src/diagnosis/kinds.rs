@@ -1,16 +1,22 @@
 //! Mistakes that are told by the kind of trial they show in, and by how much.
 
+use std::cell::RefCell;
+
+use grader::implementation::Implementation;
+
 use super::{Case, Diagnosis, right};
 use crate::reference::TOLERANCE;
 use crate::reference::compare::compare;
+use crate::reference::trial::Input;
 
 /// The mistake of a function whose answers hold no number at all.
 pub fn not_a_number(cases: &[&Case]) -> Option<Diagnosis> {
     let nothing = |case: &&Case| case.observed.numbers.iter().all(|x| !x.is_finite());
     let wrong: Vec<_> =
         cases.iter().copied().filter(|case| !right(case) && !case.observed.numbers.is_empty()).collect();
+    let is_nan = |case: &&Case| case.observed.numbers.iter().any(|x| x.is_nan());
     (wrong.len() > 2 && wrong.iter().all(nothing)).then(|| Diagnosis {
-        name: "not a number".to_owned(),
+        name: if wrong.iter().any(is_nan) { "not a number" } else { "infinite" }.to_owned(),
         sentence: "The answers are NaN or infinite: which division, root, power or logarithm has no value there?"
             .to_owned(),
     })
@@ -22,15 +28,18 @@ pub fn limiting_case(cases: &[&Case]) -> Option<Diagnosis> {
     if wrong.is_empty() || wrong.iter().any(|case| !case.trial.edge) {
         return None;
     }
+    let finite = |case: &&&Case| {
+        case.observed.numbers.iter().zip(&case.expected.numbers).any(|(a, b)| a.is_finite() && b.is_infinite())
+    };
     let any = |is: fn(&f64) -> bool| wrong.iter().any(|case| case.observed.numbers.iter().any(is));
-    let (how, told) = if any(|x| x.is_nan()) {
+    let (how, told) = if wrong.iter().any(finite) {
+        ("finite", "the answer is finite")
+    } else if any(|x| x.is_nan()) {
         ("NaN", "the answer is not a number")
     } else if any(|x| x.is_infinite()) {
         ("infinite", "the answer is infinite")
     } else if wrong.iter().all(|case| case.observed.shape != case.expected.shape) {
         ("wrong size", "the answer has another size than it should have")
-    } else if wrong.iter().any(|case| case.expected.numbers.iter().any(|x| x.is_infinite())) {
-        ("finite", "the answer is finite")
     } else {
         ("wrong", "the answer is wrong")
     };
@@ -49,6 +58,10 @@ const NEARLY_RIGHT: f64 = 2e-3;
 
 /// The mistake of a function that is nearly right in every trial.
 pub fn inexact(cases: &[&Case]) -> Option<Diagnosis> {
+    // Where a method iterates, the scales allow for more than small errors.
+    if cases.iter().any(|case| matches!(case.trial.input, Input::Step(_) | Input::Minimum { .. })) {
+        return None;
+    }
     let errors: Option<Vec<f64>> = cases
         .iter()
         .filter(|case| !case.trial.edge)
@@ -63,5 +76,27 @@ pub fn inexact(cases: &[&Case]) -> Option<Diagnosis> {
             "Nearly right everywhere, to about {:.0} digits. Finite differences, single precision, a slack or a rounded constant are not exact.",
             -worst.log10().ceil()
         ),
+    })
+}
+
+/// The mistake of a quadrature that is right but for the point at which it evaluates.
+pub fn evaluated_elsewhere(cases: &[Case], subject: &dyn Implementation) -> Option<Diagnosis> {
+    let wrong: Vec<_> = cases.iter().filter(|case| !right(case)).collect();
+    let fits = |case: &&Case| {
+        let Input::Quadrature { V, element, volume, integrand } = &case.trial.input else { return false };
+        let points = RefCell::new(Vec::new());
+        let recorded = |X: &_| {
+            points.borrow_mut().push(*X);
+            integrand.at(X)
+        };
+        let Ok(answer) = subject.quadrature_single_point(V, element, *volume, &recorded) else { return false };
+        let [point] = points.borrow()[..] else { return false };
+        let expected = integrand.at(&point) * *volume;
+        answer.len() == expected.len() && (&answer - &expected).amax() <= 1e-9 * expected.amax()
+    };
+    (!wrong.is_empty() && wrong.iter().all(fits)).then(|| Diagnosis {
+        name: "evaluated at the wrong point".to_owned(),
+        sentence: "The integrand is evaluated once, and its value is used well. At which point does the page want it evaluated?"
+            .to_owned(),
     })
 }

@@ -4,7 +4,7 @@ use std::thread;
 
 use grader::implementation::Local;
 
-use super::{Mistake, seen};
+use super::{Mistake, held_back, seen};
 use crate::diagnosis::{Explanation, explain};
 use crate::variants;
 
@@ -65,4 +65,9 @@ fn hold(mistakes: &[&'static [Mistake]], named: f64, named_or_located: f64) {
 #[test]
 fn mistakes_of_before_the_rules_are_named() {
     hold(&seen::ALL, 0.97, 0.98);
+}
+
+#[test]
+fn mistakes_of_after_the_rules_are_named() {
+    hold(&held_back::ALL, 0.80, 0.90);
 }

@@ -143,6 +143,7 @@ pub const SWITCHES: &[Switch<Settings>] = &[
     }),
     ("only x", PARTS, |s| s.entry = |block, i, j| if i % 3 == 0 && j % 3 == 0 { block[(i, j)] } else { 0.0 }),
     ("z left out", PARTS, |s| s.entry = |block, i, j| if i % 3 != 2 && j % 3 != 2 { block[(i, j)] } else { 0.0 }),
+    ("coordinates not kept apart", PARTS, |s| s.entry = |block, i, j| block[(i / 3 * 3, j / 3 * 3)]),
     ("absolute values", PARTS, |s| s.entry = |block, i, j| block[(i, j)].abs()),
     ("absolute values with the sign of a force", PARTS, |s| s.entry = |block, i, j| -block[(i, j)].abs()),
     (
@@ -165,6 +166,10 @@ pub const SWITCHES: &[Switch<Settings>] = &[
     ("projected twice", PROJECTION, |s| s.projection = |H| -given::project(&-given::project(H))),
     ("absolute eigenvalues", PROJECTION, |s| s.projection = |H| -with_eigenvalues(H, f64::abs)),
     ("eigenvalues cut off above", PROJECTION, |s| s.projection = |H| -with_eigenvalues(H, |value| value.min(0.0))),
+    ("eigenvalues raised above zero", PROJECTION, |s| s.projection = |H| -raised(H, 1e-1)),
+    ("eigenvalues raised above zero", PROJECTION, |s| s.projection = |H| -raised(H, 1e-2)),
+    ("eigenvalues raised above zero", PROJECTION, |s| s.projection = |H| -raised(H, 1e-3)),
+    ("eigenvalues raised above zero", PROJECTION, |s| s.projection = |H| -raised(H, 1e-4)),
     ("negative entries cut off", PROJECTION, |s| s.projection = |H| -H.map(|entry| entry.max(0.0))),
     ("negative diagonal cut off", PROJECTION, |s| {
         s.projection = |H| -SMatrix::<f64, 12, 12>::from_fn(|i, j| if i == j { H[(i, j)].max(0.0) } else { H[(i, j)] });
@@ -191,10 +196,16 @@ pub const SWITCHES: &[Switch<Settings>] = &[
     }),
 ];
 
-fn with_eigenvalues(H: &SMatrix<f64, 12, 12>, change: fn(f64) -> f64) -> SMatrix<f64, 12, 12> {
+/// The matrix with changed eigenvalues.
+pub fn with_eigenvalues(H: &SMatrix<f64, 12, 12>, change: impl Fn(f64) -> f64) -> SMatrix<f64, 12, 12> {
     let mut eigen = H.symmetric_eigen();
     eigen.eigenvalues.apply(|value| *value = change(*value));
     eigen.recompose()
+}
+
+fn raised(H: &SMatrix<f64, 12, 12>, share: f64) -> SMatrix<f64, 12, 12> {
+    let floor = share * H.symmetric_eigenvalues().amax();
+    with_eigenvalues(H, |value| value.max(floor))
 }
 
 /// What an element adds: a column for forces, a matrix otherwise.

@@ -38,6 +38,8 @@ pub const RIGHT: Settings = Settings {
 
 const WHICH: &str = "The wrong coordinates are kept: which three coordinates does a vertex have?";
 const SOME: &str = "Not all of the vertices that are named are constrained.";
+const REMOVAL: &str =
+    "Removing a vertex from a list moves those behind it: which coordinates does the next index mean then?";
 const SHAPE: &str =
     "The shape is wrong: how many rows does the matrix have, and what does it do to a vector of positions?";
 
@@ -70,6 +72,9 @@ pub const SWITCHES: &[Switch<Settings>] = &[
             s.keeps = |c, indices, _| c < 3 || !indices.contains(&(c / 3 - 1));
         },
     ),
+    ("coordinates off by one", WHICH, |s| s.keeps = |c, indices, _| c == 0 || !indices.contains(&((c - 1) / 3))),
+    ("coordinates off by one", WHICH, |s| s.keeps = |c, indices, _| !indices.contains(&((c + 1) / 3))),
+    ("one row for each vertex", WHICH, |s| s.keeps = |c, indices, n| c < n / 3 && !indices.contains(&c)),
     ("everything is kept", "Constrained coordinates are kept like the others.", |s| s.keeps = |_, _, _| true),
     ("the vertex between them is fixed", WHICH, |s| {
         s.keeps = |c, indices, _| !(indices.iter().min() <= Some(&(c / 3)) && Some(&(c / 3)) <= indices.iter().max());
@@ -92,6 +97,12 @@ pub const SWITCHES: &[Switch<Settings>] = &[
                 }
             });
             seen
+        };
+    }),
+    ("indices not adapted after a removal", REMOVAL, |s| {
+        s.indices = |indices| {
+            let mut left: Vec<usize> = (0..1000).collect();
+            indices.iter().map(|&i| left.remove(i.min(left.len() - 1))).collect()
         };
     }),
     (

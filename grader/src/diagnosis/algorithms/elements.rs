@@ -4,6 +4,7 @@ use finite_elements_3d as solved;
 use finite_elements_3d::given;
 use nalgebra::{Matrix3, Matrix4x3, SMatrix, SVector, Vector3};
 
+use super::assembly::with_eigenvalues;
 use crate::diagnosis::switches::Switch;
 use crate::reference::trial::{Elastic, Input, Observed, Trial};
 
@@ -133,6 +134,13 @@ pub const SWITCHES: &[Switch<Settings>] = &[
     ("projected", "The negative eigenvalues are gone. Is this function asked for the exact Hessian?", |s| {
         s.finished = |H| given::project(&H)
     }),
+    (
+        "absolute eigenvalues",
+        "The negative eigenvalues are turned round. Is this function asked for the exact Hessian?",
+        |s| {
+            s.finished = |H| with_eigenvalues(&H, f64::abs);
+        },
+    ),
     (
         "projected and negated",
         "The sign is reversed and the negative eigenvalues are gone: is this function asked for the exact Hessian of an energy?",

@@ -1,5 +1,7 @@
 //! A step of implicit Euler: Newton's method on the velocity at its end.
 
+use std::cell::Cell;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::newton::{self, Problem, minimise};
@@ -50,6 +52,8 @@ const GRADIENT: &str =
 const HESSIAN: &str =
     "The Hessian does not fit the gradient, so Newton's method crawls. Look at the units of its two terms.";
 const AHEAD: &str = "Force and stiffness belong to the end of the step: where does a trial velocity take the body?";
+const LINEAR: &str =
+    "This is a step of linearly implicit Euler: one direction from the state at the start, without Newton's method.";
 const POSITIONS: &str = "The velocity is right and the positions are not: how far does a body move in one step?";
 const ENERGY: &str =
     "The line search compares the wrong values: what does the energy that is handed in contain already?";
@@ -131,6 +135,12 @@ pub const SWITCHES: &[Switch<Settings>] = &[
             s.newton.most = |_| 1;
         },
     ),
+    ("linearly implicit", LINEAR, |s| {
+        s.newton.most = |_| 1;
+        newton::without_search(&mut s.newton);
+        s.force_at = |q, _, _, _| q.clone();
+        s.stiffness_at = |q, _, _, _| q.clone();
+    }),
     ("too few steps", "Count the directions: the page says how many there may be in one time step.", |s| {
         s.newton.most = |_| 2
     }),
@@ -156,6 +166,7 @@ pub const SWITCHES: &[Switch<Settings>] = &[
     ("old velocity", "The velocity is right, the positions are not: with which velocity do they move?", |s| {
         s.positions = |q, old, _, dt| q + old * dt
     }),
+    ("both velocities", POSITIONS, |s| s.positions = |q, old, new, dt| q + (old + new) * dt),
     ("mean velocity", POSITIONS, |s| s.positions = |q, old, new, dt| q + (old + new) * (0.5 * dt)),
     ("positions moved without dt", POSITIONS, |s| s.positions = |q, _, new, _| q + new),
     ("positions moved by dt²", POSITIONS, |s| s.positions = |q, _, new, dt| q + new * (dt * dt)),
@@ -183,10 +194,12 @@ pub fn run(s: &Settings, trial: &Trial) -> Option<Observed> {
             let K = DMatrix::from(&system.stiffness(&(s.stiffness_at)(q, v, old, dt)));
             &hessian_mass + K * (s.stiffness_factor)(dt)
         },
+        solves: Cell::default(),
     };
     let mut v = (s.start)(old);
     minimise(&s.newton, &problem, &mut v, 5);
     let positions = (s.positions)(q, old, &v, dt);
     let velocity = (s.velocity)(old, &v, dt);
-    Some(Observed::vector(positions.iter().chain(&velocity).copied().collect()))
+    let calls = vec![("solve", problem.solves.get())];
+    Some(Observed { calls, ..Observed::vector(positions.iter().chain(&velocity).copied().collect()) })
 }

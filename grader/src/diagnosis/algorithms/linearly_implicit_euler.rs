@@ -22,6 +22,10 @@ pub struct Settings {
     stiffness_at: fn(&Vector, &Vector, f64) -> Vector,
     /// The new velocity, from the solution and the old one.
     velocity: fn(&Vector, &Vector, f64) -> Vector,
+    /// What is added to the right-hand side, from the stiffness.
+    more: fn(&Matrix, &Vector, f64) -> Vector,
+    /// The velocity that is left at the end, from the new and the old one.
+    left: fn(&Vector, &Vector) -> Vector,
     /// The new positions, from the old ones, the old velocity and the new one.
     positions: fn(&Vector, &Vector, &Vector, f64) -> Vector,
 }
@@ -35,6 +39,8 @@ pub const RIGHT: Settings = Settings {
     force_at: |q, v, _| (q.clone(), v.clone()),
     stiffness_at: |q, _, _| q.clone(),
     velocity: |x, _, _| x.clone(),
+    more: |_, v, _| v * 0.0,
+    left: |new, _| new.clone(),
     positions: |q, _, new, dt| q + new * dt,
 };
 
@@ -42,6 +48,7 @@ const UNITS_OF_MATRIX: &str = "Look at the units in the system's matrix: each of
 const UNITS_OF_RIGHT: &str = "Look at the units on the right-hand side: each of its terms must be a momentum.";
 const OLD_STATE: &str = "Force and stiffness belong to the state at the start of the step.";
 const POSITIONS: &str = "The velocity is right and the positions are not: how far does a body move in one step?";
+const WRITTEN: &str = "The positions move, and the velocity stays that at the start. What else does a step change?";
 const SOLUTION: &str =
     "The system of equations is right. What does its solution stand for: a velocity, its change, an acceleration?";
 
@@ -140,6 +147,17 @@ pub const SWITCHES: &[Switch<Settings>] = &[
     ("solution added to the velocity", SOLUTION, |s| s.velocity = |x, v, _| v + x),
     ("solution taken for an acceleration", SOLUTION, |s| s.velocity = |x, v, dt| v + x * dt),
     ("velocity times dt", SOLUTION, |s| s.velocity = |x, _, dt| x * dt),
+    ("velocity not written back", WRITTEN, |s| s.left = |_, old| old.clone()),
+    ("stiffness without dt in the change of velocity", SOLUTION, |s| {
+        s.momentum = |_, v, _| v * 0.0;
+        s.velocity = |x, v, _| v + x;
+        s.more = |K, v, dt| K * v * dt;
+    }),
+    ("wrong sign in the change of velocity", SOLUTION, |s| {
+        s.momentum = |_, v, _| v * 0.0;
+        s.velocity = |x, v, _| v + x;
+        s.more = |K, v, dt| K * v * (-dt * dt);
+    }),
     ("velocity not changed", "The velocity at the end is that at the start. What else does a step change?", |s| {
         s.velocity = |_, v, _| v.clone()
     }),
@@ -173,9 +191,12 @@ pub fn run(settings: &Settings, trial: &Trial) -> Option<Observed> {
     let (system, q, v, dt) = (&step.system, &step.q, &step.qdot, step.dt);
     let (at, velocity) = (settings.force_at)(q, v, dt);
     let K = DMatrix::from(&system.stiffness(&(settings.stiffness_at)(q, v, dt)));
+    let more = (settings.more)(&K, v, dt);
     let A = (settings.mass_in_matrix)(&system.mass, dt) + K * (settings.stiffness_factor)(dt);
-    let b = (settings.momentum)(&system.mass, v, dt) + system.force(&at, &velocity) * (settings.force_factor)(dt);
+    let b =
+        more + (settings.momentum)(&system.mass, v, dt) + system.force(&at, &velocity) * (settings.force_factor)(dt);
     let new = (settings.velocity)(&solve(&CsrMatrix::from(&A), &b), v, dt);
     let positions = (settings.positions)(q, v, &new, dt);
-    Some(Observed::vector(positions.iter().chain(&new).copied().collect()))
+    let left = (settings.left)(&new, v);
+    Some(Observed::vector(positions.iter().chain(&left).copied().collect()))
 }

@@ -1,5 +1,7 @@
 //! Newton's method with a line search.
 
+use std::cell::Cell;
+
 use nalgebra::{DMatrix, DVector};
 use nalgebra_sparse::CsrMatrix;
 
@@ -21,6 +23,12 @@ pub struct Settings {
     shortest: f64,
     decrease: f64,
     slope: fn(f64) -> f64,
+    /// The largest value that is good enough, from the value before and the one by the sufficient decrease.
+    bound: fn(f64, f64) -> f64,
+    /// The share of the decrease that is asked for at a step length.
+    share: fn(f64) -> f64,
+    /// Whether to stop after a step, from the decrease of f and the length of the step.
+    done: fn(f64, f64) -> bool,
     accepts: fn(f64, f64) -> bool,
     /// Whether the gradient is small, from its norm and that at the start.
     small: fn(f64, f64) -> bool,
@@ -52,6 +60,9 @@ pub const RIGHT: Settings = Settings {
     shortest: 1e-8,
     decrease: 1e-8,
     slope: |slope| slope,
+    bound: |_, bound| bound,
+    share: |alpha| alpha,
+    done: |_, _| false,
     accepts: |value, bound| value.is_finite() && value <= bound,
     small: |norm, start| norm.is_finite() && norm <= 1e-10 * start,
     most: |most| most,
@@ -118,6 +129,35 @@ pub const SWITCHES: &[Switch<Settings>] = &[
         s.slope = |slope| -slope;
         s.decrease = 0.5;
     }),
+    ("sufficient decrease without α", BOUND, |s| {
+        s.share = |_| 1.0;
+        s.decrease = 0.1;
+    }),
+    ("sufficient decrease without α", BOUND, |s| {
+        s.share = |_| 1.0;
+        s.decrease = 0.5;
+    }),
+    ("sufficient decrease without α", BOUND, |s| {
+        s.share = |_| 1.0;
+        s.decrease = 1.0;
+    }),
+    ("other condition of decrease", BOUND, |s| s.bound = |before, _| 0.9 * before),
+    ("other condition of decrease", BOUND, |s| s.bound = |before, _| 0.5 * before),
+    ("other condition of decrease", BOUND, |s| s.bound = |before, _| before - 1e-3),
+    ("other condition of decrease", BOUND, |s| s.bound = |_, _| 0.0),
+    ("stops by the change of f", END, |s| s.done = |decrease, _| decrease < 1e-2),
+    ("stops by the change of f", END, |s| s.done = |decrease, _| decrease < 1e-3),
+    ("stops by the change of f", END, |s| s.done = |decrease, _| decrease < 1e-4),
+    ("stops by the change of f", END, |s| s.done = |decrease, _| decrease < 1e-6),
+    ("stops by the change of f", END, |s| s.done = |decrease, _| decrease < 1e-8),
+    ("stops by the length of the step", END, |s| s.done = |_, length| length < 1e-2),
+    ("stops by the length of the step", END, |s| s.done = |_, length| length < 1e-3),
+    ("stops by the length of the step", END, |s| s.done = |_, length| length < 1e-4),
+    ("stops by the length of the step", END, |s| s.done = |_, length| length < 1e-6),
+    ("fixed step", LENGTH, |s| fixed(s, 0.1)),
+    ("fixed step", LENGTH, |s| fixed(s, 0.5)),
+    ("fixed step", LENGTH, |s| fixed(s, 0.8)),
+    ("fixed step", LENGTH, |s| fixed(s, 0.9)),
     (
         "accepts NaN",
         "A step to a point where f is not a number was taken: what does a comparison with NaN give?",
@@ -203,6 +243,8 @@ pub struct Problem<'a> {
     pub value: &'a dyn Fn(&Vector) -> f64,
     pub gradient: &'a dyn Fn(&Vector) -> Vector,
     pub hessian: &'a dyn Fn(&Vector) -> DMatrix<f64>,
+    /// How many systems of equations were solved.
+    pub solves: Cell<usize>,
 }
 
 /// Newton's method with these settings; changes `x` and returns the value that it would return.
@@ -218,13 +260,15 @@ pub fn minimise(settings: &Settings, problem: &Problem, x: &mut Vector, most: us
             break;
         }
         let hessian = if anew_hessian { (problem.hessian)(x) } else { first_hessian.clone() };
+        problem.solves.set(problem.solves.get() + 1);
         let direction = (settings.direction)(&gradient, solve(&CsrMatrix::from(&hessian), &-&gradient));
         let value = if anew_value { (problem.value)(x) } else { first_value };
         let slope = (settings.slope)(gradient.dot(&direction));
         alpha = if settings.carries_over { alpha } else { settings.first };
         let mut tried = 0;
         let is_good = |x: &Vector, alpha: f64| {
-            (settings.accepts)((problem.value)(&(x + &direction * alpha)), value + settings.decrease * alpha * slope)
+            let bound = value + settings.decrease * (settings.share)(alpha) * slope;
+            (settings.accepts)((problem.value)(&(x + &direction * alpha)), (settings.bound)(value, bound))
         };
         let mut good = is_good(x, alpha);
         while !good {
@@ -246,6 +290,9 @@ pub fn minimise(settings: &Settings, problem: &Problem, x: &mut Vector, most: us
         }
         value_before = value;
         *x = (settings.moved)(x, &direction, alpha);
+        if (settings.done)(value - (problem.value)(x), alpha * direction.norm()) {
+            break;
+        }
     }
     let norm = (problem.gradient)(x).norm();
     (settings.answer)(Ends { value: (problem.value)(x), first_value, value_before, norm })
@@ -259,9 +306,16 @@ pub fn run(settings: &Settings, trial: &Trial) -> Option<Observed> {
         value: &|x| objective.value(x),
         gradient: &|x| objective.gradient(x),
         hessian: &|x| DMatrix::from(&objective.hessian(x)),
+        solves: Cell::default(),
     };
     let value = minimise(settings, &problem, &mut x, *max_steps);
-    Some(Observed::vector(std::iter::once(value).chain(x.iter().copied()).collect()))
+    let calls = vec![("solve", problem.solves.get())];
+    Some(Observed { calls, ..Observed::vector(std::iter::once(value).chain(x.iter().copied()).collect()) })
+}
+
+fn fixed(settings: &mut Settings, length: f64) {
+    settings.accepts = |_, _| true;
+    settings.first = length;
 }
 
 /// Takes every full step.

@@ -26,6 +26,8 @@ pub struct Settings {
     side: fn(f64) -> bool,
     hit: Hit,
     from: From,
+    /// The distance of two points that differ by this.
+    norm: fn(&Point) -> f64,
     /// Whether a vertex is near, from its distance and the radius.
     near: fn(f64, f64) -> bool,
     among: Among,
@@ -56,6 +58,8 @@ enum Among {
     All,
     OfTriangles,
     OfTheTriangle,
+    /// All corners of triangles with a corner near the hit.
+    WithTriangles,
 }
 
 #[derive(Clone, Copy)]
@@ -78,6 +82,7 @@ pub const RIGHT: Settings = Settings {
     side: |_| true,
     hit: Hit::First,
     from: From::Hit,
+    norm: |d| d.norm(),
     near: |distance, radius| distance <= radius,
     among: Among::All,
     order: Order::Ascending,
@@ -207,6 +212,9 @@ pub const SWITCHES: &[Switch<Settings>] = &[
         "Vertices on the far side were taken too: measure from the point that was hit.",
         |s| s.from = From::Line,
     ),
+    ("box for the ball", RADIUS, |s| s.norm = |d| d.amax()),
+    ("sum of the coordinates for the distance", RADIUS, |s| s.norm = |d| d.abs().sum()),
+    ("distance without z", RADIUS, |s| s.norm = |d| d.xy().norm()),
     ("radius for its square", RADIUS, |s| s.near = |distance, radius| distance * distance <= radius),
     ("square of the radius", RADIUS, |s| s.near = |distance, radius| distance <= radius * radius),
     ("diameter for radius", RADIUS, |s| s.near = |distance, radius| distance <= 0.5 * radius),
@@ -221,6 +229,7 @@ pub const SWITCHES: &[Switch<Settings>] = &[
         "Other vertices than those of the triangle that is hit may lie within the radius.",
         |s| s.among = Among::OfTheTriangle,
     ),
+    ("whole triangles", RADIUS, |s| s.among = Among::WithTriangles),
     (
         "no radius",
         "The corners of the triangle that was hit were returned. The page asks for the vertices within the radius.",

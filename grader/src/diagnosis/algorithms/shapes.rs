@@ -16,6 +16,9 @@ pub struct Settings {
     inverse: fn(&Matrix3<f64>) -> Option<Matrix3<f64>>,
     /// The vector that is expressed in edges, from the corners and the point.
     relative: fn(&[Point; 4], &Point) -> Point,
+    /// The three shape functions, after their computation; only they are changed, or only what is summed up.
+    signs: [f64; 3],
+    summed: [f64; 3],
     /// The shape function of the vertex at which the edges begin, from the sum of the others and the first of them; and its
     /// gradient likewise.
     rest: fn(f64, f64) -> f64,
@@ -33,6 +36,8 @@ pub const RIGHT: Settings = Settings {
     edges: |X, _| Matrix3::from_columns(&[X[1] - X[0], X[2] - X[0], X[3] - X[0]]),
     inverse: |edges| edges.try_inverse(),
     relative: |X, x| x - X[0],
+    signs: [1.0; 3],
+    summed: [1.0; 3],
     rest: |sum, _| 1.0 - sum,
     gradient_of_rest: |sum, _| -sum,
     place_of_rest: 0,
@@ -46,6 +51,7 @@ const EDGES: &str =
 const RELATIVE: &str = "The point is measured from the wrong place: from which vertex do the edges begin?";
 const REST: &str =
     "Three shape functions are right, the one of the vertex where the edges begin is not: what do all four add up to?";
+const ONE: &str = "One of the shape functions has the wrong sign: in which order do its edges enter the product?";
 const SIGN: &str = "Shape functions may be negative outside of the element, and its vertices may come in any order: no sign is to be removed.";
 const SIZE: &str = "The gradients have the wrong size: what are they divided by?";
 
@@ -57,6 +63,15 @@ pub const SWITCHES: &[Switch<Settings>] = &[
             element
         };
     }),
+    ("wrong sign of one vertex", ONE, |s| s.signs[0] = -1.0),
+    ("wrong sign of one vertex", ONE, |s| s.signs[1] = -1.0),
+    ("wrong sign of one vertex", ONE, |s| s.signs[2] = -1.0),
+    ("one vertex left out of the sum", REST, |s| s.summed[0] = 0.0),
+    ("one vertex left out of the sum", REST, |s| s.summed[1] = 0.0),
+    ("one vertex left out of the sum", REST, |s| s.summed[2] = 0.0),
+    ("wrong sign in the sum", REST, |s| s.summed[0] = -1.0),
+    ("wrong sign in the sum", REST, |s| s.summed[1] = -1.0),
+    ("wrong sign in the sum", REST, |s| s.summed[2] = -1.0),
     ("first vertex left out", REST, |s| {
         s.rest = |_, _| 0.0;
         s.gradient_of_rest = |_, _| Point::zeros();
@@ -134,16 +149,17 @@ pub fn run(s: &Settings, trial: &Trial) -> Option<Observed> {
     let edges = (s.edges)(&X, x);
     let inverse = (s.inverse)(&edges).unwrap_or_default() * (s.factor)(&edges);
     if trial.function == "phi_linear_tetrahedron" {
-        let p = inverse * (s.relative)(&X, x);
-        let rest = (s.rest)(p.sum(), p[0]);
+        let p = (inverse * (s.relative)(&X, x)).component_mul(&Point::from(s.signs));
+        let rest = (s.rest)(p.dot(&Point::from(s.summed)), p[0]);
         let phi = match s.place_of_rest {
             0 => Vector4::new(rest, p[0], p[1], p[2]),
             _ => Vector4::new(p[0], p[1], p[2], rest),
         };
         return Some(Observed::vector(phi.iter().map(|phi| (s.finished)(*phi)).collect()));
     }
-    let rows = [0, 1, 2].map(|i| inverse.row(i).transpose());
-    let rest = (s.gradient_of_rest)(&(rows[0] + rows[1] + rows[2]), &rows[0]);
+    let rows = [0, 1, 2].map(|i| inverse.row(i).transpose() * s.signs[i]);
+    let sum = rows[0] * s.summed[0] + rows[1] * s.summed[1] + rows[2] * s.summed[2];
+    let rest = (s.gradient_of_rest)(&sum, &rows[0]);
     let all = if s.place_of_rest == 0 { [rest, rows[0], rows[1], rows[2]] } else { [rows[0], rows[1], rows[2], rest] };
     let all = all.map(|g| if s.unit_gradients { g.normalize() } else { g });
     let D = Matrix4x3::from_fn(|i, j| (s.finished)(all[i][j]));

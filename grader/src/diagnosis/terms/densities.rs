@@ -74,6 +74,8 @@ const SHAPES: &[Part<Scalar>] = &[
     ("wrong exponent", POWER, |s| s.J.cbrt() * s.I - 3.0),
     ("sign of the exponent", POWER, |s| s.I / s.g() - 3.0),
     ("integer division", INTEGERS, |s| s.I - 3.0),
+    ("squared as a whole", SHAPE, |s| (s.g() * s.I - 3.0).powi(2)),
+    ("root as a whole", SHAPE, |s| (s.g() * s.I - 3.0).max(0.0).sqrt()),
     ("3 inside the product", POWER, |s| s.g() * (s.I - 3.0)),
     ("missing constant", AT_REST, |s| s.g() * s.I),
     ("wrong constant", AT_REST, |s| s.g() * s.I - 1.0),

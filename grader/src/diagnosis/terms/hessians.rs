@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, SMatrix, SVector};
 
 use super::densities::State;
-use crate::diagnosis::fit::Formula;
+use crate::diagnosis::fit::{Formula, OTHER};
 use crate::reference::trial::Trial;
 
 type Matrix9 = SMatrix<f64, 9, 9>;
@@ -17,21 +17,32 @@ const TERMS: &[(&str, f64)] = &[
     ("the square of the cofactors with D", 2.0),
     ("the derivative of the cofactors with C", -2.0 / 3.0),
     ("the derivative of the cofactors with D", 2.0),
-    ("another term", 0.0),
+    (OTHER, 0.0),
 ];
 
 /// Terms that are taken for one of the formula's.
-const OTHERS: [fn(&State) -> Matrix9; 9] = [
+const OTHERS: [fn(&State) -> Matrix9; 15] = [
     |s| square(s) * (s.D * s.J),
     |s| square(s) * (s.D * (s.J - 1.0)),
     |s| change_of_cofactors(s) * (s.D * s.J),
     |s| change_of_cofactors(s) * s.D,
+    |s| change_of_cofactors(s) * (s.D * (s.J - 1.0).powi(2)),
+    |s| change_of_cofactors(s) * (s.D * (s.J - 1.0) / s.J),
     |s| square(s) * (s.C * s.I * s.g() / s.J),
     |s| square(s) * (s.C * s.I * s.g()),
+    |s| square(s) * (s.C * s.g() / (s.J * s.J)),
     |s| change_of_cofactors(s) * (s.C * s.I * s.g()),
-    |s| flat(&s.F) * flat(&s.F).transpose() * (s.C * s.g()),
+    |s| change_of_cofactors(s) * (s.C * s.I * s.g() / (s.J * s.J)),
+    |s| flat(&s.F) * flat(&s.F).transpose() * (s.C * s.g() / s.J),
+    |s| mixed(s) * (s.C * s.g()),
+    |s| mixed(s) * (s.C * s.g() / (s.J * s.J)),
     |s| Matrix9::identity() * s.C,
 ];
+
+fn mixed(s: &State) -> Matrix9 {
+    let (F, cofactors) = (flat(&s.F), flat(&s.cofactors()));
+    F * cofactors.transpose() + cofactors * F.transpose()
+}
 
 /// The right terms, and the right terms with one more.
 pub fn formulas<'a>() -> Vec<Formula<'a>> {

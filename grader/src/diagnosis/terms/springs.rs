@@ -9,6 +9,7 @@ use crate::reference::trial::{Input, Trial};
 type Point = Vector3<f64>;
 type Stretch = fn(&Point, &Point, f64) -> f64;
 type Number = fn(f64) -> f64;
+type Size = fn(f64, f64) -> f64;
 type Force = fn(&Point, f64) -> [Point; 2];
 
 const LENGTHS: &str =
@@ -17,6 +18,8 @@ const REST: &str = "The spring pulls as if its rest length were zero. Where does
 const BOTH_WAYS: &str = "A spring resists both a pull and a push.";
 const POWER: &str = "The stretch enters with another power: a spring stores energy whether it is pulled or pushed.";
 const STIFFNESS: &str = "The stiffness enters with another power: what are the units of the answer?";
+const SIZE: &str =
+    "The force has the right direction and the wrong size: differentiate the energy with respect to the length.";
 const DIRECTION: &str =
     "The force has the wrong size or direction: by what is the vector between the ends to be divided?";
 
@@ -32,6 +35,7 @@ const STRETCHES: &[Part<Stretch>] = &[
     ("only tension", BOTH_WAYS, |q0, q1, l0| ((q1 - q0).norm() - l0).max(0.0)),
     ("only compression", BOTH_WAYS, |q0, q1, l0| ((q1 - q0).norm() - l0).min(0.0)),
     ("relative stretch", LENGTHS, |q0, q1, l0| (q1 - q0).norm() / l0 - 1.0),
+    ("relative stretch", LENGTHS, |q0, q1, l0| if l0 > 0.0 { (q1 - q0).norm() / l0 - 1.0 } else { (q1 - q0).norm() }),
     ("sum of the coordinates", LENGTHS, |q0, q1, l0| (q1 - q0).abs().sum() - l0),
     ("sum of the coordinates", LENGTHS, |q0, q1, l0| (q1 - q0).sum() - l0),
     ("largest coordinate", LENGTHS, |q0, q1, l0| (q1 - q0).amax() - l0),
@@ -121,6 +125,32 @@ pub fn energies<'a>() -> Vec<Formula<'a>> {
     all
 }
 
+/// Sizes of a force, from the length and the rest length, where it is along the vector between the ends.
+const SIZES: &[Part<Size>] = &[
+    ("missing stretch", SIZE, |_, _| 1.0),
+    ("not differentiated", SIZE, |l, l0| (l - l0).powi(2)),
+    ("relative stretch", SIZE, |l, l0| (l - l0) / l0),
+    ("relative stretch", SIZE, |l, l0| if l0 > 0.0 { (l - l0) / l0 } else { l }),
+    ("relative stretch", SIZE, |l, l0| (l - l0) / l),
+    ("product of length and rest length", SIZE, |l, l0| l * l0),
+    ("absolute value", SIZE, |l, l0| (l - l0).abs()),
+    ("third power", SIZE, |l, l0| (l - l0).powi(3)),
+    ("rest length alone", SIZE, |_, l0| l0),
+];
+
+fn of_size<'a>(&(name, sentence, size): &Part<Size>) -> Formula<'a> {
+    Formula {
+        name: wrong(&[(name, sentence)]),
+        terms: &[("the force on the first end", -1.0), ("the force on the second end", 1.0)],
+        values: Box::new(move |trial: &Trial| {
+            let (q0, q1, l0, k) = ends(trial)?;
+            let d = q1 - q0;
+            let f = if d.norm() > 0.0 { unit(&d) * (k * size(d.norm(), l0)) } else { Point::zeros() };
+            Some(vec![vec![f.x, f.y, f.z, 0.0, 0.0, 0.0], vec![0.0, 0.0, 0.0, f.x, f.y, f.z]])
+        }),
+    }
+}
+
 /// Forces, with the two ends apart.
 pub fn forces<'a>() -> Vec<Formula<'a>> {
     let formula = |&(name, sentence, part): &Part<Force>| Formula {
@@ -139,5 +169,5 @@ pub fn forces<'a>() -> Vec<Formula<'a>> {
             Some(vec![first(&length), first(&rest), second(&length), second(&rest)])
         }),
     };
-    DIRECTIONS.iter().map(formula).collect()
+    DIRECTIONS.iter().map(formula).chain(SIZES.iter().map(of_size)).collect()
 }

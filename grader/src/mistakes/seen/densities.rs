@@ -7,7 +7,7 @@ use super::super::by_hand::{by_columns, by_rows, cofactors, density, hessian, st
 
 /// The mistakes of this set.
 pub const MISTAKES: &[Mistake] = &[
-    wrong!(psi_neo_hookean, ["the term with D scaled by 0.5"], |F, C, D| density(F, |J, I| C
+    wrong!(psi_neo_hookean, ["the term with D scaled by 0.5", "D scaled by 0.5"], |F, C, D| density(F, |J, I| C
         * (J.powf(-2.0 / 3.0) * I - 3.0)
         + 0.5 * D * (J - 1.0).powi(2))),
     wrong!(psi_neo_hookean, ["scaled by 0.5"], |F, C, D| density(F, |J, I| 0.5 * C * (J.powf(-2.0 / 3.0) * I - 3.0)
@@ -36,7 +36,7 @@ pub const MISTAKES: &[Mistake] = &[
         C * g,
         -2.0 / 3.0 * C * I * g / J + 2.0 * D * (J - 1.0)
     ))),
-    wrong!(dpsi_neo_hookean_dF, ["lost 2 in the volume part"], |F, C, D| stress(F, |J, I, g| (
+    wrong!(dpsi_neo_hookean_dF, ["lost 2 in the volume part", "D scaled by 0.5"], |F, C, D| stress(F, |J, I, g| (
         2.0 * C * g,
         -2.0 / 3.0 * C * I * g / J + D * (J - 1.0)
     ))),

@@ -92,7 +92,7 @@ pub const MISTAKES: &[Mistake] = &[
     }),
     wrong!(
         T_linear_tetrahedron,
-        ["missing the velocity along y and missing the velocity along z"],
+        ["missing the velocity along y and missing the velocity along z", "only x"],
         |qdot, element, density, volume| {
             let mut x_only = qdot.clone();
             x_only.iter_mut().enumerate().for_each(|(i, v)| {

@@ -27,7 +27,7 @@ pub fn found(s: &Settings, pick: &Pick, [near, far]: [Point; 2]) -> Vec<usize> {
     };
     let distance = |vertex: usize| {
         let to = |&&(t, triangle): &&(f64, &[usize; 3])| match s.from {
-            From::Hit => (pick.V[vertex] - near - direction * t).norm(),
+            From::Hit => (s.norm)(&(pick.V[vertex] - near - direction * t)),
             From::Centroid => (pick.V[vertex] - triangle.iter().map(|&i| pick.V[i]).sum::<Point>() / 3.0).norm(),
             From::Corner => (pick.V[vertex] - pick.V[triangle[0]]).norm(),
             From::Near => (pick.V[vertex] - near).norm(),
@@ -37,12 +37,18 @@ pub fn found(s: &Settings, pick: &Pick, [near, far]: [Point; 2]) -> Vec<usize> {
         chosen.iter().map(to).fold(f64::INFINITY, f64::min)
     };
     let is_among = |vertex: &usize| match s.among {
-        Among::All => true,
+        Among::All | Among::WithTriangles => true,
         Among::OfTriangles => pick.F.iter().any(|t| t.contains(vertex)),
         Among::OfTheTriangle => chosen.iter().any(|(_, t)| t.contains(vertex)),
     };
     let is_near = |vertex: &usize| !chosen.is_empty() && (s.near)(distance(*vertex), pick.radius);
     let mut found: Vec<usize> = (0..pick.V.len()).filter(is_among).filter(is_near).collect();
+    if matches!(s.among, Among::WithTriangles) {
+        let corners = pick.F.iter().filter(|t| t.iter().any(|corner| found.contains(corner))).flatten();
+        found = found.iter().chain(corners).copied().collect();
+        found.sort_unstable();
+        found.dedup();
+    }
     match s.order {
         Order::Ascending => {}
         Order::Descending => found.reverse(),
