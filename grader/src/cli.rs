@@ -103,6 +103,9 @@ pub enum Command {
         /// Seed of the random inputs; drawn now unless given.
         #[arg(long, value_name = "N", value_parser = seed, allow_hyphen_values = true)]
         seed: Option<u64>,
+        /// The assignment that Gradescope grades; the grader's own rubric unless told.
+        #[arg(long, value_name = "FILE")]
+        rubric: Option<PathBuf>,
         /// Pack the sources of all dependencies too, so that setting up needs no crates from the network.
         #[arg(long)]
         vendor: bool,

@@ -17,7 +17,7 @@ use crate::class::Outcome;
 use crate::cli::{Again, GradeOptions};
 use crate::grading::{Grading, repository};
 use crate::new_folder::{self, FolderError};
-use crate::pack::{self, PackOptions};
+use crate::pack::{self, PackOptions, Platform};
 use crate::reports::{self, Options};
 use crate::rubric::{Role, Rubric};
 use crate::similar::fingerprints::Document;
@@ -258,6 +258,17 @@ fn told(summary: Result<class::Summary, class::ClassError>, out: &Path) -> Done 
 }
 
 pub fn pack(options: PackOptions) -> Done {
+    let rubric = Rubric::load(options.rubric.as_deref()).map_err(unusable)?;
+    if !rubric.checks.is_empty() {
+        return Err(unusable(
+            "the rubric has a [[check]], which no package can hold yet; grade such a rubric with `class`",
+        ));
+    }
+    if options.rubric.is_some() && options.platform != Platform::Gradescope {
+        return Err(unusable(
+            "--rubric is for Gradescope; elsewhere hand the rubric to the grader that the package calls",
+        ));
+    }
     pack::pack(&options).map_err(unusable)?;
     println!("{} is ready; the page in it tells what to do with it.", options.out.display());
     Ok(())

@@ -26,7 +26,7 @@ use grader::implementation::budget::Budget;
 use grader::implementation::sandboxed::Sandboxed;
 use grader::sandbox::Sandbox;
 use grader::status::Status;
-use grader::submission::{Source, Submission};
+use grader::submission::{LATER, Source, Submission};
 use thiserror::Error;
 
 use crate::grade::{FORMAT_VERSION, FunctionGrade, Grade};
@@ -145,7 +145,7 @@ impl Grading {
         for (name, source) in &mut assigned.functions {
             match self.rubric.role(name) {
                 Role::Asked => {}
-                Role::Later => *source = Source::Missing("a later assignment asks for it".to_owned()),
+                Role::Later => *source = Source::Missing(LATER.to_owned()),
                 Role::Given => {
                     let text = self.programs.text(name).cloned().unwrap_or_default();
                     if matches!(source, Source::Written(own) if unmarked(own) != text) {

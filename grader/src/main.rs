@@ -55,9 +55,9 @@ fn main() -> ExitCode {
         Command::Similar { folder, out, rubric } => commands::similar(&folder, &out, rubric.as_deref()),
         Command::Merge { folders, out } => commands::merge(&folders, &out),
         Command::Sandbox => commands::sandbox_layers(),
-        Command::Pack { platform, out, seed, vendor } => {
+        Command::Pack { platform, out, seed, rubric, vendor } => {
             let seed = seed.unwrap_or_else(seed::drawn);
-            commands::pack(PackOptions { platform, out, repository: grading::repository(), seed, vendor })
+            commands::pack(PackOptions { platform, out, repository: grading::repository(), seed, rubric, vendor })
         }
     });
     match done {

@@ -30,6 +30,8 @@ pub struct PackOptions {
     /// The solved repository.
     pub repository: PathBuf,
     pub seed: u64,
+    /// The assignment, in place of the grader's own rubric.
+    pub rubric: Option<PathBuf>,
     /// Whether to pack the sources of all dependencies too, so that setting up needs no crates from the network.
     pub vendor: bool,
 }
@@ -144,6 +146,9 @@ fn gradescope(options: &PackOptions, out: &Path) -> Result<(), PackError> {
     let files = out.join("autograder");
     fs::create_dir(&files).map_err(at(&files))?;
     sources::copy(root, &files)?;
+    if let Some(rubric) = &options.rubric {
+        fs::copy(rubric, files.join("grader/rubric.toml")).map_err(at(rubric))?;
+    }
     if options.vendor {
         sources::vendor(&files)?;
     }

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use grader::status::Status;
 use grader::submission::NAMES;
 use serde_json::Value;
 use tempfile::TempDir;
@@ -128,6 +129,24 @@ fn one_function_is_graded_again_and_a_deadline_counts_for_a_single_submission() 
     let kept = again["functions"].as_array().expect("functions").iter();
     assert_eq!(kept.filter(|function| function["diagnosis"] == "of the first time").count(), 11);
     assert_eq!(functions(&again), functions(&late));
+}
+
+#[test]
+fn students_check_what_is_asked_for_beside_what_is_given_and_read_nothing_of_what_comes_later() {
+    for (file, missing, passed) in
+        [("first.toml", &NAMES[..12], &NAMES[..0]), ("second.toml", &NAMES[12..], &NAMES[..12])]
+    {
+        let folder = TempDir::new().expect("a folder");
+        let mut grader = Command::new(env!("CARGO_BIN_EXE_grader"));
+        grader.arg("handout").arg(folder.path()).arg("--rubric").arg(repository().join("grader/rubrics").join(file));
+        assert!(grader.status().expect("the grader starts").success());
+        let reports = grader::check::check(folder.path(), None).unwrap_or_else(|error| panic!("{error}"));
+        let with = |status| {
+            reports.iter().filter(|report| report.status == status).map(|report| report.name).collect::<Vec<_>>()
+        };
+        assert_eq!((with(Status::Missing), with(Status::Passed)), (missing.to_vec(), passed.to_vec()));
+        assert_eq!(reports.len(), missing.len() + passed.len());
+    }
 }
 
 /// Grades with an own check of psi_neo_hookean.

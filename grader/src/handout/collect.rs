@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use grader::check::HANDED_OUT;
-use grader::submission::NAMES;
+use grader::submission::{LATER, NAMES};
 use syn::Item;
 
 use super::{Files, HandoutError, manifest, stub};
@@ -48,7 +48,7 @@ pub fn collect(root: &Path, rubric: &Rubric) -> Result<Files, HandoutError> {
         edit(&mut files, &format!("src/{name}.rs"), |text| match rubric.role(name) {
             Role::Asked => stub::stub(name, text),
             Role::Given => Ok(stub::marked(text)),
-            Role::Later => Ok(stub::stub(name, text)?.replace("write this function", "a later assignment asks for it")),
+            Role::Later => Ok(stub::stub(name, text)?.replace("write this function", LATER)),
         })?;
     }
     for name in NAMES {

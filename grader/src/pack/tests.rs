@@ -75,7 +75,7 @@ fn packed(platform: Platform) -> tempfile::TempDir {
     }
     // Inside the repository, as users will do: it must not be packed into itself.
     let out = repository.join("out");
-    pack(&PackOptions { platform, out, repository, seed: 42, vendor: false }).unwrap();
+    pack(&PackOptions { platform, out, repository, seed: 42, rubric: None, vendor: false }).unwrap();
     folder
 }
 
@@ -94,6 +94,7 @@ fn run_autograder(grader: &str) -> (Output, Option<String>) {
     fs::write(root.join("results/results.json"), "of another submission").unwrap();
     program(&root.join("source/target/release/grader"), grader);
     let script = folder.path().join("repository/out/autograder/run_autograder");
+    fs::write(root.join("submission_metadata.json"), "{}").unwrap();
     let output = Command::new(script).env("AUTOGRADER_ROOT", &root).output().unwrap();
     (output, fs::read_to_string(root.join("results/results.json")).ok())
 }
@@ -156,8 +157,12 @@ fn this_repository_packs_into_two_megabytes_without_the_window() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let repository = crate::grading::repository();
-    pack(&PackOptions { platform: Platform::Gradescope, out: out.clone(), repository, seed: 1, vendor: false })
+    let rubric = repository.join("grader/rubrics/second.toml");
+    let platform = Platform::Gradescope;
+    pack(&PackOptions { platform, out: out.clone(), repository, seed: 1, rubric: Some(rubric.clone()), vendor: false })
         .unwrap();
+    let read = |path: &Path| fs::read_to_string(path).unwrap();
+    assert_eq!(read(&out.join("autograder/grader/rubric.toml")), read(&rubric), "the assignment's");
     let names = locked(&out.join("autograder/Cargo.lock"));
     for name in ["nalgebra", "grader", "grader-child", "finite-elements-3d"] {
         assert!(names.iter().any(|found| found == name), "{name} is missing");
@@ -177,10 +182,8 @@ fn gradescope_gets_the_results_of_a_grader_that_worked() {
     assert!(output.status.success());
     assert_eq!(results.as_deref(), Some("{}\n"));
     let text = String::from_utf8(output.stdout).unwrap();
-    assert!(
-        text.starts_with("grade ") && text.contains("/submission --out ") && text.ends_with("--seed 42\n"),
-        "{text}"
-    );
+    assert!(text.starts_with("grade ") && text.contains("/submission --out ") && text.contains("--seed 42"), "{text}");
+    assert!(text.ends_with("/autograder/submission_metadata.json\n") && text.contains(" --metadata "), "{text}");
 }
 
 #[test]
@@ -241,7 +244,7 @@ fn no_mark_is_left_in_a_package_and_a_full_folder_is_refused() {
         let folder = packed(platform);
         let repository = folder.path().join("repository");
         let mut out = repository.join("out");
-        let again = PackOptions { platform, out: out.clone(), repository, seed: 1, vendor: false };
+        let again = PackOptions { platform, out: out.clone(), repository, seed: 1, rubric: None, vendor: false };
         assert!(matches!(pack(&again), Err(PackError::Folder(FolderError::NotEmpty(_)))));
         if platform == Platform::Gradescope {
             out.push("autograder");
