@@ -13,17 +13,27 @@ use crate::grade::Growth;
 const FUNCTIONS: [(&str, u64); 4] =
     [("mass_matrix_mesh", 1), ("assemble_forces", 5), ("assemble_stiffness", 1), ("fixed_point_constraints", 20)];
 
+/// More calls in a row than this are not made.
+const MOST_CALLS: f64 = 5000.0;
+
 /// Cells along a side of the cubes that are measured: 384, 3 072, 10 368 and 24 576 elements.
 const CUBES: [usize; 4] = [4, 8, 12, 16];
 
 /// A mesh is measured where n² growth would not take it longer than this, s.
 const LONGEST: f64 = 0.5;
 
-/// A measurement is repeated until it took so long in all, s, but three times at most.
+/// A measurement is repeated until it took so long in all, s.
 const ENOUGH: f64 = 0.02;
+
+/// Processor time of a series of calls that outweighs the start of a process, s.
+const WORK: f64 = 0.05;
 
 /// Fewer elements than this say nothing of large meshes.
 const LARGE: usize = 3000;
+
+/// Above this exponent over all sizes the last two sizes are looked at by themselves: in a small mesh the work for each element hides
+/// the rest.
+const STEEP: f64 = 1.3;
 
 /// Time of a call on a mesh of so many elements.
 struct Measured {
@@ -35,24 +45,46 @@ impl Grading {
     /// The growth of a function that passes; `None` where it is not measured or meshes of a telling size take too long.
     pub(super) fn growth(&self, name: &str, subject: &Sandboxed) -> Option<Growth> {
         let &(_, times) = FUNCTIONS.iter().find(|(found, _)| *found == name)?;
-        let own = || exponent(&measured(name, |function, body| subject.seconds(function, body, times)));
-        let (mut found, elements) = own()?;
+        let by_the_clock = measured(name, 3, |function, body| subject.seconds(function, body, times));
+        let (mut found, elements) = exponent(&by_the_clock)?;
         let mut reference = None;
         if found > Growth::CLEAR {
-            // Other programs may have kept the machine busy: the second time decides as well.
-            found = own().map_or(found, |(again, _)| found.min(again));
-            // Not clear without the reference, so a reference that does not answer is no failure of the grading.
-            let of_reference = measured(name, |function, body| {
-                self.reference_seconds(function, body, times).map_err(|_| Trouble::GivenUp)
-            });
-            reference = exponent(&of_reference).map(|(exponent, _)| exponent);
+            // Other programs may have kept the machine busy, so processor time decides, of the reference as well. A reference that does
+            // not answer makes nothing clear, and is no failure of the grading.
+            let again = exponent(&precise(name, subject)).map(|(exponent, _)| exponent);
+            found = again.map_or(found, |again| again.min(found));
+            if again.is_some() && found > Growth::CLEAR {
+                self.reference.next_function();
+                reference = exponent(&precise(name, &self.reference)).map(|(exponent, _)| exponent);
+            }
         }
         Some(Growth { exponent: found, reference_exponent: reference, elements })
     }
 }
 
+/// Processor times, without that of the start of a process.
+fn precise(name: &str, subject: &Sandboxed) -> Vec<Measured> {
+    let Some((function, smallest, _)) = load_of(name, 1) else { return Vec::new() };
+    let starts = (0..3).filter_map(|_| subject.processor_seconds(function, &smallest, 1).ok());
+    let start = starts.fold(f64::INFINITY, f64::min);
+    measured(name, 1, |function, body| {
+        // The first call waits for the start of a process.
+        let once = subject.seconds(function, body, 1)?.min(subject.seconds(function, body, 1)?);
+        let mut times = (WORK / once).clamp(1.0, MOST_CALLS).ceil();
+        // A busy machine makes one call look longer than it is.
+        for _ in 0..5 {
+            let work = subject.processor_seconds(function, body, times as u64)? - start;
+            if work > WORK / 2.0 {
+                return Ok(work / times);
+            }
+            times = (times * (WORK / work).clamp(2.0, 20.0)).min(MOST_CALLS).ceil();
+        }
+        Err(Trouble::GivenUp)
+    })
+}
+
 /// Times on larger and larger meshes, for as long as they are answered and short.
-fn measured(name: &str, seconds: impl Fn(Exercise, &[u8]) -> Answer<f64>) -> Vec<Measured> {
+fn measured(name: &str, turns: usize, seconds: impl Fn(Exercise, &[u8]) -> Answer<f64>) -> Vec<Measured> {
     let mut found: Vec<Measured> = Vec::new();
     for cells in CUBES {
         let elements = 6 * cells * cells * cells;
@@ -62,7 +94,7 @@ fn measured(name: &str, seconds: impl Fn(Exercise, &[u8]) -> Answer<f64>) -> Vec
         }
         let Some((function, body, _)) = load_of(name, cells) else { break };
         let (mut best, mut spent) = (f64::INFINITY, 0.0);
-        for _ in 0..3 {
+        for _ in 0..turns {
             let Ok(time) = seconds(function, &body) else { return found };
             (best, spent) = (best.min(time), spent + time);
             if spent > ENOUGH {
@@ -74,8 +106,7 @@ fn measured(name: &str, seconds: impl Fn(Exercise, &[u8]) -> Answer<f64>) -> Vec
     found
 }
 
-/// The exponent over all sizes, and the elements of the largest. Where it is clear that they grow faster than n¹, the last two sizes tell
-/// better where it leads to, because in a small mesh the work for each element hides the rest.
+/// The exponent, and the elements of the largest mesh.
 fn exponent(times: &[Measured]) -> Option<(f64, usize)> {
     let (first, last) = (times.first()?, times.last()?);
     let before = times.len().checked_sub(2).map(|index| &times[index])?;
@@ -83,8 +114,7 @@ fn exponent(times: &[Measured]) -> Option<(f64, usize)> {
         |a: &Measured, b: &Measured| (b.seconds / a.seconds).ln() / (b.elements as f64 / a.elements as f64).ln();
     let overall = between(first, last);
     let is_known = last.elements >= LARGE && overall.is_finite();
-    is_known
-        .then(|| (if overall > Growth::CLEAR { overall.max(between(before, last)) } else { overall }, last.elements))
+    is_known.then(|| (if overall > STEEP { overall.max(between(before, last)) } else { overall }, last.elements))
 }
 
 #[cfg(test)]
@@ -118,8 +148,8 @@ mod tests {
 
     #[test]
     fn the_measurement_ends_before_a_mesh_that_would_take_too_long() {
-        let slow = measured("mass_matrix_mesh", |_, body| Ok(1e-6 * body.len() as f64));
+        let slow = measured("mass_matrix_mesh", 3, |_, body| Ok(1e-6 * body.len() as f64));
         assert!(slow.len() < CUBES.len(), "{}", slow.len());
-        assert!(measured("mass_matrix_mesh", |_, _| Err(Trouble::Malformed)).is_empty());
+        assert!(measured("mass_matrix_mesh", 3, |_, _| Err(Trouble::Malformed)).is_empty());
     }
 }
