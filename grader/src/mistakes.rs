@@ -23,6 +23,7 @@ macro_rules! wrong {
 
 mod by_hand;
 mod held_back;
+mod last;
 mod seen;
 mod tests;
 

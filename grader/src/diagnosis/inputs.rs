@@ -1,11 +1,14 @@
 //! Mistakes that take one input for another: the right formula, fed with the wrong thing.
 
+mod parts;
+
 use grader::implementation::Local;
 use nalgebra::{DVector, Vector3};
 
 use super::Candidate;
 use crate::reference::REFERENCE;
 use crate::reference::trial::{Elastic, Input, Mesh, Pick, Step};
+use parts::{flattened, of_constants, off_by_one, one_less, still};
 
 type Change = fn(&Input) -> Option<Input>;
 
@@ -52,11 +55,11 @@ const CHANGES: &[(&str, &str, Change)] = &[
         off_by_one,
     ),
     ("off by one", "The neighbours of the element's vertices are taken: do indices count from 0 or from 1?", one_less),
-    ("first vertex left out", LEFT_OUT, |input| still(input, |k| k < 3)),
-    ("last vertex left out", LEFT_OUT, |input| still(input, |k| k >= 9)),
-    ("only the first vertex", LEFT_OUT, |input| still(input, |k| k >= 3)),
-    ("z left out", LEFT_OUT, |input| flattened(input, [1.0, 1.0, 0.0])),
-    ("only x", LEFT_OUT, |input| flattened(input, [1.0, 0.0, 0.0])),
+    ("first vertex left out", parts::LEFT_OUT, |input| still(input, |k| k < 3)),
+    ("last vertex left out", parts::LEFT_OUT, |input| still(input, |k| k >= 9)),
+    ("only the first vertex", parts::LEFT_OUT, |input| still(input, |k| k >= 3)),
+    ("z left out", parts::LEFT_OUT, |input| flattened(input, [1.0, 1.0, 0.0])),
+    ("only x", parts::LEFT_OUT, |input| flattened(input, [1.0, 0.0, 0.0])),
     ("missing the term with C", "The constant C has no effect. What does it weigh?", |input| {
         of_constants(input, |C, _| *C = 0.0)
     }),
@@ -178,60 +181,6 @@ fn factor_3_left_out(input: &Input) -> Option<Input> {
         read.fixed_rows_mut::<3>(3 * vertex).copy_from(&qdot.fixed_rows::<3>(vertex));
     }
     Some(Input::Kinetic { qdot: read, element: *element, density: *density, volume: *volume })
-}
-
-const LEFT_OUT: &str = "A part of the input has no effect: over which vertices and coordinates does the sum run?";
-
-/// Another element, whose vertices are these.
-fn shifted(input: &Input, shift: impl Fn(usize, usize) -> usize) -> Option<Input> {
-    let vertices = match input {
-        Input::Shape { V, .. } | Input::Quadrature { V, .. } => V.len(),
-        Input::Kinetic { qdot, .. } => qdot.len() / 3,
-        Input::Elastic(of) => of.V.len(),
-        _ => return None,
-    };
-    with_element(input, |element| element.map(|vertex| shift(vertex, vertices)))
-}
-
-fn off_by_one(input: &Input) -> Option<Input> {
-    shifted(input, |vertex, n| (vertex + 1) % n)
-}
-
-fn one_less(input: &Input) -> Option<Input> {
-    shifted(input, |vertex, n| (vertex + n - 1) % n)
-}
-
-/// The element with some of its twelve velocities zero.
-fn still(input: &Input, is_still: impl Fn(usize) -> bool) -> Option<Input> {
-    let mut input = input.clone();
-    let Input::Kinetic { qdot, element, .. } = &mut input else { return None };
-    (0..12).filter(|&k| is_still(k)).for_each(|k| qdot[3 * element[k / 3] + k % 3] = 0.0);
-    Some(input)
-}
-
-/// Velocities or ends of a spring with factors on x, y, z.
-fn flattened(input: &Input, factors: [f64; 3]) -> Option<Input> {
-    let mut input = input.clone();
-    match &mut input {
-        Input::Kinetic { qdot, .. } => qdot.iter_mut().enumerate().for_each(|(i, v)| *v *= factors[i % 3]),
-        Input::Spring { q0, q1, .. } => {
-            q0.component_mul_assign(&Vector3::from(factors));
-            q1.component_mul_assign(&Vector3::from(factors));
-        }
-        _ => return None,
-    }
-    Some(input)
-}
-
-fn of_constants(input: &Input, change: impl Fn(&mut f64, &mut f64)) -> Option<Input> {
-    let mut input = input.clone();
-    match &mut input {
-        Input::Density { C, D, .. } | Input::Elastic(Elastic { C, D, .. }) | Input::Mesh(Mesh { C, D, .. }) => {
-            change(C, D);
-        }
-        _ => return None,
-    }
-    Some(input)
 }
 
 fn swapped(input: &Input) -> Option<Input> {

@@ -11,6 +11,13 @@ use crate::reference::trial::Input;
 
 /// The mistake of a function whose answers hold no number at all.
 pub fn not_a_number(cases: &[&Case]) -> Option<Diagnosis> {
+    let is_empty = |case: &&Case| case.observed.numbers.is_empty();
+    if cases.iter().all(is_empty) && cases.iter().filter(|case| !right(case)).count() > 2 {
+        return Some(Diagnosis {
+            name: "empty".to_owned(),
+            sentence: "The answer is empty, whatever the input. Is what was found returned?".to_owned(),
+        });
+    }
     let nothing = |case: &&Case| case.observed.numbers.iter().all(|x| !x.is_finite());
     let wrong: Vec<_> =
         cases.iter().copied().filter(|case| !right(case) && !case.observed.numbers.is_empty()).collect();

@@ -4,7 +4,7 @@ use std::thread;
 
 use grader::implementation::Local;
 
-use super::{Mistake, held_back, seen};
+use super::{Mistake, held_back, last, seen};
 use crate::diagnosis::{Explanation, explain};
 use crate::variants;
 
@@ -69,5 +69,10 @@ fn mistakes_of_before_the_rules_are_named() {
 
 #[test]
 fn mistakes_of_after_the_rules_are_named() {
-    hold(&held_back::ALL, 0.80, 0.90);
+    hold(&held_back::ALL, 0.88, 0.92);
+}
+
+#[test]
+fn mistakes_of_after_the_last_change_are_named() {
+    hold(&last::ALL, 0.88, 0.92);
 }

@@ -48,7 +48,7 @@ pub const MISTAKES: &[Mistake] = &[
     wrong!(pick_nearest_vertices, ["matrices transposed"], |win, view, proj, viewport, V, F, radius| {
         right!(pick_nearest_vertices(win, &view.transpose(), &proj.transpose(), viewport, V, F, radius))
     }),
-    wrong!(pick_nearest_vertices, ["pixels from 0 to 2"], |win, view, proj, viewport, V, F, radius| {
+    wrong!(pick_nearest_vertices, ["pixels from 0 to 2", "empty"], |win, view, proj, viewport, V, F, radius| {
         let x = Vector3::new(win.x * 2.0, win.y * 2.0, win.z);
         right!(pick_nearest_vertices(&x, view, proj, viewport, V, F, radius))
     }),
