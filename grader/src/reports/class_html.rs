@@ -45,7 +45,7 @@ fn head(rows: &[Row], grades: &[&Grade]) -> Markup {
     html! {
         h1 { "Class" }
         div class="figures" {
-            (figure(&submissions.to_string(), "submissions"))
+            (figure(&submissions.to_string(), "students with a submission"))
             @if grades.len() < submissions { (figure(&(submissions - grades.len()).to_string(), "without a grade")) }
             @if submissions < rows.len() { (figure(&(rows.len() - submissions).to_string(), "students without a submission")) }
             (figure(&percent(median(&shares)), "median score"))

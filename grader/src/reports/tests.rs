@@ -162,7 +162,8 @@ fn the_class_page_shows_what_is_not_graded_and_counts_it_in_no_figure() {
     write_class(&sample::class(), folder.path()).unwrap();
     let page = fs::read_to_string(folder.path().join("class.html")).unwrap();
     assert!(
-        page.contains("<b>33</b><span>submissions</span>") && page.contains("<b>3</b><span>without a grade</span>")
+        page.contains("<b>33</b><span>students with a submission</span>")
+            && page.contains("<b>3</b><span>without a grade</span>")
     );
     assert!(page.contains("<td>@lost</td><td>lost</td><td class=\"right\">–</td>"));
     assert!(page.contains("not graded: no end within 600 s") && page.contains("in place of first"));
