@@ -112,7 +112,7 @@ pub enum Command {
     },
 }
 
-/// What `class --function` asks of `grade`.
+/// Options that `class --function` hands to `grade`.
 #[derive(clap::Args)]
 pub struct Again {
     /// The grade whose other functions are kept.

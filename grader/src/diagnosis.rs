@@ -59,12 +59,12 @@ struct Case {
 /// How far, relative to the numbers at hand, a mistake's answer may be from the one that it explains.
 const PRECISION: f64 = 1e-6;
 
-/// What can be said about a function that fails.
+/// The explanation of a function that fails.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Explanation {
     /// The simplest mistake that explains the answers; `None` if they are right or if no known mistake explains them.
     pub diagnosis: Option<Diagnosis>,
-    /// Where the answers are right and where they are wrong; `None` if there is no pattern.
+    /// The entries and inputs with right and with wrong answers, in sentences; `None` if there is no pattern.
     pub location: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What students may have back: their reports without the instructor's, a folder each, or all in one archive.
+//! Feedback for students: their reports without the instructor's, a folder each, or all in one archive.
 
 use std::fs::{self, File};
 use std::io::{self, Write};

@@ -47,7 +47,7 @@ impl HandoutError {
     }
 }
 
-/// What students receive for the assignment of a rubric.
+/// The repository that students receive for the assignment of a rubric.
 pub fn files(root: &Path, rubric: &Rubric) -> Result<Files, HandoutError> {
     collect::collect(root, rubric)
 }

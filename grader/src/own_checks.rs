@@ -44,7 +44,7 @@ pub fn of<'a>(function: &'a str, rubric: &'a Rubric) -> impl Iterator<Item = &'s
 /// Returns if this program has the checks of the rubric. If not, the program is built with them and takes the place of this one.
 ///
 /// # Errors
-/// What the compiler says, with the file and the line.
+/// The compiler's message, with the file and the line.
 pub fn have(rubric: &Rubric, root: &Path) -> Result<(), OwnChecksError> {
     if rubric.checks.is_empty() {
         return Ok(());

@@ -48,7 +48,7 @@ pub struct Rubric {
     /// The submission of a student that counts.
     #[serde(default)]
     pub counts: Counts,
-    /// What a student without a submission gets.
+    /// Points of a student without a submission.
     #[serde(default)]
     pub no_submission: NoSubmission,
     pub deadline: Option<Deadline>,
@@ -97,7 +97,7 @@ pub enum Counts {
     Best,
 }
 
-/// What a student on the roster who has submitted nothing gets.
+/// Points of a student on the roster who has submitted nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NoSubmission {

@@ -108,7 +108,7 @@ pub struct Ended {
 /// Something that a submission is kept from, and the layers each of which does that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Isolation {
-    /// What is out of reach: the files of others, the network.
+    /// The resources out of reach: the files of others, the network.
     pub from: &'static str,
     /// Names of layers; one is enough.
     pub layers: [&'static str; 2],

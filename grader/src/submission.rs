@@ -24,7 +24,7 @@ pub use stub::is_stub;
 /// A file may have as many bytes as this; a function of the course has a few thousand.
 pub const MAX_FILE_BYTES: u64 = 1 << 20;
 
-/// What the handout's empty file says of a function that this assignment does not ask for.
+/// Text in the handout's empty file of a function that this assignment does not ask for.
 pub const LATER: &str = "a later assignment asks for it";
 
 /// The submission's source of one function.

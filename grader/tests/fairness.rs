@@ -1,4 +1,4 @@
-//! What goes wrong in one check costs that check, and the others are judged.
+//! A panic or a time-out in one check costs that check, and the others are judged.
 #![cfg(target_os = "linux")]
 
 #[path = "attacks/classroom.rs"]

@@ -1,4 +1,4 @@
-//! Where the functions of a check run: in the sandbox, if this machine has one.
+//! Processes in which the functions of a check run: in the sandbox, if this machine has one.
 
 use std::env;
 use std::io;

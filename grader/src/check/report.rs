@@ -1,4 +1,4 @@
-//! What the checks found, as a student reads it: a line for each function, and more of the one that comes next.
+//! The report of the checks for a student: a line for each function, and more of the one that comes next.
 
 use std::fmt::Write;
 use std::fs;

@@ -1,4 +1,4 @@
-//! What has become of points since the run before: `points.json` keeps those of the last complete run.
+//! Changes of points since the run before: `points.json` keeps those of the last complete run.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -19,7 +19,7 @@ const PATIENCE: u32 = 6;
 /// which differ on a busy machine.
 const ALMOST: f64 = 0.7;
 
-/// Where rustc lists what it has read.
+/// File in which rustc lists the files that it has read.
 const LIST: &str = "program.d";
 
 /// Result of one call of rustc.

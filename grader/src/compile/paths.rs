@@ -3,7 +3,7 @@
 /// Lines of one message that are kept.
 const MOST_LINES: usize = 60;
 
-/// What stands in place of a path.
+/// Text in place of a path.
 const ELSEWHERE: &str = "…";
 
 /// A message of the compiler, without paths outside of `src` and with an end.

@@ -224,7 +224,7 @@ const VERTEX_ORDER: &str =
     "The values are right, but belong to other vertices of the element. Which entry belongs to element[0]?";
 const INDICES: &str = "The entries are right, but stand in each other's places: check the indices.";
 
-/// What kind of permutation it is.
+/// The kind of a permutation.
 fn order_of(sources: &[(usize, f64)], [rows, columns]: [usize; 2]) -> (&'static str, &'static str) {
     let by_rows: Vec<usize> = (0..rows).map(|i| sources[i * columns].0 / columns).collect();
     let rows_alone = (0..rows * columns).all(|k| sources[k].0 == by_rows[k / columns] * columns + k % columns);

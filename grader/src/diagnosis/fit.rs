@@ -11,7 +11,7 @@ type Values<'a> = Box<dyn Fn(&Trial) -> Option<Vec<Vec<f64>>> + 'a>;
 
 /// A sum of terms that may have been computed.
 pub struct Formula<'a> {
-    /// What is wrong about it even where all coefficients are right; `None` for the right formula.
+    /// The mistake in it even where all coefficients are right; `None` for the right formula.
     pub name: Option<(&'a str, &'a str)>,
     /// The name of each term, as in `missing NAME`, and its right coefficient.
     pub terms: &'a [(&'a str, f64)],

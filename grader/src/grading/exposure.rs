@@ -1,4 +1,4 @@
-//! What the compiler of a submission can read must not hold the solutions.
+//! Refuses a repository that the compiler of a submission could read, because it holds the solutions.
 
 use std::path::{Path, PathBuf};
 

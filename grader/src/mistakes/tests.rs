@@ -24,7 +24,7 @@ impl Told {
     }
 }
 
-/// What is said about each mistake; they are shared between two threads.
+/// The explanations of all mistakes; they are shared between two threads.
 fn told(mistakes: &[&'static [Mistake]]) -> Vec<Told> {
     let told = |mistake: &'static Mistake| {
         let subject = Local(mistake.functions);

@@ -58,7 +58,7 @@ pub struct Extension {
     pub until: Option<Time>,
     /// Days after the assignment's.
     pub days: Option<u32>,
-    /// For the instructor's records.
+    /// Note for the instructor's records.
     #[allow(dead_code)] // read by people
     pub reason: Option<String>,
 }

@@ -27,7 +27,7 @@ const STYLES: [&str; 8] = [
 /// A change of one text.
 type Disguise = fn(&str) -> String;
 
-/// What a student in a hurry does to a copy.
+/// Ways to disguise a copy.
 const DISGUISES: [(&str, Disguise); 4] = [
     ("renamed", renamed),
     ("reordered", reordered),

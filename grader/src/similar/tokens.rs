@@ -3,7 +3,7 @@
 use grader::submission::with_tokens;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
-/// What stays the same when names and numbers are changed.
+/// A token without its name or number, which a copy with other names keeps.
 pub type Kind = u32;
 
 const NAME: Kind = 1;

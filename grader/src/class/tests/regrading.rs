@@ -1,4 +1,4 @@
-//! What is graded again, and the table of old and new points.
+//! Submissions that are graded again, and the table of old and new points.
 
 use super::*;
 

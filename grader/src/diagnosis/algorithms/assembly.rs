@@ -208,7 +208,7 @@ fn raised(H: &SMatrix<f64, 12, 12>, share: f64) -> SMatrix<f64, 12, 12> {
     with_eigenvalues(H, |value| value.max(floor))
 }
 
-/// What an element adds: a column for forces, a matrix otherwise.
+/// Contribution of an element: a column for forces, a matrix otherwise.
 fn of_element(s: &Settings, trial: &Trial, index: usize) -> Option<Block> {
     match &trial.input {
         Input::MeshMass { density, v0, .. } => {

@@ -19,7 +19,7 @@ pub struct Settings {
     /// The velocity that the trial velocity is compared with.
     from: fn(&Vector) -> Vector,
     force_factor: fn(f64) -> f64,
-    /// Where the force and the stiffness are evaluated, from q, the trial velocity, the old one and dt.
+    /// The state at which force and stiffness are evaluated, from q, the trial velocity, the old one and dt.
     force_at: fn(&Vector, &Vector, &Vector, f64) -> Vector,
     hessian_mass: fn(&Matrix) -> Matrix,
     stiffness_factor: fn(f64) -> f64,

@@ -17,12 +17,12 @@ pub struct Settings {
     stiffness_factor: fn(f64) -> f64,
     momentum: fn(&Matrix, &Vector, f64) -> Vector,
     force_factor: fn(f64) -> f64,
-    /// Where the force and the stiffness are evaluated, from q, v and dt.
+    /// The state at which force and stiffness are evaluated, from q, v and dt.
     force_at: fn(&Vector, &Vector, f64) -> (Vector, Vector),
     stiffness_at: fn(&Vector, &Vector, f64) -> Vector,
     /// The new velocity, from the solution and the old one.
     velocity: fn(&Vector, &Vector, f64) -> Vector,
-    /// What is added to the right-hand side, from the stiffness.
+    /// The term that is added to the right-hand side, from the stiffness.
     more: fn(&Matrix, &Vector, f64) -> Vector,
     /// The velocity that is left at the end, from the new and the old one.
     left: fn(&Vector, &Vector) -> Vector,

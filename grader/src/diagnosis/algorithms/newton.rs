@@ -46,7 +46,7 @@ pub struct Settings {
     trials: usize,
 }
 
-/// What may be returned: values of f at the end and at the start, norms of the gradient there.
+/// Candidates for the returned value: values of f at the end and at the start, norms of the gradient there.
 struct Ends {
     value: f64,
     first_value: f64,

@@ -24,7 +24,7 @@ pub struct Settings {
     rest: fn(f64, f64) -> f64,
     gradient_of_rest: fn(&Point, &Point) -> Point,
     place_of_rest: usize,
-    /// What becomes of a finished shape function.
+    /// The change of a finished shape function.
     finished: fn(f64) -> f64,
     factor: fn(&Matrix3<f64>) -> f64,
     unit_gradients: bool,

@@ -1,4 +1,4 @@
-//! What is handed to the closures: the first system of equations shows whether its matrix or its right-hand side is wrong.
+//! Arguments that the closures receive: the first system of equations shows whether its matrix or its right-hand side is wrong.
 
 use std::cell::RefCell;
 

@@ -7,7 +7,7 @@ use crate::reference::trial::{Elastic, Input, Mesh, Pick, Step};
 /// Changes an input in place; false if it has no such part or has this form already.
 pub type Change = fn(&mut Input) -> bool;
 
-/// What follows "It is right", and the change.
+/// The words after "It is right", and the change.
 pub const PROBES: &[(&str, Change)] = &[
     ("where C = 0", |input| constants(input).is_some_and(|(C, _)| std::mem::replace(C, 0.0) != 0.0)),
     ("where D = 0", |input| constants(input).is_some_and(|(_, D)| std::mem::replace(D, 0.0) != 0.0)),

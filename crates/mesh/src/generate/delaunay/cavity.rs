@@ -20,9 +20,9 @@ struct Cell {
     neighbours: [u32; 4],
 }
 
-/// Where a point lies.
+/// Location of a point.
 enum Place {
-    /// In the sphere of this cell.
+    /// Inside the sphere of this cell.
     InSphereOf(u32),
     /// At a vertex.
     At(u32),

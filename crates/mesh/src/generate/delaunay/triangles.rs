@@ -27,7 +27,7 @@ pub fn triangulate(points: &[Vector2<f64>]) -> Result<Delaunay<2, 3>, DelaunayEr
     Ok(Delaunay { mesh: Mesh::new(kept.into_iter().map(|point| points[point]).collect(), elements), vertices })
 }
 
-/// For each point the first one at its place.
+/// Index of the first point at the place of each point.
 fn first_at_each_place(points: &[Vector2<f64>]) -> Vec<usize> {
     let mut places: HashMap<[u64; 2], usize> = HashMap::with_capacity(points.len());
     // Adding zero turns −0 into 0.

@@ -20,7 +20,7 @@ pub struct Lattice {
     pub signs: Vec<i8>,
     /// Nodes that have been moved onto the surface.
     moved: HashMap<u32, Vector3<f64>>,
-    /// Where the surface cuts an edge between a node inside and one outside, in this order.
+    /// Intersection of the surface with each edge from a node inside to a node outside, m.
     cuts: HashMap<[u32; 2], Vector3<f64>>,
 }
 

@@ -107,7 +107,7 @@ mod tests {
     use super::stencils;
     use crate::{Mesh, SurfaceMesh, boundary, check, quality, surface_quality};
 
-    /// A lattice whose nodes lie inside or outside, and whose edges are cut, by chance: every case that a surface can lead to.
+    /// The mesh of a lattice with random signs of its nodes and random cuts of its edges, which reach every case of the stencils.
     fn by_chance(seed: u64, inside: f64, cubes: f64) -> Mesh<3, 4> {
         let random = Cell::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
         let next = || {

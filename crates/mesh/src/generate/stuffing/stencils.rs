@@ -1,4 +1,4 @@
-//! What is left of a tetrahedron of the lattice inside the surface, as tetrahedra.
+//! Stencils: the part of each tetrahedron of the lattice that lies inside the surface, cut into tetrahedra.
 
 use std::collections::HashMap;
 
