@@ -57,6 +57,10 @@ fn a_sweep_has_a_row_for_every_combination_of_values_and_runs_go_on_from_its_sta
     assert_eq!(page.matches("<figure").count(), 2, "charts over material.C alone: the other key has no numbers");
     desk.run_well("cube.toml --headless --set material.C=2e5 --state flag.json");
     assert_eq!(desk.read("flag.json"), desk.read("out/states/cube-0003.json"));
+    let outcome = desk.run("report spinning --out failing --sweep time.integrator=verlet --sweep time.dt=0.5,0.6");
+    assert_eq!(outcome.code, Some(1), "{outcome:?}");
+    assert!(outcome.stderr.contains("2 of 2 runs failed or did not converge"), "{}", outcome.stderr);
+    assert_eq!(desk.read("failing/sweep.csv").lines().count(), 3);
     let message = desk.refused("report cube.toml --out out --sweep material.C=1e5,-1");
     assert!(message.starts_with("error: --set material.C=-1: material.C"), "{message}");
 }

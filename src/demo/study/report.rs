@@ -59,12 +59,18 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
 fn sweep(arguments: &Arguments) -> Result<(), End> {
     let bar = progress_bar();
     let tell = |done: usize, all: usize, what: &str| show(&bar, done, all, what);
-    let files = super::sweep::run(&arguments.scenes, &arguments.sweep, &arguments.out, &tell)?;
+    let swept = super::sweep::run(&arguments.scenes, &arguments.sweep, &arguments.out, &tell)?;
     bar.finish_and_clear();
-    for file in files {
+    for file in swept.files {
         say!("{}", file.display());
     }
-    Ok(())
+    match swept.failed {
+        0 => Ok(()),
+        failed => Err(End::Stopped(format!(
+            "{failed} of {} runs failed or did not converge; the column `status` of sweep.csv tells why",
+            swept.runs
+        ))),
+    }
 }
 
 fn show(bar: &ProgressBar, done: usize, all: usize, what: &str) {

@@ -37,16 +37,18 @@ impl FromStr for Sweep {
     }
 }
 
-/// Runs every combination of values, writes `sweep.csv`, `sweep.html` and the states at the ends, and returns the paths of the
-/// first two.
+/// The files of a sweep, and how its runs ended.
+pub struct Swept {
+    pub files: [PathBuf; 2],
+    pub runs: usize,
+    pub failed: usize,
+}
+
+/// Runs every combination of values, writes `sweep.csv`, `sweep.html` and the states at the ends, and tells how the runs ended. Failed
+/// runs are rows as well.
 ///
 /// All scenes are read before the first run, so that an error ends the sweep at once.
-pub fn run(
-    scenes: &[String],
-    sweeps: &[Sweep],
-    out: &Path,
-    tell: &dyn Fn(usize, usize, &str),
-) -> Result<[PathBuf; 2], End> {
+pub fn run(scenes: &[String], sweeps: &[Sweep], out: &Path, tell: &dyn Fn(usize, usize, &str)) -> Result<Swept, End> {
     let states = out.join("states");
     std::fs::create_dir_all(&states).map_err(|error| {
         End::unusable(format!("--out {}: {error}; name a folder that can be created", states.display()))
@@ -71,7 +73,8 @@ pub fn run(
     for (file, text) in files.iter().zip([table, sweep::html_page(&keys, &results)]) {
         save(file, |out| out.write_all(text.as_bytes())).map_err(End::unusable)?;
     }
-    Ok(files)
+    let failed = results.iter().filter(|run| !run.is_done()).count();
+    Ok(Swept { files, runs: results.len(), failed })
 }
 
 /// Every choice of one value of each key, the last key fastest.
