@@ -38,7 +38,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let result = match &arguments.command {
         Some(Command::List) => demo::list::print_scenes(),
-        Some(Command::Mesh { action }) => demo::mesh::run(action),
+        Some(Command::Mesh { action }) => action.run(),
         Some(Command::Study(study)) => study.run(),
         None => demo::missing::caught(|| demo::run::run(&arguments.run)),
     };

@@ -7,6 +7,7 @@ use std::time::Duration;
 use clap::{Args, Parser, Subcommand};
 use fem_scene::{Integrator, Override};
 
+use super::mesh::MeshAction;
 use super::probes::ProbeArgument;
 use super::study::Study;
 
@@ -38,24 +39,6 @@ pub enum Command {
     },
     #[command(flatten)]
     Study(Study),
-}
-
-#[derive(Debug, Subcommand)]
-pub enum MeshAction {
-    /// Counts, volume and quality of a tetrahedral mesh (.node, .mesh, .msh, .vtu), or of a surface (.obj, .ply, .stl)
-    Info { file: PathBuf },
-    /// Reads a tetrahedral mesh or a surface and writes it in another format
-    Convert { from: PathBuf, to: PathBuf },
-    /// Delaunay triangles of points in the plane, or tetrahedra of points in space (.csv, .node)
-    Delaunay { points: PathBuf, out: PathBuf },
-    /// Tetrahedra inside a surface (.obj, .ply, .stl), which may have holes and cross itself
-    FromSurface {
-        surface: PathBuf,
-        out: PathBuf,
-        /// Mean length of an edge, m
-        #[arg(long, value_name = "M", allow_negative_numbers = true)]
-        edge: f64,
-    },
 }
 
 #[derive(Debug, Args)]

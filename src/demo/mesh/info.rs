@@ -1,0 +1,36 @@
+//! `mesh info`: counts, sizes and shapes.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use fem_mesh::MeshError;
+
+/// Prints the measures of a mesh or of a surface.
+pub fn run(file: &Path) -> Result<(), MeshError> {
+    if fem_mesh::is_surface(file) { surface_info(file) } else { info(file) }
+}
+
+fn info(file: &Path) -> Result<(), MeshError> {
+    let mesh = fem_mesh::read_tetrahedra(file)?;
+    fem_mesh::check(&mesh, file)?;
+    say!("{}", fem_mesh::quality(&mesh).to_string().trim_end());
+    let parts: HashSet<usize> = fem_mesh::parts(&mesh).into_iter().collect();
+    say!("{:<26}{:>12}", "connected parts", parts.len());
+    let coincident = fem_mesh::coincident_nodes(&mesh).map_or("0".to_owned(), |found| {
+        let [a, b] = found.first;
+        format!("{} (the first: {a} and {b})", found.count)
+    });
+    say!("{:<26}{coincident:>12}", "coincident nodes");
+    // The check refuses a mesh that has some.
+    say!("{:<26}{:>12}", "duplicate elements", 0);
+    for (name, set) in &mesh.sets {
+        say!("set {name:?}: {}", set.counts());
+    }
+    Ok(())
+}
+
+fn surface_info(file: &Path) -> Result<(), MeshError> {
+    let mesh = fem_mesh::read_surface(file)?;
+    say!("{}", fem_mesh::surface_quality(&mesh).to_string().trim_end());
+    Ok(())
+}
