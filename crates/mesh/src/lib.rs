@@ -40,7 +40,6 @@ mod read;
 mod refine;
 mod sets;
 mod sides;
-mod surface;
 pub mod write;
 
 pub use boundary::boundary;
@@ -51,12 +50,11 @@ pub use error::{MeshError, Place, Problem};
 pub use join::join;
 pub(crate) use measures::signed_volume;
 pub use measures::{area_vector, volumes};
-pub use quality::{Extreme, Quality, quality};
+pub use quality::{Extreme, Quality, SurfaceQuality, quality, surface_quality};
 pub use read::{Points, is_surface, read_points, read_surface, read_tetrahedra};
 pub use refine::refine;
 pub use sets::MeshSet;
 pub use sides::{Side, faces_on_side, nodes_on_side};
-pub use surface::{SurfaceQuality, surface_quality};
 pub use write::{write_surface, write_tetrahedra};
 
 /// Simplices of `N` vertices in `D` dimensions. The fields carry no guarantee; [`check`] tests them.

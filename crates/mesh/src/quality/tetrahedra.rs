@@ -1,21 +1,13 @@
-//! Sizes and shapes of a mesh's elements.
+//! Sizes and shapes of tetrahedra.
 
 use std::f64::consts::PI;
 use std::fmt;
 
 use nalgebra::Vector3;
 
-use super::boundary::FACES;
-use super::{TetrahedralMesh, area_vector, boundary, signed_volume};
-
-/// An extreme value and its element, counted from 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extreme {
-    /// The value; infinite for a mesh without elements.
-    pub value: f64,
-    /// The first element with this value.
-    pub element: usize,
-}
+use super::Extreme;
+use crate::boundary::FACES;
+use crate::{TetrahedralMesh, area_vector, boundary, signed_volume};
 
 /// Sizes and shapes of a mesh's elements.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +32,7 @@ pub struct Quality {
     pub mean_radius_ratio: f64,
 }
 
-/// Measures a mesh that has passed [`check`](super::check).
+/// Measures a mesh that has passed [`check`](crate::check).
 pub fn quality(mesh: &TetrahedralMesh) -> Quality {
     let shapes: Vec<Shape> = mesh.elements.iter().map(|e| measure(e.map(|i| mesh.vertices[i]))).collect();
     let smallest = |value: fn(&Shape) -> f64| extreme(&shapes, value);
@@ -114,12 +106,6 @@ fn extreme(shapes: &[Shape], value: impl Fn(&Shape) -> f64) -> Extreme {
         }
     }
     worst
-}
-
-impl Extreme {
-    fn negated(self) -> Self {
-        Self { value: -self.value, ..self }
-    }
 }
 
 impl fmt::Display for Quality {

@@ -5,7 +5,8 @@ use std::fmt;
 
 use nalgebra::Vector3;
 
-use crate::{SurfaceMesh, area_vector};
+use super::triangles::{TriangleShape, measure};
+use crate::SurfaceMesh;
 
 /// Measures of a surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +49,8 @@ impl SurfaceQuality {
 
 /// Measures a surface. Indices have to be in range, as those of a surface from a file are.
 pub fn surface_quality(mesh: &SurfaceMesh) -> SurfaceQuality {
-    let shapes: Vec<Shape> = mesh.elements.iter().map(|element| measure(element.map(|i| mesh.vertices[i]))).collect();
+    let shapes: Vec<TriangleShape> =
+        mesh.elements.iter().map(|element| measure(element.map(|i| mesh.vertices[i]))).collect();
     let solid = || shapes.iter().filter(|shape| !shape.is_flat);
     let edges = edges(mesh);
     let count = |is_wanted: fn(&Edge) -> bool| edges.values().filter(|edge| is_wanted(edge)).count();
@@ -120,30 +122,6 @@ fn parts(mesh: &SurfaceMesh) -> usize {
     roots.sort_unstable();
     roots.dedup();
     roots.len()
-}
-
-/// One triangle's area (m²), smallest and largest angle (degrees), and circumradius over shortest edge.
-struct Shape {
-    area: f64,
-    angles: [f64; 2],
-    radius_to_edge: f64,
-    is_flat: bool,
-}
-
-fn measure(corners: [Vector3<f64>; 3]) -> Shape {
-    let sides = [0, 1, 2].map(|i| corners[(i + 1) % 3] - corners[i]);
-    let lengths = sides.map(|side| side.norm());
-    let twice_area = area_vector(corners).norm() * 2.0;
-    let [shortest, longest] =
-        [lengths.into_iter().fold(f64::INFINITY, f64::min), lengths.into_iter().fold(0.0, f64::max)];
-    // The arc tangent keeps the digits of angles near 0° and 180°.
-    let angles = [0, 1, 2].map(|i| twice_area.atan2(-sides[i].dot(&sides[(i + 2) % 3])).to_degrees());
-    Shape {
-        area: 0.5 * twice_area,
-        angles: [angles.into_iter().fold(f64::INFINITY, f64::min), angles.into_iter().fold(0.0, f64::max)],
-        radius_to_edge: lengths.iter().product::<f64>() / (2.0 * twice_area * shortest),
-        is_flat: !(twice_area > 8.0 * f64::EPSILON * longest * longest),
-    }
 }
 
 impl fmt::Display for SurfaceQuality {
