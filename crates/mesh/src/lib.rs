@@ -50,7 +50,7 @@ pub use error::{MeshError, Place, Problem};
 pub use join::join;
 pub(crate) use measures::signed_volume;
 pub use measures::{area_vector, volumes};
-pub use quality::{Extreme, Quality, SurfaceQuality, quality, surface_quality};
+pub use quality::{Extreme, Quality, SurfaceQuality, TriangleQuality, quality, surface_quality, triangle_quality};
 pub use read::{Points, is_surface, read_points, read_surface, read_tetrahedra};
 pub use refine::refine;
 pub use sets::MeshSet;

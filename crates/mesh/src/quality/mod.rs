@@ -7,6 +7,7 @@ mod triangles;
 pub use surface::{SurfaceQuality, surface_quality};
 pub(crate) use tetrahedra::smallest_dihedral_angle;
 pub use tetrahedra::{Quality, quality};
+pub use triangles::{TriangleQuality, triangle_quality};
 
 /// An extreme value and its element, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,4 +22,14 @@ impl Extreme {
     fn negated(self) -> Self {
         Self { value: -self.value, ..self }
     }
+}
+
+fn extreme<S>(shapes: &[S], value: impl Fn(&S) -> f64) -> Extreme {
+    let mut worst = Extreme { value: f64::INFINITY, element: 0 };
+    for (element, shape) in shapes.iter().enumerate() {
+        if value(shape) < worst.value {
+            worst = Extreme { value: value(shape), element };
+        }
+    }
+    worst
 }

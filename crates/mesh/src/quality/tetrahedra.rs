@@ -5,7 +5,7 @@ use std::fmt;
 
 use nalgebra::Vector3;
 
-use super::Extreme;
+use super::{Extreme, extreme};
 use crate::boundary::FACES;
 use crate::{TetrahedralMesh, area_vector, boundary, signed_volume};
 
@@ -96,16 +96,6 @@ fn circumradius([o, a, b, c]: [Vector3<f64>; 4], volume: f64) -> f64 {
     let (a, b, c) = (a - o, b - o, c - o);
     let sum = b.cross(&c) * a.norm_squared() + c.cross(&a) * b.norm_squared() + a.cross(&b) * c.norm_squared();
     sum.norm() / (12.0 * volume)
-}
-
-fn extreme(shapes: &[Shape], value: impl Fn(&Shape) -> f64) -> Extreme {
-    let mut worst = Extreme { value: f64::INFINITY, element: 0 };
-    for (element, shape) in shapes.iter().enumerate() {
-        if value(shape) < worst.value {
-            worst = Extreme { value: value(shape), element };
-        }
-    }
-    worst
 }
 
 impl fmt::Display for Quality {

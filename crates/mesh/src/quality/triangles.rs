@@ -1,8 +1,82 @@
-//! Size and shape of a triangle.
+//! Sizes and shapes of triangles, in the plane or in space.
+
+use std::collections::HashSet;
+use std::fmt;
 
 use nalgebra::Vector3;
 
-use crate::area_vector;
+use super::{Extreme, extreme};
+use crate::{Mesh, area_vector};
+
+/// Sizes and shapes of a mesh's triangles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TriangleQuality {
+    /// Number of vertices.
+    pub vertices: usize,
+    /// Number of triangles.
+    pub triangles: usize,
+    /// Total area, m².
+    pub area: f64,
+    /// Smallest and largest area, m².
+    pub areas: [Extreme; 2],
+    /// Length of the shortest and of the longest edge, m.
+    pub edges: [f64; 2],
+    /// Mean length of an edge, m.
+    pub mean_edge: f64,
+    /// Smallest and largest angle, degrees.
+    pub angles: [Extreme; 2],
+    /// Largest circumradius over shortest edge. It is 1 / (2 sin θ) with the smallest angle θ, and 1/√3 for an equilateral triangle.
+    pub radius_to_edge: Extreme,
+    /// Circumradius over shortest edge that 99 % of the triangles do not exceed.
+    pub radius_to_edge_99: f64,
+    /// Median of circumradius over shortest edge.
+    pub median_radius_to_edge: f64,
+}
+
+/// Measures the triangles of a mesh in the plane or in space. Indices have to be in range. Lengths and angles of a mesh without
+/// triangles are infinite, its medians NaN.
+///
+/// ```
+/// use fem_mesh::{Mesh, triangle_quality};
+/// use nalgebra::Vector2;
+///
+/// let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vector2::from);
+/// let square = triangle_quality(&Mesh::new(corners.to_vec(), vec![[0, 1, 2], [0, 2, 3]]));
+/// assert!((square.radius_to_edge.value - 0.5_f64.sqrt()).abs() < 1e-15);
+/// ```
+pub fn triangle_quality<const D: usize>(mesh: &Mesh<D, 3>) -> TriangleQuality {
+    let place = |vertex: usize| Vector3::from_fn(|i, _| if i < D { mesh.vertices[vertex][i] } else { 0.0 });
+    let shapes: Vec<TriangleShape> = mesh.elements.iter().map(|element| measure(element.map(place))).collect();
+    let smallest = |value: fn(&TriangleShape) -> f64| extreme(&shapes, value);
+    let largest = |value: fn(&TriangleShape) -> f64| extreme(&shapes, |shape| -value(shape)).negated();
+    let mut ratios: Vec<f64> = shapes.iter().map(|shape| shape.radius_to_edge).collect();
+    ratios.sort_unstable_by(f64::total_cmp);
+    let lengths = edge_lengths(mesh);
+    TriangleQuality {
+        vertices: mesh.vertices.len(),
+        triangles: mesh.elements.len(),
+        area: shapes.iter().map(|shape| shape.area).sum(),
+        areas: [smallest(|shape| shape.area), largest(|shape| shape.area)],
+        edges: [lengths.iter().copied().fold(f64::INFINITY, f64::min), lengths.iter().copied().fold(0.0, f64::max)],
+        mean_edge: lengths.iter().sum::<f64>() / lengths.len() as f64,
+        angles: [smallest(|shape| shape.angles[0]), largest(|shape| shape.angles[1])],
+        radius_to_edge: largest(|shape| shape.radius_to_edge),
+        radius_to_edge_99: quantile(&ratios, 0.99),
+        median_radius_to_edge: quantile(&ratios, 0.5),
+    }
+}
+
+fn edge_lengths<const D: usize>(mesh: &Mesh<D, 3>) -> Vec<f64> {
+    let sides = mesh.elements.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let edges: HashSet<[usize; 2]> = sides.map(|[a, b]| [a.min(b), a.max(b)]).collect();
+    edges.into_iter().map(|[a, b]| (mesh.vertices[a] - mesh.vertices[b]).norm()).collect()
+}
+
+/// The smallest value that a share of sorted values does not exceed; NaN without values.
+fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let rank = (share * sorted.len() as f64).ceil() as usize;
+    sorted.get(rank.saturating_sub(1)).copied().unwrap_or(f64::NAN)
+}
 
 /// One triangle's area (m²), smallest and largest angle (degrees), and circumradius over shortest edge.
 #[derive(Clone, Copy, Debug)]
@@ -10,6 +84,7 @@ pub(crate) struct TriangleShape {
     pub area: f64,
     pub angles: [f64; 2],
     pub radius_to_edge: f64,
+    /// Without area within rounding.
     pub is_flat: bool,
 }
 
@@ -27,5 +102,70 @@ pub(crate) fn measure(corners: [Vector3<f64>; 3]) -> TriangleShape {
         angles: [angles.into_iter().fold(f64::INFINITY, f64::min), angles.into_iter().fold(0.0, f64::max)],
         radius_to_edge: lengths.iter().product::<f64>() / (2.0 * twice_area * shortest),
         is_flat: !(twice_area > 8.0 * f64::EPSILON * longest * longest),
+    }
+}
+
+impl fmt::Display for TriangleQuality {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rows = [
+            ("vertices", self.vertices.to_string()),
+            ("triangles", self.triangles.to_string()),
+            ("area, m²", format!("{:.6e}", self.area)),
+            ("shortest edge, m", format!("{:.4e}", self.edges[0])),
+            ("mean edge, m", format!("{:.4e}", self.mean_edge)),
+            ("longest edge, m", format!("{:.4e}", self.edges[1])),
+            ("median circumradius / edge", format!("{:.4}", self.median_radius_to_edge)),
+            ("99 % of circumradius / edge", format!("{:.4}", self.radius_to_edge_99)),
+        ];
+        rows.iter().try_for_each(|(name, figure)| writeln!(f, "{name:<28}{figure:>12}"))?;
+        writeln!(f, "{:<28}{:>12}{:>12}", "", "", "element")?;
+        let rows = [
+            ("worst circumradius / edge", format!("{:.4}", self.radius_to_edge.value), self.radius_to_edge.element),
+            ("smallest angle, °", format!("{:.4}", self.angles[0].value), self.angles[0].element),
+            ("largest angle, °", format!("{:.4}", self.angles[1].value), self.angles[1].element),
+            ("smallest area, m²", format!("{:.4e}", self.areas[0].value), self.areas[0].element),
+            ("largest area, m²", format!("{:.4e}", self.areas[1].value), self.areas[1].element),
+        ];
+        rows.iter().try_for_each(|(name, value, element)| writeln!(f, "{name:<28}{value:>12}{element:>12}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+    use nalgebra::Vector2;
+
+    use super::*;
+
+    #[test]
+    fn the_worst_ratio_is_that_of_the_smallest_angle() {
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.75_f64.sqrt()], [0.5, -0.1]].map(Vector2::from);
+        let found = triangle_quality(&Mesh::new(corners.to_vec(), vec![[0, 1, 2], [1, 0, 3]]));
+        let angle = 0.2_f64.atan();
+        assert_relative_eq!(found.angles[0].value, angle.to_degrees(), max_relative = 1e-14);
+        assert_relative_eq!(found.angles[1].value, 180.0 - 2.0 * angle.to_degrees(), max_relative = 1e-14);
+        assert_relative_eq!(found.radius_to_edge.value, 0.5 / angle.sin(), max_relative = 1e-14);
+        assert_eq!((found.radius_to_edge.element, found.angles[0].element), (1, 1));
+        assert_relative_eq!(found.median_radius_to_edge, 1.0 / 3.0_f64.sqrt(), max_relative = 1e-14);
+        assert_relative_eq!(found.area, 0.75_f64.sqrt() / 2.0 + 0.05, max_relative = 1e-14);
+        assert_relative_eq!(found.mean_edge, (3.0 + 2.0 * 0.26_f64.sqrt()) / 5.0, max_relative = 1e-14);
+    }
+
+    #[test]
+    fn a_quantile_is_the_smallest_value_that_the_share_does_not_exceed() {
+        let values: Vec<f64> = (1..=200).map(f64::from).collect();
+        assert_eq!(quantile(&values, 0.99), 198.0);
+        assert_eq!(quantile(&values, 0.5), 100.0);
+        assert_eq!(quantile(&values[..1], 0.5), 1.0);
+        assert!(quantile(&[], 0.5).is_nan());
+    }
+
+    #[test]
+    fn a_mesh_in_space_is_measured_as_one_in_the_plane() {
+        let corners = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]].map(Vector3::from);
+        let found = triangle_quality(&Mesh::new(corners.to_vec(), vec![[0, 1, 2]]));
+        assert_relative_eq!(found.area, 1.0, max_relative = 1e-14);
+        assert_relative_eq!(found.angles[1].value, 90.0, max_relative = 1e-14);
+        assert_relative_eq!(found.radius_to_edge.value, 5.0_f64.sqrt() / 2.0, max_relative = 1e-14);
     }
 }
