@@ -15,9 +15,9 @@ use super::end::End;
 /// The subcommands of `mesh`.
 #[derive(Debug, Subcommand)]
 pub enum MeshAction {
-    /// Counts, volume and quality of a tetrahedral mesh (.node, .mesh, .msh, .vtu), or of a surface (.obj, .ply, .stl)
+    /// Counts, volume and quality of a mesh (.node, .mesh, .msh, .vtu, .vtk), or of a surface (.obj, .ply, .stl, or a mesh of triangles)
     Info { file: PathBuf },
-    /// Reads a tetrahedral mesh or a surface and writes it in another format
+    /// Reads tetrahedra or triangles and writes them in another format
     Convert { from: PathBuf, to: PathBuf },
     /// Delaunay triangles of points in the plane, or tetrahedra of points in space (.csv, .node)
     Delaunay { points: PathBuf, out: PathBuf },

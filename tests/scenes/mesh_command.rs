@@ -39,6 +39,21 @@ fn a_mesh_is_the_same_after_conversion_through_every_format() {
     }
 }
 
+#[test]
+fn triangles_in_a_file_of_meshes_are_a_surface() {
+    let desk = Desk::new();
+    desk.write("square.csv", "0,0\n2,0\n2,1\n0,1\n0.7,0.3\n");
+    desk.run_well("mesh delaunay square.csv a.vtu");
+    let mut from = "a.vtu".to_owned();
+    for to in ["b.node", "c.mesh", "d.msh", "e.vtk", "f.ply", "g.ele", "h.obj", "i.vtu.gz", "j.stl"] {
+        assert_eq!(desk.run_well(&format!("mesh convert {from} {to}")).stdout, format!("{to}: 5 nodes, 4 triangles\n"));
+        from = to.to_owned();
+    }
+    let text = desk.run_well("mesh info i.vtu.gz").stdout;
+    assert!(text.contains("area, m²") && text.contains("2.000000e0"), "{text}");
+    assert_eq!(read_surface(&desk.path("a.vtu")).unwrap(), read_surface(&desk.path("i.vtu.gz")).unwrap());
+}
+
 /// A box whose file names a side and the whole body.
 fn box_with_sets() -> TetrahedralMesh {
     let mut mesh = box_mesh([2.0, 1.0, 1.0], 1).unwrap();
@@ -136,7 +151,8 @@ fn a_surface_is_converted_and_measured() {
     desk.run_well(&format!("mesh convert {} bunny.ply.gz", bunny.display()));
     let of = |file: &str| desk.run_well(&format!("mesh info {file}")).stdout;
     assert_eq!(of("bunny.ply.gz"), of(&bunny.display().to_string()));
-    assert!(desk.refused("mesh convert bunny.ply.gz bunny.vtu").contains("use one of .obj"));
+    assert!(desk.refused("mesh convert bunny.ply.gz bunny.dae").contains("use one of .obj"));
+    assert!(desk.refused("mesh convert bunny.ply.gz bunny.node").contains("outside of the plane z = 0"));
 }
 
 #[test]

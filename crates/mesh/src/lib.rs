@@ -1,7 +1,7 @@
 //! Meshes of simplices: files, checks, measures, refinement, joining.
 //!
-//! [`read_tetrahedra`] and [`read_surface`] read a mesh file by its extension, [`write`](mod@write) writes one. A mesh is plain data;
-//! [`check`] tests the properties that computations rely on.
+//! [`read_tetrahedra`] and [`read_surface`] read a mesh file by its extension, [`read_mesh`] whichever of the two it holds;
+//! [`write`](mod@write) writes one. A mesh is plain data; [`check`] tests the properties that computations rely on.
 //!
 //! ```
 //! let mesh = fem_mesh::box_mesh([2.0, 1.0, 1.0], 2)?;
@@ -51,11 +51,11 @@ pub use join::join;
 pub(crate) use measures::signed_volume;
 pub use measures::{area_vector, volumes};
 pub use quality::{Extreme, Quality, SurfaceQuality, TriangleQuality, quality, surface_quality, triangle_quality};
-pub use read::{Points, is_surface, read_points, read_surface, read_tetrahedra};
+pub use read::{AnyMesh, Points, is_surface, read_mesh, read_points, read_surface, read_tetrahedra};
 pub use refine::refine;
 pub use sets::MeshSet;
 pub use sides::{Side, faces_on_side, nodes_on_side};
-pub use write::{write_surface, write_tetrahedra};
+pub use write::{write_mesh, write_surface, write_tetrahedra};
 
 /// Simplices of `N` vertices in `D` dimensions. The fields carry no guarantee; [`check`] tests them.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -8,12 +8,13 @@ use super::{Problem, TetrahedralMesh};
 /// The edges of a tetrahedron, by its corners.
 pub(crate) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 
-/// A named part of a tetrahedral mesh. Every list is ascending and without repeats.
+/// A named part of a mesh. Every list is ascending and without repeats. In a triangle mesh the elements are triangles, and `faces` is
+/// empty.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MeshSet {
     /// Elements, by their index.
     pub elements: Vec<usize>,
-    /// Triangles, each by its three nodes in ascending order.
+    /// Faces of tetrahedra, each by its three nodes in ascending order.
     pub faces: Vec<[usize; 3]>,
     /// Edges, each by its two nodes in ascending order.
     pub edges: Vec<[usize; 2]>,
@@ -26,7 +27,7 @@ impl MeshSet {
     ///
     /// A file without names numbers its groups of every dimension from 1, so a surface and a volume can share a name; the nodes
     /// of the surface are meant then.
-    pub fn nodes(&self, elements: &[[usize; 4]]) -> Vec<usize> {
+    pub fn nodes<const N: usize>(&self, elements: &[[usize; N]]) -> Vec<usize> {
         let (faces, edges) = (self.faces.iter().flatten(), self.edges.iter().flatten());
         let mut nodes: Vec<usize> = faces.chain(edges).chain(&self.points).copied().collect();
         if nodes.is_empty() {
@@ -37,11 +38,20 @@ impl MeshSet {
         nodes
     }
 
-    /// The counts of its parts, such as `24 triangles`.
+    /// The counts of its parts in a tetrahedral mesh, such as `24 triangles`.
     pub fn counts(&self) -> String {
+        self.counts_of("tetrahedra", "triangles")
+    }
+
+    /// The counts of its parts in a triangle mesh.
+    pub fn counts_of_triangles(&self) -> String {
+        self.counts_of("triangles", "faces")
+    }
+
+    fn counts_of(&self, elements: &str, faces: &str) -> String {
         let counts = [
-            (self.elements.len(), "tetrahedra"),
-            (self.faces.len(), "triangles"),
+            (self.elements.len(), elements),
+            (self.faces.len(), faces),
             (self.edges.len(), "edges"),
             (self.points.len(), "points"),
         ];

@@ -3,20 +3,25 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use fem_mesh::MeshError;
+use fem_mesh::{AnyMesh, MeshError, SurfaceMesh, TetrahedralMesh};
 
 /// Prints the measures of a mesh or of a surface.
 pub fn run(file: &Path) -> Result<(), MeshError> {
-    if fem_mesh::is_surface(file) { surface_info(file) } else { info(file) }
+    match fem_mesh::read_mesh(file)? {
+        AnyMesh::Tetrahedra(mesh) => info(file, &mesh),
+        AnyMesh::Triangles(mesh) => {
+            surface_info(&mesh);
+            Ok(())
+        }
+    }
 }
 
-fn info(file: &Path) -> Result<(), MeshError> {
-    let mesh = fem_mesh::read_tetrahedra(file)?;
-    fem_mesh::check(&mesh, file)?;
-    say!("{}", fem_mesh::quality(&mesh).to_string().trim_end());
-    let parts: HashSet<usize> = fem_mesh::parts(&mesh).into_iter().collect();
+fn info(file: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
+    fem_mesh::check(mesh, file)?;
+    say!("{}", fem_mesh::quality(mesh).to_string().trim_end());
+    let parts: HashSet<usize> = fem_mesh::parts(mesh).into_iter().collect();
     say!("{:<26}{:>12}", "connected parts", parts.len());
-    let coincident = fem_mesh::coincident_nodes(&mesh).map_or("0".to_owned(), |found| {
+    let coincident = fem_mesh::coincident_nodes(mesh).map_or("0".to_owned(), |found| {
         let [a, b] = found.first;
         format!("{} (the first: {a} and {b})", found.count)
     });
@@ -29,8 +34,9 @@ fn info(file: &Path) -> Result<(), MeshError> {
     Ok(())
 }
 
-fn surface_info(file: &Path) -> Result<(), MeshError> {
-    let mesh = fem_mesh::read_surface(file)?;
-    say!("{}", fem_mesh::surface_quality(&mesh).to_string().trim_end());
-    Ok(())
+fn surface_info(mesh: &SurfaceMesh) {
+    say!("{}", fem_mesh::surface_quality(mesh).to_string().trim_end());
+    for (name, set) in &mesh.sets {
+        say!("set {name:?}: {}", set.counts_of_triangles());
+    }
 }

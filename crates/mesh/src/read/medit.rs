@@ -2,28 +2,39 @@
 
 use std::path::Path;
 
+use super::content::Content;
 use super::words::{Words, from_zero};
-use crate::{MeshError, Problem, TetrahedralMesh};
+use crate::{MeshError, Problem};
 
-/// Reads `Vertices` and `Tetrahedra`, counted from 1, in any order of sections; other sections are skipped up to the next keyword.
-pub(super) fn read(file: &Path, text: &str) -> Result<TetrahedralMesh, MeshError> {
+/// An element's line, and its vertices counted from 1.
+type Row<const N: usize> = (usize, [i64; N]);
+
+/// Reads `Vertices`, `Tetrahedra` and `Triangles`, counted from 1, in any order of sections; other sections are skipped up to the
+/// next keyword. Files of dimension 2 have z = 0.
+pub(super) fn read(file: &Path, text: &str) -> Result<Content, MeshError> {
     let mut words = Words::of_text(file, text);
     check_version(&mut words)?;
-    let mut vertices = Vec::new();
-    let mut tetrahedra = Vec::new();
+    let (mut content, mut dimension) = (Content::default(), 3);
+    let (mut tetrahedra, mut triangles): (Vec<Row<4>>, Vec<Row<3>>) = Default::default();
     while let Some(keyword) = words.next() {
         match keyword {
             "End" => break,
-            "Dimension" => check_dimension(&mut words)?,
-            "Vertices" => section(&mut words, "vertices", 4, |words| {
-                vertices.push(words.place()?);
+            "Dimension" => dimension = read_dimension(&mut words)?,
+            "Vertices" => section(&mut words, "vertices", dimension + 1, |words| {
+                content.vertices.push(if dimension == 2 { words.place_in_plane()? } else { words.place()? });
                 words.integer("the reference number of a vertex").map(drop)
             })?,
             "Tetrahedra" => section(&mut words, "tetrahedra", 5, |words| {
-                let corners = corners(words)?;
-                tetrahedra.push((words.line(), corners));
+                tetrahedra.push(row(words)?);
                 words.integer("the reference number of a tetrahedron").map(drop)
             })?,
+            "Triangles" => section(&mut words, "triangles", 4, |words| {
+                triangles.push(row(words)?);
+                words.integer("the reference number of a triangle").map(drop)
+            })?,
+            "Quadrilaterals" | "QuadrilateralsQ2" | "TrianglesP2" => {
+                content.skipped = polygons(&mut words, keyword)?.or(content.skipped);
+            }
             "Hexahedra" | "HexahedraQ2" | "Prisms" | "Pentahedra" | "Pyramids" | "TetrahedraP2" => {
                 refuse_section(&mut words, keyword)?
             }
@@ -31,14 +42,23 @@ pub(super) fn read(file: &Path, text: &str) -> Result<TetrahedralMesh, MeshError
             _ => return Err(words.error(Problem::NotA { word: keyword.to_owned(), expected: "a MEDIT keyword" })),
         }
     }
-    // Indices are checked at the end: a file may have its tetrahedra before its vertices.
-    let mut elements = Vec::with_capacity(tetrahedra.len());
-    for (line, corners) in tetrahedra {
-        let in_line = |problem| MeshError::in_line(file, line, problem);
-        let [a, b, c, d] = corners.map(|index| from_zero(index, 1, vertices.len()).map_err(in_line));
-        elements.push([a?, b?, c?, d?]);
+    // Indices are checked at the end: a file may have its elements before its vertices.
+    content.tetrahedra = elements(file, tetrahedra, content.vertices.len())?;
+    if content.tetrahedra.is_empty() {
+        content.triangles = elements(file, triangles, content.vertices.len())?;
     }
-    Ok(TetrahedralMesh::new(vertices, elements))
+    Ok(content)
+}
+
+fn elements<const N: usize>(file: &Path, rows: Vec<Row<N>>, vertices: usize) -> Result<Vec<[usize; N]>, MeshError> {
+    let element = |(line, corners): Row<N>| {
+        let mut element = [0; N];
+        for (vertex, index) in element.iter_mut().zip(corners) {
+            *vertex = from_zero(index, 1, vertices).map_err(|problem| MeshError::in_line(file, line, problem))?;
+        }
+        Ok(element)
+    };
+    rows.into_iter().map(element).collect()
 }
 
 /// The four versions differ only in the width of numbers in binary files.
@@ -59,12 +79,12 @@ fn check_version(words: &mut Words) -> Result<(), MeshError> {
     }
 }
 
-fn check_dimension(words: &mut Words) -> Result<(), MeshError> {
+fn read_dimension(words: &mut Words) -> Result<usize, MeshError> {
     match words.amount("the dimension")? {
-        3 => Ok(()),
+        dimension @ (2 | 3) => Ok(dimension),
         dimension => {
             let found = format!("dimension {dimension}");
-            Err(words.error(Problem::Unsupported { found, instead: "give a mesh in space, `Dimension 3`" }))
+            Err(words.error(Problem::Unsupported { found, instead: "give a mesh of `Dimension 2` or `Dimension 3`" }))
         }
     }
 }
@@ -90,9 +110,19 @@ fn section<'a>(
     }
 }
 
-fn corners(words: &mut Words) -> Result<[i64; 4], MeshError> {
-    let mut corner = || words.integer("the index of a vertex");
-    Ok([corner()?, corner()?, corner()?, corner()?])
+fn row<const N: usize>(words: &mut Words) -> Result<Row<N>, MeshError> {
+    let mut corners = [0; N];
+    for corner in &mut corners {
+        *corner = words.integer("the index of a vertex")?;
+    }
+    Ok((words.line(), corners))
+}
+
+/// Skips polygons that are no triangles. Returns a description if there are some: in a surface they would leave holes.
+fn polygons(words: &mut Words, keyword: &str) -> Result<Option<String>, MeshError> {
+    let count = words.amount("the number of entries")?;
+    skip_section(words);
+    Ok((count > 0).then(|| format!("a surface with {count} {keyword}")))
 }
 
 /// Returns an error for a section with entries: skipped volume elements would leave holes in the body.

@@ -2,6 +2,7 @@
 //! tests the mesh itself.
 
 mod cells;
+mod content;
 mod gmsh;
 mod medit;
 mod obj;
@@ -19,44 +20,61 @@ use std::path::{Path, PathBuf};
 
 use flate2::read::MultiGzDecoder;
 
+pub use self::content::AnyMesh;
+use self::content::Content;
 pub use self::points::{Points, read_points};
 use super::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
 /// Largest ratio of the sizes of a file unpacked and packed. Meshes have less than 10; gzip can reach 1032.
 const MOST_UNPACKED: u64 = 200;
 
-/// Extensions of the tetrahedral meshes that can be read.
-const TETRAHEDRAL: &str = ".node with .ele (TetGen), .mesh (MEDIT), .msh (Gmsh), .vtu or .vtk (VTK), each also as .gz; surfaces are .obj, .ply or .stl";
+/// Extensions of the files of tetrahedra or triangles.
+pub(super) const MESHES: &str = ".node with .ele (TetGen, Triangle), .mesh (MEDIT), .msh (Gmsh), .vtu or .vtk (VTK), each also as .gz; surfaces are .obj, .ply or .stl";
 
-/// Extensions of the surfaces that can be read and written.
-pub(super) const SURFACES: &str = ".obj (Wavefront), .ply (Stanford) or .stl, each also as .gz";
+/// Extensions of the files of triangles.
+pub(super) const SURFACES: &str = ".obj (Wavefront), .ply (Stanford), .stl, or those of meshes: .mesh (MEDIT), .msh (Gmsh), .vtu or .vtk (VTK), .node with .ele (Triangle); each also as .gz";
+
+/// Reads a mesh of the kind that its file holds: tetrahedra if there are any, as [`read_tetrahedra`] does, and triangles otherwise, as
+/// [`read_surface`] does.
+pub fn read_mesh(path: &Path) -> Result<AnyMesh, MeshError> {
+    if is_surface(path) { polygons(path).map(AnyMesh::Triangles) } else { content(path, MESHES)?.mesh(path) }
+}
 
 /// Reads a tetrahedral mesh: `.node` and `.ele` (TetGen; either name), `.mesh` (MEDIT), `.msh` (Gmsh 2 and 4), `.vtu` and
 /// `.vtk` (VTK), each also compressed, with `.gz` after its extension. Lengths as in the file, m; indices in range; orientation,
 /// volumes and unused vertices as the file has them. Physical groups of Gmsh become named sets.
 pub fn read_tetrahedra(path: &Path) -> Result<TetrahedralMesh, MeshError> {
+    content(path, MESHES)?.tetrahedra(path)
+}
+
+/// Reads a triangle mesh: `.obj` (Wavefront), `.ply` (Stanford) or `.stl`, text and binary, or the triangles of a file of
+/// [`read_tetrahedra`] that has no tetrahedra; each also compressed. Polygons become fans of triangles; indices are in range. Equal corners
+/// of an `.stl` are one vertex. Plane meshes have z = 0.
+pub fn read_surface(path: &Path) -> Result<SurfaceMesh, MeshError> {
+    if is_surface(path) { polygons(path) } else { content(path, SURFACES)?.triangles(path) }
+}
+
+/// The simplices of a file; `known` are the extensions of its message.
+fn content(path: &Path, known: &'static str) -> Result<Content, MeshError> {
     match extension(path).as_str() {
         "node" | "ele" => tetgen::read(path),
         "mesh" => medit::read(path, &text(path)?),
         "msh" => gmsh::read(path, &bytes(path)?),
         "vtu" => vtu::read(path, &bytes(path)?),
         "vtk" => vtk::read(path, &bytes(path)?),
-        _ => Err(unknown_extension(path, TETRAHEDRAL)),
+        _ => Err(unknown_extension(path, known)),
     }
 }
 
-/// Reads a triangle mesh: `.obj` (Wavefront), `.ply` (Stanford) or `.stl`, text and binary, each also compressed. Polygons become fans of
-/// triangles; indices are in range. Equal corners of an `.stl` are one vertex.
-pub fn read_surface(path: &Path) -> Result<SurfaceMesh, MeshError> {
+fn polygons(path: &Path) -> Result<SurfaceMesh, MeshError> {
     match extension(path).as_str() {
         "obj" => obj::read(path, &text(path)?),
         "ply" => ply::read(path, &bytes(path)?),
-        "stl" => stl::read(path, &bytes(path)?),
-        _ => Err(unknown_extension(path, SURFACES)),
+        _ => stl::read(path, &bytes(path)?),
     }
 }
 
-/// Whether a path has the extension of a surface.
+/// Whether a path has the extension of a file that holds surfaces alone.
 pub fn is_surface(path: &Path) -> bool {
     ["obj", "ply", "stl"].contains(&extension(path).as_str())
 }

@@ -88,6 +88,11 @@ impl<'a> Words<'a> {
         Ok(Vector3::new(self.coordinate()?, self.coordinate()?, self.coordinate()?))
     }
 
+    /// The next two words as a finite position in the plane z = 0.
+    pub(super) fn place_in_plane(&mut self) -> Result<Vector3<f64>, MeshError> {
+        Ok(Vector3::new(self.coordinate()?, self.coordinate()?, 0.0))
+    }
+
     /// The next word as a finite coordinate.
     pub(super) fn coordinate(&mut self) -> Result<f64, MeshError> {
         let start = self.clone();

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use super::place;
-use crate::{MeshSet, TetrahedralMesh};
+use crate::{Mesh, MeshSet};
 
 /// Gmsh's numbers for the point, line, triangle and tetrahedron, by dimension.
 const KINDS: [usize; 4] = [15, 1, 2, 4];
@@ -15,7 +15,7 @@ type Groups = Vec<usize>;
 /// Nodes of each element of one dimension, and its sets.
 type Parts = Vec<(Vec<usize>, Groups)>;
 
-pub(super) fn write(out: &mut dyn Write, mesh: &TetrahedralMesh) -> io::Result<()> {
+pub(super) fn write<const N: usize>(out: &mut dyn Write, mesh: &Mesh<3, N>) -> io::Result<()> {
     let parts = parts(mesh);
     let entities = parts.each_ref().map(entities);
     writeln!(out, "$MeshFormat\n4.1 0 8\n$EndMeshFormat")?;
@@ -24,7 +24,7 @@ pub(super) fn write(out: &mut dyn Write, mesh: &TetrahedralMesh) -> io::Result<(
         write_entities(out, mesh, &entities)?;
     }
     let nodes = mesh.vertices.len();
-    writeln!(out, "$Nodes\n1 {nodes} 1 {nodes}\n3 1 0 {nodes}")?;
+    writeln!(out, "$Nodes\n1 {nodes} 1 {nodes}\n{} 1 0 {nodes}", N - 1)?;
     for tag in 1..=nodes {
         writeln!(out, "{tag}")?;
     }
@@ -35,8 +35,8 @@ pub(super) fn write(out: &mut dyn Write, mesh: &TetrahedralMesh) -> io::Result<(
     write_elements(out, &parts, &entities)
 }
 
-/// The elements by dimension; points, lines and triangles are those of the sets.
-fn parts(mesh: &TetrahedralMesh) -> [Parts; 4] {
+/// The elements by dimension; those of a lower dimension than the mesh are those of the sets.
+fn parts<const N: usize>(mesh: &Mesh<3, N>) -> [Parts; 4] {
     let groups_of = |list: fn(&MeshSet) -> Vec<Vec<usize>>| {
         let mut groups: BTreeMap<Vec<usize>, Groups> = BTreeMap::new();
         for (number, set) in mesh.sets.values().enumerate() {
@@ -45,16 +45,18 @@ fn parts(mesh: &TetrahedralMesh) -> [Parts; 4] {
         groups
     };
     let mut of_element = groups_of(|set| set.elements.iter().map(|&element| vec![element]).collect());
-    let tetrahedra = mesh.elements.iter().enumerate().map(|(element, nodes)| {
+    let elements = mesh.elements.iter().enumerate().map(|(element, nodes)| {
         let groups = of_element.remove(&[element][..]).unwrap_or_default();
         (nodes.to_vec(), groups)
     });
-    [
+    let mut parts = [
         groups_of(|set| set.points.iter().map(|&node| vec![node]).collect()).into_iter().collect(),
         groups_of(|set| set.edges.iter().map(|edge| edge.to_vec()).collect()).into_iter().collect(),
         groups_of(|set| set.faces.iter().map(|face| face.to_vec()).collect()).into_iter().collect(),
-        tetrahedra.collect(),
-    ]
+        Parts::new(),
+    ];
+    parts[N - 1] = elements.collect();
+    parts
 }
 
 /// The lists of sets that occur, each with its tag, which counts from 1.
@@ -64,10 +66,10 @@ fn entities(parts: &Parts) -> BTreeMap<Groups, usize> {
     entities
 }
 
-fn write_names(out: &mut dyn Write, mesh: &TetrahedralMesh) -> io::Result<()> {
+fn write_names<const N: usize>(out: &mut dyn Write, mesh: &Mesh<3, N>) -> io::Result<()> {
     let dimensions = |set: &MeshSet| {
-        let has_parts =
-            [!set.points.is_empty(), !set.edges.is_empty(), !set.faces.is_empty(), !set.elements.is_empty()];
+        let mut has_parts = [!set.points.is_empty(), !set.edges.is_empty(), !set.faces.is_empty(), false];
+        has_parts[N - 1] = !set.elements.is_empty();
         (0..4).filter(move |&dimension| has_parts[dimension])
     };
     let count: usize = mesh.sets.values().map(|set| dimensions(set).count()).sum();
@@ -81,9 +83,9 @@ fn write_names(out: &mut dyn Write, mesh: &TetrahedralMesh) -> io::Result<()> {
 }
 
 /// Tag, extent, sets and, apart from points, the absence of bounding entities. The mesh's extent serves for each.
-fn write_entities(
+fn write_entities<const N: usize>(
     out: &mut dyn Write,
-    mesh: &TetrahedralMesh,
+    mesh: &Mesh<3, N>,
     entities: &[BTreeMap<Groups, usize>; 4],
 ) -> io::Result<()> {
     let counts = entities.each_ref().map(|entities| entities.len().to_string());
@@ -102,7 +104,7 @@ fn write_entities(
     writeln!(out, "$EndEntities")
 }
 
-/// Blocks of consecutive elements of one entity, so that the tetrahedra keep their order.
+/// Blocks of consecutive elements of one entity, so that those of the mesh keep their order.
 fn write_elements(out: &mut dyn Write, parts: &[Parts; 4], entities: &[BTreeMap<Groups, usize>; 4]) -> io::Result<()> {
     let blocks = |parts: &Parts| parts.chunk_by(|a, b| a.1 == b.1).count();
     let count: usize = parts.iter().map(Vec::len).sum();

@@ -2,18 +2,21 @@
 
 use std::io::{self, Write};
 
-use super::place;
-use crate::TetrahedralMesh;
+use super::{place, place_in_plane};
+use crate::Mesh;
 
-pub(super) fn write(out: &mut dyn Write, mesh: &TetrahedralMesh) -> io::Result<()> {
-    writeln!(out, "MeshVersionFormatted 2\nDimension 3\n\nVertices\n{}", mesh.vertices.len())?;
+/// Writes tetrahedra or triangles. Triangles in the plane z = 0 become a file of two dimensions.
+pub(super) fn write<const N: usize>(out: &mut dyn Write, mesh: &Mesh<3, N>) -> io::Result<()> {
+    let is_plane = N == 3 && mesh.vertices.iter().all(|x| x.z.to_bits() == 0);
+    let dimension = if is_plane { 2 } else { 3 };
+    writeln!(out, "MeshVersionFormatted 2\nDimension {dimension}\n\nVertices\n{}", mesh.vertices.len())?;
     for x in &mesh.vertices {
-        writeln!(out, "{} 0", place(x))?;
+        writeln!(out, "{} 0", if is_plane { place_in_plane(x) } else { place(x) })?;
     }
-    writeln!(out, "\nTetrahedra\n{}", mesh.elements.len())?;
+    writeln!(out, "\n{}\n{}", if N == 3 { "Triangles" } else { "Tetrahedra" }, mesh.elements.len())?;
     for element in &mesh.elements {
-        let [a, b, c, d] = element.map(|i| i + 1);
-        writeln!(out, "{a} {b} {c} {d} 0")?;
+        element.iter().try_for_each(|i| write!(out, "{} ", i + 1))?;
+        writeln!(out, "0")?;
     }
     writeln!(out, "\nEnd")
 }

@@ -10,6 +10,7 @@ mod ply;
 mod pvd;
 mod stl;
 mod tetgen;
+mod vtk;
 mod vtu;
 
 use std::fs::{self, File};
@@ -25,14 +26,19 @@ use nalgebra::Vector3;
 pub use self::glb::{Frame, write_glb};
 pub use self::pvd::write_pvd;
 pub use self::vtu::{Field, write_vtu};
-use super::read::{SURFACES, extension, is_packed, unknown_extension};
-use super::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
+use super::read::{MESHES, SURFACES, extension, is_packed, is_surface, unknown_extension};
+use super::{AnyMesh, MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
-/// Extensions of the tetrahedral meshes that can be written.
-const TETRAHEDRAL: &str = ".node with .ele (TetGen), .mesh (MEDIT), .msh (Gmsh 4), .vtu (VTK), each also as .gz; surfaces are .obj, .ply or .stl";
+/// Writes tetrahedra or triangles, as [`write_tetrahedra`] and [`write_surface`] do.
+pub fn write_mesh(path: &Path, mesh: &AnyMesh) -> Result<(), MeshError> {
+    match mesh {
+        AnyMesh::Tetrahedra(mesh) => write_tetrahedra(path, mesh),
+        AnyMesh::Triangles(mesh) => write_surface(path, mesh),
+    }
+}
 
-/// Writes a tetrahedral mesh: `.node` and `.ele` (TetGen; both files by either name), `.mesh` (MEDIT), `.msh` (Gmsh 4.1),
-/// `.vtu` (VTK), each also compressed, with `.gz` after its extension. Reading the file gives the same mesh, bit for bit; named
+/// Writes a tetrahedral mesh: `.node` and `.ele` (TetGen; both files by either name), `.mesh` (MEDIT), `.msh` (Gmsh 4.1), `.vtu` or
+/// `.vtk` (VTK), each also compressed, with `.gz` after its extension. Reading the file gives the same mesh, bit for bit; named
 /// sets are kept by `.msh` alone.
 pub fn write_tetrahedra(path: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
     match extension(path).as_str() {
@@ -40,19 +46,36 @@ pub fn write_tetrahedra(path: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshE
         "mesh" => save_mesh(path, |out| medit::write(out, mesh)),
         "msh" => save_mesh(path, |out| gmsh::write(out, mesh)),
         "vtu" => write_vtu(path, mesh, &[], &[]),
-        _ => Err(unknown_extension(path, TETRAHEDRAL)),
+        "vtk" => save_mesh(path, |out| vtk::write(out, mesh)),
+        found if is_surface(path) => {
+            let found = format!("a mesh of tetrahedra in a .{found} file, which holds triangles,");
+            let instead = "write it as .node, .mesh, .msh, .vtu or .vtk";
+            Err(MeshError::in_file(path, Problem::Unsupported { found, instead }))
+        }
+        _ => Err(unknown_extension(path, MESHES)),
     }
 }
 
-/// Writes a triangle mesh: `.obj` (Wavefront), `.ply` (Stanford, binary) or `.stl` (binary), each also compressed. Reading an `.obj` or a
-/// `.ply` gives the same mesh, bit for bit; an `.stl` keeps single precision.
+/// Writes a triangle mesh: `.obj` (Wavefront), `.ply` (Stanford, binary) or `.stl` (binary), or a file of [`write_tetrahedra`]; each also
+/// compressed. Reading the file gives the same mesh, bit for bit, but for `.stl`, which keeps single precision, merges vertices at one
+/// place and leaves out unused ones. `.node` is for meshes in the plane z = 0. Named sets are kept by `.msh` alone.
 pub fn write_surface(path: &Path, mesh: &SurfaceMesh) -> Result<(), MeshError> {
     match extension(path).as_str() {
         "obj" => save_mesh(path, |out| obj::write(out, mesh)),
         "ply" => save_mesh(path, |out| ply::write(out, mesh)),
         "stl" => save_mesh(path, |out| stl::write(out, mesh)),
+        "node" | "ele" => tetgen::write_plane(path, mesh),
+        "mesh" => save_mesh(path, |out| medit::write(out, mesh)),
+        "msh" => save_mesh(path, |out| gmsh::write(out, mesh)),
+        "vtu" => write_vtu(path, mesh, &[], &[]),
+        "vtk" => save_mesh(path, |out| vtk::write(out, mesh)),
         _ => Err(unknown_extension(path, SURFACES)),
     }
+}
+
+/// Whether a file of this extension keeps the named sets of a mesh.
+pub fn keeps_sets(path: &Path) -> bool {
+    extension(path) == "msh"
 }
 
 /// Writes a temporary file in the same folder and renames it, so that no incomplete file has the name. A link stays a link, to
@@ -102,6 +125,11 @@ fn unfinished_name(path: &Path) -> PathBuf {
 /// `x y z` with the digits of an exact round trip.
 fn place(x: &Vector3<f64>) -> String {
     format!("{:?} {:?} {:?}", x[0], x[1], x[2])
+}
+
+/// `x y` with the digits of an exact round trip.
+fn place_in_plane(x: &Vector3<f64>) -> String {
+    format!("{:?} {:?}", x[0], x[1])
 }
 
 /// A name with the special characters of an XML attribute escaped.

@@ -6,10 +6,12 @@ use std::path::Path;
 use base64::prelude::{BASE64_STANDARD, Engine};
 
 use super::{escape, save_mesh};
-use crate::{MeshError, Problem, TetrahedralMesh};
+use crate::{Mesh, MeshError, Problem};
 
-/// VTK's number for the tetrahedron with 4 nodes.
-const TETRAHEDRON: u8 = 10;
+/// VTK's number for the triangle with 3 nodes and the tetrahedron with 4.
+pub(super) const fn cell_type<const N: usize>() -> u8 {
+    if N == 3 { 5 } else { 10 }
+}
 
 /// Values at the points or in the cells of a mesh, such as `displacement` in m with 3 components.
 #[derive(Clone, Copy, Debug)]
@@ -22,12 +24,12 @@ pub struct Field<'a> {
     pub values: &'a [f64],
 }
 
-/// Writes a mesh with fields at its points (displacement, velocity) and in its cells (von Mises stress), for ParaView.
+/// Writes tetrahedra or triangles with fields at the points (displacement, velocity) and in the cells (von Mises stress), for ParaView.
 ///
 /// Points keep the positions of `mesh`; ParaView's filter «Warp By Vector» moves them by a displacement.
-pub fn write_vtu(
+pub fn write_vtu<const N: usize>(
     path: &Path,
-    mesh: &TetrahedralMesh,
+    mesh: &Mesh<3, N>,
     point_fields: &[Field],
     cell_fields: &[Field],
 ) -> Result<(), MeshError> {
@@ -47,9 +49,9 @@ fn check_sizes(fields: &[Field], entries: usize, per: &'static str) -> Result<()
     Ok(())
 }
 
-fn write_grid(
+fn write_grid<const N: usize>(
     out: &mut dyn Write,
-    mesh: &TetrahedralMesh,
+    mesh: &Mesh<3, N>,
     point_fields: &[Field],
     cell_fields: &[Field],
 ) -> io::Result<()> {
@@ -63,8 +65,8 @@ fn write_grid(
     writeln!(out, "</Points>\n<Cells>")?;
     let connectivity = mesh.elements.iter().flatten().flat_map(|&i| (i as i64).to_le_bytes());
     array(out, "connectivity", "Int64", 1, connectivity)?;
-    array(out, "offsets", "Int64", 1, (1..=cells).flat_map(|i| (4 * i as i64).to_le_bytes()))?;
-    array(out, "types", "UInt8", 1, std::iter::repeat_n(TETRAHEDRON, cells))?;
+    array(out, "offsets", "Int64", 1, (1..=cells).flat_map(|i| ((N * i) as i64).to_le_bytes()))?;
+    array(out, "types", "UInt8", 1, std::iter::repeat_n(cell_type::<N>(), cells))?;
     writeln!(out, "</Cells>\n<PointData>")?;
     write_fields(out, point_fields)?;
     writeln!(out, "</PointData>\n<CellData>")?;

@@ -63,7 +63,9 @@ fn an_unknown_extension_is_refused_with_the_known_ones() {
     assert!(message.starts_with("bunny.stl: the extension `.stl` is unknown"), "{message}");
     assert!(message.contains(".node") && message.contains(".msh") && message.contains(".vtu"), "{message}");
     assert!(read_surface(Path::new("bunny")).unwrap_err().to_string().contains(".obj"));
-    assert!(write_tetrahedra(Path::new("a.stl"), &two_tetrahedra()).unwrap_err().to_string().contains("use one of"));
+    assert!(write_tetrahedra(Path::new("a.dae"), &two_tetrahedra()).unwrap_err().to_string().contains("use one of"));
+    let message = write_tetrahedra(Path::new("a.stl"), &two_tetrahedra()).unwrap_err().to_string();
+    assert!(message.starts_with("a.stl: a mesh of tetrahedra in a .stl file"), "{message}");
     assert!(write_surface(Path::new("a.dae"), &Default::default()).unwrap_err().to_string().contains("use one of"));
 }
 
@@ -111,8 +113,16 @@ fn bad_lines_of_tetgen_are_refused_with_their_number() {
     assert_tetgen(nodes, "1 4 0\n0 0 1 2 -1\n", &["m.ele, line 2: vertex -1 does not exist"]);
     assert_tetgen(nodes, "1 4 0\n0 0 1 2 99999999999999999999\n", &["m.ele, line 2: `99999999999999999999`"]);
     assert_tetgen(nodes, "1 4 0\n5 0 1 2 3\n", &["m.ele, line 2: the number 5 stands in place of 0; number"]);
-    assert_tetgen("# only 2-D\n4 2 0 0\n", elements, &["m.node, line 2: a dimension other than 3", "in space"]);
-    assert_tetgen(nodes, "1 10 0\n", &["m.ele, line 1", "more than 4 nodes", "without -o2"]);
+    assert_tetgen("# 4-D\n4 4 0 0\n", elements, &["m.node, line 2: the dimension 4 is not", "in space"]);
+    let plane = nodes.replacen("4 3", "4 2", 1);
+    assert_tetgen(&plane, elements, &["m.ele, line 1: a mesh of elements with 4 nodes, and nodes of dimension 2"]);
+    assert_tetgen(&plane, "1 3 0\n0 0 1 2\n", &["m.node: a mesh of 1 triangles in place of tetrahedra"]);
+    assert_tetgen(
+        nodes,
+        "1 3 0\n0 0 1 2\n",
+        &["m.ele, line 1: a mesh of elements with 3 nodes, and nodes of dimension 3"],
+    );
+    assert_tetgen(nodes, "1 10 0\n", &["m.ele, line 1", "elements with 10 nodes", "without -o2"]);
     assert_tetgen("0 3 0 0\n", elements, &["m.ele, line 2", "no vertices that the index 0"]);
 }
 
@@ -125,7 +135,8 @@ fn bad_files_of_medit_are_refused() {
     };
     assert_medit("Formatted 2", "Formatted 9", &["m.mesh, line 1: MEDIT version 9 is not supported; save"]);
     assert_medit("MeshVersionFormatted", "\u{1}\0", &["m.mesh, line 1", "not MEDIT's text format", "save the mesh as"]);
-    assert_medit("Dimension 3", "Dimension 2", &["line 2: dimension 2 is not supported; give a mesh in space"]);
+    assert_medit("Dimension 3", "Dimension 4", &["line 2: dimension 4 is not supported; give a mesh of `Dimension 2`"]);
+    assert_medit("Dimension 3", "Dimension 2", &["line 3: announces 4 vertices and holds"]);
     assert_medit("Vertices 4", "Vertices 5", &["line 3: announces 5 vertices and holds 4; correct the count"]);
     assert_medit("Vertices 4", "Vertices 3", &["line 3: announces 3 vertices and holds 4"]);
     assert_medit(

@@ -4,6 +4,7 @@ mod box_rule;
 mod checks;
 mod delaunay;
 mod errors;
+mod every_format;
 mod formats;
 mod garbage;
 mod gmsh;

@@ -9,7 +9,7 @@ use tempfile::tempdir;
 
 use crate::{fixed_seed, two_tetrahedra};
 
-pub const TETRAHEDRAL_FILES: [&str; 5] = ["a.node", "b.ele", "c.mesh", "d.msh", "e.vtu"];
+pub const TETRAHEDRAL_FILES: [&str; 6] = ["a.node", "b.ele", "c.mesh", "d.msh", "e.vtu", "f.vtk"];
 
 fn bits(vertices: &[Vector3<f64>]) -> Vec<u64> {
     vertices.iter().flatten().map(|x| x.to_bits()).collect()
@@ -54,7 +54,7 @@ fn a_written_file_leaves_no_unfinished_one_beside_it() {
     let mut names: Vec<String> =
         fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
-    assert_eq!(names, ["a.ele", "a.node", "b.ele", "b.node", "c.mesh", "d.msh", "e.vtu"]);
+    assert_eq!(names, ["a.ele", "a.node", "b.ele", "b.node", "c.mesh", "d.msh", "e.vtu", "f.vtk"]);
 }
 
 proptest! {

@@ -73,7 +73,7 @@ fn bad_files_are_refused_with_line_or_byte() {
         assert!(parts.iter().all(|part| message.contains(part)), "{message}");
     };
     refused("# vtk", "# vkt", &["m.vtk, line 2: a .vtk file that does not begin", "ParaView"]);
-    refused("UNSTRUCTURED_GRID", "POLYDATA", &["line 4: the data set `DATASET POLYDATA` is not supported"]);
+    refused("UNSTRUCTURED_GRID", "RECTILINEAR_GRID", &["line 4: the data set `DATASET RECTILINEAR_GRID` is not"]);
     refused("ASCII", "TEXT", &["line 3: `TEXT` is not ASCII or BINARY"]);
     refused("POINTS 5", "POINTS 6", &["line 8: `CELLS` is not a number"]);
     refused("1 1 1\n", "1 1 nan\n", &["vertex 4 has a coordinate that is not finite"]);

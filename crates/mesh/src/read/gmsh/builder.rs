@@ -1,11 +1,12 @@
-//! A mesh and its named sets, from the nodes, elements and physical groups of a Gmsh file.
+//! A mesh of tetrahedra or triangles and its named sets, from the nodes, elements and physical groups of a Gmsh file.
 
 use std::collections::{BTreeMap, HashMap};
 
 use nalgebra::Vector3;
 
+use super::super::content::Content;
 use super::kinds::{Kind, LINE, POINT, TETRAHEDRON, TRIANGLE};
-use crate::{MeshSet, Problem, TetrahedralMesh};
+use crate::{MeshSet, Problem};
 
 const FIRST_ORDER: &str = "mesh with triangles and tetrahedra of first order, or leave them out of the physical group";
 
@@ -17,9 +18,20 @@ pub(super) struct Builder {
     places: Vec<Vector3<f64>>,
     /// From a node's tag, any integer, to its index in `places`.
     index: HashMap<i64, usize>,
-    elements: Vec<[usize; 4]>,
+    tetrahedra: Vec<[usize; 4]>,
+    triangles: Vec<[usize; 3]>,
     names: HashMap<Group, String>,
-    sets: HashMap<Group, MeshSet>,
+    sets: HashMap<Group, Parts>,
+    /// Polygons that are no triangles with 3 nodes, in words.
+    skipped: Option<String>,
+}
+
+/// The parts of a physical group; `rest` has its edges and points.
+#[derive(Clone, Default)]
+struct Parts {
+    tetrahedra: Vec<usize>,
+    triangles: Vec<usize>,
+    rest: MeshSet,
 }
 
 impl Builder {
@@ -46,51 +58,70 @@ impl Builder {
         self.places.len()
     }
 
-    /// Number of tetrahedra so far.
-    pub(super) fn elements(&self) -> usize {
-        self.elements.len()
+    /// Number of elements of this kind so far.
+    pub(super) fn elements(&self, kind: Kind) -> usize {
+        if kind.number == TETRAHEDRON { self.tetrahedra.len() } else { self.triangles.len() }
     }
 
-    /// Adds a tetrahedron of the mesh to another physical group.
-    pub(super) fn add_to_group(&mut self, element: usize, group: Group) {
-        self.sets.entry(group).or_default().elements.push(element);
+    /// Adds a tetrahedron or a triangle of the mesh to another physical group.
+    pub(super) fn add_to_group(&mut self, kind: Kind, element: usize, group: Group) {
+        let parts = self.sets.entry(group).or_default();
+        let list = if kind.number == TETRAHEDRON { &mut parts.tetrahedra } else { &mut parts.triangles };
+        list.push(element);
     }
 
-    /// Adds an element to its physical groups; a tetrahedron to the mesh too.
+    /// Adds an element to its physical groups; a tetrahedron or a triangle to the mesh too.
     pub(super) fn add_element(&mut self, kind: Kind, tags: &[i64], groups: &[Group]) -> Result<(), Problem> {
-        if kind.number != TETRAHEDRON && groups.is_empty() {
+        if ![TETRAHEDRON, TRIANGLE].contains(&kind.number) && groups.is_empty() {
+            if kind.dimension == 2 {
+                self.skipped = Some(format!("a surface of {} (Gmsh's element type {})", kind.name, kind.number));
+            }
             return Ok(());
         }
         let node = |&tag: &i64| self.index.get(&tag).copied().ok_or(Problem::UnknownTag { tag });
         let nodes = tags.iter().map(node).collect::<Result<Vec<_>, _>>()?;
-        let mut part = MeshSet::default();
+        let element = self.elements(kind);
+        let sets = groups.iter().copied();
         match (kind.number, &nodes[..]) {
             (TETRAHEDRON, &[a, b, c, d]) => {
-                part.elements.push(self.elements.len());
-                self.elements.push([a, b, c, d]);
+                self.tetrahedra.push([a, b, c, d]);
+                sets.for_each(|group| self.add_to_group(kind, element, group));
             }
-            (TRIANGLE, &[a, b, c]) => part.faces.push([a, b, c]),
-            (LINE, &[a, b]) => part.edges.push([a, b]),
-            (POINT, &[a]) => part.points.push(a),
+            (TRIANGLE, &[a, b, c]) => {
+                self.triangles.push([a, b, c]);
+                sets.for_each(|group| self.add_to_group(kind, element, group));
+            }
+            (LINE, &[a, b]) => sets.for_each(|group| self.rest(group).edges.push([a, b])),
+            (POINT, &[a]) => sets.for_each(|group| self.rest(group).points.push(a)),
             _ => {
                 let found = format!("a physical group of {} (Gmsh's element type {})", kind.name, kind.number);
                 return Err(Problem::Unsupported { found, instead: FIRST_ORDER });
             }
         }
-        for &group in groups {
-            self.sets.entry(group).or_default().extend(part.clone());
-        }
         Ok(())
     }
 
-    /// The mesh. A group has its name, or its number if it has none.
-    pub(super) fn finish(self) -> TetrahedralMesh {
+    fn rest(&mut self, group: Group) -> &mut MeshSet {
+        &mut self.sets.entry(group).or_default().rest
+    }
+
+    /// The mesh. A group has its name, or its number if it has none. Its triangles are faces of tetrahedra, or elements if the file has
+    /// no tetrahedra.
+    pub(super) fn finish(self) -> Content {
         let mut sets: BTreeMap<String, MeshSet> = BTreeMap::new();
-        for (group, set) in self.sets {
+        for (group, Parts { tetrahedra, triangles, rest: mut set }) in self.sets {
             let name = self.names.get(&group).cloned().unwrap_or_else(|| group.1.to_string());
+            if self.tetrahedra.is_empty() {
+                set.elements = triangles;
+            } else {
+                set.elements = tetrahedra;
+                set.faces = triangles.into_iter().map(|triangle| self.triangles[triangle]).collect();
+            }
             sets.entry(name).or_default().extend(set);
         }
         sets.values_mut().for_each(MeshSet::sort);
-        TetrahedralMesh { vertices: self.places, elements: self.elements, sets }
+        let (vertices, tetrahedra) = (self.places, self.tetrahedra);
+        let triangles = if tetrahedra.is_empty() { self.triangles } else { Vec::new() };
+        Content { vertices, tetrahedra, triangles, sets, skipped: self.skipped }
     }
 }

@@ -14,8 +14,9 @@ use self::binary::Binary;
 use self::builder::Builder;
 use self::numbers::{Numbers, Text};
 use self::version4::{Entities, Layout};
+use super::content::Content;
 use super::words::Words;
-use crate::{MeshError, Problem, TetrahedralMesh};
+use crate::{MeshError, Problem};
 
 const CONVERT: &str = "convert it with `gmsh IN.msh -0 -format msh41 -setnumber Mesh.Binary 0 -o OUT.msh`";
 
@@ -33,8 +34,8 @@ struct Format {
     end: usize,
 }
 
-/// Reads the tetrahedra of all entities, and the physical groups as named sets. Other volume elements are an error.
-pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<TetrahedralMesh, MeshError> {
+/// Reads the tetrahedra and triangles of all entities, and the physical groups as named sets. Other volume elements are an error.
+pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<Content, MeshError> {
     let Format { version, is_binary, end } = read_format(file, bytes)?;
     if !is_binary {
         // Names and comments may be in any encoding.
@@ -47,7 +48,7 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<TetrahedralMesh, MeshErr
     read_sections(&mut numbers, version, is_binary)
 }
 
-fn read_sections(numbers: &mut dyn Numbers, version: Version, is_binary: bool) -> Result<TetrahedralMesh, MeshError> {
+fn read_sections(numbers: &mut dyn Numbers, version: Version, is_binary: bool) -> Result<Content, MeshError> {
     let (mut mesh, mut entities) = (Builder::default(), Entities::new());
     while let Some(section) = numbers.section()? {
         match (&section[..], version) {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::builder::{Builder, Group};
-use super::kinds::{Kind, TETRAHEDRON, kind};
+use super::kinds::{Kind, TETRAHEDRON, TRIANGLE, kind};
 use super::numbers::Numbers;
 use crate::{MeshError, Problem};
 
@@ -44,8 +44,9 @@ pub(super) fn read_elements(numbers: &mut dyn Numbers, is_binary: bool, mesh: &m
     numbers.end("Elements", "elements", announced, found)
 }
 
-/// Tetrahedra of physical groups so far: index and groups by the tags of the nodes.
-type Known = HashMap<[i64; 4], (usize, Vec<Group>)>;
+/// Tetrahedra and triangles of physical groups so far: index and groups by the type and the tags of the nodes, 0 for the fourth of a
+/// triangle.
+type Known = HashMap<(i64, [i64; 4]), (usize, Vec<Group>)>;
 
 fn read_element(
     numbers: &mut dyn Numbers,
@@ -64,18 +65,18 @@ fn read_element(
         nodes.push(numbers.int("the tag of a node")?);
     }
     let groups: &[Group] = if group == 0 { &[] } else { &[(kind.dimension, group)] };
-    if kind.number == TETRAHEDRON
+    if [TETRAHEDRON, TRIANGLE].contains(&kind.number)
         && let &[group] = groups
-        && let &[a, b, c, d] = &nodes[..]
     {
-        let mut key = [a, b, c, d];
-        key.sort_unstable();
-        let (element, earlier) = known.entry(key).or_insert((mesh.elements(), Vec::new()));
+        let mut key = [0; 4];
+        key[..nodes.len()].copy_from_slice(&nodes);
+        key[..nodes.len()].sort_unstable();
+        let (element, earlier) = known.entry((kind.number, key)).or_insert((mesh.elements(kind), Vec::new()));
         let is_repeated = !earlier.is_empty() && !earlier.contains(&group);
         earlier.push(group);
         // An element of several groups stands in the file once for each.
         if is_repeated {
-            mesh.add_to_group(*element, group);
+            mesh.add_to_group(kind, *element, group);
             return Ok(());
         }
     }

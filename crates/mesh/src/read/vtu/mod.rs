@@ -9,10 +9,11 @@ use roxmltree::{Document, Node};
 
 use self::array::{Arrays, split_appended};
 use super::cells;
-use crate::{MeshError, Problem, TetrahedralMesh};
+use super::content::Content;
+use crate::{MeshError, Problem};
 
-/// Reads the tetrahedra of all pieces. Cells without volume are skipped; other volume cells are an error.
-pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<TetrahedralMesh, MeshError> {
+/// Reads the tetrahedra and polygons of all pieces. Points and lines are skipped; other volume cells are an error.
+pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<Content, MeshError> {
     let (text, appended) = split_appended(file, bytes)?;
     let document = Document::parse(&text).map_err(|error| {
         let problem = Problem::Malformed { reason: format!("this is not well-formed XML ({error})") };
@@ -20,17 +21,16 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<TetrahedralMesh, MeshErr
     })?;
     let arrays = Arrays::new(file, document.root_element(), appended);
     let grid = arrays.child(document.root_element(), "UnstructuredGrid")?;
-    let mut mesh = TetrahedralMesh::default();
+    let mut content = Content::default();
     for piece in grid.children().filter(|node| node.has_tag_name("Piece")) {
-        let first = mesh.vertices.len();
+        let first = content.vertices.len();
         let points = arrays.child(piece, "Points")?;
-        mesh.vertices.extend(read_points(&arrays, points)?);
-        let count = mesh.vertices.len() - first;
+        content.vertices.extend(read_points(&arrays, points)?);
+        let count = content.vertices.len() - first;
         arrays.check_count(piece, "NumberOfPoints", "points", count)?;
-        let tetrahedra = read_cells(&arrays, piece, count)?;
-        mesh.elements.extend(tetrahedra.into_iter().map(|element| element.map(|i| first + i)));
+        read_cells(&arrays, piece, count, &mut content)?;
     }
-    Ok(mesh)
+    Ok(content)
 }
 
 fn read_points(arrays: &Arrays, points: Node) -> Result<Vec<Vector3<f64>>, MeshError> {
@@ -46,8 +46,8 @@ fn read_points(arrays: &Arrays, points: Node) -> Result<Vec<Vector3<f64>>, MeshE
     }
 }
 
-/// The tetrahedra among a piece's cells, as indices of its own points.
-fn read_cells(arrays: &Arrays, piece: Node, points: usize) -> Result<Vec<[usize; 4]>, MeshError> {
+/// Adds a piece's cells, whose corners are indices of its own points.
+fn read_cells(arrays: &Arrays, piece: Node, points: usize, content: &mut Content) -> Result<(), MeshError> {
     let cells = arrays.child(piece, "Cells")?;
     let kinds = arrays.integers(arrays.named(cells, "types")?)?;
     let ends = arrays.integers(arrays.named(cells, "offsets")?)?;
@@ -57,7 +57,6 @@ fn read_cells(arrays: &Arrays, piece: Node, points: usize) -> Result<Vec<[usize;
         let problem = Problem::WrongCount { what: "cells", announced: kinds.len(), found: ends.len() };
         return Err(arrays.error(cells, problem));
     }
-    let mut tetrahedra = Vec::new();
     let mut start = 0;
     for (cell, (&kind, &end)) in kinds.iter().zip(&ends).enumerate() {
         let corners = usize::try_from(end).ok().and_then(|end| connectivity.get(start..end)).ok_or_else(|| {
@@ -65,9 +64,7 @@ fn read_cells(arrays: &Arrays, piece: Node, points: usize) -> Result<Vec<[usize;
             arrays.error(cells, Problem::Malformed { reason })
         })?;
         start += corners.len();
-        let tetrahedron =
-            cells::tetrahedron(cell, kind, corners, points).map_err(|problem| arrays.error(cells, problem))?;
-        tetrahedra.extend(tetrahedron);
+        cells::add(content, cell, kind, corners, points).map_err(|problem| arrays.error(cells, problem))?;
     }
-    Ok(tetrahedra)
+    Ok(())
 }
