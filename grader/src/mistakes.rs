@@ -22,6 +22,7 @@ macro_rules! wrong {
 }
 
 mod by_hand;
+mod first_sight;
 mod held_back;
 mod last;
 mod seen;

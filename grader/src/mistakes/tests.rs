@@ -4,7 +4,7 @@ use std::thread;
 
 use grader::implementation::Local;
 
-use super::{Mistake, held_back, last, seen};
+use super::{Mistake, first_sight, held_back, last, seen};
 use crate::diagnosis::{Explanation, explain};
 use crate::variants;
 
@@ -75,4 +75,9 @@ fn mistakes_of_after_the_rules_are_named() {
 #[test]
 fn mistakes_of_after_the_last_change_are_named() {
     hold(&last::ALL, 0.88, 0.92);
+}
+
+#[test]
+fn mistakes_of_one_who_had_not_read_the_rules_are_named() {
+    hold(&first_sight::ALL, 0.84, 0.87);
 }

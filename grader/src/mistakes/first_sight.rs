@@ -1,0 +1,14 @@
+//! Wrong functions written before their author had read a rule of the diagnosis or the name of a mistake. The comment above each
+//! one says what the author had in mind; the names are those which say the same.
+
+use super::Mistake;
+
+mod display;
+mod elements;
+mod formulas;
+mod meshes;
+mod steps;
+
+/// All of them.
+pub const ALL: [&[Mistake]; 5] =
+    [formulas::MISTAKES, elements::MISTAKES, meshes::MISTAKES, display::MISTAKES, steps::MISTAKES];
