@@ -108,7 +108,9 @@ pub fn check(folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckErro
 pub fn check_in(sandbox: &Sandbox, folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckError> {
     let submission = usable(folder, only)?;
     let bar = bar();
-    let prebuilt = Prebuilt::new(&own_repository())?;
+    // A sandbox with layers comes from a program that is its launcher.
+    let tools = if sandbox.is_some_layer() { Sandbox::own_tools(&env::current_exe()?) } else { Sandbox::none() };
+    let prebuilt = Prebuilt::new(&own_repository(), tools)?;
     bar.set_message("compiling");
     let work = tempfile::Builder::new().prefix("check-").tempdir_in(&prebuilt.folder)?;
     let wanted = wanted(&submission, only);

@@ -71,7 +71,7 @@ pub fn grade(
         class::end_with(parent).map_err(failed)?;
     }
     let rubric = Rubric::load(options.rubric.as_deref()).map_err(unusable)?;
-    own_checks::have(&rubric, &repository()).map_err(unusable)?;
+    own_checks::have(&rubric, &repository(), &tools()?).map_err(unusable)?;
     if !submission.exists() {
         return Err(unusable(format!(
             "{}: there is no such submission; name a folder or archive",
@@ -86,7 +86,7 @@ pub fn grade(
     let earlier = again.earlier.as_deref().map(reports::json::read).transpose().map_err(failed)?;
     let seed = options.seed.or(earlier.as_ref().map(|earlier| earlier.seed)).unwrap_or_else(seed::drawn);
     let accounts = Accounts::new(rubric.clone(), Adjustments::default());
-    let grading = Grading::new(&repository(), rubric, sandbox(options)?, seed).map_err(failed)?;
+    let grading = Grading::new(&repository(), rubric, (sandbox(options)?, tools()?), seed).map_err(failed)?;
     let grading = if options.report { grading.with_study() } else { grading };
     let read = read(submission);
     let graded = match &earlier {
@@ -124,6 +124,11 @@ fn read(path: &Path) -> Submission {
     })
 }
 
+/// How the grader runs its own compilers.
+fn tools() -> Result<Sandbox, Problem> {
+    Ok(Sandbox::own_tools(&env::current_exe().map_err(failed)?))
+}
+
 fn sandbox(options: &GradeOptions) -> Result<Sandbox, Problem> {
     if options.without_sandbox {
         return Ok(Sandbox::none());
@@ -148,6 +153,9 @@ pub fn sandbox_layers() -> Done {
     for (layer, holds) in sandbox.layers() {
         println!("{layer}: {}", if holds { "yes" } else { "no" });
     }
+    if let Some(why) = sandbox.without_cgroup() {
+        println!("The memory of the compiler's processes is summed, not limited by a cgroup: {why}");
+    }
     enough(sandbox)?;
     println!("Submissions are isolated from files and from the network.");
     Ok(())
@@ -161,7 +169,7 @@ pub fn class(
     (only, functions): (Vec<String>, Vec<String>),
 ) -> Done {
     let rubric = Rubric::load(options.rubric.as_deref()).map_err(unusable)?;
-    own_checks::have(&rubric, &repository()).map_err(unusable)?;
+    own_checks::have(&rubric, &repository(), &tools()?).map_err(unusable)?;
     if let Some(name) = functions.iter().find(|name| rubric.role(name) != Role::Asked) {
         return Err(unusable(format!("--function {name}: the rubric asks for no such function")));
     }
@@ -172,7 +180,7 @@ pub fn class(
     writable(&options.out)?;
     // What all submissions share is built before the first one, and the sandbox is looked at once.
     let seed = seed::of_class(&options.out, options.seed, shard.is_some()).map_err(unusable)?;
-    let _ = Grading::new(&repository(), rubric, sandbox(options)?, seed).map_err(failed)?;
+    let _ = Grading::new(&repository(), rubric, (sandbox(options)?, tools()?), seed).map_err(failed)?;
     let flags = [(options.without_sandbox, "--without-sandbox"), (options.report, "--report")];
     let extra = flags.iter().filter(|(is_given, _)| *is_given).map(|(_, flag)| (*flag).to_owned()).collect();
     let cores = thread::available_parallelism().map_or(1, Into::into);

@@ -7,6 +7,7 @@ mod paths;
 pub mod prebuilt;
 mod read;
 mod sources;
+pub mod tools;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -172,7 +173,13 @@ mod tests {
         fs::write(&rustc, format!("#!/bin/sh\n{script}\n")).unwrap();
         fs::set_permissions(&rustc, fs::Permissions::from_mode(0o755)).unwrap();
         let place = folder.path().to_owned();
-        let prebuilt = Prebuilt { folder: place.clone(), rustc, sysroot: place.clone(), toolchain: String::new() };
+        let prebuilt = Prebuilt {
+            folder: place.clone(),
+            rustc,
+            sysroot: place.clone(),
+            toolchain: String::new(),
+            tools: Sandbox::none(),
+        };
         let own = ["psi_neo_hookean", "newtons_method"].map(|name| (name, String::new())).into();
         let plan = Plan { own, reference: None, helpers: BTreeMap::new(), limit: Duration::from_secs(20) };
         build(&prebuilt, &Sandbox::none(), &plan, &place)

@@ -71,8 +71,13 @@ impl Grading {
     ///
     /// # Errors
     /// The reason if the reference does not compile.
-    pub fn new(root: &Path, rubric: Rubric, sandbox: Sandbox, seed: u64) -> Result<Self, GradingError> {
-        let prebuilt = Prebuilt::new(root)?;
+    pub fn new(
+        root: &Path,
+        rubric: Rubric,
+        (sandbox, tools): (Sandbox, Sandbox),
+        seed: u64,
+    ) -> Result<Self, GradingError> {
+        let prebuilt = Prebuilt::new(root, tools)?;
         let programs = Programs::new(root, &rubric, &prebuilt)?;
         let secrets = [root.join("src"), root.join("grader"), programs.whole()];
         if sandbox.is_some_layer()

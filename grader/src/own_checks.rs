@@ -6,7 +6,9 @@ use std::process::Command;
 use std::{env, fs, io};
 
 use grader::compile::prebuilt::{PrebuildError, once};
+use grader::compile::tools::run;
 use grader::properties::Check;
+use grader::sandbox::Sandbox;
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 
@@ -45,7 +47,7 @@ pub fn of<'a>(function: &'a str, rubric: &'a Rubric) -> impl Iterator<Item = &'s
 ///
 /// # Errors
 /// The compiler's message, with the file and the line.
-pub fn have(rubric: &Rubric, root: &Path) -> Result<(), OwnChecksError> {
+pub fn have(rubric: &Rubric, root: &Path, tools: &Sandbox) -> Result<(), OwnChecksError> {
     if rubric.checks.is_empty() {
         return Ok(());
     }
@@ -62,7 +64,7 @@ pub fn have(rubric: &Rubric, root: &Path) -> Result<(), OwnChecksError> {
     once(&folder, || {
         let file = folder.join("checks.txt");
         fs::write(&file, &list).map_err(at(&file))?;
-        build(root, &target.join("own"), &file, &key, &program)
+        build((root, tools), &target.join("own"), &file, &key, &program)
     })?;
     run_instead(&program)
 }
@@ -97,22 +99,27 @@ fn add_folder(hash: &mut Sha256, folder: &Path) -> Result<(), OwnChecksError> {
     Ok(())
 }
 
-fn build(root: &Path, target: &Path, list: &Path, key: &str, program: &Path) -> Result<(), OwnChecksError> {
+fn build(
+    (root, tools): (&Path, &Sandbox),
+    target: &Path,
+    list: &Path,
+    key: &str,
+    program: &Path,
+) -> Result<(), OwnChecksError> {
     let cargo = |more: &[&str]| {
         let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.current_dir(root).args(["build", "--quiet", "-p", "grader", "--bin", "grader"]).args(more);
         cargo.arg("--target-dir").arg(target).env("GRADER_CHECKS", list).env("GRADER_CHECKS_KEY", key);
-        cargo.output().map_err(at(Path::new("cargo")))
+        run(&cargo, tools).map_err(at(Path::new("cargo")))
     };
     let (profile, folder): (&[&str], _) =
         if cfg!(debug_assertions) { (&[], "debug") } else { (&["--release"], "release") };
-    let mut output = cargo(&[profile, &["--offline"]].concat())?;
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    if !output.status.success() && told.contains("--offline") {
-        output = cargo(profile)?;
+    let (mut code, mut told) = cargo(&[profile, &["--offline"]].concat())?;
+    if code != Some(0) && told.contains("--offline") {
+        (code, told) = cargo(profile)?;
     }
-    if !output.status.success() {
-        return Err(OwnChecksError::Build(String::from_utf8_lossy(&output.stderr).into_owned()));
+    if code != Some(0) {
+        return Err(OwnChecksError::Build(told));
     }
     let built = target.join(folder).join(program.file_name().unwrap_or_default());
     fs::copy(&built, program).map(drop).map_err(at(&built))

@@ -8,6 +8,8 @@
 #[cfg(target_os = "linux")]
 mod calls;
 #[cfg(target_os = "linux")]
+mod cgroup;
+#[cfg(target_os = "linux")]
 mod confine;
 #[cfg(target_os = "linux")]
 mod enter;
@@ -97,6 +99,8 @@ pub struct Ended {
     pub signal: Option<i32>,
     /// Whether it was killed because its time was over.
     pub timed_out: bool,
+    /// Whether it was killed because its processes together had too much memory. The limit of one process ends that process without this.
+    pub out_of_memory: bool,
     /// Processor time of the whole process tree, s. Zero outside a sandbox, which measures it.
     pub seconds: f64,
     /// Start of what it printed.
@@ -133,6 +137,9 @@ pub struct Sandbox {
     /// The program that confines, and the layers; none at all without it.
     #[cfg(target_os = "linux")]
     launcher: Option<PathBuf>,
+    /// The cgroup in which each tree of processes gets one, or why there is none.
+    #[cfg(target_os = "linux")]
+    cgroup: Result<PathBuf, String>,
     layers: BTreeMap<String, bool>,
 }
 
@@ -140,9 +147,8 @@ impl Sandbox {
     /// Tries each layer in a throw-away process. `launcher` is a program that calls [`confine`] for its subcommand `confine`.
     #[cfg(target_os = "linux")]
     pub fn probe(launcher: &Path) -> Self {
-        let layers = probe::layers(launcher);
-        let launcher = layers.values().any(|there| *there).then(|| launcher.to_path_buf());
-        Self { launcher, layers }
+        let sandbox = probe::probe(launcher);
+        if sandbox.is_some_layer() { sandbox } else { Self { launcher: None, ..sandbox } }
     }
 
     /// Other systems have no layer to try.
@@ -156,16 +162,41 @@ impl Sandbox {
         Self {
             #[cfg(target_os = "linux")]
             launcher: None,
+            #[cfg(target_os = "linux")]
+            cgroup: Err("no cgroup was looked for".to_owned()),
             layers: BTreeMap::new(),
+        }
+    }
+
+    /// What the grader runs for itself, such as cargo: it sees and may do what the grader may, and the whole tree of its processes
+    /// dies with the grader. `launcher` is that of [`Sandbox::probe`].
+    pub fn own_tools(launcher: &Path) -> Self {
+        #[cfg(not(target_os = "linux"))]
+        return Self::none();
+        #[cfg(target_os = "linux")]
+        Self {
+            launcher: Some(launcher.to_path_buf()),
+            layers: BTreeMap::from([("process_tree".to_string(), true)]),
+            ..Self::none()
         }
     }
 
     /// The layers by name, and whether this machine has them.
     ///
     /// `user_namespace` is what an ordinary user needs for the other namespaces; where root does without it, it is not listed.
+    /// `memory_cgroup` holds where a tree's memory is limited by a cgroup ([`Sandbox::without_cgroup`] says why it is not).
     /// `own_user` holds only if the program runs as a user that owns nothing else, which takes root.
     pub fn layers(&self) -> BTreeMap<String, bool> {
         self.layers.clone()
+    }
+
+    /// Why the memory of a tree of processes is not limited by a cgroup; `None` if it is. Without a cgroup the resident memory of the
+    /// compiler's processes is summed ten times a second, which counts shared pages more than once.
+    pub fn without_cgroup(&self) -> Option<&str> {
+        #[cfg(target_os = "linux")]
+        return self.cgroup.as_ref().err().map(String::as_str);
+        #[cfg(not(target_os = "linux"))]
+        Some("cgroups are Linux's")
     }
 
     /// The isolations that a submission must not run without and that this machine does not have.

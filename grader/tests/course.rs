@@ -22,7 +22,7 @@ use tempfile::TempDir;
 
 /// The grader's libraries, built by whichever test comes first.
 static LIBRARIES: LazyLock<Prebuilt> =
-    LazyLock::new(|| Prebuilt::new(&repository()).unwrap_or_else(|error| panic!("{error}")));
+    LazyLock::new(|| Prebuilt::new(&repository(), Sandbox::none()).unwrap_or_else(|error| panic!("{error}")));
 
 /// The students' repository.
 static HANDOUT: LazyLock<TempDir> = LazyLock::new(|| {

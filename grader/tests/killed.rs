@@ -15,8 +15,11 @@ const START: Duration = Duration::from_secs(400);
 /// Longest time until everything is gone.
 const END: Duration = Duration::from_secs(10);
 
+/// Longest time until everything is gone that a library was built with: far less than the build takes.
+const SOON: Duration = Duration::from_secs(3);
+
 /// A class of one, whose first function never ends, in a folder whose name is on the command line of all that works for it.
-fn class(folder: &Path) -> Child {
+fn class(folder: &Path) -> Command {
     let repository = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the grader lies in the repository");
     let source = folder.join("class/anna/src");
     fs::create_dir_all(&source).expect("a folder");
@@ -33,7 +36,12 @@ fn class(folder: &Path) -> Child {
     let mut command = Command::new(env!("CARGO_BIN_EXE_grader"));
     command.arg("class").arg(folder.join("class")).arg("--out").arg(folder.join("out")).args(["--seed", "5"]);
     command.arg("--rubric").arg(folder.join("rubric.toml")).env("TMPDIR", folder.join("work"));
-    command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the grader starts")
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    command
+}
+
+fn start(command: &mut Command) -> Child {
+    command.spawn().expect("the grader starts")
 }
 
 /// Command lines of the processes that work in a folder.
@@ -61,11 +69,32 @@ fn wait(folder: &Path, limit: Duration, is_wanted: impl Fn(&[String]) -> bool) {
 fn no_grader_and_no_submission_outlives_a_killed_class() {
     let folder = TempDir::new().expect("a folder");
     let path: PathBuf = folder.path().canonicalize().expect("a path");
-    let mut class = class(&path);
+    let mut class = start(&mut class(&path));
     // The class itself, the grader of the submission, and the keeper of a program with the submission's code.
     let runs = |line: &String| line.contains("confine keep") && line.contains("\"Submission\"");
     wait(&path, START, |found| found.iter().any(|line| line.contains(" grade ")) && found.iter().any(runs));
     class.kill().expect("it runs");
     class.wait().expect("it ends");
     wait(&path, END, |found| found.is_empty());
+}
+
+#[test]
+fn no_compiler_outlives_a_class_that_is_killed_while_it_builds_its_libraries() {
+    let folder = TempDir::new().expect("a folder");
+    let path: PathBuf = folder.path().canonicalize().expect("a path");
+    let mut class = start(class(&path).env("CARGO_TARGET_DIR", path.join("target")));
+    // Cargo, and one of the compilers that it starts.
+    let builds = |line: &String| line.contains("--crate-name") && !line.contains("build_script");
+    wait(&path, START, |found| found.iter().any(|line| line.contains("--manifest-path")) && found.iter().any(builds));
+    class.kill().expect("it runs");
+    class.wait().expect("it ends");
+    wait(&path, SOON, |found| found.is_empty());
+    assert!(
+        !path
+            .join("target/grader")
+            .read_dir()
+            .expect("a folder")
+            .flatten()
+            .any(|entry| entry.path().join("complete").exists())
+    );
 }

@@ -105,8 +105,11 @@ pub fn attempt(
         found.retain(|name, _| plan.own.contains_key(name));
         Attempt::Failed(found)
     } else {
-        let how =
-            ended.signal.map_or_else(|| format!("exit code {:?}", ended.code), |signal| format!("signal {signal}"));
+        let how = match ended.signal {
+            _ if ended.out_of_memory => "no memory left".to_owned(),
+            Some(signal) => format!("signal {signal}"),
+            None => format!("exit code {:?}", ended.code),
+        };
         let most = limit.as_secs_f64();
         Attempt::GaveUp(format!("the compiler ended with {how}; it may compute for {most:.0} s and take 4 GiB"))
     })

@@ -8,7 +8,8 @@ use std::{env, fs, io};
 
 use thiserror::Error;
 
-use crate::sandbox::system_folders;
+use super::tools::run;
+use crate::sandbox::{Sandbox, system_folders};
 
 /// Why the libraries could not be built: trouble of the machine or of the repository, never of a submission.
 #[derive(Debug, Error)]
@@ -42,17 +43,20 @@ pub struct Prebuilt {
     pub sysroot: PathBuf,
     /// Output of `rustc --version`.
     pub toolchain: String,
+    /// How the grader's own compilers are run.
+    pub tools: Sandbox,
 }
 
 /// Crates that a submission may name, apart from the course's own.
 const CRATES: [&str; 3] = ["nalgebra", "nalgebra_sparse", "grader_child"];
 
 impl Prebuilt {
-    /// Builds the libraries of the repository at `root`, or finds them already built.
+    /// Builds the libraries of the repository at `root`, or finds them already built. `tools` is how compilers are run:
+    /// [`Sandbox::own_tools`], or [`Sandbox::none`] in a program that is no launcher.
     ///
     /// # Errors
     /// The reason if a compiler or a file is missing or a library does not compile.
-    pub fn new(root: &Path) -> Result<Self, PrebuildError> {
+    pub fn new(root: &Path, tools: Sandbox) -> Result<Self, PrebuildError> {
         // Linkers on Windows do not read what that system calls a canonical path.
         let whole = if cfg!(windows) { path::absolute(root) } else { fs::canonicalize(root) };
         let root = &whole.map_err(io_error(root))?;
@@ -62,7 +66,7 @@ impl Prebuilt {
         let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
         let target = path::absolute(&target).map_err(io_error(&target))?;
         let folder = target.join("grader").join(format!("{:016x}", key(root, &toolchain)?));
-        let prebuilt = Self { folder, rustc, sysroot, toolchain };
+        let prebuilt = Self { folder, rustc, sysroot, toolchain, tools };
         once(&prebuilt.folder, || prebuilt.build(root))?;
         Ok(prebuilt)
     }
@@ -114,7 +118,8 @@ impl Prebuilt {
             cargo
         };
         // What the grader itself was built with is on this machine already, so the network is the second choice.
-        output(cargo().arg("--offline")).or_else(|_| output(&mut cargo()))?;
+        let build = |cargo: &mut Command| succeeded(cargo, run(cargo, &self.tools));
+        build(cargo().arg("--offline")).or_else(|_| build(&mut cargo()))?;
         self.collect(&target.join("release/deps"), &deps)?;
         self.library(&root.join("src/given/mod.rs"), "course_given", &self.folder.join("given"), &[])?;
         fs::remove_dir_all(&work).map_err(io_error(&work))
@@ -147,7 +152,8 @@ impl Prebuilt {
             .into_iter()
             .filter(|argument| name != "course_given" || !argument.contains("course_given="));
         rustc.args(given).args(["--crate-type=rlib", "--cap-lints=allow", "--crate-name", name, "--out-dir"]);
-        output(rustc.arg(to).args(more).arg(source)).map(drop)
+        rustc.arg(to).args(more).arg(source);
+        succeeded(&rustc, run(&rustc, &self.tools))
     }
 }
 
@@ -220,6 +226,15 @@ fn write(path: &Path, text: &str) -> Result<(), PrebuildError> {
 fn io_error(path: &Path) -> impl FnOnce(io::Error) -> PrebuildError {
     let what = path.display().to_string();
     move |error| PrebuildError::Io { what, error }
+}
+
+fn succeeded(command: &Command, ended: io::Result<(Option<i32>, String)>) -> Result<(), PrebuildError> {
+    let what = format!("{:?}", command.get_program());
+    match ended {
+        Ok((Some(0), _)) => Ok(()),
+        Ok((_, output)) => Err(PrebuildError::Failed { what, output }),
+        Err(error) => Err(PrebuildError::Io { what, error }),
+    }
 }
 
 /// Output of a program, without the space around it.

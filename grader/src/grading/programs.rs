@@ -106,7 +106,7 @@ impl Programs {
         fs::create_dir_all(&whole)?;
         let limit = Duration::from_secs(600);
         let plan = Plan { own: self.texts.clone(), reference: None, helpers: BTreeMap::new(), limit };
-        let built = build(prebuilt, &Sandbox::none(), &plan, &whole)?;
+        let built = build(prebuilt, &prebuilt.tools, &plan, &whole)?;
         if built.program.is_none() || !built.faults.is_empty() {
             return Err(GradingError::Reference(format!("{:?}", built.faults)));
         }

@@ -13,7 +13,7 @@ use nix::sys::signal::Signal;
 use nix::unistd::setsid;
 
 use super::spec::Spec;
-use super::{calls, files, owner, root};
+use super::{calls, cgroup, files, owner, root};
 
 /// Bytes of the main thread's stack. Elsewhere `ulimit` decides, and a result must not depend on it.
 const STACK: u64 = 8 << 20;
@@ -34,6 +34,9 @@ pub fn enter(pipe: &str, spec: &str) -> Result<(), String> {
 fn restrict(spec: &Spec, report: RawFd) -> Result<(), String> {
     close_descriptors(report).map_err(|error| format!("descriptors: {error}"))?;
     let itself = File::open("/proc/self").map_err(|error| format!("/proc: {error}"))?;
+    if let Some(tree) = spec.cgroup.as_ref().filter(|_| spec.layers.contains("memory_cgroup")) {
+        cgroup::join(tree).map_err(|error| format!("memory_cgroup: {error}"))?;
+    }
     if spec.layers.contains("own_user") {
         for path in &spec.confined.writable {
             owner::give(path, spec.owner).map_err(|error| format!("own_user: {}: {error}", path.display()))?;

@@ -46,6 +46,7 @@ fn followed(mut tree: Tree, confined: &Confined) -> io::Result<Ended> {
         code: end.code,
         signal: end.signal,
         timed_out: end.timed_out,
+        out_of_memory: end.out_of_memory,
         seconds: end.seconds,
         stdout: kept(stdout)?,
         stderr: kept(stderr)?,

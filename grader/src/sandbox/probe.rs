@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use nix::unistd::geteuid;
 
-use super::{Confined, Limits, Profile, Sandbox, library_folders};
+use super::{Confined, Limits, Profile, Sandbox, cgroup, library_folders};
 
 /// Layers in the order in which they are tried, beside `user_namespace`.
 const LAYERS: [&str; 9] = [
@@ -21,9 +21,14 @@ const LAYERS: [&str; 9] = [
     "own_user",
 ];
 
-/// Each layer, and whether it holds beside those before it.
-pub fn layers(launcher: &Path) -> BTreeMap<String, bool> {
-    let mut sandbox = Sandbox { launcher: Some(launcher.to_path_buf()), layers: BTreeMap::new() };
+/// The layer that is tried last, where there is a cgroup for it.
+const CGROUP: &str = "memory_cgroup";
+
+/// The sandbox with each layer, and whether it holds beside those before it.
+pub fn probe(launcher: &Path) -> Sandbox {
+    let mut sandbox =
+        Sandbox { launcher: Some(launcher.to_path_buf()), cgroup: cgroup::prepare(), layers: BTreeMap::new() };
+    let has_cgroup = sandbox.cgroup.is_ok();
     let confined = nothing(launcher);
     let mut holds = |name: &str| {
         sandbox.layers.insert(name.to_string(), true);
@@ -42,7 +47,11 @@ pub fn layers(launcher: &Path) -> BTreeMap<String, bool> {
     for name in layers {
         holds(name);
     }
-    sandbox.layers
+    if has_cgroup && !holds(CGROUP) {
+        sandbox.cgroup = Err("a trial with a cgroup failed".to_owned());
+    }
+    sandbox.layers.entry(CGROUP.to_string()).or_insert(false);
+    sandbox
 }
 
 /// The launcher as the program, asked to do nothing.

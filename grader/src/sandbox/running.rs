@@ -79,6 +79,8 @@ pub struct End {
     pub code: Option<i32>,
     pub signal: Option<i32>,
     pub timed_out: bool,
+    /// Whether the memory of its processes together was used up, where that is told.
+    pub out_of_memory: bool,
     pub seconds: f64,
 }
 
@@ -86,6 +88,7 @@ impl std::fmt::Display for End {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match (self.timed_out, self.code, self.signal) {
             (true, ..) => f.write_str("its time was over"),
+            _ if self.out_of_memory => f.write_str("killed: out of memory"),
             (_, Some(code), _) => match code.cast_unsigned() {
                 // Exit codes of Windows.
                 0xC000_00FD => f.write_str("stack overflow"),
@@ -168,7 +171,8 @@ impl Tree {
                 self.kill_plain();
             }
             if let Ok(Some(status)) = self.child.try_wait() {
-                return Some(End { code: status.code(), signal: signal(status), timed_out, seconds: 0.0 });
+                let (code, signal) = (status.code(), signal(status));
+                return Some(End { code, signal, timed_out, out_of_memory: false, seconds: 0.0 });
             }
             if Instant::now() >= until {
                 return None;

@@ -1,6 +1,7 @@
 //! Messages between the grader and its launcher.
 
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +17,8 @@ pub struct Spec {
     pub layers: BTreeSet<String>,
     /// The user for `own_user`.
     pub owner: u32,
+    /// The cgroup in which that of the tree is made, for `memory_cgroup`.
+    pub cgroup: Option<PathBuf>,
     /// Which descriptor of the launcher leads to the grader.
     pub control: Control,
 }
@@ -44,6 +47,8 @@ pub enum News {
         signal: Option<i32>,
         /// Whether its time was over.
         timed_out: bool,
+        /// Whether the memory of its processes was used up.
+        out_of_memory: bool,
         /// Processor time, s.
         seconds: f64,
     },

@@ -18,6 +18,7 @@ use nix::sys::wait::{Id, WaitPidFlag, WaitStatus, waitid, waitpid};
 use nix::unistd::{Pid, pipe};
 
 use super::Profile;
+use super::cgroup;
 use super::memory::Processes;
 use super::owner;
 use super::spec::{Control, News, Spec};
@@ -26,16 +27,21 @@ use super::spec::{Control, News, Spec};
 pub fn supervise(spec: Spec) -> Result<(), String> {
     let control = control(spec.control).map_err(|error| format!("no way to the grader: {error}"))?;
     let processes = Arc::new(Processes::open().map_err(|error| format!("/proc: {error}"))?);
-    if let Err(why) = separate(&spec) {
-        return tell(&control, &News::Refused(why));
-    }
+    let (spec, tree) = match in_cgroup(spec).and_then(|(spec, tree)| separate(&spec).map(|()| (spec, tree))) {
+        Ok(ready) => ready,
+        Err(why) => return tell(&control, &News::Refused(why)),
+    };
     let watch = watch(&spec, &control, processes.clone()).map_err(|error| format!("no ear for the grader: {error}"))?;
     match begin(&spec, &watch) {
         Ok(program) => {
             tell(&control, &News::Started)?;
-            let (status, timed_out) = attend(program, &watch)?;
+            let status = attend(program, &watch)?;
             sweep(&spec, &processes);
-            tell(&control, &ended(status, timed_out)?)
+            let (timed_out, out_of_memory) = lock(&watch).why();
+            let out_of_memory = out_of_memory || tree.as_ref().is_some_and(cgroup::Tree::is_out_of_memory);
+            // The grader may exit as soon as it has heard.
+            drop(tree);
+            tell(&control, &ended(status, timed_out, out_of_memory)?)
         }
         Err(why) => tell(&control, &News::Refused(why)),
     }
@@ -57,6 +63,15 @@ fn tell(mut control: &UnixStream, news: &News) -> Result<(), String> {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.to_string()),
         _ => Ok(()),
     }
+}
+
+/// Makes the cgroup of the tree, whose folder takes the place of the one that it is made in.
+fn in_cgroup(spec: Spec) -> Result<(Spec, Option<cgroup::Tree>), String> {
+    let Some(base) = spec.cgroup.as_ref().filter(|_| spec.layers.contains("memory_cgroup")) else {
+        return Ok((spec, None));
+    };
+    let tree = cgroup::Tree::new(base, &spec.confined.limits).map_err(|error| format!("memory_cgroup: {error}"))?;
+    Ok((Spec { cgroup: Some(tree.folder().to_owned()), ..spec }, Some(tree)))
 }
 
 /// Makes the namespaces but that of processes.
@@ -120,12 +135,18 @@ struct Watch {
     /// Whether its time is over or the grader gone.
     over: bool,
     timed_out: bool,
+    out_of_memory: bool,
 }
 
 impl Watch {
     fn begun(&mut self, program: Pid) {
         self.program = Some(program);
         self.kill_if_over();
+    }
+
+    /// Whether its time was over, and whether its memory was used up.
+    fn why(&self) -> (bool, bool) {
+        (self.timed_out, self.out_of_memory)
     }
 
     fn kill_if_over(&self) {
@@ -152,50 +173,51 @@ fn watch(spec: &Spec, control: &UnixStream, processes: Arc<Processes>) -> io::Re
     let shared = watch.clone();
     let ear = control.try_clone()?;
     let until = Instant::now() + spec.confined.limits.wall;
-    // A submission is one process, whose own limit is enough.
+    // A submission is one process, whose own limit is enough; where there is a cgroup, the kernel counts.
     let most = match spec.confined.profile {
-        Profile::Compiler => spec.confined.limits.memory,
-        Profile::Submission => u64::MAX,
+        Profile::Compiler if !spec.layers.contains("memory_cgroup") => spec.confined.limits.memory,
+        _ => u64::MAX,
     };
     let mut pause = if most == u64::MAX { Duration::MAX } else { LOOK };
     thread::Builder::new().spawn(move || {
-        let timed_out = loop {
+        let (timed_out, out_of_memory) = loop {
             let left = until.saturating_duration_since(Instant::now());
             // The grader says nothing: a read returns when it closes the socket or dies, or when it is time to look.
             let heard = ear.set_read_timeout(Some(left.min(pause).max(Duration::from_millis(1))));
             let heard = heard.and_then(|()| (&ear).read(&mut [0]));
             if left.is_zero() && heard.is_err() {
-                break true;
+                break (true, false);
             }
             let is_quiet = |error: &io::Error| {
                 matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut | io::ErrorKind::Interrupted)
             };
             if !heard.is_err_and(|error| is_quiet(&error)) {
-                break false;
+                break (false, false);
             }
             let begin = Instant::now();
             if most < u64::MAX && processes.memory_below() > most {
-                break false;
+                break (false, true);
             }
             pause = pause.max(begin.elapsed() * RARELY);
         };
         let mut watch = lock(&shared);
         watch.over = true;
         watch.timed_out = watch.program.is_some() && timed_out;
+        watch.out_of_memory = watch.program.is_some() && out_of_memory;
         watch.kill_if_over();
     })?;
     Ok(watch)
 }
 
 /// Waits for the end of the program.
-fn attend(mut program: Child, watch: &Mutex<Watch>) -> Result<(WaitStatus, bool), String> {
+fn attend(mut program: Child, watch: &Mutex<Watch>) -> Result<WaitStatus, String> {
     let pid = Pid::from_raw(program.id().cast_signed());
     let status = retry(|| waitid(Id::Pid(pid), WaitPidFlag::WEXITED | WaitPidFlag::WNOWAIT));
     let mut watch = lock(watch);
     watch.program = None;
     let status = status.map_err(|error| error.to_string())?;
     program.wait().map_err(|error| error.to_string())?;
-    Ok((status, watch.timed_out))
+    Ok(status)
 }
 
 fn retry<T>(mut call: impl FnMut() -> nix::Result<T>) -> nix::Result<T> {
@@ -222,7 +244,7 @@ fn sweep(spec: &Spec, processes: &Processes) {
     }
 }
 
-fn ended(status: WaitStatus, timed_out: bool) -> Result<News, String> {
+fn ended(status: WaitStatus, timed_out: bool, out_of_memory: bool) -> Result<News, String> {
     let usage = getrusage(UsageWho::RUSAGE_CHILDREN).map_err(|error| error.to_string())?;
     let seconds =
         [usage.user_time(), usage.system_time()].iter().map(|t| t.tv_sec() as f64 + t.tv_usec() as f64 * 1e-6).sum();
@@ -231,5 +253,5 @@ fn ended(status: WaitStatus, timed_out: bool) -> Result<News, String> {
         WaitStatus::Signaled(_, signal, _) => (None, Some(signal as i32)),
         other => return Err(format!("the program did not end: {other:?}")),
     };
-    Ok(News::Ended { code, signal, timed_out, seconds })
+    Ok(News::Ended { code, signal, timed_out, out_of_memory, seconds })
 }

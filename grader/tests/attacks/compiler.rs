@@ -16,7 +16,7 @@ use super::classroom::{Classroom, ONE_AT_A_TIME, repository, solutions};
 #[test]
 fn what_the_compiler_has_read_beside_the_submission_is_refused_after_all_macros() {
     let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    let libraries = Prebuilt::new(&repository()).unwrap_or_else(|error| panic!("{error}"));
+    let libraries = Prebuilt::new(&repository(), Sandbox::none()).unwrap_or_else(|error| panic!("{error}"));
     let outside = TempDir::new().expect("a folder");
     fs::write(outside.path().join("h.rs"), "pub fn f() {}").expect("a file");
     let file = outside.path().join("h.rs").display().to_string();
@@ -59,7 +59,7 @@ fn libraries(folder: &Path) -> Vec<PathBuf> {
 fn the_libraries_that_a_compiler_sees_hold_no_line_of_a_solution() {
     // Grading builds them.
     Classroom::new().grade().is_as_expected();
-    let prebuilt = Prebuilt::new(&repository()).unwrap_or_else(|error| panic!("{error}"));
+    let prebuilt = Prebuilt::new(&repository(), Sandbox::none()).unwrap_or_else(|error| panic!("{error}"));
     let found = libraries(&prebuilt.folder);
     assert!(found.len() >= 3, "{found:?}");
     let lines: Vec<String> =

@@ -130,7 +130,7 @@ fn the_memory_of_a_tree_of_processes_is_limited() {
     let script = "for i in 1 2 3 4 5 6; do head -c 120000000 /dev/zero | tail -c 110000000 | sleep 20 & done; wait";
     program.confined.arguments = vec!["-c".into(), script.into()];
     let ended = program.run();
-    assert!(ended.signal == Some(9) && !ended.timed_out, "{ended:?}");
+    assert!(ended.signal == Some(9) && ended.out_of_memory && !ended.timed_out, "{ended:?}");
     program.confined.arguments[1] = script.replace("1 2 3 4 5 6", "1").replace("20", "1");
     assert_eq!(program.run().code, Some(0), "one of them is not too much");
 }

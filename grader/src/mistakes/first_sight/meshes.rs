@@ -172,11 +172,11 @@ fn dense_to_csr(M: &DMatrix<f64>) -> CsrMatrix<f64> {
 
 fn stiffness(q: &DVector<f64>, T: &[[usize; 4]], element: impl Fn(usize) -> SMatrix<f64, 12, 12>) -> CsrMatrix<f64> {
     let mut K = CooMatrix::new(q.len(), q.len());
-    for e in 0..T.len() {
+    for (e, t) in T.iter().enumerate() {
         let Ke = element(e);
         for i in 0..12 {
             for j in 0..12 {
-                K.push(3 * T[e][i / 3] + i % 3, 3 * T[e][j / 3] + j % 3, Ke[(i, j)]);
+                K.push(3 * t[i / 3] + i % 3, 3 * t[j / 3] + j % 3, Ke[(i, j)]);
             }
         }
     }

@@ -185,7 +185,7 @@ fn newton(
             let there = f(&(&*x + alpha * &d));
             let c = if slips.strict_decrease { 0.5 } else { 1e-8 };
             let enough = here + c * alpha * slope;
-            if slips.accept_nan { !(there > enough) } else { there.is_finite() && there <= enough }
+            if slips.accept_nan { there.is_nan() || there <= enough } else { there.is_finite() && there <= enough }
         };
         while alpha >= 1e-8 && !good(alpha) {
             alpha *= 0.5;

@@ -31,7 +31,13 @@ impl Tree {
     ) -> io::Result<Self> {
         let Some(launcher) = &sandbox.launcher else { return Err(io::Error::other("the sandbox has no launcher")) };
         let layers = sandbox.layers.iter().filter(|(_, there)| **there).map(|(name, _)| name.clone()).collect();
-        let spec = Spec { confined: confined.clone(), layers, owner: unused_user(), control };
+        let spec = Spec {
+            confined: confined.clone(),
+            layers,
+            owner: unused_user(),
+            cgroup: sandbox.cgroup.clone().ok(),
+            control,
+        };
         let (ours, theirs) = UnixStream::pair()?;
         let theirs = Stdio::from(OwnedFd::from(theirs));
         let mut command = Command::new(launcher);
@@ -71,8 +77,8 @@ impl Tree {
         let _ = control.get_ref().shutdown(Shutdown::Write);
         if self.end.is_none() {
             self.end = match self.news(PATIENCE) {
-                Ok(Some(News::Ended { code, signal, timed_out, seconds })) => {
-                    Some(End { code, signal, timed_out, seconds })
+                Ok(Some(News::Ended { code, signal, timed_out, out_of_memory, seconds })) => {
+                    Some(End { code, signal, timed_out, out_of_memory, seconds })
                 }
                 _ => None,
             };
@@ -83,14 +89,14 @@ impl Tree {
 
     pub(super) fn launched_end(&mut self, wait: Duration) -> Option<End> {
         match self.news(wait) {
-            Ok(Some(News::Ended { code, signal, timed_out, seconds })) => {
-                Some(End { code, signal, timed_out, seconds })
+            Ok(Some(News::Ended { code, signal, timed_out, out_of_memory, seconds })) => {
+                Some(End { code, signal, timed_out, out_of_memory, seconds })
             }
             Ok(None) => None,
             // The launcher is gone or talks nonsense, so what it kept is dead, or about to be.
             Ok(Some(_)) | Err(_) => {
                 self.kill();
-                Some(End { code: None, signal: None, timed_out: false, seconds: 0.0 })
+                Some(End { code: None, signal: None, timed_out: false, out_of_memory: false, seconds: 0.0 })
             }
         }
     }
