@@ -3,6 +3,7 @@
 mod convert;
 mod delaunay;
 mod from_surface;
+mod improve;
 mod info;
 
 use std::path::{Path, PathBuf};
@@ -23,6 +24,8 @@ pub enum MeshAction {
     Delaunay { points: PathBuf, out: PathBuf },
     /// Tetrahedra inside a surface (.obj, .ply, .stl), which may have holes and cross itself
     FromSurface(from_surface::Arguments),
+    /// Better elements for the same body: optimal Delaunay triangulation and flips; the worst element is never worse than before
+    Improve(improve::Arguments),
 }
 
 impl MeshAction {
@@ -33,6 +36,7 @@ impl MeshAction {
             Self::Convert { from, to } => convert::run(from, to).map_err(End::unusable),
             Self::Delaunay { points, out } => delaunay::run(points, out),
             Self::FromSurface(arguments) => from_surface::run(arguments).map_err(End::unusable),
+            Self::Improve(arguments) => improve::run(arguments).map_err(End::unusable),
         }
     }
 }

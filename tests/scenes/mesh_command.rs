@@ -175,10 +175,36 @@ fn tetrahedra_are_made_inside_a_surface_by_a_command_and_by_a_scene() {
     assert!(text.contains("reaction force of fixed"), "{text}");
     let reaction = desk.json("s.json")["reactions"]["fixed"][1].as_f64().unwrap();
     assert!((reaction / (9.81 * 1000.0 * volume) - 1.0).abs() < 1e-6, "{reaction}");
+    desk.write("s.toml", scene(0.08).replace("edge = 0.08", "edge = 0.04, grading = 2, improve = 1"));
+    desk.run_well("s.toml --headless --steps 1");
     desk.write("s.toml", scene(1e-5));
     assert!(desk.refused("s.toml --headless").contains("take longer edges"));
     desk.write("s.toml", scene(0.08).replace("surface", "box = { size = [1, 1, 1], cells_per_unit = 1 }\nsurface"));
     assert!(desk.refused("s.toml --headless").contains("mesh.surface stands beside `box`; keep one of the two"));
+}
+
+#[test]
+fn improvement_keeps_the_body_and_raises_its_worst_element() {
+    let desk = Desk::new();
+    let bunny = data().join("stanford/bunny_10k.obj");
+    desk.run_well(&format!("mesh from-surface {} raw.msh --edge 0.08", bunny.display()));
+    let text = desk.run_well("mesh improve raw.msh improved.msh --iterations 4").stdout;
+    assert!(text.contains("smallest dihedral angle") && text.contains("improved.msh: "), "{text}");
+    desk.run_well(&format!("mesh from-surface {} slid.msh --edge 0.08 --improve 4", bunny.display()));
+    let [raw, improved, slid] = ["raw", "improved", "slid"].map(|name| {
+        let mesh = read_tetrahedra(&desk.path(&format!("{name}.msh"))).unwrap();
+        let quality = fem_mesh::quality(&mesh);
+        (quality.volume, quality.dihedral_angles[0].value, quality.radius_ratio.value)
+    });
+    assert!((improved.0 / raw.0 - 1.0).abs() < 1e-12, "{raw:?} {improved:?}");
+    assert!((slid.0 / raw.0 - 1.0).abs() < 0.01, "{raw:?} {slid:?}");
+    assert!(improved.1 > raw.1 && improved.2 > raw.2, "{raw:?} {improved:?}");
+    assert!(slid.1 > improved.1 && slid.2 > raw.2, "{improved:?} {slid:?}");
+    let count = |name: &str| read_tetrahedra(&desk.path(name)).unwrap().elements.len();
+    desk.run_well(&format!("mesh from-surface {} fine.msh --edge 0.03", bunny.display()));
+    desk.run_well(&format!("mesh from-surface {} graded.msh --edge 0.03 --grading 3", bunny.display()));
+    assert!(4 * count("graded.msh") < 3 * count("fine.msh"), "{} {}", count("graded.msh"), count("fine.msh"));
+    assert!(desk.refused("mesh improve missing.msh out.msh").contains("there is no such file"));
 }
 
 #[test]

@@ -13,7 +13,8 @@ use crate::values::{
     density_factors, dirichlet_conditions, drag, initial_velocity, regions, springs, surface_loads,
 };
 use crate::{LoadCurve, Material, Scene, SceneError};
-use fem_mesh::generate::stuff;
+use fem_mesh::generate::odt::improve_inside;
+use fem_mesh::generate::{Solid, stuff_graded};
 use fem_mesh::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
 /// Largest number of nodes for which an explicit method takes the consistent mass by default. Its linear systems need some thirty
@@ -151,7 +152,10 @@ fn tetrahedra(scene: &Scene, data: &Path) -> Result<TetrahedralMesh, SceneError>
         MeshTable { surface: Some(surface), .. } => {
             let path = find(scene, data, &surface.file);
             let mesh = fem_mesh::read_surface(&path).and_then(|triangles| {
-                stuff(&triangles, surface.edge).map_err(|error| MeshError::in_file(&path, Problem::Stuffing(error)))
+                let mesh = stuff_graded(&triangles, surface.edge, surface.grading)
+                    .map_err(|error| MeshError::in_file(&path, Problem::Stuffing(error)))?;
+                fem_mesh::check(&mesh, &path)?;
+                Ok(improve_inside(&mesh, surface.improve, &Solid::new(&triangles)).mesh)
             });
             mesh.map_err(|error| mesh_error(scene, "mesh.surface", error))
         }

@@ -8,6 +8,7 @@ mod every_format;
 mod formats;
 mod garbage;
 mod gmsh;
+mod odt_space;
 mod other_programs;
 mod packed;
 mod refined;

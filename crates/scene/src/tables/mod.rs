@@ -147,6 +147,12 @@ pub struct SurfaceTable {
     pub file: PathBuf,
     /// Mean edge of the tetrahedra in the file's unit of length, m unless `scale` changes it.
     pub edge: f64,
+    /// How often the edges may double towards the inside.
+    #[serde(default)]
+    pub grading: usize,
+    /// Passes of improvement, in which the nodes of the boundary slide on the surface.
+    #[serde(default)]
+    pub improve: usize,
 }
 
 /// `[mass]`

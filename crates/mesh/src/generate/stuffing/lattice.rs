@@ -36,6 +36,11 @@ impl Lattice {
         Self { origin, half: 0.5 * side, cubes, signs: vec![-1; nodes], moved: HashMap::new(), cuts: HashMap::new() }
     }
 
+    /// Number of cubes in each direction.
+    pub fn cubes(&self) -> [i32; 3] {
+        self.cubes
+    }
+
     /// The node at a place, if the lattice has one there.
     pub fn node(&self, place: Place) -> Option<u32> {
         let [nx, ny, nz] = self.cubes;
@@ -61,7 +66,8 @@ impl Lattice {
         grid(nx + 1, ny + 1, nz + 1, 0).chain(grid(nx, ny, nz, 1))
     }
 
-    fn undeformed(&self, place: Place) -> Vector3<f64> {
+    /// Position of a place before nodes are moved, m.
+    pub fn undeformed(&self, place: Place) -> Vector3<f64> {
         self.origin + Vector3::from(place.map(f64::from)) * self.half
     }
 
@@ -123,32 +129,10 @@ impl Lattice {
             }
         }
     }
-
-    /// The tetrahedra of the lattice, positively oriented: two neighbouring centres and an edge of the square between them.
-    pub fn tetrahedra(&self) -> impl Iterator<Item = [Place; 4]> + use<> {
-        let [nx, ny, nz] = self.cubes;
-        let cubes = (0..nz).flat_map(move |k| (0..ny).flat_map(move |j| (0..nx).map(move |i| [i, j, k])));
-        cubes.flat_map(move |cube| {
-            (0..3).filter(move |&axis| cube[axis] + 1 < [nx, ny, nz][axis]).flat_map(move |axis| {
-                let first = cube.map(|x| 2 * x + 1);
-                let mut second = first;
-                second[axis] += 2;
-                let corner = move |turn: usize| {
-                    let (u, v) = [(1, 1), (-1, 1), (-1, -1), (1, -1)][turn % 4];
-                    let mut corner = first;
-                    corner[axis] += 1;
-                    corner[(axis + 1) % 3] += u;
-                    corner[(axis + 2) % 3] += v;
-                    corner
-                };
-                (0..4).map(move |turn| [first, second, corner(turn), corner(turn + 1)])
-            })
-        })
-    }
 }
 
 /// The places at the other ends of a node's edges, each with whether the edge is short.
-fn neighbours(place: Place) -> impl Iterator<Item = (bool, Place)> {
+pub fn neighbours(place: Place) -> impl Iterator<Item = (bool, Place)> {
     let long = (0..3).flat_map(move |axis| {
         [-2, 2].map(move |step| {
             let mut other = place;

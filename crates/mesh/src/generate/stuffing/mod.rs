@@ -1,11 +1,12 @@
 //! Tetrahedra inside a surface by isosurface stuffing: Labelle and Shewchuk, Isosurface Stuffing: Fast Tetrahedral Meshes with Good Dihedral
-//! Angles (2007), with a uniform lattice.
+//! Angles (2007), with a uniform lattice or one that is coarser inside.
 //!
 //! Nodes of a body-centred cubic lattice close to the surface are moved onto it, and the tetrahedra that it still cuts are filled by
 //! stencils. Dihedral angles lie between 10.7° and 164.8° whatever the surface. Nodes of the boundary lie on the surface; its edges and corners
 //! are rounded by at most the size of an element.
 
 mod lattice;
+mod octree;
 mod stencils;
 
 use nalgebra::Vector3;
@@ -14,12 +15,16 @@ use thiserror::Error;
 use super::solid::Solid;
 use crate::{Mesh, SurfaceMesh, TetrahedralMesh};
 use lattice::Lattice;
+use octree::Octree;
 
 /// Largest number of tetrahedra of the lattice, which uses some 20 bytes for each.
 const MOST: f64 = 1e8;
 
 /// Mean edge of a tetrahedron of the lattice, over the side of its cubes.
 const MEAN_EDGE: f64 = 0.910_683_602_522_959;
+
+/// Largest number of doublings of an edge: more than a lattice of the largest size has.
+const LEVELS: usize = 20;
 
 /// Reason why a surface has no tetrahedra inside.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -67,6 +72,50 @@ pub enum StuffingError {
 /// # Errors
 /// Too many tetrahedra or none, and numbers that are not finite.
 pub fn stuff(surface: &SurfaceMesh, edge: f64) -> Result<TetrahedralMesh, StuffingError> {
+    stuff_with(surface, edge, |lattice| Octree::uniform(lattice.cubes()))
+}
+
+/// Tetrahedra as those of [`stuff`] at the surface, and with edges that double up to `doublings` times towards the inside. The boundary and the
+/// bounds of the dihedral angles are those of [`stuff`].
+///
+/// # Errors
+/// As [`stuff`].
+pub fn stuff_graded(surface: &SurfaceMesh, edge: f64, doublings: usize) -> Result<TetrahedralMesh, StuffingError> {
+    stuff_with(surface, edge, |lattice| Octree::graded(lattice, doublings, |_, _| true))
+}
+
+/// Tetrahedra as those of [`stuff`] at the surface, and with edges inside that double where they stay below `size` (m) at their place.
+///
+/// # Errors
+/// As [`stuff`].
+///
+/// ```
+/// use fem_mesh::generate::{stuff, stuff_sized};
+/// use fem_mesh::{SurfaceMesh, boundary, box_mesh};
+///
+/// let solid = box_mesh([1.0, 1.0, 1.0], 1)?;
+/// let surface = SurfaceMesh::new(solid.vertices.clone(), boundary(&solid));
+/// let fine = stuff(&surface, 0.04).unwrap();
+/// let sized = stuff_sized(&surface, 0.04, |x| 0.02 + 0.5 * x.x).unwrap();
+/// assert!(sized.elements.len() < fine.elements.len());
+/// # Ok::<(), fem_mesh::MeshError>(())
+/// ```
+pub fn stuff_sized(
+    surface: &SurfaceMesh,
+    edge: f64,
+    size: impl Fn(&Vector3<f64>) -> f64,
+) -> Result<TetrahedralMesh, StuffingError> {
+    stuff_with(surface, edge, |lattice| {
+        let may_be = |place, level: usize| edge * 2_f64.powi(level as i32) <= size(&lattice.undeformed(place));
+        Octree::graded(lattice, LEVELS, may_be)
+    })
+}
+
+fn stuff_with(
+    surface: &SurfaceMesh,
+    edge: f64,
+    octree: impl FnOnce(&Lattice) -> Octree,
+) -> Result<TetrahedralMesh, StuffingError> {
     if let Some(vertex) = surface.vertices.iter().position(|x| !x.iter().all(|x| x.is_finite())) {
         return Err(StuffingError::NotFinite { vertex });
     }
@@ -83,9 +132,10 @@ pub fn stuff(surface: &SurfaceMesh, edge: f64) -> Result<TetrahedralMesh, Stuffi
     }
     let mut lattice = Lattice::around([least, largest], side);
     lattice.find_signs(|point| solid.contains(point));
+    let octree = octree(&lattice);
     lattice.cut(|inside, outside| solid.exit(inside, outside));
     lattice.warp();
-    let (vertices, elements) = stencils::fill(&lattice);
+    let (vertices, elements) = stencils::fill(&lattice, &octree);
     if elements.is_empty() {
         return Err(StuffingError::Empty { edge, size: size.into() });
     }
@@ -104,27 +154,94 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::lattice::Lattice;
+    use super::octree::Octree;
     use super::stencils;
     use crate::{Mesh, SurfaceMesh, boundary, check, quality, surface_quality};
 
-    /// The mesh of a lattice with random signs of its nodes and random cuts of its edges, which reach every case of the stencils.
-    fn by_chance(seed: u64, inside: f64, cubes: f64) -> Mesh<3, 4> {
+    fn random(seed: u64) -> impl Fn() -> f64 {
         let random = Cell::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
-        let next = || {
+        move || {
             let mut x = random.get();
             x ^= x << 13;
             x ^= x >> 7;
             x ^= x << 17;
             random.set(x);
             (x >> 11) as f64 / (1_u64 << 53) as f64
-        };
+        }
+    }
+
+    /// The mesh of a lattice with random signs of its nodes and random cuts of its edges, which reach every case of the stencils.
+    fn by_chance(seed: u64, inside: f64, cubes: f64) -> Mesh<3, 4> {
+        let next = random(seed);
         let mut lattice = Lattice::around([Vector3::zeros(), Vector3::repeat(cubes)], 1.0);
         let in_box = |x: &Vector3<f64>| x.iter().all(|x| (0.0..=cubes).contains(x));
         lattice.find_signs(|x| in_box(x) && next() < inside);
         lattice.cut(|_, _| next());
         lattice.warp();
-        let (vertices, elements) = stencils::fill(&lattice);
+        let (vertices, elements) = stencils::fill(&lattice, &Octree::uniform(lattice.cubes()));
         Mesh::new(vertices, elements)
+    }
+
+    /// The mesh of a graded lattice around a box with random holes and a ragged surface, and that of the uniform one.
+    fn graded_and_uniform(seed: u64) -> [Mesh<3, 4>; 2] {
+        let next = random(seed);
+        let holes: Vec<Vector3<f64>> = (0..3).map(|_| Vector3::from_fn(|_, _| (33.0 * next()).round())).collect();
+        let mut lattice = Lattice::around([Vector3::zeros(), Vector3::new(33.0, 27.0, 20.0)], 1.0);
+        lattice.find_signs(|x| {
+            let depth = (0..3).map(|i| x[i].min([33.0, 27.0, 20.0][i] - x[i])).fold(f64::INFINITY, f64::min);
+            let in_hole = holes.iter().any(|hole| (hole - x).norm() < 2.5);
+            depth > 0.0 && !in_hole && (depth > 1.5 || next() < 0.6)
+        });
+        let octree = Octree::graded(&lattice, 3, |_, _| true);
+        lattice.cut(|_, _| next());
+        lattice.warp();
+        [octree, Octree::uniform(lattice.cubes())].map(|octree| {
+            let (vertices, elements) = stencils::fill(&lattice, &octree);
+            Mesh::new(vertices, elements)
+        })
+    }
+
+    #[test]
+    fn a_graded_lattice_keeps_the_bounds_and_the_boundary_of_the_uniform_one() {
+        for seed in 1..=4 {
+            let [graded, uniform] = graded_and_uniform(seed);
+            check(&graded, "graded".as_ref()).unwrap();
+            let angles = quality(&graded).dihedral_angles.map(|angle| angle.value);
+            assert!(angles[0] >= 10.7 && angles[1] <= 164.8, "seed {seed}: {angles:?}");
+            let surface = |mesh: &Mesh<3, 4>| {
+                let place = |face: [usize; 3]| {
+                    let mut places = face.map(|i| mesh.vertices[i].map(f64::to_bits).into());
+                    places.sort_unstable();
+                    places
+                };
+                let mut faces: Vec<[[u64; 3]; 3]> = boundary(mesh).into_iter().map(place).collect();
+                faces.sort_unstable();
+                faces
+            };
+            assert!(surface(&graded) == surface(&uniform), "seed {seed}");
+            assert!(10 * graded.elements.len() < 9 * uniform.elements.len(), "seed {seed}: {}", graded.elements.len());
+        }
+    }
+
+    #[test]
+    fn tetrahedra_between_cubes_of_different_sizes_have_angles_from_45_to_120_degrees() {
+        let mut lattice = Lattice::around([Vector3::zeros(), Vector3::repeat(30.0)], 1.0);
+        lattice.find_signs(|x| x.iter().all(|x| (0.5..29.5).contains(x)));
+        let octree = Octree::graded(&lattice, 3, |_, _| true);
+        let (mut vertices, mut elements) = (Vec::new(), Vec::new());
+        octree.tetrahedra(|places| {
+            if places.iter().flatten().all(|x| (8..56).contains(x)) {
+                elements.push([0, 1, 2, 3].map(|i| vertices.len() + i));
+                vertices.extend(places.map(|place| lattice.undeformed(place)));
+            }
+        });
+        for element in &mut elements {
+            if crate::signed_volume(element.map(|i| vertices[i])) < 0.0 {
+                element.swap(2, 3);
+            }
+        }
+        let angles = quality(&Mesh::new(vertices, elements)).dihedral_angles.map(|angle| angle.value);
+        assert!((angles[0] - 45.0).abs() < 1e-9 && (angles[1] - 120.0).abs() < 1e-9, "{angles:?}");
     }
 
     #[test]

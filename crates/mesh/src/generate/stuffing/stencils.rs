@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use nalgebra::Vector3;
 
 use super::lattice::{Lattice, Place};
+use super::octree::Octree;
 use super::six_volumes;
 use crate::quality::smallest_dihedral_angle;
 
@@ -31,14 +32,14 @@ struct Filled<'a> {
 }
 
 /// Fills the inside of the surface.
-pub fn fill(lattice: &Lattice) -> (Vec<Vector3<f64>>, Vec<[usize; 4]>) {
+pub fn fill(lattice: &Lattice, octree: &Octree) -> (Vec<Vector3<f64>>, Vec<[usize; 4]>) {
     let mut filled = Filled { lattice, numbers: HashMap::new(), vertices: Vec::new(), elements: Vec::new() };
-    for places in lattice.tetrahedra() {
+    octree.tetrahedra(|places| {
         let corners = places.map(|place| lattice.node(place).map(|node| Corner { node, place }));
         if let [Some(a), Some(b), Some(c), Some(d)] = corners {
             filled.add(&[a, b, c, d]);
         }
-    }
+    });
     (filled.vertices, filled.elements)
 }
 
@@ -52,7 +53,7 @@ impl Filled<'_> {
             ([], _) => {}
             (_, []) => {
                 let vertices = corners.map(|corner| self.node(corner));
-                self.elements.push(vertices);
+                self.push(vertices);
             }
             ([a], _) => {
                 let mut vertices = vec![self.node(*a)];

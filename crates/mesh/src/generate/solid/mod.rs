@@ -3,9 +3,12 @@
 
 use std::f64::consts::PI;
 
+mod triangle;
+
 use nalgebra::Vector3;
 
 use crate::{SurfaceMesh, area_vector};
+use triangle::{closest_of_triangle, crossing, solid_angle};
 
 /// Triangles of a leaf of the tree.
 const LEAF: usize = 4;
@@ -84,6 +87,28 @@ impl Solid {
             }
         }
         sum / (4.0 * PI)
+    }
+
+    /// The point of the surface closest to a point, m; `None` for a surface without triangles.
+    pub fn closest(&self, point: &Vector3<f64>) -> Option<Vector3<f64>> {
+        let (mut best, mut least, mut open) = (None, f64::INFINITY, vec![(0.0, 0)]);
+        while let Some((distance, at)) = open.pop() {
+            let Some(node) = self.nodes.get(at).filter(|_| distance < least) else { continue };
+            if node.second == 0 {
+                for corners in &self.triangles[node.first..node.end] {
+                    let place = closest_of_triangle(corners, point);
+                    let distance = (place - point).norm_squared();
+                    if distance < least {
+                        (best, least) = (Some(place), distance);
+                    }
+                }
+                continue;
+            }
+            let mut parts = [at + 1, node.second].map(|part| (distance_to_box(&self.nodes[part], point), part));
+            parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+            open.extend(parts); // the closer part is looked at first
+        }
+        best
     }
 
     /// The place on the way from a point inside to a point outside where it leaves the solid, as a part of the way.
@@ -173,16 +198,13 @@ fn measure(triangles: &[[Vector3<f64>; 3]], first: usize, end: usize) -> Node {
     Node { least, largest, centre, radius, area, first, end, second: 0 }
 }
 
-/// Solid angle of a triangle from a point, van Oosterom and Strackee, The Solid Angle of a Plane Triangle (1983); positive from behind.
-fn solid_angle(corners: &[Vector3<f64>; 3], point: &Vector3<f64>) -> f64 {
-    let [a, b, c] = corners.map(|corner| corner - point);
-    let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
-    let below = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
-    2.0 * a.dot(&b.cross(&c)).atan2(below)
-}
-
 fn is_in_box(node: &Node, point: &Vector3<f64>) -> bool {
     (0..3).all(|i| node.least[i] <= point[i] && point[i] <= node.largest[i])
+}
+
+/// Squared distance of a point from the box of a node, m².
+fn distance_to_box(node: &Node, point: &Vector3<f64>) -> f64 {
+    (point - point.sup(&node.least).inf(&node.largest)).norm_squared()
 }
 
 fn meets_box(node: &Node, from: &Vector3<f64>, way: &Vector3<f64>) -> bool {
@@ -201,19 +223,34 @@ fn meets_box(node: &Node, from: &Vector3<f64>, way: &Vector3<f64>) -> bool {
     enter <= leave + 1e-9
 }
 
-/// Möller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection (1997).
-fn crossing([a, b, c]: &[Vector3<f64>; 3], from: &Vector3<f64>, way: &Vector3<f64>) -> Option<f64> {
-    let (u, v) = (b - a, c - a);
-    let normal = way.cross(&v);
-    let determinant = u.dot(&normal);
-    if determinant == 0.0 {
-        return None;
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn random(seed: u64) -> impl FnMut() -> Vector3<f64> {
+        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+        move || {
+            Vector3::from_fn(|_, _| {
+                state ^= state << 13;
+                state ^= state >> 7;
+                state ^= state << 17;
+                (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+            })
+        }
     }
-    let off = from - a;
-    let across = off.cross(&u);
-    let (x, y) = (off.dot(&normal) / determinant, way.dot(&across) / determinant);
-    let at = v.dot(&across) / determinant;
-    // A hair beyond the edges: a way through the edge of two triangles must not slip between them.
-    let hair = 1e-10;
-    (x >= -hair && y >= -hair && x + y <= 1.0 + hair && (0.0..=1.0).contains(&at)).then_some(at)
+
+    #[test]
+    fn the_tree_finds_the_closest_triangle() {
+        let mut next = random(7);
+        let vertices: Vec<Vector3<f64>> = (0..300).map(|_| next()).collect();
+        let elements: Vec<[usize; 3]> = (0..100).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        let solid = Solid::new(&SurfaceMesh::new(vertices, elements));
+        for _ in 0..200 {
+            let point = next() * 2.0;
+            let all = solid.triangles.iter().map(|corners| (closest_of_triangle(corners, &point) - point).norm());
+            let found = (solid.closest(&point).unwrap() - point).norm();
+            assert_eq!(found, all.fold(f64::INFINITY, f64::min));
+        }
+        assert_eq!(Solid::new(&SurfaceMesh::default()).closest(&Vector3::zeros()), None);
+    }
 }

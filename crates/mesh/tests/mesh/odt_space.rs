@@ -1,0 +1,172 @@
+//! Improvement of tetrahedra: what must fall, what must rise, and what must stay.
+
+use std::collections::BTreeSet;
+
+use fem_mesh::generate::delaunay::tetrahedralize;
+use fem_mesh::generate::odt::{Improved, improve_graded, improve_inside, improve_tetrahedra};
+use fem_mesh::generate::{Solid, stuff};
+use fem_mesh::{MeshSet, TetrahedralMesh, boundary, box_mesh, check, quality, read_surface, volumes};
+use nalgebra::Vector3;
+
+fn random(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// A box whose inner vertices are moved by up to a part of the cell; the mesh stays valid up to 0.3.
+fn shaken_box(cells: usize, part: f64, seed: u64) -> TetrahedralMesh {
+    let mut mesh = box_mesh([1.0, 1.0, 1.0], cells).unwrap();
+    let mut next = random(seed);
+    for x in &mut mesh.vertices {
+        if x.iter().all(|&x| x > 0.01 && x < 0.99) {
+            *x += Vector3::from_fn(|_, _| (next() - 0.5) * part / cells as f64);
+        }
+    }
+    mesh
+}
+
+/// The Delaunay tetrahedra of random points in a box and of a grid on its sides.
+fn cloud(points: usize, seed: u64) -> TetrahedralMesh {
+    let mut next = random(seed);
+    let on_side = |x: &Vector3<f64>| x.iter().any(|&x| x == 0.0 || x == 1.0);
+    let grid = box_mesh([1.0, 1.0, 1.0], 6).unwrap().vertices.into_iter().filter(on_side);
+    let inside = (0..points).map(|_| Vector3::from_fn(|_, _| 0.08 + 0.84 * next()));
+    tetrahedralize(&grid.chain(inside).collect::<Vec<_>>()).unwrap().mesh
+}
+
+fn faces(mesh: &TetrahedralMesh) -> BTreeSet<[usize; 3]> {
+    let sorted = |mut face: [usize; 3]| {
+        face.sort_unstable();
+        face
+    };
+    boundary(mesh).into_iter().map(sorted).collect()
+}
+
+/// Panics unless an improvement holds what is promised of all.
+fn is_sound(before: &TetrahedralMesh, improved: &Improved) {
+    let mesh = &improved.mesh;
+    check(mesh, "improved".as_ref()).unwrap();
+    assert_eq!(faces(before), faces(mesh));
+    for face in boundary(before).iter().flatten() {
+        assert_eq!(before.vertices[*face], mesh.vertices[*face]);
+    }
+    let [old, new] = [before, mesh].map(|mesh| volumes(mesh).iter().sum::<f64>());
+    assert!((new / old - 1.0).abs() < 1e-12, "{old} {new}");
+    let (old, new) = (quality(before), quality(mesh));
+    assert!(new.dihedral_angles[0].value >= old.dihedral_angles[0].value);
+    assert!(new.dihedral_angles[1].value <= old.dihedral_angles[1].value);
+    assert!(new.radius_ratio.value >= old.radius_ratio.value);
+    for pair in improved.smoothing.windows(2) {
+        assert!(pair[1].energy <= pair[0].energy * (1.0 + 1e-12), "{pair:?}");
+    }
+    for pair in improved.smoothing.windows(2).chain(improved.polishing.windows(2)) {
+        assert!(pair[1].angles[0] >= pair[0].angles[0] - 1e-9, "{pair:?}");
+        assert!(pair[1].largest_angle <= pair[0].largest_angle + 1e-9, "{pair:?}");
+        assert!(pair[1].radius_ratio >= pair[0].radius_ratio - 1e-12, "{pair:?}");
+    }
+}
+
+#[test]
+fn the_energy_falls_the_worst_element_rises_and_the_boundary_stays() {
+    for seed in 1..=6 {
+        let mesh = if seed % 2 == 0 { shaken_box(6, 0.6, seed) } else { cloud(150, seed) };
+        let improved = improve_tetrahedra(&mesh, 6);
+        is_sound(&mesh, &improved);
+        let energy = |i: usize| improved.smoothing[i].energy;
+        assert!(energy(6) < 0.98 * energy(0), "seed {seed}: {} {}", energy(0), energy(6));
+        let [old, new] = [&mesh, &improved.mesh].map(|mesh| quality(mesh).dihedral_angles[0].value);
+        assert!(new > 1.2 * old, "seed {seed}: {old} {new}");
+    }
+}
+
+#[test]
+fn the_tetrahedra_inside_a_surface_lose_their_worst_angles() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/stanford/armadillo_12k.obj");
+    let mesh = stuff(&read_surface(file.as_ref()).unwrap(), 0.05).unwrap();
+    let improved = improve_tetrahedra(&mesh, 5);
+    is_sound(&mesh, &improved);
+    let [old, new] = [&mesh, &improved.mesh].map(|mesh| quality(mesh).dihedral_angles[0].value);
+    assert!(new > 1.4 * old, "{old} {new}");
+}
+
+#[test]
+fn the_boundary_slides_on_the_surface_and_gains_more() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/stanford/armadillo_12k.obj");
+    let surface = read_surface(file.as_ref()).unwrap();
+    let (mesh, solid) = (stuff(&surface, 0.05).unwrap(), Solid::new(&surface));
+    let improved = improve_inside(&mesh, 5, &solid).mesh;
+    check(&improved, "improved".as_ref()).unwrap();
+    assert_eq!(faces(&mesh), faces(&improved));
+    for vertex in boundary(&improved).into_iter().flatten() {
+        let x = improved.vertices[vertex];
+        let distance = (solid.closest(&x).unwrap() - x).norm();
+        assert!(distance < 1e-7, "{vertex}: {distance:e}");
+    }
+    let [old, new] = [&mesh, &improved].map(|mesh| volumes(mesh).iter().sum::<f64>());
+    assert!((new / old - 1.0).abs() < 0.01, "{old} {new}");
+    let angles = quality(&improved).dihedral_angles.map(|angle| angle.value);
+    assert!(angles[0] > 25.0 && angles[1] < 140.0, "{angles:?}");
+}
+
+#[test]
+fn without_iterations_the_mesh_is_the_same() {
+    let mesh = shaken_box(3, 0.4, 1);
+    assert_eq!(improve_tetrahedra(&mesh, 0).mesh, mesh);
+}
+
+#[test]
+fn the_same_mesh_is_improved_in_the_same_way() {
+    let mesh = cloud(60, 9);
+    assert_eq!(improve_tetrahedra(&mesh, 3), improve_tetrahedra(&mesh, 3));
+}
+
+#[test]
+fn sets_keep_their_volumes_and_the_faces_edges_and_points_that_they_name() {
+    let mut mesh = cloud(200, 3);
+    let left = |mesh: &TetrahedralMesh, element: &[usize; 4]| {
+        element.iter().map(|&i| mesh.vertices[i].x).sum::<f64>() < 4.0 * 0.4
+    };
+    let elements = |is_left: bool| {
+        let wanted = |i: &usize| left(&mesh, &mesh.elements[*i]) == is_left;
+        MeshSet { elements: (0..mesh.elements.len()).filter(wanted).collect(), ..MeshSet::default() }
+    };
+    let (west, east) = (elements(true), elements(false));
+    let mut own = mesh.elements[mesh.elements.len() / 2];
+    own.sort_unstable();
+    let named = MeshSet {
+        faces: vec![[own[0], own[1], own[2]]],
+        edges: vec![[own[1], own[3]]],
+        points: vec![230],
+        ..MeshSet::default()
+    };
+    mesh.sets = [("west", west), ("east", east), ("named", named)].map(|(name, set)| (name.to_owned(), set)).into();
+    check(&mesh, "sets".as_ref()).unwrap();
+    let improved = improve_tetrahedra(&mesh, 5);
+    is_sound(&mesh, &improved); // its check refuses a set with a face or an edge that is no part of the mesh
+    assert_eq!(improved.mesh.sets["named"], mesh.sets["named"]);
+    assert_eq!(improved.mesh.vertices[230], mesh.vertices[230]);
+    for name in ["west", "east"] {
+        let part = |mesh: &TetrahedralMesh| {
+            let elements = mesh.sets[name].elements.iter().map(|&i| mesh.elements[i]);
+            TetrahedralMesh::new(mesh.vertices.clone(), elements.collect())
+        };
+        assert_eq!(faces(&part(&mesh)), faces(&part(&improved.mesh)), "{name}");
+        let volume = |mesh: &TetrahedralMesh| volumes(&part(mesh)).iter().sum::<f64>();
+        assert!((volume(&improved.mesh) / volume(&mesh) - 1.0).abs() < 1e-12, "{name}");
+    }
+}
+
+#[test]
+fn a_size_field_draws_vertices_to_where_elements_shall_be_small() {
+    let mesh = shaken_box(8, 0.3, 5);
+    let inside = |mesh: &TetrahedralMesh| mesh.vertices.iter().filter(|x| x.x > 0.01 && x.x < 0.5).count();
+    let improved = improve_graded(&mesh, 15, |x| 0.03 + 0.2 * x.x);
+    is_sound(&mesh, &improved);
+    let (old, new) = (inside(&mesh), inside(&improved.mesh));
+    assert!(new as f64 > 1.1 * old as f64, "{old} {new}");
+}
