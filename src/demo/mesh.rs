@@ -5,6 +5,7 @@ mod delaunay;
 mod from_surface;
 mod improve;
 mod info;
+mod shapes;
 
 use std::path::{Path, PathBuf};
 
@@ -16,8 +17,8 @@ use super::end::End;
 /// The subcommands of `mesh`.
 #[derive(Debug, Subcommand)]
 pub enum MeshAction {
-    /// Counts, volume and quality of a mesh (.node, .mesh, .msh, .vtu, .vtk), or of a surface (.obj, .ply, .stl, or a mesh of triangles)
-    Info { file: PathBuf },
+    /// Counts, volume, quality and histograms of a mesh (.node, .mesh, .msh, .vtu, .vtk), or of a surface (.obj, .ply, .stl, or a mesh of triangles)
+    Info(info::Arguments),
     /// Reads tetrahedra or triangles and writes them in another format
     Convert { from: PathBuf, to: PathBuf },
     /// Delaunay triangles of points in the plane, or tetrahedra of points in space (.csv, .node)
@@ -32,7 +33,7 @@ impl MeshAction {
     /// Runs the subcommand.
     pub fn run(&self) -> Result<(), End> {
         match self {
-            Self::Info { file } => info::run(file).map_err(End::unusable),
+            Self::Info(arguments) => info::run(arguments).map_err(End::unusable),
             Self::Convert { from, to } => convert::run(from, to).map_err(End::unusable),
             Self::Delaunay { points, out } => delaunay::run(points, out),
             Self::FromSurface(arguments) => from_surface::run(arguments).map_err(End::unusable),

@@ -24,6 +24,44 @@ fn info_prints_the_numbers_of_vertices_and_tetrahedra_and_the_volume() {
 }
 
 #[test]
+fn info_prints_distributions_and_the_boundary_and_draws_them() {
+    let desk = Desk::new();
+    let path = data().join("own/armadillo_own_coarse.node");
+    let text = desk.run_well(&format!("mesh info {} --picture a.svg", path.display())).stdout;
+    for line in [
+        "boundary: closed                   yes",
+        "boundary: manifold                 yes",
+        "self-intersections                   0",
+    ] {
+        assert!(text.lines().any(|found| found == line), "{line}\n{text}");
+    }
+    for title in [
+        "dihedral angle, °",
+        "radius ratio",
+        "aspect ratio",
+        "circumradius / shortest edge",
+        "volume ratio of neighbours",
+    ] {
+        assert!(text.lines().any(|found| found == title), "{title}\n{text}");
+    }
+    // The bins of a histogram hold all values: six angles of each of 602 tetrahedra.
+    let bins = text.lines().skip_while(|line| *line != "dihedral angle, °").skip(1).take_while(|line| !line.is_empty());
+    let count = |line: &str| line.split_whitespace().nth(3).unwrap().parse::<usize>().unwrap();
+    assert_eq!(bins.map(count).sum::<usize>(), 6 * 602);
+    let picture = std::fs::read_to_string(desk.path("a.svg")).unwrap();
+    assert!(picture.matches("<polygon").count() > 150 && picture.contains(">radius ratio<"));
+    assert!(desk.refused(&format!("mesh info {} --picture a.png", path.display())).contains("use one of .svg"));
+}
+
+#[test]
+fn info_counts_crossing_triangles_of_a_surface() {
+    let desk = Desk::new();
+    desk.write("s.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0.5 0.5 -1\nv 0.5 0.5 1\nv 3 3 0\nf 1 2 3\nf 4 5 6\n");
+    let text = desk.run_well("mesh info s.obj").stdout;
+    assert!(text.contains("self-intersections        1 (the first: triangles 0 and 1)"), "{text}");
+}
+
+#[test]
 fn a_mesh_is_the_same_after_conversion_through_every_format() {
     let desk = Desk::new();
     let original = data().join("own/armadillo_own_coarse.node");

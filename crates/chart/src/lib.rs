@@ -1,4 +1,4 @@
-//! Self-contained SVG charts and HTML pages: points and lines on two axes, dots in rows, heat maps, bars, histograms.
+//! Self-contained SVG charts and HTML pages: points and lines on two axes, dots in rows, heat maps, bars, histograms, triangles in space.
 //!
 //! A [`Picture`] is drawn inline in a page that includes [`STYLE`], or written as a file of its own. Values that are not finite, or
 //! not positive on a logarithmic axis, are left out: no picture contains a NaN.
@@ -13,20 +13,26 @@
 mod axis;
 mod bars;
 mod chart;
+mod distribution;
 mod dot_rows;
+mod grid;
 mod heat_map;
 mod histogram;
 pub mod page;
 mod picture;
 mod svg;
+mod triangles;
 
 pub use axis::{Axis, Scale};
 pub use bars::{Bar, bars};
 pub use chart::{Chart, Dot, Guide, Series};
+pub use distribution::distribution;
 pub use dot_rows::{DotRow, dot_rows};
+pub use grid::grid;
 pub use heat_map::{Cell, Curve, HeatMap, Shade};
 pub use histogram::histogram;
 pub use picture::Picture;
+pub use triangles::triangles;
 
 /// Colours of all pictures, light and dark.
 pub const STYLE: &str = include_str!("picture.css");

@@ -102,3 +102,34 @@ fn the_last_tenth_of_a_histogram_includes_one() {
         "{inner}"
     );
 }
+
+#[test]
+fn a_distribution_has_a_bar_for_each_bin_with_values_and_names_its_ends() {
+    let ends = ["0", "1", "2", ""].map(str::to_owned);
+    let picture = distribution("shares", &ends, &[3, 0, 1]);
+    assert_eq!(picture.inner.0.matches("<rect").count(), 2);
+    assert!(picture.inner.0.contains("0 … 1: 3, 75.00 %"));
+    assert_finite(&distribution("no values", &[], &[]).standalone());
+}
+
+#[test]
+fn a_grid_holds_every_picture_under_its_label() {
+    let one = distribution("first", &["0".to_owned(), "1".to_owned()], &[1]);
+    let all = grid("both", 1, &[one.clone(), distribution("second", &[], &[])]);
+    assert!(all.inner.0.contains(">first<") && all.inner.0.contains(">second<"));
+    assert!(all.size.1 > 2.0 * one.size.1 && all.size.0 == one.size.0);
+    assert_finite(&grid("no picture", 2, &[]).standalone());
+}
+
+#[test]
+fn triangles_that_are_hidden_are_left_out() {
+    let flat = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]];
+    let count =
+        |all: &[[[f64; 3]; 3]]| triangles("a body", all).map(|picture| picture.inner.0.matches("<polygon").count());
+    let small = flat(-1e-3).map(|[x, y, z]| [0.2 + 0.2 * x, 0.2 + 0.2 * y, z]);
+    assert_eq!(count(&[flat(0.0), small]), Some(1), "the front one hides the other");
+    assert_eq!(count(&[flat(0.0), flat(5.0)]), Some(2), "seen beside each other");
+    assert_eq!(count(&[flat(f64::NAN), flat(0.0)]), Some(1));
+    assert_eq!(count(&[]), None);
+    assert_finite(&triangles("a point", &[[[1.0; 3]; 3]]).unwrap().standalone());
+}

@@ -12,19 +12,43 @@ pub(crate) const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 
 /// vertex that its element names first. Faces are sorted into buckets by their smallest vertex: O(m) time and 48 m bytes for m
 /// elements. Indices have to be in range, as they are after [`check`](super::check).
 pub fn boundary(mesh: &TetrahedralMesh) -> Vec<[usize; 3]> {
+    let mut outside = Vec::new();
+    for_each_face(mesh, |elements| {
+        if let [face] = elements {
+            outside.push(*face);
+        }
+    });
+    outside.sort_unstable();
+    outside.into_iter().map(|face| corners(mesh, face)).collect()
+}
+
+/// Pairs of elements with a common face, each with the smaller index first.
+pub(crate) fn neighbours(mesh: &TetrahedralMesh) -> Vec<[usize; 2]> {
+    let mut pairs = Vec::with_capacity(2 * mesh.elements.len());
+    for_each_face(mesh, |elements| {
+        if let [a, b] = elements {
+            pairs.push([a / 4, b / 4]);
+        }
+    });
+    pairs
+}
+
+/// Calls a function with the numbers of each face, ascending: once for every element that has it.
+fn for_each_face(mesh: &TetrahedralMesh, mut call: impl FnMut(&[usize])) {
     let faces = (0..4 * mesh.elements.len()).map(|face| {
         let mut key = corners(mesh, face);
         key.sort_unstable();
         // A mesh with more than 2³² nodes or faces fits into no memory.
         (key[0], [key[1] as u32, key[2] as u32, face as u32])
     });
-    let mut outside = Vec::new();
+    let mut numbers = Vec::new();
     for faces in Buckets::new(faces).iter() {
-        let equal = faces.chunk_by(|a, b| a[..2] == b[..2]);
-        outside.extend(equal.filter(|equal| equal.len() == 1).map(|equal| equal[0][2] as usize));
+        for equal in faces.chunk_by(|a, b| a[..2] == b[..2]) {
+            numbers.clear();
+            numbers.extend(equal.iter().map(|face| face[2] as usize));
+            call(&numbers);
+        }
     }
-    outside.sort_unstable();
-    outside.into_iter().map(|face| corners(mesh, face)).collect()
 }
 
 /// The corners of face `face % 4` of element `face / 4`.

@@ -28,6 +28,7 @@ use nalgebra::SVector;
 
 mod boundary;
 mod box_mesh;
+mod boxes;
 mod buckets;
 mod check;
 mod connectivity;
@@ -35,6 +36,7 @@ mod error;
 pub mod generate;
 mod join;
 mod measures;
+mod orient;
 mod quality;
 mod read;
 mod refine;
@@ -50,7 +52,11 @@ pub use error::{MeshError, Place, Problem};
 pub use join::join;
 pub(crate) use measures::signed_volume;
 pub use measures::{area_vector, volumes};
-pub use quality::{Extreme, Quality, SurfaceQuality, TriangleQuality, quality, surface_quality, triangle_quality};
+pub use orient::oriented;
+pub use quality::{
+    Distribution, Extreme, Quality, SelfIntersections, SurfaceQuality, TriangleQuality, quality, self_intersections,
+    surface_quality, tetrahedron_distributions, triangle_distributions, triangle_quality,
+};
 pub use read::{AnyMesh, Points, is_surface, read_mesh, read_points, read_surface, read_tetrahedra};
 pub use refine::refine;
 pub use sets::MeshSet;

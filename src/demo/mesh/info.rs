@@ -1,19 +1,49 @@
 //! `mesh info`: counts, sizes and shapes.
 
 use std::collections::HashSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use fem_mesh::{AnyMesh, MeshError, SurfaceMesh, TetrahedralMesh};
+use fem_mesh::{
+    AnyMesh, Distribution, MeshError, SurfaceMesh, TetrahedralMesh, boundary, self_intersections, surface_quality,
+    tetrahedron_distributions, triangle_distributions,
+};
+
+use super::shapes;
+
+/// Arguments of the subcommand.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    file: PathBuf,
+    /// Draw the mesh and the histograms
+    #[arg(long, value_name = "OUT.svg")]
+    picture: Option<PathBuf>,
+}
 
 /// Prints the measures of a mesh or of a surface.
-pub fn run(file: &Path) -> Result<(), MeshError> {
-    match fem_mesh::read_mesh(file)? {
-        AnyMesh::Tetrahedra(mesh) => info(file, &mesh),
+pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
+    let file = &arguments.file;
+    let (surface, distributions) = match fem_mesh::read_mesh(file)? {
+        AnyMesh::Tetrahedra(mesh) => {
+            info(file, &mesh)?;
+            (surface_of(&mesh), tetrahedron_distributions(&mesh))
+        }
         AnyMesh::Triangles(mesh) => {
             surface_info(&mesh);
-            Ok(())
+            let distributions = triangle_distributions(&mesh);
+            (mesh, distributions)
         }
-    }
+    };
+    shapes::print(&distributions);
+    draw(arguments, &surface, &distributions)
+}
+
+fn draw(arguments: &Arguments, surface: &SurfaceMesh, distributions: &[Distribution]) -> Result<(), MeshError> {
+    let Some(picture) = &arguments.picture else { return Ok(()) };
+    let name = arguments.file.file_name().unwrap_or_default().to_string_lossy();
+    shapes::draw(picture, &name, surface, distributions)?;
+    say!();
+    say!("{}: the mesh and its histograms", picture.display());
+    Ok(())
 }
 
 fn info(file: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
@@ -28,15 +58,65 @@ fn info(file: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
     say!("{:<26}{coincident:>12}", "coincident nodes");
     // The check refuses a mesh that has some.
     say!("{:<26}{:>12}", "duplicate elements", 0);
+    boundary_info(&surface_of(mesh));
     for (name, set) in &mesh.sets {
         say!("set {name:?}: {}", set.counts());
     }
     Ok(())
 }
 
+/// The boundary alone, with vertices of its own.
+fn surface_of(mesh: &TetrahedralMesh) -> SurfaceMesh {
+    let mut elements = boundary(mesh);
+    let mut numbers = vec![usize::MAX; mesh.vertices.len()];
+    let mut vertices = Vec::new();
+    for vertex in elements.iter_mut().flatten() {
+        if numbers[*vertex] == usize::MAX {
+            numbers[*vertex] = vertices.len();
+            vertices.push(mesh.vertices[*vertex]);
+        }
+        *vertex = numbers[*vertex];
+    }
+    SurfaceMesh::new(vertices, elements)
+}
+
+fn boundary_info(surface: &SurfaceMesh) {
+    let found = surface_quality(surface);
+    let rows = [
+        ("boundary: closed", yes(found.is_closed()).to_owned()),
+        ("boundary: manifold", yes(found.is_manifold()).to_owned()),
+        ("boundary: parts", found.parts.to_string()),
+        ("boundary: Euler number", found.euler_characteristic.to_string()),
+        ("boundary: area, m²", format!("{:.6e}", found.area)),
+        ("self-intersections", crossings(surface)),
+    ];
+    rows.iter().for_each(|(name, figure)| say!("{name:<26}{figure:>12}"));
+}
+
 fn surface_info(mesh: &SurfaceMesh) {
-    say!("{}", fem_mesh::surface_quality(mesh).to_string().trim_end());
+    let found = surface_quality(mesh);
+    say!("{}", found.to_string().trim_end());
+    let rows = [
+        ("closed", yes(found.is_closed()).to_owned()),
+        ("manifold", yes(found.is_manifold()).to_owned()),
+        ("self-intersections", crossings(mesh)),
+    ];
+    rows.iter().for_each(|(name, figure)| say!("{name:<26}{figure:>12}"));
     for (name, set) in &mesh.sets {
         say!("set {name:?}: {}", set.counts_of_triangles());
+    }
+}
+
+fn yes(holds: bool) -> &'static str {
+    if holds { "yes" } else { "no" }
+}
+
+/// Number of crossing pairs of triangles, and the first.
+fn crossings(mesh: &SurfaceMesh) -> String {
+    let found = self_intersections(mesh);
+    let count = format!("{}{}", if found.has_more { "at least " } else { "" }, found.count);
+    match found.first {
+        Some([a, b]) => format!("{count} (the first: triangles {a} and {b})"),
+        None => count,
     }
 }

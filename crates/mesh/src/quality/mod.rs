@@ -1,9 +1,15 @@
 //! Sizes and shapes of elements, and faults of surfaces.
 
+mod distribution;
+mod distributions;
+mod intersections;
 mod surface;
 mod tetrahedra;
 mod triangles;
 
+pub use distribution::Distribution;
+pub use distributions::{tetrahedron_distributions, triangle_distributions};
+pub use intersections::{SelfIntersections, self_intersections};
 pub use surface::{SurfaceQuality, surface_quality};
 pub(crate) use tetrahedra::smallest_dihedral_angle;
 pub use tetrahedra::{Quality, quality};

@@ -3,8 +3,6 @@
 use std::collections::HashMap;
 use std::fmt;
 
-use nalgebra::Vector3;
-
 use super::triangles::{TriangleShape, measure};
 use crate::SurfaceMesh;
 
@@ -29,6 +27,8 @@ pub struct SurfaceQuality {
     pub branching_edges: usize,
     /// Edges of two triangles that run through them in one direction. An oriented surface has none.
     pub flipped_edges: usize,
+    /// Vertices whose triangles do not form one fan, such as the point in which two cones touch. A manifold has none.
+    pub branching_vertices: usize,
     /// Triangles without area within rounding.
     pub flat_triangles: usize,
     /// Smallest and largest angle of the others, degrees.
@@ -40,7 +40,12 @@ pub struct SurfaceQuality {
 }
 
 impl SurfaceQuality {
-    /// Whether the surface encloses a volume: closed, a manifold, all triangles turned alike.
+    /// Whether every edge has one or two triangles and every vertex one fan of them.
+    pub fn is_manifold(&self) -> bool {
+        self.branching_edges == 0 && self.branching_vertices == 0
+    }
+
+    /// Whether the surface encloses a volume: no open, branching or flipped edge.
     pub fn is_closed(&self) -> bool {
         self.triangles > 0
             && [self.open_edges, self.branching_edges, self.flipped_edges].iter().all(|&edges| edges == 0)
@@ -72,6 +77,7 @@ pub fn surface_quality(mesh: &SurfaceMesh) -> SurfaceQuality {
         open_edges: count(|edge| edge.triangles == 1),
         branching_edges: count(|edge| edge.triangles > 2),
         flipped_edges: count(|edge| edge.triangles == 2 && edge.direction != 0),
+        branching_vertices: branching_vertices(mesh, &edges),
         flat_triangles: shapes.iter().filter(|shape| shape.is_flat).count(),
         angles: [
             solid().map(|shape| shape.angles[0]).fold(f64::INFINITY, f64::min),
@@ -83,18 +89,20 @@ pub fn surface_quality(mesh: &SurfaceMesh) -> SurfaceQuality {
 }
 
 /// The triangles at an edge.
-#[derive(Default)]
 struct Edge {
     triangles: usize,
     /// How many of them run from the smaller to the larger vertex, less those that run back.
     direction: i32,
+    /// The first of them.
+    first: usize,
 }
 
 fn edges(mesh: &SurfaceMesh) -> HashMap<[usize; 2], Edge> {
     let mut edges: HashMap<[usize; 2], Edge> = HashMap::with_capacity(3 * mesh.elements.len() / 2);
-    for &[a, b, c] in &mesh.elements {
+    for (first, &[a, b, c]) in mesh.elements.iter().enumerate() {
         for (from, to) in [(a, b), (b, c), (c, a)] {
-            let edge = edges.entry([from.min(to), from.max(to)]).or_default();
+            let new = Edge { triangles: 0, direction: 0, first };
+            let edge = edges.entry([from.min(to), from.max(to)]).or_insert(new);
             edge.triangles += 1;
             edge.direction += if from < to { 1 } else { -1 };
         }
@@ -102,26 +110,54 @@ fn edges(mesh: &SurfaceMesh) -> HashMap<[usize; 2], Edge> {
     edges
 }
 
-/// Number of parts that share no vertex, by union of sets, Tarjan (1975).
+/// Number of parts that share no vertex.
 fn parts(mesh: &SurfaceMesh) -> usize {
     let mut parent: Vec<usize> = (0..mesh.vertices.len()).collect();
-    fn root(parent: &mut [usize], mut at: usize) -> usize {
-        while parent[at] != at {
-            parent[at] = parent[parent[at]];
-            at = parent[at];
-        }
-        at
-    }
     for &[a, b, c] in &mesh.elements {
-        for (a, b) in [(a, b), (b, c)] {
-            let (a, b) = (root(&mut parent, a), root(&mut parent, b));
-            parent[a] = b;
-        }
+        join(&mut parent, a, b);
+        join(&mut parent, b, c);
     }
     let mut roots: Vec<usize> = mesh.elements.iter().map(|element| root(&mut parent, element[0])).collect();
     roots.sort_unstable();
     roots.dedup();
     roots.len()
+}
+
+/// Number of vertices with more than one fan. Corners of triangles at one vertex belong together if the triangles share an edge there.
+fn branching_vertices(mesh: &SurfaceMesh, edges: &HashMap<[usize; 2], Edge>) -> usize {
+    let corner = |triangle: usize, vertex: usize| {
+        3 * triangle + mesh.elements[triangle].iter().position(|&i| i == vertex).unwrap_or(0)
+    };
+    let mut parent: Vec<usize> = (0..3 * mesh.elements.len()).collect();
+    for (triangle, &[a, b, c]) in mesh.elements.iter().enumerate() {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            let first = edges[&[from.min(to), from.max(to)]].first;
+            for end in [from, to] {
+                join(&mut parent, corner(triangle, end), corner(first, end));
+            }
+        }
+    }
+    let mut fans = vec![0_usize; mesh.vertices.len()];
+    for at in 0..parent.len() {
+        if root(&mut parent, at) == at {
+            fans[mesh.elements[at / 3][at % 3]] += 1;
+        }
+    }
+    fans.into_iter().filter(|&fans| fans > 1).count()
+}
+
+/// Root of an entry in a forest of sets: Tarjan, Efficiency of a Good But Not Linear Set Union Algorithm (1975).
+fn root(parent: &mut [usize], mut at: usize) -> usize {
+    while parent[at] != at {
+        parent[at] = parent[parent[at]];
+        at = parent[at];
+    }
+    at
+}
+
+fn join(parent: &mut [usize], a: usize, b: usize) {
+    let (a, b) = (root(parent, a), root(parent, b));
+    parent[a] = b;
 }
 
 impl fmt::Display for SurfaceQuality {
@@ -132,6 +168,7 @@ impl fmt::Display for SurfaceQuality {
             ("connected parts", self.parts),
             ("open edges", self.open_edges),
             ("edges of over 2 triangles", self.branching_edges),
+            ("vertices of over 1 fan", self.branching_vertices),
             ("edges of flipped triangles", self.flipped_edges),
             ("triangles without area", self.flat_triangles),
         ];
@@ -156,6 +193,7 @@ impl fmt::Display for SurfaceQuality {
 #[cfg(test)]
 mod tests {
     use approx::assert_relative_eq;
+    use nalgebra::Vector3;
 
     use super::*;
     use crate::{boundary, box_mesh};
@@ -201,6 +239,19 @@ mod tests {
         branching.elements.push([a, b, branching.vertices.len() - 1]);
         assert_eq!(surface_quality(&branching).branching_edges, 1);
         assert!(!surface_quality(&branching).is_closed());
+        assert!(!surface_quality(&branching).is_manifold());
+        let mut touching = cube();
+        let count = touching.vertices.len();
+        touching.vertices.extend(cube().vertices.iter().map(|x| x + Vector3::repeat(1.0)));
+        touching.elements.extend(cube().elements.iter().map(|element| element.map(|i| i + count)));
+        assert!(surface_quality(&touching).is_manifold());
+        // The corner in which the two cubes touch becomes one vertex.
+        let corner = |x: f64| touching.vertices.iter().position(|y| *y == Vector3::repeat(x)).unwrap();
+        let (last, first) = (corner(1.0), count + corner(0.0));
+        touching.elements.iter_mut().flatten().filter(|i| **i == first).for_each(|i| *i = last);
+        let found = surface_quality(&touching);
+        assert_eq!((found.branching_vertices, found.branching_edges, found.parts), (1, 0, 1));
+        assert!(found.is_closed() && !found.is_manifold());
         let mut flat = cube();
         flat.elements.push([a, b, a]);
         assert_eq!(surface_quality(&flat).flat_triangles, 1);

@@ -34,7 +34,7 @@ pub struct Quality {
 
 /// Measures a mesh that has passed [`check`](crate::check).
 pub fn quality(mesh: &TetrahedralMesh) -> Quality {
-    let shapes: Vec<Shape> = mesh.elements.iter().map(|e| measure(e.map(|i| mesh.vertices[i]))).collect();
+    let shapes: Vec<Shape> = mesh.elements.iter().map(|e| shape(e.map(|i| mesh.vertices[i]))).collect();
     let smallest = |value: fn(&Shape) -> f64| extreme(&shapes, value);
     let largest = |value: fn(&Shape) -> f64| extreme(&shapes, |shape| -value(shape)).negated();
     Quality {
@@ -44,51 +44,68 @@ pub fn quality(mesh: &TetrahedralMesh) -> Quality {
         volume: shapes.iter().map(|shape| shape.volume).sum(),
         volumes: [smallest(|shape| shape.volume), largest(|shape| shape.volume)],
         smallest_height: smallest(|shape| shape.height),
-        dihedral_angles: [smallest(|shape| shape.angles[0]), largest(|shape| shape.angles[1])],
+        dihedral_angles: [smallest(|shape| least(&shape.angles)), largest(|shape| most(&shape.angles))],
         radius_ratio: smallest(|shape| shape.radius_ratio),
         mean_radius_ratio: shapes.iter().map(|shape| shape.radius_ratio).sum::<f64>() / shapes.len().max(1) as f64,
     }
 }
 
-/// One element's volume (m³), smallest height (m), smallest and largest dihedral angle (degrees), and `3 r / R`.
-struct Shape {
-    volume: f64,
-    height: f64,
-    angles: [f64; 2],
-    radius_ratio: f64,
+/// Measures of one tetrahedron.
+pub(super) struct Shape {
+    /// m³
+    pub volume: f64,
+    /// Smallest height, m.
+    pub height: f64,
+    /// Dihedral angles, degrees.
+    pub angles: [f64; 6],
+    /// `3 r / R`
+    pub radius_ratio: f64,
+    /// Longest edge over `2 √6 r`.
+    pub aspect_ratio: f64,
+    /// Circumradius over shortest edge.
+    pub radius_to_edge: f64,
 }
 
 /// Smallest dihedral angle of a tetrahedron, degrees.
 pub(crate) fn smallest_dihedral_angle(corners: [Vector3<f64>; 4]) -> f64 {
-    dihedral_angles(FACES.map(|face| area_vector(face.map(|i| corners[i]))))[0]
+    least(&dihedral_angles(FACES.map(|face| area_vector(face.map(|i| corners[i])))))
 }
 
-fn measure(corners: [Vector3<f64>; 4]) -> Shape {
+/// Measures a tetrahedron.
+pub(super) fn shape(corners: [Vector3<f64>; 4]) -> Shape {
     let volume = signed_volume(corners);
     let normals = FACES.map(|face| area_vector(face.map(|i| corners[i])));
     let areas = normals.map(|normal| normal.norm());
-    let largest = areas.into_iter().fold(0.0, f64::max);
+    let edges = PAIRS.map(|[i, j]| (corners[i] - corners[j]).norm());
     let inscribed = 3.0 * volume / areas.iter().sum::<f64>();
+    let circumscribed = circumradius(corners, volume);
     Shape {
         volume,
-        height: 3.0 * volume / largest,
+        height: 3.0 * volume / most(&areas),
         angles: dihedral_angles(normals),
-        radius_ratio: 3.0 * inscribed / circumradius(corners, volume),
+        radius_ratio: 3.0 * inscribed / circumscribed,
+        aspect_ratio: most(&edges) / (24.0_f64.sqrt() * inscribed),
+        radius_to_edge: circumscribed / least(&edges),
     }
 }
 
-/// Smallest and largest of the six dihedral angles, degrees, by the arc tangent: the arc cosine loses half of the digits near 0°
-/// and 180°.
-fn dihedral_angles(normals: [Vector3<f64>; 4]) -> [f64; 2] {
-    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
-    for i in 0..4 {
-        for j in 0..i {
-            let between = normals[i].cross(&normals[j]).norm().atan2(normals[i].dot(&normals[j]));
-            let angle = (PI - between).to_degrees();
-            range = [range[0].min(angle), range[1].max(angle)];
-        }
-    }
-    range
+/// Pairs of corners, and of the faces opposite to them.
+const PAIRS: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+
+/// The six dihedral angles, degrees, by the arc tangent: the arc cosine loses half of the digits near 0° and 180°.
+fn dihedral_angles(normals: [Vector3<f64>; 4]) -> [f64; 6] {
+    PAIRS.map(|[i, j]| {
+        let between = normals[i].cross(&normals[j]).norm().atan2(normals[i].dot(&normals[j]));
+        (PI - between).to_degrees()
+    })
+}
+
+fn least(values: &[f64]) -> f64 {
+    values.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+fn most(values: &[f64]) -> f64 {
+    values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// `|a² (b×c) + b² (c×a) + c² (a×b)| / (12 V)` with a, b, c the edges from one vertex.
