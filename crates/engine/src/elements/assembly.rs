@@ -16,21 +16,21 @@ use crate::tensor::{from_fn, volume_change};
 
 impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     /// Elastic energy at displacements `u` of all nodes, J; not finite where the law does not allow an element.
-    pub fn energy(&self, law: &dyn Law<T::Lanes>, u: &[[T; D]]) -> f64 {
+    pub fn energy(&self, law: &dyn Law<T::Lanes>, u: &[[T; 3]]) -> f64 {
         let of_chunk = |chunk: &Chunk<T, D, N>, _: &mut [()]| energy_of(chunk, law, u);
         over_chunks(&self.chunks, &mut [], |_| 0, &of_chunk)
     }
 
     /// Σ V G:G, m³: a measure of the rounding error in the energies of rotated elements. It grows with the rotation, their energies
     /// do not.
-    pub fn squares(&self, u: &[[T; D]]) -> f64 {
+    pub fn squares(&self, u: &[[T; 3]]) -> f64 {
         let of_chunk = |chunk: &Chunk<T, D, N>, _: &mut [()]| squares_of(chunk, u);
         over_chunks(&self.chunks, &mut [], |_| 0, &of_chunk)
     }
 
     /// Adds the gradient of the energy by the nodes' positions, N.
-    pub fn add_gradient<L: Law<T::Lanes> + ?Sized>(&self, law: &L, u: &[[T; D]], gradient: &mut [[T; D]]) {
-        let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; D]]| {
+    pub fn add_gradient<L: Law<T::Lanes> + ?Sized>(&self, law: &L, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
+        let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; 3]]| {
             add_gradient_of(chunk, law, u, sums);
             0.0
         };
@@ -41,10 +41,10 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     pub fn add_energy_and_gradient<L: Law<T::Lanes> + ?Sized>(
         &self,
         law: &L,
-        u: &[[T; D]],
-        gradient: &mut [[T; D]],
+        u: &[[T; 3]],
+        gradient: &mut [[T; 3]],
     ) -> f64 {
-        let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; D]]| add_energy_and_gradient_of(chunk, law, u, sums);
+        let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; 3]]| add_energy_and_gradient_of(chunk, law, u, sums);
         over_chunks(&self.chunks, gradient, |chunk| chunk.nodes.end, &of_chunk)
     }
 
@@ -53,10 +53,10 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
         &self,
         law: &L,
         factor: T,
-        u: &[[T; D]],
-        values: &mut [Block<T, D>],
+        u: &[[T; 3]],
+        values: &mut [Block<T, 3>],
     ) {
-        let of_chunk = |chunk: &Chunk<T, D, N>, values: &mut [Block<T, D>]| {
+        let of_chunk = |chunk: &Chunk<T, D, N>, values: &mut [Block<T, 3>]| {
             add_stiffness_of(chunk, law, factor, u, values);
             0.0
         };
@@ -68,11 +68,11 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
         &self,
         law: &dyn Law<T::Lanes>,
         factor: T,
-        u: &[[T; D]],
-        d: &[[T; D]],
-        product: &mut [[T; D]],
+        u: &[[T; 3]],
+        d: &[[T; 3]],
+        product: &mut [[T; 3]],
     ) {
-        let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; D]]| {
+        let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; 3]]| {
             add_stiffness_times_of(chunk, law, factor, u, d, sums);
             0.0
         };
@@ -80,7 +80,7 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     }
 
     /// Minimum of det F, and its element in the mesh.
-    pub fn min_det_F(&self, u: &[[T; D]]) -> (T, usize) {
+    pub fn min_det_F(&self, u: &[[T; 3]]) -> (T, usize) {
         let mut least = (T::of(f64::INFINITY), 0);
         for chunk in &self.chunks {
             let (J, element) = min_det_F_of(chunk, u);
@@ -92,7 +92,7 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     }
 
     /// Number of elements with det F ≤ 0.
-    pub fn inverted(&self, u: &[[T; D]]) -> usize {
+    pub fn inverted(&self, u: &[[T; 3]]) -> usize {
         let of_batch = |chunk: &Chunk<T, D, N>, number: usize, (batch, corners)| {
             let J = volume_change(&displacement_gradient(batch, corners, u)).0 + constant(1.0);
             // The lanes of the last batch that belong to no element are empty.
@@ -111,7 +111,7 @@ fn scatter<T: Real, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
     corners: &[[u32; N]],
     gradients: &[[T::Lanes; D]; D],
-    sums: &mut [[T; D]],
+    sums: &mut [[T; 3]],
 ) {
     let first = chunk.nodes.start as u32;
     // Bounded by a constant, so that no lane needs to be checked.
@@ -144,7 +144,7 @@ fn add_hessian<T: Real, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
     batch: usize,
     inner: &[[LaneBlock<T, D>; D]; D],
-    values: &mut [Block<T, D>],
+    values: &mut [Block<T, 3>],
 ) {
     let hessian = element_hessian::<T, D, N>(inner);
     let targets = &chunk.targets[batch * T::WIDTH..(batch + 1) * T::WIDTH];
@@ -171,13 +171,13 @@ fn batches<T: Real, const D: usize, const N: usize>(
 fn energy_of<T: Real, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
     law: &dyn Law<T::Lanes>,
-    u: &[[T; D]],
+    u: &[[T; 3]],
 ) -> f64 {
     let of_batch = |(batch, corners)| total_energy(batch, law.energy(&displacement_gradient(batch, corners, u)));
     batches(chunk).map(of_batch).sum()
 }
 
-fn squares_of<T: Real, const D: usize, const N: usize>(chunk: &Chunk<T, D, N>, u: &[[T; D]]) -> f64 {
+fn squares_of<T: Real, const D: usize, const N: usize>(chunk: &Chunk<T, D, N>, u: &[[T; 3]]) -> f64 {
     let of_batch = |(batch, corners)| squares(batch, &displacement_gradient(batch, corners, u));
     batches(chunk).map(of_batch).sum()
 }
@@ -185,8 +185,8 @@ fn squares_of<T: Real, const D: usize, const N: usize>(chunk: &Chunk<T, D, N>, u
 fn add_gradient_of<T: Real, L: Law<T::Lanes> + ?Sized, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
     law: &L,
-    u: &[[T; D]],
-    sums: &mut [[T; D]],
+    u: &[[T; 3]],
+    sums: &mut [[T; 3]],
 ) {
     for (batch, corners) in batches(chunk) {
         let G = displacement_gradient(batch, corners, u);
@@ -197,8 +197,8 @@ fn add_gradient_of<T: Real, L: Law<T::Lanes> + ?Sized, const D: usize, const N: 
 fn add_energy_and_gradient_of<T: Real, L: Law<T::Lanes> + ?Sized, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
     law: &L,
-    u: &[[T; D]],
-    sums: &mut [[T; D]],
+    u: &[[T; 3]],
+    sums: &mut [[T; 3]],
 ) -> f64 {
     let mut total = 0.0;
     for (batch, corners) in batches(chunk) {
@@ -214,8 +214,8 @@ fn add_stiffness_of<T: Real, L: Law<T::Lanes> + ?Sized, const D: usize, const N:
     chunk: &Chunk<T, D, N>,
     law: &L,
     factor: T,
-    u: &[[T; D]],
-    values: &mut [Block<T, D>],
+    u: &[[T; 3]],
+    values: &mut [Block<T, 3>],
 ) {
     let factor = T::Lanes::splat(factor);
     for (i, (batch, corners)) in batches(chunk).enumerate() {
@@ -234,9 +234,9 @@ fn add_stiffness_times_of<T: Real, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
     law: &dyn Law<T::Lanes>,
     factor: T,
-    u: &[[T; D]],
-    d: &[[T; D]],
-    sums: &mut [[T; D]],
+    u: &[[T; 3]],
+    d: &[[T; 3]],
+    sums: &mut [[T; 3]],
 ) {
     let factor = T::Lanes::splat(factor);
     for (batch, corners) in batches(chunk) {
@@ -257,7 +257,7 @@ fn add_stiffness_times_of<T: Real, const D: usize, const N: usize>(
     }
 }
 
-fn min_det_F_of<T: Real, const D: usize, const N: usize>(chunk: &Chunk<T, D, N>, u: &[[T; D]]) -> (T, usize) {
+fn min_det_F_of<T: Real, const D: usize, const N: usize>(chunk: &Chunk<T, D, N>, u: &[[T; 3]]) -> (T, usize) {
     let mut least = (T::of(f64::INFINITY), 0);
     for ((batch, corners), elements) in batches(chunk).zip(chunk.elements.chunks(T::WIDTH)) {
         let J = volume_change(&displacement_gradient(batch, corners, u)).0 + constant(1.0);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{SMatrix, Vector3};
 use simba::simd::SimdValue;
 
 use super::{Batch, Chunk, Elements};
@@ -19,12 +19,12 @@ pub(super) const NONE: u32 = u32::MAX;
 impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     /// Elements with corners and positions in the order of the rows of `pattern`; nodes beyond its rows have forces but no
     /// stiffness.
-    pub fn new(positions: &[SVector<f64, D>], elements: &[[u32; N]], pattern: &Pattern) -> Self {
+    pub fn new(positions: &[Vector3<f64>], elements: &[[u32; N]], pattern: &Pattern) -> Self {
         Self::stiffened(positions, elements, &[], pattern)
     }
 
     /// The same with a factor on the energy of each element; `factors` is empty where all are 1.
-    pub fn stiffened(positions: &[SVector<f64, D>], elements: &[[u32; N]], factors: &[f64], pattern: &Pattern) -> Self {
+    pub fn stiffened(positions: &[Vector3<f64>], elements: &[[u32; N]], factors: &[f64], pattern: &Pattern) -> Self {
         assert_eq!(N, D + 1, "a simplex in {D} dimensions has {} corners", D + 1);
         let chunk = |nodes| chunk(nodes, positions, elements, factors, pattern);
         let chunks = chunk_ranges(positions.len()).map(chunk).collect();
@@ -39,7 +39,7 @@ fn chunk_ranges(nodes: usize) -> impl Iterator<Item = Range<usize>> {
 
 fn chunk<T: Real, const D: usize, const N: usize>(
     nodes: Range<usize>,
-    positions: &[SVector<f64, D>],
+    positions: &[Vector3<f64>],
     elements: &[[u32; N]],
     factors: &[f64],
     pattern: &Pattern,
@@ -87,7 +87,7 @@ fn target<const N: usize>(
 /// Inverse of the edge matrix, and volume times a factor: energies, forces and stiffnesses are proportional to it.
 fn shape<const D: usize, const N: usize>(
     corners: &[u32; N],
-    positions: &[SVector<f64, D>],
+    positions: &[Vector3<f64>],
     factor: f64,
 ) -> (SMatrix<f64, D, D>, f64) {
     let x = |corner: usize| positions[corners[corner] as usize];

@@ -16,7 +16,7 @@ pub(super) type LaneBlock<T, const D: usize> = [[<T as Real>::Lanes; D]; D];
 pub(super) fn displacement_gradient<T: Real, const D: usize, const N: usize>(
     batch: &Batch<T, D>,
     corners: &[[u32; N]],
-    u: &[[T; D]],
+    u: &[[T; 3]],
 ) -> Tensor<T::Lanes> {
     let mut edges = batch.inverse;
     for lane in 0..T::WIDTH {
@@ -152,16 +152,19 @@ pub(super) fn invariant_blocks<T: Real, const D: usize>(
 }
 
 /// All blocks with row ≥ column of an element's Hessian, from those of all corners but the first: the energy does not change
-/// under translation, so each row of blocks adds up to zero, which gives the blocks of the first corner.
+/// under translation, so each row of blocks adds up to zero, which gives the blocks of the first corner. Elements in the plane have no
+/// stiffness in the third direction.
 #[inline(always)]
 pub(super) fn element_hessian<T: Real, const D: usize, const N: usize>(
     inner: &[[LaneBlock<T, D>; D]; D],
-) -> [[LaneBlock<T, D>; N]; N] {
+) -> [[LaneBlock<T, 3>; N]; N] {
     let zero = T::Lanes::splat(T::default());
-    let mut all = [[[[zero; D]; D]; N]; N];
+    let mut all = [[[[zero; 3]; 3]; N]; N];
     for a in 0..D {
         for b in 0..=a {
-            all[a + 1][b + 1] = inner[a][b];
+            for i in 0..D {
+                all[a + 1][b + 1][i][..D].copy_from_slice(&inner[a][b][i]);
+            }
         }
     }
     for a in 0..D {

@@ -1,7 +1,7 @@
 //! Assembly over all elements: energy, its gradient, its Hessian as a sparse matrix, and stresses.
 //!
 //! Elements lie side by side in batches, one in each lane of a register, and are written for D dimensions: tetrahedra in
-//! space, triangles in plane strain. Nodes are divided into chunks; each chunk computes all elements that touch its nodes and
+//! space, triangles of the plane z = 0 in plane strain. Nodes have three coordinates in both; triangles read and move the first two. Nodes are divided into chunks; each chunk computes all elements that touch its nodes and
 //! sums up its own rows alone. Elements between chunks are computed twice, no two threads write to one place, and sums come
 //! out the same with any number of threads.
 

@@ -6,7 +6,7 @@ use crate::materials::{AnyLaw, cauchy_stress};
 use crate::number::Real;
 use crate::tensor::Tensor;
 
-impl<T: Real> Elements<T, 3, 4> {
+impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     /// Cauchy stress of each element of the mesh, Pa. Deformation gradients come from displacements, which keep their digits far from
     /// the origin and near rest.
     pub fn cauchy_stresses(&self, law: &AnyLaw<T::Lanes>, u: &[[T; 3]]) -> Vec<Tensor<f64>> {

@@ -1,4 +1,4 @@
-use nalgebra::{SVector, Vector3};
+use nalgebra::Vector3;
 
 use super::Elements;
 use crate::materials::{Law, NeoHookean, StableNeoHookean};
@@ -14,8 +14,8 @@ const D: f64 = 1e6;
 struct Case<const D: usize, const N: usize> {
     pattern: Pattern,
     elements: Elements<f64, D, N>,
-    u: Vec<[f64; D]>,
-    d: Vec<[f64; D]>,
+    u: Vec<[f64; 3]>,
+    d: Vec<[f64; 3]>,
 }
 
 /// Numbers between −1 and 1, the same in every run: Knuth's linear congruential generator.
@@ -27,10 +27,13 @@ fn random(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-fn case<const D: usize, const N: usize>(positions: &[SVector<f64, D>], elements: &[[u32; N]]) -> Case<D, N> {
+fn case<const D: usize, const N: usize>(positions: &[Vector3<f64>], elements: &[[u32; N]]) -> Case<D, N> {
     let pattern = Pattern::new(positions.len(), elements, Stored::Full);
     let mut random = random(7);
-    let mut vector = |size: f64| (0..positions.len()).map(|_| std::array::from_fn(|_| size * random())).collect();
+    let mut vector = |size: f64| {
+        let entry = |i: usize, x: f64| if i < D { size * x } else { 0.0 };
+        (0..positions.len()).map(|_| std::array::from_fn(|i| entry(i, random()))).collect()
+    };
     Case { elements: Elements::new(positions, elements, &pattern), pattern, u: vector(0.05), d: vector(1.0) }
 }
 
@@ -40,7 +43,7 @@ fn tetrahedra(cells: usize) -> Case<3, 4> {
 }
 
 fn triangles() -> Case<2, 3> {
-    let positions: Vec<_> = (0..16).map(|i| SVector::from([f64::from(i % 4), f64::from(i / 4)])).collect();
+    let positions: Vec<_> = (0..16).map(|i| Vector3::new(f64::from(i % 4), f64::from(i / 4), 0.0)).collect();
     let cell = |i: u32| [[i, i + 1, i + 5], [i, i + 5, i + 4]];
     let cells = (0..12).filter(|i| i % 4 != 3);
     case(&positions, &cells.flat_map(cell).collect::<Vec<_>>())
@@ -51,34 +54,34 @@ fn law<T: Real>() -> NeoHookean<T::Lanes> {
     NeoHookean { C: T::Lanes::splat(T::of(C)), D: T::Lanes::splat(T::of(D)) }
 }
 
-fn moved<const D: usize>(u: &[[f64; D]], d: &[[f64; D]], h: f64) -> Vec<[f64; D]> {
+fn moved(u: &[[f64; 3]], d: &[[f64; 3]], h: f64) -> Vec<[f64; 3]> {
     u.iter().zip(d).map(|(u, d)| std::array::from_fn(|i| u[i] + h * d[i])).collect()
 }
 
 /// y = A x for a pattern that stores all blocks.
-fn multiply<const D: usize>(pattern: &Pattern, values: &[Block<f64, D>], x: &[[f64; D]], y: &mut [[f64; D]]) {
+fn multiply(pattern: &Pattern, values: &[Block<f64, 3>], x: &[[f64; 3]], y: &mut [[f64; 3]]) {
     for (row, y) in y.iter_mut().enumerate().take(pattern.rows()) {
-        *y = [0.0; D];
+        *y = [0.0; 3];
         for block in pattern.row(row) {
             let x = &x[pattern.columns[block] as usize];
-            (0..D).for_each(|i| y[i] += (0..D).map(|j| values[block][i][j] * x[j]).sum::<f64>());
+            (0..3).for_each(|i| y[i] += (0..3).map(|j| values[block][i][j] * x[j]).sum::<f64>());
         }
     }
 }
 
-fn dot<const D: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> f64 {
+fn dot(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a * b).sum()
 }
 
-fn largest<const D: usize>(a: &[[f64; D]]) -> f64 {
+fn largest(a: &[[f64; 3]]) -> f64 {
     a.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
 /// Errors of the central differences along d of energy and gradient, relative, with steps h and h/2.
 fn differences<const D: usize, const N: usize>(case: &Case<D, N>, h: f64) -> (f64, f64) {
     let Case { pattern, elements, u, d } = case;
-    let gradient = |u: &[[f64; D]]| {
-        let mut sums = vec![[0.0; D]; u.len()];
+    let gradient = |u: &[[f64; 3]]| {
+        let mut sums = vec![[0.0; 3]; u.len()];
         elements.add_gradient(&law::<f64>(), u, &mut sums);
         sums
     };
@@ -86,9 +89,9 @@ fn differences<const D: usize, const N: usize>(case: &Case<D, N>, h: f64) -> (f6
     let slope = (elements.energy(&law::<f64>(), &plus) - elements.energy(&law::<f64>(), &minus)) / (2.0 * h);
     let exact = dot(&gradient(u), d);
 
-    let mut values = vec![[[0.0; D]; D]; pattern.blocks()];
+    let mut values = vec![[[0.0; 3]; 3]; pattern.blocks()];
     elements.add_stiffness(&law::<f64>(), 1.0, u, &mut values);
-    let mut product = vec![[0.0; D]; u.len()];
+    let mut product = vec![[0.0; 3]; u.len()];
     multiply(pattern, &values, d, &mut product);
     let change = moved(&gradient(&plus), &gradient(&minus), -1.0);
     let error = moved(&product, &change, -1.0 / (2.0 * h));
@@ -114,9 +117,9 @@ fn energy_gradient_and_stiffness_of_triangles_in_the_plane_belong_together() {
 }
 
 fn product_without_a_matrix<const D: usize, const N: usize>(case: &Case<D, N>) {
-    let mut values = vec![[[0.0; D]; D]; case.pattern.blocks()];
+    let mut values = vec![[[0.0; 3]; 3]; case.pattern.blocks()];
     case.elements.add_stiffness(&law::<f64>(), 2.0, &case.u, &mut values);
-    let (mut with, mut without) = (vec![[0.0; D]; case.u.len()], vec![[0.0; D]; case.u.len()]);
+    let (mut with, mut without) = (vec![[0.0; 3]; case.u.len()], vec![[0.0; 3]; case.u.len()]);
     multiply(&case.pattern, &values, &case.d, &mut with);
     case.elements.add_stiffness_times(&law::<f64>(), 2.0, &case.u, &case.d, &mut without);
     assert!(largest(&moved(&with, &without, -1.0)) < 1e-12 * largest(&with));
@@ -143,7 +146,7 @@ fn chunks_sum_up_to_what_one_chunk_does() {
     // 17 × 9 × 9 nodes a unit: two chunks and more at 14 cells.
     let mesh = box_mesh([4.0, 1.0, 1.0], 14).unwrap();
     let elements: Vec<[u32; 4]> = mesh.elements.iter().map(|element| element.map(|node| node as u32)).collect();
-    let case = case(&mesh.vertices, &elements);
+    let case: Case<3, 4> = case(&mesh.vertices, &elements);
     assert!(case.elements.chunks.len() > 2);
     let mut sums = vec![[0.0; 3]; case.u.len()];
     let u: Vec<_> = case.u.iter().map(|u| u.map(|u| 0.1 * u)).collect();
@@ -221,7 +224,7 @@ fn blocks_of_both_kinds_are_alike<const D: usize, const N: usize>(
     case: &Case<D, N>,
     law: impl Law<<f64 as Real>::Lanes> + Copy,
 ) {
-    let mut values = [vec![[[0.0; D]; D]; case.pattern.blocks()], vec![[[0.0; D]; D]; case.pattern.blocks()]];
+    let mut values = [vec![[[0.0; 3]; 3]; case.pattern.blocks()], vec![[[0.0; 3]; 3]; case.pattern.blocks()]];
     case.elements.add_stiffness(&law, 2.0, &case.u, &mut values[0]);
     case.elements.add_stiffness(&Entries(law), 2.0, &case.u, &mut values[1]);
     let [short, long] = values.map(|values| values.as_flattened().as_flattened().to_vec());

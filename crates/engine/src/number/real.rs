@@ -33,11 +33,7 @@ pub trait Real: RealField + FaerReal + Packed + Default + std::iter::Sum {
 
     /// Adds each lane of a block to the block `target(lane)`, unless that is out of range. Lanes are transposed in registers,
     /// not number by number: extracting numbers from lanes takes much of the time of an assembly.
-    fn add_by_lane<const D: usize>(
-        lanes: &[[Self::Lanes; D]; D],
-        blocks: &mut [[[Self; D]; D]],
-        target: impl Fn(usize) -> u32,
-    );
+    fn add_by_lane(lanes: &[[Self::Lanes; 3]; 3], blocks: &mut [[[Self; 3]; 3]], target: impl Fn(usize) -> u32);
 
     /// The nearest number of this type.
     fn of(x: f64) -> Self;
@@ -81,9 +77,9 @@ macro_rules! real {
             }
 
             #[inline(always)]
-            fn add_by_lane<const D: usize>(
-                lanes: &[[Self::Lanes; D]; D],
-                blocks: &mut [[[$float; D]; D]],
+            fn add_by_lane(
+                lanes: &[[Self::Lanes; 3]; 3],
+                blocks: &mut [[[$float; 3]; 3]],
                 target: impl Fn(usize) -> u32,
             ) {
                 let (full, rest) = lanes.as_flattened().as_chunks::<$width>();
