@@ -62,7 +62,7 @@ impl Potential<f64> for Floor {
 pub fn run() -> Result<(f64, f64), Box<dyn Error>> {
     let (scene, stiffness) = (fem_scene::parse(SCENE, Path::new("cube.toml"))?, 1e6);
     let body = fem_scene::body(&scene, Path::new("data"))?;
-    let vertices = body.shape.mesh.vertices.clone();
+    let vertices = body.shape.mesh.vertices().to_vec();
     let floor = |numbering: &Numbering| -> Vec<Box<dyn Potential<f64>>> {
         let heights = numbering.mesh_node.iter().map(|&node| vertices[node as usize].z + 0.1).collect();
         vec![Box::new(Floor { stiffness, heights })]

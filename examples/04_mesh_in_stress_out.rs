@@ -30,7 +30,7 @@ pub fn run(mesh: &Path, out: &Path) -> Result<Found, Box<dyn Error>> {
     );
     let scene = fem_scene::parse(&text, Path::new("stress.toml"))?;
     let body = fem_scene::body(&scene, Path::new("data"))?;
-    let volume: f64 = fem_mesh::volumes(&body.shape.mesh).iter().sum();
+    let volume: f64 = body.shape.mesh.volumes().iter().sum();
     let mut simulation = fem_engine::simulator::build(&scene, body)?;
     for _ in 0..4 {
         simulation.step()?;

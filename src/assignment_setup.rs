@@ -110,7 +110,7 @@ impl AssignmentSetup {
     /// Elastic energy, potential of gravity (zero in the undeformed body) and energy of the springs, J.
     fn potential(&self, q: &DVector<f64>, springs: &[AnchorSpring]) -> f64 {
         let x = self.constraints.all_coordinates(q);
-        let (V, T) = (&self.shape.mesh.vertices, &self.shape.mesh.elements);
+        let (V, T) = (self.shape.mesh.vertices(), self.shape.mesh.tetrahedra());
         let elastic: f64 =
             T.iter().zip(&self.v0).map(|(element, &v0)| V_linear_tetrahedron(&x, V, element, v0, self.C, self.D)).sum();
         let work_of_gravity: f64 = match self.gravity {
@@ -135,7 +135,7 @@ impl AssignmentSetup {
 
     /// Elastic forces, weight and springs on all coordinates at the positions `x  (3n)`, N.
     fn force_on_nodes(&self, x: &DVector<f64>, springs: &[AnchorSpring]) -> DVector<f64> {
-        let (V, T) = (&self.shape.mesh.vertices, &self.shape.mesh.elements);
+        let (V, T) = (self.shape.mesh.vertices(), self.shape.mesh.tetrahedra());
         let mut f = assemble_forces(x, V, T, &self.v0, self.C, self.D);
         if self.gravity.is_some() {
             f += &self.weight;
@@ -172,9 +172,9 @@ impl AssignmentSetup {
     /// ∂f/∂q of [`force`](Self::force) with projected elements, N/m. A spring of zero rest length has the same stiffness in
     /// every direction; without it in K, a stiff spring would be treated explicitly and be unstable.
     fn stiffness(&self, q: &DVector<f64>, springs: &[AnchorSpring]) -> CsrMatrix<f64> {
-        self.profile.count_stiffness_assembly(self.shape.mesh.elements.len());
+        self.profile.count_stiffness_assembly(self.shape.mesh.elements());
         let x = self.constraints.all_coordinates(q);
-        let (V, T) = (&self.shape.mesh.vertices, &self.shape.mesh.elements);
+        let (V, T) = (self.shape.mesh.vertices(), self.shape.mesh.tetrahedra());
         let mut K = assemble_stiffness(&x, V, T, &self.v0, self.C, self.D);
         for spring in springs {
             let block = Matrix3::from_diagonal_element(-self.interaction.stiffness);
@@ -185,7 +185,7 @@ impl AssignmentSetup {
 
     /// The springs of the drag or of the mouse at a time, s.
     fn springs(&self, time: f64) -> Vec<AnchorSpring> {
-        let V = &self.shape.mesh.vertices;
+        let V = self.shape.mesh.vertices();
         let anchors = self.interaction.anchors(V, time);
         anchors.map(|anchor| AnchorSpring { node: anchor.node, target: V[anchor.node] + anchor.displacement }).collect()
     }

@@ -18,10 +18,15 @@ impl AssignmentSetup {
     /// Builds the parts that the scene names. Returns an error for what only the engine can do.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
         check_pipeline(scene)?;
+        if body.shape.mesh.is_flat() {
+            return Err(
+                scene.refuse("mesh", "is flat, which the course's pipeline is not; write pipeline = \"engine\"")
+            );
+        }
         let Some((C, D)) = scene.material.neo_hookean() else {
             unreachable!("a material without moduli is refused when the scene is read")
         };
-        let (V, T) = (&body.shape.mesh.vertices, &body.shape.mesh.elements);
+        let (V, T) = (body.shape.mesh.vertices(), body.shape.mesh.tetrahedra());
         let constraints = Constraints::new(V, body.fixed_nodes());
         let q = constraints.free_coordinates(stack(V));
         let skinning = body.shape.display.as_ref().map(|display| build_skinning_matrix(V, T, &display.vertices));
@@ -56,8 +61,8 @@ impl AssignmentSetup {
     /// Computes mass and weight; again when density or gravity has changed.
     pub(super) fn weigh(&mut self) {
         let mesh = &self.shape.mesh;
-        let q_size = 3 * mesh.vertices.len();
-        let M = mass_matrix_mesh(q_size, &mesh.elements, self.density, &self.v0);
+        let q_size = 3 * mesh.vertices().len();
+        let M = mass_matrix_mesh(q_size, mesh.tetrahedra(), self.density, &self.v0);
         self.weight = match self.gravity {
             Some((direction, size)) => &M * DVector::from_fn(q_size, |i, _| direction[i % 3] * size),
             None => DVector::zeros(0),

@@ -71,7 +71,7 @@ impl Simulation for AssignmentSetup {
     }
 
     fn reset(&mut self) {
-        self.q = self.constraints.free_coordinates(stack(&self.shape.mesh.vertices));
+        self.q = self.constraints.free_coordinates(stack(self.shape.mesh.vertices()));
         self.qdot.fill(0.0);
         self.time = 0.0;
         self.steps_since_reset = 0;
@@ -88,7 +88,7 @@ impl Simulation for AssignmentSetup {
     }
 
     fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), String> {
-        let coordinates = 3 * self.shape.mesh.vertices.len();
+        let coordinates = 3 * self.shape.mesh.vertices().len();
         for (name, list) in [("q", &checkpoint.positions), ("qdot", &checkpoint.velocities)] {
             if list.len() != coordinates {
                 self.reset();
@@ -103,7 +103,7 @@ impl Simulation for AssignmentSetup {
 
     fn energies(&self) -> Energies {
         let v = self.velocities();
-        let elements = self.shape.mesh.elements.iter().zip(&self.v0);
+        let elements = self.shape.mesh.tetrahedra().iter().zip(&self.v0);
         Energies {
             kinetic: elements.map(|(element, &v0)| T_linear_tetrahedron(&v, element, self.density, v0)).sum(),
             potential: self.potential(&self.q, &self.springs(self.time)),
@@ -121,7 +121,7 @@ impl Simulation for AssignmentSetup {
             let P = Matrix3::from_row_slice(dpsi_neo_hookean_dF(&F, self.C, self.D).as_slice());
             P * F.transpose() / F.determinant()
         };
-        self.shape.mesh.elements.iter().map(stress).collect()
+        self.shape.mesh.tetrahedra().iter().map(stress).collect()
     }
 
     fn integrator(&self) -> &'static str {
@@ -197,14 +197,14 @@ impl Simulation for AssignmentSetup {
 
 impl AssignmentSetup {
     fn deformation_gradient(&self, x: &DVector<f64>, element: &[usize; 4]) -> Matrix3<f64> {
-        let V = &self.shape.mesh.vertices;
+        let V = self.shape.mesh.vertices();
         deformation_gradient(x, element, &dphi_linear_tetrahedron_dX(V, element, &V[element[0]]))
     }
 
     /// The minimum of J = det F over all elements, and its element.
     fn min_J_at(&self, x: &DVector<f64>) -> (f64, usize) {
         let determinants =
-            self.shape.mesh.elements.iter().map(|element| self.deformation_gradient(x, element).determinant());
+            self.shape.mesh.tetrahedra().iter().map(|element| self.deformation_gradient(x, element).determinant());
         determinants.enumerate().fold((f64::INFINITY, 0), |least, (i, J)| if J < least.0 { (J, i) } else { least })
     }
 
@@ -230,7 +230,7 @@ impl AssignmentSetup {
         let inertia = &self.M * &self.qdot / self.dt;
         let external =
             self.weight.iter().chain(&inertia).map(|force| force.abs()).chain(of_springs).fold(0.0, f64::max);
-        let elastic = (self.C + self.D) * extent(&self.shape.mesh.vertices).powi(2);
+        let elastic = (self.C + self.D) * extent(self.shape.mesh.vertices()).powi(2);
         let unbalanced = (&self.M * (qdot - &self.qdot) / self.dt - self.force(q, springs)).amax();
         (unbalanced > 1e-6 * (external + elastic)).then_some(Cause::Stuck { unbalanced })
     }

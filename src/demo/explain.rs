@@ -51,7 +51,7 @@ pub fn parts(scene: &Scene) -> Result<Vec<Part>, End> {
 
 /// The critical time step of an explicit method beside the one in use, s.
 fn stability(scene: &Scene, body: Body) -> Result<String, End> {
-    if body.shape.mesh.vertices.len() > MOST_NODES {
+    if body.shape.mesh.vertices().len() > MOST_NODES {
         return Ok(format!("critical time step: not computed for more than {MOST_NODES} nodes"));
     }
     let critical = engine::build(scene, body)?.critical_time_step();

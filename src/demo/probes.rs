@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use fem_mesh::TetrahedralMesh;
-use fem_scene::highest_node;
 use fem_scene::output::Probe;
 use fem_scene::simulation::Simulation;
+use fem_scene::{BodyMesh, highest_node};
 
 use super::end::End;
 
@@ -40,17 +39,17 @@ impl ProbeArgument {
         Ok(Probe::new(&self.file, nodes))
     }
 
-    fn nodes(&self, mesh: &TetrahedralMesh) -> Result<Vec<usize>, String> {
+    fn nodes(&self, mesh: &BodyMesh) -> Result<Vec<usize>, String> {
         if self.place == "highest" {
             return Ok(vec![highest_node(mesh)]);
         }
-        let nodes = mesh.vertices.len();
-        match (self.place.parse(), mesh.sets.get(&self.place)) {
+        let nodes = mesh.vertices().len();
+        match (self.place.parse(), mesh.sets().get(&self.place)) {
             (Ok(node), _) if node < nodes => Ok(vec![node]),
-            (_, Some(set)) => Ok(set.nodes(&mesh.elements)),
+            (_, Some(set)) => Ok(mesh.nodes_of_set(set)),
             (Ok(_), None) => Err(format!("the mesh has {nodes} nodes; give a node from 0 to {}", nodes - 1)),
             (Err(_), None) => {
-                let sets: String = mesh.sets.keys().map(|name| format!(", or {name}")).collect();
+                let sets: String = mesh.sets().keys().map(|name| format!(", or {name}")).collect();
                 Err(format!("there is no such node or set; give the index of a node, or highest{sets}"))
             }
         }

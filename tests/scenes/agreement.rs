@@ -19,7 +19,7 @@ fn largest_distance(name: &str, integrator: Integrator, amplitude: f64) -> f64 {
     let mut course = build(&course_scene);
     let engine_body = body(&engine_scene, &data()).unwrap();
     let mut engine = fem_engine::simulator::build(&engine_scene, engine_body).unwrap();
-    let V = &course.shape().mesh.vertices;
+    let V = course.shape().mesh.vertices().to_vec();
     let (low, high) = V.iter().fold((V[0], V[0]), |(low, high), x| (low.inf(x), high.sup(x)));
     let mut largest: f64 = 0.0;
     for step in 1..=STEPS {

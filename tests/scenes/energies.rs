@@ -57,7 +57,7 @@ fn implicit_euler_gains_no_more_energy_than_the_work_of_the_drag() {
 fn assert_gains_no_more_than_work(scene: &Scene) {
     let drag = body(scene, &data()).unwrap().drag.unwrap();
     let mut simulation = build(scene);
-    let rest = simulation.shape().mesh.vertices[drag.node];
+    let rest = simulation.shape().mesh.vertices()[drag.node];
     let spring = |x: &Vector3<f64>, time: f64| {
         let swing = drag.amplitude * (std::f64::consts::TAU * drag.frequency * time).sin();
         0.5 * drag.stiffness * (x - rest - drag.direction * swing).norm_squared()

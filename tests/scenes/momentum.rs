@@ -1,6 +1,5 @@
 //! Momentum of a free body: without external forces it is conserved, at every size.
 
-use fem_mesh::volumes;
 use fem_scene::Integrator;
 use fem_scene::simulation::{Pull, Simulation};
 use finite_elements_3d::mass_matrix_mesh;
@@ -17,14 +16,14 @@ const STEPS: usize = 100;
 fn momentum(simulation: &dyn Simulation) -> Vector3<f64> {
     let shape = simulation.shape();
     let v = simulation.velocities();
-    let M = mass_matrix_mesh(v.len(), &shape.mesh.elements, DENSITY, &volumes(&shape.mesh));
+    let M = mass_matrix_mesh(v.len(), shape.mesh.tetrahedra(), DENSITY, &shape.mesh.volumes());
     let p = M * v;
     (0..p.len() / 3).map(|node| Vector3::new(p[3 * node], p[3 * node + 1], p[3 * node + 2])).sum()
 }
 
 /// Drags a corner by a tenth of the edge for a few steps, so that the cube flies off, turns and wobbles.
 fn throw(simulation: &mut dyn Simulation, edge: f64) {
-    let corner = (26, simulation.shape().mesh.vertices[26]);
+    let corner = (26, simulation.shape().mesh.vertices()[26]);
     simulation.pull(Some(Pull { anchors: vec![corner], offset: Vector3::new(0.1, 0.05, -0.02) * edge }));
     (0..5).for_each(|_| simulation.step().unwrap());
     simulation.pull(None);

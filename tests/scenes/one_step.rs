@@ -13,8 +13,8 @@ fn model_of(scene: &Scene) -> Model {
     let (C, D) = scene.material.neo_hookean().unwrap();
     let fixed = body.fixed_nodes().unwrap_or_default().to_vec();
     Model {
-        V: body.shape.mesh.vertices,
-        T: body.shape.mesh.elements,
+        V: body.shape.mesh.vertices().to_vec(),
+        T: body.shape.mesh.tetrahedra().to_vec(),
         C,
         D,
         density: scene.material.density,

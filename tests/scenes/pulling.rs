@@ -26,7 +26,7 @@ fn fixed_nodes_stay_bit_for_bit() {
                 simulation.step().unwrap();
                 let (q, v) = (simulation.positions(), simulation.velocities());
                 for &i in fixed {
-                    assert_eq!(node(&q, i), simulation.shape().mesh.vertices[i], "{name}: node {i}");
+                    assert_eq!(node(&q, i), simulation.shape().mesh.vertices()[i], "{name}: node {i}");
                     assert_eq!(node(&v, i), Vector3::zeros(), "{name}: node {i}");
                 }
             }
@@ -42,7 +42,7 @@ fn a_very_stiff_drag_puts_its_node_at_the_target_at_the_end_of_the_step() {
         edit(&edit(&text, "direction = [1, 0, 0]", "direction = [0.5, 0, 1]"), "amplitude = 0.2", "amplitude = 0.1");
     for integrator in INTEGRATORS {
         let mut simulation = build_with(&text, integrator);
-        let rest = simulation.shape().mesh.vertices[26];
+        let rest = simulation.shape().mesh.vertices()[26];
         for step in 1..=20 {
             simulation.step().unwrap();
             let swing = 0.1 * (std::f64::consts::TAU * 1.0 * 0.01 * f64::from(step)).sin();
@@ -60,7 +60,7 @@ fn the_dragged_node_stays_near_its_target() {
         let scene = shipped(&name);
         let drag = body(&scene, &data()).unwrap().drag.unwrap();
         let mut simulation = build(&scene);
-        let rest = simulation.shape().mesh.vertices[drag.node];
+        let rest = simulation.shape().mesh.vertices()[drag.node];
         let mut farthest: f64 = 0.0;
         for _ in 0..50 {
             simulation.step().unwrap();
@@ -97,7 +97,7 @@ fn a_pull_replaces_the_drag_and_its_end_brings_the_drag_back() {
 fn a_pull_moves_its_nodes_to_their_targets() {
     for integrator in INTEGRATORS {
         let mut simulation = build_with(&free_cube(), integrator);
-        let place = simulation.shape().mesh.vertices[13];
+        let place = simulation.shape().mesh.vertices()[13];
         simulation.pull(Some(Pull { anchors: vec![(13, place)], offset: Vector3::new(0.0, 0.0, 0.1) }));
         simulation.set_parameter("drag", 1e8).unwrap();
         simulation.step().unwrap();
@@ -109,7 +109,7 @@ fn a_pull_moves_its_nodes_to_their_targets() {
 #[test]
 fn several_nodes_can_be_pulled_at_once() {
     let mut simulation = build_with(&free_cube(), INTEGRATORS[1]);
-    let V = simulation.shape().mesh.vertices.clone();
+    let V = simulation.shape().mesh.vertices().to_vec();
     simulation.pull(Some(Pull { anchors: vec![(0, V[0]), (26, V[26])], offset: Vector3::x() * 0.01 }));
     simulation.set_parameter("drag", 1e8).unwrap();
     simulation.step().unwrap();

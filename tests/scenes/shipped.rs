@@ -52,7 +52,7 @@ fn the_program_writes_the_state_that_the_library_computes_with_17_digits() {
         let keys: Vec<_> = state.as_object().unwrap().keys().collect();
         assert_eq!(keys, ["displacements", "history", "q", "qdot", "scene", "steps", "time"], "{name}");
         assert_eq!(state["time"].as_f64().unwrap(), simulation.time());
-        let size = 3 * simulation.shape().mesh.vertices.len();
+        let size = 3 * simulation.shape().mesh.vertices().len();
         for (key, expected) in [("q", simulation.positions()), ("qdot", simulation.velocities())] {
             let found = numbers(&state[key]);
             assert_eq!(found.len(), size, "{name}: {key}");

@@ -24,8 +24,8 @@ fn skinning_weights_of_shipped_scenes_are_not_negative_and_sum_to_one() {
     for name in course_scenes() {
         let shape = body(&shipped(&name), &data()).unwrap().shape;
         let display = &shape.display.as_ref().unwrap().vertices;
-        let N = build_skinning_matrix(&shape.mesh.vertices, &shape.mesh.elements, display);
-        assert_eq!((N.nrows(), N.ncols()), (display.len(), shape.mesh.vertices.len()), "{name}");
+        let N = build_skinning_matrix(shape.mesh.vertices(), shape.mesh.tetrahedra(), display);
+        assert_eq!((N.nrows(), N.ncols()), (display.len(), shape.mesh.vertices().len()), "{name}");
         for (vertex, row) in N.row_iter().enumerate() {
             assert!(row.values().iter().all(|&weight| weight >= -1e-6), "{name}: vertex {vertex}: {:?}", row.values());
             let sum: f64 = row.values().iter().sum();

@@ -60,7 +60,7 @@ fn the_statistics_of_every_shipped_scene_have_the_promised_keys_and_sound_values
 
         let mesh = &build(&shipped(&name)).shape().mesh;
         assert_eq!((&stats["scene"], &stats["status"]), (&name.clone().into(), &"done".into()));
-        assert_eq!((count(&stats, "nodes"), count(&stats, "elements")), (mesh.vertices.len(), mesh.elements.len()));
+        assert_eq!((count(&stats, "nodes"), count(&stats, "elements")), (mesh.vertices().len(), mesh.elements()));
         assert_eq!((count(&stats, "steps"), count(&stats, "symbolic_factorizations")), (STEPS, 1), "{name}");
         let seconds = |key: &str| stats[key].as_f64().unwrap();
         assert!(seconds("seconds_setup") > 0.0 && seconds("seconds_per_step_median") > 0.0, "{name}");

@@ -78,7 +78,7 @@ pub fn expected_tip_displacement(scene: &Scene) -> Option<Vector3<f64>> {
 /// Mean displacement of the nodes of largest x, m.
 pub fn tip_displacement(simulation: &dyn Simulation) -> Vector3<f64> {
     let (shape, q) = (simulation.shape(), simulation.positions());
-    let X = &shape.mesh.vertices;
+    let X = shape.mesh.vertices();
     let tip = nodes_on_side(X, 0, Side::Max, 0.0);
     let displacement = |&node: &usize| q.fixed_rows::<3>(3 * node) - X[node];
     tip.iter().map(displacement).sum::<Vector3<f64>>() / tip.len() as f64

@@ -74,7 +74,7 @@ pub fn planned_parts(scene: &Scene, body: &Body) -> Result<Vec<Part>, SceneError
     let is_linear = |material: &Material| AnyLaw::<f64>::new(material).is_some_and(|law| law.is_linear());
     check::<f64>(scene, body, epsilon)?;
     let is_law_linear = is_linear(&body.material) && body.regions.iter().all(|region| is_linear(&region.material));
-    let nodes = body.shape.mesh.vertices.len();
+    let nodes = body.shape.mesh.vertices().len();
     let numbering = Numbering::of_mesh(nodes);
     let forces: Vec<_> = forces::kinds::<f64>().into_iter().filter_map(|kind| (kind.build)(body, &numbering)).collect();
     let is_linear = is_law_linear && forces.iter().all(|force| force.is_conservative() && !force.is_internal());
@@ -111,8 +111,9 @@ impl<T: Real> Simulator<T> {
     pub fn with_forces(scene: &Scene, body: Body, own: OwnForces<T>) -> Result<Self, SceneError> {
         let law = check::<T>(scene, &body, T::EPSILON.as_f64())?;
         let method = scene.method();
-        let skinning = body.shape.display.as_ref().map(|display| Skinning::new(&body.shape.mesh, &display.vertices));
-        let solver = integrator::solver_choice(&method, body.shape.mesh.vertices.len());
+        let skinned = body.shape.mesh.solid().zip(body.shape.display.as_ref());
+        let skinning = skinned.map(|(mesh, display)| Skinning::new(mesh, &display.vertices));
+        let solver = integrator::solver_choice(&method, body.shape.mesh.vertices().len());
         let velocities = body.initial_velocity.clone();
         let mut plan = Plan::new(&body);
         let system = System::with_forces(body, law, solver, own);

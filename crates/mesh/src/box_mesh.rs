@@ -34,9 +34,10 @@ pub fn box_mesh(size: [f64; 3], cells_per_unit: usize) -> Result<TetrahedralMesh
     Ok(TetrahedralMesh::new(nodes(cells, cells_per_unit), tetrahedra(cells)))
 }
 
-fn count_cells(size: [f64; 3], cells_per_unit: usize) -> Result<[usize; 3], Problem> {
+/// Numbers of cells along the axes, which have to be whole.
+pub(super) fn whole_cells<const D: usize>(size: [f64; D], cells_per_unit: usize) -> Result<[f64; D], Problem> {
     let exact = size.map(|length| length * cells_per_unit as f64);
-    for axis in 0..3 {
+    for axis in 0..D {
         let whole = exact[axis].round();
         // NaN and ∞ fail both
         let fits = whole >= 1.0 && (exact[axis] - whole).abs() <= WHOLE * whole;
@@ -44,7 +45,11 @@ fn count_cells(size: [f64; 3], cells_per_unit: usize) -> Result<[usize; 3], Prob
             return Err(Problem::BoxCells { axis: ['x', 'y', 'z'][axis], size: size[axis], cells_per_unit });
         }
     }
-    let [x, y, z] = exact.map(f64::round);
+    Ok(exact.map(f64::round))
+}
+
+fn count_cells(size: [f64; 3], cells_per_unit: usize) -> Result<[usize; 3], Problem> {
+    let [x, y, z] = whole_cells(size, cells_per_unit)?;
     // As floating-point numbers, whose product cannot overflow.
     let elements = 6.0 * x * y * z;
     if elements > MOST_ELEMENTS as f64 {

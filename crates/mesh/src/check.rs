@@ -1,4 +1,4 @@
-//! The properties of a tetrahedral mesh that computations rely on.
+//! The properties of a mesh that computations rely on.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::boundary::FACES;
 use super::buckets::Buckets;
-use super::{MeshError, Problem, TetrahedralMesh, area_vector, sets, signed_volume};
+use super::{Mesh, MeshError, Problem, SurfaceMesh, TetrahedralMesh, area_vector, sets, signed_volume};
 
 /// A tetrahedron is flat if its volume is below this fraction of its longest edge cubed.
 ///
@@ -26,16 +26,55 @@ pub fn check(mesh: &TetrahedralMesh, source: &Path) -> Result<(), MeshError> {
     find_problem(mesh).map_err(|problem| MeshError::in_file(source, problem))
 }
 
-fn find_problem(mesh: &TetrahedralMesh) -> Result<(), Problem> {
+/// Checks the triangles of a flat body: as [`check`] does tetrahedra, and that they lie in the plane z = 0, counter-clockwise seen from
+/// positive z.
+pub fn check_plane(mesh: &SurfaceMesh, source: &Path) -> Result<(), MeshError> {
+    find_problem_in_plane(mesh).map_err(|problem| MeshError::in_file(source, problem))
+}
+
+fn find_problem_in_plane(mesh: &SurfaceMesh) -> Result<(), Problem> {
+    check_contents(mesh, "triangles")?;
+    if let Some(vertex) = mesh.vertices.iter().position(|x| x.z != 0.0) {
+        return Err(Problem::OutOfPlane { vertex, z: mesh.vertices[vertex].z });
+    }
+    for (element, nodes) in mesh.elements.iter().enumerate() {
+        check_indices(element, nodes, mesh.vertices.len())?;
+        check_area(element, nodes.map(|i| mesh.vertices[i]))?;
+    }
+    check_all_referenced(mesh)?;
+    check_no_duplicates(mesh)?;
+    sets::check(mesh)
+}
+
+fn check_area(element: usize, corners: [Vector3<f64>; 3]) -> Result<(), Problem> {
+    let area = area_vector(corners).z;
+    let edge = (0..3).map(|i| (corners[i] - corners[(i + 1) % 3]).norm()).fold(0.0, f64::max);
+    if !(area.is_finite() && edge.powi(2).is_finite()) {
+        return Err(Problem::Huge { element });
+    }
+    let extent = corners.iter().map(|x| x.amax()).fold(0.0, f64::max);
+    let rounding = ROUNDINGS * f64::EPSILON * extent;
+    if area.abs() <= FLAT * edge.powi(2) || 2.0 * area.abs() <= rounding * edge {
+        return Err(Problem::NoArea { element, area });
+    }
+    if area < 0.0 { Err(Problem::Clockwise { element, area }) } else { Ok(()) }
+}
+
+fn check_contents<const N: usize>(mesh: &Mesh<3, N>, elements: &'static str) -> Result<(), Problem> {
     if mesh.vertices.is_empty() {
         return Err(Problem::Empty { what: "vertices" });
     }
     if mesh.elements.is_empty() {
-        return Err(Problem::Empty { what: "tetrahedra" });
+        return Err(Problem::Empty { what: elements });
     }
-    if let Some(vertex) = mesh.vertices.iter().position(|x| !x.iter().all(|coordinate| coordinate.is_finite())) {
-        return Err(Problem::VertexNotFinite { vertex });
+    match mesh.vertices.iter().position(|x| !x.iter().all(|coordinate| coordinate.is_finite())) {
+        Some(vertex) => Err(Problem::VertexNotFinite { vertex }),
+        None => Ok(()),
     }
+}
+
+fn find_problem(mesh: &TetrahedralMesh) -> Result<(), Problem> {
+    check_contents(mesh, "tetrahedra")?;
     for (element, nodes) in mesh.elements.iter().enumerate() {
         check_indices(element, nodes, mesh.vertices.len())?;
         check_volume(element, nodes.map(|i| mesh.vertices[i]))?;
@@ -45,11 +84,11 @@ fn find_problem(mesh: &TetrahedralMesh) -> Result<(), Problem> {
     sets::check(mesh)
 }
 
-fn check_indices(element: usize, nodes: &[usize; 4], count: usize) -> Result<(), Problem> {
+fn check_indices<const N: usize>(element: usize, nodes: &[usize; N], count: usize) -> Result<(), Problem> {
     if let Some(&vertex) = nodes.iter().find(|&&i| i >= count) {
         return Err(Problem::ElementOutOfRange { element, vertex: vertex as i128, count });
     }
-    match (1..4).find(|&k| nodes[..k].contains(&nodes[k])) {
+    match (1..N).find(|&k| nodes[..k].contains(&nodes[k])) {
         Some(k) => Err(Problem::RepeatedVertex { element, vertex: nodes[k] }),
         None => Ok(()),
     }
@@ -80,12 +119,12 @@ fn largest_face(corners: [Vector3<f64>; 4]) -> f64 {
     areas.into_iter().fold(0.0, f64::max)
 }
 
-fn check_no_duplicates(mesh: &TetrahedralMesh) -> Result<(), Problem> {
+fn check_no_duplicates<const N: usize>(mesh: &Mesh<3, N>) -> Result<(), Problem> {
     let keys = mesh.elements.iter().enumerate().map(|(element, nodes)| {
         let mut nodes = *nodes;
         nodes.sort_unstable();
         // A mesh with more than 2³² nodes or elements fits into no memory.
-        (nodes[0], [nodes[1] as u32, nodes[2] as u32, nodes[3] as u32, element as u32])
+        (nodes[0], [nodes[1] as u32, nodes[2] as u32, nodes[N - 1] as u32, element as u32])
     });
     let (mut count, mut first) = (0, [usize::MAX; 2]);
     for keys in Buckets::new(keys).iter() {
@@ -98,7 +137,7 @@ fn check_no_duplicates(mesh: &TetrahedralMesh) -> Result<(), Problem> {
     if count == 0 { Ok(()) } else { Err(Problem::DuplicateElement { element, original, count }) }
 }
 
-fn check_all_referenced(mesh: &TetrahedralMesh) -> Result<(), Problem> {
+fn check_all_referenced<const N: usize>(mesh: &Mesh<3, N>) -> Result<(), Problem> {
     let mut referenced = vec![false; mesh.vertices.len()];
     for &vertex in mesh.elements.iter().flatten() {
         referenced[vertex] = true;

@@ -2,10 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::TetrahedralMesh;
+use super::Mesh;
 
 /// The first node of each node's connected part. Nodes are connected if an element has both.
-pub fn parts(mesh: &TetrahedralMesh) -> Vec<usize> {
+pub fn parts<const N: usize>(mesh: &Mesh<3, N>) -> Vec<usize> {
     let mut parent: Vec<usize> = (0..mesh.vertices.len()).collect();
     for element in &mesh.elements {
         for &node in &element[1..] {
@@ -38,7 +38,7 @@ pub struct CoincidentNodes {
 }
 
 /// Nodes that coincide within 1e-9 of the mesh's size; `None` if there are none.
-pub fn coincident_nodes(mesh: &TetrahedralMesh) -> Option<CoincidentNodes> {
+pub fn coincident_nodes<const N: usize>(mesh: &Mesh<3, N>) -> Option<CoincidentNodes> {
     let corner = mesh.vertices.first()?;
     let largest = mesh.vertices.iter().map(|x| (x - corner).amax()).fold(0.0, f64::max);
     let near = NEAR * largest;
@@ -64,6 +64,7 @@ pub fn coincident_nodes(mesh: &TetrahedralMesh) -> Option<CoincidentNodes> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::TetrahedralMesh;
 
     fn boxes(shift: f64) -> TetrahedralMesh {
         let mut mesh = crate::box_mesh([2.0, 1.0, 1.0], 2).unwrap();

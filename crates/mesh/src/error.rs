@@ -99,9 +99,7 @@ pub enum Problem {
     RepeatedTag { tag: i64 },
     #[error("the file has no node with the tag {tag}; correct it or export the mesh with all of its nodes")]
     UnknownTag { tag: i64 },
-    #[error(
-        "element {element} (counted from 0) has vertex {vertex} twice; give it four different vertices or remove it"
-    )]
+    #[error("element {element} (counted from 0) has vertex {vertex} twice; give it different vertices or remove it")]
     RepeatedVertex { element: usize, vertex: usize },
     #[error("element {element} (counted from 0) has the negative volume {volume:e} m³; swap two of its vertices")]
     Inverted { element: usize, volume: f64 },
@@ -109,10 +107,22 @@ pub enum Problem {
         "element {element} (counted from 0) has no volume ({volume:e} m³ within rounding); remove it or move its vertices apart"
     )]
     Flat { element: usize, volume: f64 },
+    #[error("vertex {vertex} (counted from 0) has z = {z} m; a flat body lies in the plane z = 0, move it there")]
+    OutOfPlane { vertex: usize, z: f64 },
+    #[error("triangle {element} (counted from 0) is clockwise, with the area {area:e} m²; swap two of its vertices")]
+    Clockwise { element: usize, area: f64 },
+    #[error(
+        "triangle {element} (counted from 0) has no area ({area:e} m² within rounding); remove it or move its vertices apart"
+    )]
+    NoArea { element: usize, area: f64 },
+    #[error(
+        "the rectangle would have {elements:e} triangles ({cells} cells), and {most} is the most; lower cells_per_unit or its size"
+    )]
+    RectangleTooFine { cells: String, elements: f64, most: usize },
     #[error("element {element} (counted from 0) is too large to compute its volume; scale the mesh to metres")]
     Huge { element: usize },
     #[error(
-        "element {element} (counted from 0) has the same four vertices as element {original}, and {count} elements repeat an earlier one; remove them"
+        "element {element} (counted from 0) has the same vertices as element {original}, and {count} elements repeat an earlier one; remove them"
     )]
     DuplicateElement { element: usize, original: usize, count: usize },
     #[error("vertex {vertex} (counted from 0) belongs to no element; remove it, or add the element that it belongs to")]
@@ -122,7 +132,7 @@ pub enum Problem {
     #[error("the mesh has no {what}; give one that has some")]
     Empty { what: &'static str },
     #[error(
-        "the box's size {size} m along {axis} times {cells_per_unit} cells per metre is not a whole number of cells, at least 1; change either"
+        "the size {size} m along {axis} times {cells_per_unit} cells per metre is not a whole number of cells, at least 1; change either"
     )]
     BoxCells { axis: char, size: f64, cells_per_unit: usize },
     #[error(

@@ -39,6 +39,7 @@ mod measures;
 mod orient;
 mod quality;
 mod read;
+mod rectangle;
 mod refine;
 mod sets;
 mod sides;
@@ -46,7 +47,7 @@ pub mod write;
 
 pub use boundary::boundary;
 pub use box_mesh::box_mesh;
-pub use check::check;
+pub use check::{check, check_plane};
 pub use connectivity::{CoincidentNodes, coincident_nodes, parts};
 pub use error::{MeshError, Place, Problem};
 pub use join::join;
@@ -58,6 +59,7 @@ pub use quality::{
     surface_quality, tetrahedron_distributions, triangle_distributions, triangle_quality,
 };
 pub use read::{AnyMesh, Points, is_surface, read_mesh, read_points, read_surface, read_tetrahedra};
+pub use rectangle::rectangle_mesh;
 pub use refine::refine;
 pub use sets::MeshSet;
 pub use sides::{Side, faces_on_side, nodes_on_side};

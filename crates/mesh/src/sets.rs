@@ -2,8 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::boundary::FACES;
-use super::{Problem, TetrahedralMesh};
+use super::{Mesh, Problem};
 
 /// The edges of a tetrahedron, by its corners.
 pub(crate) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
@@ -101,14 +100,16 @@ fn sort_list<T: Ord>(list: &mut Vec<T>) {
 }
 
 /// Checks that the sets consist of parts of the mesh: its elements, their faces and edges, and its nodes.
-pub(crate) fn check(mesh: &TetrahedralMesh) -> Result<(), Problem> {
+pub(crate) fn check<const N: usize>(mesh: &Mesh<3, N>) -> Result<(), Problem> {
     if mesh.sets.is_empty() {
         return Ok(());
     }
     let (mut faces, mut edges) = (HashSet::new(), HashSet::new());
     for element in &mesh.elements {
-        faces.extend(FACES.map(|face| sorted(face.map(|corner| element[corner]))));
-        edges.extend(EDGES.map(|edge| sorted(edge.map(|corner| element[corner]))));
+        for (c, b) in (0..N).flat_map(|c| (0..c).map(move |b| (c, b))) {
+            edges.insert(sorted([element[b], element[c]]));
+            faces.extend((0..b).map(|a| sorted([element[a], element[b], element[c]])));
+        }
     }
     for (name, set) in &mesh.sets {
         let stray = |part: String| Problem::StrayPart { set: name.clone(), part };

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::Vector3;
 
-use crate::check::check;
+use crate::check::{check, flat};
 use crate::load::{line_of, refused};
 use crate::simulation::Shape;
 use crate::tables::{MeshTable, SurfaceTable};
@@ -12,10 +12,10 @@ use crate::values::{
     DirichletCondition, Drag, MaterialRegion, Pressure, RayleighDamping, Spring, Traction, curve, damping,
     density_factors, dirichlet_conditions, drag, initial_velocity, regions, springs, surface_loads,
 };
-use crate::{LoadCurve, Material, Scene, SceneError};
+use crate::{BodyMesh, LoadCurve, Material, Scene, SceneError};
 use fem_mesh::generate::odt::improve_inside;
 use fem_mesh::generate::{Solid, stuff_graded};
-use fem_mesh::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
+use fem_mesh::{AnyMesh, MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
 /// Largest number of nodes for which an explicit method takes the consistent mass by default. Its linear systems need some thirty
 /// products for each evaluation of the forces, a lumped mass one division.
@@ -73,25 +73,27 @@ impl Body {
 
 /// Reads and checks the meshes of a scene, and builds the body. A mesh file is searched beside the scene, then in `data`.
 pub fn body(scene: &Scene, data: &Path) -> Result<Body, SceneError> {
-    body_of(scene, tetrahedra(scene, data)?, data)
+    body_of(scene, elements(scene, data)?, data)
 }
 
-/// Builds the body on tetrahedra in memory, in place of those that the scene names.
-pub fn body_of(scene: &Scene, mesh: TetrahedralMesh, data: &Path) -> Result<Body, SceneError> {
-    let mesh = checked(scene, mesh)?;
+/// Builds the body on a mesh in memory, in place of the one that the scene names.
+pub fn body_of(scene: &Scene, mesh: impl Into<BodyMesh>, data: &Path) -> Result<Body, SceneError> {
+    let mesh = checked(scene, mesh.into())?;
+    let check = if mesh.is_flat() { flat::check } else { flat::check_solid };
+    check(scene).map_err(|(field, problem)| scene.refuse(&field, &problem))?;
     let display = scene.mesh.display.as_ref().map(|file| surface(scene, data, file)).transpose()?;
-    let boundary = fem_mesh::boundary(&mesh);
+    let boundary = mesh.surface();
     let dirichlet = dirichlet_conditions(scene, &mesh)?;
     let (tractions, pressures) = surface_loads(scene, &mesh, &boundary)?;
     let regions = regions(scene, &mesh)?;
-    let density_factors = density_factors(&regions, scene.material.density, mesh.elements.len());
+    let density_factors = density_factors(&regions, scene.material.density, mesh.elements());
     let density = |element: usize| scene.material.density * density_factors.get(element).copied().unwrap_or(1.0);
     let initial_velocity = initial_velocity(scene, &mesh, density, |file| find(scene, data, file))?;
     Ok(Body {
         name: scene.name.clone(),
         material: scene.material.clone(),
         regions,
-        lumped_mass: scene.mass.lumped.unwrap_or(lumps_by_default(scene, mesh.vertices.len())),
+        lumped_mass: scene.mass.lumped.unwrap_or(lumps_by_default(scene, mesh.vertices().len())),
         stiffness_factors: Vec::new(),
         density_factors,
         gravity: scene.gravity.as_ref().map(|gravity| gravity.acceleration.into()),
@@ -113,14 +115,21 @@ fn lumps_by_default(scene: &Scene, nodes: usize) -> bool {
     scene.time.integrator.is_explicit() && nodes > CONSISTENT_MASS
 }
 
-/// Scales, checks and refines the tetrahedra.
-fn checked(scene: &Scene, mesh: TetrahedralMesh) -> Result<TetrahedralMesh, SceneError> {
+/// Scales, checks and refines the mesh.
+fn checked(scene: &Scene, mesh: BodyMesh) -> Result<BodyMesh, SceneError> {
+    match mesh {
+        BodyMesh::Solid(mesh) => tetrahedra(scene, mesh).map(BodyMesh::Solid),
+        BodyMesh::Flat { triangles, thickness } => {
+            let triangles = scale(triangles, scene.mesh.scale);
+            fem_mesh::check_plane(&triangles, &source(scene)).map_err(|error| mesh_error(scene, "mesh", error))?;
+            Ok(BodyMesh::Flat { triangles, thickness })
+        }
+    }
+}
+
+fn tetrahedra(scene: &Scene, mesh: TetrahedralMesh) -> Result<TetrahedralMesh, SceneError> {
     let mesh = scale(mesh, scene.mesh.scale);
-    let source = match &scene.mesh {
-        MeshTable { file: Some(file), .. } | MeshTable { surface: Some(SurfaceTable { file, .. }), .. } => file.clone(),
-        MeshTable { files: Some(_), .. } => PathBuf::from("files"),
-        _ => PathBuf::from("box"),
-    };
+    let source = source(scene);
     fem_mesh::check(&mesh, &source).map_err(|error| mesh_error(scene, "mesh", error))?;
     if scene.mesh.refine == 0 {
         return Ok(mesh);
@@ -131,12 +140,31 @@ fn checked(scene: &Scene, mesh: TetrahedralMesh) -> Result<TetrahedralMesh, Scen
     checked.map_err(|error| mesh_error(scene, "mesh.refine", error))
 }
 
-fn tetrahedra(scene: &Scene, data: &Path) -> Result<TetrahedralMesh, SceneError> {
+/// The name of the mesh in messages.
+fn source(scene: &Scene) -> PathBuf {
+    match &scene.mesh {
+        MeshTable { file: Some(file), .. } | MeshTable { surface: Some(SurfaceTable { file, .. }), .. } => file.clone(),
+        MeshTable { files: Some(_), .. } => PathBuf::from("files"),
+        MeshTable { rectangle: Some(_), .. } => PathBuf::from("rectangle"),
+        _ => PathBuf::from("box"),
+    }
+}
+
+fn elements(scene: &Scene, data: &Path) -> Result<BodyMesh, SceneError> {
     let read = |field: &'static str, file: &Path| {
         fem_mesh::read_tetrahedra(&find(scene, data, file)).map_err(|error| mesh_error(scene, field, error))
     };
     match &scene.mesh {
-        MeshTable { file: Some(file), .. } => read("mesh.file", file),
+        MeshTable { file: Some(file), .. } if fem_mesh::is_surface(file) => {
+            read("mesh.file", file).map(BodyMesh::Solid)
+        }
+        MeshTable { file: Some(file), .. } => {
+            let mesh = fem_mesh::read_mesh(&find(scene, data, file));
+            match mesh.map_err(|error| mesh_error(scene, "mesh.file", error))? {
+                AnyMesh::Tetrahedra(mesh) => Ok(mesh.into()),
+                AnyMesh::Triangles(mesh) => Ok(flat_body(scene, mesh)),
+            }
+        }
         MeshTable { files: Some(files), .. } => {
             // Each is checked alone, so that an error names its file.
             let checked = |file: &PathBuf| {
@@ -144,10 +172,11 @@ fn tetrahedra(scene: &Scene, data: &Path) -> Result<TetrahedralMesh, SceneError>
                 fem_mesh::check(&mesh, file).map_err(|error| mesh_error(scene, "mesh.files", error))?;
                 Ok((name_of(file), mesh))
             };
-            Ok(fem_mesh::join(files.iter().map(checked).collect::<Result<Vec<_>, SceneError>>()?))
+            Ok(fem_mesh::join(files.iter().map(checked).collect::<Result<Vec<_>, SceneError>>()?).into())
         }
         MeshTable { cuboid: Some(cuboid), .. } => {
-            fem_mesh::box_mesh(cuboid.size, cuboid.cells_per_unit).map_err(|error| mesh_error(scene, "mesh.box", error))
+            let mesh = fem_mesh::box_mesh(cuboid.size, cuboid.cells_per_unit);
+            mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.box", error))
         }
         MeshTable { surface: Some(surface), .. } => {
             let path = find(scene, data, &surface.file);
@@ -157,10 +186,19 @@ fn tetrahedra(scene: &Scene, data: &Path) -> Result<TetrahedralMesh, SceneError>
                 fem_mesh::check(&mesh, &path)?;
                 Ok(improve_inside(&mesh, surface.improve, &Solid::new(&triangles)).mesh)
             });
-            mesh.map_err(|error| mesh_error(scene, "mesh.surface", error))
+            mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.surface", error))
         }
-        _ => unreachable!("a scene without tetrahedra is refused when it is read"),
+        MeshTable { rectangle: Some(rectangle), .. } => {
+            let mesh = fem_mesh::rectangle_mesh(rectangle.size, rectangle.cells_per_unit);
+            mesh.map(|triangles| flat_body(scene, triangles))
+                .map_err(|error| mesh_error(scene, "mesh.rectangle", error))
+        }
+        _ => unreachable!("a scene without elements is refused when it is read"),
     }
+}
+
+fn flat_body(scene: &Scene, triangles: SurfaceMesh) -> BodyMesh {
+    BodyMesh::Flat { triangles, thickness: scene.material.thickness.unwrap_or(1.0) }
 }
 
 /// The name of a mesh file without its extensions: `wheel` of `meshes/wheel.node.gz`.

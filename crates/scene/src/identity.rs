@@ -31,8 +31,8 @@ impl Identity {
         let mut set = |key: &str, value: String| values.insert(key.to_owned(), value);
         set("time.integrator", simulation.integrator().to_owned());
         set("time.dt", number(simulation.dt()));
-        set("number of nodes", shape.mesh.vertices.len().to_string());
-        set("number of elements", shape.mesh.elements.len().to_string());
+        set("number of nodes", shape.mesh.vertices().len().to_string());
+        set("number of elements", shape.mesh.elements().to_string());
         set("fingerprint of the mesh", format!("{:016x}", fingerprint(&shape)));
         for parameter in simulation.parameters() {
             set(&format!("parameter {}", parameter.key), number(parameter.value));
@@ -89,9 +89,9 @@ fn number(value: f64) -> String {
 
 /// A hash of nodes, elements and sets: FNV-1a, which no version of Rust changes.
 fn fingerprint(shape: &Shape) -> u64 {
-    let coordinates = shape.mesh.vertices.iter().flat_map(|x| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>());
-    let corners = shape.mesh.elements.iter().flatten().map(|&node| node as u64);
-    let sets = shape.mesh.sets.values().flat_map(|set| set.nodes(&shape.mesh.elements)).map(|node| node as u64);
+    let coordinates = shape.mesh.vertices().iter().flat_map(|x| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>());
+    let corners = shape.mesh.corners().flatten().map(|&node| node as u64);
+    let sets = shape.mesh.sets().values().flat_map(|set| shape.mesh.nodes_of_set(set)).map(|node| node as u64);
     let bytes = coordinates.chain(corners).chain(sets).flat_map(u64::to_le_bytes);
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }

@@ -23,7 +23,7 @@
 //! "#;
 //! let scene = fem_scene::parse(text, "beam.toml".as_ref())?;
 //! let body = fem_scene::body(&scene, "data".as_ref())?;
-//! assert_eq!(body.shape.mesh.vertices.len(), 12);
+//! assert_eq!(body.shape.mesh.vertices().len(), 12);
 //! assert_eq!(body.fixed_nodes(), Some(&[0, 3, 6, 9][..]));
 //! assert_eq!(scene.method().dt, 0.01);
 //!
@@ -39,6 +39,7 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
 mod body;
+mod body_mesh;
 mod check;
 mod curve;
 mod error;
@@ -56,6 +57,7 @@ mod values;
 mod warnings;
 
 pub use body::{Body, CONSISTENT_MASS, body, body_of};
+pub use body_mesh::BodyMesh;
 pub use curve::{LoadCurve, is_before};
 pub use error::SceneError;
 pub use integrator::Integrator;

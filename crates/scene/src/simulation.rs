@@ -9,7 +9,9 @@ use std::sync::Arc;
 
 use nalgebra::{DVector, Matrix3, Matrix4, Vector3, Vector4};
 
-use fem_mesh::{SurfaceMesh, TetrahedralMesh};
+use fem_mesh::SurfaceMesh;
+
+use crate::BodyMesh;
 
 pub use checkpoint::{Checkpoint, History};
 pub use failure::{Breakdown, Cause, Failure};
@@ -135,9 +137,10 @@ pub trait Simulation: Send {
 /// The undeformed body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// Nodes and tetrahedra of the simulation.
-    pub mesh: TetrahedralMesh,
-    /// Boundary triangles of `mesh`, as indices of its nodes, counter-clockwise from outside.
+    /// Nodes and elements of the simulation.
+    pub mesh: BodyMesh,
+    /// Triangles of the surface, as indices of the nodes of `mesh`: the boundary of a solid body, counter-clockwise from outside, or all
+    /// triangles of a flat one.
     pub boundary: Vec<[usize; 3]>,
     /// The display surface, if the scene has one.
     pub display: Option<SurfaceMesh>,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Body, Material, Scene};
+use crate::{Body, BodyMesh, Material, Scene};
 
 /// The warnings before a run, each with its remedy: nodes that coincide without being merged, parts that nothing constrains,
 /// and materials in which linear tetrahedra lock.
@@ -23,8 +23,12 @@ fn locking(body: &Body) -> impl Iterator<Item = String> {
     let materials = std::iter::once(("material", &body.material)).chain(regions);
     let warning = |(table, material): (&str, &Material)| {
         let poisson = material.poissons_ratio().filter(|_| material.locks())?;
+        let (kind, figures) = match &body.shape.mesh {
+            BodyMesh::Solid(_) => ("tetrahedra", format!(": {LOCKING}")),
+            BodyMesh::Flat { .. } => ("triangles in plane strain", String::new()),
+        };
         Some(format!(
-            "{table}: Poisson's ratio is {poisson:.4}, and linear tetrahedra lock near ½: {LOCKING}; refine the mesh until the \
+            "{table}: Poisson's ratio is {poisson:.4}, and linear {kind} lock near ½{figures}; refine the mesh until the \
              result stays, or take a ratio of 0.45 or less"
         ))
     };
@@ -36,7 +40,7 @@ const LOCKING: &str = "the tip of a cantilever of 8 × 1 × 1 m with 6 cells per
                        0.75 at ν = 0.45, 0.45 at ν = 0.49, 0.10 at ν = 0.499 and 0.03 at ν = 0.4999";
 
 fn coincident_nodes(body: &Body) -> Option<String> {
-    let found = fem_mesh::coincident_nodes(&body.shape.mesh)?;
+    let found = body.shape.mesh.coincident_nodes()?;
     let [a, b] = found.first;
     Some(format!(
         "mesh: {} nodes lie at the place of another one, the first are {a} and {b}; the body is not connected there unless they are \
@@ -50,7 +54,7 @@ fn unconstrained_parts(body: &Body) -> Option<String> {
     if body.dirichlet.is_empty() {
         return None;
     }
-    let mut part = fem_mesh::parts(&body.shape.mesh);
+    let mut part = body.shape.mesh.parts();
     for spring in &body.springs {
         let [a, b] = spring.nodes.map(|node| part[node]);
         part.iter_mut().filter(|part| **part == a.max(b)).for_each(|part| *part = a.min(b));

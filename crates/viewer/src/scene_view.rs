@@ -41,7 +41,7 @@ impl SceneView {
     /// The view of a body at rest. kiss3d's window or offscreen surface must exist before.
     pub fn new(shape: &Shape, up: Vec3) -> Self {
         let mut root = SceneNode3d::empty();
-        let nodes: Vec<Vec3> = shape.mesh.vertices.iter().map(single).collect();
+        let nodes: Vec<Vec3> = shape.mesh.vertices().iter().map(single).collect();
         let shown: Vec<Vec3> = match &shape.display {
             Some(display) => display.vertices.iter().map(single).collect(),
             None => nodes.clone(),

@@ -109,7 +109,7 @@ fn result(scene: &Scene, values: Vec<String>, state: &Path) -> Result<SweptRun, 
         newton_iterations: simulation.counters().newton_iterations,
         energies: [energies.kinetic, energies.potential],
         min_J: least,
-        largest_displacement: shape.mesh.vertices.iter().enumerate().map(moved).fold(0.0, f64::max),
+        largest_displacement: shape.mesh.vertices().iter().enumerate().map(moved).fold(0.0, f64::max),
         state: state.file_name().unwrap_or_default().to_string_lossy().into_owned(),
     })
 }

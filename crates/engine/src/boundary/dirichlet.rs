@@ -2,7 +2,7 @@
 //!
 //! Fully constrained nodes come last in the engine's numbering and have no rows in any matrix. Partly constrained nodes, and those
 //! that become free at a time, keep their rows; their constrained degrees of freedom are eliminated from the matrix. A release
-//! therefore changes neither the numbering nor the pattern of the matrix.
+//! therefore changes neither the numbering nor the pattern of the matrix. Nodes of a flat body are constrained along z at all times.
 
 use fem_scene::{Body, DirichletCondition, Motion, is_before};
 use nalgebra::Vector3;
@@ -19,6 +19,8 @@ pub struct DirichletConditions {
     pub free: usize,
     /// Nodes below `free` with their constrained directions, ascending.
     partly: Vec<(usize, [bool; 3])>,
+    /// Directions in which every node is constrained: z for a flat body.
+    everywhere: [bool; 3],
     conditions: Vec<DirichletCondition>,
     /// Whether each condition applies now.
     applies: Vec<bool>,
@@ -26,9 +28,14 @@ pub struct DirichletConditions {
 
 /// Whether each node of the mesh is constrained in all directions at all times.
 pub fn fully_constrained_nodes(body: &Body) -> Vec<bool> {
-    let mut directions = vec![[false; 3]; body.shape.mesh.vertices.len()];
+    let mut directions = vec![everywhere(body); body.shape.mesh.vertices().len()];
     constrain(body.dirichlet.iter().filter(|condition| condition.until.is_none()), &mut directions);
     directions.into_iter().map(|constrained| constrained == [true; 3]).collect()
+}
+
+/// The directions in which every node of a body is constrained.
+pub fn everywhere(body: &Body) -> [bool; 3] {
+    [false, false, body.shape.mesh.is_flat()]
 }
 
 fn constrain<'a>(conditions: impl Iterator<Item = &'a DirichletCondition>, directions: &mut [[bool; 3]]) {
@@ -49,8 +56,9 @@ impl DirichletConditions {
         };
         let conditions: Vec<_> = body.dirichlet.iter().map(engine_nodes).collect();
         let applies = vec![true; conditions.len()];
-        let mut new = Self { free: numbering.free, partly: Vec::new(), conditions, applies };
-        new.find_partly_constrained(body.shape.mesh.vertices.len());
+        let everywhere = everywhere(body);
+        let mut new = Self { free: numbering.free, partly: Vec::new(), everywhere, conditions, applies };
+        new.find_partly_constrained(body.shape.mesh.vertices().len());
         new
     }
 
@@ -67,7 +75,7 @@ impl DirichletConditions {
     }
 
     fn find_partly_constrained(&mut self, nodes: usize) {
-        let mut directions = vec![[false; 3]; nodes];
+        let mut directions = vec![self.everywhere; nodes];
         constrain(self.applying(), &mut directions);
         directions.truncate(self.free);
         let directions = directions.into_iter().enumerate();
@@ -79,9 +87,14 @@ impl DirichletConditions {
         self.conditions.iter().zip(&self.applies).filter_map(|(condition, applies)| applies.then_some(condition))
     }
 
-    /// Whether no degree of freedom of a body with so many nodes is constrained.
-    pub fn is_empty(&self, nodes: usize) -> bool {
-        self.free == nodes && self.partly.is_empty()
+    /// Whether no condition constrains a node now. A flat body without conditions is free in its plane.
+    pub fn is_empty(&self) -> bool {
+        self.applying().all(|condition| condition.nodes.is_empty())
+    }
+
+    /// Whether every node is constrained in a direction.
+    pub fn is_constrained_everywhere(&self, direction: usize) -> bool {
+        self.everywhere[direction]
     }
 
     /// Every condition with the engine's numbers of its nodes, and whether it applies now.
@@ -150,12 +163,16 @@ impl DirichletConditions {
         }
     }
 
-    /// Eliminates the constrained degrees of freedom from a matrix: zero beside the diagonal, the diagonal entry as it is.
+    /// Eliminates the constrained degrees of freedom from a matrix: zero beside the diagonal, the diagonal entry as it is. Flat bodies
+    /// have no stiffness along z; the entry there becomes the mean of the others.
     pub fn eliminate<T: Real>(&self, pattern: &Pattern, values: &mut [Block<T, 3>]) {
         for &(node, constrained) in &self.partly {
             for block in pattern.row(node) {
                 let column = pattern.columns[block] as usize;
                 clear_rows(&mut values[block], constrained, column == node);
+                if column == node && self.everywhere[2] {
+                    fill_z(&mut values[block]);
+                }
                 let is_mirrored = pattern.stored == Stored::Full;
                 if column != node
                     && is_mirrored
@@ -196,6 +213,12 @@ fn clear_rows<T: Real>(block: &mut Block<T, 3>, constrained: [bool; 3], is_diago
             }
         }
     }
+}
+
+/// Gives a diagonal block an entry along z of the size of the others, so that the matrix is not singular.
+fn fill_z<T: Real>(block: &mut Block<T, 3>) {
+    let mean = T::of(0.5 * (block[0][0].as_f64().abs() + block[1][1].as_f64().abs()));
+    block[2][2] = if mean > T::default() { mean } else { T::one() };
 }
 
 fn clear_columns<T: Real>(block: &mut Block<T, 3>, constrained: [bool; 3]) {

@@ -3,6 +3,7 @@
 use fem_scene::Body;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
+use super::dirichlet::everywhere;
 use crate::refusal::Refusal;
 
 /// A rigid motion is constrained if its stiffness is more than this part of the largest.
@@ -10,8 +11,8 @@ const LEAST: f64 = 1e-9;
 
 /// Refuses a body of which a connected part can move or rotate without deforming. Parts that springs join are left to the solver.
 pub(crate) fn check(body: &Body) -> Result<(), Refusal> {
-    let part = fem_mesh::parts(&body.shape.mesh);
-    let grams = gram_matrices(&body.shape.mesh.vertices, &part, &constrained_directions(body));
+    let part = body.shape.mesh.parts();
+    let grams = gram_matrices(body.shape.mesh.vertices(), &part, &constrained_directions(body));
     let joined: Vec<usize> = body.springs.iter().flat_map(|spring| spring.nodes).map(|node| part[node]).collect();
     for root in (0..part.len()).filter(|&node| part[node] == node && !joined.contains(&node)) {
         let values = grams[root].symmetric_eigenvalues();
@@ -30,7 +31,7 @@ pub(crate) fn check(body: &Body) -> Result<(), Refusal> {
 
 /// The constrained directions of each node. The anchor spring of a drag counts as one.
 fn constrained_directions(body: &Body) -> Vec<[bool; 3]> {
-    let mut constrained = vec![[false; 3]; body.shape.mesh.vertices.len()];
+    let mut constrained = vec![everywhere(body); body.shape.mesh.vertices().len()];
     for condition in &body.dirichlet {
         for &node in &condition.nodes {
             let before = constrained[node];

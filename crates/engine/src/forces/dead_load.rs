@@ -1,6 +1,5 @@
 //! Dead loads: nodal forces that keep their direction, and their size up to a factor of time. Weight, body force, tractions.
 
-use fem_mesh::{area_vector, volumes};
 use fem_scene::{Body, LoadCurve};
 use nalgebra::Vector3;
 
@@ -30,7 +29,7 @@ impl<T: Real> DeadLoad<T> {
 
 /// Weight, body force and dead tractions of a body; `None` where it has none of them.
 pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Potential<T>>> {
-    let mut sums = Sums { nodes: body.shape.mesh.vertices.len(), of_curve: Vec::new() };
+    let mut sums = Sums { nodes: body.shape.mesh.vertices().len(), of_curve: Vec::new() };
     add_volume_loads(body, &mut sums);
     add_tractions(body, &mut sums);
     let in_order = |(curve, force): (Option<LoadCurve>, Vec<Vector3<f64>>)| {
@@ -57,15 +56,15 @@ impl Sums {
     }
 }
 
-/// Adds weight and body force: each node of a linear tetrahedron carries a quarter of its load.
+/// Adds weight and body force: the nodes of a linear element carry equal shares of its load.
 fn add_volume_loads(body: &Body, sums: &mut Sums) {
     let mesh = &body.shape.mesh;
     let density = |element: usize| body.material.density * body.density_factors.get(element).copied().unwrap_or(1.0);
     let mut add = |curve: &Option<LoadCurve>, per_volume: &dyn Fn(usize) -> Vector3<f64>| {
         let force = sums.of(curve);
-        for (number, (element, volume)) in mesh.elements.iter().zip(volumes(mesh)).enumerate() {
-            let share = 0.25 * volume * per_volume(number);
-            element.iter().for_each(|&node| force[node] += share);
+        for (number, (nodes, volume)) in mesh.corners().zip(mesh.volumes()).enumerate() {
+            let share = volume / nodes.len() as f64 * per_volume(number);
+            nodes.iter().for_each(|&node| force[node] += share);
         }
     };
     if let Some(gravity) = body.gravity {
@@ -76,13 +75,12 @@ fn add_volume_loads(body: &Body, sums: &mut Sums) {
     }
 }
 
-/// Adds tractions: each node of a linear triangle carries a third of its load.
+/// Adds tractions: the nodes of a linear triangle or edge carry equal shares of its load.
 fn add_tractions(body: &Body, sums: &mut Sums) {
     for traction in &body.tractions {
         let force = sums.of(&traction.curve);
         for face in &traction.faces {
-            let area = area_vector(face.map(|node| body.shape.mesh.vertices[node])).norm();
-            let share = area / 3.0 * traction.force_per_area;
+            let share = body.shape.mesh.area(face) / face.len() as f64 * traction.force_per_area;
             face.iter().for_each(|&node| force[node] += share);
         }
     }

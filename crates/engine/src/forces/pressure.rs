@@ -47,7 +47,7 @@ pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Pote
 
 impl<T: Real> Pressure<T> {
     fn new(body: &Body, pressure: &fem_scene::Pressure, numbering: &Numbering) -> Self {
-        let vertices = &body.shape.mesh.vertices;
+        let vertices = body.shape.mesh.vertices();
         let vector = |v: Vector3<f64>| [T::of(v.x), T::of(v.y), T::of(v.z)];
         let face = |face: &[usize; 3]| {
             let [a, b, c] = face.map(|node| vertices[node]);

@@ -84,7 +84,7 @@ struct Spring<T> {
 
 impl<T: Real> Spring<T> {
     fn new(body: &Body, spring: &fem_scene::Spring, numbering: &Numbering) -> Self {
-        let [a, b] = spring.nodes.map(|node| body.shape.mesh.vertices[node]);
+        let [a, b] = spring.nodes.map(|node| body.shape.mesh.vertices()[node]);
         let edge = b - a;
         let length = spring.rest_length;
         // Rounding of a length that is the undeformed distance must not stretch the spring.

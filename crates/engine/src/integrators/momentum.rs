@@ -19,7 +19,7 @@ pub fn restore<T: Real>(potential: &IncrementalPotential<T>, dt: f64, w: &mut [[
     let resultant = conservative.try_fold([0.0; 3], |sum, (force, _)| Some(add(sum, force.resultant(increment.end)?)));
     let Some(resultant) = resultant else { return };
     let damped = 1.0 + dt * system.damping.as_ref().map_or(0.0, |damping| damping.alpha);
-    for i in 0..3 {
+    for i in (0..3).filter(|&i| !system.dirichlet.is_constrained_everywhere(i)) {
         let follower_load: f64 = followers.iter().map(|gradient| -gradient[i].as_f64()).sum();
         let load = follower_load + resultant[i];
         let difference = |node: usize| inertia.inertial[node][i].as_f64() - damped * w[node][i].as_f64();

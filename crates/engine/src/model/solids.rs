@@ -1,10 +1,11 @@
 //! The elements of a body, grouped by material: the loops over a group are compiled for its law.
 
-use fem_scene::Body;
+use fem_scene::{Body, BodyMesh};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::elements::Elements;
 use crate::materials::{AnyLaw, Projected, match_law, with_law};
+use crate::model::numbering::Numbering;
 use crate::number::Real;
 use crate::sparse::{Block, Pattern};
 
@@ -20,9 +21,38 @@ pub struct Solids<T: Real> {
 /// The elements of one material.
 struct Solid<T: Real> {
     law: AnyLaw<T::Lanes>,
-    elements: Elements<T, 3, 4>,
+    elements: AnyElements<T>,
     /// Number of each element in the mesh; empty where the group is the whole mesh in its order.
     numbers: Vec<usize>,
+}
+
+/// Elements of one shape. The loops over tetrahedra are compiled for each law; those over triangles call it by reference, once per batch.
+enum AnyElements<T: Real> {
+    Tetrahedra(Elements<T, 3, 4>),
+    Triangles(Elements<T, 2, 3>),
+}
+
+/// Evaluates an expression for the elements, whatever their shape.
+macro_rules! with_elements {
+    ($elements:expr, $name:ident => $value:expr) => {
+        match $elements {
+            AnyElements::Tetrahedra($name) => $value,
+            AnyElements::Triangles($name) => $value,
+        }
+    };
+}
+
+/// The same with the group's law.
+macro_rules! with_law_and_elements {
+    ($group:expr, $law:ident, $elements:ident => $value:expr) => {
+        match &$group.elements {
+            AnyElements::Tetrahedra($elements) => with_law!(&$group.law, $law => $value),
+            AnyElements::Triangles($elements) => {
+                let $law = $group.law.as_law();
+                $value
+            }
+        }
+    };
 }
 
 impl<T: Real> Solid<T> {
@@ -32,25 +62,51 @@ impl<T: Real> Solid<T> {
     }
 }
 
+impl<T: Real> AnyElements<T> {
+    /// The elements of these numbers; `factors` on their energies is empty where all are 1.
+    fn new(
+        mesh: &BodyMesh,
+        factors: &[f64],
+        numbers: &[usize],
+        rest: &[Vector3<f64>],
+        numbering: &Numbering,
+        pattern: &Pattern,
+    ) -> Self {
+        let factor = |&element: &usize| factors.get(element).copied().unwrap_or(1.0);
+        match mesh {
+            BodyMesh::Solid(mesh) => {
+                let corners = numbering.elements(numbers.iter().map(|&element| &mesh.elements[element]));
+                let factors: Vec<f64> =
+                    if factors.is_empty() { Vec::new() } else { numbers.iter().map(factor).collect() };
+                Self::Tetrahedra(Elements::stiffened(rest, &corners, &factors, pattern))
+            }
+            BodyMesh::Flat { triangles, thickness } => {
+                let corners = numbering.elements(numbers.iter().map(|&element| &triangles.elements[element]));
+                let factors: Vec<f64> = numbers.iter().map(|element| thickness * factor(element)).collect();
+                Self::Triangles(Elements::stiffened(rest, &corners, &factors, pattern))
+            }
+        }
+    }
+}
+
 impl<T: Real> Solids<T> {
-    /// Groups the elements of a body, with positions and corners in the engine's numbering. `law` is that of the body's own material.
+    /// Groups the elements of a body, with positions and numbers of nodes as the engine has them. `law` is that of the body's own
+    /// material.
     pub fn new(
         body: &Body,
         law: AnyLaw<T::Lanes>,
         rest: &[Vector3<f64>],
-        corners: &[[u32; 4]],
+        numbering: &Numbering,
         pattern: &Pattern,
     ) -> Self {
         let factors = &body.stiffness_factors;
-        let count = corners.len();
+        let count = body.shape.mesh.elements();
         let group = |law: AnyLaw<T::Lanes>, numbers: Vec<usize>| {
-            let corners: Vec<_> = numbers.iter().map(|&element| corners[element]).collect();
-            let factors: Vec<f64> =
-                if factors.is_empty() { Vec::new() } else { numbers.iter().map(|&element| factors[element]).collect() };
-            Solid { law, elements: Elements::stiffened(rest, &corners, &factors, pattern), numbers }
+            let elements = AnyElements::new(&body.shape.mesh, factors, &numbers, rest, numbering, pattern);
+            Solid { law, elements, numbers }
         };
         let groups = if body.regions.is_empty() {
-            vec![Solid { law, elements: Elements::stiffened(rest, corners, factors, pattern), numbers: Vec::new() }]
+            vec![Solid { numbers: Vec::new(), ..group(law, (0..count).collect()) }]
         } else {
             let mut is_own = vec![true; count];
             body.regions.iter().flat_map(|region| &region.elements).for_each(|&element| is_own[element] = false);
@@ -85,54 +141,66 @@ impl<T: Real> Solids<T> {
 
     /// Memory, bytes.
     pub fn bytes(&self) -> usize {
-        self.groups.iter().map(|group| group.elements.bytes() + size_of_val(&group.numbers[..])).sum()
+        self.groups
+            .iter()
+            .map(|group| {
+                with_elements!(&group.elements, elements => elements.bytes()) + size_of_val(&group.numbers[..])
+            })
+            .sum()
     }
 
     /// Elastic energy, J.
     pub fn energy(&self, u: &[[T; 3]]) -> f64 {
-        self.groups.iter().map(|group| group.elements.energy(group.law.as_law(), u)).sum()
+        self.groups
+            .iter()
+            .map(|group| with_elements!(&group.elements, elements => elements.energy(group.law.as_law(), u)))
+            .sum()
     }
 
     /// Adds the gradient of the energy, N.
     pub fn add_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
-        for Solid { law, elements, .. } in &self.groups {
-            with_law!(law, law => elements.add_gradient(law, u, gradient));
+        for group in &self.groups {
+            with_law_and_elements!(group, law, elements => elements.add_gradient(law, u, gradient));
         }
     }
 
     /// Energy and gradient in one pass.
     pub fn add_energy_and_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) -> f64 {
         let mut energy = 0.0;
-        for Solid { law, elements, .. } in &self.groups {
-            energy += with_law!(law, law => elements.add_energy_and_gradient(law, u, gradient));
+        for group in &self.groups {
+            energy +=
+                with_law_and_elements!(group, law, elements => elements.add_energy_and_gradient(law, u, gradient));
         }
         energy
     }
 
     /// Adds `factor` times the exact Hessian of the energy, N/m.
     pub fn add_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
-        for Solid { law, elements, .. } in &self.groups {
-            with_law!(law, law => elements.add_stiffness(law, factor, u, values));
+        for group in &self.groups {
+            with_law_and_elements!(group, law, elements => elements.add_stiffness(law, factor, u, values));
         }
     }
 
     /// Adds `factor` times the Hessian of the energy, projected element by element to positive semi-definite, N/m.
     pub fn add_projected_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
         for Solid { law, elements, .. } in &self.groups {
-            elements.add_stiffness(&Projected(law.as_law()), factor, u, values);
+            with_elements!(elements, elements => elements.add_stiffness(&Projected(law.as_law()), factor, u, values));
         }
     }
 
     /// Adds `factor` K(u) d without a matrix, N.
     pub fn add_stiffness_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
         for Solid { law, elements, .. } in &self.groups {
-            elements.add_stiffness_times(law.as_law(), factor, u, d, product);
+            with_elements!(elements, elements => elements.add_stiffness_times(law.as_law(), factor, u, d, product));
         }
     }
 
     /// Magnitude of the terms that cancel in the elastic energy of a rotated body, J.
     pub fn cancelled(&self, u: &[[T; 3]]) -> f64 {
-        self.groups.iter().map(|group| group.law.size() * group.elements.squares(u)).sum()
+        self.groups
+            .iter()
+            .map(|group| group.law.size() * with_elements!(&group.elements, elements => elements.squares(u)))
+            .sum()
     }
 
     /// Minimum of det F, and its element in the mesh.
@@ -147,13 +215,13 @@ impl<T: Real> Solids<T> {
 
     /// Number of elements with det F ≤ 0.
     pub fn inverted(&self, u: &[[T; 3]]) -> usize {
-        self.groups.iter().map(|group| group.elements.inverted(u)).sum()
+        self.groups.iter().map(|group| with_elements!(&group.elements, elements => elements.inverted(u))).sum()
     }
 
     fn least(&self, u: &[[T; 3]], is_meant: impl Fn(&Solid<T>) -> bool) -> (T, usize) {
         let mut least = (T::of(f64::INFINITY), 0);
         for group in self.groups.iter().filter(|group| is_meant(group)) {
-            let (J, element) = group.elements.min_det_F(u);
+            let (J, element) = with_elements!(&group.elements, elements => elements.min_det_F(u));
             // NaN is the smallest of all.
             if !(least.0 <= J) {
                 least = (J, group.number(element));
@@ -166,7 +234,8 @@ impl<T: Real> Solids<T> {
     pub fn cauchy_stresses(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
         let mut stresses = vec![Matrix3::zeros(); self.count];
         for group in &self.groups {
-            for (element, stress) in group.elements.cauchy_stresses(&group.law, u).into_iter().enumerate() {
+            let of_group = with_elements!(&group.elements, elements => elements.cauchy_stresses(&group.law, u));
+            for (element, stress) in of_group.into_iter().enumerate() {
                 let number = group.number(element);
                 let factor = self.factors.get(number).copied().unwrap_or(1.0);
                 stresses[number] = factor * Matrix3::from_fn(|i, j| stress[i][j]);

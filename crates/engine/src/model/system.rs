@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use fem_scene::simulation::Shape;
-use fem_scene::{Body, Interaction, RayleighDamping};
+use fem_scene::{Body, BodyMesh, Interaction, RayleighDamping};
 use nalgebra::{Matrix3, Vector3};
 
 use super::mass::Mass;
@@ -62,30 +62,42 @@ impl<T: Real> System<T> {
 
     /// The same with forces of one's own beside those that the scene names.
     pub fn with_forces(body: Body, law: AnyLaw<T::Lanes>, choice: SolverChoice, own: OwnForces<T>) -> Self {
+        match &body.shape.mesh {
+            BodyMesh::Solid(mesh) => Self::of_elements(&mesh.elements, &body, law, choice, own),
+            BodyMesh::Flat { triangles, .. } => Self::of_elements(&triangles.elements, &body, law, choice, own),
+        }
+    }
+
+    fn of_elements<const N: usize>(
+        elements: &[[usize; N]],
+        body: &Body,
+        law: AnyLaw<T::Lanes>,
+        choice: SolverChoice,
+        own: OwnForces<T>,
+    ) -> Self {
         let mesh = &body.shape.mesh;
-        let fully_constrained = fully_constrained_nodes(&body);
-        let numbering = Numbering::new(choice.ordering(), &mesh.vertices, &mesh.elements, &fully_constrained);
-        let corners = numbering.elements(&mesh.elements);
-        let rest: Vec<_> = numbering.mesh_node.iter().map(|&node| mesh.vertices[node as usize]).collect();
+        let fully_constrained = fully_constrained_nodes(body);
+        let numbering = Numbering::new(choice.ordering(), mesh.vertices(), elements, &fully_constrained);
+        let corners = numbering.elements(elements);
+        let rest: Vec<_> = numbering.mesh_node.iter().map(|&node| mesh.vertices()[node as usize]).collect();
         let own = own(&numbering);
         let (name, shape) = (body.name.clone(), Arc::new(body.shape.clone()));
-        let anchors =
-            Anchors::new(Interaction::new(body.drag, pull_modulus(&body) * length(&rest)), &shape, &numbering);
-        let forces = Forces::new(&body, anchors, &numbering, own);
+        let anchors = Anchors::new(Interaction::new(body.drag, pull_modulus(body) * length(&rest)), &shape, &numbering);
+        let forces = Forces::new(body, anchors, &numbering, own);
         let couplings: Vec<[u32; 2]> = forces.all().flat_map(|(potential, _)| potential.couplings()).collect();
         let pattern = Pattern::joined(numbering.free, &corners, &couplings, choice.stored());
-        let volumes = fem_mesh::volumes(mesh);
+        let volumes = mesh.volumes();
         let relative_density = |element: usize| body.density_factors.get(element).copied().unwrap_or(1.0);
         // Volumes that weigh as much at the scene's density.
         let weighted: Vec<f64> =
             volumes.iter().enumerate().map(|(element, volume)| relative_density(element) * volume).collect();
         let mass = Mass::new(rest.len(), &corners, &weighted, body.material.density, body.lumped_mass);
-        let dirichlet = DirichletConditions::new(&body, &numbering);
+        let dirichlet = DirichletConditions::new(body, &numbering);
         Self {
-            elements: Solids::new(&body, law, &rest, &corners, &pattern),
+            elements: Solids::new(body, law, &rest, &numbering, &pattern),
             length: length(&rest),
             total_mass: body.material.density * weighted.iter().sum::<f64>(),
-            node_masses: if dirichlet.is_empty(rest.len()) { mass.lumped() } else { Vec::new() },
+            node_masses: if dirichlet.is_empty() { mass.lumped() } else { Vec::new() },
             name,
             damping: body.damping,
             shape,
@@ -118,9 +130,9 @@ impl<T: Real> System<T> {
         self.numbering.free
     }
 
-    /// Whether no degree of freedom is constrained.
+    /// Whether no Dirichlet condition applies now.
     pub fn is_unconstrained(&self) -> bool {
-        self.dirichlet.is_empty(self.nodes())
+        self.dirichlet.is_empty()
     }
 
     /// Whether the elastic energy is quadratic and no force depends on the displacements: then one linear solve finds equilibrium.

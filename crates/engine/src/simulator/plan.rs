@@ -14,6 +14,7 @@ const NO_COST: (usize, f64) = (0, 0.0);
 pub(super) struct Plan {
     nodes: usize,
     elements: usize,
+    kind: &'static str,
     materials: String,
     has_lumped_mass: bool,
     /// Number of nodes of `[fixed]`, and the time until which they are, s.
@@ -32,8 +33,9 @@ impl Plan {
     pub(super) fn new(body: &Body) -> Self {
         let fixed = body.dirichlet.iter().find(|condition| condition.motion.is_none());
         Self {
-            nodes: body.shape.mesh.vertices.len(),
-            elements: body.shape.mesh.elements.len(),
+            nodes: body.shape.mesh.vertices().len(),
+            elements: body.shape.mesh.elements(),
+            kind: body.shape.mesh.kind(),
             materials: materials(body),
             has_lumped_mass: body.lumped_mass,
             fixed: fixed.map(|condition| (condition.nodes.len(), condition.until)),
@@ -79,7 +81,7 @@ impl Plan {
             Precision::F32 => "f32",
         };
         [
-            Part::mesh(self.nodes, self.elements, 0),
+            Part::mesh(self.nodes, self.elements, self.kind, 0),
             built("material", &self.materials),
             built("state", format!("displacements and velocities in {number}")),
             built("mass", mass(self.has_lumped_mass, kind.is_explicit())),
@@ -129,10 +131,10 @@ fn materials(body: &Body) -> String {
     std::iter::once(material(&body.material)).chain(regions).collect()
 }
 
-/// The law and its parameters, with a warning where linear tetrahedra lock.
+/// The law and its parameters, with a warning where linear elements lock.
 fn material(material: &Material) -> String {
     let note = if material.locks() {
-        "; linear tetrahedra lock so close to ν = ½: displacements come out far too small"
+        "; linear elements lock so close to ν = ½: displacements come out far too small"
     } else {
         ""
     };

@@ -28,7 +28,7 @@ pub(super) fn check<T: Real>(method: &Method, system: &System<T>) -> Result<(), 
     let moduli: Vec<[T; 2]> = system.elements.moduli().map(|moduli| moduli.map(T::of)).collect();
     let mass = system.mass.diagonal();
     let rate = T::of(1.0 / (method.dt * method.dt));
-    let volumes = fem_mesh::volumes(&system.shape.mesh);
+    let volumes = system.shape.mesh.volumes();
     let has_range = |volume: &f64| is_positive(T::of(*volume)) && is_positive(T::of(1.0 / volume));
     let derived = [
         ("mesh", "a volume of an element", volumes.iter().all(has_range)),

@@ -27,7 +27,7 @@ impl<T: Real> Simulation for Simulator<T> {
 
     fn positions(&self) -> DVector<f64> {
         let u = self.system.numbering.to_mesh(&self.state.u);
-        let V = &self.system.shape.mesh.vertices;
+        let V = self.system.shape.mesh.vertices();
         DVector::from_fn(3 * V.len(), |i, _| V[i / 3][i % 3] + u[i / 3][i % 3].as_f64())
     }
 
@@ -201,7 +201,7 @@ impl<T: Real> Simulator<T> {
     /// Positions of the mesh's nodes, m.
     fn nodes_now(&self) -> Vec<Vector3<f64>> {
         let u = self.system.numbering.to_mesh(&self.state.u);
-        let V = &self.system.shape.mesh.vertices;
+        let V = self.system.shape.mesh.vertices();
         V.iter().zip(u).map(|(X, u)| X + Vector3::from(u.map(T::as_f64))).collect()
     }
 

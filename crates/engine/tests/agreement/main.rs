@@ -65,7 +65,7 @@ fn distance(simulation: &dyn Simulation, positions: &BTreeMap<usize, [f64; 3]>) 
 /// Longest edge of the undeformed body's bounding box, m.
 fn size(simulation: &dyn Simulation) -> f64 {
     let shape = simulation.shape();
-    let V = &shape.mesh.vertices;
+    let V = shape.mesh.vertices();
     let (least, most) = V.iter().fold((V[0], V[0]), |(least, most), x| (least.inf(x), most.sup(x)));
     (most - least).max()
 }
@@ -110,7 +110,7 @@ fn a_sagging_beam_of_linear_elasticity_has_the_displacements_of_fenris() {
     let simulation = run(&parse(CANTILEVER, Path::new("cantilever.toml")).unwrap_or_else(|error| panic!("{error}")), 1);
     let (q, shape) = (simulation.positions(), simulation.shape());
     for (node, expected) in answer.displacements.unwrap() {
-        let found = q.fixed_rows::<3>(3 * node) - shape.mesh.vertices[node];
+        let found = q.fixed_rows::<3>(3 * node) - shape.mesh.vertices()[node];
         let expected = Vector3::from(expected);
         let error = (found - expected).norm() / expected.norm();
         assert!(error <= 1e-9, "node {node}: {found:?}, not {expected:?}: {error:.1e}");

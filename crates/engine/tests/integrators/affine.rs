@@ -36,13 +36,13 @@ impl Random {
 fn patch(model: &str) -> Patch {
     let text = block(model, "").replace("[2, 1, 1], cells_per_unit = 1", "[1, 1, 1], cells_per_unit = 4");
     let scene = scene(&text);
-    let mut body = fem_scene::body(&scene, Path::new("no data")).unwrap();
+    let mut mesh = fem_mesh::box_mesh([1.0; 3], 4).unwrap();
     let is_inner = |X: &Vector3<f64>| X.iter().all(|&x| x > 0.0 && x < 1.0);
     let mut random = Random(7);
-    for X in body.shape.mesh.vertices.iter_mut().filter(|X| is_inner(X)) {
+    for X in mesh.vertices.iter_mut().filter(|X| is_inner(X)) {
         *X += 0.07 * random.vector();
     }
-    fem_mesh::check(&body.shape.mesh, Path::new("patch")).unwrap();
+    let body = fem_scene::body_of(&scene, mesh, Path::new("no data")).unwrap();
     let law = AnyLaw::new(&scene.material).unwrap();
     let system = System::new(body, law, SolverChoice::Cholesky);
     let inner = system.rest.iter().map(is_inner).collect();

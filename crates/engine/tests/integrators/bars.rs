@@ -86,7 +86,7 @@ fn the_frequency_of_a_bar_converges_with_order_2_in_h() {
 
 /// Seconds between the first and the last time that the bar's end passes upwards through its place at rest under the load.
 fn period(simulation: &mut dyn Simulation, steps: usize, at_rest: f64) -> f64 {
-    let end = |simulation: &dyn Simulation| simulation.positions()[3 * (simulation.shape().mesh.vertices.len() - 1)];
+    let end = |simulation: &dyn Simulation| simulation.positions()[3 * (simulation.shape().mesh.vertices().len() - 1)];
     let (mut passed, mut before) = (Vec::new(), end(simulation));
     for _ in 0..steps {
         run(simulation, 1);

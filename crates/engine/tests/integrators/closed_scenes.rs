@@ -115,7 +115,7 @@ fn the_column_under_growing_weight_ends_at_the_static_deflection() {
 }
 
 fn rest(simulation: &dyn Simulation) -> Vec<f64> {
-    simulation.shape().mesh.vertices.iter().flat_map(|x| [x.x, x.y, x.z]).collect()
+    simulation.shape().mesh.vertices().iter().flat_map(|x| [x.x, x.y, x.z]).collect()
 }
 
 #[test]
@@ -123,7 +123,7 @@ fn the_glued_column_stretches_like_two_springs_in_series() {
     let mut simulation = built(&shipped("glued"));
     run(&mut *simulation, 1);
     let (x, shape) = (simulation.positions(), simulation.shape());
-    for (i, X) in shape.mesh.vertices.iter().enumerate() {
+    for (i, X) in shape.mesh.vertices().iter().enumerate() {
         // σ = 1000 Pa everywhere: a strain of 1 % below z = 1 m and of 5 % above.
         let expected = 0.01 * X.z.min(1.0) + 0.05 * (X.z - 1.0).max(0.0);
         let found = node(&x, i) - X;
@@ -137,7 +137,7 @@ fn the_bar_of_named_groups_stretches_like_two_springs_in_series() {
     let mut simulation = built(&shipped("groups"));
     run(&mut *simulation, 1);
     let (x, shape) = (simulation.positions(), simulation.shape());
-    for (i, X) in shape.mesh.vertices.iter().enumerate() {
+    for (i, X) in shape.mesh.vertices().iter().enumerate() {
         let expected = 0.01 * X.x.min(1.0) + 0.05 * (X.x - 1.0).max(0.0);
         let found = node(&x, i) - X;
         assert!((found - Vector3::new(expected, 0.0, 0.0)).norm() < 1e-9, "node {i}: {found} {expected}");

@@ -17,7 +17,7 @@ fn engine(text: &str) -> fem_engine::simulator::Simulator<f64> {
 /// Puts every node where `place` says, without velocity.
 fn place(simulation: &mut fem_engine::simulator::Simulator<f64>, place: impl Fn(&Vector3<f64>) -> Vector3<f64>) {
     let shape = simulation.shape();
-    let displacements: Vec<[f64; 3]> = shape.mesh.vertices.iter().map(|X| (place(X) - X).into()).collect();
+    let displacements: Vec<[f64; 3]> = shape.mesh.vertices().iter().map(|X| (place(X) - X).into()).collect();
     simulation.set_state(&displacements, &vec![[0.0; 3]; displacements.len()]);
 }
 

@@ -12,6 +12,7 @@ mod conserved;
 mod curves;
 mod divergence;
 mod extreme;
+mod flat;
 mod initial_velocity;
 mod laws;
 mod orders;
@@ -115,8 +116,8 @@ const DYNAMIC: [&str; 7] =
 /// `[mass]` of each node when it is lumped, kg.
 fn node_masses(simulation: &dyn Simulation, density: f64) -> Vec<f64> {
     let shape = simulation.shape();
-    let mut masses = vec![0.0; shape.mesh.vertices.len()];
-    for (element, volume) in shape.mesh.elements.iter().zip(fem_mesh::volumes(&shape.mesh)) {
+    let mut masses = vec![0.0; shape.mesh.vertices().len()];
+    for (element, volume) in shape.mesh.corners().zip(shape.mesh.volumes()) {
         for &node in element {
             masses[node] += density * volume / 4.0;
         }

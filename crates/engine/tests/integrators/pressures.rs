@@ -45,7 +45,7 @@ fn a_pressure_on_a_surface_with_a_fixed_edge_keeps_the_energy() {
     // All faces but that at x = 0, whose nodes are fixed.
     let clamp = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n[gravity]\nacceleration = [0, -9.81, 0]\n";
     let shape = build(&soft("rk4", 1e-3, "")).shape();
-    let is_free = |face: &&[usize; 3]| face.iter().any(|&node| shape.mesh.vertices[node].x > 0.0);
+    let is_free = |face: &&[usize; 3]| face.iter().any(|&node| shape.mesh.vertices()[node].x > 0.0);
     let faces: Vec<_> = shape.boundary.iter().filter(is_free).collect();
     let part = drift(&format!("{clamp}[[traction]]\nfaces = {faces:?}\npressure = 4000\n"));
     assert!(part < 1e-6, "{part:e}");

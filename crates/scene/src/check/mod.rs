@@ -2,6 +2,7 @@
 
 mod constraints;
 mod curves;
+pub(crate) mod flat;
 mod initial;
 mod loads;
 mod materials;
@@ -44,10 +45,11 @@ fn check_mesh(mesh: &MeshTable) -> Result<(), Problem> {
         ("files", mesh.files.is_some()),
         ("box", mesh.cuboid.is_some()),
         ("surface", mesh.surface.is_some()),
+        ("rectangle", mesh.rectangle.is_some()),
     ];
     let mut given = sources.iter().filter(|(_, is_given)| *is_given).map(|(key, _)| key);
     match (given.next(), given.next()) {
-        (None, _) => problem("mesh", "names no tetrahedra; give it `file`, `files`, `box` or `surface`"),
+        (None, _) => problem("mesh", "names no elements; give it `file`, `files`, `box`, `surface` or `rectangle`"),
         (Some(first), Some(second)) => {
             problem(&format!("mesh.{second}"), format!("stands beside `{first}`; keep one of the two"))
         }

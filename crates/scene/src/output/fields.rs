@@ -4,9 +4,10 @@ use std::path::Path;
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::BodyMesh;
 use crate::simulation::Simulation;
+use fem_mesh::MeshError;
 use fem_mesh::write::{Field, write_vtu};
-use fem_mesh::{MeshError, TetrahedralMesh};
 
 /// Writes the undeformed mesh with the fields of the state. Names have neither blanks nor units, so that programs can use them:
 /// point data `displacement` (m), `velocity` (m/s), `nodal_force` (N) and `stress_averaged` (Pa), cell data `stress`,
@@ -14,7 +15,7 @@ use fem_mesh::{MeshError, TetrahedralMesh};
 pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<(), MeshError> {
     let shape = simulation.shape();
     let (q, qdot) = (simulation.positions(), simulation.velocities());
-    let displacement: Vec<f64> = q.iter().enumerate().map(|(i, x)| x - shape.mesh.vertices[i / 3][i % 3]).collect();
+    let displacement: Vec<f64> = q.iter().enumerate().map(|(i, x)| x - shape.mesh.vertices()[i / 3][i % 3]).collect();
     let force = simulation.nodal_forces();
     let stresses = simulation.stresses();
     let averaged = entries(&averages_at_nodes(&shape.mesh, &stresses));
@@ -38,7 +39,10 @@ pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<
         Field { name: "strain", components: 9, values: &strain },
         Field { name: "J", components: 1, values: &J },
     ];
-    write_vtu(path, &shape.mesh, &point, &cell)
+    match &shape.mesh {
+        BodyMesh::Solid(mesh) => write_vtu(path, mesh, &point, &cell),
+        BodyMesh::Flat { triangles, .. } => write_vtu(path, triangles, &point, &cell),
+    }
 }
 
 /// Von Mises stress √(3/2 s:s) of a Cauchy stress with the deviator s, Pa.
@@ -53,10 +57,10 @@ fn entries(matrices: &[Matrix3<f64>]) -> Vec<f64> {
 }
 
 /// The mean over the elements of each node, weighted by their undeformed volumes.
-fn averages_at_nodes(mesh: &TetrahedralMesh, values: &[Matrix3<f64>]) -> Vec<Matrix3<f64>> {
-    let mut sums = vec![(Matrix3::zeros(), 0.0); mesh.vertices.len()];
-    for ((element, value), volume) in mesh.elements.iter().zip(values).zip(fem_mesh::volumes(mesh)) {
-        for &node in element {
+fn averages_at_nodes(mesh: &BodyMesh, values: &[Matrix3<f64>]) -> Vec<Matrix3<f64>> {
+    let mut sums = vec![(Matrix3::zeros(), 0.0); mesh.vertices().len()];
+    for ((nodes, value), volume) in mesh.corners().zip(values).zip(mesh.volumes()) {
+        for &node in nodes {
             sums[node].0 += volume * value;
             sums[node].1 += volume;
         }
@@ -65,15 +69,17 @@ fn averages_at_nodes(mesh: &TetrahedralMesh, values: &[Matrix3<f64>]) -> Vec<Mat
 }
 
 /// G = F − 1 of each element, from the displacements `u  (3n)`, m.
-fn displacement_gradients(mesh: &TetrahedralMesh, u: &[f64]) -> Vec<Matrix3<f64>> {
-    let edges = |[a, b, c, d]: [Vector3<f64>; 4]| Matrix3::from_columns(&[b - a, c - a, d - a]);
-    let gradient = |element: &[usize; 4]| {
-        let deformed = edges(element.map(|node| Vector3::from_column_slice(&u[3 * node..3 * node + 3])));
-        let undeformed = edges(element.map(|node| mesh.vertices[node]));
+fn displacement_gradients(mesh: &BodyMesh, u: &[f64]) -> Vec<Matrix3<f64>> {
+    let gradient = |element: usize| {
+        let mut change = mesh.edges(element, |node| Vector3::from_column_slice(&u[3 * node..3 * node + 3]));
+        if mesh.is_flat() {
+            change.set_column(2, &Vector3::zeros());
+        }
         // A checked mesh has no element without volume.
-        undeformed.try_inverse().map_or(Matrix3::zeros(), |inverse| deformed * inverse)
+        let undeformed = mesh.edges(element, |node| mesh.vertices()[node]);
+        undeformed.try_inverse().map_or(Matrix3::zeros(), |inverse| change * inverse)
     };
-    mesh.elements.iter().map(gradient).collect()
+    (0..mesh.elements()).map(gradient).collect()
 }
 
 /// E = (FᵀF − 1)/2 = (G + Gᵀ + GᵀG)/2, which keeps its digits near rest.
@@ -92,10 +98,10 @@ mod tests {
     }
 
     /// Displacements of a box under x ↦ F x, stacked.
-    fn stretched(F: &Matrix3<f64>) -> (TetrahedralMesh, Vec<f64>) {
+    fn stretched(F: &Matrix3<f64>) -> (BodyMesh, Vec<f64>) {
         let mesh = fem_mesh::box_mesh([2.0, 1.0, 1.0], 2).unwrap();
         let u = mesh.vertices.iter().flat_map(|x| <[f64; 3]>::from((F - Matrix3::identity()) * x)).collect();
-        (mesh, u)
+        (mesh.into(), u)
     }
 
     #[test]
@@ -121,11 +127,12 @@ mod tests {
     fn averages_at_nodes_are_weighted_by_volume_and_keep_a_uniform_field() {
         let (mesh, _) = stretched(&Matrix3::identity());
         let uniform = Matrix3::new(1.0, 2.0, 3.0, 2.0, 4.0, 5.0, 3.0, 5.0, 6.0);
-        let averages = averages_at_nodes(&mesh, &vec![uniform; mesh.elements.len()]);
+        let averages = averages_at_nodes(&mesh, &vec![uniform; mesh.elements()]);
         assert!(averages.iter().all(|average| (average - uniform).amax() < 1e-14));
         let vertices = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -3.0]];
-        let two = TetrahedralMesh::new(vertices.map(Vector3::from).to_vec(), vec![[0, 1, 2, 3], [0, 2, 1, 4]]);
-        let averages = averages_at_nodes(&two, &[Matrix3::identity(), 5.0 * Matrix3::identity()]);
+        let two =
+            fem_mesh::TetrahedralMesh::new(vertices.map(Vector3::from).to_vec(), vec![[0, 1, 2, 3], [0, 2, 1, 4]]);
+        let averages = averages_at_nodes(&two.into(), &[Matrix3::identity(), 5.0 * Matrix3::identity()]);
         assert_eq!(averages.iter().map(|average| average[0]).collect::<Vec<_>>(), [4.0, 4.0, 4.0, 1.0, 5.0]);
     }
 }

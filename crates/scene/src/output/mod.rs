@@ -85,8 +85,8 @@ impl Stats {
                 None if run.interrupted => "interrupted".to_owned(),
                 None => "done".to_owned(),
             },
-            nodes: shape.mesh.vertices.len(),
-            elements: shape.mesh.elements.len(),
+            nodes: shape.mesh.vertices().len(),
+            elements: shape.mesh.elements(),
             steps: counters.steps,
             seconds_setup,
             seconds_per_step_median: quantile(&run.step_seconds, 0.5),
@@ -129,7 +129,7 @@ pub fn export(path: &Path, simulation: &dyn Simulation, frames: &[Frame]) -> Res
     match path.extension().and_then(|extension| extension.to_str()) {
         Some("obj") => write_surface(path, &SurfaceMesh::new(simulation.display_positions(), faces.clone())),
         Some("glb") => {
-            let rest = shape.display.as_ref().map_or(&shape.mesh.vertices, |display| &display.vertices);
+            let rest = shape.display.as_ref().map_or(shape.mesh.vertices(), |display| &display.vertices[..]);
             write_glb(path, rest, faces, frames)
         }
         Some("vtu") => export_fields(path, simulation),

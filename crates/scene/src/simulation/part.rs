@@ -28,9 +28,9 @@ impl Part {
         Self { name, built: false, why: why.into(), bytes: 0, uses: 0, seconds: 0.0 }
     }
 
-    /// Nodes and tetrahedra.
-    pub fn mesh(nodes: usize, elements: usize, bytes: usize) -> Self {
-        Self::built("mesh", format!("[mesh]: {nodes} nodes, {elements} tetrahedra"), bytes, (0, 0.0))
+    /// Nodes and elements, which are tetrahedra or triangles.
+    pub fn mesh(nodes: usize, elements: usize, kind: &str, bytes: usize) -> Self {
+        Self::built("mesh", format!("[mesh]: {nodes} nodes, {elements} {kind}"), bytes, (0, 0.0))
     }
 
     /// The scene's drag.
@@ -46,7 +46,7 @@ impl Part {
     pub fn skinning(bytes: Option<usize>, used: (usize, f64)) -> Self {
         match bytes {
             Some(bytes) => Self::built("skinning", "mesh.display: four weights for each display vertex", bytes, used),
-            None => Self::left_out("skinning", "the scene has no mesh.display, so the tetrahedra are shown"),
+            None => Self::left_out("skinning", "the scene has no mesh.display, so the elements are shown"),
         }
     }
 }

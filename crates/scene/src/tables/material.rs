@@ -47,7 +47,7 @@ macro_rules! material {
         impl MaterialsTable {
             /// The material without its place.
             pub fn material(&self) -> Material {
-                Material { model: self.model.clone(), density: self.density, $($name: self.$name,)* }
+                Material { model: self.model.clone(), density: self.density, thickness: None, $($name: self.$name,)* }
             }
         }
 
@@ -59,6 +59,8 @@ macro_rules! material {
             pub model: String,
             /// Density, kg/m³.
             pub density: f64,
+            /// Thickness of a flat body, m; 1 by default.
+            pub thickness: Option<f64>,
             $($(#[$doc])* pub $name: Option<f64>,)*
         }
 
@@ -139,6 +141,7 @@ impl Material {
     /// Checks the material of a table, such as `material` or `materials[0]`.
     pub(crate) fn check(&self, table: &str) -> Result<(), Problem> {
         check_positive(&format!("{table}.density"), self.density, " of kg/m³")?;
+        self.thickness.map_or(Ok(()), |thickness| check_positive(&format!("{table}.thickness"), thickness, " of m"))?;
         let Some((_, sets)) = MODELS.iter().find(|(name, _)| *name == self.model) else {
             let known: Vec<_> = MODELS.iter().map(|(name, _)| *name).collect();
             let text = format!("is `{}`, which is no law; write one of {}", self.model, known.join(", "));

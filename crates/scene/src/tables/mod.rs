@@ -101,7 +101,7 @@ pub enum Pipeline {
     Engine,
 }
 
-/// `[mesh]`: exactly one source of tetrahedra.
+/// `[mesh]`: exactly one source of elements.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct MeshTable {
@@ -114,6 +114,8 @@ pub struct MeshTable {
     pub cuboid: Option<Cuboid>,
     /// The inside of a surface.
     pub surface: Option<SurfaceTable>,
+    /// A flat body: a rectangle.
+    pub rectangle: Option<RectangleTable>,
     /// A surface file to display instead of the boundary of the tetrahedra.
     pub display: Option<PathBuf>,
     /// Factor on all coordinates of the tetrahedra and the display surface.
@@ -136,6 +138,16 @@ pub struct Cuboid {
     #[serde(deserialize_with = "vectors::three_numbers")]
     pub size: [f64; 3],
     /// Cubes per metre.
+    pub cells_per_unit: usize,
+}
+
+/// A rectangle in the plane z = 0 from the origin, cut into squares of two triangles each.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct RectangleTable {
+    /// Edge lengths, m.
+    pub size: [f64; 2],
+    /// Squares per metre.
     pub cells_per_unit: usize,
 }
 

@@ -7,8 +7,7 @@ use nalgebra::{Rotation3, Unit, Vector3};
 
 use super::selection::{self, chosen};
 use crate::tables::{CurveTable, PrescribedTable, RotationTable};
-use crate::{LoadCurve, Scene, SceneError};
-use fem_mesh::TetrahedralMesh;
+use crate::{BodyMesh, LoadCurve, Scene, SceneError};
 
 /// Prescribed coordinates of some nodes.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,10 +78,7 @@ impl Motion {
 }
 
 /// The conditions of `[fixed]` and of every `[[prescribed]]`. Refuses a coordinate that two of them prescribe.
-pub(crate) fn dirichlet_conditions(
-    scene: &Scene,
-    mesh: &TetrahedralMesh,
-) -> Result<Vec<DirichletCondition>, SceneError> {
+pub(crate) fn dirichlet_conditions(scene: &Scene, mesh: &BodyMesh) -> Result<Vec<DirichletCondition>, SceneError> {
     let fixed = scene.fixed.iter().map(|table| {
         let nodes = selection::nodes(scene, "fixed", &chosen(table.selectors()), mesh)?;
         Ok(DirichletCondition {
@@ -100,7 +96,7 @@ pub(crate) fn dirichlet_conditions(
         Ok(DirichletCondition { name, nodes, components, motion, until: table.until })
     });
     let conditions = fixed.chain(prescribed).collect::<Result<Vec<_>, _>>()?;
-    check_disjoint(scene, &conditions, mesh.vertices.len())?;
+    check_disjoint(scene, &conditions, mesh.vertices().len())?;
     Ok(conditions)
 }
 

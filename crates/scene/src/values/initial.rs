@@ -6,14 +6,13 @@ use nalgebra::Vector3;
 
 use super::selection::{chosen, nodes};
 use crate::tables::{AngularVelocityTable, InitialVelocityTable};
-use crate::{Scene, SceneError};
-use fem_mesh::{TetrahedralMesh, volumes};
+use crate::{BodyMesh, Scene, SceneError};
 
 /// The velocity of each node at the start, m/s: the sum over all `[[initial_velocity]]`; empty without such a table. `density` is that
 /// of each element, kg/m³, and `find` turns the path of a file in the scene into the path to open.
 pub(crate) fn initial_velocity(
     scene: &Scene,
-    mesh: &TetrahedralMesh,
+    mesh: &BodyMesh,
     density: impl Fn(usize) -> f64,
     find: impl Fn(&Path) -> PathBuf,
 ) -> Result<Vec<Vector3<f64>>, SceneError> {
@@ -21,20 +20,20 @@ pub(crate) fn initial_velocity(
         return Ok(Vec::new());
     }
     let centre_of_mass = centre_of_mass(mesh, density);
-    let mut sum = vec![Vector3::zeros(); mesh.vertices.len()];
+    let mut sum = vec![Vector3::zeros(); mesh.vertices().len()];
     for (number, table) in scene.initial_velocity.iter().enumerate() {
         let name = format!("initial_velocity[{number}]");
         let nodes = match table.selectors() {
-            selectors if selectors.is_empty() => (0..mesh.vertices.len()).collect(),
+            selectors if selectors.is_empty() => (0..mesh.vertices().len()).collect(),
             selectors => nodes(scene, &name, &chosen(selectors), mesh)?,
         };
         let field = format!("{name}.per_node");
         let path = table.per_node.as_deref().map(&find);
         let per_node =
-            path.map(|path| velocities(&path, mesh.vertices.len()).map_err(|reason| scene.refuse(&field, &reason)));
+            path.map(|path| velocities(&path, mesh.vertices().len()).map_err(|reason| scene.refuse(&field, &reason)));
         let per_node = per_node.transpose()?.unwrap_or_default();
         for node in nodes {
-            sum[node] += velocity(table, &centre_of_mass, &mesh.vertices[node]);
+            sum[node] += velocity(table, &centre_of_mass, &mesh.vertices()[node]);
             sum[node] += per_node.get(node).copied().unwrap_or_default();
         }
     }
@@ -52,12 +51,13 @@ fn velocity(table: &InitialVelocityTable, centre_of_mass: &Vector3<f64>, X: &Vec
 }
 
 /// Centre of mass of the undeformed body, m.
-fn centre_of_mass(mesh: &TetrahedralMesh, density: impl Fn(usize) -> f64) -> Vector3<f64> {
+fn centre_of_mass(mesh: &BodyMesh, density: impl Fn(usize) -> f64) -> Vector3<f64> {
     let (mut mass, mut moment) = (0.0, Vector3::zeros());
-    for (number, (element, volume)) in mesh.elements.iter().zip(volumes(mesh)).enumerate() {
+    for (number, (nodes, volume)) in mesh.corners().zip(mesh.volumes()).enumerate() {
         let share = density(number) * volume;
+        let sum = nodes.iter().map(|&node| mesh.vertices()[node]).sum::<Vector3<f64>>();
         mass += share;
-        moment += 0.25 * share * element.iter().map(|&node| mesh.vertices[node]).sum::<Vector3<f64>>();
+        moment += share / nodes.len() as f64 * sum;
     }
     moment / mass
 }

@@ -6,14 +6,13 @@ use nalgebra::Vector3;
 
 use super::selection::{self, chosen, listed};
 use crate::tables::{CurveTable, DragTable, DragVertex, SpringTable};
-use crate::{LoadCurve, Scene, SceneError};
-use fem_mesh::TetrahedralMesh;
+use crate::{BodyMesh, LoadCurve, Scene, SceneError};
 
 /// Dead load on a part of the surface: it keeps its direction and its sum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traction {
-    /// Boundary triangles, counter-clockwise from outside.
-    pub faces: Vec<[usize; 3]>,
+    /// Nodes of each part of the boundary: triangles of a solid body, edges of a flat one.
+    pub faces: Vec<Vec<usize>>,
     /// Force per undeformed area, Pa.
     pub force_per_area: Vector3<f64>,
     /// Factor of time on it.
@@ -72,17 +71,25 @@ type SurfaceLoads = (Vec<Traction>, Vec<Pressure>);
 /// The loads of every `[[traction]]`. Refuses a table without triangles.
 pub(crate) fn surface_loads(
     scene: &Scene,
-    mesh: &TetrahedralMesh,
+    mesh: &BodyMesh,
     boundary: &[[usize; 3]],
 ) -> Result<SurfaceLoads, SceneError> {
     let (mut tractions, mut pressures) = (Vec::new(), Vec::new());
     for (number, table) in scene.traction.iter().enumerate() {
-        let faces =
-            selection::faces(scene, &format!("traction[{number}]"), &chosen(table.selectors()), mesh, boundary)?;
-        let curve = curve(&table.curve);
+        let (name, selector, curve) = (format!("traction[{number}]"), chosen(table.selectors()), curve(&table.curve));
+        let faces = || selection::faces(scene, &name, &selector, mesh, boundary);
         match (table.force_per_area, table.pressure) {
-            (Some(force), _) => tractions.push(Traction { faces, force_per_area: force.into(), curve }),
-            (None, Some(pressure)) => pressures.push(Pressure { faces, pressure, curve }),
+            (Some(force), _) => {
+                let faces = match mesh {
+                    BodyMesh::Solid(_) => faces()?.into_iter().map(Vec::from).collect(),
+                    BodyMesh::Flat { .. } => {
+                        let edges = selection::edges(scene, &name, &selector, mesh)?;
+                        edges.into_iter().map(Vec::from).collect()
+                    }
+                };
+                tractions.push(Traction { faces, force_per_area: force.into(), curve });
+            }
+            (None, Some(pressure)) => pressures.push(Pressure { faces: faces()?, pressure, curve }),
             (None, None) => unreachable!("a traction without a force is refused when the scene is read"),
         }
     }
@@ -95,11 +102,11 @@ pub(crate) fn curve(table: &Option<CurveTable>) -> Option<LoadCurve> {
 }
 
 /// The spring of every `[[springs]]`.
-pub(crate) fn springs(scene: &Scene, mesh: &TetrahedralMesh) -> Result<Vec<Spring>, SceneError> {
+pub(crate) fn springs(scene: &Scene, mesh: &BodyMesh) -> Result<Vec<Spring>, SceneError> {
     let spring = |(number, table): (usize, &SpringTable)| {
         let SpringTable { nodes, stiffness, rest_length } = *table;
         listed(scene, &format!("springs[{number}].nodes"), &nodes, mesh)?;
-        let [a, b] = nodes.map(|node| mesh.vertices[node]);
+        let [a, b] = nodes.map(|node| mesh.vertices()[node]);
         let is_initially_relaxed = rest_length.is_none();
         Ok(Spring { nodes, stiffness, rest_length: rest_length.unwrap_or((b - a).norm()), is_initially_relaxed })
     };
@@ -107,7 +114,7 @@ pub(crate) fn springs(scene: &Scene, mesh: &TetrahedralMesh) -> Result<Vec<Sprin
 }
 
 /// The spring of `[drag]`.
-pub(crate) fn drag(scene: &Scene, mesh: &TetrahedralMesh) -> Result<Option<Drag>, SceneError> {
+pub(crate) fn drag(scene: &Scene, mesh: &BodyMesh) -> Result<Option<Drag>, SceneError> {
     let Some(DragTable { vertex, stiffness, direction, amplitude, frequency }) = scene.drag else { return Ok(None) };
     let node = match vertex {
         DragVertex::Index(node) => listed(scene, "drag.vertex", &[node], mesh).map(|_| node)?,
@@ -117,8 +124,8 @@ pub(crate) fn drag(scene: &Scene, mesh: &TetrahedralMesh) -> Result<Option<Drag>
 }
 
 /// The first node of largest y in the undeformed mesh.
-pub fn highest_node(mesh: &TetrahedralMesh) -> usize {
-    let heights = mesh.vertices.iter().map(|vertex| vertex.y).enumerate();
+pub fn highest_node(mesh: &BodyMesh) -> usize {
+    let heights = mesh.vertices().iter().map(|vertex| vertex.y).enumerate();
     let higher = |best: (usize, f64), next: (usize, f64)| if next.1 > best.1 { next } else { best };
     heights.fold((0, f64::NEG_INFINITY), higher).0
 }

@@ -1,8 +1,7 @@
 //! Parts of a body with materials of their own.
 
 use super::selection::{chosen, elements};
-use crate::{Material, Scene, SceneError};
-use fem_mesh::TetrahedralMesh;
+use crate::{BodyMesh, Material, Scene, SceneError};
 
 /// Elements with the same material.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,8 +16,8 @@ pub struct MaterialRegion {
 
 /// The region of each `[[materials]]`: an element belongs to the last table that names it. Tables whose elements all belong to later
 /// ones have no region.
-pub(crate) fn regions(scene: &Scene, mesh: &TetrahedralMesh) -> Result<Vec<MaterialRegion>, SceneError> {
-    let mut owner = vec![None; mesh.elements.len()];
+pub(crate) fn regions(scene: &Scene, mesh: &BodyMesh) -> Result<Vec<MaterialRegion>, SceneError> {
+    let mut owner = vec![None; mesh.elements()];
     for (number, table) in scene.materials.iter().enumerate() {
         let selector = chosen(table.selectors());
         for element in elements(scene, &format!("materials[{number}]"), &selector, mesh)? {

@@ -5,8 +5,8 @@ use std::collections::HashSet;
 use nalgebra::Vector3;
 
 use crate::tables::{BoxTable, Plane, Region, Selector, SidePlane, SphereTable};
-use crate::{Scene, SceneError};
-use fem_mesh::{MeshSet, Side, TetrahedralMesh};
+use crate::{BodyMesh, Scene, SceneError};
+use fem_mesh::{MeshSet, Side};
 
 /// The one selector of a checked table.
 pub(crate) fn chosen(mut selectors: Vec<Selector>) -> Selector {
@@ -22,15 +22,15 @@ pub(crate) fn nodes(
     scene: &Scene,
     table: &str,
     selector: &Selector,
-    mesh: &TetrahedralMesh,
+    mesh: &BodyMesh,
 ) -> Result<Vec<usize>, SceneError> {
     let nodes = match selector {
-        Selector::Set(name) => set(scene, table, name, mesh)?.nodes(&mesh.elements),
+        Selector::Set(name) => mesh.nodes_of_set(set(scene, table, name, mesh)?),
         Selector::Nodes(nodes) => listed(scene, &format!("{table}.nodes"), nodes, mesh)?,
         Selector::Faces(faces) => listed(scene, &format!("{table}.faces"), faces.as_flattened(), mesh)?,
         Selector::Region(region) => {
             let is_inside = inside(region, mesh);
-            (0..mesh.vertices.len()).filter(|&node| is_inside(&mesh.vertices[node])).collect()
+            (0..mesh.vertices().len()).filter(|&node| is_inside(&mesh.vertices()[node])).collect()
         }
     };
     not_empty(scene, table, selector, mesh, nodes, "node")
@@ -42,7 +42,7 @@ pub(crate) fn faces(
     scene: &Scene,
     table: &str,
     selector: &Selector,
-    mesh: &TetrahedralMesh,
+    mesh: &BodyMesh,
     boundary: &[[usize; 3]],
 ) -> Result<Vec<[usize; 3]>, SceneError> {
     let faces = match selector {
@@ -56,12 +56,42 @@ pub(crate) fn faces(
         }
         Selector::Faces(faces) => of_boundary(scene, &format!("{table}.faces"), faces, boundary)?,
         Selector::Region(_) | Selector::Nodes(_) => {
-            let mut is_selected = vec![false; mesh.vertices.len()];
+            let mut is_selected = vec![false; mesh.vertices().len()];
             nodes(scene, table, selector, mesh)?.into_iter().for_each(|node| is_selected[node] = true);
             boundary.iter().filter(|face| face.iter().all(|&node| is_selected[node])).copied().collect()
         }
     };
     not_empty(scene, table, selector, mesh, faces, "triangle of the boundary")
+}
+
+/// The edges of a flat body's outline that a selector of `table` names: those with both ends inside, or those of a set. At least one.
+pub(crate) fn edges(
+    scene: &Scene,
+    table: &str,
+    selector: &Selector,
+    mesh: &BodyMesh,
+) -> Result<Vec<[usize; 2]>, SceneError> {
+    let mut outline = mesh.outline();
+    match selector {
+        Selector::Set(name) => {
+            let set = set(scene, table, name, mesh)?;
+            if set.edges.is_empty() {
+                let text = format!("is {name:?}, which has {} and no edges; name a set of edges", set.counts());
+                return Err(scene.refuse(&format!("{table}.set"), &text));
+            }
+            outline.retain(|&[a, b]| set.edges.contains(&[a.min(b), a.max(b)]));
+        }
+        Selector::Faces(_) => {
+            let text =
+                "names triangles of the boundary, and a flat body has edges; name them by on, box, sphere or set";
+            return Err(scene.refuse(&format!("{table}.faces"), text));
+        }
+        Selector::Region(_) | Selector::Nodes(_) => {
+            let selected: HashSet<usize> = nodes(scene, table, selector, mesh)?.into_iter().collect();
+            outline.retain(|edge| edge.iter().all(|node| selected.contains(node)));
+        }
+    }
+    not_empty(scene, table, selector, mesh, outline, "edge of the outline")
 }
 
 /// The elements that a selector of `table` names: those whose centroid lies inside, those of a set, or those of which all nodes
@@ -70,17 +100,17 @@ pub(crate) fn elements(
     scene: &Scene,
     table: &str,
     selector: &Selector,
-    mesh: &TetrahedralMesh,
+    mesh: &BodyMesh,
 ) -> Result<Vec<usize>, SceneError> {
-    let matching = |is_selected: &dyn Fn(&[usize; 4]) -> bool| -> Vec<usize> {
-        (0..mesh.elements.len()).filter(|&element| is_selected(&mesh.elements[element])).collect()
+    let matching = |is_selected: &dyn Fn(&[usize]) -> bool| -> Vec<usize> {
+        (0..mesh.elements()).filter(|&element| is_selected(mesh.nodes_of(element))).collect()
     };
     let elements = match selector {
         Selector::Set(name) => {
             let set = set(scene, table, name, mesh)?;
             if set.elements.is_empty() {
-                let text =
-                    format!("is {name:?}, which has {} and no tetrahedra; name a set of tetrahedra", set.counts());
+                let kind = mesh.kind();
+                let text = format!("is {name:?}, which has {} and no {kind}; name a set of {kind}", set.counts());
                 return Err(scene.refuse(&format!("{table}.set"), &text));
             }
             set.elements.clone()
@@ -91,9 +121,10 @@ pub(crate) fn elements(
         }
         Selector::Region(region) => {
             let is_inside = inside(region, mesh);
-            let centroid =
-                |element: &[usize; 4]| element.map(|node| mesh.vertices[node]).iter().sum::<Vector3<f64>>() / 4.0;
-            matching(&|element| is_inside(&centroid(element)))
+            let centroid = |nodes: &[usize]| {
+                nodes.iter().map(|&node| mesh.vertices()[node]).sum::<Vector3<f64>>() / nodes.len() as f64
+            };
+            matching(&|nodes| is_inside(&centroid(nodes)))
         }
     };
     not_empty(scene, table, selector, mesh, elements, "element")
@@ -103,7 +134,7 @@ pub(crate) fn elements(
 const NEAR: f64 = 1e-9;
 
 /// Whether a point (m) lies in a region; a side is that of the mesh's bounding box.
-fn inside(region: &Region, mesh: &TetrahedralMesh) -> impl Fn(&Vector3<f64>) -> bool {
+fn inside(region: &Region, mesh: &BodyMesh) -> impl Fn(&Vector3<f64>) -> bool {
     let (least, most) = span(mesh);
     let near = NEAR * (most - least).amax();
     move |x| match region {
@@ -118,15 +149,15 @@ fn inside(region: &Region, mesh: &TetrahedralMesh) -> impl Fn(&Vector3<f64>) -> 
 }
 
 /// Corners of the mesh's bounding box, m.
-fn span(mesh: &TetrahedralMesh) -> (Vector3<f64>, Vector3<f64>) {
+fn span(mesh: &BodyMesh) -> (Vector3<f64>, Vector3<f64>) {
     let start = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
-    mesh.vertices.iter().fold(start, |(least, most), x| (least.inf(x), most.sup(x)))
+    mesh.vertices().iter().fold(start, |(least, most), x| (least.inf(x), most.sup(x)))
 }
 
 /// The set of this name. Refuses a name that the mesh does not have, with those that it has.
-fn set<'a>(scene: &Scene, table: &str, name: &str, mesh: &'a TetrahedralMesh) -> Result<&'a MeshSet, SceneError> {
-    mesh.sets.get(name).ok_or_else(|| {
-        let known: Vec<_> = mesh.sets.iter().map(|(name, set)| format!("{name:?} ({})", set.counts())).collect();
+fn set<'a>(scene: &Scene, table: &str, name: &str, mesh: &'a BodyMesh) -> Result<&'a MeshSet, SceneError> {
+    mesh.sets().get(name).ok_or_else(|| {
+        let known: Vec<_> = mesh.sets().iter().map(|(name, set)| format!("{name:?} ({})", set.counts())).collect();
         let text = match &known[..] {
             [] => format!("is {name:?}, and the mesh has no sets; give a .msh file with physical groups, or use a box"),
             known => format!("is {name:?}, and the mesh has the sets {}; name one of them", known.join(", ")),
@@ -164,7 +195,7 @@ fn not_empty<T>(
     scene: &Scene,
     table: &str,
     selector: &Selector,
-    mesh: &TetrahedralMesh,
+    mesh: &BodyMesh,
     found: Vec<T>,
     what: &str,
 ) -> Result<Vec<T>, SceneError> {
@@ -197,18 +228,13 @@ fn description(selector: &Selector) -> String {
 }
 
 /// Listed nodes, ascending and without repeats. Refuses a node that the mesh does not have.
-pub(super) fn listed(
-    scene: &Scene,
-    field: &str,
-    nodes: &[usize],
-    mesh: &TetrahedralMesh,
-) -> Result<Vec<usize>, SceneError> {
+pub(super) fn listed(scene: &Scene, field: &str, nodes: &[usize], mesh: &BodyMesh) -> Result<Vec<usize>, SceneError> {
     let mut nodes = nodes.to_vec();
     nodes.sort_unstable();
     nodes.dedup();
     match nodes.last() {
-        Some(&node) if node >= mesh.vertices.len() => {
-            let last = mesh.vertices.len() - 1;
+        Some(&node) if node >= mesh.vertices().len() => {
+            let last = mesh.vertices().len() - 1;
             Err(scene.refuse(field, &format!("names node {node}; the mesh has nodes 0 to {last}")))
         }
         _ => Ok(nodes),

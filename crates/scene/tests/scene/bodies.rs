@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use fem_mesh::{boundary, volumes};
+use fem_mesh::boundary;
 use fem_scene::load;
 use nalgebra::Vector3;
 
@@ -11,8 +11,8 @@ use crate::{LEAST, body, edit};
 #[test]
 fn a_body_has_its_mesh_its_boundary_and_only_the_parts_of_its_scene() {
     let body = body(LEAST).unwrap();
-    assert_eq!((body.shape.mesh.vertices.len(), body.shape.mesh.elements.len()), (12, 12));
-    assert_eq!(body.shape.boundary, boundary(&body.shape.mesh));
+    assert_eq!((body.shape.mesh.vertices().len(), body.shape.mesh.elements()), (12, 12));
+    assert_eq!(body.shape.boundary, boundary(body.shape.mesh.solid().unwrap()));
     assert_eq!((body.fixed_nodes(), body.drag, &body.shape.display), (None, None, &None));
 }
 
@@ -25,11 +25,11 @@ fn a_scale_multiplies_the_coordinates_of_both_meshes() {
     let scene = load(folder.path().join("a.toml").to_str().unwrap(), folder.path()).unwrap();
     let scaled = fem_scene::body(&scene, folder.path()).unwrap().shape;
     let plain = body(LEAST).unwrap().shape;
-    for (scaled, plain) in scaled.mesh.vertices.iter().zip(&plain.mesh.vertices) {
+    for (scaled, plain) in scaled.mesh.vertices().iter().zip(plain.mesh.vertices()) {
         assert_eq!(*scaled, plain * 0.01);
     }
-    assert_eq!(scaled.mesh.elements, plain.mesh.elements);
-    let volume: f64 = volumes(&scaled.mesh).iter().sum();
+    assert_eq!(scaled.mesh.tetrahedra(), plain.mesh.tetrahedra());
+    let volume: f64 = scaled.mesh.volumes().iter().sum();
     assert!((volume - 2e-6).abs() < 1e-20, "{volume}");
     assert_eq!(scaled.display.unwrap().vertices[0], Vector3::new(1.0, 0.5, 0.25) * 0.01);
 }
@@ -107,10 +107,7 @@ fn several_files_are_bodies_of_one_scene_and_sets_of_their_names() {
         fem_scene::load(file.to_str().unwrap(), folder.path()).and_then(|scene| fem_scene::body(&scene, folder.path()))
     };
     let body = read(&format!("{files}[fixed]\nset = \"right\"\n")).unwrap();
-    assert_eq!(
-        (body.shape.mesh.vertices.len(), body.shape.mesh.elements.len(), body.shape.boundary.len()),
-        (16, 12, 24)
-    );
+    assert_eq!((body.shape.mesh.vertices().len(), body.shape.mesh.elements(), body.shape.boundary.len()), (16, 12, 24));
     assert_eq!(body.fixed_nodes(), Some(&(8..16).collect::<Vec<_>>()[..]));
 
     let message = |text: &str| read(text).unwrap_err().to_string();

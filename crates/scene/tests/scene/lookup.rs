@@ -75,9 +75,9 @@ fn a_mesh_is_searched_beside_the_scene_and_then_in_data() {
     let data = root.path().join("data");
     write_tetrahedron(&data, "m", 2.0);
     let scene = load("a", &data).unwrap();
-    assert_eq!(body(&scene, &data).unwrap().shape.mesh.vertices[1].x, 2.0);
+    assert_eq!(body(&scene, &data).unwrap().shape.mesh.vertices()[1].x, 2.0);
     write_tetrahedron(&data.join("scenes"), "m", 1.0);
-    assert_eq!(body(&scene, &data).unwrap().shape.mesh.vertices[1].x, 1.0, "the one beside the scene comes first");
+    assert_eq!(body(&scene, &data).unwrap().shape.mesh.vertices()[1].x, 1.0, "the one beside the scene comes first");
 }
 
 #[test]
@@ -88,7 +88,7 @@ fn an_absolute_path_of_a_mesh_is_used_as_it_is() {
     let path = root.path().join("far away/m.node");
     fs::write(data.join("scenes/a.toml"), scene_of(path.to_str().unwrap())).unwrap();
     let found = body(&load("a", &data).unwrap(), &data).unwrap();
-    assert_eq!(found.shape.mesh.vertices[1].x, 3.0);
+    assert_eq!(found.shape.mesh.vertices()[1].x, 3.0);
 }
 
 #[test]

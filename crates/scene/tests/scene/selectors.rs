@@ -190,7 +190,7 @@ fn a_set_keeps_its_part_of_the_body_when_the_mesh_is_scaled_and_refined() {
         fs::write(folder.path().join("a.toml"), format!("{text}[fixed]\nset = {set:?}\n")).unwrap();
         let scene = load(folder.path().join("a.toml").to_str().unwrap(), folder.path()).unwrap();
         let body = fem_scene::body(&scene, folder.path()).unwrap();
-        (body.fixed_nodes().unwrap().to_vec(), body.shape.mesh.vertices)
+        (body.fixed_nodes().unwrap().to_vec(), body.shape.mesh.vertices().to_vec())
     };
     let (found, vertices) = nodes("floor");
     assert_eq!(found, (0..vertices.len()).filter(|&node| vertices[node].z == 0.0).collect::<Vec<_>>());

@@ -146,7 +146,7 @@ fn a_traction_on_a_side_loads_its_triangles_and_listed_ones_are_looked_up_in_any
     let body = body(&with_tables()).unwrap();
     let (side, listed) = (&body.tractions[0].faces, &body.pressures[0].faces);
     assert_eq!(side.len(), 2);
-    assert!(side.iter().flatten().all(|&node| body.shape.mesh.vertices[node].x == 2.0), "{side:?}");
+    assert!(side.iter().flatten().all(|&node| body.shape.mesh.vertices()[node].x == 2.0), "{side:?}");
     assert_eq!(listed.len(), 1);
     assert!(body.shape.boundary.contains(&listed[0]), "as the boundary has it, so that it looks outward");
     assert_eq!((body.springs[0].rest_length, body.springs[0].is_initially_relaxed), (0.0, false));
@@ -176,9 +176,9 @@ fn nodes_and_faces_outside_the_mesh_are_refused() {
 fn a_refined_body_has_eight_times_the_elements_and_keeps_its_first_nodes() {
     let plain = body(LEAST).unwrap().shape.mesh;
     let refined = body(&edit(LEAST, "cells_per_unit = 1 }", "cells_per_unit = 1 }\nrefine = 2")).unwrap().shape.mesh;
-    assert_eq!(refined.elements.len(), 64 * plain.elements.len());
-    assert_eq!(refined.vertices[..12], plain.vertices);
-    assert_eq!(refined.vertices.len(), 9 * 5 * 5, "a grid of quarter cells");
+    assert_eq!(refined.elements(), 64 * plain.elements());
+    assert_eq!(refined.vertices()[..12], *plain.vertices());
+    assert_eq!(refined.vertices().len(), 9 * 5 * 5, "a grid of quarter cells");
 }
 
 #[test]

@@ -94,7 +94,7 @@ fn finished(equations: &Equations, time: f64, [u, v]: Phase, check: (f64, f64), 
     let (kinetic, potential) = equations.energies(&u, &v, time);
     let system = &equations.system;
     let (u, v) = (system.numbering.to_mesh(&u), system.numbering.to_mesh(&v));
-    let rest = &system.shape.mesh.vertices;
+    let rest = system.shape.mesh.vertices();
     Reference {
         time,
         q: DVector::from_fn(3 * u.len(), |i, _| rest[i / 3][i % 3] + u[i / 3][i % 3]),

@@ -1,7 +1,6 @@
 //! The inverse mass matrix of the reference, factorised exactly.
 
 use fem_engine::model::system::System;
-use fem_mesh::volumes;
 use fem_scene::Body;
 
 use super::ldl::Ldl;
@@ -69,7 +68,7 @@ impl MassInverse {
 /// ∫ ρ φ_i φ_j of these nodes, or the row sums: the upper triangle by columns, kg.
 fn mass(density: &Density, system: &System<f64>, nodes: &[usize]) -> Vec<Vec<(usize, f64)>> {
     let mesh = &system.shape.mesh;
-    let mut place = vec![usize::MAX; mesh.vertices.len()];
+    let mut place = vec![usize::MAX; mesh.vertices().len()];
     for (i, &node) in nodes.iter().enumerate() {
         place[system.numbering.mesh_node[node] as usize] = i;
     }
@@ -83,10 +82,11 @@ fn mass(density: &Density, system: &System<f64>, nodes: &[usize]) -> Vec<Vec<(us
             None => columns[column].push((row, mass)),
         }
     };
-    for (number, (element, volume)) in mesh.elements.iter().zip(volumes(mesh)).enumerate() {
-        let share = density.of_material * density.factors.get(number).copied().unwrap_or(1.0) * volume / 20.0;
-        for (a, &row) in element.iter().enumerate() {
-            for (b, &column) in element.iter().enumerate() {
+    for (number, (corners, volume)) in mesh.corners().zip(mesh.volumes()).enumerate() {
+        let mass = density.of_material * density.factors.get(number).copied().unwrap_or(1.0) * volume;
+        let share = mass / (corners.len() * (corners.len() + 1)) as f64;
+        for (a, &row) in corners.iter().enumerate() {
+            for (b, &column) in corners.iter().enumerate() {
                 let mass = if a == b { 2.0 * share } else { share };
                 let column = if density.is_lumped { row } else { column };
                 add(place[row], place[column], mass);

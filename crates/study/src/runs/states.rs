@@ -6,8 +6,8 @@ use nalgebra::DVector;
 
 use crate::reference::Reference;
 use crate::space::norms;
-use fem_mesh::TetrahedralMesh;
 use fem_mesh::write::save;
+use fem_scene::BodyMesh;
 
 /// The state at the end of a run.
 #[derive(Clone, Copy, Debug)]
@@ -31,12 +31,12 @@ pub fn write_state(path: &Path, snapshot: &Snapshot) -> Result<(), String> {
 /// (m) and `density` (kg/m³).
 pub fn write_reference(
     path: &Path,
-    mesh: &TetrahedralMesh,
+    mesh: &BodyMesh,
     density: f64,
     reference: Option<&Reference>,
 ) -> Result<(), String> {
-    let rest = mesh.vertices.iter().flat_map(|x| x.iter().copied());
-    let elements: Vec<String> = mesh.elements.iter().map(|element| format!("{element:?}")).collect();
+    let rest = mesh.vertices().iter().flat_map(|x| x.iter().copied());
+    let elements: Vec<String> = mesh.corners().map(|nodes| format!("{nodes:?}")).collect();
     let state = reference.map_or(String::new(), |reference| {
         let Reference { time, q, qdot, kinetic, potential, check, evaluations } = reference;
         let snapshot = Snapshot { time: *time, q, qdot, energies: (*kinetic, *potential) };

@@ -17,9 +17,9 @@ pub fn error(scene: &Scene, simulation: &dyn Simulation) -> Option<f64> {
     let (stretch, lateral) = uniaxial(scene)?;
     let (shape, q) = (simulation.shape(), simulation.positions());
     let mesh = &shape.mesh;
-    let origin = mesh.vertices.iter().fold(mesh.vertices[0], |least, x| least.inf(x));
+    let origin = mesh.vertices().iter().fold(mesh.vertices()[0], |least, x| least.inf(x));
     let factors = [stretch, lateral, lateral];
-    let exact: Vec<f64> = (0..q.len()).map(|i| (mesh.vertices[i / 3] - origin)[i % 3] * factors[i % 3]).collect();
+    let exact: Vec<f64> = (0..q.len()).map(|i| (mesh.vertices()[i / 3] - origin)[i % 3] * factors[i % 3]).collect();
     let found: Vec<f64> = (0..q.len()).map(|i| q[i] - origin[i % 3]).collect();
     Some(norms::l2(&norms::weights(mesh), &found, &exact) / norms::length(mesh))
 }

@@ -92,7 +92,7 @@ fn body_force(law: &AnyLaw<f64>, X: &Vector3<f64>) -> [f64; 3] {
 /// Solves on a mesh of `cells` cells in each direction.
 pub fn solve(model: &str, cells: usize) -> Result<Solved, String> {
     let (scene, body) = cube(model, cells)?;
-    let mesh = body.shape.mesh.clone();
+    let mesh = body.shape.mesh.solid().cloned().ok_or("a box is made of tetrahedra")?;
     let lacks = "the material lacks its parameters";
     let load = nodal_load(&AnyLaw::new(&scene.material).ok_or(lacks)?, &mesh);
     let law = AnyLaw::new(&scene.material).ok_or(lacks)?;

@@ -5,6 +5,7 @@ use nalgebra::DVector;
 use crate::space::manufactured::element_gradient;
 use crate::space::norms;
 use fem_mesh::{TetrahedralMesh, volumes};
+use fem_scene::BodyMesh;
 
 /// The state of a box on one mesh.
 #[derive(Clone, Debug)]
@@ -51,12 +52,13 @@ pub fn compare(levels: &[Level; 3]) -> Option<RichardsonEstimate> {
         Some(values)
     };
     let u = [on_coarse(0)?, on_coarse(1)?, on_coarse(2)?];
-    let weights = norms::weights(coarse);
+    let body = BodyMesh::from(coarse.clone());
+    let weights = norms::weights(&body);
     let apart = [norms::l2(&weights, &u[0], &u[1]), norms::l2(&weights, &u[1], &u[2])];
     let p = (apart[0] / apart[1]).log2();
     let factor = 2f64.powf(p.clamp(PLAUSIBLE.0, PLAUSIBLE.1)) - 1.0;
     let limit: Vec<f64> = u[2].iter().zip(&u[1]).map(|(fine, coarse)| fine + (fine - coarse) / factor).collect();
-    let length = norms::length(coarse);
+    let length = norms::length(&body);
     let slopes = [slope_apart(&levels[0], &levels[1])?, slope_apart(&levels[1], &levels[2])?];
     let p1 = (slopes[0] / slopes[1]).log2();
     let remaining = (1.0 - 4f64.powf(-p1.clamp(PLAUSIBLE.0, PLAUSIBLE.1))).sqrt();

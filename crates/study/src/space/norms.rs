@@ -1,22 +1,22 @@
 //! Distances between two states of a body. The state files contain all their data.
 
-use fem_mesh::{TetrahedralMesh, volumes};
+use fem_scene::BodyMesh;
 
-/// Weights of the nodes, m³: a quarter of the volume of every adjacent element.
-pub fn weights(mesh: &TetrahedralMesh) -> Vec<f64> {
-    let mut weights = vec![0.0; mesh.vertices.len()];
-    for (element, volume) in mesh.elements.iter().zip(volumes(mesh)) {
-        for &node in element {
-            weights[node] += volume / 4.0;
+/// Weights of the nodes, m³: equal shares of the volume of every adjacent element.
+pub fn weights(mesh: &BodyMesh) -> Vec<f64> {
+    let mut weights = vec![0.0; mesh.vertices().len()];
+    for (nodes, volume) in mesh.corners().zip(mesh.volumes()) {
+        for &node in nodes {
+            weights[node] += volume / nodes.len() as f64;
         }
     }
     weights
 }
 
 /// Longest edge of the bounding box of the undeformed body, m; errors are relative to it.
-pub fn length(mesh: &TetrahedralMesh) -> f64 {
-    let Some(&first) = mesh.vertices.first() else { return 1.0 };
-    let (least, most) = mesh.vertices.iter().fold((first, first), |(least, most), x| (least.inf(x), most.sup(x)));
+pub fn length(mesh: &BodyMesh) -> f64 {
+    let Some(&first) = mesh.vertices().first() else { return 1.0 };
+    let (least, most) = mesh.vertices().iter().fold((first, first), |(least, most), x| (least.inf(x), most.sup(x)));
     (most - least).max()
 }
 
@@ -36,10 +36,10 @@ pub fn largest(a: &[f64], b: &[f64]) -> f64 {
 
 /// Momentum Σ mᵢ vᵢ (kg m/s) and angular momentum Σ mᵢ (xᵢ − c) × vᵢ (kg m²/s) about the undeformed body's centre c, with
 /// mᵢ = ρ wᵢ. Rows of the consistent mass add up to the same mᵢ, so the momentum is exact.
-pub fn momenta(mesh: &TetrahedralMesh, weights: &[f64], density: f64, q: &[f64], v: &[f64]) -> ([f64; 3], [f64; 3]) {
+pub fn momenta(mesh: &BodyMesh, weights: &[f64], density: f64, q: &[f64], v: &[f64]) -> ([f64; 3], [f64; 3]) {
     let total: f64 = weights.iter().sum();
     let mut centre = nalgebra::Vector3::zeros();
-    for (x, &weight) in mesh.vertices.iter().zip(weights) {
+    for (x, &weight) in mesh.vertices().iter().zip(weights) {
         centre += x * (weight / total);
     }
     let (mut linear, mut angular) = (nalgebra::Vector3::zeros(), nalgebra::Vector3::zeros());
@@ -58,15 +58,15 @@ pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// Hash of a mesh: FNV-1a over the bits of its coordinates and the indices of its elements (Fowler, Noll, Vo, 1991).
-pub fn mesh_hash(mesh: &TetrahedralMesh) -> String {
+pub fn mesh_hash(mesh: &BodyMesh) -> String {
     let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
     let mut add = |word: u64| {
         for byte in word.to_le_bytes() {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
     };
-    mesh.vertices.iter().flat_map(|x| x.iter()).for_each(|x| add(x.to_bits()));
-    mesh.elements.iter().flatten().for_each(|&node| add(node as u64));
+    mesh.vertices().iter().flat_map(|x| x.iter()).for_each(|x| add(x.to_bits()));
+    mesh.corners().flatten().for_each(|&node| add(node as u64));
     format!("{hash:016x}")
 }
 
@@ -77,8 +77,8 @@ mod tests {
 
     #[test]
     fn a_translation_has_its_length_in_both_norms() {
-        let mesh = box_mesh([2.0, 1.0, 1.0], 2).unwrap();
-        let a: Vec<f64> = mesh.vertices.iter().flat_map(|x| x.iter().copied()).collect();
+        let mesh = BodyMesh::from(box_mesh([2.0, 1.0, 1.0], 2).unwrap());
+        let a: Vec<f64> = mesh.vertices().iter().flat_map(|x| x.iter().copied()).collect();
         let b: Vec<f64> = a.iter().enumerate().map(|(i, a)| a + [0.3, 0.0, -0.4][i % 3]).collect();
         let weights = weights(&mesh);
         assert!((weights.iter().sum::<f64>() - 2.0).abs() < 1e-14);
@@ -95,13 +95,13 @@ mod tests {
 
     #[test]
     fn a_rotating_box_has_angular_momentum_only() {
-        let mesh = box_mesh([1.0, 1.0, 1.0], 2).unwrap();
+        let mesh = BodyMesh::from(box_mesh([1.0, 1.0, 1.0], 2).unwrap());
         let weights = weights(&mesh);
-        let q: Vec<f64> = mesh.vertices.iter().flat_map(|x| x.iter().copied()).collect();
-        let v: Vec<f64> = mesh.vertices.iter().flat_map(|x| [-(x.y - 0.5), x.x - 0.5, 0.0]).collect();
+        let q: Vec<f64> = mesh.vertices().iter().flat_map(|x| x.iter().copied()).collect();
+        let v: Vec<f64> = mesh.vertices().iter().flat_map(|x| [-(x.y - 0.5), x.x - 0.5, 0.0]).collect();
         let (linear, angular) = momenta(&mesh, &weights, 10.0, &q, &v);
         let inertia: f64 = mesh
-            .vertices
+            .vertices()
             .iter()
             .zip(&weights)
             .map(|(x, w)| 10.0 * w * ((x.x - 0.5).powi(2) + (x.y - 0.5).powi(2)))
@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn different_meshes_have_different_hashes() {
-        let (a, b) = (box_mesh([1.0; 3], 1).unwrap(), box_mesh([1.0; 3], 2).unwrap());
+        let [a, b] = [1, 2].map(|cells| BodyMesh::from(box_mesh([1.0; 3], cells).unwrap()));
         assert_ne!(mesh_hash(&a), mesh_hash(&b));
         assert_eq!(mesh_hash(&a), mesh_hash(&a.clone()));
     }

@@ -54,7 +54,7 @@ pub fn place_moving(
     let free = |node: usize| (system.numbering.engine_node[node] as usize) < system.free();
     let mut displacements = Vec::new();
     let mut velocities = Vec::new();
-    for (node, X) in system.shape.mesh.vertices.iter().enumerate() {
+    for (node, X) in system.shape.mesh.vertices().iter().enumerate() {
         let (x, v) = if free(node) { place(X) } else { (*X, Vector3::zeros()) };
         displacements.push((x - X).into());
         velocities.push(v.into());

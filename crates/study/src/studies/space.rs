@@ -9,6 +9,7 @@ use crate::space::locking::{self, TipDeflection};
 use crate::space::manufactured;
 use crate::space::norms;
 use fem_engine::cantilever::moduli;
+use fem_scene::BodyMesh;
 
 /// The results.
 #[derive(Clone, Debug, Default)]
@@ -70,7 +71,8 @@ fn solved(settings: &Settings, model: &str, cells: usize, number: usize) -> Resu
     let qdot = nalgebra::DVector::zeros(solved.q.len());
     let snapshot = Snapshot { time: 1.0, q: &solved.q, qdot: &qdot, energies: (0.0, f64::NAN) };
     write_state(&settings.out.join(&state), &snapshot)?;
-    write_reference(&settings.out.join(&reference_state), &solved.mesh, scene.material.density, None)?;
+    let mesh = BodyMesh::from(solved.mesh);
+    write_reference(&settings.out.join(&reference_state), &mesh, scene.material.density, None)?;
     let moduli = moduli(&scene.material);
     let seconds = Some(solved.seconds);
     Ok(Row {
@@ -80,9 +82,9 @@ fn solved(settings: &Settings, model: &str, cells: usize, number: usize) -> Resu
             group: "space".to_owned(),
             method: format!("static, {cells} cells"),
             pipeline: "engine",
-            mesh_hash: norms::mesh_hash(&solved.mesh),
-            nodes: solved.mesh.vertices.len(),
-            elements: solved.mesh.elements.len(),
+            mesh_hash: norms::mesh_hash(&mesh),
+            nodes: mesh.vertices().len(),
+            elements: mesh.elements(),
             young: moduli.map(|moduli| moduli.0),
             poisson: moduli.map(|moduli| moduli.1),
             integrator: "static",

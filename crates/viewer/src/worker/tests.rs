@@ -42,7 +42,7 @@ impl Simulation for Fake {
         "fake"
     }
     fn shape(&self) -> Arc<Shape> {
-        Arc::new(Shape { mesh: TetrahedralMesh::default(), boundary: Vec::new(), display: None })
+        Arc::new(Shape { mesh: TetrahedralMesh::default().into(), boundary: Vec::new(), display: None })
     }
     fn positions(&self) -> DVector<f64> {
         DVector::from_vec(vec![self.offset, self.time, 0.0])

@@ -57,8 +57,8 @@ impl Numbering {
     }
 
     /// Elements with the engine's node numbers.
-    pub fn elements<const N: usize>(&self, elements: &[[usize; N]]) -> Vec<[u32; N]> {
-        elements.iter().map(|element| element.map(|node| self.engine_node[node])).collect()
+    pub fn elements<'a, const N: usize>(&self, elements: impl IntoIterator<Item = &'a [usize; N]>) -> Vec<[u32; N]> {
+        elements.into_iter().map(|element| element.map(|node| self.engine_node[node])).collect()
     }
 
     /// Nodal values in the mesh's numbering, from those in the engine's.

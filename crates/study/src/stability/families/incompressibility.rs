@@ -59,7 +59,7 @@ fn cantilever(poisson: f64, cells: usize) -> Case {
             let theory = expected_tip_displacement(&scene).unwrap_or_default();
             let part = tip_displacement(&simulation).dot(&theory) / theory.norm_squared();
             let outcome = if part < LOCKED { Outcome::Locks } else { Outcome::Survives };
-            let nodes = simulation.shape().mesh.vertices.len();
+            let nodes = simulation.shape().mesh.vertices().len();
             let note = format!("tip deflection {:.4} of {:.4e} m; {nodes} nodes", part, theory.norm());
             Ok(Finding::new(outcome, part, note))
         })

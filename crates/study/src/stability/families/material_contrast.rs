@@ -75,8 +75,8 @@ fn build(text: &SceneText, contrast: Contrast) -> Result<Simulator<f64>, Finding
     let scene = text.scene().map_err(refused)?;
     let mut body = body(&scene, Path::new("")).map_err(refused)?;
     let mesh = &body.shape.mesh;
-    let is_beyond = |element: &[usize; 4]| element.iter().map(|&node| mesh.vertices[node].x).sum::<f64>() > 4.0;
-    let beyond: Vec<bool> = mesh.elements.iter().map(is_beyond).collect();
+    let is_beyond = |nodes: &[usize]| nodes.iter().map(|&node| mesh.vertices()[node].x).sum::<f64>() > 4.0;
+    let beyond: Vec<bool> = mesh.corners().map(is_beyond).collect();
     let factors = |factor: f64| beyond.iter().map(|&beyond| if beyond { factor } else { 1.0 }).collect();
     (body.stiffness_factors, body.density_factors) = (factors(contrast.young), factors(contrast.density));
     Simulator::new(&scene, body).map_err(refused)

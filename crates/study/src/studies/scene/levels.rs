@@ -72,7 +72,8 @@ impl StudyMeshes<'_> {
             Some(reference) => Ok(reference.q.clone()),
             None => self.settled(scene, is_static, study.horizon, (1 << number) as f64 * study.fastest / 2.0),
         };
-        Ok(q.map(|q| Level { cells, mesh: body.mesh.clone(), q }))
+        let mesh = body.mesh.solid().cloned().ok_or("a box is made of tetrahedra")?;
+        Ok(q.map(|q| Level { cells, mesh, q }))
     }
 
     /// A state whose error in time is far below its error in space: the equilibrium, or Verlet with small steps.

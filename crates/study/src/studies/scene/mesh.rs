@@ -1,13 +1,12 @@
 //! A mesh of a study, with its reference.
 
-use fem_mesh::TetrahedralMesh;
-use fem_scene::Scene;
+use fem_scene::{BodyMesh, Scene};
 
 use crate::reference::Reference;
 
 /// A mesh of the study, with its reference.
 pub(super) struct StudyMesh {
-    pub mesh: TetrahedralMesh,
+    pub mesh: BodyMesh,
     /// Weights of the nodes, m³.
     pub weights: Vec<f64>,
     pub hash: String,

@@ -52,7 +52,7 @@ impl StudyMeshes<'_> {
             }
         }
         if is_own {
-            study.size = (mesh.vertices.len(), mesh.elements.len());
+            study.size = (mesh.vertices().len(), mesh.elements());
             study.energy_scale = found.as_ref().map_or(0.0, |found| found.kinetic.abs().max(found.potential.abs()));
         }
         study.references.extend(found.as_ref().map(|found| (file.clone(), found.check, found.evaluations)));

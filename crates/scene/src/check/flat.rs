@@ -1,0 +1,67 @@
+//! Checks that depend on whether the body is flat, which is known when its mesh is.
+
+use super::numbers::{Problem, problem};
+use crate::Scene;
+use crate::tables::{Axis, InitialVelocityTable, PrescribedTable};
+
+/// Refuses the first key that has no effect on a flat body, or no meaning.
+pub(crate) fn check(scene: &Scene) -> Result<(), Problem> {
+    let solid_only = [("mesh.display", scene.mesh.display.is_some()), ("mesh.refine", scene.mesh.refine > 0)];
+    if let Some((key, _)) = solid_only.iter().find(|(_, is_there)| *is_there) {
+        return problem(key, "belongs to solid bodies, and this one is flat; remove it");
+    }
+    if let Some(number) = scene.traction.iter().position(|traction| traction.pressure.is_some()) {
+        let text = "belongs to solid bodies, and this one is flat; give force_per_area instead";
+        return problem(&format!("traction[{number}].pressure"), text);
+    }
+    if let Some(number) = scene.prescribed.iter().position(turns_out_of_the_plane) {
+        let text = "turns a flat body out of its plane; give the axis z";
+        return problem(&format!("prescribed[{number}].rotation"), text);
+    }
+    let is_tilted = |axis: [f64; 3]| axis[0] != 0.0 || axis[1] != 0.0;
+    let angular = |table: &InitialVelocityTable| table.angular.as_ref().is_some_and(|angular| is_tilted(angular.axis));
+    if let Some(number) = scene.initial_velocity.iter().position(angular) {
+        let text = "turns a flat body out of its plane; give [0, 0, 1]";
+        return problem(&format!("initial_velocity[{number}].angular.axis"), text);
+    }
+    match vectors(scene).find(|(_, vector)| vector[2] != 0.0) {
+        Some((field, vector)) => {
+            let text = format!("is {vector:?}, and a flat body moves in the plane z = 0; give 0 for its third number");
+            problem(&field, text)
+        }
+        None => Ok(()),
+    }
+}
+
+/// Refuses the first key that has no effect on a solid body.
+pub(crate) fn check_solid(scene: &Scene) -> Result<(), Problem> {
+    match scene.material.thickness {
+        Some(_) => problem("material.thickness", "belongs to flat bodies, and this one is solid; remove it"),
+        None => Ok(()),
+    }
+}
+
+fn turns_out_of_the_plane(table: &PrescribedTable) -> bool {
+    table.rotation.as_ref().is_some_and(|rotation| rotation.axis != Axis::Z)
+}
+
+/// The vectors of a scene that lie in the plane of a flat body.
+fn vectors(scene: &Scene) -> impl Iterator<Item = (String, [f64; 3])> {
+    let gravity = scene.gravity.iter().map(|table| ("gravity.acceleration".to_owned(), table.acceleration));
+    let body_force = scene.body_force.iter().map(|table| ("body_force.density".to_owned(), table.density));
+    let drag = scene.drag.iter().map(|table| ("drag.direction".to_owned(), table.direction));
+    let traction = scene
+        .traction
+        .iter()
+        .enumerate()
+        .filter_map(|(number, table)| Some((format!("traction[{number}].force_per_area"), table.force_per_area?)));
+    let prescribed = scene
+        .prescribed
+        .iter()
+        .enumerate()
+        .filter_map(|(number, table)| Some((format!("prescribed[{number}].displacement"), table.displacement?)));
+    let velocity = scene.initial_velocity.iter().enumerate().flat_map(|(number, table)| {
+        table.velocity.map(|velocity| (format!("initial_velocity[{number}].velocity"), velocity))
+    });
+    gravity.chain(body_force).chain(drag).chain(traction).chain(prescribed).chain(velocity)
+}
