@@ -15,8 +15,23 @@ use crate::rubric::Rubric;
 pub use adjustments::{ADJUSTMENTS, Adjustments};
 pub use metadata::Metadata;
 
-/// The points of a function. A part of them is kept where the answers agree with the reference and other checks fail.
-pub fn points(max_score: f64, partial_credit: bool, status: Status, checks: &[CheckGrade]) -> f64 {
+/// The points of a function in which the checks `own` have points of their own. Where one of these fails, the points of the function
+/// are those of its other checks.
+pub fn points(max_score: f64, partial_credit: bool, part: (Status, &[CheckGrade]), own: &[(&str, f64)]) -> f64 {
+    let (status, checks) = part;
+    if status == Status::Passed || own.is_empty() {
+        return shared(max_score, partial_credit, status, checks);
+    }
+    let points_of = |check: &CheckGrade| own.iter().find(|(name, _)| *name == check.name).map(|(_, points)| *points);
+    let (apart, others): (Vec<_>, Vec<_>) = checks.iter().cloned().partition(|check| points_of(check).is_some());
+    let earned: f64 = apart.iter().filter(|check| check.status == Status::Passed).filter_map(points_of).sum();
+    let rest = max_score - own.iter().map(|(_, points)| points).sum::<f64>();
+    let status = others.iter().map(|check| check.status).max().unwrap_or(status);
+    shared(rest, partial_credit, status, &others) + earned
+}
+
+/// The points that checks share. A part of them is kept where the answers agree with the reference and other checks fail.
+fn shared(max_score: f64, partial_credit: bool, status: Status, checks: &[CheckGrade]) -> f64 {
     if status == Status::Passed {
         return max_score;
     }
@@ -96,7 +111,9 @@ impl Accounts {
         let Rubric { partial_credit, growth_costs, students, functions, simulation, .. } = &self.rubric;
         let mut change = (0.0, 0.0);
         let mut count = |part: &mut FunctionGrade, max_score: f64| {
-            let score = points(max_score, *partial_credit, part.status, &part.checks) * part.kept(*growth_costs);
+            let own = self.rubric.own_points(&part.name);
+            let score =
+                points(max_score, *partial_credit, (part.status, &part.checks), &own) * part.kept(*growth_costs);
             change = (change.0 + score - part.score, change.1 + max_score - part.max_score);
             (part.score, part.max_score) = (score, max_score);
         };

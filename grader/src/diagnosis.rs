@@ -103,7 +103,9 @@ fn diagnose(function: &str, mut cases: Vec<Case>, variants: &[Variant]) -> Optio
         if !counts || same(&first) { Some(first) } else { all.find(same).or(Some(first)) }
     };
     let diagnosis = |of: &Candidate| Diagnosis { name: of.name.clone(), sentence: of.sentence.clone() };
-    if let Some(nothing) = kinds::not_a_number(&ordinary) {
+    // Where no answer is right, too much explains numbers that are none.
+    let nothing = kinds::not_a_number(&ordinary);
+    if let Some(nothing) = nothing.clone().filter(|_| !cases.iter().any(right)) {
         return Some(nothing);
     }
     // At a vertex or on an edge a display vertex may follow any of several elements, and with wrong weights it matters which.
@@ -112,6 +114,9 @@ fn diagnose(function: &str, mut cases: Vec<Case>, variants: &[Variant]) -> Optio
     let found = explained(&all).or_else(|| explained(&ordinary));
     if let Some(found) = found.or_else(|| explained(&inside).filter(|_| function == "build_skinning_matrix")) {
         return Some(diagnosis(found));
+    }
+    if nothing.is_some() {
+        return nothing;
     }
     if cases.iter().all(right) {
         return candidates.iter().find(|candidate| explains_finely(candidate, &all)).map(diagnosis);

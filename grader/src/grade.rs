@@ -128,7 +128,7 @@ pub struct FunctionGrade {
     pub seconds: Option<f64>,
     /// The same for the reference on the same machine in the same minute, s.
     pub reference_seconds: Option<f64>,
-    /// How the time of an assembly grows with the mesh, where that was measured.
+    /// How the time of an assembly, of skinning or of picking grows with the mesh, where that was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub growth: Option<Growth>,
     pub checks: Vec<CheckGrade>,
@@ -167,7 +167,7 @@ impl Growth {
         let reference = self.reference_exponent.filter(|_| self.is_faster())?;
         Some(format!(
             "The time of your function grows as n^{:.1} with the number of elements, the reference's as n^{reference:.1}: look for a \
-             loop over the whole mesh, or a full matrix, inside of the loop over the elements.",
+             loop over the whole mesh, or a full matrix, inside of a loop over the mesh.",
             self.exponent
         ))
     }

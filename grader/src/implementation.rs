@@ -3,6 +3,7 @@
 
 pub mod budget;
 mod local;
+pub mod places;
 pub mod sandboxed;
 
 use std::fmt;

@@ -57,7 +57,17 @@ fn main() -> ExitCode {
         Command::Sandbox => commands::sandbox_layers(),
         Command::Pack { platform, out, seed, rubric, vendor } => {
             let seed = seed.unwrap_or_else(seed::drawn);
-            commands::pack(PackOptions { platform, out, repository: grading::repository(), seed, rubric, vendor })
+            let repository = grading::repository();
+            commands::pack(PackOptions {
+                platform,
+                out,
+                repository,
+                seed,
+                rubric,
+                functions: 0,
+                checks: Vec::new(),
+                vendor,
+            })
         }
     });
     match done {

@@ -6,7 +6,7 @@ mod tests;
 
 use std::fs::{self, File};
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::process::Command;
 
 use clap::ValueEnum;
@@ -32,6 +32,10 @@ pub struct PackOptions {
     pub seed: u64,
     /// The assignment, in place of the grader's own rubric.
     pub rubric: Option<PathBuf>,
+    /// How many functions the assignment asks for.
+    pub functions: usize,
+    /// The files of the rubric's own checks, in its folder or below.
+    pub checks: Vec<PathBuf>,
     /// Whether to pack the sources of all dependencies too, so that setting up needs no crates from the network.
     pub vendor: bool,
 }
@@ -49,6 +53,8 @@ pub enum PackError {
     Manifest { path: PathBuf, message: String },
     #[error("autograder.zip: {0}")]
     Zip(#[from] zip::result::ZipError),
+    #[error("{path}: a package holds checks in the folder of the rubric or below, and none in its place `grader/{place}`; move it", path = .0.display(), place = .1)]
+    Misplaced(PathBuf, String),
     #[error("{command}: {message}")]
     Command { command: &'static str, message: String },
 }
@@ -89,10 +95,13 @@ pub fn pack(options: &PackOptions) -> Result<(), PackError> {
 }
 
 /// Values for the placeholders of the templates.
-fn fields(options: &PackOptions) -> Result<[(&'static str, String); 6], PackError> {
+fn fields(options: &PackOptions) -> Result<[(&'static str, String); 8], PackError> {
     Ok([
         ("@TOOLCHAIN@", toolchain()?),
         ("@SEED@", options.seed.to_string()),
+        ("@FUNCTIONS@", options.functions.to_string()),
+        // Checks of its own are found beside a rubric; without them, it is part of the grader.
+        ("@RUBRIC@", if options.checks.is_empty() { "" } else { " --rubric grader/rubric.toml" }.into()),
         ("@SHARDS@", "8".into()),
         ("@CPUS@", "4".into()),
         ("@MEMORY@", "2G".into()),
@@ -149,11 +158,28 @@ fn gradescope(options: &PackOptions, out: &Path) -> Result<(), PackError> {
     if let Some(rubric) = &options.rubric {
         fs::copy(rubric, files.join("grader/rubric.toml")).map_err(at(rubric))?;
     }
+    for check in &options.checks {
+        copy_check(options, check, &files.join("grader"))?;
+    }
     if options.vendor {
         sources::vendor(&files)?;
     }
     write(&files, &GRADESCOPE, &fields(options)?)?;
     archive(&files, &out.join("autograder.zip"))
+}
+
+/// Copies a check to the place beside the packed rubric that it has beside the rubric.
+fn copy_check(options: &PackOptions, check: &Path, to: &Path) -> Result<(), PackError> {
+    let rubric = options.rubric.as_deref().unwrap_or(Path::new("rubric.toml"));
+    let folder = std::path::absolute(rubric).map_err(at(rubric))?.parent().map(Path::to_owned).unwrap_or_default();
+    let name = check.strip_prefix(&folder).unwrap_or(check);
+    let is_below = name.is_relative() && name.components().all(|part| matches!(part, Component::Normal(_)));
+    let place = to.join(name);
+    if !is_below || place.exists() {
+        return Err(PackError::Misplaced(check.to_owned(), name.display().to_string()));
+    }
+    fs::create_dir_all(place.parent().unwrap_or(to)).map_err(at(&place))?;
+    fs::copy(check, &place).map(drop).map_err(at(check))
 }
 
 /// Packs the content of a folder, not the folder: Gradescope looks for its scripts at the top.

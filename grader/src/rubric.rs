@@ -118,6 +118,7 @@ pub struct Simulation {
 #[serde(deny_unknown_fields)]
 pub struct Function {
     pub name: Spanned<String>,
+    /// With those of the instructor's own checks, once the rubric is loaded.
     pub points: Spanned<f64>,
     pub level: Spanned<u32>,
     pub hint: Option<String>,
@@ -135,6 +136,8 @@ pub struct OwnCheck {
     pub name: String,
     /// The file, beside the rubric.
     pub file: PathBuf,
+    /// Points of its own, on top of the function's. Without them it counts like any other check of the function.
+    pub points: Option<f64>,
 }
 
 /// Why a rubric cannot be used.
@@ -166,6 +169,10 @@ impl Rubric {
             path.and_then(|path| std::path::absolute(path).ok()?.parent().map(Path::to_owned)).unwrap_or_default();
         rubric.checks.iter_mut().for_each(|check| check.file = folder.join(&check.file));
         rubric.check(file, &text)?;
+        for function in &mut rubric.functions {
+            let own = rubric.checks.iter().filter(|check| check.function.get_ref() == function.name.get_ref());
+            *function.points.get_mut() += own.filter_map(|check| check.points).sum::<f64>();
+        }
         Ok(rubric)
     }
 
@@ -180,6 +187,12 @@ impl Rubric {
     /// All points that can be earned.
     pub fn max_score(&self) -> f64 {
         self.functions.iter().map(|function| *function.points.get_ref()).sum::<f64>() + self.simulation.points
+    }
+
+    /// The checks of a function that have points of their own.
+    pub fn own_points(&self, name: &str) -> Vec<(&str, f64)> {
+        let own = self.checks.iter().filter(|check| check.function.get_ref() == name);
+        own.filter_map(|check| Some((check.name.as_str(), check.points?))).collect()
     }
 
     /// Levels in ascending order.

@@ -132,3 +132,37 @@ fn a_row_that_cannot_be_used_is_named_with_its_line() {
     }
     assert!(adjustments("student,point\nanna,1\n", &rubric).unwrap_err().to_string().contains("its columns are"));
 }
+
+#[test]
+fn a_check_with_points_of_its_own_earns_or_costs_these_alone() {
+    let all = |agrees, own| {
+        [check(Check::Agrees.name(), agrees), check("is zero at rest", Status::Passed), check("own", own)]
+    };
+    let of = |status, checks: &[CheckGrade]| points(6.0, true, (status, checks), &[("own", 2.0)]);
+    assert_eq!(of(Status::Passed, &all(Status::Passed, Status::Passed)), 6.0);
+    assert_eq!(of(Status::Failed, &all(Status::Passed, Status::Failed)), 4.0);
+    assert_eq!(of(Status::Failed, &all(Status::Failed, Status::Passed)), 2.0);
+    assert_eq!(of(Status::Missing, &[]), 0.0);
+    let share =
+        [check(Check::Agrees.name(), Status::Passed), check("other", Status::Failed), check("own", Status::Passed)];
+    assert_eq!(of(Status::Failed, &share), 2.0 + 2.0);
+    assert_eq!(points(6.0, true, (Status::Failed, &share), &[]), 4.0, "it counts like any other check");
+}
+
+#[test]
+fn the_points_of_a_check_are_added_to_those_of_its_function() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("own.rs"), "").unwrap();
+    let load = |points: &str| {
+        let own = format!("\n[[check]]\nfunction = \"psi_neo_hookean\"\nname = \"own\"\nfile = \"own.rs\"\n{points}");
+        let path = folder.path().join("rubric.toml");
+        fs::write(&path, format!("{RUBRIC}{own}")).unwrap();
+        Rubric::load(Some(&path))
+    };
+    let (without, with) = (load("").unwrap(), load("points = 2.5").unwrap());
+    assert_eq!(with.max_score() - without.max_score(), 2.5);
+    assert_eq!(with.own_points("psi_neo_hookean"), [("own", 2.5)]);
+    assert_eq!(with.judging(), without.judging(), "no new grading");
+    let refused = load("points = -1.0").unwrap_err().to_string();
+    assert!(refused.contains("own.rs") && refused.contains("from 0 to"), "{refused}");
+}

@@ -1,4 +1,4 @@
-//! How the time of an assembly grows with the mesh. One pass over the elements grows as n¹; a search through all of them for each, or a
+//! How the time of an assembly, of skinning and of picking grows with the mesh. One pass over the elements grows as n¹; a search through all of them for each, or a
 //! full matrix on the way, as n². It is told, and costs points only where the rubric says so.
 
 use grader::implementation::sandboxed::Sandboxed;
@@ -10,8 +10,14 @@ use super::load::load_of;
 use crate::grade::Growth;
 
 /// The functions whose reference grows as n¹, and how often each is called in a row, so that the way to the program does not count.
-const FUNCTIONS: [(&str, u64); 4] =
-    [("mass_matrix_mesh", 1), ("assemble_forces", 5), ("assemble_stiffness", 1), ("fixed_point_constraints", 20)];
+const FUNCTIONS: [(&str, u64); 6] = [
+    ("mass_matrix_mesh", 1),
+    ("assemble_forces", 5),
+    ("assemble_stiffness", 1),
+    ("fixed_point_constraints", 20),
+    ("build_skinning_matrix", 1),
+    ("pick_nearest_vertices", 5),
+];
 
 /// More calls in a row than this are not made.
 const MOST_CALLS: f64 = 5000.0;

@@ -89,7 +89,12 @@ impl Grading {
 
     /// Partial credit, also where some checks end in a panic or a time-out, and the mistake that explains the answers.
     fn explain(&self, grade: &mut FunctionGrade, name: &str, subject: &Sandboxed) {
-        grade.score = points(grade.max_score, self.rubric.partial_credit, grade.status, &grade.checks);
+        grade.score = points(
+            grade.max_score,
+            self.rubric.partial_credit,
+            (grade.status, &grade.checks),
+            &self.rubric.own_points(name),
+        );
         if grade.status == Status::Failed {
             let asked = AssertUnwindSafe(|| explain(name, self.seed, subject, variants::of(name)));
             let Explanation { diagnosis, location } = panic::catch_unwind(asked).unwrap_or_default();

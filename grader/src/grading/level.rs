@@ -7,6 +7,7 @@ use std::rc::Rc;
 
 use grader::compile::{BuildError, Fault, Plan, build_within};
 use grader::implementation::budget::Budget;
+use grader::implementation::places::Places;
 use grader::implementation::sandboxed::Sandboxed;
 use grader::status::Status;
 use grader::submission::{NAMES, Source, Submission, mentions};
@@ -35,7 +36,7 @@ impl Grading {
         let own = calls_of(submission);
         for group in groups(&judged, &below, &own, &self.programs.calls) {
             if let Some((program, folder)) = whole.filter(|_| group.reference.is_empty()).and_then(Whole::program) {
-                let subject = self.subject(Some(program), folder, budget);
+                let subject = self.subject(Some(program), folder, submission, budget);
                 for (function, name) in self.judged(&group) {
                     graded.insert(name.to_owned(), self.judge(function, &subject)?);
                 }
@@ -72,7 +73,7 @@ impl Grading {
             Err(BuildError::GaveUp(why)) => return self.grade_apart(group, plan, submission, &why, graded, budget),
             built => built?,
         };
-        let subject = self.subject(built.program.as_deref(), folder, budget);
+        let subject = self.subject(built.program.as_deref(), folder, submission, budget);
         for (function, name) in self.judged(group) {
             let grade = match built.faults.get(name) {
                 None => self.judge(function, &subject)?,
@@ -106,7 +107,10 @@ impl Grading {
                 built => {
                     let built = built?;
                     match built.faults.get(name) {
-                        None => self.judge(function, &self.subject(built.program.as_deref(), folder.path(), budget))?,
+                        None => self.judge(
+                            function,
+                            &self.subject(built.program.as_deref(), folder.path(), submission, budget),
+                        )?,
                         Some(fault) => without_program(function, fault),
                     }
                 }
@@ -135,7 +139,8 @@ impl Grading {
             let alone = Plan { own, helpers, ..plan.clone() };
             let built = build_within(&self.prebuilt, &self.sandbox, &alone, folder.path(), budget)?;
             if built.faults.is_empty() {
-                return self.judge(function, &self.subject(built.program.as_deref(), folder.path(), budget));
+                return self
+                    .judge(function, &self.subject(built.program.as_deref(), folder.path(), submission, budget));
             }
         }
         Ok(without_program(function, fault))
@@ -149,9 +154,15 @@ impl Grading {
         })
     }
 
-    fn subject(&self, program: Option<&Path>, folder: &Path, budget: &Rc<Budget>) -> Sandboxed {
+    fn subject(
+        &self,
+        program: Option<&Path>,
+        folder: &Path,
+        submission: &Submission,
+        budget: &Rc<Budget>,
+    ) -> Sandboxed {
         let start = start(&self.sandbox, program.map(Path::to_owned), folder);
-        Sandboxed::new(start, self.limit()).within(budget.clone())
+        Sandboxed::new(start, self.limit()).within(budget.clone(), Places::of(submission))
     }
 }
 

@@ -4,6 +4,7 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use grader::implementation::budget::Budget;
+use grader::implementation::places::Places;
 use grader::implementation::sandboxed::Sandboxed;
 use grader::status::Status;
 use grader_child::simulation::Scene;
@@ -44,8 +45,8 @@ impl Grading {
         let Some((program, folder)) = whole.and_then(Whole::program).filter(|_| runs_to_the_end) else {
             return Ok(study);
         };
-        let subject =
-            Sandboxed::new(start(&self.sandbox, Some(program.to_owned()), folder), LIMIT).within(budget.clone());
+        let subject = Sandboxed::new(start(&self.sandbox, Some(program.to_owned()), folder), LIMIT)
+            .within(budget.clone(), Places::default());
         let reference = Sandboxed::new(self.programs.start_reference(&self.sandbox), LIMIT);
         let mut answers = true;
         for (number, integrator) in INTEGRATORS.into_iter().enumerate() {

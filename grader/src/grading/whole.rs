@@ -8,6 +8,7 @@ use std::time::Duration;
 use grader::compile::{Attempt, Plan, attempt};
 use grader::implementation::Trouble;
 use grader::implementation::budget::Budget;
+use grader::implementation::places::Places;
 use grader::implementation::sandboxed::Sandboxed;
 use grader::status::Status;
 use grader::submission::{NAMES, Source, Submission};
@@ -36,6 +37,7 @@ const TOLERANCE: f64 = 1e-6;
 pub(super) struct Whole {
     attempt: Attempt,
     folder: TempDir,
+    places: Places,
 }
 
 impl Whole {
@@ -67,7 +69,7 @@ impl Grading {
         let limit = self.compile_limit();
         let plan = Plan { own: own.collect(), reference: None, helpers: BTreeMap::new(), limit };
         let attempt = attempt(&self.prebuilt, &self.sandbox, &plan, folder.path(), budget)?;
-        Ok(Some(Whole { attempt, folder }))
+        Ok(Some(Whole { attempt, folder, places: Places::of(submission) }))
     }
 
     /// Grades the simulation; where a function is missing it cannot run, which costs nothing more by itself.
@@ -93,7 +95,7 @@ impl Grading {
             checks: Vec::new(),
         };
         let absent = absent(functions);
-        let Some(Whole { attempt, folder }) = whole.filter(|_| absent.is_empty()) else {
+        let Some(Whole { attempt, folder, places }) = whole.filter(|_| absent.is_empty()) else {
             grade.message = Some(match &absent[..] {
                 [] => "the whole simulation needs functions of a later assignment".to_owned(),
                 names => format!("the whole simulation needs {}", names.join(", ")),
@@ -127,8 +129,8 @@ impl Grading {
                 return Ok(grade);
             }
         };
-        let subject =
-            Sandboxed::new(start(&self.sandbox, Some(program.clone()), folder.path()), LIMIT).within(budget.clone());
+        let subject = Sandboxed::new(start(&self.sandbox, Some(program.clone()), folder.path()), LIMIT)
+            .within(budget.clone(), places.clone());
         budget.next_function();
         self.compare_simulations(grade, &subject)
     }

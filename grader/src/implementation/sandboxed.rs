@@ -12,6 +12,7 @@ use nalgebra::{DVector, Matrix3, Matrix4, Matrix4x3, SMatrix, SVector, Vector3, 
 use nalgebra_sparse::CsrMatrix;
 
 use super::budget::Budget;
+use super::places::Places;
 use super::{Answer, Implementation, Trouble};
 use crate::protocol::{self, Closures};
 use crate::sandbox::Running;
@@ -26,6 +27,8 @@ pub struct Sandboxed {
     /// How often the present function has been late.
     time_outs: Cell<usize>,
     budget: Rc<Budget>,
+    /// The lines at which it can panic.
+    places: Places,
     /// How long answers of the present process were waited for.
     waited: Cell<Duration>,
 }
@@ -43,13 +46,14 @@ impl Sandboxed {
             given_up: Cell::new(false),
             time_outs: Cell::new(0),
             budget: Rc::new(Budget::unlimited()),
+            places: Places::default(),
             waited: Cell::new(Duration::ZERO),
         }
     }
 
-    /// The same, and all its calls together stay within a budget.
-    pub fn within(self, budget: Rc<Budget>) -> Self {
-        Self { budget, ..self }
+    /// The same, and all its calls together stay within a budget, and its panics at the lines of its files.
+    pub fn within(self, budget: Rc<Budget>, places: Places) -> Self {
+        Self { budget, places, ..self }
     }
 
     /// Forgets earlier trouble: the next function is asked afresh, in a process of its own, where no thread and no panic hook of
@@ -121,7 +125,7 @@ impl Sandboxed {
             Err(trouble) => Err(trouble),
         };
         self.spend(begin.elapsed());
-        let answer = answer.map_err(|trouble| match (trouble, self.budget.over()) {
+        let answer = answer.map_err(|trouble| match (self.places.checked(trouble), self.budget.over()) {
             (Trouble::TimedOut(_), Some(allowed)) => Trouble::TimedOut(allowed),
             (trouble, _) => trouble,
         });

@@ -4,6 +4,8 @@ use std::process::Output;
 
 use super::*;
 
+mod checks;
+
 /// A repository with a window, which no package needs.
 const REPOSITORY: [(&str, &str); 9] = [
     (
@@ -75,7 +77,17 @@ fn packed(platform: Platform) -> tempfile::TempDir {
     }
     // Inside the repository, as users will do: it must not be packed into itself.
     let out = repository.join("out");
-    pack(&PackOptions { platform, out, repository, seed: 42, rubric: None, vendor: false }).unwrap();
+    pack(&PackOptions {
+        platform,
+        out,
+        repository,
+        seed: 42,
+        rubric: None,
+        functions: 22,
+        checks: Vec::new(),
+        vendor: false,
+    })
+    .unwrap();
     folder
 }
 
@@ -159,8 +171,19 @@ fn this_repository_packs_into_two_megabytes_without_the_window() {
     let repository = crate::grading::repository();
     let rubric = repository.join("grader/rubrics/second.toml");
     let platform = Platform::Gradescope;
-    pack(&PackOptions { platform, out: out.clone(), repository, seed: 1, rubric: Some(rubric.clone()), vendor: false })
-        .unwrap();
+    let asked = Some(rubric.clone());
+    let (functions, checks) = (10, Vec::new());
+    pack(&PackOptions {
+        platform,
+        out: out.clone(),
+        repository,
+        seed: 1,
+        rubric: asked,
+        functions,
+        checks,
+        vendor: false,
+    })
+    .unwrap();
     let read = |path: &Path| fs::read_to_string(path).unwrap();
     assert_eq!(read(&out.join("autograder/grader/rubric.toml")), read(&rubric), "the assignment's");
     let names = locked(&out.join("autograder/Cargo.lock"));
@@ -244,14 +267,24 @@ fn no_mark_is_left_in_a_package_and_a_full_folder_is_refused() {
         let folder = packed(platform);
         let repository = folder.path().join("repository");
         let mut out = repository.join("out");
-        let again = PackOptions { platform, out: out.clone(), repository, seed: 1, rubric: None, vendor: false };
+        let again = PackOptions {
+            platform,
+            out: out.clone(),
+            repository,
+            seed: 1,
+            rubric: None,
+            functions: 22,
+            checks: Vec::new(),
+            vendor: false,
+        };
         assert!(matches!(pack(&again), Err(PackError::Folder(FolderError::NotEmpty(_)))));
         if platform == Platform::Gradescope {
             out.push("autograder");
         }
         for path in fs::read_dir(out).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_file()) {
             let text = fs::read_to_string(&path).unwrap();
-            for mark in ["@TOOLCHAIN@", "@SEED@", "@SHARDS@", "@CPUS@", "@MEMORY@", "@TIME@"] {
+            for mark in ["@TOOLCHAIN@", "@SEED@", "@RUBRIC@", "@FUNCTIONS@", "@SHARDS@", "@CPUS@", "@MEMORY@", "@TIME@"]
+            {
                 assert!(!text.contains(mark), "{mark} in {}", path.display());
             }
         }

@@ -106,6 +106,12 @@ impl OwnCheck {
         if self.name.trim().is_empty() || self.name.contains(char::is_control) {
             return Err(format!("the name of the check {file} is no line of text; write the rule as a sentence"));
         }
+        if let Some(points) = self.points.filter(|points| !is_points(*points)) {
+            return Err(format!("points = {points} of the check {file}; give a number from 0 to {MOST_POINTS}"));
+        }
+        if rubric.checks.iter().filter(|other| other.function == self.function && other.name == self.name).count() > 1 {
+            return Err(format!("`{}` is the name of two checks of `{function}`; rename one", self.name));
+        }
         if !self.file.is_file() {
             return Err(format!("{file}: there is no such file; name one beside the rubric"));
         }

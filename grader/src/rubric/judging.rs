@@ -19,6 +19,7 @@ impl Rubric {
             function: Spanned::new(0..0, check.function.get_ref().clone()),
             // Where the file lies makes no difference; what is in it is part of the grader.
             file: Default::default(),
+            points: None,
             ..check.clone()
         };
         let mut rubric = Self {

@@ -18,6 +18,8 @@ pub struct Settings {
     positions: fn(&DVector<f64>, &[Vector3<f64>]) -> DVector<f64>,
     /// The element's vertices where its answer is placed.
     vertices: fn([usize; 4], usize) -> [usize; 4],
+    /// The same for the columns.
+    columns: fn([usize; 4]) -> [usize; 4],
     /// The row of a local coordinate, from the vertices and the number of rows.
     place: fn(&[usize; 4], usize, usize) -> usize,
     /// From the element's Hessian to what is added.
@@ -34,6 +36,7 @@ pub const RIGHT: Settings = Settings {
     volume: |v0, e| v0[e],
     positions: |q, _| q.clone(),
     vertices: |element, _| element,
+    columns: |vertices| vertices,
     place: |element, i, _| 3 * element[i / 3] + i % 3,
     projection: |H| -given::project(H),
     entry: |block, i, j| block[(i, j)],
@@ -77,6 +80,13 @@ pub const SWITCHES: &[Switch<Settings>] = &[
         "All elements are added to the first twelve rows: which vertices of the mesh does an element have?",
         |s| {
             s.vertices = |_, _| [0, 1, 2, 3];
+        },
+    ),
+    (
+        "local for global indices in the columns",
+        "The rows are right: which vertices of the mesh do the columns belong to?",
+        |s| {
+            s.columns = |_| [0, 1, 2, 3];
         },
     ),
     ("sorted vertices", ORDER, |s| {
@@ -241,7 +251,7 @@ pub fn run(s: &Settings, trial: &Trial) -> Option<Observed> {
         let (block, vertices) = (of_element(s, trial, index)?, (s.vertices)(T[index], index));
         for (i, j) in (0..12).flat_map(|i| (0..block.ncols()).map(move |j| (i, j))) {
             let row = (s.place)(&vertices, i, size);
-            let column = if columns == 1 { 0 } else { (s.place)(&vertices, j, size) };
+            let column = if columns == 1 { 0 } else { (s.place)(&(s.columns)(vertices), j, size) };
             let place = numbers.get_mut(row * columns + column)?;
             *place = (s.put)(*place, (s.entry)(&block, i, j));
         }

@@ -30,8 +30,8 @@ pub struct Settings {
     bound: fn(f64, f64) -> f64,
     /// The share of the decrease that is asked for at a step length.
     share: fn(f64) -> f64,
-    /// Whether to stop after a step, from the decrease of f and the length of the step.
-    done: fn(f64, f64) -> bool,
+    /// Whether to stop after a step, from the decrease of f, the length of the step and α.
+    done: fn(f64, f64, f64) -> bool,
     accepts: fn(f64, f64) -> bool,
     /// Whether the gradient is small, from its norm and that at the start.
     small: fn(f64, f64) -> bool,
@@ -65,7 +65,7 @@ pub const RIGHT: Settings = Settings {
     slope: |slope| slope,
     bound: |_, bound| bound,
     share: |alpha| alpha,
-    done: |_, _| false,
+    done: |_, _, _| false,
     accepts: |value, bound| value.is_finite() && value <= bound,
     small: |norm, start| norm.is_finite() && norm <= 1e-10 * start,
     most: |most| most,
@@ -129,7 +129,7 @@ pub fn minimise(settings: &Settings, problem: &Problem, x: &mut Vector, most: us
         }
         value_before = value;
         *x = (settings.moved)(x, &direction, alpha);
-        if (settings.done)(value - (problem.value)(x), alpha * direction.norm()) {
+        if (settings.done)(value - (problem.value)(x), alpha * direction.norm(), alpha) {
             break;
         }
     }

@@ -48,6 +48,8 @@ enum From {
     Hit,
     Centroid,
     Corner,
+    /// The vertex of the surface that is nearest to the hit.
+    NearestVertex,
     Near,
     Far,
     Line,
@@ -103,6 +105,9 @@ const LIST: &str = "The right vertices are found. In which order does the page a
 pub const SWITCHES: &[Switch<Settings>] = &[
     ("upside down", "Pixels are counted from the lower left here, not from the top.", |s| {
         s.place = |win, of| [2.0 * (win.x - of[0]) / of[2] - 1.0, 1.0 - 2.0 * (win.y - of[1]) / of[3]];
+    }),
+    ("upside down", "Pixels are counted from the lower left of the window here, not from the top.", |s| {
+        s.place = |win, of| [2.0 * (win.x - of[0]) / of[2] - 1.0, 2.0 * (of[3] - win.y - of[1]) / of[3] - 1.0];
     }),
     ("mirrored", PIXEL, |s| {
         s.place = |win, of| [1.0 - 2.0 * (win.x - of[0]) / of[2], 2.0 * (win.y - of[1]) / of[3] - 1.0]
@@ -205,6 +210,7 @@ pub const SWITCHES: &[Switch<Settings>] = &[
     ("last triangle of the list", HIDDEN, |s| s.hit = Hit::LastInList),
     ("distance from the middle of the triangle", CENTRE, |s| s.from = From::Centroid),
     ("distance from a corner of the triangle", CENTRE, |s| s.from = From::Corner),
+    ("distance from the nearest vertex", CENTRE, |s| s.from = From::NearestVertex),
     ("distance from the near plane", CENTRE, |s| s.from = From::Near),
     ("distance from the far plane", CENTRE, |s| s.from = From::Far),
     (

@@ -23,6 +23,8 @@ pub struct Settings {
     /// gradient likewise.
     rest: fn(f64, f64) -> f64,
     gradient_of_rest: fn(&Point, &Point) -> Point,
+    /// Whether the gradient of the rest adds up rows of the inverse in place of columns.
+    sums_rows: bool,
     place_of_rest: usize,
     /// The change of a finished shape function.
     finished: fn(f64) -> f64,
@@ -40,6 +42,7 @@ pub const RIGHT: Settings = Settings {
     summed: [1.0; 3],
     rest: |sum, _| 1.0 - sum,
     gradient_of_rest: |sum, _| -sum,
+    sums_rows: false,
     place_of_rest: 0,
     finished: |phi| phi,
     factor: |_| 1.0,
@@ -91,6 +94,7 @@ pub const SWITCHES: &[Switch<Settings>] = &[
         s.rest = |sum, _| sum / 3.0;
         s.gradient_of_rest = |sum, _| sum / -3.0
     }),
+    ("rows for columns in the sum", REST, |s| s.sums_rows = true),
     ("sum added to one", REST, |s| s.rest = |sum, _| 1.0 + sum),
     (
         "wrong vertex order",
@@ -159,6 +163,7 @@ pub fn run(s: &Settings, trial: &Trial) -> Option<Observed> {
     }
     let rows = [0, 1, 2].map(|i| inverse.row(i).transpose() * s.signs[i]);
     let sum = rows[0] * s.summed[0] + rows[1] * s.summed[1] + rows[2] * s.summed[2];
+    let sum = if s.sums_rows { Point::from(rows.map(|row| row.sum())) } else { sum };
     let rest = (s.gradient_of_rest)(&sum, &rows[0]);
     let all = if s.place_of_rest == 0 { [rest, rows[0], rows[1], rows[2]] } else { [rows[0], rows[1], rows[2], rest] };
     let all = all.map(|g| if s.unit_gradients { g.normalize() } else { g });

@@ -11,10 +11,11 @@ type Phi = Vector4<f64>;
 /// The decisions for a display vertex.
 #[derive(Clone, Copy)]
 pub struct Settings {
-    /// The element that a vertex follows, from the shape functions of all elements there and the distances of their centroids.
-    element: fn(&[Phi], &[f64]) -> Option<usize>,
+    /// The element that a vertex follows, from the shape functions of all elements there and the distances of their centroids and of
+    /// their nearest vertices.
+    element: fn(&[Phi], &[[f64; 2]]) -> Option<usize>,
     /// The same for a vertex that no element holds.
-    outside: fn(&[Phi], &[f64]) -> Option<usize>,
+    outside: fn(&[Phi], &[[f64; 2]]) -> Option<usize>,
     weights: fn(Phi) -> Phi,
     columns: fn([usize; 4]) -> [usize; 4],
     shares: Shares,
@@ -70,10 +71,14 @@ pub const SWITCHES: &[Switch<Settings>] = &[
         "nearest instead of containing",
         "The element with the nearest centroid need not be the one that holds the point; a long thin one shows it.",
         |s| {
-            s.element = |_, far| nearest(far);
-            s.outside = |_, far| nearest(far);
+            s.element = |_, far| nearest(far, 0);
+            s.outside = |_, far| nearest(far, 0);
         },
     ),
+    ("nearest vertex decides", "The element with the nearest vertex need not be the one that holds the point.", |s| {
+        s.element = |_, far| nearest(far, 1);
+        s.outside = |_, far| nearest(far, 1);
+    }),
     ("farthest element", CHOICE, |s| {
         s.element = |phis, _| largest(phis, |phi| -phi.min());
         s.outside = |phis, _| largest(phis, |phi| -phi.min());
@@ -118,7 +123,14 @@ pub const SWITCHES: &[Switch<Settings>] = &[
         "nearest centroid outside",
         "Inside all is well. Outside, how far a point is from an element is not how far it is from its middle.",
         |s| {
-            s.outside = |_, far| nearest(far);
+            s.outside = |_, far| nearest(far, 0);
+        },
+    ),
+    (
+        "nearest vertex outside",
+        "Inside all is well. Outside, how far a point is from an element is not how far it is from one of its vertices.",
+        |s| {
+            s.outside = |_, far| nearest(far, 1);
         },
     ),
     ("sum of negative weights outside", OUTSIDE, |s| {
@@ -188,8 +200,15 @@ fn last_like(phis: &[Phi], element: usize) -> usize {
     phis.iter().rposition(|phi| phi.min() == phis[element].min()).unwrap_or(element)
 }
 
-fn nearest(far: &[f64]) -> Option<usize> {
-    (0..far.len()).min_by(|&a, &b| far[a].total_cmp(&far[b]))
+/// The element with the nearest centroid (0) or vertex (1).
+fn nearest(far: &[[f64; 2]], to: usize) -> Option<usize> {
+    (0..far.len()).min_by(|&a, &b| far[a][to].total_cmp(&far[b][to]))
+}
+
+/// Distances of a point from an element's centroid and from its nearest vertex.
+fn distances(X: &[Vector3<f64>; 4], x: &Vector3<f64>) -> [f64; 2] {
+    let centroid = X.iter().sum::<Vector3<f64>>() / 4.0;
+    [(centroid - x).norm(), X.iter().map(|vertex| (vertex - x).norm()).fold(f64::INFINITY, f64::min)]
 }
 
 /// The matrix with these settings.
@@ -213,8 +232,7 @@ pub fn run(s: &Settings, trial: &Trial) -> Option<Observed> {
             Shares::All if !holding.is_empty() => holding.iter().for_each(|&e| put(e, 1.0)),
             Shares::Mean if !holding.is_empty() => holding.iter().for_each(|&e| put(e, 1.0 / holding.len() as f64)),
             _ => {
-                let centroid = |t: &[usize; 4]| t.iter().map(|&i| V[i]).sum::<Vector3<f64>>() / 4.0;
-                let far: Vec<_> = T.iter().map(|t| (centroid(t) - x).norm()).collect();
+                let far: Vec<_> = T.iter().map(|t| distances(&t.map(|i| V[i]), x)).collect();
                 let choose = if holding.is_empty() { s.outside } else { s.element };
                 if let Some(element) = choose(&phis, &far) {
                     put(element, 1.0);

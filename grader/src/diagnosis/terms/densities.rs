@@ -140,5 +140,17 @@ pub fn formulas<'a>() -> Vec<Formula<'a>> {
             }),
         }
     };
-    pairs.map(formula).collect()
+    let squared = Formula {
+        name: Some((
+            "determinant of FᵀF",
+            "The determinant of FᵀF is not that of F: which of them does the page call J?",
+        )),
+        terms: &[("the term with C", 1.0), ("the term with D", 1.0)],
+        values: Box::new(|trial: &Trial| {
+            let s = State::of(trial)?;
+            let J = s.J * s.J;
+            Some(vec![vec![s.C * (J.powf(-2.0 / 3.0) * s.I - 3.0)], vec![s.D * (J - 1.0).powi(2)]])
+        }),
+    };
+    std::iter::once(squared).chain(pairs.map(formula)).collect()
 }

@@ -59,17 +59,62 @@ pub fn formulas<'a>() -> Vec<Formula<'a>> {
             Some(terms(&s).iter().chain([&other(&s)]).map(by_rows).collect())
         }),
     };
-    std::iter::once(right).chain(OTHERS.map(with)).collect()
+    let wrongly = |(name, parts): Wrong| Formula {
+        name: Some((name, if name.contains("columns") { FLATTENED } else { BLOCKS })),
+        terms: &TERMS[..7],
+        values: Box::new(move |trial: &Trial| {
+            let s = State::of(trial)?;
+            Some(terms_of(&s, parts(&s)).map(|term| by_rows(&term)).to_vec())
+        }),
+    };
+    std::iter::once(right).chain(OTHERS.map(with)).chain(PARTS.map(wrongly)).collect()
+}
+
+/// F and its cofactors, flattened, and the derivative of the cofactors.
+type Parts = (SVector<f64, 9>, SVector<f64, 9>, Matrix9);
+
+/// The name of a mistake, and the parts with it.
+type Wrong = (&'static str, fn(&State) -> Parts);
+
+const FLATTENED: &str = "F and its cofactors are flattened in different orders: how does the page flatten a matrix?";
+const BLOCKS: &str =
+    "A block of the derivative of the cofactors is not as on the page: look at the symmetry of the whole matrix.";
+
+/// Parts in which a mistake is made.
+const PARTS: [Wrong; 14] = [
+    ("cofactors flattened by columns", |s| (flat(&s.F), flat(&s.cofactors().transpose()), change_of_cofactors(s))),
+    ("F flattened by columns", |s| (flat(&s.F.transpose()), flat(&s.cofactors()), change_of_cofactors(s))),
+    ("one block with the wrong sign", |s| with_block(s, 0, 1, -1.0)),
+    ("one block with the wrong sign", |s| with_block(s, 0, 2, -1.0)),
+    ("one block with the wrong sign", |s| with_block(s, 1, 0, -1.0)),
+    ("one block with the wrong sign", |s| with_block(s, 1, 2, -1.0)),
+    ("one block with the wrong sign", |s| with_block(s, 2, 0, -1.0)),
+    ("one block with the wrong sign", |s| with_block(s, 2, 1, -1.0)),
+    ("one block left out", |s| with_block(s, 0, 1, 0.0)),
+    ("one block left out", |s| with_block(s, 0, 2, 0.0)),
+    ("one block left out", |s| with_block(s, 1, 0, 0.0)),
+    ("one block left out", |s| with_block(s, 1, 2, 0.0)),
+    ("one block left out", |s| with_block(s, 2, 0, 0.0)),
+    ("one block left out", |s| with_block(s, 2, 1, 0.0)),
+];
+
+fn with_block(s: &State, row: usize, column: usize, factor: f64) -> Parts {
+    let mut derivative = change_of_cofactors(s);
+    derivative.fixed_view_mut::<3, 3>(3 * row, 3 * column).scale_mut(factor);
+    (flat(&s.F), flat(&s.cofactors()), derivative)
 }
 
 fn terms(s: &State) -> [Matrix9; 7] {
-    let (F, cofactors, derivative) = (flat(&s.F), flat(&s.cofactors()), change_of_cofactors(s));
+    terms_of(s, (flat(&s.F), flat(&s.cofactors()), change_of_cofactors(s)))
+}
+
+fn terms_of(s: &State, (F, cofactors, derivative): Parts) -> [Matrix9; 7] {
     [
         Matrix9::identity() * (s.C * s.g()),
         F * cofactors.transpose() * (s.C * s.g() / s.J),
         cofactors * F.transpose() * (s.C * s.g() / s.J),
-        square(s) * (s.C * s.I * s.g() / (s.J * s.J)),
-        square(s) * s.D,
+        cofactors * cofactors.transpose() * (s.C * s.I * s.g() / (s.J * s.J)),
+        cofactors * cofactors.transpose() * s.D,
         derivative * (s.C * s.I * s.g() / s.J),
         derivative * (s.D * (s.J - 1.0)),
     ]

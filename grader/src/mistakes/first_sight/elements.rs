@@ -73,7 +73,7 @@ pub const MISTAKES: &[Mistake] = &[
         dphi
     }),
     // first row sums rows in place of columns
-    wrong!(dphi_linear_tetrahedron_dX, ["rows for columns in the first row"], |V, element, _X| {
+    wrong!(dphi_linear_tetrahedron_dX, ["rows for columns in the sum"], |V, element, _X| {
         let X = element.map(|i| V[i]);
         let inverse = Matrix3::from_columns(&[X[1] - X[0], X[2] - X[0], X[3] - X[0]]).try_inverse().unwrap();
         let mut dphi = Matrix4x3::zeros();
@@ -180,7 +180,7 @@ pub const MISTAKES: &[Mistake] = &[
         })
     }),
     // displacement gradient without the identity
-    wrong!(V_linear_tetrahedron, ["displacement for position"], |q, V, element, volume, C, D| {
+    wrong!(V_linear_tetrahedron, ["displacement gradient for F"], |q, V, element, volume, C, D| {
         let u = DVector::from_fn(q.len(), |i, _| q[i] - V[i / 3][i % 3]);
         solved::quadrature_single_point(V, element, volume, |X| {
             let dphi = solved::dphi_linear_tetrahedron_dX(V, element, X);

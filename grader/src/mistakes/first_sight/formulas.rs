@@ -76,7 +76,7 @@ pub const MISTAKES: &[Mistake] = &[
         C * (J.powf(-2.0 / 3.0) * (F.transpose() * F).trace() - 3.0) + D * (J - 1.0).powi(2)
     }),
     // J of FtF: squared
-    wrong!(psi_neo_hookean, ["J of FᵀF"], |F, C, D| {
+    wrong!(psi_neo_hookean, ["determinant of FᵀF"], |F, C, D| {
         let E = F.transpose() * F;
         let J = E.determinant();
         if F.determinant() <= 0.0 {
@@ -151,7 +151,9 @@ pub const MISTAKES: &[Mistake] = &[
         hessian(F, C, D, "volumetric psi_J")
     }),
     // cofactor flattened by columns, F by rows
-    wrong!(d2psi_neo_hookean_dF2, ["cofactors by columns"], |F, C, D| { hessian(F, C, D, "cofactor by columns") }),
+    wrong!(d2psi_neo_hookean_dF2, ["cofactors flattened by columns"], |F, C, D| {
+        hessian(F, C, D, "cofactor by columns")
+    }),
 ];
 
 fn hat(a: Vector3<f64>) -> Matrix3<f64> {

@@ -50,7 +50,7 @@ pub const MISTAKES: &[Mistake] = &[
         CsrMatrix::from(&M)
     }),
     // columns by local numbers
-    wrong!(mass_matrix_mesh, ["local for global indices"], |q_size, T, density, v0| {
+    wrong!(mass_matrix_mesh, ["local for global indices in the columns"], |q_size, T, density, v0| {
         let mut M = CooMatrix::new(q_size, q_size);
         for (t, volume) in T.iter().zip(v0) {
             let Me = solved::mass_matrix_linear_tetrahedron(density, *volume);

@@ -27,8 +27,8 @@ target/release/grader sandbox || {
 
 # The solved sources are graded once: that builds what submissions are linked with, and where they do not pass, no image is made.
 selftest=$(mktemp -d)
-CARGO_NET_OFFLINE=true target/release/grader grade . --out "$selftest" --seed @SEED@
-grep -q "22 of 22 functions pass" "$selftest/report.md" || {
+CARGO_NET_OFFLINE=true target/release/grader grade .@RUBRIC@ --out "$selftest" --seed @SEED@
+grep -q "@FUNCTIONS@ of @FUNCTIONS@ functions pass" "$selftest/report.md" || {
     echo "The solved sources do not pass in this container; the lines above tell why." >&2
     exit 1
 }

@@ -30,6 +30,11 @@ pub fn found(s: &Settings, pick: &Pick, [near, far]: [Point; 2]) -> Vec<usize> {
             From::Hit => (s.norm)(&(pick.V[vertex] - near - direction * t)),
             From::Centroid => (pick.V[vertex] - triangle.iter().map(|&i| pick.V[i]).sum::<Point>() / 3.0).norm(),
             From::Corner => (pick.V[vertex] - pick.V[triangle[0]]).norm(),
+            From::NearestVertex => {
+                let hit = near + direction * t;
+                let nearest = pick.V.iter().min_by(|a, b| (*a - hit).norm().total_cmp(&(*b - hit).norm()));
+                nearest.map_or(f64::INFINITY, |nearest| (pick.V[vertex] - nearest).norm())
+            }
             From::Near => (pick.V[vertex] - near).norm(),
             From::Far => (pick.V[vertex] - far).norm(),
             From::Line => (pick.V[vertex] - near).cross(&direction.normalize()).norm(),
