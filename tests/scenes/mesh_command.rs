@@ -1,7 +1,7 @@
 //! `mesh info` and `mesh convert`.
 
 use fem_mesh::{
-    MeshSet, TetrahedralMesh, boundary, box_mesh, read_surface, read_tetrahedra, surface_quality, volumes,
+    MeshSet, SurfaceMesh, TetrahedralMesh, boundary, box_mesh, read_surface, read_tetrahedra, surface_quality, volumes,
     write_surface, write_tetrahedra,
 };
 
@@ -242,6 +242,12 @@ fn improvement_keeps_the_body_and_raises_its_worst_element() {
     desk.run_well(&format!("mesh from-surface {} fine.msh --edge 0.03", bunny.display()));
     desk.run_well(&format!("mesh from-surface {} graded.msh --edge 0.03 --grading 3", bunny.display()));
     assert!(4 * count("graded.msh") < 3 * count("fine.msh"), "{} {}", count("graded.msh"), count("fine.msh"));
+    let solid = box_mesh([1.0, 1.0, 1.0], 1).unwrap();
+    let surface = SurfaceMesh::new(solid.vertices.clone(), boundary(&solid));
+    write_surface(&desk.path("cube.stl"), &surface).unwrap();
+    let text = desk.run_well("mesh from-surface cube.stl cube.vtu --edge 0.17 --features 40").stdout;
+    assert!(text.contains("feature lines: 12.000000 m, of which the mesh keeps 12.000000 m"), "{text}");
+    assert!(desk.refused("mesh from-surface cube.stl c.vtu --edge 0.2 --features nan").contains("such as 40"));
     assert!(desk.refused("mesh improve missing.msh out.msh").contains("there is no such file"));
 }
 

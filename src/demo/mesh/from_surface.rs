@@ -3,9 +3,9 @@
 use std::collections::HashSet;
 use std::path::PathBuf;
 
-use fem_mesh::generate::odt::improve_inside;
-use fem_mesh::generate::{Solid, stuff_graded};
-use fem_mesh::{MeshError, Problem};
+use fem_mesh::generate::odt::{improve_inside, improve_tetrahedra};
+use fem_mesh::generate::{Solid, keep_features, stuff_graded};
+use fem_mesh::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
 use super::write_tetrahedra;
 
@@ -20,6 +20,9 @@ pub struct Arguments {
     /// How often edges may double towards the inside
     #[arg(long, value_name = "N", default_value_t = 0)]
     grading: usize,
+    /// Keeps edges and corners of the surface where normals differ by more than this angle, degrees
+    #[arg(long, value_name = "ANGLE", value_parser = angle)]
+    features: Option<f64>,
     /// Passes of improvement, in which the nodes of the boundary slide on the surface
     #[arg(long, value_name = "N", default_value_t = 0)]
     improve: usize,
@@ -27,12 +30,15 @@ pub struct Arguments {
 
 /// Fills the surface and writes the tetrahedra.
 pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
-    let Arguments { surface: file, out, edge, grading, improve } = arguments;
+    let Arguments { surface: file, out, edge, grading, features, improve } = arguments;
     let surface = fem_mesh::read_surface(file)?;
     let mesh =
         stuff_graded(&surface, *edge, *grading).map_err(|error| MeshError::in_file(file, Problem::Stuffing(error)))?;
     fem_mesh::check(&mesh, file)?;
-    let mesh = improve_inside(&mesh, *improve, &Solid::new(&surface)).mesh;
+    let mesh = match features {
+        None => improve_inside(&mesh, *improve, &Solid::new(&surface)).mesh,
+        Some(angle) => improve_tetrahedra(&with_features(&mesh, &surface, *angle), *improve).mesh,
+    };
     let faults = fem_mesh::surface_quality(&surface);
     if !faults.is_closed() {
         eprintln!(
@@ -53,4 +59,18 @@ pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
         );
     }
     write_tetrahedra(out, &mesh)
+}
+
+/// Moves the boundary onto the feature lines of the surface and prints how much of them it keeps.
+fn with_features(mesh: &TetrahedralMesh, surface: &SurfaceMesh, angle: f64) -> TetrahedralMesh {
+    let found = keep_features(mesh, surface, angle);
+    say!("feature lines: {:.6} m, of which the mesh keeps {:.6} m", found.length, found.kept);
+    found.mesh
+}
+
+fn angle(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(angle) if angle > 0.0 && angle < 180.0 => Ok(angle),
+        _ => Err("give an angle above 0 and below 180 degrees, such as 40".to_owned()),
+    }
 }

@@ -5,6 +5,7 @@ mod checks;
 mod delaunay;
 mod errors;
 mod every_format;
+mod features;
 mod formats;
 mod garbage;
 mod gmsh;

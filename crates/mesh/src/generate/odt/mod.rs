@@ -1,5 +1,5 @@
 //! Optimal Delaunay triangulation: variational smoothing with reconnection.
 
-mod space;
+pub(crate) mod space;
 
 pub use space::{Improved, Iteration, improve_graded, improve_inside, improve_tetrahedra};

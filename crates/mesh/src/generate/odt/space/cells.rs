@@ -170,13 +170,7 @@ impl Cells {
     /// Replaces elements by others in the same place. They are all of one combination of sets, as no kept face lies between them.
     pub fn replace(&mut self, old: &[u32], new: &[[u32; 4]]) {
         let region = self.regions[old[0] as usize];
-        for &cell in old {
-            for vertex in self.corners[cell as usize] {
-                self.stars[vertex as usize].retain(|&other| other != cell);
-            }
-            self.corners[cell as usize] = REMOVED;
-        }
-        self.unused.extend(old);
+        old.iter().for_each(|&cell| self.remove(cell));
         for &corners in new {
             let cell = self.unused.pop().unwrap_or(self.corners.len() as u32);
             if cell as usize == self.corners.len() {
@@ -187,6 +181,15 @@ impl Cells {
             self.regions[cell as usize] = region;
             corners.iter().for_each(|&vertex| self.stars[vertex as usize].push(cell));
         }
+    }
+
+    /// Removes an element.
+    pub fn remove(&mut self, cell: u32) {
+        for vertex in self.corners[cell as usize] {
+            self.stars[vertex as usize].retain(|&other| other != cell);
+        }
+        self.corners[cell as usize] = REMOVED;
+        self.unused.push(cell);
     }
 
     /// Mean length of the edges at a vertex, m.

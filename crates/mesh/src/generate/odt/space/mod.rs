@@ -15,9 +15,10 @@ use nalgebra::Vector3;
 
 use crate::generate::Solid;
 use crate::{TetrahedralMesh, boundary, quality};
-use cells::{Cells, Freedom};
-use polish::{Project, raise_the_worst};
-use shape::Floor;
+pub(crate) use cells::{Cells, Freedom};
+use polish::Project;
+pub(crate) use polish::{move_towards, raise_the_worst};
+pub(crate) use shape::Floor;
 use smooth::{move_vertices, reconnect, total_energy};
 
 /// Distance from a surface within which a vertex lies on it, over the mean edge.
@@ -59,7 +60,7 @@ pub struct Improved {
 /// # Ok::<(), fem_mesh::MeshError>(())
 /// ```
 pub fn improve_tetrahedra(mesh: &TetrahedralMesh, iterations: usize) -> Improved {
-    improve_with(mesh, Cells::new(mesh), iterations, &|_| 1.0, &|_| None)
+    improve_with(mesh, Cells::new(mesh), iterations, &|_| 1.0, &|_, _| None)
 }
 
 /// Improves a mesh as [`improve_tetrahedra`] does, towards elements with edges proportional to `size` (m, above 0) at their place. The
@@ -67,7 +68,7 @@ pub fn improve_tetrahedra(mesh: &TetrahedralMesh, iterations: usize) -> Improved
 pub fn improve_graded(mesh: &TetrahedralMesh, iterations: usize, size: impl Fn(&Vector3<f64>) -> f64) -> Improved {
     let cells = Cells::new(mesh);
     let unit = cells.mean_edge_of_all();
-    improve_with(mesh, cells, iterations, &|x| (unit / size(x)).powi(5), &|_| None)
+    improve_with(mesh, cells, iterations, &|x| (unit / size(x)).powi(5), &|_, _| None)
 }
 
 /// Improves a mesh as [`improve_tetrahedra`] does, and lets the vertices of its boundary that lie on a surface slide on it, while the worst
@@ -85,7 +86,7 @@ pub fn improve_inside(mesh: &TetrahedralMesh, iterations: usize, surface: &Solid
             cells.freedom[vertex] = Freedom::OnSurface;
         }
     }
-    improve_with(mesh, cells, iterations, &|_| 1.0, &|x| surface.closest(x))
+    improve_with(mesh, cells, iterations, &|_| 1.0, &|_, x| surface.closest(x))
 }
 
 fn improve_with(

@@ -14,8 +14,8 @@ const GOOD: f64 = 0.64;
 /// Width of the sines that count beside the worst one when a vertex moves.
 const WIDTH: f64 = 0.05;
 
-/// The place on the surface closest to a point, m; `None` if the surface has no such place.
-pub type Project<'a> = &'a dyn Fn(&Vector3<f64>) -> Option<Vector3<f64>>;
+/// The place closest to a point, m, where a vertex of the surface may be; `None` if it has to stay.
+pub type Project<'a> = &'a dyn Fn(u32, &Vector3<f64>) -> Option<Vector3<f64>>;
 
 /// Goes through the elements from the worst to the good ones. Returns the number of changes.
 pub fn raise_the_worst(cells: &mut Cells, floor: &Floor, project: Project) -> usize {
@@ -49,7 +49,7 @@ fn move_vertex(cells: &mut Cells, vertex: u32, floor: &Floor, project: Project) 
     let place = |x: Vector3<f64>| match cells.freedom[vertex as usize] {
         Freedom::Fixed => None,
         Freedom::Inside => Some(x),
-        Freedom::OnSurface => project(&x),
+        Freedom::OnSurface => project(vertex, &x),
     };
     let here = cells.positions[vertex as usize];
     if cells.freedom[vertex as usize] == Freedom::Fixed {
@@ -69,6 +69,16 @@ fn move_vertex(cells: &mut Cells, vertex: u32, floor: &Floor, project: Project) 
         cells.positions[vertex as usize] = x;
         true
     })
+}
+
+/// Moves a vertex to a place, or as far towards it as the elements around it stay within the bounds. Returns whether it has arrived.
+pub fn move_towards(cells: &mut Cells, vertex: u32, place: &Vector3<f64>, floor: &Floor) -> bool {
+    let here = cells.positions[vertex as usize];
+    let worst = |x: &Vector3<f64>| sines(cells, vertex, x, floor).into_iter().fold(f64::INFINITY, f64::min);
+    let fits = |part: &f64| worst(&(here + (place - here) * *part)) > 0.0;
+    let Some(part) = [1.0, 0.7, 0.4, 0.2, 0.1, 0.05].into_iter().find(fits) else { return false };
+    cells.positions[vertex as usize] = if part == 1.0 { *place } else { here + (place - here) * part };
+    part == 1.0
 }
 
 /// Sines of the elements around a vertex if it were at `x`; −1 for those that leave the bounds.

@@ -66,6 +66,11 @@ pub struct Floor {
 }
 
 impl Floor {
+    /// Bounds of the dihedral angles alone, degrees.
+    pub fn within(angles: [f64; 2]) -> Self {
+        Self { cosines: angles.map(|angle| angle.to_radians().cos()), radius_ratio: 0.0, edge_to_radius: 0.0 }
+    }
+
     /// The worst of some shapes.
     pub fn of(shapes: impl Iterator<Item = Shape>) -> Self {
         let best = Self { cosines: [-1.0, 1.0], radius_ratio: 1.0, edge_to_radius: f64::INFINITY };

@@ -1,0 +1,239 @@
+//! Feature lines of a surface: its sharp edges as curves between corners, and the smooth patches between them.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use nalgebra::Vector3;
+
+use crate::generate::Solid;
+use crate::{SurfaceMesh, area_vector};
+
+/// Points of a curve into which a closed one is parted.
+const PARTS_OF_LOOP: usize = 3;
+
+/// A curve along sharp edges, from one point to another that are corners or parts of a closed curve.
+pub struct Curve {
+    /// m
+    points: Vec<Vector3<f64>>,
+    /// Length from the first point, m.
+    lengths: Vec<f64>,
+    /// Its pieces, for the closest point.
+    pieces: Solid,
+}
+
+impl Curve {
+    fn new(points: Vec<Vector3<f64>>) -> Self {
+        let mut lengths = vec![0.0];
+        for pair in points.windows(2) {
+            lengths.push(lengths[lengths.len() - 1] + (pair[1] - pair[0]).norm());
+        }
+        // A piece is a triangle without area.
+        let elements = (1..points.len()).map(|i| [i - 1, i, i]).collect();
+        let pieces = Solid::new(&SurfaceMesh::new(points.clone(), elements));
+        Self { points, lengths, pieces }
+    }
+
+    /// m
+    pub fn length(&self) -> f64 {
+        self.lengths[self.lengths.len() - 1]
+    }
+
+    /// First and last point, m.
+    pub fn ends(&self) -> [Vector3<f64>; 2] {
+        [self.points[0], self.points[self.points.len() - 1]]
+    }
+
+    /// The point at a part of the length, m.
+    pub fn at(&self, part: f64) -> Vector3<f64> {
+        let length = part.clamp(0.0, 1.0) * self.length();
+        let next = self.lengths.partition_point(|&x| x < length).clamp(1, self.points.len() - 1);
+        let [before, after] = [self.lengths[next - 1], self.lengths[next]];
+        let within = if after > before { (length - before) / (after - before) } else { 0.0 };
+        self.points[next - 1] + (self.points[next] - self.points[next - 1]) * within.min(1.0)
+    }
+
+    /// The closest point of the curve, m.
+    pub fn closest(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.pieces.closest(point).unwrap_or(self.points[0])
+    }
+}
+
+/// The feature lines of a surface.
+pub struct Features {
+    /// The curves; two that meet share an end point to the last bit.
+    pub curves: Vec<Curve>,
+    /// The smooth parts of the surface.
+    pub patches: Vec<Solid>,
+}
+
+impl Features {
+    /// Finds the edges whose triangles' normals differ by more than an angle, degrees. A vertex where other than two of them meet, or
+    /// where the line turns by more than the angle, is a corner. Lines below a length, m, count if they join others alone.
+    pub fn new(surface: &SurfaceMesh, angle: f64, shortest: f64) -> Self {
+        let least = angle.to_radians().cos();
+        let vertices = same_places(surface);
+        let elements: Vec<[usize; 3]> = surface.elements.iter().map(|e| e.map(|i| vertices[i])).collect();
+        let normals: Vec<Vector3<f64>> = elements
+            .iter()
+            .map(|e| area_vector(e.map(|i| surface.vertices[i])).try_normalize(0.0).unwrap_or_default())
+            .collect();
+        let mut edges: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
+        for (triangle, &[a, b, c]) in elements.iter().enumerate() {
+            for (i, j) in [(a, b), (b, c), (c, a)] {
+                edges.entry([i.min(j), i.max(j)]).or_default().push(triangle);
+            }
+        }
+        let is_sharp = |triangles: &[usize]| match triangles {
+            [a, b] => normals[*a].dot(&normals[*b]) < least,
+            _ => true,
+        };
+        let sharp =
+            edges.iter().filter(|(_, triangles)| is_sharp(triangles)).map(|(&edge, _)| edge).collect::<Vec<_>>();
+        let mut lines = lines(&surface.vertices, &sharp, least);
+        leave_out_short(&mut lines, &surface.vertices, shortest);
+        let kept: HashSet<[usize; 2]> = lines
+            .iter()
+            .flat_map(|line| line.windows(2))
+            .map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])])
+            .collect();
+        let smooth = edges.iter().filter(|(edge, _)| !kept.contains(*edge)).map(|(_, triangles)| &triangles[..]);
+        let patches = patches(&elements, smooth)
+            .into_iter()
+            .map(|part| Solid::new(&SurfaceMesh::new(surface.vertices.clone(), part)))
+            .collect();
+        let points = |line: Vec<usize>| line.into_iter().map(|i| surface.vertices[i]).collect();
+        Self { curves: lines.into_iter().flat_map(|line| parted(points(line))).collect(), patches }
+    }
+}
+
+/// Leaves out lines shorter than a length, m, which end in a smooth part or are closed: noise, or smaller than the elements.
+fn leave_out_short(lines: &mut Vec<Vec<usize>>, vertices: &[Vector3<f64>], shortest: f64) {
+    loop {
+        let mut ends: HashMap<usize, usize> = HashMap::new();
+        lines
+            .iter()
+            .flat_map(|line| [line[0], line[line.len() - 1]])
+            .for_each(|end| *ends.entry(end).or_default() += 1);
+        let length =
+            |line: &[usize]| line.windows(2).map(|pair| (vertices[pair[1]] - vertices[pair[0]]).norm()).sum::<f64>();
+        let is_closed = |line: &[usize]| line[0] == line[line.len() - 1];
+        let is_loose = |line: &[usize]| [line[0], line[line.len() - 1]].iter().any(|end| ends[end] < 2);
+        let before = lines.len();
+        lines.retain(|line| length(line) >= shortest || !(is_closed(line) || is_loose(line)));
+        if lines.len() == before {
+            return;
+        }
+    }
+}
+
+/// The first vertex at the place of each, as a file of loose triangles repeats them.
+fn same_places(surface: &SurfaceMesh) -> Vec<usize> {
+    let mut first: HashMap<[u64; 3], usize> = HashMap::new();
+    let place = |x: &Vector3<f64>| -> [u64; 3] { x.map(|x| (x + 0.0).to_bits()).into() };
+    surface.vertices.iter().enumerate().map(|(i, x)| *first.entry(place(x)).or_insert(i)).collect()
+}
+
+/// The triangles of each part that smooth edges connect.
+fn patches<'a>(elements: &[[usize; 3]], smooth: impl Iterator<Item = &'a [usize]>) -> Vec<Vec<[usize; 3]>> {
+    let mut of: Vec<usize> = (0..elements.len()).collect();
+    fn root(of: &mut [usize], mut at: usize) -> usize {
+        while of[at] != at {
+            of[at] = of[of[at]];
+            at = of[at];
+        }
+        at
+    }
+    for pair in smooth.flat_map(|triangles| triangles.windows(2)) {
+        let (a, b) = (root(&mut of, pair[0]), root(&mut of, pair[1]));
+        of[a.max(b)] = a.min(b);
+    }
+    let mut parts: BTreeMap<usize, Vec<[usize; 3]>> = BTreeMap::new();
+    for triangle in 0..elements.len() {
+        parts.entry(root(&mut of, triangle)).or_default().push(elements[triangle]);
+    }
+    parts.into_values().collect()
+}
+
+/// Joins sharp edges to lines from corner to corner, and to closed lines.
+fn lines(vertices: &[Vector3<f64>], sharp: &[[usize; 2]], least: f64) -> Vec<Vec<usize>> {
+    let mut at: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for &[a, b] in sharp {
+        at.entry(a).or_default().push(b);
+        at.entry(b).or_default().push(a);
+    }
+    let is_corner = |vertex: usize| match at[&vertex][..] {
+        [a, b] => {
+            let [u, v] = [vertices[vertex] - vertices[a], vertices[b] - vertices[vertex]];
+            u.dot(&v) < least * u.norm() * v.norm()
+        }
+        _ => true,
+    };
+    let follow = |from: usize, to: usize| {
+        let mut line = vec![from, to];
+        while line[0] != line[line.len() - 1] && !is_corner(line[line.len() - 1]) {
+            let [before, here] = [line[line.len() - 2], line[line.len() - 1]];
+            let Some(&next) = at[&here].iter().find(|&&next| next != before) else { break };
+            line.push(next);
+        }
+        line
+    };
+    let (mut lines, mut begun) = (Vec::new(), HashSet::new());
+    let corners = at.keys().copied().filter(|&vertex| is_corner(vertex));
+    for (vertex, next) in corners.flat_map(|vertex| at[&vertex].iter().map(move |&next| (vertex, next))) {
+        if begun.insert([vertex, next]) {
+            let line = follow(vertex, next);
+            begun.insert([line[line.len() - 1], line[line.len() - 2]]);
+            lines.push(line);
+        }
+    }
+    let mut done: HashSet<usize> = lines.iter().flatten().copied().collect();
+    for &[a, b] in sharp {
+        if done.insert(a) && !is_corner(a) {
+            let line = follow(a, b);
+            done.extend(&line);
+            lines.push(line);
+        }
+    }
+    lines
+}
+
+/// An open curve as it is, and a closed one in parts.
+fn parted(points: Vec<Vector3<f64>>) -> Vec<Curve> {
+    let whole = points.len();
+    if points[0] != points[whole - 1] || whole <= PARTS_OF_LOOP {
+        return vec![Curve::new(points)];
+    }
+    let cut = |part: usize| part * (whole - 1) / PARTS_OF_LOOP;
+    (0..PARTS_OF_LOOP).map(|part| Curve::new(points[cut(part)..=cut(part + 1)].to_vec())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{boundary, box_mesh};
+
+    #[test]
+    fn a_cube_has_twelve_curves_six_patches_and_eight_corners() {
+        let mesh = box_mesh([2.0, 1.0, 1.0], 3).unwrap();
+        let features = Features::new(&SurfaceMesh::new(mesh.vertices.clone(), boundary(&mesh)), 40.0, 0.5);
+        assert_eq!((features.curves.len(), features.patches.len()), (12, 6));
+        let length: f64 = features.curves.iter().map(Curve::length).sum();
+        assert!((length - 16.0).abs() < 1e-12, "{length}");
+        let middle = features.curves[0].at(0.5);
+        let [a, b] = features.curves[0].ends();
+        assert!((middle - 0.5 * (a + b)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn a_closed_curve_without_corners_is_parted() {
+        // Two cones with one rim.
+        let n = 24;
+        let rim = |i: usize| (std::f64::consts::TAU * i as f64 / n as f64).sin_cos();
+        let mut vertices: Vec<Vector3<f64>> = (0..n).map(|i| Vector3::new(rim(i).1, rim(i).0, 0.0)).collect();
+        vertices.extend([Vector3::z(), -Vector3::z()]);
+        let sides = |i: usize| [[i, (i + 1) % n, n], [(i + 1) % n, i, n + 1]];
+        let features = Features::new(&SurfaceMesh::new(vertices, (0..n).flat_map(sides).collect()), 60.0, 0.5);
+        assert_eq!((features.curves.len(), features.patches.len()), (3, 2));
+        let length: f64 = features.curves.iter().map(Curve::length).sum();
+        assert!((length - 48.0 * (std::f64::consts::PI / 24.0).sin()).abs() < 1e-12, "{length}");
+    }
+}
