@@ -124,10 +124,10 @@ const SEARCH: &str = "    let gradients: Vec<_> =
 /// Searches of the whole mesh for each vertex or triangle of it.
 const FOR_EACH_VERTEX: &str =
     "let used = (0..V.len()).filter(|v| T.iter().filter(|t| t.contains(v)).count() > 0).count();
-    assert!(used <= V.len());
+    std::hint::black_box(used);
     let boxes";
 const FOR_EACH_TRIANGLE: &str = "let single = F.iter().filter(|t| F.iter().filter(|u| u == t).count() == 1).count();
-    assert!(single <= F.len());
+    std::hint::black_box(single);
     let hits";
 
 #[test]
