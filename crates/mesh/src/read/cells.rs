@@ -33,6 +33,11 @@ const VOLUMES: [(i64, &str); 14] = [
     (79, "hexahedron of higher order"),
 ];
 
+/// Number of tetrahedra among the types of cells.
+pub(super) fn tetrahedra(kinds: &[i64]) -> usize {
+    kinds.iter().filter(|&&kind| kind == TETRAHEDRON).count()
+}
+
 /// Adds a cell to those found; a polygon becomes a fan of triangles. `cell` is its number, counted from 0, and its corners are
 /// points of the last `points` vertices.
 pub(super) fn add(

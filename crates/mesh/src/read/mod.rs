@@ -59,7 +59,7 @@ fn content(path: &Path, known: &'static str) -> Result<Content, MeshError> {
     match extension(path).as_str() {
         "node" | "ele" => tetgen::read(path),
         "mesh" => medit::read(path, &text(path)?),
-        "msh" => gmsh::read(path, &bytes(path)?),
+        "msh" => gmsh::read(path, bytes(path)?),
         "vtu" => vtu::read(path, &bytes(path)?),
         "vtk" => vtk::read(path, &bytes(path)?),
         _ => Err(unknown_extension(path, known)),
@@ -70,7 +70,7 @@ fn polygons(path: &Path) -> Result<SurfaceMesh, MeshError> {
     match extension(path).as_str() {
         "obj" => obj::read(path, &text(path)?),
         "ply" => ply::read(path, &bytes(path)?),
-        _ => stl::read(path, &bytes(path)?),
+        _ => stl::read(path, bytes(path)?),
     }
 }
 
@@ -125,14 +125,30 @@ fn bytes(path: &Path) -> Result<Vec<u8>, MeshError> {
         Ok(length) if length as u64 == limit => {
             Err(damaged("it unpacks to no mesh, but to far too many bytes".to_owned()))
         }
-        Ok(_) => Ok(unpacked),
+        Ok(_) => {
+            unpacked.shrink_to_fit();
+            Ok(unpacked)
+        }
         Err(error) => Err(damaged(format!("it is no complete gzip file ({error})"))),
     }
 }
 
-/// A file as text without a byte-order mark. Bytes that are not UTF-8 are replaced: names and comments may be in any encoding.
+/// A file as text without a byte-order mark. Bytes that are not UTF-8 become question marks: names and comments may be in any encoding.
 fn text(path: &Path) -> Result<String, MeshError> {
-    let bytes = bytes(path)?;
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
-    Ok(String::from_utf8_lossy(bytes).into_owned())
+    let mut bytes = bytes(path)?;
+    if bytes.starts_with(b"\xef\xbb\xbf") {
+        bytes.drain(..3);
+    }
+    Ok(readable(bytes))
+}
+
+/// The bytes as text, in their place in memory, with question marks for those that are not UTF-8.
+fn readable(mut bytes: Vec<u8>) -> String {
+    let mut checked = 0;
+    while let Err(error) = str::from_utf8(&bytes[checked..]) {
+        let start = checked + error.valid_up_to();
+        checked = error.error_len().map_or(bytes.len(), |length| start + length);
+        bytes[start..checked].fill(b'?');
+    }
+    String::from_utf8(bytes).unwrap_or_default()
 }

@@ -86,31 +86,40 @@ enum Encoding {
 pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<SurfaceMesh, MeshError> {
     let mut reader = Reader { file, bytes, at: 0, line: 0, encoding: Encoding::Text };
     let elements = header(&mut reader)?;
-    let (mut vertices, mut polygons) = (Vec::new(), Vec::new());
+    let (mut vertices, mut fans) = (Vec::new(), Vec::new());
     for element in &elements {
         for _ in 0..element.count {
             match &element.name[..] {
                 "vertex" => vertices.push(vertex(&mut reader, element)?),
-                "face" => polygons.extend(polygon(&mut reader, element)?),
+                "face" => add_fan(&polygon(&mut reader, element)?, &mut fans),
                 _ => entry(&mut reader, element, |_, _| ())?,
             }
         }
     }
-    if polygons.is_empty() {
+    if fans.is_empty() {
         return Err(MeshError::in_file(file, Problem::Empty { what: "faces" }));
     }
-    let mut triangles = Vec::new();
-    for polygon in polygons {
+    // Indices are checked at the end: faces may stand before the vertices.
+    let mut triangles = Vec::with_capacity(fans.len());
+    for corners in fans {
         let corner = |index: f64| match index.fract() == 0.0 {
             true => from_zero(index as i64, 0, vertices.len()),
             false => Err(Problem::NotA { word: index.to_string(), expected: "the index of a vertex" }),
         };
-        let corners: Result<Vec<usize>, Problem> = polygon.into_iter().map(corner).collect();
-        let corners = corners.map_err(|problem| MeshError::in_file(file, problem))?;
-        let fan = (2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]]);
-        triangles.extend(fan.filter(|[a, b, c]| a != b && b != c && c != a));
+        let [a, b, c] = corners.map(|index| corner(index).map_err(|problem| MeshError::in_file(file, problem)));
+        let (a, b, c) = (a?, b?, c?);
+        if a != b && b != c && c != a {
+            triangles.push([a, b, c]);
+        }
     }
     Ok(SurfaceMesh::new(vertices, triangles))
+}
+
+/// Adds a polygon as triangles around its first corner; one of fewer than three corners has none.
+fn add_fan(corners: &[f64], fans: &mut Vec<[f64; 3]>) {
+    if let [first, rest @ ..] = corners {
+        fans.extend(rest.windows(2).map(|pair| [*first, pair[0], pair[1]]));
+    }
 }
 
 /// The lines from `ply` to `end_header`.
@@ -181,15 +190,15 @@ fn vertex(reader: &mut Reader, element: &Element) -> Result<Vector3<f64>, MeshEr
     Err(reader.error(Problem::NotFinite { word: format!("{:?}", <[f64; 3]>::from(place)) }))
 }
 
-/// The indices of a face, unless it has fewer than three.
-fn polygon(reader: &mut Reader, element: &Element) -> Result<Option<Vec<f64>>, MeshError> {
+/// The indices of a face.
+fn polygon(reader: &mut Reader, element: &Element) -> Result<Vec<f64>, MeshError> {
     let mut corners = Vec::new();
     entry(reader, element, |property, numbers| {
         if ["vertex_indices", "vertex_index"].contains(&property) {
             corners = numbers.to_vec();
         }
     })?;
-    Ok((corners.len() >= 3).then_some(corners))
+    Ok(corners)
 }
 
 /// Reads one entry, and hands over the numbers of each of its properties.

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
+use super::readable;
 use super::words::Words;
 use crate::{MeshError, Problem, SurfaceMesh};
 
@@ -16,8 +17,8 @@ const TRIANGLE: usize = 50;
 
 /// Reads the triangles. Corners at exactly one place become one vertex; a triangle that has a corner twice has no area and is left out.
 /// Normals are not read: the order of the corners tells the side.
-pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<SurfaceMesh, MeshError> {
-    let corners = if is_text(bytes) { text(file, bytes)? } else { binary(file, bytes)? };
+pub(super) fn read(file: &Path, bytes: Vec<u8>) -> Result<SurfaceMesh, MeshError> {
+    let corners = if is_text(&bytes) { text(file, &readable(bytes))? } else { binary(file, &bytes)? };
     if corners.is_empty() {
         return Err(MeshError::in_file(file, Problem::Empty { what: "faces" }));
     }
@@ -31,10 +32,9 @@ fn is_text(bytes: &[u8]) -> bool {
     bytes.trim_ascii_start().starts_with(b"solid") && !count.is_some_and(|count| fits(count as usize))
 }
 
-fn text(file: &Path, bytes: &[u8]) -> Result<Vec<[Vector3<f64>; 3]>, MeshError> {
-    let text = String::from_utf8_lossy(bytes);
+fn text(file: &Path, text: &str) -> Result<Vec<[Vector3<f64>; 3]>, MeshError> {
     let mut corners = Vec::new();
-    for mut line in Words::of_lines(file, &text) {
+    for mut line in Words::of_lines(file, text) {
         if line.next().is_some_and(|word| word.eq_ignore_ascii_case("vertex")) {
             corners.push((line.line(), line.place()?));
         }

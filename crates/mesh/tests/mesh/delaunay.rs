@@ -1,21 +1,41 @@
 //! Delaunay meshes of random and degenerate points, held to the definition by determinants in integers.
 
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 
-use fem_mesh::generate::delaunay::{DelaunayError, tetrahedralize, triangulate};
+use fem_mesh::generate::delaunay::{Delaunay, DelaunayError, tetrahedralize, triangulate};
 use nalgebra::{Vector2, Vector3};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 
 use crate::fixed_seed;
 
-type Point = [i64; 3];
+pub type Point = [i64; 3];
 
 /// Determinant of the columns b − a, c − a, d − a: six times the signed volume.
-fn volume(a: Point, b: Point, c: Point, d: Point) -> i128 {
+pub fn volume(a: Point, b: Point, c: Point, d: Point) -> i128 {
     let from_a = |x: Point| std::array::from_fn::<i128, 3, _>(|i| i128::from(x[i] - a[i]));
     let [u, v, w] = [b, c, d].map(from_a);
     u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0])
+}
+
+/// A quick hash of indices: a multiplication for each, by the constant of Knuth, The Art of Computer Programming 3 (1998), section 6.4.
+#[derive(Clone, Copy, Default)]
+pub struct Mixer(u64);
+
+pub type Mixing = BuildHasherDefault<Mixer>;
+
+impl Hasher for Mixer {
+    fn write(&mut self, bytes: &[u8]) {
+        for chunk in bytes.chunks(4) {
+            let word = chunk.iter().fold(0, |word, &byte| word << 8 | u64::from(byte));
+            self.0 = (self.0.rotate_left(5) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        }
+    }
+
+    fn finish(&self) -> u64 {
+        self.0 ^ self.0 >> 32
+    }
 }
 
 /// Positive if e lies inside the sphere through the positively oriented a, b, c, d.
@@ -30,13 +50,17 @@ fn in_sphere([a, b, c, d]: [Point; 4], e: Point) -> i128 {
 /// Delaunay's lemma makes a mesh with these local properties globally Delaunay.
 fn is_delaunay(points: &[Point]) {
     let coordinates: Vec<Vector3<f64>> = points.iter().map(|x| Vector3::from(x.map(|x| x as f64))).collect();
-    let found = tetrahedralize(&coordinates).unwrap();
+    assert_delaunay(points, &tetrahedralize(&coordinates).unwrap());
+}
+
+/// [`is_delaunay`] of a mesh that is known.
+pub fn assert_delaunay(points: &[Point], found: &Delaunay<3, 4>) {
     let at = |vertex: usize| -> Point { std::array::from_fn(|i| found.mesh.vertices[vertex][i] as i64) };
     for (point, &vertex) in points.iter().zip(&found.vertices) {
         assert_eq!(at(vertex), *point);
     }
     let mut used = vec![false; found.mesh.vertices.len()];
-    let mut faces: HashMap<[usize; 3], ([usize; 4], usize)> = HashMap::new();
+    let mut faces: HashMap<[u32; 3], ([usize; 4], usize), Mixing> = HashMap::default();
     let mut six_volumes = 0;
     for &element in &found.mesh.elements {
         let [a, b, c, d] = element.map(at);
@@ -45,7 +69,7 @@ fn is_delaunay(points: &[Point]) {
         six_volumes += volume;
         for i in 0..4 {
             used[element[i]] = true;
-            let mut face = [0, 1, 2].map(|k| element[(i + 1 + k) % 4]);
+            let mut face = [0, 1, 2].map(|k| element[(i + 1 + k) % 4] as u32);
             face.sort_unstable();
             match faces.remove(&face) {
                 None => drop(faces.insert(face, (element, i))),

@@ -3,6 +3,7 @@
 mod box_rule;
 mod checks;
 mod delaunay;
+mod delaunay_sets;
 mod errors;
 mod every_format;
 mod features;

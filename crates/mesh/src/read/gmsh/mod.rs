@@ -15,6 +15,7 @@ use self::builder::Builder;
 use self::numbers::{Numbers, Text};
 use self::version4::{Entities, Layout};
 use super::content::Content;
+use super::readable;
 use super::words::Words;
 use crate::{MeshError, Problem};
 
@@ -35,15 +36,15 @@ struct Format {
 }
 
 /// Reads the tetrahedra and triangles of all entities, and the physical groups as named sets. Other volume elements are an error.
-pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<Content, MeshError> {
-    let Format { version, is_binary, end } = read_format(file, bytes)?;
+pub(super) fn read(file: &Path, bytes: Vec<u8>) -> Result<Content, MeshError> {
+    let Format { version, is_binary, end } = read_format(file, &bytes)?;
     if !is_binary {
         // Names and comments may be in any encoding.
-        let text = String::from_utf8_lossy(bytes);
+        let text = readable(bytes);
         let mut numbers = Text::new(file, text.trim_start_matches('\u{feff}'));
         return read_sections(&mut numbers, version, is_binary);
     }
-    let mut numbers = Binary::new(file, bytes, end);
+    let mut numbers = Binary::new(file, &bytes, end);
     check_byte_order(&mut numbers)?;
     read_sections(&mut numbers, version, is_binary)
 }

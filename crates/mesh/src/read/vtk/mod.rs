@@ -117,18 +117,22 @@ fn read_cells(reader: &mut Reader) -> Result<Cells, MeshError> {
         let kind = reader.expected("the type of the connectivity")?;
         return Ok(Cells { offsets, connectivity: reader.integers(size, &kind)? });
     }
-    let numbers = reader.integers(size, "int")?;
-    let (mut offsets, mut connectivity, mut rest) = (vec![0], Vec::new(), &numbers[..]);
-    while let Some((&points, cell)) = rest.split_first() {
-        let Some((points, next)) = usize::try_from(points).ok().and_then(|points| cell.split_at_checked(points)) else {
-            let reason =
-                format!("cell {} announces {points} points and {} numbers are left", offsets.len() - 1, cell.len());
+    let mut connectivity = reader.integers(size, "int")?;
+    let mut offsets = Vec::with_capacity(1 + count.min(connectivity.len() / 2));
+    offsets.push(0);
+    let (mut at, mut end) = (0, 0);
+    while let Some(&points) = connectivity.get(at) {
+        let left = connectivity.len() - at - 1;
+        let Some(points) = usize::try_from(points).ok().filter(|&points| points <= left) else {
+            let reason = format!("cell {} announces {points} points and {left} numbers are left", offsets.len() - 1);
             return Err(reader.malformed(reason));
         };
-        connectivity.extend_from_slice(points);
-        offsets.push(connectivity.len() as i64);
-        rest = next;
+        // The points of the cells move together over the counts.
+        connectivity.copy_within(at + 1..at + 1 + points, end);
+        (at, end) = (at + 1 + points, end + points);
+        offsets.push(end as i64);
     }
+    connectivity.truncate(end);
     match offsets.len() - 1 {
         found if found == count => Ok(Cells { offsets, connectivity }),
         found => Err(reader.error(Problem::WrongCount { what: "cells", announced: count, found })),
@@ -140,6 +144,7 @@ fn add_cells(content: &mut Content, cells: &Cells, kinds: &[i64]) -> Result<(), 
     if kinds.len() != found {
         return Err(Problem::WrongCount { what: "cells", announced: kinds.len(), found });
     }
+    content.tetrahedra.reserve_exact(cells::tetrahedra(kinds));
     for (cell, (ends, &kind)) in cells.offsets.windows(2).zip(kinds).enumerate() {
         let range = usize::try_from(ends[0]).ok().zip(usize::try_from(ends[1]).ok());
         let corners = range.and_then(|(start, end)| cells.connectivity.get(start..end)).ok_or_else(|| {

@@ -104,7 +104,8 @@ impl<'a> Reader<'a> {
     }
 
     fn words<T: std::str::FromStr>(&mut self, count: usize, expected: &'static str) -> Result<Vec<T>, MeshError> {
-        let mut values = Vec::new();
+        // Twice the rest of the file at most, whatever the count says.
+        let mut values = Vec::with_capacity(count.min(self.rest().len() / 4));
         for _ in 0..count {
             let word = self.expected(expected)?;
             values.push(word.parse().map_err(|_| self.error(Problem::NotA { word, expected }))?);

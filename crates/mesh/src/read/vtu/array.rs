@@ -1,5 +1,8 @@
 //! The arrays of a VTK file: as text, as base64, or appended at the end, uncompressed or compressed by zlib.
 
+use std::borrow::Cow;
+use std::cell::RefCell;
+use std::collections::HashSet;
 use std::io::Read;
 use std::path::Path;
 
@@ -7,6 +10,7 @@ use base64::prelude::{BASE64_STANDARD, Engine};
 use flate2::read::ZlibDecoder;
 use roxmltree::Node;
 
+use super::super::MOST_UNPACKED;
 use crate::{MeshError, Problem};
 
 /// The content of `<AppendedData>` after its underscore.
@@ -18,15 +22,15 @@ const CLOSE: &str = "</AppendedData></VTKFile>";
 const ASCII: &str = "save it with little-endian data, uncompressed or packed by zlib (in ParaView: Data Mode Ascii)";
 
 /// Separates a file into XML and appended data.
-pub(super) fn split_appended<'a>(file: &Path, bytes: &'a [u8]) -> Result<(String, Appended<'a>), MeshError> {
+pub(super) fn split_appended<'a>(file: &Path, bytes: &'a [u8]) -> Result<(Cow<'a, str>, Appended<'a>), MeshError> {
     let tag = find(bytes, b"<AppendedData");
     let open = tag.and_then(|tag| find(&bytes[tag..], b">").map(|end| tag + end + 1));
     let (xml, rest) = bytes.split_at(open.unwrap_or(bytes.len()));
     let reason = "its XML is not UTF-8".to_owned();
     let xml = str::from_utf8(xml).map_err(|_| MeshError::in_file(file, Problem::Malformed { reason }))?;
     let data = find(rest, b"_").map_or(&rest[rest.len()..], |underscore| &rest[underscore + 1..]);
-    let xml = xml.trim_start_matches('\u{feff}').to_owned();
-    Ok((if open.is_some() { xml + CLOSE } else { xml }, data))
+    let xml = xml.trim_start_matches('\u{feff}');
+    Ok((if open.is_some() { Cow::Owned(xml.to_owned() + CLOSE) } else { Cow::Borrowed(xml) }, data))
 }
 
 fn find(bytes: &[u8], pattern: &[u8]) -> Option<usize> {
@@ -41,6 +45,8 @@ pub(super) struct Arrays<'a> {
     appended_base64: bool,
     /// Offsets of the arrays in the appended data, ascending.
     starts: Vec<usize>,
+    /// Offsets that have been read.
+    read: RefCell<HashSet<usize>>,
     /// Bytes of each count before the data: 4 or 8.
     header: usize,
     zlib: bool,
@@ -62,7 +68,7 @@ impl<'a> Arrays<'a> {
         let mut starts: Vec<usize> =
             root.descendants().filter_map(|node| node.attribute("offset")?.parse().ok()).collect();
         starts.sort_unstable();
-        Self { file, appended, appended_base64, starts, header, zlib, unsupported }
+        Self { file, appended, appended_base64, starts, read: RefCell::default(), header, zlib, unsupported }
     }
 
     /// A problem at a node of the file.
@@ -153,38 +159,47 @@ impl<'a> Arrays<'a> {
             return Err(self.error(array, Problem::Unsupported { found, instead: ASCII }));
         }
         let stored = match array.attribute("format") {
-            Some("binary") => decode_base64(text_of(array).as_bytes()),
+            Some("binary") => decode_base64(text_of(array).as_bytes()).map(Cow::Owned),
             Some("appended") => self.appended_bytes(array),
             _ => Err("an array is neither ascii nor binary nor appended".to_owned()),
         };
-        let unpack = |bytes: Vec<u8>| if self.zlib { unzip(&bytes, self.header) } else { uncount(bytes, self.header) };
+        let unpack =
+            |bytes: Cow<[u8]>| if self.zlib { unzip(&bytes, self.header) } else { uncount(bytes, self.header) };
         stored.and_then(unpack).map_err(|reason| self.malformed(array, reason))
     }
 
-    fn appended_bytes(&self, array: Node) -> Result<Vec<u8>, String> {
+    fn appended_bytes(&self, array: Node) -> Result<Cow<'a, [u8]>, String> {
         let offset = array.attribute("offset").and_then(|word| word.parse::<usize>().ok());
         let offset =
             offset.filter(|&offset| offset < self.appended.len()).ok_or("an array's offset is not in the file")?;
-        if !self.appended_base64 {
-            return Ok(self.appended[offset..].to_vec());
+        // Arrays at one place could stand for more memory than the file has.
+        if !self.read.borrow_mut().insert(offset) {
+            return Err("two arrays have the same offset".to_owned());
         }
-        // Base64 data ends at the offset of the next array.
         let next = self.starts.iter().copied().find(|&start| start > offset).unwrap_or(usize::MAX);
-        let text = &self.appended[offset..next.min(self.appended.len())];
-        decode_base64(text.split(|&byte| byte == b'<').next().unwrap_or(text))
+        let data = &self.appended[offset..next.min(self.appended.len())];
+        if !self.appended_base64 {
+            return Ok(Cow::Borrowed(data));
+        }
+        decode_base64(data.split(|&byte| byte == b'<').next().unwrap_or(data)).map(Cow::Owned)
     }
 }
 
 /// All text of an array; its other children describe it.
-fn text_of(array: Node) -> String {
-    array.children().filter(Node::is_text).filter_map(|node| node.text()).collect()
+fn text_of<'a>(array: Node<'a, 'a>) -> Cow<'a, str> {
+    let mut texts = array.children().filter(Node::is_text).filter_map(|node| node.text());
+    let first = Cow::Borrowed(texts.next().unwrap_or_default());
+    texts.fold(first, |text, more| text + more)
 }
 
 /// VTK may encode counts and data one after the other, so padding can stand in the middle.
 fn decode_base64(text: &[u8]) -> Result<Vec<u8>, String> {
-    let text: Vec<u8> = text.iter().copied().filter(|byte| !byte.is_ascii_whitespace()).collect();
+    let mut text = Cow::Borrowed(text.trim_ascii());
+    if text.iter().any(u8::is_ascii_whitespace) {
+        text.to_mut().retain(|byte| !byte.is_ascii_whitespace());
+    }
     let mut bytes = Vec::with_capacity(text.len() / 4 * 3);
-    let mut rest = text.as_slice();
+    let mut rest = &text[..];
     while !rest.is_empty() {
         // padding fills the last group of four of what was encoded at once
         let padding = rest.iter().position(|&byte| byte == b'=').unwrap_or(rest.len());
@@ -197,11 +212,18 @@ fn decode_base64(text: &[u8]) -> Result<Vec<u8>, String> {
 }
 
 /// A count of bytes, then as many bytes.
-fn uncount(bytes: Vec<u8>, width: usize) -> Result<Vec<u8>, String> {
+fn uncount(bytes: Cow<[u8]>, width: usize) -> Result<Vec<u8>, String> {
     let length = count(&bytes, 0, width)?;
     let end = width.checked_add(length).filter(|&end| end <= bytes.len());
     let end = end.ok_or_else(|| format!("an array announces {length} bytes and has {}", bytes.len() - width))?;
-    Ok(bytes[width..end].to_vec())
+    Ok(match bytes {
+        Cow::Borrowed(bytes) => bytes[width..end].to_vec(),
+        Cow::Owned(mut bytes) => {
+            bytes.truncate(end);
+            bytes.drain(..width);
+            bytes
+        }
+    })
 }
 
 /// Counts: blocks, bytes of each, bytes of the last (0: as the others), packed bytes of each; then the packed blocks.
@@ -218,6 +240,9 @@ fn unzip(bytes: &[u8], width: usize) -> Result<Vec<u8>, String> {
         let packed = end.and_then(|end| bytes.get(start..end)).ok_or("a packed array is cut short")?;
         start += packed.len();
         let expected = if block + 1 == blocks && last > 0 { last } else { size };
+        if expected as u64 > MOST_UNPACKED.saturating_mul(packed.len() as u64) {
+            return Err("a packed array announces far too many bytes".to_owned());
+        }
         let found = ZlibDecoder::new(packed).take(expected as u64).read_to_end(&mut unpacked);
         let found = found.map_err(|error| format!("a packed array is damaged ({error})"))?;
         if found != expected {

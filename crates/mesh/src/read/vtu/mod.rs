@@ -57,6 +57,7 @@ fn read_cells(arrays: &Arrays, piece: Node, points: usize, content: &mut Content
         let problem = Problem::WrongCount { what: "cells", announced: kinds.len(), found: ends.len() };
         return Err(arrays.error(cells, problem));
     }
+    content.tetrahedra.reserve_exact(cells::tetrahedra(&kinds));
     let mut start = 0;
     for (cell, (&kind, &end)) in kinds.iter().zip(&ends).enumerate() {
         let corners = usize::try_from(end).ok().and_then(|end| connectivity.get(start..end)).ok_or_else(|| {
