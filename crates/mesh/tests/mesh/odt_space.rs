@@ -120,6 +120,17 @@ fn without_iterations_the_mesh_is_the_same() {
 }
 
 #[test]
+fn improvement_ends_when_it_gains_nothing_whatever_the_number_of_iterations() {
+    let mesh = shaken_box(3, 0.4, 1);
+    let improved = improve_tetrahedra(&mesh, usize::MAX);
+    is_sound(&mesh, &improved);
+    assert!(improved.smoothing.len() < 500 && improved.polishing.len() < 500);
+    let one = TetrahedralMesh::new(mesh.elements[0].map(|i| mesh.vertices[i]).to_vec(), vec![[0, 1, 2, 3]]);
+    assert_eq!(improve_tetrahedra(&one, 10).mesh, one);
+    assert_eq!(improve_tetrahedra(&TetrahedralMesh::default(), 10).mesh, TetrahedralMesh::default());
+}
+
+#[test]
 fn the_same_mesh_is_improved_in_the_same_way() {
     let mesh = cloud(60, 9);
     assert_eq!(improve_tetrahedra(&mesh, 3), improve_tetrahedra(&mesh, 3));

@@ -1,9 +1,9 @@
 //! Tetrahedra inside surfaces: clean ones against closed forms, dirty ones against what they enclose.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::f64::consts::PI;
 
-use fem_mesh::generate::{StuffingError, stuff};
+use fem_mesh::generate::{Solid, StuffingError, stuff, stuff_graded, stuff_sized};
 use fem_mesh::{SurfaceMesh, TetrahedralMesh, boundary, check, coincident_nodes, quality, surface_quality, volumes};
 use nalgebra::Vector3;
 
@@ -71,22 +71,85 @@ fn is_sound(mesh: &TetrahedralMesh) -> (f64, i64) {
     (volumes(mesh).iter().sum(), surface.euler_characteristic)
 }
 
-#[test]
-fn a_ball_approaches_its_surface_with_the_square_of_the_edge() {
-    let surface = sphere(6, Vector3::new(0.3, -0.2, 0.1));
-    let distance = |edge: f64| {
-        let mesh = stuff(&surface, edge).unwrap();
-        assert_eq!(is_sound(&mesh).1, 2);
-        let centre = |face: [usize; 3]| {
-            face.map(|i| mesh.vertices[i] - Vector3::new(0.3, -0.2, 0.1)).iter().sum::<Vector3<f64>>() / 3.0
-        };
-        // The mean square over the faces is less subject to chance than the largest distance.
-        let faces = boundary(&mesh);
-        (faces.iter().map(|&face| (1.0 - centre(face).norm()).powi(2)).sum::<f64>() / faces.len() as f64).sqrt()
+/// Distances between a mesh and the surface that it fills, m: root mean square and largest, of the centres and edges' middles of its faces from the
+/// surface and of the surface's vertices from its faces.
+fn distances(mesh: &TetrahedralMesh, surface: &SurfaceMesh) -> [f64; 2] {
+    let faces = SurfaceMesh::new(mesh.vertices.clone(), boundary(mesh));
+    let places = |mesh: &SurfaceMesh, weights: &[[f64; 3]]| -> Vec<Vector3<f64>> {
+        let place = |face: &[usize; 3], w: &[f64; 3]| (0..3).map(|i| mesh.vertices[face[i]] * w[i]).sum();
+        mesh.elements.iter().flat_map(|face| weights.iter().map(move |w| place(face, w))).collect()
     };
-    let [coarse, fine] = [0.24, 0.12].map(distance);
-    let order = (coarse / fine).log2();
-    assert!((1.8..2.2).contains(&order), "{order}: {coarse:e} {fine:e}");
+    let of_faces = [[1.0 / 3.0; 3], [0.5, 0.5, 0.0], [0.0, 0.5, 0.5], [0.5, 0.0, 0.5]];
+    let each = |points: Vec<Vector3<f64>>, to: &SurfaceMesh| -> Vec<f64> {
+        let solid = Solid::new(to);
+        points.iter().map(|x| (solid.closest(x).unwrap() - x).norm()).collect()
+    };
+    let both = [each(places(&faces, &of_faces), surface), each(surface.vertices.clone(), &faces)];
+    let mean_square = both.iter().map(|all| all.iter().map(|x| x * x).sum::<f64>() / all.len() as f64);
+    [(mean_square.sum::<f64>() / 2.0).sqrt(), both.iter().flatten().copied().fold(0.0, f64::max)]
+}
+
+#[test]
+fn the_distance_to_a_smooth_surface_falls_with_the_square_of_the_edge() {
+    let centre = Vector3::new(0.3, -0.2, 0.1);
+    for (name, surface, euler) in [("ball", sphere(6, centre), 2), ("torus", torus(160, 80), 0)] {
+        let edges = [0.2, 0.1, 0.05];
+        let found = edges.map(|edge| {
+            let mesh = stuff(&surface, edge).unwrap();
+            assert_eq!(is_sound(&mesh).1, euler, "{name}");
+            distances(&mesh, &surface)
+        });
+        let order = (found[0][0] / found[2][0]).log2() / 2.0;
+        assert!((1.8..2.2).contains(&order), "{name}: {order} {found:?}");
+        for (edge, [_, largest]) in edges.iter().zip(found) {
+            assert!(largest < 1.2 * edge * edge, "{name}: {edge} {found:?}");
+        }
+    }
+}
+
+#[test]
+fn a_shell_between_two_spheres_keeps_its_cavity() {
+    let mut inner = turned(sphere(4, Vector3::zeros()));
+    inner.vertices.iter_mut().for_each(|x| *x *= 0.6);
+    let (volume, euler) = is_sound(&stuff(&joined(sphere(4, Vector3::zeros()), inner), 0.1).unwrap());
+    assert_eq!(euler, 4);
+    assert!((volume / (4.0 / 3.0 * PI * (1.0 - 0.6_f64.powi(3))) - 1.0).abs() < 0.02, "{volume}");
+}
+
+#[test]
+fn a_graded_mesh_has_the_boundary_of_the_uniform_one_and_fewer_elements() {
+    let surface = sphere(5, Vector3::zeros());
+    let uniform = stuff(&surface, 0.06).unwrap();
+    let places = |mesh: &TetrahedralMesh| {
+        let place = |face: [usize; 3]| {
+            let mut places: [[u64; 3]; 3] = face.map(|i| mesh.vertices[i].map(f64::to_bits).into());
+            places.sort_unstable();
+            places
+        };
+        boundary(mesh).into_iter().map(place).collect::<BTreeSet<_>>()
+    };
+    for doublings in [1, 3, 60] {
+        let graded = stuff_graded(&surface, 0.06, doublings).unwrap();
+        is_sound(&graded);
+        assert!(places(&graded) == places(&uniform), "{doublings}");
+        assert!(graded.elements.len() * 3 < uniform.elements.len() * 2, "{doublings}: {}", graded.elements.len());
+    }
+    assert_eq!(stuff_graded(&surface, 0.06, 0).unwrap(), uniform);
+}
+
+#[test]
+fn a_size_field_decides_where_edges_are_long() {
+    let surface = sphere(5, Vector3::zeros());
+    let sized = stuff_sized(&surface, 0.06, |x| if x.x < 0.0 { 0.06 } else { 1.0 }).unwrap();
+    is_sound(&sized);
+    let longest = |is_left: bool| {
+        let inside = sized.elements.iter().map(|element| element.map(|i| sized.vertices[i]));
+        let on_side = inside.filter(|corners| corners.iter().all(|x| (x.x < 0.0) == is_left));
+        on_side.flat_map(|[a, b, c, d]| [(b - a).norm(), (d - c).norm()]).fold(0.0, f64::max)
+    };
+    assert!(longest(true) < 0.1 && longest(false) > 0.2, "{} {}", longest(true), longest(false));
+    // A size below the edge, or none at all, leaves the lattice uniform.
+    assert_eq!(stuff_sized(&surface, 0.06, |_| f64::NAN).unwrap(), stuff(&surface, 0.06).unwrap());
 }
 
 #[test]

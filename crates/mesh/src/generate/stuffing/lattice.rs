@@ -18,6 +18,8 @@ pub struct Lattice {
     cubes: [i32; 3],
     /// 1 inside, −1 outside, 0 on the surface.
     pub signs: Vec<i8>,
+    /// Whether the surface has cut an edge of each node.
+    is_at_cut: Vec<bool>,
     /// Nodes that have been moved onto the surface.
     moved: HashMap<u32, Vector3<f64>>,
     /// Intersection of the surface with each edge from a node inside to a node outside, m.
@@ -33,7 +35,15 @@ impl Lattice {
         let origin = Vector3::from_fn(|i, _| 0.5 * (least[i] + largest[i]) - 0.5 * side * f64::from(cubes[i]));
         let [x, y, z] = cubes.map(|cubes| cubes as usize);
         let nodes = (x + 1) * (y + 1) * (z + 1) + x * y * z;
-        Self { origin, half: 0.5 * side, cubes, signs: vec![-1; nodes], moved: HashMap::new(), cuts: HashMap::new() }
+        Self {
+            origin,
+            half: 0.5 * side,
+            cubes,
+            signs: vec![-1; nodes],
+            is_at_cut: vec![false; nodes],
+            moved: HashMap::new(),
+            cuts: HashMap::new(),
+        }
     }
 
     /// Number of cubes in each direction.
@@ -100,6 +110,8 @@ impl Lattice {
                     let outside = self.undeformed(other);
                     let cut = inside + exit(&inside, &outside) * (outside - inside);
                     self.cuts.insert([node as u32, neighbour], cut);
+                    self.is_at_cut[node] = true;
+                    self.is_at_cut[neighbour as usize] = true;
                 }
             }
         }
@@ -109,6 +121,9 @@ impl Lattice {
     pub fn warp(&mut self) {
         let lengths = [2.0 * self.half, 3.0_f64.sqrt() * self.half];
         for (node, place) in self.places().enumerate() {
+            if !self.is_at_cut[node] {
+                continue;
+            }
             let (node, sign) = (node as u32, self.signs[node]);
             let here = self.undeformed(place);
             let key = |other: u32| if sign == 1 { [node, other] } else { [other, node] };

@@ -1,6 +1,7 @@
 //! Stencils: the part of each tetrahedron of the lattice that lies inside the surface, cut into tetrahedra.
 
 use std::collections::HashMap;
+use std::num::NonZeroU32;
 
 use nalgebra::Vector3;
 
@@ -16,24 +17,26 @@ struct Corner {
     place: Place,
 }
 
-/// A vertex of the mesh: a node of the lattice, or the cut of an edge from a node inside to one outside.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum Vertex {
-    Node(u32),
-    Cut(u32, u32),
-}
-
 /// The mesh as it grows.
 struct Filled<'a> {
     lattice: &'a Lattice,
-    numbers: HashMap<Vertex, usize>,
+    /// Vertex of the mesh at each node of the lattice, if it has one.
+    nodes: Vec<Option<NonZeroU32>>,
+    /// Vertex of the mesh at the cut of an edge from a node inside to one outside.
+    cuts: HashMap<[u32; 2], usize>,
     vertices: Vec<Vector3<f64>>,
     elements: Vec<[usize; 4]>,
 }
 
 /// Fills the inside of the surface.
 pub fn fill(lattice: &Lattice, octree: &Octree) -> (Vec<Vector3<f64>>, Vec<[usize; 4]>) {
-    let mut filled = Filled { lattice, numbers: HashMap::new(), vertices: Vec::new(), elements: Vec::new() };
+    let mut filled = Filled {
+        lattice,
+        nodes: vec![None; lattice.signs.len()],
+        cuts: HashMap::new(),
+        vertices: Vec::new(),
+        elements: Vec::new(),
+    };
     octree.tetrahedra(|places| {
         let corners = places.map(|place| lattice.node(place).map(|node| Corner { node, place }));
         if let [Some(a), Some(b), Some(c), Some(d)] = corners {
@@ -106,18 +109,18 @@ impl Filled<'_> {
     }
 
     fn node(&mut self, corner: Corner) -> usize {
-        let position = self.lattice.position(corner.node, corner.place);
-        self.number(Vertex::Node(corner.node), position)
+        if let Some(number) = self.nodes[corner.node as usize] {
+            return number.get() as usize - 1;
+        }
+        self.vertices.push(self.lattice.position(corner.node, corner.place));
+        // A mesh with more than 2³² vertices fits into no memory.
+        self.nodes[corner.node as usize] = NonZeroU32::new(self.vertices.len() as u32);
+        self.vertices.len() - 1
     }
 
     fn cut(&mut self, inside: Corner, outside: Corner) -> usize {
-        let position = self.lattice.cut_between(inside.node, outside.node).unwrap_or_else(Vector3::zeros);
-        self.number(Vertex::Cut(inside.node, outside.node), position)
-    }
-
-    fn number(&mut self, vertex: Vertex, position: Vector3<f64>) -> usize {
-        *self.numbers.entry(vertex).or_insert_with(|| {
-            self.vertices.push(position);
+        *self.cuts.entry([inside.node, outside.node]).or_insert_with(|| {
+            self.vertices.push(self.lattice.cut_between(inside.node, outside.node).unwrap_or_else(Vector3::zeros));
             self.vertices.len() - 1
         })
     }

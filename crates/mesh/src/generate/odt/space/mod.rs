@@ -24,6 +24,9 @@ use smooth::{move_vertices, reconnect, total_energy};
 /// Distance from a surface within which a vertex lies on it, over the mean edge.
 const ON_SURFACE: f64 = 1e-6;
 
+/// Relative fall of the energy in one iteration below which more of them are of no use.
+const CONVERGED: f64 = 1e-7;
+
 /// Measures of a mesh after an iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
@@ -96,13 +99,17 @@ fn improve_with(
     density: &dyn Fn(&Vector3<f64>) -> f64,
     project: Project,
 ) -> Improved {
-    let mut smoothing = vec![state(&cells, density)];
+    let mut smoothing: Vec<Iteration> = vec![state(&cells, density)];
     let floor_of = |cells: &Cells| Floor::of(cells.cells().map(|cell| cells.shape(cell)));
     for _ in 0..iterations {
         let floor = floor_of(&cells);
         reconnect(&mut cells, &floor, density);
         move_vertices(&mut cells, &floor, density);
+        let [before, after] = [smoothing[smoothing.len() - 1].energy, total_energy(&cells, density)];
         smoothing.push(state(&cells, density));
+        if after >= before * (1.0 - CONVERGED) {
+            break;
+        }
     }
     let mut polishing = Vec::new();
     for _ in 0..iterations {
