@@ -2,6 +2,7 @@
 
 mod convert;
 mod delaunay;
+mod from_picture;
 mod from_surface;
 mod improve;
 mod info;
@@ -23,6 +24,8 @@ pub enum MeshAction {
     Convert { from: PathBuf, to: PathBuf },
     /// Delaunay triangles of points in the plane, or tetrahedra of points in space (.csv, .node)
     Delaunay { points: PathBuf, out: PathBuf },
+    /// Triangles inside the opaque or dark region of a picture (PNG, JPEG), with its holes
+    FromPicture(from_picture::Arguments),
     /// Tetrahedra inside a surface (.obj, .ply, .stl), which may have holes and cross itself
     FromSurface(from_surface::Arguments),
     /// Better elements for the same body: optimal Delaunay triangulation and flips; the worst element is never worse than before
@@ -36,8 +39,9 @@ impl MeshAction {
             Self::Info(arguments) => info::run(arguments).map_err(End::unusable),
             Self::Convert { from, to } => convert::run(from, to).map_err(End::unusable),
             Self::Delaunay { points, out } => delaunay::run(points, out),
+            Self::FromPicture(arguments) => from_picture::run(arguments),
             Self::FromSurface(arguments) => from_surface::run(arguments).map_err(End::unusable),
-            Self::Improve(arguments) => improve::run(arguments).map_err(End::unusable),
+            Self::Improve(arguments) => improve::run(arguments),
         }
     }
 }

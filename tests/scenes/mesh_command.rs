@@ -264,3 +264,24 @@ fn an_open_surface_is_filled_with_a_warning() {
     assert!(desk.refused("mesh from-surface open.stl b.msh --edge 0").contains("give a length above 0"));
     assert!(desk.refused("mesh from-surface open.stl b.msh --edge 1e-4").contains("is the most; take longer edges"));
 }
+
+#[test]
+fn a_picture_becomes_triangles_that_improve_reads_again() {
+    let desk = Desk::new();
+    let picture = data().join("pictures/donut.png");
+    let text = desk.run_well(&format!("mesh from-picture {} a.vtu --edge 0.1 --height 2", picture.display())).stdout;
+    assert!(text.contains("worst circumradius / edge") && text.starts_with("a.vtu: "), "{text}");
+    let found = surface_quality(&read_surface(&desk.path("a.vtu")).unwrap());
+    let area = std::f64::consts::PI * (1.0 - (48.0_f64 / 112.0).powi(2));
+    assert!((found.area / area - 1.0).abs() < 0.005 && found.euler_characteristic == 0, "{found}");
+    let text = desk.run_well("mesh improve a.vtu b.vtu --iterations 3").stdout;
+    assert!(text.contains("smallest angle"), "{text}");
+    let refused = |arguments: &str, word: &str| {
+        let text = desk.refused(&format!("mesh from-picture {} b.vtu {arguments}", picture.display()));
+        assert!(text.contains("donut.png") && text.contains(word), "{text}");
+    };
+    refused("--edge -1", "above 0");
+    refused("--edge 3", "longer than the region");
+    refused("--edge 1e-6", "take longer edges");
+    assert!(desk.refused("mesh from-picture a.vtu b.vtu --edge 0.1").contains("neither a PNG nor a JPEG"));
+}

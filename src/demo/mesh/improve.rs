@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
-use fem_mesh::generate::odt::improve_tetrahedra;
-use fem_mesh::{MeshError, Quality, quality};
+use fem_mesh::generate::odt::{improve_tetrahedra, improve_triangles};
+use fem_mesh::{AnyMesh, Mesh, MeshError, Quality, SurfaceMesh, TetrahedralMesh, TriangleQuality};
+use fem_mesh::{quality, triangle_quality};
 
-use super::write_tetrahedra;
+use super::{write_surface, write_tetrahedra};
+use crate::demo::end::End;
 
 /// Arguments of the subcommand.
 #[derive(Debug, clap::Args)]
@@ -18,13 +20,43 @@ pub struct Arguments {
 }
 
 /// Improves a mesh, prints its quality before and after, and writes it.
-pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
-    let Arguments { mesh: file, out, iterations } = arguments;
-    let mesh = fem_mesh::read_tetrahedra(file)?;
-    fem_mesh::check(&mesh, file)?;
-    let improved = improve_tetrahedra(&mesh, *iterations);
-    write_tetrahedra(out, &improved.mesh)?;
-    print_both(&quality(&mesh), &quality(&improved.mesh));
+pub fn run(arguments: &Arguments) -> Result<(), End> {
+    match fem_mesh::read_mesh(&arguments.mesh).map_err(End::unusable)? {
+        AnyMesh::Tetrahedra(mesh) => tetrahedra(arguments, &mesh).map_err(End::unusable),
+        AnyMesh::Triangles(mesh) => triangles(arguments, &mesh),
+    }
+}
+
+fn tetrahedra(arguments: &Arguments, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
+    fem_mesh::check(mesh, &arguments.mesh)?;
+    let improved = improve_tetrahedra(mesh, arguments.iterations);
+    write_tetrahedra(&arguments.out, &improved.mesh)?;
+    print_both(&quality(mesh), &quality(&improved.mesh));
+    Ok(())
+}
+
+/// Improves a flat body.
+fn triangles(arguments: &Arguments, mesh: &SurfaceMesh) -> Result<(), End> {
+    fem_mesh::check_plane(mesh, &arguments.mesh).map_err(End::unusable)?;
+    let plane = Mesh {
+        vertices: mesh.vertices.iter().map(|x| x.xy()).collect(),
+        elements: mesh.elements.clone(),
+        sets: mesh.sets.clone(),
+    };
+    let improved = improve_triangles(&plane, arguments.iterations)
+        .map_err(|error| End::unusable(format!("{}: {error}", arguments.mesh.display())))?;
+    let vertices = improved.mesh.vertices.iter().map(|x| x.push(0.0)).collect();
+    let out = SurfaceMesh { vertices, elements: improved.mesh.elements.clone(), sets: improved.mesh.sets.clone() };
+    write_surface(&arguments.out, &out).map_err(End::unusable)?;
+    let (before, after) = (triangle_quality(&plane), triangle_quality(&improved.mesh));
+    say!("{:<28}{:>12}{:>12}", "", "before", "after");
+    let row = |name: &str, value: &dyn Fn(&TriangleQuality) -> f64| {
+        say!("{name:<28}{:>12.4}{:>12.4}", value(&before), value(&after));
+    };
+    row("smallest angle, °", &|quality| quality.angles[0].value);
+    row("worst circumradius / edge", &|quality| quality.radius_to_edge.value);
+    row("99 % of circumradius / edge", &|quality| quality.radius_to_edge_99);
+    row("median circumradius / edge", &|quality| quality.median_radius_to_edge);
     Ok(())
 }
 

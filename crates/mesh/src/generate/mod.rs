@@ -1,10 +1,13 @@
-//! Meshes from points and from surfaces.
+//! Meshes from points, from surfaces and from pictures.
 
 pub mod delaunay;
 mod features;
 pub mod odt;
+mod outline;
+pub mod picture;
 mod solid;
 mod stuffing;
+mod triangulation;
 
 pub use features::{Featured, keep_features};
 pub use solid::Solid;

@@ -13,12 +13,14 @@ mod gmsh;
 mod odt_space;
 mod other_programs;
 mod packed;
+mod pictures;
 mod refined;
 mod round_trip;
 mod shipped;
 mod sides;
 mod stuffing;
 mod surfaces;
+mod triangles;
 mod vtk;
 mod written;
 

@@ -4,7 +4,9 @@
 //! Arithmetic and Fast Robust Geometric Predicates (1997). Grids, cospherical, collinear and repeated points need no perturbation.
 
 mod cavity;
+mod constrained;
 mod hilbert;
+mod refinement;
 mod tetrahedra;
 mod triangles;
 
@@ -14,6 +16,9 @@ use thiserror::Error;
 
 use crate::Mesh;
 
+pub use constrained::triangulate_region;
+pub(crate) use constrained::triangulate_with;
+pub(crate) use refinement::{Bounds, cut_encroached, refine};
 pub use tetrahedra::tetrahedralize;
 pub use triangles::triangulate;
 
@@ -44,6 +49,14 @@ pub enum DelaunayError {
         points: usize,
         /// `in one plane`, or `on one line`.
         in_what: &'static str,
+    },
+    /// Polygons cross or touch each other or themselves.
+    #[error(
+        "the edge from point {} to point {} (counted from 0) crosses or touches another edge or point; part the polygons there", points[0], points[1]
+    )]
+    Crossing {
+        /// Ends of the edge, or two points at one place; counted from 0.
+        points: [usize; 2],
     },
 }
 

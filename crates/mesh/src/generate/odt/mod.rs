@@ -1,5 +1,10 @@
 //! Optimal Delaunay triangulation: variational smoothing with reconnection.
 
+mod improve;
+mod plane;
 pub(crate) mod space;
 
+pub use improve::{ImprovedTriangles, NotManifold, improve_triangles};
+pub use plane::OdtStep;
+pub(crate) use plane::relax;
 pub use space::{Improved, Iteration, improve_graded, improve_inside, improve_tetrahedra};

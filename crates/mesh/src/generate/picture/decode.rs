@@ -1,0 +1,141 @@
+//! Pictures from PNG and JPEG files.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+use image::metadata::Orientation;
+use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
+use thiserror::Error;
+
+use super::Picture;
+
+/// Largest number of pixels.
+const MOST_PIXELS: u64 = 1 << 26;
+/// Bytes that the decoder may use.
+const MOST_BYTES: u64 = 1 << 30;
+
+/// Reason why a file is no picture of a region.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("{}: {problem}", file.display())]
+pub struct PictureError {
+    /// The file.
+    pub file: PathBuf,
+    /// The problem, and the remedy.
+    pub problem: String,
+}
+
+/// Reads a PNG or JPEG file, told by its content. If a pixel is transparent, the region is what is opaque; otherwise it is what is dark: the
+/// threshold of Otsu, A Threshold Selection Method from Gray-Level Histograms (1979), parts the pixels, and the coverage is linear in the
+/// luminance from the median of the light ones to that of the dark ones.
+///
+/// # Errors
+/// A file that cannot be read or is no such picture, one of more than 2²⁶ pixels, and a picture of one colour.
+pub fn read_picture(file: &Path) -> Result<Picture, PictureError> {
+    let problem = |problem: String| PictureError { file: file.to_owned(), problem };
+    let opened = File::open(file).map_err(|error| {
+        problem(match error.kind() {
+            std::io::ErrorKind::NotFound => "there is no such file; check the path".to_owned(),
+            _ => format!("cannot be read ({error}); check that it is a file and that you may read it"),
+        })
+    })?;
+    let picture = decode(BufReader::new(opened)).map_err(problem)?;
+    if picture.has_alpha() && has_transparent_pixel(&picture) {
+        let alpha: Vec<u8> = picture.to_rgba8().pixels().map(|pixel| pixel.0[3]).collect();
+        return Ok(with_coverage(&picture, alpha));
+    }
+    let luminance = picture.to_luma8().into_raw();
+    let coverage = darkness(&luminance).ok_or_else(|| {
+        problem(
+            "all pixels have one colour, so there is no region; give it a transparent or a light background".to_owned(),
+        )
+    })?;
+    Ok(with_coverage(&picture, coverage))
+}
+
+fn with_coverage(picture: &DynamicImage, coverage: Vec<u8>) -> Picture {
+    Picture { width: picture.width() as usize, height: picture.height() as usize, coverage }
+}
+
+fn decode(reader: BufReader<File>) -> Result<DynamicImage, String> {
+    let mut reader = ImageReader::new(reader)
+        .with_guessed_format()
+        .map_err(|error| format!("cannot be read ({error}); check that it is a file and that you may read it"))?;
+    if !matches!(reader.format(), Some(ImageFormat::Png | ImageFormat::Jpeg)) {
+        return Err("is neither a PNG nor a JPEG file; convert it to one of them".to_owned());
+    }
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MOST_BYTES);
+    reader.limits(limits);
+    let mut decoder = reader.into_decoder().map_err(damaged)?;
+    let (width, height) = decoder.dimensions();
+    let pixels = u64::from(width) * u64::from(height);
+    if pixels > MOST_PIXELS {
+        return Err(format!(
+            "has {width} × {height} = {pixels} pixels, and {MOST_PIXELS} is the most; make it smaller"
+        ));
+    }
+    let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
+    let mut picture = DynamicImage::from_decoder(decoder).map_err(damaged)?;
+    picture.apply_orientation(orientation);
+    Ok(picture)
+}
+
+fn damaged(error: ImageError) -> String {
+    format!("is damaged or of a kind that is not supported ({error}); save it again as PNG")
+}
+
+fn has_transparent_pixel(picture: &DynamicImage) -> bool {
+    match picture {
+        DynamicImage::ImageRgba8(pixels) => pixels.pixels().any(|pixel| pixel.0[3] < 255),
+        DynamicImage::ImageLumaA8(pixels) => pixels.pixels().any(|pixel| pixel.0[1] < 255),
+        _ => picture.to_rgba16().pixels().any(|pixel| pixel.0[3] < u16::MAX),
+    }
+}
+
+/// Coverage by the dark region; `None` if all pixels have one luminance.
+fn darkness(luminance: &[u8]) -> Option<Vec<u8>> {
+    let mut histogram = [0_u64; 256];
+    luminance.iter().for_each(|&value| histogram[usize::from(value)] += 1);
+    let threshold = otsu(&histogram)?;
+    let dark = median(&histogram[..=threshold], 0);
+    let light = median(&histogram[threshold + 1..], threshold + 1);
+    let coverage = |value: usize| {
+        let share = (light - value as f64) / (light - dark);
+        (255.0 * share.clamp(0.0, 1.0)).round() as u8
+    };
+    let table: Vec<u8> = (0..256).map(coverage).collect();
+    Some(luminance.iter().map(|&value| table[usize::from(value)]).collect())
+}
+
+/// The value up to which pixels are dark, so that the variance between the two classes is largest.
+fn otsu(histogram: &[u64; 256]) -> Option<usize> {
+    let count: f64 = histogram.iter().sum::<u64>() as f64;
+    let sum: f64 = histogram.iter().enumerate().map(|(value, n)| value as f64 * *n as f64).sum();
+    let (mut below, mut sum_below) = (0.0, 0.0);
+    let mut best: Option<(f64, usize)> = None;
+    for (value, &n) in histogram.iter().enumerate() {
+        below += n as f64;
+        sum_below += value as f64 * n as f64;
+        let above = count - below;
+        if below > 0.0 && above > 0.0 {
+            let difference = sum_below / below - (sum - sum_below) / above;
+            let variance = below * above * difference * difference;
+            if best.is_none_or(|(most, _)| variance > most) {
+                best = Some((variance, value));
+            }
+        }
+    }
+    best.map(|(_, value)| value)
+}
+
+/// The median of the values of a histogram that begins at `first`.
+fn median(histogram: &[u64], first: usize) -> f64 {
+    let half = histogram.iter().sum::<u64>().div_ceil(2);
+    let mut below = 0;
+    let place = histogram.iter().position(|&n| {
+        below += n;
+        below >= half
+    });
+    (first + place.unwrap_or(0)) as f64
+}
