@@ -285,3 +285,24 @@ fn a_picture_becomes_triangles_that_improve_reads_again() {
     refused("--edge 1e-6", "take longer edges");
     assert!(desk.refused("mesh from-picture a.vtu b.vtu --edge 0.1").contains("neither a PNG nor a JPEG"));
 }
+
+#[test]
+fn a_cage_carries_its_display_surface_in_a_scene_of_the_course() {
+    let desk = Desk::new();
+    let surface = data().join("own/armadillo_own_37k.obj");
+    desk.run_well(&format!("mesh from-surface {} cage.node --edge 0.2 --cage", surface.display()));
+    let scene = format!(
+        "pipeline = \"course\"\n[mesh]\nfile = \"cage.node\"\ndisplay = \"{}\"\n[material]\nmodel = \"neo_hookean\"\n\
+         C = 1e5\nD = 4e5\ndensity = 1000.0\n[gravity]\nacceleration = [0, -9.81, 0]\n[fixed]\n\
+         plane = {{ axis = \"y\", below = 0.1 }}\n[time]\ndt = 0.01\nintegrator = \"linearly_implicit_euler\"\n",
+        surface.display()
+    );
+    desk.write("cage.toml", scene);
+    let outcome = desk.run("cage.toml --headless --steps 2 --export posed.obj");
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    assert!(!outcome.stderr.contains("outside"), "{outcome:?}");
+    let [rest, posed] = [surface, desk.path("posed.obj")].map(|file| read_surface(&file).unwrap());
+    assert_eq!(posed.elements, rest.elements);
+    let moved = rest.vertices.iter().zip(&posed.vertices).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    assert!(moved > 1e-6 && moved < 0.1, "{moved}");
+}

@@ -28,11 +28,12 @@ def judged(found, body, edge):
 
 def main():
     versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in NAMES[1:])
-    print(f"{versions}; each cell: tetrahedra, seconds, extreme dihedral angles, distance to the body over the edge\n")
+    print(f"{versions}; each cell: tetrahedra, seconds of processor time, extreme dihedral angles, distance to the body over the edge\n")
     print("| surface | " + " | ".join(NAMES) + " |\n|---|" + "---|" * len(NAMES))
     totals = {name: [] for name in NAMES}
     for title, (points, faces), body in dirty():
-        edge = np.linalg.norm(np.ptp(body[0][0], axis=0)) / (60 if "plate" in title else 25)
+        # Thin parts need shorter edges.
+        edge = np.linalg.norm(np.ptp(body[0][0], axis=0)) / (45 if "plate" in title or "armadillo" in title else 16)
         cells = []
         for name in NAMES:
             found, reason = mesh(name, points, faces, edge)

@@ -4,14 +4,13 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 
 import meshio
 import numpy as np
 
-LIMIT = 60.0
+LIMIT = 240.0
 HERE = os.path.dirname(os.path.abspath(__file__))
-PROGRAM = os.environ.get("PROGRAM", os.path.join(HERE, "../../../target/release/finite-elements-3d"))
+PROGRAM = os.path.abspath(os.environ.get("PROGRAM", os.path.join(HERE, "../../../target/release/finite-elements-3d")))
 
 
 def ours(file, out, edge):
@@ -65,14 +64,21 @@ def save(out, points, tetrahedra):
     meshio.write_points_cells(out, points, [("tetra", oriented(points, tetrahedra))], file_format="vtu", binary=True)
 
 
+def processor_time():
+    """Seconds of all threads and of the processes started here: fair on a machine that does other work, too."""
+    times = os.times()
+    return times.user + times.system + times.children_user + times.children_system
+
+
 def mesh(name, points, faces, edge):
-    """Points, tetrahedra and seconds; or None and the reason."""
+    """Points, tetrahedra and seconds of processor time; or None and the reason."""
     with tempfile.TemporaryDirectory() as folder:
         file, out, seconds = (os.path.join(folder, part) for part in ("in.ply", "out.vtu", "seconds"))
         meshio.write_points_cells(file, points, [("triangle", faces)], binary=False)
         command = [sys.executable, os.path.abspath(__file__), name, file, out, str(edge), seconds]
         try:
-            run = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT)
+            # Some leave files in the current folder.
+            run = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, cwd=folder)
         except subprocess.TimeoutExpired:
             return None, f"over {LIMIT:.0f} s"
         if run.returncode != 0 or not os.path.exists(out):
@@ -87,6 +93,6 @@ if __name__ == "__main__":
     import_first = {"tetgen": "tetgen", "pytetwild": "pytetwild", "gmsh": "gmsh"}.get(name)
     if import_first:
         __import__(import_first)
-    start = time.perf_counter()
+    start = processor_time()
     globals()[name](file, out, float(edge))
-    open(seconds, "w").write(str(time.perf_counter() - start))
+    open(seconds, "w").write(str(processor_time() - start))

@@ -100,6 +100,23 @@ impl BoxTree {
         }
         ControlFlow::Continue(())
     }
+
+    /// Calls a function with every thing whose box touches a box.
+    pub(crate) fn touching(&self, bounds: &Bounds, mut call: impl FnMut(usize)) {
+        let mut open = if self.nodes.is_empty() { vec![] } else { vec![0] };
+        while let Some(at) = open.pop() {
+            let node = &self.nodes[at];
+            if !node.bounds.touches(bounds) {
+                continue;
+            }
+            if node.second == 0 {
+                let touching = self.things[node.first..node.end].iter().filter(|(_, own)| own.touches(bounds));
+                touching.for_each(|&(thing, _)| call(thing));
+            } else {
+                open.extend([at + 1, node.second]);
+            }
+        }
+    }
 }
 
 fn build(things: &mut [(usize, Bounds)], first: usize, end: usize, nodes: &mut Vec<Node>) {

@@ -1,10 +1,10 @@
-//! `mesh from-surface`: tetrahedra inside a surface.
+//! `mesh from-surface`: tetrahedra inside a surface, or around it.
 
 use std::collections::HashSet;
 use std::path::PathBuf;
 
 use fem_mesh::generate::odt::{improve_inside, improve_tetrahedra};
-use fem_mesh::generate::{Solid, keep_features, stuff_graded};
+use fem_mesh::generate::{Solid, cage, keep_features, stuff_graded};
 use fem_mesh::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
 use super::write_tetrahedra;
@@ -26,15 +26,21 @@ pub struct Arguments {
     /// Passes of improvement, in which the nodes of the boundary slide on the surface
     #[arg(long, value_name = "N", default_value_t = 0)]
     improve: usize,
+    /// Tetrahedra around the surface instead, which contain it wholly: a display surface follows them
+    #[arg(long, conflicts_with_all = ["grading", "features", "improve"])]
+    cage: bool,
 }
 
 /// Fills the surface and writes the tetrahedra.
 pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
-    let Arguments { surface: file, out, edge, grading, features, improve } = arguments;
+    let Arguments { surface: file, out, edge, grading, features, improve, cage: is_cage } = arguments;
     let surface = fem_mesh::read_surface(file)?;
-    let mesh =
-        stuff_graded(&surface, *edge, *grading).map_err(|error| MeshError::in_file(file, Problem::Stuffing(error)))?;
+    let made = if *is_cage { cage(&surface, *edge) } else { stuff_graded(&surface, *edge, *grading) };
+    let mesh = made.map_err(|error| MeshError::in_file(file, Problem::Stuffing(error)))?;
     fem_mesh::check(&mesh, file)?;
+    if *is_cage {
+        return write_tetrahedra(out, &mesh);
+    }
     let mesh = match features {
         None => improve_inside(&mesh, *improve, &Solid::new(&surface)).mesh,
         Some(angle) => improve_tetrahedra(&with_features(&mesh, &surface, *angle), *improve).mesh,

@@ -1,5 +1,6 @@
 //! Meshes from points, from surfaces and from pictures.
 
+mod cage;
 pub mod delaunay;
 mod features;
 pub mod odt;
@@ -9,6 +10,7 @@ mod solid;
 mod stuffing;
 mod triangulation;
 
+pub use cage::cage;
 pub use features::{Featured, keep_features};
 pub use solid::Solid;
 pub use stuffing::{StuffingError, stuff, stuff_graded, stuff_sized};

@@ -10,9 +10,11 @@ mod triangles;
 pub use distribution::Distribution;
 pub use distributions::{tetrahedron_distributions, triangle_distributions};
 pub use intersections::{SelfIntersections, self_intersections};
+pub(crate) use intersections::{Triangle, meet, segment_meets};
+pub(crate) use surface::branching_places;
 pub use surface::{SurfaceQuality, surface_quality};
-pub(crate) use tetrahedra::smallest_dihedral_angle;
 pub use tetrahedra::{Quality, quality};
+pub(crate) use tetrahedra::{extreme_dihedral_angles, smallest_dihedral_angle};
 pub use triangles::{TriangleQuality, triangle_quality};
 
 /// An extreme value and its element, counted from 0.

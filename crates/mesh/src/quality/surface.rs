@@ -77,7 +77,7 @@ pub fn surface_quality(mesh: &SurfaceMesh) -> SurfaceQuality {
         open_edges: count(|edge| edge.triangles == 1),
         branching_edges: count(|edge| edge.triangles > 2),
         flipped_edges: count(|edge| edge.triangles == 2 && edge.direction != 0),
-        branching_vertices: branching_vertices(mesh, &edges),
+        branching_vertices: branching_vertices(mesh, &edges).len(),
         flat_triangles: shapes.iter().filter(|shape| shape.is_flat).count(),
         angles: [
             solid().map(|shape| shape.angles[0]).fold(f64::INFINITY, f64::min),
@@ -86,6 +86,16 @@ pub fn surface_quality(mesh: &SurfaceMesh) -> SurfaceQuality {
         worst_radius_to_edge: solid().map(|shape| shape.radius_to_edge).fold(0.0, f64::max),
         edges: lengths.fold([f64::INFINITY, 0.0], |[least, largest], x| [least.min(x), largest.max(x)]),
     }
+}
+
+/// Vertices at which a surface is no manifold: ends of edges of more than two triangles, and vertices of more than one fan.
+pub(crate) fn branching_places(mesh: &SurfaceMesh) -> Vec<usize> {
+    let edges = edges(mesh);
+    let mut vertices = branching_vertices(mesh, &edges);
+    vertices.extend(edges.iter().filter(|(_, edge)| edge.triangles > 2).flat_map(|(ends, _)| ends));
+    vertices.sort_unstable();
+    vertices.dedup();
+    vertices
 }
 
 /// The triangles at an edge.
@@ -123,8 +133,8 @@ fn parts(mesh: &SurfaceMesh) -> usize {
     roots.len()
 }
 
-/// Number of vertices with more than one fan. Corners of triangles at one vertex belong together if the triangles share an edge there.
-fn branching_vertices(mesh: &SurfaceMesh, edges: &HashMap<[usize; 2], Edge>) -> usize {
+/// Vertices with more than one fan. Corners of triangles at one vertex belong together if the triangles share an edge there.
+fn branching_vertices(mesh: &SurfaceMesh, edges: &HashMap<[usize; 2], Edge>) -> Vec<usize> {
     let corner = |triangle: usize, vertex: usize| {
         3 * triangle + mesh.elements[triangle].iter().position(|&i| i == vertex).unwrap_or(0)
     };
@@ -143,7 +153,7 @@ fn branching_vertices(mesh: &SurfaceMesh, edges: &HashMap<[usize; 2], Edge>) -> 
             fans[mesh.elements[at / 3][at % 3]] += 1;
         }
     }
-    fans.into_iter().filter(|&fans| fans > 1).count()
+    (0..fans.len()).filter(|&vertex| fans[vertex] > 1).collect()
 }
 
 /// Root of an entry in a forest of sets: Tarjan, Efficiency of a Good But Not Linear Set Union Algorithm (1975).

@@ -71,6 +71,12 @@ pub(crate) fn smallest_dihedral_angle(corners: [Vector3<f64>; 4]) -> f64 {
     least(&dihedral_angles(FACES.map(|face| area_vector(face.map(|i| corners[i])))))
 }
 
+/// Smallest and largest dihedral angle of a tetrahedron, degrees.
+pub(crate) fn extreme_dihedral_angles(corners: [Vector3<f64>; 4]) -> [f64; 2] {
+    let angles = dihedral_angles(FACES.map(|face| area_vector(face.map(|i| corners[i]))));
+    [least(&angles), most(&angles)]
+}
+
 /// Measures a tetrahedron.
 pub(super) fn shape(corners: [Vector3<f64>; 4]) -> Shape {
     let volume = signed_volume(corners);

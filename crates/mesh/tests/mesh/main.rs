@@ -1,6 +1,7 @@
 //! Meshes: valid and damaged files, the check, the boundary, the box, refinement, and files for other programs.
 
 mod box_rule;
+mod cages;
 mod checks;
 mod delaunay;
 mod delaunay_sets;

@@ -7,7 +7,7 @@ use fem_mesh::{boundary, check, quality, read_surface, read_tetrahedra, volumes}
 
 use crate::box_rule::{assert_closed, enclosed_volume};
 
-fn data(name: &str) -> PathBuf {
+pub fn data(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../data").join(name)
 }
 

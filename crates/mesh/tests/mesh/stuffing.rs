@@ -8,7 +8,7 @@ use fem_mesh::{SurfaceMesh, TetrahedralMesh, boundary, check, coincident_nodes, 
 use nalgebra::Vector3;
 
 /// A sphere of radius 1 about a centre: an octahedron, each of whose triangles is cut into four several times.
-fn sphere(cuts: u32, centre: Vector3<f64>) -> SurfaceMesh {
+pub fn sphere(cuts: u32, centre: Vector3<f64>) -> SurfaceMesh {
     let x = Vector3::x;
     let mut vertices = vec![x(), -x(), Vector3::y(), -Vector3::y(), Vector3::z(), -Vector3::z()];
     let mut elements = vec![[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
@@ -30,7 +30,7 @@ fn sphere(cuts: u32, centre: Vector3<f64>) -> SurfaceMesh {
 }
 
 /// A torus with radii 1 and 0.4 about the z-axis.
-fn torus(around: usize, across: usize) -> SurfaceMesh {
+pub fn torus(around: usize, across: usize) -> SurfaceMesh {
     let place = |i: usize, j: usize| {
         let (u, v) = (2.0 * PI * i as f64 / around as f64, 2.0 * PI * j as f64 / across as f64);
         let r = 1.0 + 0.4 * v.cos();
@@ -44,7 +44,7 @@ fn torus(around: usize, across: usize) -> SurfaceMesh {
     SurfaceMesh::new(vertices, elements)
 }
 
-fn joined(a: SurfaceMesh, b: SurfaceMesh) -> SurfaceMesh {
+pub fn joined(a: SurfaceMesh, b: SurfaceMesh) -> SurfaceMesh {
     let first = a.vertices.len();
     let elements = b.elements.into_iter().map(|element| element.map(|i| i + first));
     SurfaceMesh::new([a.vertices, b.vertices].concat(), a.elements.into_iter().chain(elements).collect())

@@ -7,7 +7,7 @@ mod triangle;
 
 use nalgebra::Vector3;
 
-use crate::{SurfaceMesh, area_vector};
+use crate::{SurfaceMesh, area_vector, oriented};
 use triangle::{closest_of_triangle, crossing, solid_angle};
 
 /// Triangles of a leaf of the tree.
@@ -43,8 +43,9 @@ struct Node {
 }
 
 impl Solid {
-    /// Sorts the triangles of a surface. A surface that encloses a negative volume is turned.
+    /// Turns the triangles of a surface alike ([`oriented`]), and outwards if it encloses a negative volume, and sorts them.
     pub fn new(surface: &SurfaceMesh) -> Self {
+        let surface = oriented(surface);
         let corners = |element: &[usize; 3]| element.map(|i| surface.vertices[i]);
         let mut triangles: Vec<_> = surface.elements.iter().map(corners).collect();
         let origin = triangles.first().map_or(Vector3::zeros(), |triangle| triangle[0]);

@@ -51,6 +51,12 @@ impl Lattice {
         self.cubes
     }
 
+    /// Moves all nodes back and forgets the cuts.
+    pub fn reset(&mut self) {
+        self.moved.clear();
+        self.cuts.clear();
+    }
+
     /// The node at a place, if the lattice has one there.
     pub fn node(&self, place: Place) -> Option<u32> {
         let [nx, ny, nz] = self.cubes;
@@ -100,6 +106,11 @@ impl Lattice {
 
     /// Asks for each edge between a node inside and one outside at which part of the way the surface lies.
     pub fn cut(&mut self, exit: impl Fn(&Vector3<f64>, &Vector3<f64>) -> f64) {
+        self.cut_nodes(|_, [inside, outside]| exit(inside, outside));
+    }
+
+    /// The same, asked by the nodes inside and outside as well as by their positions.
+    pub fn cut_nodes(&mut self, exit: impl Fn([usize; 2], [&Vector3<f64>; 2]) -> f64) {
         for (node, place) in self.places().enumerate() {
             if self.signs[node] != 1 {
                 continue;
@@ -108,7 +119,8 @@ impl Lattice {
             for (_, other) in neighbours(place) {
                 if let Some(neighbour) = self.node(other).filter(|&node| self.signs[node as usize] == -1) {
                     let outside = self.undeformed(other);
-                    let cut = inside + exit(&inside, &outside) * (outside - inside);
+                    let part = exit([node, neighbour as usize], [&inside, &outside]);
+                    let cut = inside + part * (outside - inside);
                     self.cuts.insert([node as u32, neighbour], cut);
                     self.is_at_cut[node] = true;
                     self.is_at_cut[neighbour as usize] = true;

@@ -5,9 +5,9 @@
 //! stencils. Dihedral angles lie between 10.7° and 164.8° whatever the surface. Nodes of the boundary lie on the surface; its edges and corners
 //! are rounded by at most the size of an element.
 
-mod lattice;
-mod octree;
-mod stencils;
+pub(super) mod lattice;
+pub(super) mod octree;
+pub(super) mod stencils;
 
 use nalgebra::Vector3;
 use thiserror::Error;
@@ -54,6 +54,16 @@ pub enum StuffingError {
         count: f64,
         /// Largest number of them.
         most: f64,
+    },
+    /// A triangle crosses the boundary of a cage that contains all tetrahedra which it touches: its coordinates are too large for the edge.
+    #[error(
+        "triangle {triangle} (counted from 0) is not enclosed by tetrahedra with edges of {edge} m; take longer edges, or move the surface to the origin"
+    )]
+    NotEnclosed {
+        /// Counted from 0.
+        triangle: usize,
+        /// m
+        edge: f64,
     },
     /// The surface encloses nothing that the lattice sees.
     #[error(
@@ -116,6 +126,21 @@ fn stuff_with(
     edge: f64,
     octree: impl FnOnce(&Lattice) -> Octree,
 ) -> Result<TetrahedralMesh, StuffingError> {
+    let (solid, mut lattice) = lattice_around(surface, edge, 0.0)?;
+    lattice.find_signs(|point| solid.contains(point));
+    let octree = octree(&lattice);
+    lattice.cut(|inside, outside| solid.exit(inside, outside));
+    lattice.warp();
+    let (vertices, elements) = stencils::fill(&lattice, &octree);
+    if elements.is_empty() {
+        let [least, largest] = solid.bounds();
+        return Err(StuffingError::Empty { edge, size: (largest - least).into() });
+    }
+    Ok(Mesh::new(vertices, elements))
+}
+
+/// The solid of a surface, and a lattice with edges of about `edge` m around it, with a margin (m) on every side.
+pub(super) fn lattice_around(surface: &SurfaceMesh, edge: f64, margin: f64) -> Result<(Solid, Lattice), StuffingError> {
     if let Some(vertex) = surface.vertices.iter().position(|x| !x.iter().all(|x| x.is_finite())) {
         return Err(StuffingError::NotFinite { vertex });
     }
@@ -124,22 +149,13 @@ fn stuff_with(
     }
     let solid = Solid::new(surface);
     let [least, largest] = solid.bounds();
+    let (least, largest) = (least.add_scalar(-margin), largest.add_scalar(margin));
     let side = edge / MEAN_EDGE;
-    let size = largest - least;
-    let count = size.iter().map(|size| size / side + 3.0).product::<f64>() * 12.0;
+    let count = (largest - least).iter().map(|size| size / side + 3.0).product::<f64>() * 12.0;
     if !(count <= MOST) {
         return Err(StuffingError::TooFine { edge, count, most: MOST });
     }
-    let mut lattice = Lattice::around([least, largest], side);
-    lattice.find_signs(|point| solid.contains(point));
-    let octree = octree(&lattice);
-    lattice.cut(|inside, outside| solid.exit(inside, outside));
-    lattice.warp();
-    let (vertices, elements) = stencils::fill(&lattice, &octree);
-    if elements.is_empty() {
-        return Err(StuffingError::Empty { edge, size: size.into() });
-    }
-    Ok(Mesh::new(vertices, elements))
+    Ok((solid, Lattice::around([least, largest], side)))
 }
 
 /// Sixfold signed volume; positive for the order of a mesh.

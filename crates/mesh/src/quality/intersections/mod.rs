@@ -9,7 +9,8 @@ use nalgebra::Vector3;
 
 use crate::SurfaceMesh;
 use crate::boxes::{Bounds, BoxTree};
-use predicates::{Triangle, meet, meet_beyond_corner, meet_beyond_edge};
+pub(crate) use predicates::{Triangle, meet, segment_meets};
+use predicates::{meet_beyond_corner, meet_beyond_edge};
 
 /// Most pairs that are counted, and most that are looked at: all triangles of a surface may cross all others.
 const MOST: [usize; 2] = [1_000_000, 200_000_000];

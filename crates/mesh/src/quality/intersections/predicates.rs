@@ -74,6 +74,11 @@ pub fn meet(a: &Triangle, b: &Triangle) -> bool {
     edge(b, sides, a) || edge(a, others, b)
 }
 
+/// Whether a segment between two points has a point of a triangle.
+pub fn segment_meets([p, q]: [&Point; 2], triangle: &Triangle) -> bool {
+    triangle.meets([p, q], [triangle.side(p), triangle.side(q)])
+}
+
 /// Whether two triangles whose corners `i` and `j` are one point have another common point.
 pub fn meet_beyond_corner(a: &Triangle, i: usize, b: &Triangle, j: usize) -> bool {
     // From the common corner to another common point and on, one leaves the first of the two through the opposite edge.
