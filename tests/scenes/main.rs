@@ -15,6 +15,7 @@ mod exports;
 mod flags;
 mod freedom;
 mod mesh_command;
+mod mesh_shapes;
 mod momentum;
 mod moral;
 mod one_step;

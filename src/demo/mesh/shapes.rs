@@ -30,7 +30,7 @@ pub fn draw(file: &Path, name: &str, surface: &SurfaceMesh, distributions: &[Dis
     let triangles: Vec<[[f64; 3]; 3]> = surface.elements.iter().map(corners).collect();
     let histograms: Vec<Picture> = distributions.iter().filter(|all| all.count() > 0).map(histogram).collect();
     let mut pictures = vec![fem_chart::grid("", 2, &histograms)];
-    match fem_chart::triangles(name, &triangles) {
+    match fem_chart::triangles("", &triangles) {
         Some(picture) => pictures.insert(0, picture),
         None => eprintln!("warning: {}: too many triangles are seen to draw them; histograms alone", file.display()),
     }
