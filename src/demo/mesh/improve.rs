@@ -32,6 +32,10 @@ fn tetrahedra(arguments: &Arguments, mesh: &TetrahedralMesh) -> Result<(), MeshE
     let improved = improve_tetrahedra(mesh, arguments.iterations);
     write_tetrahedra(&arguments.out, &improved.mesh)?;
     print_both(&quality(mesh), &quality(&improved.mesh));
+    if !mesh.sets.is_empty() && !fem_mesh::write::keeps_sets(&arguments.out) {
+        let (out, count) = (arguments.out.display(), mesh.sets.len());
+        eprintln!("warning: {out}: this format has no sets; .msh keeps the {count} of {}", arguments.mesh.display());
+    }
     Ok(())
 }
 
