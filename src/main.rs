@@ -22,6 +22,7 @@ mod demo {
     pub mod missing;
     pub mod pictures;
     pub mod probes;
+    pub mod progress;
     pub mod results;
     pub mod run;
     pub mod signals;

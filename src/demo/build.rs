@@ -8,7 +8,7 @@ use finite_elements_3d::assignment_setup::AssignmentSetup;
 use nalgebra::Vector3;
 
 use super::end::End;
-use super::{data, engine};
+use super::{data, engine, progress};
 
 /// Number of steps without a window, if neither the scene nor the arguments give one.
 const DEFAULT_STEPS: usize = 100;
@@ -44,7 +44,8 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
 
 /// Reads the meshes of a scene, with warnings of what is seldom meant.
 pub fn body(scene: &Scene) -> Result<Body, End> {
-    let body = fem_scene::body(scene, &data::folder()).map_err(End::unusable)?;
+    let body =
+        progress::during("reading the body", || fem_scene::body(scene, &data::folder())).map_err(End::unusable)?;
     for warning in fem_scene::warnings(scene, &body) {
         eprintln!("warning: {warning}");
     }

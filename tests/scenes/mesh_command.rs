@@ -247,3 +247,39 @@ fn a_picture_becomes_triangles_that_improve_reads_again() {
     refused("--edge 1e-6", "take longer edges");
     assert!(desk.refused("mesh from-picture a.vtu b.vtu --edge 0.1").contains("neither a PNG nor a JPEG"));
 }
+
+#[test]
+fn bad_files_and_paths_are_refused_with_the_remedy() {
+    let desk = Desk::new();
+    desk.write("empty.obj", "");
+    desk.write("point.obj", "v 0 0 0\n");
+    desk.write("nan.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n");
+    desk.write("folder.obj/x", "");
+    desk.write("good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    let cases: [(&str, &[&str]); 13] = [
+        ("mesh info empty.obj", &["empty.obj: the mesh has no faces; give one that has some"]),
+        ("mesh info point.obj", &["point.obj: the mesh has no faces"]),
+        ("mesh info nan.obj", &["nan.obj, line 2: the coordinate `nan` is not finite; give the vertex a finite"]),
+        ("mesh info folder.obj", &["folder.obj: cannot be read", "check that it is a file"]),
+        ("mesh info missing.msh", &["missing.msh: there is no such file; check the path"]),
+        ("mesh info /dev/null", &["/dev/null: the extension `.` is unknown here; use one of"]),
+        ("mesh convert good.obj good.dae", &["good.dae: the extension `.dae` is unknown here; use one of"]),
+        (
+            "mesh convert good.obj no/such/folder.ply",
+            &["no/such/folder.ply: cannot be written", "check that the folder"],
+        ),
+        ("mesh convert good.obj folder.obj", &["folder.obj: cannot be written"]),
+        ("mesh from-surface good.obj out.vtu --edge 0.0001", &["good.obj", "elements"]),
+        ("mesh from-surface good.obj out.vtu --edge nan", &["edge"]),
+        ("mesh from-surface good.obj out.vtu --edge -1", &["edge"]),
+        ("mesh from-surface nan.obj out.vtu --edge 0.1", &["nan.obj, line 2"]),
+    ];
+    for (command, parts) in cases {
+        let message = desk.refused(command);
+        assert!(parts.iter().all(|part| message.contains(part)), "{command}: {message}");
+    }
+    assert!(!desk.path("out.vtu").exists());
+    // The input is read whole before the output has its name, so both may be one file.
+    desk.run_well("mesh convert good.obj good.obj");
+    assert_eq!(read_surface(&desk.path("good.obj")).unwrap().elements.len(), 4);
+}

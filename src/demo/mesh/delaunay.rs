@@ -7,19 +7,20 @@ use fem_mesh::{Points, SurfaceMesh};
 
 use super::{write_surface, write_tetrahedra};
 use crate::demo::end::End;
+use crate::demo::progress;
 
 /// Triangles or tetrahedra, as the points have two or three coordinates.
 pub fn run(points: &Path, out: &Path) -> Result<(), End> {
     let unusable = |error: DelaunayError| End::unusable(format!("{}: {error}", points.display()));
     let (count, vertices) = match fem_mesh::read_points(points).map_err(End::unusable)? {
         Points::InPlane(points) => {
-            let found = triangulate(&points).map_err(unusable)?.mesh;
+            let found = progress::during("connecting the points", || triangulate(&points)).map_err(unusable)?.mesh;
             let vertices = found.vertices.iter().map(|x| x.push(0.0)).collect();
             write_surface(out, &SurfaceMesh::new(vertices, found.elements)).map_err(End::unusable)?;
             (points.len(), found.vertices.len())
         }
         Points::InSpace(points) => {
-            let found = tetrahedralize(&points).map_err(unusable)?.mesh;
+            let found = progress::during("connecting the points", || tetrahedralize(&points)).map_err(unusable)?.mesh;
             write_tetrahedra(out, &found).map_err(End::unusable)?;
             (points.len(), found.vertices.len())
         }

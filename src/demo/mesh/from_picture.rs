@@ -7,6 +7,7 @@ use fem_mesh::{SurfaceMesh, triangle_quality};
 
 use super::write_surface;
 use crate::demo::end::End;
+use crate::demo::progress;
 
 /// Part of the number of triangles that the edge asks for, beyond which a difference is told.
 const TOLD: f64 = 0.05;
@@ -32,8 +33,8 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
     let Arguments { picture: file, out, edge, height, improve } = arguments;
     let picture = read_picture(file).map_err(End::unusable)?;
     let options = FromPicture { edge: *edge, height: *height, improve: *improve };
-    let found =
-        mesh_picture(&picture, options).map_err(|error| End::unusable(format!("{}: {error}", file.display())))?;
+    let found = progress::during("filling the region", || mesh_picture(&picture, options))
+        .map_err(|error| End::unusable(format!("{}: {error}", file.display())))?;
     let vertices = found.mesh.vertices.iter().map(|x| x.push(0.0)).collect();
     write_surface(out, &SurfaceMesh::new(vertices, found.mesh.elements.clone())).map_err(End::unusable)?;
     say!("{}", triangle_quality(&found.mesh).to_string().trim_end());

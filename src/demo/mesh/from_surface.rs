@@ -8,6 +8,7 @@ use fem_mesh::generate::{Solid, cage, keep_features, stuff_graded};
 use fem_mesh::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
 use super::write_tetrahedra;
+use crate::demo::progress;
 
 /// Arguments of the subcommand.
 #[derive(Debug, clap::Args)]
@@ -35,16 +36,17 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
     let Arguments { surface: file, out, edge, grading, features, improve, cage: is_cage } = arguments;
     let surface = fem_mesh::read_surface(file)?;
-    let made = if *is_cage { cage(&surface, *edge) } else { stuff_graded(&surface, *edge, *grading) };
+    let fill = || if *is_cage { cage(&surface, *edge) } else { stuff_graded(&surface, *edge, *grading) };
+    let made = progress::during("filling the surface", fill);
     let mesh = made.map_err(|error| MeshError::in_file(file, Problem::Stuffing(error)))?;
     fem_mesh::check(&mesh, file)?;
     if *is_cage {
         return write_tetrahedra(out, &mesh);
     }
-    let mesh = match features {
+    let mesh = progress::during("improving the elements", || match features {
         None => improve_inside(&mesh, *improve, &Solid::new(&surface)).mesh,
         Some(angle) => improve_tetrahedra(&with_features(&mesh, &surface, *angle), *improve).mesh,
-    };
+    });
     let faults = fem_mesh::surface_quality(&surface);
     if !faults.is_closed() {
         eprintln!(

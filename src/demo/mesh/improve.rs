@@ -8,6 +8,7 @@ use fem_mesh::{quality, triangle_quality};
 
 use super::{write_surface, write_tetrahedra};
 use crate::demo::end::End;
+use crate::demo::progress;
 
 /// Arguments of the subcommand.
 #[derive(Debug, clap::Args)]
@@ -29,7 +30,7 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
 
 fn tetrahedra(arguments: &Arguments, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
     fem_mesh::check(mesh, &arguments.mesh)?;
-    let improved = improve_tetrahedra(mesh, arguments.iterations);
+    let improved = progress::during("improving the elements", || improve_tetrahedra(mesh, arguments.iterations));
     write_tetrahedra(&arguments.out, &improved.mesh)?;
     print_both(&quality(mesh), &quality(&improved.mesh));
     if !mesh.sets.is_empty() && !fem_mesh::write::keeps_sets(&arguments.out) {
@@ -47,7 +48,7 @@ fn triangles(arguments: &Arguments, mesh: &SurfaceMesh) -> Result<(), End> {
         elements: mesh.elements.clone(),
         sets: mesh.sets.clone(),
     };
-    let improved = improve_triangles(&plane, arguments.iterations)
+    let improved = progress::during("improving the elements", || improve_triangles(&plane, arguments.iterations))
         .map_err(|error| End::unusable(format!("{}: {error}", arguments.mesh.display())))?;
     let vertices = improved.mesh.vertices.iter().map(|x| x.push(0.0)).collect();
     let out = SurfaceMesh { vertices, elements: improved.mesh.elements.clone(), sets: improved.mesh.sets.clone() };
