@@ -269,7 +269,10 @@ fn bad_files_and_paths_are_refused_with_the_remedy() {
             &["no/such/folder.ply: cannot be written", "check that the folder"],
         ),
         ("mesh convert good.obj folder.obj", &["folder.obj: cannot be written"]),
-        ("mesh from-surface good.obj out.vtu --edge 0.0001", &["good.obj", "elements"]),
+        (
+            "mesh from-surface good.obj out.vtu --edge 0.0001",
+            &["good.obj: ", "9.1e12 tetrahedra, and 1e8 is the most; take longer edges"],
+        ),
         ("mesh from-surface good.obj out.vtu --edge nan", &["edge"]),
         ("mesh from-surface good.obj out.vtu --edge -1", &["edge"]),
         ("mesh from-surface nan.obj out.vtu --edge 0.1", &["nan.obj, line 2"]),

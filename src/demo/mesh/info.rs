@@ -22,6 +22,7 @@ pub struct Arguments {
 /// Prints the measures of a mesh or of a surface.
 pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
     let file = &arguments.file;
+    arguments.picture.as_deref().map_or(Ok(()), shapes::check)?;
     let (surface, distributions) = match fem_mesh::read_mesh(file)? {
         AnyMesh::Tetrahedra(mesh) => {
             info(file, &mesh)?;

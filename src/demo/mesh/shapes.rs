@@ -20,12 +20,17 @@ pub fn print(distributions: &[Distribution]) {
     }
 }
 
+/// Refuses a picture that is no SVG file.
+pub fn check(file: &Path) -> Result<(), MeshError> {
+    let found = file.extension().unwrap_or_default().to_string_lossy();
+    if found == "svg" {
+        return Ok(());
+    }
+    Err(MeshError::in_file(file, Problem::UnknownExtension { found: format!(".{found}"), known: ".svg" }))
+}
+
 /// Writes the histograms and a drawing of a surface as an SVG file, which appears complete or not at all.
 pub fn draw(file: &Path, name: &str, surface: &SurfaceMesh, distributions: &[Distribution]) -> Result<(), MeshError> {
-    if file.extension().is_none_or(|extension| extension != "svg") {
-        let found = file.extension().unwrap_or_default().to_string_lossy().into_owned();
-        return Err(MeshError::in_file(file, Problem::UnknownExtension { found, known: ".svg" }));
-    }
     let corners = |element: &[usize; 3]| element.map(|i| surface.vertices[i].into());
     let triangles: Vec<[[f64; 3]; 3]> = surface.elements.iter().map(corners).collect();
     let histograms: Vec<Picture> = distributions.iter().filter(|all| all.count() > 0).map(histogram).collect();
