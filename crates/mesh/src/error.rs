@@ -73,17 +73,17 @@ pub enum Problem {
     Unwritable { reason: String },
     #[error("the extension `{found}` is unknown here; use one of {known}")]
     UnknownExtension { found: String, known: &'static str },
-    #[error("{found} is not supported; {instead}")]
+    #[error("{} is not supported; {instead}", short(.found, 240))]
     Unsupported { found: String, instead: &'static str },
-    #[error("{reason}; export the mesh again")]
+    #[error("{}; export the mesh again", short(.reason, 240))]
     Malformed { reason: String },
     #[error("{expected} is missing here; complete the entry or correct the counts above it")]
     Ends { expected: &'static str },
-    #[error("`{word}` is not {expected}; correct it")]
+    #[error("`{}` is not {expected}; correct it", short(.word, 60))]
     NotA { word: String, expected: &'static str },
     #[error("announces {announced} {what} and holds {found}; correct the count or complete the file")]
     WrongCount { what: &'static str, announced: usize, found: usize },
-    #[error("the coordinate `{word}` is not finite; give the vertex a finite position or remove it")]
+    #[error("the coordinate `{}` is not finite; give the vertex a finite position or remove it", short(.word, 60))]
     NotFinite { word: String },
     #[error("vertex {vertex} has a coordinate that is not finite; give it a finite position or remove it")]
     VertexNotFinite { vertex: usize },
@@ -149,4 +149,11 @@ pub enum Problem {
     Stuffing(crate::generate::StuffingError),
     #[error("frame {frame} (counted from 0) {reason}; pass frames of one mesh in the order of their times")]
     Frame { frame: usize, reason: String },
+}
+
+/// The first characters of what a file says, which may be long or no text at all, in one line that a terminal can show.
+fn short(text: &str, most: usize) -> String {
+    let shown = text.chars().take(most).map(|c| if c.is_control() { '\u{fffd}' } else { c });
+    let more = if text.chars().nth(most).is_some() { "…" } else { "" };
+    shown.collect::<String>() + more
 }

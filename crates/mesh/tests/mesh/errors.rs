@@ -242,3 +242,14 @@ fn bad_surfaces_are_refused_with_the_line() {
     assert_obj(&format!("{vertices}f 1 2 /3\n"), &["s.obj, line 4: `/3` is not the index of a vertex"]);
     assert_obj("f 1 2 3\n", &["s.obj, line 1: there are no vertices that the index 1"]);
 }
+
+#[test]
+fn a_long_word_without_text_is_shown_in_one_short_line() {
+    let header = [&b"ply\nformat ascii 1.0\nproperty \x1b[2J\x07"[..], &[b'x'; 5000], b"\n"].concat();
+    let message = read_surface(&folder_with(&[("m.ply", &header)]).1).unwrap_err().to_string();
+    assert!(message.len() < 400 && !message.contains(char::is_control), "{message}");
+    assert!(
+        message.contains("line 3: `property") && message.contains("xxx…` is not a line of a .ply header"),
+        "{message}"
+    );
+}
