@@ -95,7 +95,7 @@ fn meshes_that_cannot_be_read_or_written_are_refused() {
     assert_refused(&desk, "mesh info nosuch.mesh", &["nosuch.mesh", "no such file"]);
     assert_refused(&desk, "mesh info cube.toml", &["cube.toml", "`.toml` is unknown", ".node with .ele"]);
     assert_refused(&desk, "mesh info flat.node", &["flat.node", "element 0", "no volume"]);
-    assert_refused(&desk, "mesh convert good.node x.stl", &["x.stl", "`.stl` is unknown", ".vtu"]);
+    assert_refused(&desk, "mesh convert good.node x.stl", &["x.stl", "a mesh of tetrahedra in a .stl file", ".vtu"]);
     assert_refused(&desk, "mesh convert good.node nowhere/x.vtu", &["nowhere/x.vtu", "check that the folder exists"]);
     assert_refused(&desk, "mesh convert flat.node x.vtu", &["flat.node", "element 0"]);
     assert_refused(&desk, "mesh info", &["FILE", "--help"]);

@@ -101,7 +101,7 @@ fn a_vertex_without_an_element_is_refused() {
 
 #[test]
 fn an_empty_mesh_is_refused() {
-    assert_mesh_refused("0 3 0 0\n", "0 4 0\n", 3, &["m.node", "the mesh has no "]);
+    assert_mesh_refused("0 3 0 0\n", "0 4 0\n", 4, &["m.node", "the mesh has no "]);
     assert_mesh_refused("", "", 4, &["m.node", "the mesh has no "]);
 }
 

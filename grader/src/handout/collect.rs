@@ -12,13 +12,14 @@ use super::{Files, HandoutError, manifest, stub};
 use crate::rubric::{Role, Rubric};
 
 /// Files and folders that are handed out whole. The tests of the repository, its map and its history are not.
-const WHOLE: [&str; 15] = [
+const WHOLE: [&str; 16] = [
     ".gitignore",
     "LICENSE-APACHE",
     "LICENSE-MIT",
     "rustfmt.toml",
     "Cargo.toml",
     "Cargo.lock",
+    "crates/chart",
     "crates/mesh",
     "crates/scene",
     "crates/viewer",
