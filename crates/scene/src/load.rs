@@ -1,5 +1,7 @@
 //! Finding, reading and checking scene files.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use toml::de::{DeTable, DeValue};
@@ -8,6 +10,9 @@ use toml::{Spanned, Table};
 use crate::check::check;
 use crate::overrides::Override;
 use crate::{Scene, SceneError};
+
+/// Largest scene file, bytes: the tree of a text takes about a hundred times its memory.
+const MOST_BYTES: u64 = 1 << 24;
 
 /// Reads and checks a scene.
 ///
@@ -21,7 +26,12 @@ pub fn load(name: &str, data: &Path) -> Result<Scene, SceneError> {
 pub fn load_with(name: &str, data: &Path, overrides: &[Override]) -> Result<Scene, SceneError> {
     let path = find(name, data)?;
     let unreadable = |reason: String| SceneError::Unreadable { file: path.clone(), reason };
-    let bytes = std::fs::read(&path).map_err(|error| unreadable(error.to_string()))?;
+    let mut bytes = Vec::new();
+    let opened = File::open(&path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes));
+    opened.map_err(|error| unreadable(error.to_string()))?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(unreadable(format!("it has more than {MOST_BYTES} bytes, which no scene needs")));
+    }
     let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text".to_owned()))?;
     parse_with(text.trim_start_matches('\u{feff}'), &path, overrides)
 }

@@ -58,7 +58,7 @@ fn read_element(
     let mut group = 0;
     for tag in 0..tags {
         let found = numbers.int("a tag of an element")?;
-        group = if tag == 0 { found.abs() } else { group };
+        group = if tag == 0 { found.saturating_abs() } else { group };
     }
     let mut nodes = Vec::with_capacity(kind.nodes);
     for _ in 0..kind.nodes {

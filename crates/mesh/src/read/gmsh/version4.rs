@@ -37,7 +37,7 @@ pub(super) fn read_entities(numbers: &mut dyn Numbers, layout: Layout) -> Result
             let mut groups = Vec::new();
             for _ in 0..numbers.count("the number of physical groups")? {
                 // The sign tells the orientation of the entity in its group.
-                groups.push((dimension, numbers.int("the tag of a physical group")?.abs()));
+                groups.push((dimension, numbers.int("the tag of a physical group")?.saturating_abs()));
             }
             if dimension > 0 {
                 for _ in 0..numbers.count("the number of bounding entities")? {
