@@ -1,5 +1,7 @@
 //! From a picture to a mesh: contours, sizes, boundary points, constrained Delaunay triangulation, refinement, smoothing.
 
+use std::time::{Duration, Instant};
+
 use nalgebra::Vector2;
 use thiserror::Error;
 
@@ -45,6 +47,8 @@ pub struct PictureMesh {
     pub steps: Vec<OdtStep>,
     /// Number of contours around less than two pixels, which are left out.
     pub specks: usize,
+    /// Time from the shape and the sizes of the boundary to the mesh.
+    pub meshing: Duration,
 }
 
 /// Reason why a picture has no mesh.
@@ -118,14 +122,16 @@ pub fn mesh_picture(picture: &Picture, options: FromPicture) -> Result<PictureMe
         return Err(PictureMeshError::TooFine { edge, count: wish, most: MOST });
     }
     let region = Region::new(picture, &found, edge / pixel, wish);
+    let start = Instant::now();
     let mut sized = region.mesh(wish);
     let size_at = |_: u32, x: Vector2<f64>| sized.sizes.at(x, sized.largest);
     let steps = relax(&mut sized.mesh, &mut sized.outline, size_at, improve);
     let to_metres = |x: &Vector2<f64>| (x - least) * pixel;
     let mut mesh = sized.mesh.into_mesh();
+    let meshing = start.elapsed();
     mesh.vertices.iter_mut().for_each(|x| *x = to_metres(x));
     let contours = found.iter().map(|points| points.iter().map(to_metres).collect()).collect();
-    Ok(PictureMesh { mesh, contours, pixel, area: picture.area() * pixel * pixel, wish, steps, specks })
+    Ok(PictureMesh { mesh, contours, pixel, area: picture.area() * pixel * pixel, wish, steps, specks, meshing })
 }
 
 /// Points of each contour of a picture.

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 use super::features::{chord_lengths, width_bound};
 use super::resample::resample;
-use super::size::SizeField;
+use super::size::{SizeField, count};
 use super::{Picture, corners};
 use crate::generate::delaunay::{Bounds, cut_encroached, refine, triangulate_region, triangulate_with};
 use crate::generate::outline::{Curve, OnCurve, Outline};
@@ -75,7 +75,7 @@ impl<'a> Region<'a> {
             region.sizes = SizeField::over(picture, growth);
             bounds.iter().for_each(|&(x, size)| region.sizes.bound(x, size));
             region.sizes.spread();
-            if region.sizes.count(picture, LONGEST * edge) <= wish {
+            if count(&region.sizes.inside(picture), LONGEST * edge) <= wish {
                 break;
             }
         }
@@ -104,9 +104,10 @@ impl<'a> Region<'a> {
     /// A triangulation whose number of triangles is as near to the wish as it gets.
     pub fn mesh(&self, wish: f64) -> Sized {
         let (mut target, mut longest) = (wish, LONGEST);
+        let inside = self.sizes.inside(self.picture);
         let mut best: Option<(f64, Sized)> = None;
         for _ in 0..TRIES {
-            let largest = self.size_for(target).min(longest * self.edge);
+            let largest = self.size_for(&inside, target).min(longest * self.edge);
             let sized = self.triangulate(largest, wish);
             let ratio = sized.mesh.triangles.len() as f64 / wish;
             let missed = ratio.ln().abs();
@@ -127,11 +128,11 @@ impl<'a> Region<'a> {
     }
 
     /// The largest size with which the field has a number of triangles.
-    fn size_for(&self, count: f64) -> f64 {
+    fn size_for(&self, inside: &[[f64; 2]], wish: f64) -> f64 {
         let (mut low, mut high) = (0.2 * self.edge, LONGEST * self.edge);
-        for _ in 0..30 {
+        for _ in 0..24 {
             let middle = (low * high).sqrt();
-            if self.sizes.count(self.picture, middle) > count { low = middle } else { high = middle }
+            if count(inside, middle) > wish { low = middle } else { high = middle }
         }
         high
     }

@@ -67,18 +67,20 @@ impl SizeField {
             + v * ((1.0 - u) * size(i, j + 1) + u * size(i + 1, j + 1))
     }
 
-    /// Number of equilateral triangles of these sizes, at most `largest`, that cover the region.
-    pub fn count(&self, picture: &Picture, largest: f64) -> f64 {
-        let mut count = 0.0;
+    /// The sizes inside the region, each with the number of equilateral triangles of size 1 that cover its part of the region.
+    pub fn inside(&self, picture: &Picture) -> Vec<[f64; 2]> {
+        let share = self.spacing * self.spacing / 255.0 * 4.0 / 3.0_f64.sqrt();
+        let mut sizes = Vec::new();
         for j in 0..self.nodes[1] {
             for i in 0..self.nodes[0] {
                 let place = self.place([i, j]);
-                let [x, y] = [place.x, place.y].map(|x| x as isize);
-                let size = self.sizes[j * self.nodes[0] + i].min(largest);
-                count += f64::from(picture.at(x, y)) / (size * size);
+                let coverage = picture.at(place.x as isize, place.y as isize);
+                if coverage > 0 {
+                    sizes.push([self.sizes[j * self.nodes[0] + i], f64::from(coverage) * share]);
+                }
             }
         }
-        count * self.spacing * self.spacing / 255.0 * 4.0 / 3.0_f64.sqrt()
+        sizes
     }
 
     fn cell(&self, x: Vector2<f64>) -> [usize; 2] {
@@ -93,4 +95,9 @@ impl SizeField {
     fn index(&self, [i, j]: [usize; 2]) -> usize {
         j * self.nodes[0] + i
     }
+}
+
+/// Number of equilateral triangles of the sizes inside a region, at most `largest`, that cover it.
+pub fn count(inside: &[[f64; 2]], largest: f64) -> f64 {
+    inside.iter().map(|&[size, share]| share / size.min(largest).powi(2)).sum()
 }

@@ -3,8 +3,6 @@
 mod insert;
 mod star;
 
-use std::collections::HashMap;
-
 use nalgebra::Vector2;
 use robust::{Coord, incircle, orient2d};
 
@@ -48,25 +46,41 @@ impl Triangulation {
             stack: Vec::new(),
             triangles,
         };
-        let mut sides: HashMap<[u32; 2], (u32, usize)> = HashMap::with_capacity(3 * new.triangles.len());
+        // Sides that leave the same vertex form a chain; side 3 t + i is opposite corner i of triangle t.
+        let mut first = vec![OUTSIDE; new.points.len()];
+        let mut following = vec![OUTSIDE; 3 * new.triangles.len()];
         for triangle in 0..new.triangles.len() {
             for i in 0..3 {
                 let [from, to] = edge_opposite(new.triangles[triangle], i);
                 new.triangle_at[from as usize] = triangle as u32;
-                if sides.insert([from, to], (triangle as u32, i)).is_some() {
+                if new.side_between([from, to], &first, &following).is_some() {
                     return Err([from as usize, to as usize]);
                 }
-                if let Some(&(other, j)) = sides.get(&[to, from]) {
-                    new.neighbours[triangle][i] = other;
-                    new.neighbours[other as usize][j] = triangle as u32;
-                    if labels.get(triangle) != labels.get(other as usize) {
+                if let Some((other, j)) = new.side_between([to, from], &first, &following) {
+                    new.neighbours[triangle][i] = other as u32;
+                    new.neighbours[other][j] = triangle as u32;
+                    if labels.get(triangle) != labels.get(other) {
                         new.constrained[triangle] |= 1 << i;
-                        new.constrained[other as usize] |= 1 << j;
+                        new.constrained[other] |= 1 << j;
                     }
                 }
+                following[3 * triangle + i] = std::mem::replace(&mut first[from as usize], (3 * triangle + i) as u32);
             }
         }
         Ok(new)
+    }
+
+    /// The triangle that has a side in this direction, and the corner opposite it, among the chains of sides.
+    fn side_between(&self, [from, to]: [u32; 2], first: &[u32], following: &[u32]) -> Option<(usize, usize)> {
+        let mut side = first[from as usize];
+        while side != OUTSIDE {
+            let (triangle, i) = (side as usize / 3, side as usize % 3);
+            if edge_opposite(self.triangles[triangle], i)[1] == to {
+                return Some((triangle, i));
+            }
+            side = following[side as usize];
+        }
+        None
     }
 
     /// The triangles as a mesh.
@@ -82,7 +96,8 @@ impl Triangulation {
 
     /// Corner of a triangle that is not on its edge with a neighbour.
     pub fn corner_beyond(&self, neighbour: u32, triangle: u32) -> usize {
-        self.neighbours[neighbour as usize].iter().position(|&back| back == triangle).unwrap_or(0)
+        let [_, b, c] = self.neighbours[neighbour as usize];
+        if b == triangle { 1 } else { 2 * usize::from(c == triangle) }
     }
 
     /// Whether no flip may remove the edge opposite corner `i`.

@@ -12,7 +12,7 @@ mod polish;
 
 use nalgebra::Vector2;
 
-use crate::generate::outline::{OnCurve, Outline};
+use crate::generate::outline::{Curve, OnCurve, Outline};
 use crate::generate::triangulation::Triangulation;
 
 /// Moves that are tried along a direction, each half as long as the one before.
@@ -93,30 +93,33 @@ impl<S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'_, S> {
 
     fn measure(&self) -> OdtStep {
         let mut energy = 0.0;
+        let mut worst = 0.0_f64;
         let mut shapes = Vec::with_capacity(self.mesh.triangles.len());
         for triangle in 0..self.mesh.triangles.len() as u32 {
             let (share, shape) = energy_and_shape(self.mesh.corners(triangle));
             let sizes = self.mesh.triangles[triangle as usize].map(|vertex| self.sizes[vertex as usize]);
             energy += self.density(sizes) * share;
+            worst = worst.max(shape);
             shapes.push(shape);
         }
-        let mut quantile = |share: f64| {
-            let rank = ((share * shapes.len() as f64).ceil() as usize).saturating_sub(1);
-            shapes.select_nth_unstable_by(rank, f64::total_cmp).1.sqrt()
-        };
-        let worst = quantile(1.0);
+        let rank = |share: f64| ((share * shapes.len() as f64).ceil() as usize).saturating_sub(1);
+        let (middle, most) = (rank(0.5), rank(0.99));
+        // The median is among those up to the other rank.
+        let radius_to_edge_99 = *shapes.select_nth_unstable_by(most, f64::total_cmp).1;
+        let median = *shapes[..=most].select_nth_unstable_by(middle, f64::total_cmp).1;
+        let worst = worst.sqrt();
         OdtStep {
             energy,
             smallest_angle: (0.5 / worst).min(1.0).asin().to_degrees(),
-            median_radius_to_edge: quantile(0.5),
-            radius_to_edge_99: quantile(0.99),
+            median_radius_to_edge: median.sqrt(),
+            radius_to_edge_99: radius_to_edge_99.sqrt(),
             worst_radius_to_edge: worst,
         }
     }
 
     /// Moves the active vertices and flips edges; vertices are active next time if they or a neighbour moved. Returns whether one moved.
     fn iterate(&mut self, is_active: &mut [bool]) -> bool {
-        let mut touched = Vec::new();
+        let mut is_touched = vec![false; self.mesh.triangles.len()];
         let mut any = false;
         let active = is_active.to_vec();
         is_active.fill(false);
@@ -131,7 +134,7 @@ impl<S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'_, S> {
             if has_moved {
                 any = true;
                 for &(triangle, _) in &star {
-                    touched.push(triangle);
+                    is_touched[triangle as usize] = true;
                     self.mesh.triangles[triangle as usize].iter().for_each(|&near| is_active[near as usize] = true);
                 }
             }
@@ -139,9 +142,8 @@ impl<S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'_, S> {
         }
         let sizes = &self.sizes;
         let worst = self.worst;
-        self.mesh.make_delaunay(touched.into_iter(), |mesh, triangle, i| {
-            flip_lowers_energy(mesh, sizes, worst, triangle, i)
-        });
+        let touched = (0..is_touched.len() as u32).filter(|&triangle| is_touched[triangle as usize]);
+        self.mesh.make_delaunay(touched, |mesh, triangle, i| flip_lowers_energy(mesh, sizes, worst, triangle, i));
         any
     }
 
@@ -190,7 +192,21 @@ impl<S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'_, S> {
         let after = self.mesh.triangles[first.0 as usize][(first.1 + 1) % 3];
         let before = self.mesh.triangles[last.0 as usize][(last.1 + 2) % 3];
         let (Some(before), Some(after)) = (self.outline.place(before), self.outline.place(after)) else { return false };
-        let curve = &self.outline.curves[place.curve];
+        let curves = std::mem::take(&mut self.outline.curves);
+        let has_moved = self.slide_on(&curves[place.curve], vertex, place, [before, after], star);
+        self.outline.curves = curves;
+        has_moved
+    }
+
+    /// Slides a vertex on its curve, between its two neighbours there.
+    fn slide_on(
+        &mut self,
+        curve: &Curve,
+        vertex: u32,
+        place: OnCurve,
+        [before, after]: [OnCurve; 2],
+        star: &[(u32, usize)],
+    ) -> bool {
         let ahead = |s: f64| (s - place.s).rem_euclid(curve.length());
         let (to_after, to_before) = (ahead(after.s), curve.length() - ahead(before.s));
         let from = self.mesh.points[vertex as usize];
@@ -198,20 +214,18 @@ impl<S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'_, S> {
         let Some(along) = along else { return false };
         let wanted = (self.average_of_circumcentres(vertex, star) - from).dot(&along);
         let wanted = wanted.clamp(-0.5 * to_before, 0.5 * to_after);
-        let (start, end) = (place.s - to_before, place.s + to_after);
-        let (length, tolerance) = (curve.length(), self.outline.tolerance);
-        let turn = if start < 0.0 { length } else { 0.0 };
-        let deviation = |curve: &crate::generate::outline::Curve, s: f64| {
-            curve.deviation(start + turn, s + turn).max(curve.deviation(s + turn, end + turn))
-        };
-        let allowed = tolerance.max(deviation(curve, place.s));
-        let mut moves = Vec::with_capacity(HALVINGS);
-        for halving in 0..HALVINGS {
-            let s = place.s + wanted * 0.5_f64.powi(halving as i32);
-            let is_near = deviation(curve, s) <= allowed;
-            moves.push(is_near.then(|| (curve.at(s), OnCurve { s: s.rem_euclid(length), ..place })));
+        if !(wanted.abs() > STILL * self.sizes[vertex as usize]) {
+            return false;
         }
-        let nth = |share: f64| moves[(-share.log2()).round() as usize].map(|(point, place)| (point, Some(place)));
+        let (start, end) = (place.s - to_before, place.s + to_after);
+        let turn = if start < 0.0 { curve.length() } else { 0.0 };
+        let deviation = |s: f64| curve.deviation(start + turn, s + turn).max(curve.deviation(s + turn, end + turn));
+        let allowed = self.outline.tolerance.max(deviation(place.s));
+        let nth = |share: f64| {
+            let s = place.s + wanted * share;
+            let on_curve = OnCurve { s: s.rem_euclid(curve.length()), ..place };
+            (deviation(s) <= allowed).then(|| (curve.at(s), Some(on_curve)))
+        };
         self.try_moves(vertex, star, nth, wanted.abs())
     }
 
