@@ -24,7 +24,7 @@ pub struct Arguments {
     #[arg(long, value_name = "M", default_value_t = 1.0, allow_negative_numbers = true)]
     height: f64,
     /// Iterations of optimal Delaunay triangulation
-    #[arg(long, value_name = "N", default_value_t = 10)]
+    #[arg(long, value_name = "N", default_value_t = 5)]
     improve: usize,
 }
 

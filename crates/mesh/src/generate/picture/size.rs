@@ -42,15 +42,23 @@ impl SizeField {
         let [columns, rows] = self.nodes;
         let (straight, diagonal) = (self.growth * self.spacing, self.growth * self.spacing * 2.0_f64.sqrt());
         for sweep in 0..2 {
+            let turn = if sweep == 0 { -1 } else { 1 };
+            let steps = [(1, 0, straight), (1, 1, diagonal), (0, 1, straight), (-1, 1, diagonal)];
+            let near = steps.map(|(x, y, step)| (turn * (y * columns as isize + x), step));
             for node in 0..columns * rows {
                 let node = if sweep == 0 { node } else { columns * rows - 1 - node };
-                let (i, j) = ((node % columns) as isize, (node / columns) as isize);
-                let turn = if sweep == 0 { -1 } else { 1 };
+                let (i, j) = (node % columns, node / columns);
                 let mut size = self.sizes[node];
-                for (x, y, step) in [(1, 0, straight), (1, 1, diagonal), (0, 1, straight), (-1, 1, diagonal)] {
-                    let (i, j) = (i + turn * x, j + turn * y);
-                    if (0..columns as isize).contains(&i) && (0..rows as isize).contains(&j) {
-                        size = size.min(self.sizes[j as usize * columns + i as usize] + step);
+                if (1..columns - 1).contains(&i) && (1..rows - 1).contains(&j) {
+                    for (to, step) in near {
+                        size = size.min(self.sizes[node.wrapping_add_signed(to)] + step);
+                    }
+                } else {
+                    for (x, y, step) in steps {
+                        let (i, j) = (i as isize + turn * x, j as isize + turn * y);
+                        if (0..columns as isize).contains(&i) && (0..rows as isize).contains(&j) {
+                            size = size.min(self.sizes[j as usize * columns + i as usize] + step);
+                        }
                     }
                 }
                 self.sizes[node] = size;
