@@ -38,7 +38,7 @@ fn a_scene_needs_one_source_of_tetrahedra_and_only_one() {
     assert_refused(
         &desk("scale = 1.0", NODES, ELEMENTS),
         3,
-        &["mesh names no elements", "`file`, `files`, `box`, `surface` or `rectangle`"],
+        &["mesh names no elements", "`file`, `files`, `box`, `surface`, `rectangle` or `picture`"],
     );
 }
 

@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 
 use crate::check::{check, flat};
 use crate::load::{line_of, refused};
+use crate::picture;
 use crate::simulation::Shape;
 use crate::tables::{MeshTable, SurfaceTable};
 use crate::values::{
@@ -145,6 +146,7 @@ fn source(scene: &Scene) -> PathBuf {
     match &scene.mesh {
         MeshTable { file: Some(file), .. } | MeshTable { surface: Some(SurfaceTable { file, .. }), .. } => file.clone(),
         MeshTable { files: Some(_), .. } => PathBuf::from("files"),
+        MeshTable { picture: Some(picture), .. } => picture.file.clone(),
         MeshTable { rectangle: Some(_), .. } => PathBuf::from("rectangle"),
         _ => PathBuf::from("box"),
     }
@@ -187,6 +189,10 @@ fn elements(scene: &Scene, data: &Path) -> Result<BodyMesh, SceneError> {
                 Ok(improve_inside(&mesh, surface.improve, &Solid::new(&triangles)).mesh)
             });
             mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.surface", error))
+        }
+        MeshTable { picture: Some(table), .. } => {
+            let triangles = picture::triangles(table, &find(scene, data, &table.file));
+            triangles.map(|triangles| flat_body(scene, triangles)).map_err(|text| scene.refuse("mesh.picture", &text))
         }
         MeshTable { rectangle: Some(rectangle), .. } => {
             let mesh = fem_mesh::rectangle_mesh(rectangle.size, rectangle.cells_per_unit);

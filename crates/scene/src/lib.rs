@@ -49,6 +49,7 @@ mod interaction;
 mod load;
 pub mod output;
 mod overrides;
+mod picture;
 pub mod simulate;
 pub mod simulation;
 pub mod tables;

@@ -46,10 +46,13 @@ fn check_mesh(mesh: &MeshTable) -> Result<(), Problem> {
         ("box", mesh.cuboid.is_some()),
         ("surface", mesh.surface.is_some()),
         ("rectangle", mesh.rectangle.is_some()),
+        ("picture", mesh.picture.is_some()),
     ];
     let mut given = sources.iter().filter(|(_, is_given)| *is_given).map(|(key, _)| key);
     match (given.next(), given.next()) {
-        (None, _) => problem("mesh", "names no elements; give it `file`, `files`, `box`, `surface` or `rectangle`"),
+        (None, _) => {
+            problem("mesh", "names no elements; give it `file`, `files`, `box`, `surface`, `rectangle` or `picture`")
+        }
         (Some(first), Some(second)) => {
             problem(&format!("mesh.{second}"), format!("stands beside `{first}`; keep one of the two"))
         }

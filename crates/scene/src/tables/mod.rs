@@ -114,6 +114,8 @@ pub struct MeshTable {
     pub cuboid: Option<Cuboid>,
     /// The inside of a surface.
     pub surface: Option<SurfaceTable>,
+    /// A flat body: the region of a picture.
+    pub picture: Option<PictureTable>,
     /// A flat body: a rectangle.
     pub rectangle: Option<RectangleTable>,
     /// A surface file to display instead of the boundary of the tetrahedra.
@@ -139,6 +141,26 @@ pub struct Cuboid {
     pub size: [f64; 3],
     /// Cubes per metre.
     pub cells_per_unit: usize,
+}
+
+/// `picture`: triangles are made inside the region of a picture.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct PictureTable {
+    /// A PNG or JPEG file.
+    pub file: PathBuf,
+    /// Height of the region, m unless `scale` changes it.
+    #[serde(default = "one")]
+    pub height: f64,
+    /// Mean edge of the triangles, in the unit of `height`.
+    pub edge: f64,
+    /// Iterations of optimal Delaunay triangulation.
+    #[serde(default = "five")]
+    pub improve: usize,
+}
+
+fn five() -> usize {
+    5
 }
 
 /// A rectangle in the plane z = 0 from the origin, cut into squares of two triangles each.
