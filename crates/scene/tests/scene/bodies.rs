@@ -1,7 +1,6 @@
 //! From a scene to its body: scale, fixed nodes, the dragged node.
 
 use std::fs;
-use std::path::Path;
 
 use fem_mesh::boundary;
 use fem_scene::load;
@@ -121,11 +120,12 @@ fn several_files_are_bodies_of_one_scene_and_sets_of_their_names() {
 }
 
 #[test]
+#[cfg(feature = "pictures")]
 fn a_picture_becomes_a_flat_body_with_its_holes_and_its_height() {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data");
+    let data = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data");
     let source = "picture = { file = \"pictures/donut.png\", edge = 0.1, height = 2.0 }";
     let text = edit(LEAST, "box = { size = [2, 1, 1], cells_per_unit = 1 }", source);
-    let scene = fem_scene::parse(&text, Path::new("a.toml")).unwrap();
+    let scene = fem_scene::parse(&text, "a.toml".as_ref()).unwrap();
     let mesh = fem_scene::body(&scene, &data).unwrap().shape.mesh;
     assert!(mesh.is_flat());
     let height = mesh.vertices().iter().map(|x| x.y).fold(0.0, f64::max);
@@ -135,7 +135,7 @@ fn a_picture_becomes_a_flat_body_with_its_holes_and_its_height() {
     assert_eq!(mesh.vertices().len() + mesh.elements(), edges);
 
     let missing = text.replace("donut", "no-such");
-    let scene = fem_scene::parse(&missing, Path::new("a.toml")).unwrap();
+    let scene = fem_scene::parse(&missing, "a.toml".as_ref()).unwrap();
     let message = fem_scene::body(&scene, &data).unwrap_err().to_string();
     assert!(message.contains("mesh.picture cannot be meshed") && message.contains("no such file"), "{message}");
 }
