@@ -132,13 +132,14 @@ impl Grading {
         let subject = Sandboxed::new(start(&self.sandbox, Some(program.clone()), folder.path()), LIMIT)
             .within(budget.clone(), places.clone());
         budget.next_function();
-        self.compare_simulations(grade, &subject)
+        self.compare_simulations(grade, &subject, budget)
     }
 
     fn compare_simulations(
         &self,
         mut grade: FunctionGrade,
         subject: &Sandboxed,
+        budget: &Budget,
     ) -> Result<FunctionGrade, GradingError> {
         let reference = Sandboxed::new(self.programs.start_reference(&self.sandbox), LIMIT);
         let mut worst = 0.0_f64;
@@ -146,6 +147,8 @@ impl Grading {
             let scene = scene(integrator, TIME_STEP);
             let failed = |trouble: Trouble| GradingError::Reference(trouble.to_string());
             let (expected, reference_seconds) = reference.simulate(&scene, LIMIT).map_err(failed)?;
+            // Each motion has the time of a check of its own: right code may be a hundred times slower than the reference.
+            budget.next_check();
             match subject.simulate(&scene, LIMIT) {
                 Ok((positions, seconds)) => {
                     worst = worst.max(distance(&positions, &expected));
