@@ -91,7 +91,7 @@ pub struct OnCurve {
 #[derive(Clone, Debug, Default)]
 pub struct Outline {
     pub curves: Vec<Curve>,
-    /// For each vertex; those beyond the end, and inner ones, have no place.
+    /// Place of each vertex of the boundary; `None` for inner ones. Vertices beyond the end of the list are inner ones.
     pub places: Vec<Option<OnCurve>>,
     /// Distance that chords may have from the curve, m.
     pub tolerance: f64,

@@ -56,7 +56,7 @@ fn plate() -> SurfaceMesh {
     SurfaceMesh::new(found.vertices.iter().map(|x| x.push(0.0)).collect(), found.elements)
 }
 
-/// What this library writes with that ending: a body, its surface, and a plane mesh, as far as the format has them.
+/// Files that this library writes with an ending: a body, its surface and a plane mesh, as far as the format has them.
 fn own(ending: &str) -> Vec<Vec<u8>> {
     let folder = tempdir().unwrap();
     let surface = SurfaceMesh::new(body().vertices, boundary(&body()));

@@ -1,4 +1,4 @@
-//! Delaunay meshes of random and degenerate points, held to the definition by determinants in integers.
+//! Delaunay meshes of random and degenerate points, tested against the definition by determinants in integers.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};

@@ -1,4 +1,4 @@
-//! Many point sets of 3 to 10⁴ points, random and degenerate, held to the definition by determinants in integers.
+//! Many point sets of 3 to 10⁴ points, random and degenerate, tested against the definition by determinants in integers.
 //!
 //! `DELAUNAY_CASES=100000 cargo test --release -p fem-mesh --test mesh delaunay_sets` runs as many random sets and a tenth as many
 //! degenerate ones, in space and in the plane; `DELAUNAY_FROM` begins with a later one.

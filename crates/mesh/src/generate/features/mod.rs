@@ -38,7 +38,7 @@ pub struct Featured {
     pub kept: f64,
 }
 
-/// What a vertex of the boundary moves on.
+/// The part of the surface on which a vertex of the boundary moves.
 #[derive(Clone, Copy, PartialEq)]
 enum Place {
     /// The end of curves.

@@ -228,7 +228,8 @@ fn meets_box(node: &Node, from: &Vector3<f64>, way: &Vector3<f64>) -> bool {
 mod tests {
     use super::*;
 
-    fn random(seed: u64) -> impl FnMut() -> Vector3<f64> {
+    /// Vectors with coordinates from −1 to 1, Marsaglia, Xorshift RNGs (2003).
+    pub(super) fn random(seed: u64) -> impl FnMut() -> Vector3<f64> {
         let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
         move || {
             Vector3::from_fn(|_, _| {

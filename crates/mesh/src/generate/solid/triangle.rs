@@ -54,19 +54,8 @@ pub fn closest_of_triangle(&[a, b, c]: &[Vector3<f64>; 3], point: &Vector3<f64>)
 
 #[cfg(test)]
 mod tests {
+    use super::super::tests::random;
     use super::*;
-
-    fn random(seed: u64) -> impl FnMut() -> Vector3<f64> {
-        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-        move || {
-            Vector3::from_fn(|_, _| {
-                state ^= state << 13;
-                state ^= state >> 7;
-                state ^= state << 17;
-                (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-            })
-        }
-    }
 
     #[test]
     fn no_point_of_a_triangle_is_closer_than_the_closest() {

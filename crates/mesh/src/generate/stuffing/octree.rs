@@ -9,11 +9,11 @@ use super::lattice::{Lattice, Place, neighbours};
 /// A cube of a level, counted in sides of that level.
 type Cube = [i32; 3];
 
-/// Which cubes are split into eight.
+/// Cubes, some of which are split into eight.
 pub struct Octree {
     /// Number of the smallest cubes in each direction.
     cubes: Cube,
-    /// For each level above the smallest cubes, whether each cube is split.
+    /// Whether each cube is split, level by level from the one above the smallest cubes.
     split: Vec<Vec<bool>>,
 }
 
