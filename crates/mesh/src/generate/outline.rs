@@ -47,7 +47,7 @@ impl Curve {
 
     /// The point at an arc length, which counts on from the start beyond the end.
     pub fn at(&self, s: f64) -> Vector2<f64> {
-        let s = s.rem_euclid(self.length());
+        let s = if (0.0..self.length()).contains(&s) { s } else { s.rem_euclid(self.length()) };
         let i = self.segment(s);
         let step = self.lengths[i + 1] - self.lengths[i];
         let share = if step > 0.0 { (s - self.lengths[i]) / step } else { 0.0 };
@@ -61,17 +61,33 @@ impl Curve {
 
     /// Largest distance of the curve's points from the chord between two arc lengths, the first the smaller; the second may lie beyond the end.
     pub fn deviation(&self, from: f64, to: f64) -> f64 {
-        let (start, end) = (self.at(from), self.at(to));
+        self.deviation_from([self.at(from), self.at(to)], [from, to])
+    }
+
+    /// The same for a chord whose ends are known.
+    pub fn deviation_from(&self, [start, end]: [Vector2<f64>; 2], [from, to]: [f64; 2]) -> f64 {
         let chord = (end - start).try_normalize(0.0).unwrap_or_default();
-        let turns = (from / self.length()).floor();
-        let begin = self.segment(from - turns * self.length());
+        let points = self.points.len();
+        let (begin, to) = if from < self.length() {
+            (self.segment(from), to)
+        } else {
+            (self.segment(from - self.length()), to - self.length())
+        };
         let mut largest: f64 = 0.0;
-        for index in begin + 1.. {
-            let turn = turns + (index / self.points.len()) as f64;
-            if !(self.lengths[index % self.points.len()] + turn * self.length() < to) {
-                return largest;
+        let mut visit = |points: &[Vector2<f64>], lengths: &[f64], to: f64| {
+            for (x, length) in points.iter().zip(lengths) {
+                if !(*length < to) {
+                    return false;
+                }
+                largest = largest.max(chord.perp(&(x - start)).abs());
             }
-            largest = largest.max(chord.perp(&(self.points[index % self.points.len()] - start)).abs());
+            true
+        };
+        let mut rest = to;
+        let mut goes_on = visit(&self.points[begin + 1..], &self.lengths[begin + 1..points], rest);
+        while goes_on {
+            rest -= self.length();
+            goes_on = visit(&self.points, &self.lengths[..points], rest);
         }
         largest
     }

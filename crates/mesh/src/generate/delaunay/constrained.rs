@@ -8,6 +8,7 @@ use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use super::{DelaunayError, in_range};
 use crate::Mesh;
+use crate::generate::triangulation::{OUTSIDE, Triangulation as Connected};
 
 type Constrained = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
@@ -29,14 +30,14 @@ type Constrained = ConstrainedDelaunayTriangulation<Point2<f64>>;
 /// # Ok::<(), fem_mesh::generate::delaunay::DelaunayError>(())
 /// ```
 pub fn triangulate_region(polygons: &[Vec<Vector2<f64>>]) -> Result<Mesh<2, 3>, DelaunayError> {
-    triangulate_with(polygons, &[])
+    Ok(triangulate_with(polygons, &[])?.into_mesh())
 }
 
-/// As [`triangulate_region`], with vertices at these points inside as well; they follow those of the polygons.
+/// As [`triangulate_region`], with the triangles' neighbours, and with vertices at these points inside as well; they follow those of the polygons.
 pub(crate) fn triangulate_with(
     polygons: &[Vec<Vector2<f64>>],
     inner: &[Vector2<f64>],
-) -> Result<Mesh<2, 3>, DelaunayError> {
+) -> Result<Connected, DelaunayError> {
     let mut points = polygons.concat();
     points.extend(inner);
     let points = in_range(&points)?;
@@ -52,10 +53,24 @@ pub(crate) fn triangulate_with(
         handles.push(vertex);
     }
     constrain(&mut triangulation, polygons, &handles)?;
-    let is_inside = inside(&triangulation);
-    let faces = triangulation.inner_faces().filter(|face| is_inside[face.index()]);
-    let elements: Vec<[usize; 3]> = faces.map(|face| face.vertices().map(|vertex| vertex.index())).collect();
-    if elements.is_empty() { Err(flat) } else { Ok(Mesh::new(points, elements)) }
+    let connected = connect(points, &triangulation);
+    if connected.triangles.is_empty() { Err(flat) } else { Ok(connected) }
+}
+
+/// The triangles inside the polygons, with their neighbours there.
+fn connect(points: Vec<Vector2<f64>>, triangulation: &Constrained) -> Connected {
+    let is_inside = inside(triangulation);
+    let mut number = vec![OUTSIDE; is_inside.len()];
+    let faces = || triangulation.inner_faces().filter(|face| is_inside[face.index()]);
+    faces().zip(0..).for_each(|(face, triangle)| number[face.index()] = triangle);
+    let (mut triangles, mut neighbours) = (Vec::new(), Vec::new());
+    for face in faces() {
+        let edges = face.adjacent_edges();
+        triangles.push(edges.map(|edge| edge.from().index() as u32));
+        // The edge opposite a corner is the one after the edge that leaves the corner.
+        neighbours.push([1, 2, 0].map(|i| number[edges[i].rev().face().index()]));
+    }
+    Connected::of(points, triangles, neighbours)
 }
 
 fn constrain(

@@ -66,7 +66,7 @@ pub fn improve_triangles(mesh: &Mesh<2, 3>, iterations: usize) -> Result<Improve
     let steps = if mesh.elements.is_empty() {
         Vec::new()
     } else {
-        relax(&mut triangulation, &mut outline, |vertex, _: Vector2<f64>| sizes[vertex as usize], iterations)
+        relax(&mut triangulation, &mut outline, |vertex, _: Vector2<f64>| sizes[vertex as usize], iterations, 0.0)
     };
     let mut improved = triangulation.into_mesh();
     improved.sets = mesh.sets.clone();

@@ -19,6 +19,9 @@ const MOST_CONTOURS: usize = 2_000;
 /// Contours around a smaller area are specks, square pixels.
 const SPECK: f64 = 2.0;
 
+/// Circumradius over shortest edge above which a triangle is smoothed; an equilateral one has 0.577.
+const MOVED_ABOVE: f64 = 0.7;
+
 /// Options of [`mesh_picture`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FromPicture {
@@ -125,7 +128,7 @@ pub fn mesh_picture(picture: &Picture, options: FromPicture) -> Result<PictureMe
     let start = Instant::now();
     let mut sized = region.mesh(wish);
     let size_at = |_: u32, x: Vector2<f64>| sized.sizes.at(x, sized.largest);
-    let steps = relax(&mut sized.mesh, &mut sized.outline, size_at, improve);
+    let steps = relax(&mut sized.mesh, &mut sized.outline, size_at, improve, MOVED_ABOVE);
     let to_metres = |x: &Vector2<f64>| (x - least) * pixel;
     let mut mesh = sized.mesh.into_mesh();
     let meshing = start.elapsed();

@@ -5,6 +5,7 @@ mod corners;
 #[cfg(feature = "pictures")]
 mod decode;
 mod features;
+mod lattice;
 mod mesh;
 mod region;
 mod resample;

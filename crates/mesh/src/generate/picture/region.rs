@@ -3,10 +3,11 @@
 use nalgebra::Vector2;
 
 use super::features::{chord_lengths, width_bound};
+use super::lattice::Lattice;
 use super::resample::resample;
-use super::size::{SizeField, count};
+use super::size::{Inside, SizeField};
 use super::{Picture, corners};
-use crate::generate::delaunay::{Bounds, cut_encroached, refine, triangulate_region, triangulate_with};
+use crate::generate::delaunay::{Bounds, cut_encroached, refine, triangulate_with};
 use crate::generate::outline::{Curve, OnCurve, Outline};
 use crate::generate::triangulation::Triangulation;
 
@@ -75,7 +76,7 @@ impl<'a> Region<'a> {
             region.sizes = SizeField::over(picture, growth);
             bounds.iter().for_each(|&(x, size)| region.sizes.bound(x, size));
             region.sizes.spread();
-            if count(&region.sizes.inside(picture), LONGEST * edge) <= wish {
+            if Inside::count(&region.sizes.inside(picture), LONGEST * edge) <= wish {
                 break;
             }
         }
@@ -128,13 +129,18 @@ impl<'a> Region<'a> {
     }
 
     /// The largest size with which the field has a number of triangles.
-    fn size_for(&self, inside: &[[f64; 2]], wish: f64) -> f64 {
-        let (mut low, mut high) = (0.2 * self.edge, LONGEST * self.edge);
-        for _ in 0..24 {
-            let middle = (low * high).sqrt();
-            if count(inside, middle) > wish { low = middle } else { high = middle }
+    fn size_for(&self, inside: &[Inside], wish: f64) -> f64 {
+        // The number is convex and piecewise linear in 1/size², so Newton's method goes down to the root without passing it.
+        let [most, least] = [0.2 * self.edge, LONGEST * self.edge].map(|size| 1.0 / (size * size));
+        let mut density = most;
+        loop {
+            let (fixed, slope) = Inside::sums(inside, density);
+            let next = ((wish - fixed) / slope).max(least);
+            if !(next < density * (1.0 - 1e-9)) {
+                return 1.0 / density.sqrt();
+            }
+            density = next;
         }
-        high
     }
 
     fn triangulate(&self, largest: f64, wish: f64) -> Sized {
@@ -142,10 +148,7 @@ impl<'a> Region<'a> {
         let (mut mesh, mut outline) = self.boundary_mesh(largest);
         let shortest = 0.5_f64.min(0.5 * self.edge);
         let cuts = cut_encroached(&mut mesh, &mut outline, shortest);
-        if !cuts.is_empty() {
-            cuts.iter().for_each(|&(x, size)| sizes.bound(x, size));
-            sizes.spread();
-        }
+        cuts.iter().for_each(|&(x, size)| sizes.bound_around(x, size, largest));
         let most_vertices = mesh.points.len() + (4.0 * wish) as usize + 1000;
         let bounds = Bounds { radius_to_edge: RADIUS_TO_EDGE, shortest_cut: shortest, most_vertices };
         refine(&mut mesh, &mut outline, |x| sizes.at(x, largest), bounds);
@@ -155,7 +158,7 @@ impl<'a> Region<'a> {
     /// The constrained Delaunay triangulation of points on the contours, and of a lattice where sizes are uniform. Shorter edges follow, should
     /// two contours cross that pass close to each other.
     fn boundary_mesh(&self, largest: f64) -> (Triangulation, Outline) {
-        let inner = self.lattice(largest);
+        let lattice = self.lattice(largest);
         for longest in [f64::INFINITY, 2.0, 1.0] {
             let mut outline = Outline { curves: self.curves.clone(), places: Vec::new(), tolerance: TOLERANCE };
             let mut polygons = Vec::new();
@@ -164,43 +167,26 @@ impl<'a> Region<'a> {
                 polygons.push(places.iter().map(|(x, _)| *x).collect::<Vec<_>>());
                 outline.places.extend(places.into_iter().map(|(_, place)| Some(place)));
             }
-            if let Ok(mesh) = triangulate_with(&polygons, &inner)
-                && let Ok(mesh) = Triangulation::new(&mesh, &[])
-            {
+            if let Some(mesh) = lattice.triangulate(&polygons) {
                 return (mesh, outline);
             }
         }
         self.contour_mesh()
     }
 
-    /// Points of a lattice of equilateral triangles of the largest size, where no element shall be smaller.
-    fn lattice(&self, largest: f64) -> Vec<Vector2<f64>> {
-        let row_height = 0.75_f64.sqrt() * largest;
-        let [columns, rows] = [self.picture.width as f64 / largest, self.picture.height as f64 / row_height];
-        let mut points = Vec::new();
-        for row in 0..rows as usize {
-            for column in 0..columns as usize {
-                // Rows run forth and back, so that each point is near the one before.
-                let column = if row % 2 == 0 { column } else { columns as usize - 1 - column };
-                let shift = if row % 2 == 0 { 0.25 } else { 0.75 };
-                let x = Vector2::new((column as f64 + shift) * largest, (row as f64 + 0.5) * row_height);
-                let is_inside = self.picture.is_inside(x.x as isize, x.y as isize);
-                if is_inside
-                    && self.distances.at(x, f64::INFINITY) >= APART * largest
-                    && self.sizes.at(x, largest) >= UNIFORM * largest
-                {
-                    points.push(x);
-                }
-            }
-        }
-        points
+    /// A lattice of equilateral triangles of the largest size, where no element shall be smaller.
+    fn lattice(&self, largest: f64) -> Lattice {
+        Lattice::new([self.picture.width, self.picture.height].map(|side| side as f64), largest, |x| {
+            self.picture.is_inside(x.x as isize, x.y as isize)
+                && self.distances.at(x, f64::INFINITY) >= APART * largest
+                && self.sizes.at(x, largest) >= UNIFORM * largest
+        })
     }
 
     /// The triangulation of the contours with all of their points. They do not touch each other.
     fn contour_mesh(&self) -> (Triangulation, Outline) {
         let curves: Vec<Curve> = self.found.iter().map(|points| Curve::new(points.clone())).collect();
-        let mesh = triangulate_region(self.found).expect("contours do not touch");
-        let mesh = Triangulation::new(&mesh, &[]).expect("a triangulation is a manifold");
+        let mesh = triangulate_with(self.found, &[]).expect("contours do not touch");
         let mut outline = Outline { curves, places: Vec::new(), tolerance: TOLERANCE };
         for index in 0..outline.curves.len() {
             let lengths = outline.curves[index].lengths().to_vec();

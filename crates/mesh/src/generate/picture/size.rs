@@ -1,5 +1,7 @@
 //! Sizes of elements inside a picture: short edges where the contour is curved or the region thin, growing with the distance from there.
 
+use std::collections::VecDeque;
+
 use nalgebra::Vector2;
 
 use super::Picture;
@@ -26,13 +28,39 @@ impl SizeField {
         Self { spacing, growth, nodes, sizes: vec![f64::INFINITY; nodes[0] * nodes[1]] }
     }
 
-    /// Bounds the size around a point.
+    /// Bounds the size at the nodes around a point.
     pub fn bound(&mut self, x: Vector2<f64>, size: f64) {
+        for (node, size) in self.bounds(x, size) {
+            self.sizes[node] = self.sizes[node].min(size);
+        }
+    }
+
+    /// Bounds of the nodes around a point.
+    fn bounds(&self, x: Vector2<f64>, size: f64) -> [(usize, f64); 4] {
         let [i, j] = self.cell(x);
-        for node in [[i, j], [i + 1, j], [i, j + 1], [i + 1, j + 1]] {
+        [[i, j], [i + 1, j], [i, j + 1], [i + 1, j + 1]].map(|node| {
             let distance = (self.place(node) - x).norm();
-            let index = self.index(node);
-            self.sizes[index] = self.sizes[index].min(size + self.growth * distance);
+            (self.index(node), size + self.growth * distance)
+        })
+    }
+
+    /// Bounds the size around a point of a field that has been spread, up to where it reaches `largest`.
+    pub fn bound_around(&mut self, x: Vector2<f64>, size: f64, largest: f64) {
+        let mut queue = VecDeque::from(self.bounds(x, size));
+        let [columns, rows] = self.nodes.map(|side| side as isize);
+        while let Some((node, size)) = queue.pop_front() {
+            if !(size < self.sizes[node].min(largest)) {
+                continue;
+            }
+            self.sizes[node] = size;
+            let (i, j) = (node as isize % columns, node as isize / columns);
+            for (di, dj) in [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)] {
+                let (i, j) = (i + di, j + dj);
+                if (0..columns).contains(&i) && (0..rows).contains(&j) {
+                    let step = self.growth * self.spacing * f64::from((di * di + dj * dj) as i32).sqrt();
+                    queue.push_back(((j * columns + i) as usize, size + step));
+                }
+            }
         }
     }
 
@@ -75,8 +103,8 @@ impl SizeField {
             + v * ((1.0 - u) * size(i, j + 1) + u * size(i + 1, j + 1))
     }
 
-    /// The sizes inside the region, each with the number of equilateral triangles of size 1 that cover its part of the region.
-    pub fn inside(&self, picture: &Picture) -> Vec<[f64; 2]> {
+    /// The nodes inside the region.
+    pub fn inside(&self, picture: &Picture) -> Vec<Inside> {
         let share = self.spacing * self.spacing / 255.0 * 4.0 / 3.0_f64.sqrt();
         let mut sizes = Vec::new();
         for j in 0..self.nodes[1] {
@@ -84,7 +112,8 @@ impl SizeField {
                 let place = self.place([i, j]);
                 let coverage = picture.at(place.x as isize, place.y as isize);
                 if coverage > 0 {
-                    sizes.push([self.sizes[j * self.nodes[0] + i], f64::from(coverage) * share]);
+                    let size = self.sizes[j * self.nodes[0] + i];
+                    sizes.push(Inside { density: 1.0 / (size * size), share: f64::from(coverage) * share });
                 }
             }
         }
@@ -105,7 +134,31 @@ impl SizeField {
     }
 }
 
-/// Number of equilateral triangles of the sizes inside a region, at most `largest`, that cover it.
-pub fn count(inside: &[[f64; 2]], largest: f64) -> f64 {
-    inside.iter().map(|&[size, share]| share / size.min(largest).powi(2)).sum()
+/// A node inside a region.
+#[derive(Clone, Copy, Debug)]
+pub struct Inside {
+    /// 1/size²; 0 where sizes have no bound.
+    density: f64,
+    /// Number of equilateral triangles of size 1 that cover the node's part of the region.
+    share: f64,
+}
+
+impl Inside {
+    /// Number of triangles where sizes are below 1/√density, and the sum of the other shares, which have that density.
+    pub fn sums(inside: &[Self], density: f64) -> (f64, f64) {
+        inside.iter().fold((0.0, 0.0), |(fixed, slope), node| {
+            let is_fixed = node.density > density;
+            (
+                fixed + if is_fixed { node.share * node.density } else { 0.0 },
+                slope + if is_fixed { 0.0 } else { node.share },
+            )
+        })
+    }
+
+    /// Number of equilateral triangles of the sizes inside a region, at most `largest`, that cover it.
+    pub fn count(inside: &[Self], largest: f64) -> f64 {
+        let density = 1.0 / (largest * largest);
+        let (fixed, slope) = Self::sums(inside, density);
+        fixed + density * slope
+    }
 }

@@ -24,7 +24,7 @@ pub struct Triangulation {
     pub constrained: Vec<u8>,
     /// A triangle of each vertex; [`OUTSIDE`] if it has no triangle.
     pub triangle_at: Vec<u32>,
-    /// Scratch of [`Self::make_delaunay`].
+    /// Scratch of insertions.
     stack: Vec<u32>,
 }
 
@@ -68,6 +68,16 @@ impl Triangulation {
             }
         }
         Ok(new)
+    }
+
+    /// Triangles whose neighbours are known; no edge is constrained.
+    pub fn of(points: Vec<Vector2<f64>>, triangles: Vec<[u32; 3]>, neighbours: Vec<[u32; 3]>) -> Self {
+        let mut triangle_at = vec![OUTSIDE; points.len()];
+        for (corners, triangle) in triangles.iter().zip(0..) {
+            corners.iter().for_each(|&vertex| triangle_at[vertex as usize] = triangle);
+        }
+        let constrained = vec![0; triangles.len()];
+        Self { points, triangles, neighbours, constrained, triangle_at, stack: Vec::new() }
     }
 
     /// The triangle that has a side in this direction, and the corner opposite it, among the chains of sides.
@@ -151,28 +161,30 @@ impl Triangulation {
     }
 
     /// Flips edges from these triangles on until all are Delaunay or kept: Lawson, Software for C1 Surface Interpolation (1977). Only flips
-    /// that `accepts` agrees to, with the triangle and the corner opposite the edge, are made.
-    pub fn make_delaunay(
-        &mut self,
-        from: impl Iterator<Item = u32>,
-        accepts: impl Fn(&Self, u32, usize) -> bool,
-    ) -> usize {
-        let mut stack = std::mem::take(&mut self.stack);
-        stack.extend(from);
-        let mut flips = 0;
+    /// that `accepts` agrees to, with the triangle and the corner opposite the edge, are made. Returns the triangles that were flipped, some more
+    /// than once.
+    pub fn make_delaunay(&mut self, from: Vec<u32>, accepts: impl Fn(&Self, u32, usize) -> bool) -> Vec<u32> {
+        let mut is_waiting = vec![false; self.triangles.len()];
+        let mut stack = from;
+        stack.retain(|&triangle| !std::mem::replace(&mut is_waiting[triangle as usize], true));
+        let mut flipped = Vec::new();
         while let Some(triangle) = stack.pop() {
+            is_waiting[triangle as usize] = false;
             let edge = (0..3).find(|&i| {
                 !self.is_kept(triangle, i) && self.violates_delaunay(triangle, i) && accepts(self, triangle, i)
             });
             if let Some(i) = edge {
                 let neighbour = self.neighbours[triangle as usize][i];
                 self.flip(triangle, i);
-                stack.extend([triangle, neighbour]);
-                flips += 1;
+                for changed in [triangle, neighbour] {
+                    flipped.push(changed);
+                    if !std::mem::replace(&mut is_waiting[changed as usize], true) {
+                        stack.push(changed);
+                    }
+                }
             }
         }
-        self.stack = stack;
-        flips
+        flipped
     }
 
     /// Positive if the vertices a, b and the point run counter-clockwise, by an exact sign.

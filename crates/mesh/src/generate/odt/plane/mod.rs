@@ -9,16 +9,20 @@
 //! in front of every triangle's share makes edges of length h optimal.
 
 mod polish;
+mod slide;
 
 use nalgebra::Vector2;
 
-use crate::generate::outline::{Curve, OnCurve, Outline};
+use crate::generate::outline::{OnCurve, Outline};
 use crate::generate::triangulation::Triangulation;
 
 /// Moves that are tried along a direction, each half as long as the one before.
-const HALVINGS: usize = 4;
+const HALVINGS: usize = 2;
 /// Moves shorter than this part of the wanted edge are not made.
 const STILL: f64 = 2e-3;
+
+/// Median of circumradius over shortest edge up to which a mesh is good apart from its worst triangles; equilateral ones have 0.577.
+const GOOD: f64 = 0.6;
 
 /// Measures of a mesh after an iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +45,12 @@ struct Smoothing<'a, S> {
     size: S,
     /// Wanted length of edges at each vertex, m.
     sizes: Vec<f64>,
+    /// Share of each triangle in the energy, and its squared circumradius over shortest edge.
+    shares: Vec<[f64; 2]>,
+    /// Triangles around the vertex that is being moved.
     star: Vec<(u32, usize)>,
+    /// Shares of the triangles around a vertex at the place that was tried last.
+    tried: Vec<[f64; 2]>,
     /// Squared circumradius over shortest edge that no triangle may exceed.
     worst: f64,
     /// Energy that the moves of this iteration have gained.
@@ -51,21 +60,23 @@ struct Smoothing<'a, S> {
 /// Relaxes a triangulation for up to `iterations`. Inner vertices move towards the average of the circumcentres around them, weighted by
 /// density times area; vertices of the boundary slide along the outline; edges are flipped where they are not Delaunay. A move
 /// is made only where it lowers the energy of the triangles around it and leaves none worse than the worst of the whole mesh was before. `size` is
-/// the wanted length of edges for a vertex at a place, m. Returns the measures at the start and after each iteration; fewer if no vertex moves any more.
+/// the wanted length of edges for a vertex at a place, m. Once the median of the triangles is good, only corners of those move whose circumradius over
+/// shortest edge is above `moved_above`; 0 stands for all. Returns the measures at the start and after each iteration; fewer if no vertex moves any more.
 pub fn relax(
     mesh: &mut Triangulation,
     outline: &mut Outline,
     size: impl Fn(u32, Vector2<f64>) -> f64,
     iterations: usize,
+    moved_above: f64,
 ) -> Vec<OdtStep> {
-    let sizes = (0..mesh.points.len() as u32).map(|vertex| size(vertex, mesh.points[vertex as usize])).collect();
-    let mut smoothing = Smoothing { mesh, outline, size, sizes, star: Vec::new(), worst: 0.0, gained: 0.0 };
+    let mut smoothing = Smoothing::new(mesh, outline, size);
     let mut steps = vec![smoothing.measure()];
     let mut is_active = vec![true; smoothing.mesh.points.len()];
     for iteration in 0..iterations {
-        smoothing.worst = steps[steps.len() - 1].worst_radius_to_edge.powi(2);
-        smoothing.gained = 0.0;
-        let moved = smoothing.iterate(&mut is_active);
+        let OdtStep { median_radius_to_edge: median, worst_radius_to_edge: worst, .. } = steps[steps.len() - 1];
+        (smoothing.worst, smoothing.gained) = (worst * worst, 0.0);
+        let moved_above = if median > GOOD { 0.0 } else { moved_above };
+        let moved = smoothing.iterate(&mut is_active, moved_above * moved_above);
         smoothing.polish(iteration);
         steps.push(smoothing.measure());
         if !moved {
@@ -84,46 +95,63 @@ fn energy_and_shape([a, b, c]: [Vector2<f64>; 3]) -> (f64, f64) {
     (twice_area / 24.0 * (uu + vv + ww), longer / (4.0 * twice_area * twice_area))
 }
 
-impl<S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'_, S> {
+impl<'a, S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'a, S> {
+    fn new(mesh: &'a mut Triangulation, outline: &'a mut Outline, size: S) -> Self {
+        let sizes = (0..).zip(&mesh.points).map(|(vertex, point)| size(vertex, *point)).collect();
+        let shares = vec![[0.0; 2]; mesh.triangles.len()];
+        let (star, tried) = (Vec::new(), Vec::new());
+        let mut new = Self { mesh, outline, size, sizes, shares, star, tried, worst: 0.0, gained: 0.0 };
+        (0..new.mesh.triangles.len() as u32).for_each(|triangle| new.judge(triangle));
+        new
+    }
+
     /// Density of a triangle: h⁻⁴, with h the mean of the lengths wanted at its corners.
     fn density(&self, [a, b, c]: [f64; 3]) -> f64 {
         let size = (a + b + c) / 3.0;
         1.0 / (size * size * size * size)
     }
 
+    fn judge(&mut self, triangle: u32) {
+        let (energy, shape) = energy_and_shape(self.mesh.corners(triangle));
+        let sizes = self.mesh.triangles[triangle as usize].map(|vertex| self.sizes[vertex as usize]);
+        self.shares[triangle as usize] = [self.density(sizes) * energy, shape];
+    }
+
     fn measure(&self) -> OdtStep {
-        let mut energy = 0.0;
-        let mut worst = 0.0_f64;
-        let mut shapes = Vec::with_capacity(self.mesh.triangles.len());
-        for triangle in 0..self.mesh.triangles.len() as u32 {
-            let (share, shape) = energy_and_shape(self.mesh.corners(triangle));
-            let sizes = self.mesh.triangles[triangle as usize].map(|vertex| self.sizes[vertex as usize]);
-            energy += self.density(sizes) * share;
-            worst = worst.max(shape);
-            shapes.push(shape);
-        }
+        let energy = self.shares.iter().map(|[energy, _]| energy).sum();
+        let mut shapes: Vec<f64> = self.shares.iter().map(|[_, shape]| *shape).collect();
         let rank = |share: f64| ((share * shapes.len() as f64).ceil() as usize).saturating_sub(1);
         let (middle, most) = (rank(0.5), rank(0.99));
+        let (below, radius_to_edge_99, above) = shapes.select_nth_unstable_by(most, f64::total_cmp);
+        let worst = above.iter().fold(*radius_to_edge_99, |worst, shape| worst.max(*shape)).sqrt();
+        let radius_to_edge_99 = radius_to_edge_99.sqrt();
         // The median is among those up to the other rank.
-        let radius_to_edge_99 = *shapes.select_nth_unstable_by(most, f64::total_cmp).1;
-        let median = *shapes[..=most].select_nth_unstable_by(middle, f64::total_cmp).1;
-        let worst = worst.sqrt();
+        let median = if middle < most {
+            below.select_nth_unstable_by(middle, f64::total_cmp).1.sqrt()
+        } else {
+            radius_to_edge_99
+        };
         OdtStep {
             energy,
             smallest_angle: (0.5 / worst).min(1.0).asin().to_degrees(),
-            median_radius_to_edge: median.sqrt(),
-            radius_to_edge_99: radius_to_edge_99.sqrt(),
+            median_radius_to_edge: median,
+            radius_to_edge_99,
             worst_radius_to_edge: worst,
         }
     }
 
-    /// Moves the active vertices and flips edges; vertices are active next time if they or a neighbour moved. Returns whether one moved.
-    fn iterate(&mut self, is_active: &mut [bool]) -> bool {
-        let mut is_touched = vec![false; self.mesh.triangles.len()];
-        let mut any = false;
-        let active = is_active.to_vec();
+    /// Moves active vertices and flips edges; vertices are active next time if they or a neighbour moved. Only corners of triangles with a squared
+    /// circumradius over shortest edge above `moved_above` move. Returns whether one did.
+    fn iterate(&mut self, is_active: &mut [bool], moved_above: f64) -> bool {
+        let mut is_movable = vec![false; is_active.len()];
+        for (corners, [_, shape]) in self.mesh.triangles.iter().zip(&self.shares) {
+            if *shape > moved_above {
+                corners.iter().for_each(|&vertex| is_movable[vertex as usize] = is_active[vertex as usize]);
+            }
+        }
         is_active.fill(false);
-        for vertex in (0..self.mesh.points.len() as u32).filter(|vertex| active[*vertex as usize]) {
+        let mut moved = Vec::new();
+        for vertex in (0..is_movable.len() as u32).filter(|vertex| is_movable[*vertex as usize]) {
             let mut star = std::mem::take(&mut self.star);
             let is_closed = self.mesh.star(vertex, &mut star);
             let has_moved = match self.outline.place(vertex) {
@@ -132,35 +160,53 @@ impl<S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'_, S> {
                 Some(place) => !place.is_fixed && !is_closed && self.slide(vertex, place, &star),
             };
             if has_moved {
-                any = true;
                 for &(triangle, _) in &star {
-                    is_touched[triangle as usize] = true;
+                    moved.push(triangle);
                     self.mesh.triangles[triangle as usize].iter().for_each(|&near| is_active[near as usize] = true);
                 }
             }
             self.star = star;
         }
-        let sizes = &self.sizes;
-        let worst = self.worst;
-        let touched = (0..is_touched.len() as u32).filter(|&triangle| is_touched[triangle as usize]);
-        self.mesh.make_delaunay(touched, |mesh, triangle, i| flip_lowers_energy(mesh, sizes, worst, triangle, i));
+        let any = !moved.is_empty();
+        let (sizes, worst) = (&self.sizes, self.worst);
+        let flipped =
+            self.mesh.make_delaunay(moved, |mesh, triangle, i| flip_lowers_energy(mesh, sizes, worst, triangle, i));
+        flipped.into_iter().for_each(|triangle| self.judge(triangle));
         any
     }
 
-    /// Energy of the triangles around a vertex as if it were elsewhere, with the largest squared ratio; none if one is turned over.
-    fn energy_at(&self, star: &[(u32, usize)], place: Vector2<f64>, size: f64) -> Option<(f64, f64)> {
-        let (mut energy, mut worst) = (0.0, 0.0_f64);
+    /// Energy of the triangles around a vertex, and their largest squared circumradius over shortest edge.
+    fn energy_around(&self, star: &[(u32, usize)]) -> (f64, f64) {
+        let shares = star.iter().map(|(triangle, _)| self.shares[*triangle as usize]);
+        shares.fold((0.0, 0.0), |(sum, worst), [energy, shape]| (sum + energy, shape.max(worst)))
+    }
+
+    /// The same as if the vertex were elsewhere; none if a triangle is turned over.
+    fn energy_at(&mut self, star: &[(u32, usize)], place: Vector2<f64>, size: f64) -> Option<(f64, f64)> {
+        self.tried.clear();
+        let (mut sum, mut worst) = (0.0, 0.0_f64);
         for &(triangle, i) in star {
             let [_, q, r] = [0, 1, 2].map(|k| self.mesh.triangles[triangle as usize][(i + k) % 3]);
             let (a, b) = (self.mesh.points[q as usize], self.mesh.points[r as usize]);
             if !((a - place).perp(&(b - place)) > 0.0) {
                 return None;
             }
-            let (share, shape) = energy_and_shape([place, a, b]);
-            energy += self.density([size, self.sizes[q as usize], self.sizes[r as usize]]) * share;
+            let (energy, shape) = energy_and_shape([place, a, b]);
+            let energy = self.density([size, self.sizes[q as usize], self.sizes[r as usize]]) * energy;
+            self.tried.push([energy, shape]);
+            sum += energy;
             worst = worst.max(shape);
         }
-        Some((energy, worst))
+        Some((sum, worst))
+    }
+
+    /// Moves a vertex to the place that was tried last.
+    fn move_to(&mut self, vertex: u32, star: &[(u32, usize)], place: Vector2<f64>, size: f64) {
+        self.mesh.points[vertex as usize] = place;
+        self.sizes[vertex as usize] = size;
+        for (&(triangle, _), tried) in star.iter().zip(&self.tried) {
+            self.shares[triangle as usize] = *tried;
+        }
     }
 
     /// The average of the circumcentres around a vertex, weighted by density times area. Its difference to the vertex is the negative gradient of
@@ -186,49 +232,6 @@ impl<S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'_, S> {
         self.try_moves(vertex, star, |share| Some((from.lerp(&target, share), None)), (target - from).norm())
     }
 
-    /// Moves a vertex of the boundary along its curve, by the move towards the circumcentres' average as far as it goes along the curve.
-    fn slide(&mut self, vertex: u32, place: OnCurve, star: &[(u32, usize)]) -> bool {
-        let (first, last) = (star[0], star[star.len() - 1]);
-        let after = self.mesh.triangles[first.0 as usize][(first.1 + 1) % 3];
-        let before = self.mesh.triangles[last.0 as usize][(last.1 + 2) % 3];
-        let (Some(before), Some(after)) = (self.outline.place(before), self.outline.place(after)) else { return false };
-        let curves = std::mem::take(&mut self.outline.curves);
-        let has_moved = self.slide_on(&curves[place.curve], vertex, place, [before, after], star);
-        self.outline.curves = curves;
-        has_moved
-    }
-
-    /// Slides a vertex on its curve, between its two neighbours there.
-    fn slide_on(
-        &mut self,
-        curve: &Curve,
-        vertex: u32,
-        place: OnCurve,
-        [before, after]: [OnCurve; 2],
-        star: &[(u32, usize)],
-    ) -> bool {
-        let ahead = |s: f64| (s - place.s).rem_euclid(curve.length());
-        let (to_after, to_before) = (ahead(after.s), curve.length() - ahead(before.s));
-        let from = self.mesh.points[vertex as usize];
-        let along = (curve.at(place.s + 0.25 * to_after) - curve.at(place.s - 0.25 * to_before)).try_normalize(0.0);
-        let Some(along) = along else { return false };
-        let wanted = (self.average_of_circumcentres(vertex, star) - from).dot(&along);
-        let wanted = wanted.clamp(-0.5 * to_before, 0.5 * to_after);
-        if !(wanted.abs() > STILL * self.sizes[vertex as usize]) {
-            return false;
-        }
-        let (start, end) = (place.s - to_before, place.s + to_after);
-        let turn = if start < 0.0 { curve.length() } else { 0.0 };
-        let deviation = |s: f64| curve.deviation(start + turn, s + turn).max(curve.deviation(s + turn, end + turn));
-        let allowed = self.outline.tolerance.max(deviation(place.s));
-        let nth = |share: f64| {
-            let s = place.s + wanted * share;
-            let on_curve = OnCurve { s: s.rem_euclid(curve.length()), ..place };
-            (deviation(s) <= allowed).then(|| (curve.at(s), Some(on_curve)))
-        };
-        self.try_moves(vertex, star, nth, wanted.abs())
-    }
-
     /// Makes the first of the moves by 1, 1/2, 1/4 … of a step that lowers the energy and leaves no triangle worse than the worst.
     fn try_moves(
         &mut self,
@@ -237,13 +240,10 @@ impl<S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'_, S> {
         place: impl Fn(f64) -> Option<(Vector2<f64>, Option<OnCurve>)>,
         length: f64,
     ) -> bool {
-        let size = self.sizes[vertex as usize];
-        if !(length > STILL * size) {
+        if !(length > STILL * self.sizes[vertex as usize]) {
             return false;
         }
-        let Some((old, shape)) = self.energy_at(star, self.mesh.points[vertex as usize], size) else {
-            return false;
-        };
+        let (old, shape) = self.energy_around(star);
         for halving in 0..HALVINGS {
             let Some((point, on_curve)) = place(0.5_f64.powi(halving as i32)) else { continue };
             let size = (self.size)(vertex, point);
@@ -252,8 +252,7 @@ impl<S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'_, S> {
                 && worst <= self.worst.min(shape.max(ACCEPTED))
             {
                 self.gained += old - energy;
-                self.mesh.points[vertex as usize] = point;
-                self.sizes[vertex as usize] = size;
+                self.move_to(vertex, star, point, size);
                 if let Some(on_curve) = on_curve {
                     self.outline.set(vertex, on_curve);
                 }

@@ -1,0 +1,275 @@
+//! A lattice of equilateral triangles, and its triangulation within a region.
+//!
+//! Row r of the lattice lies at (r + ½) √3/2 h, and its sites at (c + ¼) h in even rows, (c + ¾) h in odd ones. The triangles between two rows are numbered by
+//! the row below and their first column; each stands on the row below, or hangs from the row above:
+//!
+//! | | standing | hanging |
+//! |---|---|---|
+//! | even r | (r, c), (r, c+1), (r+1, c) | (r, c+1), (r+1, c+1), (r+1, c) |
+//! | odd r | (r, c), (r, c+1), (r+1, c+1) | (r, c), (r+1, c+1), (r+1, c) |
+//!
+//! Sites keep away from the boundary by a whole h, and the circumradius is 0.577 h. So no point of the boundary lies in the circumscribed circle of a
+//! triangle of the lattice, all of them are Delaunay, and only what is between the lattice and the boundary has to be triangulated.
+
+use std::collections::HashMap;
+
+use nalgebra::Vector2;
+
+use crate::generate::delaunay::triangulate_with;
+use crate::generate::triangulation::{OUTSIDE, Triangulation, edge_opposite};
+
+/// Triangles around a site inside the lattice.
+const AROUND: u8 = 6;
+
+/// A triangle of the lattice: row below, first column, and whether it hangs.
+type Cell = (usize, usize, bool);
+
+/// Sites of a lattice, and its triangles.
+pub struct Lattice {
+    /// Distance of neighbouring sites.
+    spacing: f64,
+    /// Sites in a row.
+    columns: usize,
+    is_site: Vec<bool>,
+    /// Number of each triangle, two for a site; [`OUTSIDE`] if a corner is no site.
+    numbers: Vec<u32>,
+    triangles: Vec<Cell>,
+}
+
+impl Lattice {
+    /// The lattice over a rectangle, with sites where the condition holds.
+    pub fn new([width, height]: [f64; 2], spacing: f64, is_site: impl Fn(Vector2<f64>) -> bool) -> Self {
+        let [columns, rows] = [width / spacing, height / (row_height() * spacing)].map(|count| count as usize);
+        let is_site =
+            (0..rows * columns).map(|site| is_site(place(site / columns, site % columns) * spacing)).collect();
+        let numbers = vec![OUTSIDE; 2 * rows * columns];
+        let mut new = Self { spacing, columns, is_site, numbers, triangles: Vec::new() };
+        for row in 0..rows.saturating_sub(1) {
+            for column in 0..columns.saturating_sub(1) {
+                for hangs in [false, true] {
+                    let cell = (row, column, hangs);
+                    if new.corners(cell).iter().all(|&site| new.is_site[site]) {
+                        let index = new.index(cell);
+                        new.numbers[index] = new.triangles.len() as u32;
+                        new.triangles.push(cell);
+                    }
+                }
+            }
+        }
+        new
+    }
+
+    fn index(&self, (row, column, hangs): Cell) -> usize {
+        2 * (row * self.columns + column) + usize::from(hangs)
+    }
+
+    /// The sites of a triangle, counter-clockwise.
+    fn corners(&self, (row, column, hangs): Cell) -> [usize; 3] {
+        let site = |up: usize, right: usize| (row + up) * self.columns + column + right;
+        match (row % 2 == 0, hangs) {
+            (true, false) => [site(0, 0), site(0, 1), site(1, 0)],
+            (true, true) => [site(0, 1), site(1, 1), site(1, 0)],
+            (false, false) => [site(0, 0), site(0, 1), site(1, 1)],
+            (false, true) => [site(0, 0), site(1, 1), site(1, 0)],
+        }
+    }
+
+    /// Numbers of the triangles beside one, across the side opposite each corner.
+    fn neighbours(&self, (row, column, hangs): Cell) -> [u32; 3] {
+        let number = |row: usize, column: usize, hangs: bool| {
+            // One before the first is beyond the largest.
+            let exists = row < self.is_site.len() / self.columns && column < self.columns;
+            if exists { self.numbers[self.index((row, column, hangs))] } else { OUTSIDE }
+        };
+        let (below, left) = (row.wrapping_sub(1), column.wrapping_sub(1));
+        match (row % 2 == 0, hangs) {
+            (true, false) => [number(row, column, true), number(row, left, true), number(below, column, true)],
+            (true, true) => {
+                [number(row + 1, column, false), number(row, column, false), number(row, column + 1, false)]
+            }
+            (false, false) => [number(row, column + 1, true), number(row, column, true), number(below, column, true)],
+            (false, true) => [number(row + 1, column, false), number(row, left, false), number(row, column, false)],
+        }
+    }
+
+    /// Whether a point lies in a triangle of the lattice.
+    fn covers(&self, x: Vector2<f64>) -> bool {
+        let up = x.y / (row_height() * self.spacing) - 0.5;
+        if !(up >= 0.0) {
+            return false;
+        }
+        let row = up as usize;
+        let along = x.x / self.spacing - shift(row) - 0.5 * up.fract();
+        let hangs = along.rem_euclid(1.0) > 1.0 - up.fract();
+        let column = along.floor() + f64::from(u8::from(hangs && row % 2 == 1));
+        let is_within = column >= 0.0 && (column as usize) < self.columns;
+        is_within
+            && self.numbers.get(self.index((row, column as usize, hangs))).is_some_and(|&number| number != OUTSIDE)
+    }
+
+    /// The Delaunay triangulation of the region inside polygons and of the sites, which lie in it, a whole spacing from the polygons. Vertices
+    /// are those of the polygons, one after the other, and then the sites. Returns nothing if polygons cross or touch.
+    pub fn triangulate(&self, polygons: &[Vec<Vector2<f64>>]) -> Option<Triangulation> {
+        let mut around = vec![0; self.is_site.len()];
+        for &cell in &self.triangles {
+            self.corners(cell).iter().for_each(|&site| around[site] += 1);
+        }
+        let first = polygons.iter().map(Vec::len).sum::<usize>();
+        // Sites within the lattice follow those of its rim.
+        let rows = self.is_site.len() / self.columns.max(1);
+        let in_rows = (0..rows).flat_map(|row| (0..self.columns).map(move |column| (row, column)));
+        // Rows run forth and back, so that each point is near the one before.
+        let forth_and_back = in_rows
+            .map(|(row, column)| row * self.columns + if row % 2 == 0 { column } else { self.columns - 1 - column });
+        let (inner, rim): (Vec<usize>, Vec<usize>) =
+            forth_and_back.filter(|&site| self.is_site[site]).partition(|&site| around[site] == AROUND);
+        let at = |&site: &usize| place(site / self.columns, site % self.columns) * self.spacing;
+        let points: Vec<_> = rim.iter().map(at).collect();
+        let mut band = triangulate_with(polygons, &points).ok()?;
+        band.points.extend(inner.iter().map(at));
+        let mut vertices = vec![OUTSIDE; self.is_site.len()];
+        rim.iter().chain(&inner).zip(first as u32..).for_each(|(&site, vertex)| vertices[site] = vertex);
+        self.join(band, first as u32, &vertices).or_else(|| {
+            let points: Vec<_> = rim.iter().chain(&inner).map(at).collect();
+            triangulate_with(polygons, &points).ok()
+        })
+    }
+
+    /// Replaces the triangles of a triangulation of the boundary and the rim that lie within the lattice by those of the lattice. Returns nothing
+    /// if they do not fit together.
+    fn join(&self, band: Triangulation, first: u32, vertices: &[u32]) -> Option<Triangulation> {
+        let is_covered = |triangle: usize| {
+            let corners = band.triangles[triangle].map(|vertex| band.points[vertex as usize]);
+            band.triangles[triangle].iter().all(|&vertex| vertex >= first)
+                && self.covers((corners[0] + corners[1] + corners[2]) / 3.0)
+        };
+        let own = self.triangles.len() as u32;
+        let mut numbers = vec![OUTSIDE; band.triangles.len()];
+        let kept: Vec<usize> = (0..band.triangles.len()).filter(|&triangle| !is_covered(triangle)).collect();
+        kept.iter().zip(own..).for_each(|(&triangle, number)| numbers[triangle] = number);
+
+        let mut triangles: Vec<_> =
+            self.triangles.iter().map(|&cell| self.corners(cell).map(|site| vertices[site])).collect();
+        let mut neighbours: Vec<_> = self.triangles.iter().map(|&cell| self.neighbours(cell)).collect();
+        let mut sides = HashMap::new();
+        for (triangle, corners) in triangles.iter().enumerate() {
+            for i in (0..3).filter(|&i| neighbours[triangle][i] == OUTSIDE) {
+                sides.insert(edge_opposite(*corners, i), (triangle, i));
+            }
+        }
+        for (&triangle, number) in kept.iter().zip(own..) {
+            let corners = band.triangles[triangle];
+            let mut beside = [OUTSIDE; 3];
+            for (i, &neighbour) in band.neighbours[triangle].iter().enumerate() {
+                if neighbour != OUTSIDE {
+                    beside[i] = numbers[neighbour as usize];
+                    if beside[i] == OUTSIDE {
+                        let [from, to] = edge_opposite(corners, i);
+                        let (across, j) = sides.remove(&[to, from])?;
+                        neighbours[across][j] = number;
+                        beside[i] = across as u32;
+                    }
+                }
+            }
+            triangles.push(corners);
+            neighbours.push(beside);
+        }
+        sides.is_empty().then(|| Triangulation::of(band.points, triangles, neighbours))
+    }
+}
+
+/// Distance of the rows over that of the sites.
+fn row_height() -> f64 {
+    0.75_f64.sqrt()
+}
+
+/// Place of the first site of a row, over the distance of the sites.
+fn shift(row: usize) -> f64 {
+    if row.is_multiple_of(2) { 0.25 } else { 0.75 }
+}
+
+/// Place of a site in a lattice of spacing 1.
+fn place(row: usize, column: usize) -> Vector2<f64> {
+    Vector2::new(column as f64 + shift(row), (row as f64 + 0.5) * row_height())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(size: f64) -> Vec<Vector2<f64>> {
+        let count = size as usize;
+        let side = |from: [f64; 2], along: [f64; 2]| {
+            (0..count).map(move |i| Vector2::from(from) + i as f64 * Vector2::from(along)).collect::<Vec<_>>()
+        };
+        [
+            side([0.0, 0.0], [1.0, 0.0]),
+            side([size, 0.0], [0.0, 1.0]),
+            side([size, size], [-1.0, 0.0]),
+            side([0.0, size], [0.0, -1.0]),
+        ]
+        .concat()
+    }
+
+    /// Sites of a lattice of spacing 1 in a square of 20, with a hole of sites so that the lattice has two rims, and single sites.
+    fn lattice() -> Lattice {
+        Lattice::new([20.0; 2], 1.0, |x| {
+            let distance = x.x.min(x.y).min(20.0 - x.x).min(20.0 - x.y);
+            let from_hole = (x - Vector2::new(8.0, 11.0)).norm();
+            distance >= 1.0 && !(0.6..=3.0).contains(&from_hole)
+        })
+    }
+
+    #[test]
+    fn the_triangulation_is_delaunay_and_fills_the_region_with_the_triangles_of_the_lattice() {
+        let lattice = lattice();
+        let mesh = lattice.triangulate(&[square(20.0)]).expect("the square does not cross itself");
+        let sites = lattice.is_site.iter().filter(|is_site| **is_site).count();
+        assert_eq!(mesh.points.len(), 80 + sites);
+        assert_eq!(mesh.triangles.len(), 2 * (80 + sites) - 80 - 2, "Euler's formula");
+        let area: f64 = (0..mesh.triangles.len() as u32)
+            .map(|triangle| {
+                let [a, b, c] = mesh.corners(triangle);
+                assert!((b - a).perp(&(c - a)) > 0.0, "triangle {triangle} is turned over");
+                0.5 * (b - a).perp(&(c - a))
+            })
+            .sum();
+        assert!((area - 400.0).abs() < 1e-9, "{area}");
+        for triangle in 0..mesh.triangles.len() as u32 {
+            for i in 0..3 {
+                let neighbour = mesh.neighbours[triangle as usize][i];
+                if neighbour != OUTSIDE {
+                    assert!(mesh.neighbours[neighbour as usize].contains(&triangle), "{triangle} and {neighbour}");
+                    assert!(!mesh.violates_delaunay(triangle, i), "triangle {triangle}, side {i}");
+                }
+            }
+        }
+        assert_eq!(mesh.triangles[..lattice.triangles.len()].len(), lattice.triangles.len());
+        assert!(lattice.triangles.len() > 300, "{}", lattice.triangles.len());
+    }
+
+    #[test]
+    fn it_is_the_one_that_spade_makes_of_all_points() {
+        let lattice = lattice();
+        let ours = lattice.triangulate(&[square(20.0)]).expect("the square does not cross itself");
+        let theirs = triangulate_with(&[square(20.0)], &ours.points[80..]).expect("the square does not cross itself");
+        let sorted = |mesh: &Triangulation| {
+            let turned = |corners: &[u32; 3]| {
+                let least = (0..3).min_by_key(|&i| corners[i]).unwrap_or(0);
+                [0, 1, 2].map(|k| corners[(least + k) % 3])
+            };
+            let mut triangles: Vec<_> = mesh.triangles.iter().map(turned).collect();
+            triangles.sort_unstable();
+            triangles
+        };
+        assert_eq!(sorted(&ours), sorted(&theirs));
+    }
+
+    #[test]
+    fn a_lattice_without_sites_leaves_the_region_to_its_boundary() {
+        let lattice = Lattice::new([20.0; 2], 1.0, |_| false);
+        let mesh = lattice.triangulate(&[square(4.0)]).expect("the square does not cross itself");
+        assert_eq!((mesh.points.len(), mesh.triangles.len()), (16, 14));
+        assert!(Lattice::new([0.5; 2], 1.0, |_| true).triangulate(&[square(4.0)]).is_some());
+    }
+}
