@@ -117,6 +117,8 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         ("body_force", scene.body_force.is_some()),
         ("traction", !scene.traction.is_empty()),
         ("springs", !scene.springs.is_empty()),
+        ("planes", !scene.planes.is_empty()),
+        ("contact", scene.contact.is_some()),
         ("prescribed", !scene.prescribed.is_empty()),
         ("initial_velocity", !scene.initial_velocity.is_empty()),
     ];

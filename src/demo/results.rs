@@ -6,7 +6,7 @@ use fem_mesh::write::Frame;
 use fem_scene::Scene;
 use fem_scene::output::{self, EXPORTS, Stats};
 use fem_scene::simulate::{Run, quantile};
-use fem_scene::simulation::{Energies, Reaction, Simulation};
+use fem_scene::simulation::{Energies, PlaneContact, Reaction, Simulation};
 
 use nalgebra::Vector3;
 
@@ -173,5 +173,8 @@ fn print_summary(simulation: &dyn Simulation, run: &Run) {
     );
     for Reaction { name, force: [x, y, z] } in simulation.reactions() {
         say!("reaction force of {name}: ({x:.4e}, {y:.4e}, {z:.4e}) N");
+    }
+    for PlaneContact { name, force: [x, y, z], smallest_gap } in simulation.contacts() {
+        say!("force of {name}: ({x:.4e}, {y:.4e}, {z:.4e}) N, smallest gap {smallest_gap:.3e} m");
     }
 }

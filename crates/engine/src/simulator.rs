@@ -1,6 +1,7 @@
 //! The engine's simulation of one scene: a [`System`] and its [`State`], advanced by an integrator, as a [`Simulation`].
 
 mod checkpoint;
+mod contact;
 mod divergence;
 mod integrator;
 mod parts;
@@ -26,6 +27,7 @@ use crate::refusal::Refusal;
 use crate::skinning::Skinning;
 use crate::solvers::SolverChoice;
 
+use contact::Contacts;
 use divergence::SuppliedEnergy;
 use plan::Plan;
 
@@ -43,6 +45,7 @@ pub struct Simulator<T: Real> {
     last_good: State<T>,
     /// The energy that the kinetic energy of a method that can diverge is compared with.
     supplied: SuppliedEnergy<T>,
+    contact: Option<Contacts<T>>,
     integrator: Box<dyn Integrator<T>>,
     kind: IntegratorKind,
     solver: SolverChoice,
@@ -77,7 +80,7 @@ pub fn planned_parts(scene: &Scene, body: &Body) -> Result<Vec<Part>, SceneError
     let nodes = body.shape.mesh.vertices().len();
     let numbering = Numbering::of_mesh(nodes);
     let forces: Vec<_> = forces::kinds::<f64>().into_iter().filter_map(|kind| (kind.build)(body, &numbering)).collect();
-    let is_linear = is_law_linear && forces.iter().all(|force| force.is_conservative() && !force.is_internal());
+    let is_linear = is_law_linear && forces.iter().all(|force| force.is_quadratic());
     let mut plan = Plan::new(body);
     plan.add_forces(forces.iter().map(|force| &**force));
     Ok(plan.parts(method.integrator, &method, integrator::solver_choice(&method, nodes), is_linear))
@@ -116,14 +119,17 @@ impl<T: Real> Simulator<T> {
         let solver = integrator::solver_choice(&method, body.shape.mesh.vertices().len());
         let velocities = body.initial_velocity.clone();
         let mut plan = Plan::new(&body);
-        let system = System::with_forces(body, law, solver, own);
+        let with_obstacles = body.contact.is_some().then(|| body.clone());
+        let mut system = System::with_forces(body, law, solver, own);
         range_check::check(&method, &system).map_err(|(field, problem)| scene.refuse(field, &problem))?;
         plan.add_forces(system.forces.all().map(|(force, _)| force).filter(|force| force.name() != anchors::NAME));
+        let contact = Contacts::new(with_obstacles.as_ref(), &mut system);
         let initial_velocity = initial_velocity(&velocities, &system);
         let state = State::at_start(system.nodes(), &initial_velocity);
         Ok(Self {
             integrator: integrator::build(method.integrator, &method, &system, solver),
             supplied: SuppliedEnergy::default(),
+            contact,
             kind: method.integrator,
             solver,
             dt: method.dt,
@@ -170,6 +176,9 @@ impl<T: Real> Simulator<T> {
     fn forget(&mut self) {
         self.integrator.forget();
         self.supplied.forget();
+        if let Some(contact) = &mut self.contact {
+            contact.forget(&mut self.system);
+        }
     }
 
     /// Lets the Dirichlet conditions apply that apply in a step from this time, s. Returns whether these are others than before.

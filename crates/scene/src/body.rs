@@ -10,8 +10,8 @@ use crate::picture;
 use crate::simulation::Shape;
 use crate::tables::{MeshTable, SurfaceTable};
 use crate::values::{
-    DirichletCondition, Drag, MaterialRegion, Pressure, RayleighDamping, Spring, Traction, curve, damping,
-    density_factors, dirichlet_conditions, drag, initial_velocity, regions, springs, surface_loads,
+    Contact, DirichletCondition, Drag, MaterialRegion, Pressure, RayleighDamping, Spring, Traction, contact, curve,
+    damping, density_factors, dirichlet_conditions, drag, initial_velocity, regions, springs, surface_loads,
 };
 use crate::{BodyMesh, LoadCurve, Material, Scene, SceneError};
 use fem_mesh::generate::odt::improve_inside;
@@ -35,7 +35,7 @@ pub struct Body {
     /// Parts of the body with materials of their own. No element belongs to two of them.
     pub regions: Vec<MaterialRegion>,
     /// Whether the mass matrix is lumped instead of consistent: as the scene says, else for an explicit method and a mesh of more than
-    /// [`CONSISTENT_MASS`] nodes.
+    /// [`CONSISTENT_MASS`] nodes or with obstacles.
     pub lumped_mass: bool,
     /// Factor on the moduli of each element; empty for a uniform body. Scene files have no key for it.
     pub stiffness_factors: Vec<f64>,
@@ -59,6 +59,8 @@ pub struct Body {
     pub pressures: Vec<Pressure>,
     /// Springs between nodes.
     pub springs: Vec<Spring>,
+    /// Obstacles.
+    pub contact: Option<Contact>,
     /// The scripted drag.
     pub drag: Option<Drag>,
     /// Rayleigh damping; `None` if both coefficients are zero.
@@ -106,6 +108,7 @@ pub fn body_of(scene: &Scene, mesh: impl Into<BodyMesh>, data: &Path) -> Result<
         tractions,
         pressures,
         springs: springs(scene, &mesh)?,
+        contact: contact(scene, &mesh)?,
         drag: drag(scene, &mesh)?,
         damping: damping(scene),
         shape: Shape { mesh, boundary, display },
@@ -113,7 +116,7 @@ pub fn body_of(scene: &Scene, mesh: impl Into<BodyMesh>, data: &Path) -> Result<
 }
 
 fn lumps_by_default(scene: &Scene, nodes: usize) -> bool {
-    scene.time.integrator.is_explicit() && nodes > CONSISTENT_MASS
+    scene.time.integrator.is_explicit() && (nodes > CONSISTENT_MASS || !scene.planes.is_empty())
 }
 
 /// Scales, checks and refines the mesh.

@@ -28,6 +28,13 @@ impl BodyMesh {
         }
     }
 
+    /// Longest edge of the undeformed body's bounding box, m.
+    pub fn length(&self) -> f64 {
+        let x = self.vertices();
+        let (least, most) = x.iter().fold((x[0], x[0]), |(least, most), x| (least.inf(x), most.sup(x)));
+        (most - least).max()
+    }
+
     /// Number of elements.
     pub fn elements(&self) -> usize {
         match self {

@@ -57,6 +57,15 @@ impl Integrator {
         !self.is_explicit() && self != Self::LinearlyImplicitEuler
     }
 
+    /// Whether a step can keep a body outside an obstacle.
+    pub fn supports_contact(self) -> bool {
+        match self {
+            Self::ExplicitEuler | Self::SemiImplicitEuler | Self::Rk2 | Self::Rk4 | Self::Verlet => true,
+            Self::ImplicitEuler | Self::Static => true,
+            Self::LinearlyImplicitEuler => false,
+        }
+    }
+
     /// The method that follows this one in a list, the first after the last.
     pub fn next_in(self, list: &[Self]) -> Self {
         let place = list.iter().position(|&integrator| integrator == self);

@@ -68,8 +68,8 @@ pub use overrides::Override;
 pub use tables::{Axis, MODELS, Material, Pipeline, Precision, Preconditioner, Projection, Scene, SolverKind};
 pub use timer::Timer;
 pub use values::{
-    DirichletCondition, Drag, MaterialRegion, Method, Motion, NewtonSettings, Pressure, RayleighDamping, Rotation,
-    SolverSettings, Spring, Traction, highest_node,
+    Contact, ContactPlane, ContactTreatment, DirichletCondition, Drag, MaterialRegion, Method, Motion, NewtonSettings,
+    Pressure, RayleighDamping, Rotation, SolverSettings, Spring, Traction, highest_node,
 };
 pub use warnings::warnings;
 

@@ -121,6 +121,22 @@ pub trait Simulation: Send {
         Vec::new()
     }
 
+    /// The forces of `[[planes]]` now; empty without obstacles.
+    fn contacts(&self) -> Vec<PlaneContact> {
+        Vec::new()
+    }
+
+    /// `(3n)` force of the obstacles on each node in the last step, N; `None` without obstacles.
+    fn contact_forces(&self) -> Option<DVector<f64>> {
+        None
+    }
+
+    /// The largest relative change that the normal forces of friction, which a step keeps fixed, were left with; `None` for a method
+    /// without such forces.
+    fn lag_residual(&self) -> Option<f64> {
+        None
+    }
+
     /// `(3n)` sum of all forces on each node now, N: elastic, external and damping forces, and those of springs. It is M a at a
     /// free node, zero in equilibrium, and M a less the reaction at a constrained one. `None` for a pipeline that does not compute it.
     fn nodal_forces(&self) -> Option<DVector<f64>> {
@@ -179,6 +195,17 @@ pub struct Reaction {
     pub name: String,
     /// Sum over the nodes of the force on the body, in the constrained directions, N.
     pub force: [f64; 3],
+}
+
+/// The force of an obstacle on the body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlaneContact {
+    /// The scene's table, such as `planes[0]`.
+    pub name: String,
+    /// Sum over the nodes in the last step, friction included, N; the mean over the step for an explicit method.
+    pub force: [f64; 3],
+    /// Distance of the nearest node, m.
+    pub smallest_gap: f64,
 }
 
 /// A click into a picture of the simulation mesh, in OpenGL's conventions.

@@ -92,6 +92,14 @@ impl DirichletConditions {
         self.applying().all(|condition| condition.nodes.is_empty())
     }
 
+    /// The directions in which a node is constrained now.
+    pub fn constrained(&self, node: usize) -> [bool; 3] {
+        match self.partly.binary_search_by_key(&node, |(partly, _)| *partly) {
+            Ok(place) => self.partly[place].1,
+            Err(_) => [node >= self.free; 3],
+        }
+    }
+
     /// Whether every node is constrained in a direction.
     pub fn is_constrained_everywhere(&self, direction: usize) -> bool {
         self.everywhere[direction]

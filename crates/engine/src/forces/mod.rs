@@ -1,6 +1,7 @@
 //! Forces on the body beside its own elasticity: the trait [`Potential`], and one file for each force.
 
 pub mod anchors;
+pub mod contact;
 pub mod dead_load;
 pub mod pressure;
 pub mod springs;
@@ -51,8 +52,34 @@ pub trait Potential<T: Real>: Send + Sync {
         Vec::new()
     }
 
-    /// Called once before each step, with the displacements at its start.
-    fn begin_step(&mut self, _u: &[[T; 3]], _moment: Moment) {}
+    /// Whether its energy is at most quadratic in the displacements, so that one linear solve finds equilibrium.
+    fn is_quadratic(&self) -> bool {
+        self.is_conservative() && !self.is_internal()
+    }
+
+    /// Whether its energy is a potential of one step alone, whose gradient is a friction force: no energy of the body contains it.
+    fn is_dissipative(&self) -> bool {
+        false
+    }
+
+    /// Called once before each step of `dt` seconds, with the displacements at its start.
+    fn begin_step(&mut self, _u: &[[T; 3]], _start: Moment, _dt: f64) {}
+
+    /// Whether it keeps something fixed in a step that depends on the displacements at its end: then the step is repeated until
+    /// [`update_lag`](Self::update_lag) no longer changes it.
+    fn has_lag(&self) -> bool {
+        false
+    }
+
+    /// Evaluates again what it keeps fixed in a step, at the displacements of its end. Returns the relative change.
+    fn update_lag(&mut self, _u: &[[T; 3]]) -> f64 {
+        0.0
+    }
+
+    /// Changes the increment of a step from `start`, an initial guess, where it would be infeasible, m. Returns whether it has.
+    fn make_feasible(&self, _start: &[[T; 3]], _increment: &mut [[T; 3]]) -> bool {
+        false
+    }
 
     /// Energy, J: infinite where `u` is infeasible. A follower load without a potential returns zero.
     fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy;
@@ -165,11 +192,13 @@ pub struct Kind<T: Real> {
 pub type Builder<T> = fn(&Body, &Numbering) -> Option<Box<dyn Potential<T>>>;
 
 /// Every force that a scene can ask for; `[drag]` and the pull of a user are [`Anchors`].
-pub fn kinds<T: Real>() -> [Kind<T>; 3] {
+pub fn kinds<T: Real>() -> [Kind<T>; 5] {
     [
         Kind { name: springs::NAME, tables: "[[springs]]", build: springs::build },
         Kind { name: dead_load::NAME, tables: "dead load", build: dead_load::build },
         Kind { name: pressure::NAME, tables: "[[traction]] with pressure", build: pressure::build },
+        Kind { name: contact::NAME, tables: "[[planes]]", build: contact::build },
+        Kind { name: contact::friction::NAME, tables: "[[planes]] with friction", build: contact::friction::build },
     ]
 }
 
@@ -206,8 +235,18 @@ impl<T: Real> Forces<T> {
         self.active().any(|(potential, _)| !potential.is_conservative())
     }
 
-    /// Prepares every force for a step from the displacements `u`.
-    pub fn begin_step(&mut self, u: &[[T; 3]], moment: Moment) {
-        self.potentials.iter_mut().for_each(|(potential, _)| potential.begin_step(u, moment));
+    /// Prepares every force for a step of `dt` seconds from the displacements `u`.
+    pub fn begin_step(&mut self, u: &[[T; 3]], start: Moment, dt: f64) {
+        self.potentials.iter_mut().for_each(|(potential, _)| potential.begin_step(u, start, dt));
+    }
+
+    /// Whether a force keeps something fixed in a step that depends on its end.
+    pub fn has_lag(&self) -> bool {
+        self.active().any(|(potential, _)| potential.has_lag())
+    }
+
+    /// Evaluates again what forces keep fixed in a step. Returns the largest relative change.
+    pub fn update_lag(&mut self, u: &[[T; 3]]) -> f64 {
+        self.potentials.iter_mut().map(|(potential, _)| potential.update_lag(u)).fold(0.0, f64::max)
     }
 }

@@ -131,8 +131,10 @@ impl<T: Real> InitialGuess<'_, T> {
         self.system.prescribe(self.increment.start, self.increment.end, step);
     }
 
-    fn is_feasible(&mut self, step: &[[T; 3]], counters: &mut Counters) -> bool {
+    /// Whether Newton's method can start at an increment, which is moved out of obstacles first.
+    fn is_feasible(&mut self, step: &mut [[T; 3]], counters: &mut Counters) -> bool {
         let Self { newton, followers, system, increment, .. } = self;
+        system.make_feasible(increment.start, increment.end, step);
         newton.is_feasible(&followers.potential(system, *increment), step, counters)
     }
 }

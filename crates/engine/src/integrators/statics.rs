@@ -248,8 +248,10 @@ impl<T: Real> LoadStep<'_, T> {
         followers.evaluate(system, &increment, step);
         system.prescribe(u, end, prescribed);
         newton.predict(&followers.potential(system, increment), prescribed, step, counters)?;
+        system.make_feasible(u, end, step);
         if !newton.is_feasible(&followers.potential(system, increment), step, counters) {
             step.copy_from_slice(prescribed);
+            system.make_feasible(u, end, step);
             if !newton.is_feasible(&followers.potential(system, increment), step, counters) {
                 return Err(infeasible(system, u, prescribed));
             }

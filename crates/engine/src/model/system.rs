@@ -43,6 +43,8 @@ pub struct System<T: Real> {
     pub dirichlet: DirichletConditions,
     /// Forces beside the body's own elasticity.
     pub forces: Forces<T>,
+    /// Mean force of the obstacles on each node in the last step of an explicit method, N; empty without.
+    pub contact_force: Vec<[T; 3]>,
     /// Rayleigh damping, where the scene asks for some.
     pub damping: Option<RayleighDamping>,
     /// Longest edge of the undeformed body's bounding box, m.
@@ -82,7 +84,7 @@ impl<T: Real> System<T> {
         let rest: Vec<_> = numbering.mesh_node.iter().map(|&node| mesh.vertices()[node as usize]).collect();
         let own = own(&numbering);
         let (name, shape) = (body.name.clone(), Arc::new(body.shape.clone()));
-        let anchors = Anchors::new(Interaction::new(body.drag, pull_modulus(body) * length(&rest)), &shape, &numbering);
+        let anchors = Anchors::new(Interaction::new(body.drag, pull_modulus(body) * mesh.length()), &shape, &numbering);
         let forces = Forces::new(body, anchors, &numbering, own);
         let couplings: Vec<[u32; 2]> = forces.all().flat_map(|(potential, _)| potential.couplings()).collect();
         let pattern = Pattern::joined(numbering.free, &corners, &couplings, choice.stored());
@@ -95,7 +97,7 @@ impl<T: Real> System<T> {
         let dirichlet = DirichletConditions::new(body, &numbering);
         Self {
             elements: Solids::new(body, law, &rest, &numbering, &pattern),
-            length: length(&rest),
+            length: mesh.length(),
             total_mass: body.material.density * weighted.iter().sum::<f64>(),
             node_masses: if dirichlet.is_empty() { mass.lumped() } else { Vec::new() },
             name,
@@ -107,6 +109,7 @@ impl<T: Real> System<T> {
             rest,
             mass,
             forces,
+            contact_force: Vec::new(),
             profile: Profile::default(),
         }
     }
@@ -135,10 +138,9 @@ impl<T: Real> System<T> {
         self.dirichlet.is_empty()
     }
 
-    /// Whether the elastic energy is quadratic and no force depends on the displacements: then one linear solve finds equilibrium.
+    /// Whether all energies are quadratic: then one linear solve finds equilibrium.
     pub fn is_linear(&self) -> bool {
-        let depends = |(potential, _): (&dyn Potential<T>, _)| potential.is_internal() || !potential.is_conservative();
-        self.elements.is_linear() && !self.forces.active().any(depends)
+        self.elements.is_linear() && self.forces.active().all(|(potential, _)| potential.is_quadratic())
     }
 
     /// Potential energy: that of the elements and of all conservative forces, zero in the undeformed body.
@@ -161,13 +163,16 @@ impl<T: Real> System<T> {
         self.add_gradient_of_forces(true, u, moment, gradient);
     }
 
-    /// All forces on the nodes, N: elastic, external, follower and damping forces. Damping takes its stiffness at `u_damping`.
+    /// All forces on the nodes, N: elastic, external, follower, contact and damping forces. Damping takes its stiffness at `u_damping`.
     pub fn force(&self, u: &[[T; 3]], v: &[[T; 3]], u_damping: &[[T; 3]], moment: Moment, force: &mut [[T; 3]]) {
         self.elastic_gradient(u, force);
         self.add_gradient_of_forces(true, u, moment, force);
         self.add_gradient_of_forces(false, u, moment, force);
         for force in force.as_flattened_mut() {
             *force = -*force;
+        }
+        for (force, contact) in force.iter_mut().zip(&self.contact_force) {
+            *force = std::array::from_fn(|i| force[i] + contact[i]);
         }
         if let Some(damping) = &self.damping {
             self.profile.damping.time(|| {
@@ -243,7 +248,10 @@ impl<T: Real> System<T> {
     /// Energy for reports: that of the elements and of all forces that have a potential, follower loads included, J.
     pub fn reported_potential(&self, u: &[[T; 3]], moment: Moment) -> f64 {
         let elastic = self.elements.energy(u);
-        elastic + self.forces.active().map(|(potential, _)| potential.energy(u, moment).value).sum::<f64>()
+        let potentials = self.forces.active().filter(|(potential, _)| !potential.is_dissipative());
+        let energies = potentials.map(|(potential, _)| potential.energy(u, moment).value);
+        // A body that touches an obstacle at the start has no energy of contact yet.
+        elastic + energies.filter(|energy| *energy != f64::INFINITY).sum::<f64>()
     }
 
     /// Cauchy stress of each element of the mesh, Pa.
@@ -254,6 +262,14 @@ impl<T: Real> System<T> {
     /// The largest multiple of `direction` up to which no force becomes infeasible.
     pub fn largest_step(&self, u: &[[T; 3]], direction: &[[T; 3]]) -> f64 {
         self.forces.active().map(|(potential, _)| potential.largest_step(u, direction)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Changes the increment of a step, an initial guess, where a force would be infeasible, m. Constrained entries stay.
+    pub fn make_feasible(&self, start: &[[T; 3]], moment: Moment, increment: &mut [[T; 3]]) {
+        let forces = self.forces.active();
+        if forces.fold(false, |changed, (force, _)| changed | force.make_feasible(start, increment)) {
+            self.prescribe(start, moment, increment);
+        }
     }
 
     fn elastic_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
@@ -278,10 +294,4 @@ impl<T: Real> System<T> {
 /// Modulus of a user's pull, Pa: times the body's length it deforms the body visibly without tearing it.
 fn pull_modulus(body: &Body) -> f64 {
     body.material.C.or(body.material.young.map(|young| young / 5.0)).unwrap_or(1e5)
-}
-
-/// Longest edge of the bounding box, m.
-fn length(x: &[Vector3<f64>]) -> f64 {
-    let (least, most) = x.iter().fold((x[0], x[0]), |(least, most), x| (least.inf(x), most.sup(x)));
-    (most - least).max()
 }

@@ -3,6 +3,7 @@
 use fem_scene::simulation::{Checkpoint, History, Simulation};
 
 use super::Simulator;
+use crate::forces::Moment;
 use crate::history::{put, take};
 use crate::number::Real;
 
@@ -16,6 +17,9 @@ pub(super) fn of<T: Real>(simulator: &Simulator<T>) -> Checkpoint {
     put(&mut history, "before.v", simulator.last_good.v.as_flattened());
     history.put("unconverged_steps", [simulator.counters.unconverged_steps as f64]);
     simulator.supplied.save(&mut history);
+    if let Some(contact) = &simulator.contact {
+        contact.save(&mut history);
+    }
     simulator.integrator.save(&mut history);
     Checkpoint {
         time: simulator.state.time,
@@ -51,5 +55,12 @@ pub(super) fn restore<T: Real>(simulator: &mut Simulator<T>, checkpoint: &Checkp
     take(history, "unconverged_steps", &mut unconverged_steps)?;
     simulator.counters.unconverged_steps = unconverged_steps[0] as usize;
     simulator.supplied.restore(history)?;
+    if let Some(contact) = &mut simulator.contact {
+        contact.restore(history, &mut simulator.system, simulator.dt)?;
+    }
+    // Forces of a step, such as friction, show in reports until the next one.
+    let (before, forces) = (&simulator.last_good, &mut simulator.system.forces);
+    forces.begin_step(&before.u, Moment::at(before.time), simulator.dt);
+    forces.update_lag(&simulator.state.u);
     simulator.integrator.restore(history)
 }

@@ -37,6 +37,11 @@ impl<T: Real> SuppliedEnergy<T> {
         (self.start, self.work, self.largest) = (None, 0.0, 0.0);
     }
 
+    /// Adds work that was done in a step beside that of loads and prescribed motions, J: moving obstacles push the body.
+    pub(super) fn add(&mut self, work: f64) {
+        self.work += work;
+    }
+
     /// Adds its sums to a history.
     pub(super) fn save(&self, history: &mut History) {
         let (energy, potential) = self.start.unzip();

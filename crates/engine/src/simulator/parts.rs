@@ -48,6 +48,10 @@ fn cost<T: Real>(simulator: &Simulator<T>, name: &str) -> Cost {
             let bytes = simulator.skinning.as_ref().map_or(0, |skinning| skinning.bytes());
             (bytes, simulator.skinning_timer.read())
         }
+        // In implicit methods it is a force.
+        "contact" => {
+            simulator.contact.as_ref().map_or((0, (0, 0.0)), |contact| (contact.bytes(), contact.timer.read()))
+        }
         "reactions" => (0, simulator.reactions_timer.read()),
         _ => once(0),
     }

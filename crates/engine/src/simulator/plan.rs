@@ -1,9 +1,11 @@
 //! The parts of a scene as its body and its method decide them, before anything is built: which there are, which are left out, why.
 
 use fem_scene::simulation::Part;
-use fem_scene::{Body, CONSISTENT_MASS, Integrator as IntegratorKind, Material, Method, Precision, Projection};
+use fem_scene::{
+    Body, CONSISTENT_MASS, ContactTreatment, Integrator as IntegratorKind, Material, Method, Precision, Projection,
+};
 
-use crate::forces::{self, Potential};
+use crate::forces::{self, Potential, contact};
 use crate::number::Real;
 use crate::solvers::SolverChoice;
 
@@ -41,7 +43,7 @@ impl Plan {
             fixed: fixed.map(|condition| (condition.nodes.len(), condition.until)),
             has_motion: body.dirichlet.iter().any(|condition| condition.motion.is_some()),
             is_unconstrained: body.dirichlet.is_empty(),
-            forces: Vec::new(),
+            forces: impulses(body),
             is_damped: body.damping.is_some(),
             has_drag: body.drag.is_some(),
             has_display: body.shape.display.is_some(),
@@ -123,6 +125,19 @@ impl Plan {
     }
 }
 
+/// Contact of explicit methods, whose impulses are no forces of the system.
+fn impulses(body: &Body) -> Vec<(&'static str, String)> {
+    let contact = body.contact.iter().find(|contact| contact.treatment == ContactTreatment::Impulses);
+    let Some(contact) = contact else { return Vec::new() };
+    let description = format!("[[planes]]: {}, with impulses at the end of each step", contact.planes.len());
+    let mut parts = vec![(contact::NAME, description)];
+    if contact.planes.iter().any(|plane| plane.friction > 0.0) {
+        let description = "[[planes]] with friction: Coulomb's bound on the impulses";
+        parts.push((contact::friction::NAME, description.to_owned()));
+    }
+    parts
+}
+
 /// The laws of all materials, the body's own first.
 fn materials(body: &Body) -> String {
     let regions = body.regions.iter().map(|region| {
@@ -149,7 +164,9 @@ fn material(material: &Material) -> String {
 
 fn mass(is_lumped: bool, is_explicit: bool) -> String {
     if is_lumped {
-        return format!("lumped at the nodes: [mass], or an explicit method and more than {CONSISTENT_MASS} nodes");
+        return format!(
+            "lumped at the nodes: [mass], or an explicit method and more than {CONSISTENT_MASS} nodes or [[planes]]"
+        );
     }
     let cost = if is_explicit { "; each evaluation solves with it, where mass.lumped = true divides" } else { "" };
     format!("consistent: couples the nodes of each element{cost}")

@@ -3,8 +3,10 @@
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
+use fem_scene::Integrator as IntegratorKind;
 use fem_scene::simulation::{
-    Cause, Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, Pull, Reaction, Shape, Simulation,
+    Cause, Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, PlaneContact, Pull, Reaction, Shape,
+    Simulation,
 };
 use nalgebra::{DVector, Matrix3, Vector3};
 
@@ -63,11 +65,11 @@ impl<T: Real> Simulation for Simulator<T> {
         if self.apply_conditions_at(self.state.time) {
             self.integrator.forget();
         }
-        let Self { integrator, system, state, dt, counters, last_good, .. } = self;
+        let Self { integrator, system, state, dt, last_good, .. } = self;
         last_good.copy_from(state);
         let moment = integrator.moment(state);
-        system.forces.begin_step(&state.u, moment);
-        let outcome = integrator.step(system, state, *dt, counters);
+        system.forces.begin_step(&state.u, moment, *dt);
+        let outcome = self.advance();
         match outcome.and_then(|convergence| self.check_state().map(|()| convergence)) {
             Ok(convergence) => {
                 self.counters.unconverged_steps += usize::from(convergence == Convergence::NotConverged);
@@ -135,7 +137,12 @@ impl<T: Real> Simulation for Simulator<T> {
     }
 
     fn next_integrator(&mut self) -> &'static str {
-        self.kind = self.kind.next_in(integrators(self.method.integrator));
+        let method = self.method.integrator;
+        let is_usable = |kind: IntegratorKind| {
+            self.contact.is_none() || (kind.supports_contact() && kind.is_explicit() == method.is_explicit())
+        };
+        let methods: Vec<_> = integrators(method).iter().copied().filter(|kind| is_usable(*kind)).collect();
+        self.kind = self.kind.next_in(&methods);
         let choice = solver_choice(&self.method, self.system.nodes());
         self.integrator = build(self.kind, &self.method, &self.system, choice);
         self.kind.name()
@@ -182,6 +189,18 @@ impl<T: Real> Simulation for Simulator<T> {
         Some(DVector::from_iterator(3 * force.len(), force.as_flattened().iter().map(|force| force.as_f64())))
     }
 
+    fn contacts(&self) -> Vec<PlaneContact> {
+        self.contacts_now()
+    }
+
+    fn contact_forces(&self) -> Option<DVector<f64>> {
+        Some(stacked(&self.contact_forces_now()?))
+    }
+
+    fn lag_residual(&self) -> Option<f64> {
+        self.lag_residual_now()
+    }
+
     fn counters(&self) -> Counters {
         let solver = self.integrator.solver().map(|solver| solver.counters()).unwrap_or_default();
         Counters {
@@ -215,6 +234,7 @@ impl<T: Real> Simulator<T> {
             let (J, element) = self.system.elements.min_det_F_of_barriers(&self.state.u);
             Cause::inverted((J.as_f64(), element)).map_or(Ok(()), Err)?;
         }
+        self.check_contact()?;
         if self.integrator.is_unconditionally_stable() || self.supplied.may_diverge {
             return Ok(());
         }
@@ -224,4 +244,9 @@ impl<T: Real> Simulator<T> {
     fn failure(&self, cause: Cause) -> Failure {
         Failure::of_step(self.state.steps, self.state.time, self.dt, self.kind, cause)
     }
+}
+
+/// The vectors of all nodes in one.
+fn stacked(vectors: &[[f64; 3]]) -> DVector<f64> {
+    DVector::from_column_slice(vectors.as_flattened())
 }

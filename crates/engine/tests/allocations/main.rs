@@ -62,6 +62,14 @@ fn steps_of_all_solvers_allocate_nothing() {
     }
 }
 
+#[test]
+fn steps_in_contact_allocate_nothing() {
+    let floor = "[[planes]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nfriction = 0.3\n";
+    for integrator in ["explicit_euler", "semi_implicit_euler", "rk2", "rk4", "verlet", "implicit_euler"] {
+        assert_eq!(allocations(integrator, floor), 0, "{integrator}");
+    }
+}
+
 /// A simulation, and the bytes that it has taken and kept.
 fn built(text: &str) -> (Box<dyn Simulation>, i64) {
     let mut simulation = None;
@@ -88,12 +96,14 @@ fn leaving_a_part_out_saves_the_memory_that_it_is_said_to_take() {
         format!("{}{}", &scene[..start], &scene[end..])
     };
     let surface = "on = { axis = \"z\", side = \"max\", within = 1e-9 }\n";
+    let lumped = format!("{scene}[mass]\nlumped = true\n");
     let cases = [
         ("dead_load", scene.clone(), without("gravity")),
         ("drag", scene.clone(), without("drag")),
         ("damping", format!("{scene}[damping]\nalpha = 1\n"), scene.clone()),
         ("springs", format!("{scene}[[springs]]\nnodes = [1, 20]\nstiffness = 1\n"), scene.clone()),
         ("pressure", format!("{scene}[[traction]]\n{surface}pressure = 1\n"), scene.clone()),
+        ("contact", format!("{lumped}[[planes]]\npoint = [0, 0, -1]\nnormal = [0, 0, 1]\n"), lumped.clone()),
     ];
     for (name, with, without) in cases {
         let ((with, most), (without, least)) = (built(&with), built(&without));

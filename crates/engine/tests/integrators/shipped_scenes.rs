@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use fem_engine::simulator::{build, planned_parts};
 use fem_scene::simulation::Part;
-use fem_scene::{Integrator, Pipeline, body, load, names};
+use fem_scene::{Integrator, Pipeline, Scene, body, load, names};
 
 /// The repository's `data`.
 pub fn data() -> PathBuf {
@@ -41,15 +41,23 @@ fn is_large(name: &str) -> bool {
     ["arma-large", "armadillo-fine"].contains(&name)
 }
 
+/// Whether the engine alone can build a scene: pictures need a feature of the program.
+fn is_built_here(scene: &Scene) -> bool {
+    scene.pipeline == Pipeline::Engine && scene.mesh.picture.is_none() && !is_large(&scene.name)
+}
+
 #[test]
 fn the_planned_parts_of_every_scene_and_method_are_those_that_are_built() {
     let scenes = names(&data()).into_iter().map(|name| load(&name, &data()).unwrap());
-    for scene in scenes.filter(|scene| scene.pipeline == Pipeline::Engine && !is_large(&scene.name)) {
+    for scene in scenes.filter(is_built_here) {
         for integrator in Integrator::ALL {
             let mut scene = scene.clone();
             scene.time.integrator = integrator;
             scene.time.dt = Some(1e-3);
             scene.remove_unused_tables();
+            if !scene.planes.is_empty() && scene.check().is_err() {
+                continue;
+            }
             let body = body(&scene, &data()).unwrap();
             // A free body has no equilibrium.
             let Ok(planned) = planned_parts(&scene, &body) else {

@@ -63,5 +63,13 @@ fn vectors(scene: &Scene) -> impl Iterator<Item = (String, [f64; 3])> {
     let velocity = scene.initial_velocity.iter().enumerate().flat_map(|(number, table)| {
         table.velocity.map(|velocity| (format!("initial_velocity[{number}].velocity"), velocity))
     });
-    gravity.chain(body_force).chain(drag).chain(traction).chain(prescribed).chain(velocity)
+    let normals =
+        scene.planes.iter().enumerate().map(|(number, plane)| (format!("planes[{number}].normal"), plane.normal));
+    let velocities = scene
+        .planes
+        .iter()
+        .enumerate()
+        .filter_map(|(number, plane)| Some((format!("planes[{number}].velocity"), plane.velocity?)));
+    let planes = normals.chain(velocities);
+    gravity.chain(body_force).chain(drag).chain(traction).chain(prescribed).chain(velocity).chain(planes)
 }

@@ -1,6 +1,7 @@
 //! Checks of a scene's values beyond their types.
 
 mod constraints;
+pub(crate) mod contact;
 mod curves;
 pub(crate) mod flat;
 mod initial;
@@ -27,6 +28,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     loads::check(scene)?;
     constraints::check(scene)?;
     curves::check(scene)?;
+    contact::check(scene)?;
     initial::check(scene)?;
     scene.damping.as_ref().map_or(Ok(()), check_damping)?;
     scene.statics.as_ref().map_or(Ok(()), check_static)?;

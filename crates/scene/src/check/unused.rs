@@ -6,13 +6,14 @@ use crate::{Integrator, Pipeline, Scene};
 /// A table, whether the scene has it, whether its integrator uses it, and which integrators do.
 type Use = (&'static str, bool, bool, &'static str);
 
-fn uses(scene: &Scene) -> [Use; 4] {
+fn uses(scene: &Scene) -> [Use; 5] {
     let method = scene.time.integrator;
     let is_static = method == Integrator::Static;
     [
         ("static", scene.statics.is_some(), is_static, "static"),
         ("newton", scene.newton.is_some(), method.has_newton(), "implicit_euler or static"),
         ("solver", scene.solver.is_some(), !method.is_explicit(), "an implicit method or static"),
+        ("contact", scene.contact.is_some(), !method.is_explicit(), "implicit_euler or static"),
         ("damping", scene.damping.is_some(), !is_static, "a method that moves: equilibrium has no velocities"),
     ]
 }
@@ -45,6 +46,7 @@ impl Scene {
                 "static" => self.statics = None,
                 "newton" => self.newton = None,
                 "solver" => self.solver = None,
+                "contact" => self.contact = None,
                 "damping" => self.damping = None,
                 other => unreachable!("{other} is none of the tables above"),
             }

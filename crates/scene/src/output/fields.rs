@@ -10,13 +10,14 @@ use fem_mesh::MeshError;
 use fem_mesh::write::{Field, write_vtu};
 
 /// Writes the undeformed mesh with the fields of the state. Names have neither blanks nor units, so that programs can use them:
-/// point data `displacement` (m), `velocity` (m/s), `nodal_force` (N) and `stress_averaged` (Pa), cell data `stress`,
+/// point data `displacement` (m), `velocity` (m/s), `nodal_force` (N), `contact_force` (N) and `stress_averaged` (Pa), cell data `stress`,
 /// `von_mises` (Pa), `strain` and `J`. Matrices have nine components, row by row.
 pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<(), MeshError> {
     let shape = simulation.shape();
     let (q, qdot) = (simulation.positions(), simulation.velocities());
     let displacement: Vec<f64> = q.iter().enumerate().map(|(i, x)| x - shape.mesh.vertices()[i / 3][i % 3]).collect();
     let force = simulation.nodal_forces();
+    let contact = simulation.contact_forces();
     let stresses = simulation.stresses();
     let averaged = entries(&averages_at_nodes(&shape.mesh, &stresses));
     let gradients = displacement_gradients(&shape.mesh, &displacement);
@@ -32,6 +33,9 @@ pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<
     ];
     if let Some(force) = &force {
         point.push(Field { name: "nodal_force", components: 3, values: force.as_slice() });
+    }
+    if let Some(contact) = &contact {
+        point.push(Field { name: "contact_force", components: 3, values: contact.as_slice() });
     }
     let cell = [
         Field { name: "stress", components: 9, values: &stress },

@@ -18,7 +18,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::simulate::{Run, quantile};
-use crate::simulation::{Energies, Part, Simulation};
+use crate::simulation::{Energies, Part, PlaneContact, Simulation};
 use fem_mesh::write::{Frame, save, write_glb, write_surface};
 use fem_mesh::{MeshError, Problem, SurfaceMesh};
 
@@ -67,6 +67,10 @@ pub struct Stats {
     pub min_J: f64,
     /// Reaction force of each Dirichlet condition, N; empty without conditions or if the pipeline does not compute reactions.
     pub reactions: serde_json::Map<String, serde_json::Value>,
+    /// Force (N) and smallest gap (m) of each obstacle; empty without obstacles.
+    pub contacts: serde_json::Map<String, serde_json::Value>,
+    /// Largest relative change that the normal forces of friction were left with in a step; `None` without such forces.
+    pub lag_residual: Option<f64>,
     pub parts: serde_json::Map<String, serde_json::Value>,
 }
 
@@ -77,6 +81,10 @@ impl Stats {
         let built = simulation.parts().into_iter().filter(|part| part.built);
         let reactions =
             simulation.reactions().into_iter().map(|reaction| (reaction.name, reaction.force.to_vec().into()));
+        let contact = |contact: PlaneContact| {
+            let value = serde_json::json!({ "force": contact.force, "smallest_gap": contact.smallest_gap });
+            (contact.name, value)
+        };
         let cost = |part: &Part| serde_json::json!({ "bytes": part.bytes, "uses": part.uses, "seconds": part.seconds });
         Self {
             scene: simulation.name().to_owned(),
@@ -104,6 +112,8 @@ impl Stats {
             peak_memory_bytes: peak_memory_bytes(),
             min_J: simulation.min_J().0,
             reactions: reactions.collect(),
+            contacts: simulation.contacts().into_iter().map(contact).collect(),
+            lag_residual: simulation.lag_residual(),
             parts: built.map(|part| (part.name.to_owned(), cost(&part))).collect(),
         }
     }

@@ -32,6 +32,15 @@ pub enum Cause {
         /// Its J = det F ≤ 0.
         J: f64,
     },
+    /// A node lies behind an obstacle: a constrained one, which cannot give way.
+    Penetrated {
+        /// Number of the plane in `[[planes]]`.
+        plane: usize,
+        /// The deepest node.
+        node: usize,
+        /// m
+        depth: f64,
+    },
     /// The motion has far more energy than it was supplied with: it grows without bound.
     Diverged {
         /// Kinetic energy, J.
@@ -122,6 +131,9 @@ impl fmt::Display for Failure {
         match self.cause {
             Cause::NotFinite { node } => write!(f, "the position or velocity of node {node} is no longer finite")?,
             Cause::Inverted { element, J } => write!(f, "element {element} is inverted (J = {J:.3e})")?,
+            Cause::Penetrated { plane, node, depth } => {
+                write!(f, "node {node} is constrained, and lies {depth:.3e} m behind planes[{plane}]")?;
+            }
             Cause::Diverged { kinetic, supplied } => write!(
                 f,
                 "the motion grows without bound: its kinetic energy is {kinetic:.3e} J, and loads, prescribed motions and \

@@ -1,6 +1,7 @@
 //! The tables and keys of a scene file. A table that a scene leaves out is `None` and builds no part.
 
 mod constraints;
+mod contact;
 mod initial;
 mod loads;
 mod material;
@@ -11,6 +12,7 @@ mod vectors;
 pub use crate::curve::{CurveTable, SineTable};
 
 pub use constraints::{FixedTable, PrescribedTable, RotationTable};
+pub use contact::{ContactTable, PlaneTable};
 pub use initial::{AngularVelocityTable, InitialVelocityTable};
 pub use loads::{BodyForceTable, DragTable, DragVertex, GravityTable, SpringTable, TractionTable};
 pub use material::{MODELS, Material, MaterialsTable};
@@ -76,6 +78,11 @@ pub struct Scene {
     /// `[[initial_velocity]]`
     #[serde(default)]
     pub initial_velocity: Vec<InitialVelocityTable>,
+    /// `[[planes]]`
+    #[serde(default)]
+    pub planes: Vec<PlaneTable>,
+    /// `[contact]`
+    pub contact: Option<ContactTable>,
     /// `[time]`
     pub time: TimeTable,
     /// `[damping]`

@@ -1,6 +1,7 @@
 //! A scene's tables as values: SI units, the mesh's node numbers, defaults filled in.
 
 mod constraints;
+mod contact;
 mod initial;
 mod loads;
 mod materials;
@@ -8,11 +9,13 @@ mod method;
 mod selection;
 
 pub use constraints::{DirichletCondition, Motion, Rotation};
+pub use contact::{Contact, ContactPlane, ContactTreatment};
 pub use loads::{Drag, Pressure, Spring, Traction, highest_node};
 pub use materials::MaterialRegion;
 pub use method::{Method, NewtonSettings, RayleighDamping, SolverSettings};
 
 pub(crate) use constraints::dirichlet_conditions;
+pub(crate) use contact::contact;
 pub(crate) use initial::initial_velocity;
 pub(crate) use loads::{curve, drag, springs, surface_loads};
 pub(crate) use materials::{density_factors, regions};

@@ -43,6 +43,9 @@ impl Equations {
         if body.dirichlet.iter().any(|condition| condition.until.is_some()) {
             return Err("nodes become free at a time, which the reference in time does not compute".to_owned());
         }
+        if body.contact.is_some() {
+            return Err("[[planes]] make motions with impacts, which the reference in time does not compute".to_owned());
+        }
         let kinks = kinks(&body);
         let density = Density::new(&body);
         let velocities = body.initial_velocity.clone();

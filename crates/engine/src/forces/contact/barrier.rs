@@ -1,0 +1,168 @@
+//! The barrier that repels a node from an obstacle: Li et al., Incremental Potential Contact (2020), equation 6.
+//!
+//! A node of the area a at the distance d has the energy κ a d̂ b(d/d̂), b(s) = −(s − 1)² ln s for s < 1, and zero beyond d̂. So its
+//! pressure κ |b'(d/d̂)| depends on the distance alone, and not on the mesh; κ is a pressure that a gap of about d̂/2 carries.
+
+use fem_scene::Body;
+
+use crate::materials::AnyLaw;
+use crate::model::numbering::Numbering;
+
+/// The barrier of a body.
+#[derive(Clone, Debug)]
+pub struct Barrier {
+    /// d̂, m.
+    pub distance: f64,
+    /// κ, Pa.
+    pub stiffness: f64,
+    /// Area of each node, m²: its share of the boundary, or of a section through its elements inside the body; zero where a node
+    /// cannot give way to the plane. Those of all nodes for the first plane come first.
+    areas: Vec<f64>,
+    nodes: usize,
+}
+
+impl Barrier {
+    /// The barrier of a body with obstacles; `None` if the scene has none.
+    ///
+    /// κ is the largest shear modulus plus the pressure under the body's weight. So the layer is about as stiff as a layer of the
+    /// body, whatever its material, and its matrix is as well conditioned.
+    pub fn new(body: &Body, numbering: &Numbering) -> Option<Self> {
+        let contact = body.contact.as_ref()?;
+        let of_mesh = areas(body);
+        let constrained = constrained_directions(body);
+        let area = |plane: usize, node: u32| {
+            let (normal, constrained) = (contact.planes[plane].normal, constrained[node as usize]);
+            let gives_way = (0..3).any(|i| !constrained[i] && normal[i] != 0.0);
+            if gives_way { of_mesh[node as usize] } else { 0.0 }
+        };
+        let of_plane = |plane: usize| numbering.mesh_node.iter().map(move |&node| area(plane, node));
+        Some(Self {
+            distance: contact.activation_distance,
+            stiffness: stiffness(body),
+            areas: (0..contact.planes.len()).flat_map(of_plane).collect(),
+            nodes: of_mesh.len(),
+        })
+    }
+
+    /// Area of a node, m²; zero where it cannot give way to the plane.
+    pub fn area(&self, plane: usize, node: usize) -> f64 {
+        self.areas[plane * self.nodes + node]
+    }
+
+    /// Energy of a node at a distance (m), J; infinite behind the plane.
+    pub fn energy(&self, area: f64, gap: f64) -> f64 {
+        self.stiffness * area * self.distance * b(gap / self.distance)
+    }
+
+    /// Force away from the plane on a node at a distance (m), N; zero behind it, where there is no energy to be the gradient of.
+    pub fn force(&self, area: f64, gap: f64) -> f64 {
+        -self.stiffness * area * slope(gap / self.distance)
+    }
+
+    /// Second derivative of the energy with respect to the distance (m), N/m.
+    pub fn curvature(&self, area: f64, gap: f64) -> f64 {
+        self.stiffness * area / self.distance * curvature(gap / self.distance)
+    }
+
+    /// Memory, bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.areas[..])
+    }
+}
+
+/// b(s) = −(s − 1)² ln s, which keeps its digits near s = 1.
+fn b(s: f64) -> f64 {
+    match s {
+        s if s >= 1.0 => 0.0,
+        s if s > 0.0 => -(s - 1.0).powi(2) * (s - 1.0).ln_1p(),
+        _ => f64::INFINITY,
+    }
+}
+
+/// b'(s) = −2 (s − 1) ln s − (s − 1)²/s; zero outside 0 < s < 1.
+fn slope(s: f64) -> f64 {
+    if !(s > 0.0 && s < 1.0) {
+        return 0.0;
+    }
+    let t = s - 1.0;
+    -2.0 * t * t.ln_1p() - t * t / s
+}
+
+/// b''(s) = −2 ln s − 4 (s − 1)/s + (s − 1)²/s², positive in 0 < s < 1 and zero outside.
+fn curvature(s: f64) -> f64 {
+    if !(s > 0.0 && s < 1.0) {
+        return 0.0;
+    }
+    let t = s - 1.0;
+    -2.0 * t.ln_1p() - 4.0 * t / s + (t / s).powi(2)
+}
+
+/// Largest shear modulus of the body's materials, plus ρ g L; Pa.
+fn stiffness(body: &Body) -> f64 {
+    let materials = body.regions.iter().map(|region| &region.material).chain([&body.material]);
+    let modulus = |material| AnyLaw::<f64>::new(material).map_or(0.0, |law| law.moduli()[0]);
+    let largest = materials.clone().map(modulus).fold(0.0, f64::max);
+    let factor = body.stiffness_factors.iter().copied().reduce(f64::max).unwrap_or(1.0);
+    let density = materials.map(|material| material.density).fold(0.0, f64::max);
+    largest * factor + density * body.gravity.map_or(0.0, |g| g.norm()) * body.shape.mesh.length()
+}
+
+/// Area of each node of the mesh, m².
+fn areas(body: &Body) -> Vec<f64> {
+    let mesh = &body.shape.mesh;
+    let mut areas = vec![0.0; mesh.vertices().len()];
+    let outline: Vec<Vec<usize>> = match mesh.is_flat() {
+        true => mesh.outline().into_iter().map(Vec::from).collect(),
+        false => body.shape.boundary.iter().map(|face| face.to_vec()).collect(),
+    };
+    for face in &outline {
+        let share = mesh.area(face) / face.len() as f64;
+        face.iter().for_each(|&node| areas[node] += share);
+    }
+    // A law that allows inversion lets nodes of the inside come to the front.
+    let mut volumes = vec![0.0; areas.len()];
+    for (corners, volume) in mesh.corners().zip(mesh.volumes()) {
+        corners.iter().for_each(|&node| volumes[node] += volume / corners.len() as f64);
+    }
+    for (area, volume) in areas.iter_mut().zip(volumes).filter(|(area, _)| **area == 0.0) {
+        *area = f64::cbrt(volume).powi(2);
+    }
+    areas
+}
+
+/// The directions in which each node of the mesh is constrained at all times.
+fn constrained_directions(body: &Body) -> Vec<[bool; 3]> {
+    let mut constrained = vec![[false, false, body.shape.mesh.is_flat()]; body.shape.mesh.vertices().len()];
+    for condition in body.dirichlet.iter().filter(|condition| condition.until.is_none()) {
+        for &node in &condition.nodes {
+            let before = constrained[node];
+            constrained[node] = std::array::from_fn(|i| before[i] || condition.components[i]);
+        }
+    }
+    constrained
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{b, curvature, slope};
+
+    #[test]
+    fn slope_and_curvature_of_the_barrier_are_its_derivatives() {
+        for s in [1e-3, 0.02, 0.3, 0.7, 0.99] {
+            let h = 1e-5 * s;
+            let by_differences = (b(s + h) - b(s - h)) / (2.0 * h);
+            assert!((slope(s) - by_differences).abs() < 1e-7 * (1.0 + slope(s).abs()), "{s}");
+            let by_differences = (slope(s + h) - slope(s - h)) / (2.0 * h);
+            assert!((curvature(s) - by_differences).abs() < 1e-7 * (1.0 + curvature(s)), "{s}");
+            assert!(b(s) > 0.0 && slope(s) < 0.0 && curvature(s) > 0.0, "{s}");
+        }
+    }
+
+    #[test]
+    fn the_barrier_ends_smoothly_at_its_distance_and_is_infinite_behind_the_plane() {
+        let s = 1.0 - 1e-6;
+        assert!(b(s) < 1e-17 && slope(s).abs() < 1e-11 && curvature(s) < 1e-5);
+        assert_eq!((b(1.0), slope(1.0), curvature(1.5)), (0.0, 0.0, 0.0));
+        assert_eq!([b(0.0), b(-1.0), b(f64::NAN)], [f64::INFINITY; 3]);
+    }
+}

@@ -1,0 +1,209 @@
+//! Contact in a simulation: steps that keep the body outside its obstacles, and the forces of the obstacles.
+
+use fem_scene::simulation::{Cause, History, PlaneContact};
+use fem_scene::{Body, Timer};
+use nalgebra::Vector3;
+
+use super::Simulator;
+use crate::forces::contact::barrier::Barrier;
+use crate::forces::contact::friction::{norm, slope_over_y, tangential};
+use crate::forces::contact::planes::Planes;
+use crate::history::{put, take};
+use crate::integrators::{Convergence, Impulses};
+use crate::model::system::System;
+use crate::number::Real;
+
+/// Relative change of lagged forces at which they no longer change, and the one up to which they may change by rounding error.
+const CONVERGED: f64 = 1e-6;
+const ROUNDING: f64 = 1e-3;
+
+/// Most repetitions of a step.
+const REPETITIONS: usize = 100;
+
+/// Depth of a node behind a plane that is rounding error, in lengths of the body.
+const DEPTH: f64 = 1e-9;
+
+/// The obstacles of a simulation.
+pub(super) struct Contacts<T: Real> {
+    planes: Planes,
+    barrier: Barrier,
+    /// m/s
+    transition_speed: f64,
+    /// In place of the barrier, in explicit methods.
+    impulses: Option<Impulses<T>>,
+    /// Largest relative change that lagged forces were left with in a step.
+    residual: f64,
+    /// Calls and time of the impulses.
+    pub(super) timer: Timer,
+}
+
+/// The force of an obstacle on a node, N.
+struct NodeForce {
+    plane: usize,
+    node: usize,
+    force: Vector3<f64>,
+}
+
+impl<T: Real> Contacts<T> {
+    /// The obstacles of a body; `None` if the scene has none.
+    pub(super) fn new(body: Option<&Body>, system: &mut System<T>) -> Option<Self> {
+        let contact = body?.contact.as_ref()?;
+        let planes = Planes::new(body?, &system.numbering)?;
+        Some(Self {
+            impulses: Impulses::new(planes.clone(), contact.treatment, system),
+            barrier: Barrier::new(body?, &system.numbering)?,
+            transition_speed: contact.transition_speed,
+            planes,
+            residual: 0.0,
+            timer: Timer::default(),
+        })
+    }
+
+    /// Memory, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        let impulses = self.impulses.as_ref().map_or(0, |impulses| impulses.bytes());
+        self.planes.bytes() + self.barrier.bytes() + impulses
+    }
+
+    /// Adds what reports take from the last steps.
+    pub(super) fn save(&self, history: &mut History) {
+        put(history, "contact.residual", &[self.residual]);
+        if let Some(impulses) = &self.impulses {
+            impulses.save(history);
+        }
+    }
+
+    /// Takes over what [`save`](Self::save) has added; steps last `dt` seconds.
+    pub(super) fn restore(&mut self, history: &History, system: &mut System<T>, dt: f64) -> Result<(), String> {
+        take(history, "contact.residual", std::slice::from_mut(&mut self.residual))?;
+        let Some(impulses) = &mut self.impulses else { return Ok(()) };
+        impulses.restore(history)?;
+        impulses.write_forces(system, dt);
+        Ok(())
+    }
+
+    /// Drops the forces of the last step: the state is a new one.
+    pub(super) fn forget(&mut self, system: &mut System<T>) {
+        self.residual = 0.0;
+        system.contact_force.fill([T::default(); 3]);
+        if let Some(impulses) = &mut self.impulses {
+            impulses.forget();
+        }
+    }
+
+    /// The first plane with a node behind it, the deepest such node and its depth (m), in the engine's numbering.
+    pub(super) fn penetration(&self, u: &[[T; 3]], time: f64, length: f64) -> Option<(usize, usize, f64)> {
+        let nearest = (0..self.planes.planes.len()).map(|plane| self.planes.nearest(plane, u, time));
+        // NaN fails the comparison.
+        nearest.filter(|near| !(near.gap >= -DEPTH * length)).map(|near| (near.plane, near.node, -near.gap)).next()
+    }
+}
+
+impl<T: Real> Simulator<T> {
+    /// Advances the state by one step, outside the obstacles. A step with lagged forces is repeated until they no longer change.
+    pub(super) fn advance(&mut self) -> Result<Convergence, Cause> {
+        if self.system.forces.has_lag() {
+            return self.advance_with_lag();
+        }
+        let Self { integrator, system, state, dt, counters, last_good, contact, supplied, kind, .. } = self;
+        let convergence = integrator.step(system, state, *dt, counters)?;
+        let Some(Contacts { impulses: Some(impulses), timer, .. }) = contact else { return Ok(convergence) };
+        if timer.time(|| impulses.apply(system, last_good, state, (*kind, *dt))) {
+            supplied.add(impulses.work());
+            // Places have changed, and with them the forces at the end of the step.
+            integrator.forget_forces();
+        }
+        Ok(convergence)
+    }
+
+    /// The initial guess of a repetition assumes the change of velocity of the one before, so it starts at that one's end.
+    fn advance_with_lag(&mut self) -> Result<Convergence, Cause> {
+        let Self { integrator, system, state, dt, counters, last_good, contact, .. } = self;
+        let mut before = f64::INFINITY;
+        for repetition in 1.. {
+            let convergence = integrator.step(system, state, *dt, counters)?;
+            let change = system.forces.update_lag(&state.u);
+            let is_rounding = change < ROUNDING && change >= before;
+            if change <= CONVERGED || is_rounding || repetition == REPETITIONS || convergence != Convergence::Converged
+            {
+                if let Some(contact) = contact {
+                    contact.residual = contact.residual.max(change);
+                }
+                return Ok(if change < ROUNDING { convergence } else { Convergence::NotConverged });
+            }
+            before = change;
+            state.copy_from(last_good);
+        }
+        unreachable!("the last repetition returns")
+    }
+
+    /// The force of each obstacle on each node near it in the last step, in the engine's numbering.
+    fn contact_forces_on_nodes(&self) -> Vec<NodeForce> {
+        let Self { contact: Some(contact), state, last_good, dt, .. } = self else { return Vec::new() };
+        if let Some(impulses) = &contact.impulses {
+            let of_impulse = |impulse: &crate::integrators::Impulse| NodeForce {
+                plane: impulse.plane,
+                node: impulse.node,
+                force: impulse.total(contact.planes.planes[impulse.plane].normal) / *dt,
+            };
+            return impulses.impulses().iter().map(of_impulse).collect();
+        }
+        let transition = contact.transition_speed * dt;
+        let near = contact.planes.near(&state.u, state.time, contact.barrier.distance);
+        let force = |near: crate::forces::contact::planes::Near| {
+            let plane = &contact.planes.planes[near.plane];
+            let normal = contact.barrier.force(contact.barrier.area(near.plane, near.node), near.gap);
+            let moved = std::array::from_fn(|i| (state.u[near.node][i] - last_good.u[near.node][i]).as_f64());
+            let slide = tangential(plane, moved, [last_good.time, state.time]);
+            let factor = plane.friction * normal * slope_over_y(norm(slide), transition);
+            let friction = if plane.friction > 0.0 { Vector3::from(slide) * factor } else { Vector3::zeros() };
+            NodeForce { plane: near.plane, node: near.node, force: plane.normal * normal - friction }
+        };
+        near.map(force).collect()
+    }
+
+    /// The force of each obstacle on the body, and the distance of the nearest node.
+    pub(super) fn contacts_now(&self) -> Vec<PlaneContact> {
+        let Some(contact) = &self.contact else { return Vec::new() };
+        let forces = self.contact_forces_on_nodes();
+        let of_plane = |plane: usize| {
+            let on_nodes = forces.iter().filter(|force| force.plane == plane);
+            PlaneContact {
+                name: format!("planes[{plane}]"),
+                force: on_nodes.map(|force| force.force).sum::<Vector3<f64>>().into(),
+                smallest_gap: contact.planes.nearest(plane, &self.state.u, self.state.time).gap,
+            }
+        };
+        (0..contact.planes.planes.len()).map(of_plane).collect()
+    }
+
+    /// The force of all obstacles on each node, in the mesh's numbering, N; `None` without obstacles.
+    pub(super) fn contact_forces_now(&self) -> Option<Vec<[f64; 3]>> {
+        self.contact.as_ref()?;
+        let mut forces = vec![[0.0; 3]; self.system.nodes()];
+        for NodeForce { node, force, .. } in self.contact_forces_on_nodes() {
+            for i in 0..3 {
+                forces[node][i] += force[i];
+            }
+        }
+        Some(self.system.numbering.to_mesh(&forces))
+    }
+
+    /// Largest relative change that the normal forces of friction were left with in a step; `None` without lagged forces.
+    pub(super) fn lag_residual_now(&self) -> Option<f64> {
+        self.system.forces.has_lag().then_some(self.contact.as_ref()?.residual)
+    }
+
+    /// Whether the state lies outside all obstacles.
+    pub(super) fn check_contact(&self) -> Result<(), Cause> {
+        let Some(contact) = &self.contact else { return Ok(()) };
+        let time = self.last_good.time + self.dt;
+        match contact.penetration(&self.state.u, time, self.system.length) {
+            Some((plane, node, depth)) => {
+                let node = self.system.numbering.mesh_node[node] as usize;
+                Err(Cause::Penetrated { plane, node, depth })
+            }
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! Moving planes: a press between two plates.
+
+use fem_scene::simulation::Simulation;
+
+use crate::{CUBE, METHODS, build, run, text};
+
+/// A cube between two plates, of which the upper one sinks by 0.2 m in 0.4 s.
+fn press(method: &str, dt: f64) -> String {
+    let tables = "[[planes]]\npoint = [0, -1e-4, 0]\nnormal = [0, 1, 0]\nfriction = 0.3\n\
+                  [[planes]]\npoint = [0, 1.0001, 0]\nnormal = [0, -1, 0]\nfriction = 0.3\nvelocity = [0, -0.5, 0]\nuntil = 0.4\n\
+                  [damping]\nalpha = 2\nbeta = 2e-3\n";
+    text(CUBE, "neo_hookean", 1e5, method, dt, tables)
+}
+
+#[test]
+fn a_press_squashes_a_body_to_its_gap_and_both_plates_push_alike() {
+    let mut forces = Vec::new();
+    for method in METHODS {
+        let (dt, steps) = if method == "implicit_euler" { (0.02, 100) } else { (5e-4, 4000) };
+        let mut simulation = build(&press(method, dt));
+        for _ in 0..steps {
+            run(&mut simulation, 1);
+            let contacts = simulation.contacts();
+            assert!(contacts.iter().all(|contact| contact.smallest_gap > 0.0), "{method}: {contacts:?}");
+        }
+        let contacts = simulation.contacts();
+        let (below, above) = (contacts[0].force, contacts[1].force);
+        assert!((below[1] + above[1]).abs() < 5e-3 * below[1], "{method}: {contacts:?}");
+        // Against 1e5 Pa · 0.2 · 1 m², beyond Hooke and with friction at the plates.
+        assert!(below[1] > 2e4 && below[1] < 4e4, "{method}: {contacts:?}");
+        forces.push(below[1]);
+    }
+    let (least, most) = forces.iter().fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), &x| (a.min(x), b.max(x)));
+    assert!(most < 1.03 * least, "{forces:?}");
+}
+
+#[test]
+fn a_plate_that_meets_a_fixed_node_ends_the_run_with_its_name() {
+    for method in ["verlet", "implicit_euler"] {
+        let top = "[fixed]\non = { axis = \"y\", side = \"max\", within = 1e-9 }\n";
+        let mut simulation = build(&(press(method, 1e-3) + top));
+        let failure = (0..100).find_map(|_| simulation.step().err()).expect("the plate stops");
+        let text = failure.to_string();
+        assert!(text.contains("planes[1]") && text.contains("constrained"), "{method}: {text}");
+    }
+}

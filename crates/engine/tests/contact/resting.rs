@@ -1,0 +1,77 @@
+//! Bodies at rest: the forces of the planes carry the weight.
+
+use fem_scene::simulation::Simulation;
+
+use crate::{CUBE, METHODS, SQUARE, build, contact_force, floor, gravity, momentum, run, text};
+
+const WEIGHT: f64 = 9810.0;
+
+/// b'(s) of the barrier b(s) = −(s − 1)² ln s, Li et al. (2020).
+fn slope(s: f64) -> f64 {
+    -2.0 * (s - 1.0) * s.ln() - (s - 1.0).powi(2) / s
+}
+
+#[test]
+fn a_block_rests_where_the_barrier_carries_its_weight_however_stiff_it_is() {
+    // The softer block leans by its strain.
+    for (young, tolerance) in [(1e7, 1e-5), (2e11, 1e-8)] {
+        let tables = gravity(0.0, -9.81) + &floor(-5e-4, "");
+        let mut simulation = build(&text(SQUARE, "corotated", young, "implicit_euler", 0.1, &tables));
+        run(&mut simulation, 400);
+        let contact = &simulation.contacts()[0];
+        assert!((contact.force[1] - WEIGHT).abs() < 1e-8 * WEIGHT, "E = {young:e}: {:?}", contact.force);
+        // Each node below has half of two sides, 1 m²: κ |b'(gap/d̂)| · 2 m² = m g.
+        let (distance, stiffness) = (1e-3, young / 2.6 + WEIGHT);
+        let (mut lower, mut upper) = (1e-6, 1.0);
+        for _ in 0..200 {
+            let middle = 0.5 * (lower + upper);
+            *(if -2.0 * stiffness * slope(middle) > WEIGHT { &mut lower } else { &mut upper }) = middle;
+        }
+        let error = contact.smallest_gap - lower * distance;
+        assert!(error.abs() < tolerance * distance, "E = {young:e}: {} and {}", contact.smallest_gap, lower * distance);
+    }
+}
+
+#[test]
+fn a_body_that_touches_the_floor_at_the_start_comes_to_rest_on_it_with_every_method() {
+    for method in METHODS {
+        let (dt, steps) = if method == "implicit_euler" { (0.02, 500) } else { (1e-3, 8000) };
+        let tables = gravity(0.0, -9.81) + &floor(0.0, "friction = 0.3") + "[damping]\nbeta = 0.02\n";
+        let mut simulation = build(&text(CUBE, "neo_hookean", 1e5, method, dt, &tables));
+        for _ in 0..steps {
+            run(&mut simulation, 1);
+            assert!(simulation.contacts()[0].smallest_gap > 0.0, "{method}");
+        }
+        let force = contact_force(&simulation);
+        assert!((force[1] - WEIGHT).abs() < 1e-5 * WEIGHT, "{method}: {force:?}");
+        let nodes = simulation.contact_forces().unwrap();
+        let sum: f64 = nodes.iter().skip(1).step_by(3).sum();
+        assert!((sum - force[1]).abs() < 1e-9 * WEIGHT, "{method}");
+        // All forces on the nodes, the contact's included, are in balance.
+        assert!(simulation.nodal_forces().unwrap().amax() < 1e-4 * WEIGHT, "{method}");
+    }
+}
+
+#[test]
+fn the_impulses_of_the_planes_are_the_change_of_momentum_less_the_weight() {
+    for method in METHODS {
+        let dt = if method == "implicit_euler" { 5e-3 } else { 5e-4 };
+        let wall = "[[planes]]\npoint = [-0.05, 0, 0]\nnormal = [1, 0.1, 0]\nfriction = 0.5\n";
+        let start = "[[initial_velocity]]\nvelocity = [-1, -2, 0.5]\n";
+        let tables = gravity(0.0, -9.81) + &floor(-0.05, "friction = 0.3") + wall + start;
+        let mut simulation = build(&text(CUBE, "neo_hookean", 1e5, method, dt, &tables));
+        let (before, mut impulse) = (momentum(&simulation), [0.0; 3]);
+        let steps = 200;
+        for _ in 0..steps {
+            run(&mut simulation, 1);
+            let force = contact_force(&simulation);
+            (0..3).for_each(|i| impulse[i] += dt * force[i]);
+        }
+        let (after, time) = (momentum(&simulation), f64::from(steps) * dt);
+        let expected = [0, 1, 2].map(|i| after[i] - before[i] + if i == 1 { WEIGHT * time } else { 0.0 });
+        for i in 0..3 {
+            assert!((impulse[i] - expected[i]).abs() < 1e-6 * 1000.0, "{method}: {impulse:?} {expected:?}");
+        }
+        assert!(expected[1] > 100.0, "{method}: the cube has not landed");
+    }
+}

@@ -1,0 +1,82 @@
+//! Checks of `[[planes]]` and `[contact]`.
+
+use super::numbers::{Problem, check_not_negative, check_positive, check_vector, problem};
+use crate::tables::PlaneTable;
+use crate::{Integrator, Scene};
+
+/// Returns the first problem of contact, the combinations with the method included.
+pub(crate) fn check(scene: &Scene) -> Result<(), Problem> {
+    for (number, plane) in scene.planes.iter().enumerate() {
+        check_plane(&format!("planes[{number}]"), plane, scene.time.integrator)?;
+    }
+    let Some(contact) = &scene.contact else { return check_method(scene) };
+    if scene.planes.is_empty() {
+        return problem("contact", "stands without [[planes]]; add an obstacle, or remove the table");
+    }
+    let distance = contact.activation_distance;
+    distance.map_or(Ok(()), |distance| check_positive("contact.activation_distance", distance, " of metres"))?;
+    let speed = contact.transition_speed;
+    speed.map_or(Ok(()), |speed| check_positive("contact.transition_speed", speed, " of m/s"))?;
+    if speed.is_some() && scene.planes.iter().all(|plane| plane.friction == 0.0) {
+        let text = "belongs to friction, and no plane has some; give planes a friction, or remove it";
+        return problem("contact.transition_speed", text);
+    }
+    check_method(scene)
+}
+
+fn check_plane(table: &str, plane: &PlaneTable, method: Integrator) -> Result<(), Problem> {
+    check_vector(&format!("{table}.point"), &plane.point)?;
+    let normal = format!("{table}.normal");
+    check_vector(&normal, &plane.normal)?;
+    if plane.normal == [0.0; 3] {
+        return problem(&normal, "is zero; give the direction from the plane to the body");
+    }
+    // The length must not underflow.
+    let largest = plane.normal.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    check_positive(&normal, largest, " for its largest component")?;
+    check_not_negative(&format!("{table}.friction"), plane.friction, "(no friction)")?;
+    let velocity = format!("{table}.velocity");
+    plane.velocity.map_or(Ok(()), |vector| check_vector(&velocity, &vector))?;
+    let until = format!("{table}.until");
+    plane.until.map_or(Ok(()), |time| check_positive(&until, time, " of seconds"))?;
+    if plane.until.is_some() && plane.velocity.is_none() {
+        return problem(&until, "ends the motion of a plane, and this one has no velocity; give it one or remove it");
+    }
+    if method != Integrator::Static {
+        return Ok(());
+    }
+    if plane.velocity.is_some() {
+        let text = "is a motion, and time.integrator = \"static\" has none; move the body by [[prescribed]] instead, or use implicit_euler";
+        return problem(&velocity, text);
+    }
+    if plane.friction > 0.0 {
+        let text = "depends on the motion, and time.integrator = \"static\" has none; remove it, or use implicit_euler";
+        return problem(&format!("{table}.friction"), text);
+    }
+    Ok(())
+}
+
+/// Refuses methods that cannot keep a body outside an obstacle.
+fn check_method(scene: &Scene) -> Result<(), Problem> {
+    if scene.planes.is_empty() {
+        return Ok(());
+    }
+    let method = scene.time.integrator;
+    if !method.supports_contact() {
+        let text = format!(
+            "stand beside time.integrator = \"{}\", whose steps cannot keep a body outside an obstacle; use implicit_euler, static, \
+             or an explicit method",
+            method.name()
+        );
+        return problem("planes", text);
+    }
+    if method.is_explicit() && scene.mass.lumped == Some(false) {
+        let text = format!(
+            "is false beside [[planes]] and time.integrator = \"{}\", whose impulses of contact need a mass for each node; remove it, or \
+             use implicit_euler",
+            method.name()
+        );
+        return problem("mass.lumped", text);
+    }
+    Ok(())
+}

@@ -1,0 +1,35 @@
+//! The tables of contact: `[[planes]]` and `[contact]`.
+
+use serde::Deserialize;
+
+use super::vectors::{three_numbers, three_numbers_if_any};
+
+/// `[[planes]]`: an obstacle, the half-space behind a plane. The body stays on the side to which the normal points.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct PlaneTable {
+    /// A point of the plane at the start, m.
+    #[serde(deserialize_with = "three_numbers")]
+    pub point: [f64; 3],
+    /// Direction from the plane to the body, of any length.
+    #[serde(deserialize_with = "three_numbers")]
+    pub normal: [f64; 3],
+    /// Coefficient of Coulomb friction.
+    #[serde(default)]
+    pub friction: f64,
+    /// Velocity of the plane, m/s; by default it is at rest.
+    #[serde(default, deserialize_with = "three_numbers_if_any")]
+    pub velocity: Option<[f64; 3]>,
+    /// Time at which a moving plane stops, s.
+    pub until: Option<f64>,
+}
+
+/// `[contact]`: the numbers of contact in implicit methods.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct ContactTable {
+    /// Distance from an obstacle below which it repels the body, m.
+    pub activation_distance: Option<f64>,
+    /// Speed of sliding from which friction has its full size, m/s.
+    pub transition_speed: Option<f64>,
+}

@@ -1,0 +1,114 @@
+//! The obstacles of a scene.
+
+use nalgebra::Vector3;
+
+use crate::check::contact::check;
+use crate::tables::PlaneTable;
+use crate::{BodyMesh, Scene, SceneError};
+
+/// Obstacles, and how the body is kept outside.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// One for each `[[planes]]`.
+    pub planes: Vec<ContactPlane>,
+    /// How a step keeps the body outside.
+    pub treatment: ContactTreatment,
+    /// Distance below which a barrier repels the body, m.
+    pub activation_distance: f64,
+    /// Speed of sliding from which friction has its full size, m/s.
+    pub transition_speed: f64,
+}
+
+/// How a time step keeps a body outside its obstacles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactTreatment {
+    /// A barrier energy, in implicit methods.
+    Barrier,
+    /// Impulses at the end of a step, in explicit methods.
+    Impulses,
+}
+
+/// A half-space that the body does not enter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactPlane {
+    /// A point of the plane at time zero, m.
+    pub point: Vector3<f64>,
+    /// Unit normal, towards the body.
+    pub normal: Vector3<f64>,
+    /// Coefficient of Coulomb friction.
+    pub friction: f64,
+    /// m/s
+    pub velocity: Vector3<f64>,
+    /// Time at which the motion ends, s; infinite where it does not.
+    pub until: f64,
+}
+
+impl ContactPlane {
+    /// Displacement of the plane at a time (s), m.
+    pub fn displacement(&self, time: f64) -> Vector3<f64> {
+        self.velocity * time.min(self.until)
+    }
+
+    /// Its mean velocity between two times (s), m/s.
+    pub fn mean_velocity(&self, [from, to]: [f64; 2]) -> Vector3<f64> {
+        if to <= self.until { self.velocity } else { (self.displacement(to) - self.displacement(from)) / (to - from) }
+    }
+
+    fn new(table: &PlaneTable) -> Self {
+        Self {
+            point: table.point.into(),
+            normal: unit(table.normal.into()),
+            friction: table.friction,
+            velocity: table.velocity.map_or(Vector3::zeros(), Vector3::from),
+            until: table.until.unwrap_or(f64::INFINITY),
+        }
+    }
+}
+
+/// Activation distance where the scene gives none, in lengths of the body.
+const ACTIVATION_DISTANCE: f64 = 1e-3;
+
+/// Transition speed where the scene gives none, in lengths of the body per second; Li et al., Incremental Potential Contact (2020).
+const TRANSITION_SPEED: f64 = 1e-3;
+
+/// Depth at the start that counts as touching, in lengths of the body: a sum of rounding errors.
+const TOUCHING: f64 = 1e-9;
+
+/// The obstacles of `[[planes]]`, if there are some. Refuses a body that lies behind a plane at the start.
+pub(crate) fn contact(scene: &Scene, mesh: &BodyMesh) -> Result<Option<Contact>, SceneError> {
+    if scene.planes.is_empty() {
+        return Ok(None);
+    }
+    // The integrator may be another one than that of the file.
+    check(scene).map_err(|(field, problem)| scene.refuse(&field, &problem))?;
+    let planes: Vec<_> = scene.planes.iter().map(ContactPlane::new).collect();
+    let length = mesh.length();
+    for (number, plane) in planes.iter().enumerate() {
+        let gaps = mesh.vertices().iter().map(|x| plane.normal.dot(&(x - plane.point))).enumerate();
+        let (node, gap) = gaps.fold((0, f64::INFINITY), |least, next| if next.1 < least.1 { next } else { least });
+        // NaN fails the comparison.
+        if !(gap >= -TOUCHING * length) {
+            let text = format!(
+                "has the body behind it at the start: node {node} is {:.3e} m deep; move planes[{number}].point back, or the body away",
+                -gap
+            );
+            return Err(scene.refuse(&format!("planes[{number}]"), &text));
+        }
+    }
+    let table = scene.contact.clone().unwrap_or_default();
+    let treatment = match scene.time.integrator.is_explicit() {
+        true => ContactTreatment::Impulses,
+        false => ContactTreatment::Barrier,
+    };
+    Ok(Some(Contact {
+        planes,
+        treatment,
+        activation_distance: table.activation_distance.unwrap_or(ACTIVATION_DISTANCE * length),
+        transition_speed: table.transition_speed.unwrap_or(TRANSITION_SPEED * length),
+    }))
+}
+
+/// A vector of length 1, without overflow on the way.
+fn unit(vector: Vector3<f64>) -> Vector3<f64> {
+    (vector / vector.amax()).normalize()
+}
