@@ -9,12 +9,13 @@ use fem_mesh::{TetrahedralMesh, box_mesh};
 use nalgebra::Vector3;
 
 /// Names and parameters of all laws: Young's modulus 1 MPa and Poisson's ratio 0.3 at small strain.
-const LAWS: [(&str, &str); 7] = [
+const LAWS: [(&str, &str); 8] = [
     ("linear", "young = 1e6\npoisson = 0.3"),
     ("corotated", "young = 1e6\npoisson = 0.3"),
     ("st_venant_kirchhoff", "young = 1e6\npoisson = 0.3"),
     ("neo_hookean", "young = 1e6\npoisson = 0.3"),
     ("stable_neo_hookean", "young = 1e6\npoisson = 0.3"),
+    ("hencky", "young = 1e6\npoisson = 0.3"),
     ("mooney_rivlin", "C10 = 1.2e5\nC01 = 7.2e4\nD = 4.2e5"),
     ("yeoh", "C1 = 1.92e5\nC2 = -1e4\nC3 = 1e4\nD = 4.2e5"),
 ];

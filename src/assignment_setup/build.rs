@@ -109,6 +109,7 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         ("mesh.refine", scene.mesh.refine > 0),
         ("time.precision", scene.time.precision != Precision::F64),
         ("materials", !scene.materials.is_empty()),
+        ("plasticity", scene.plasticity.is_some()),
         ("newton", scene.newton.is_some()),
         ("solver", scene.solver.is_some()),
         ("mass.lumped", scene.mass.lumped == Some(true)),

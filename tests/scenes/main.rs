@@ -19,6 +19,7 @@ mod mesh_shapes;
 mod momentum;
 mod moral;
 mod one_step;
+mod plasticity;
 mod probes;
 mod program;
 mod pulling;

@@ -55,6 +55,7 @@ pub mod model;
 pub mod newton;
 pub mod number;
 mod pick;
+pub mod plasticity;
 pub mod profile;
 mod refusal;
 pub mod simulator;

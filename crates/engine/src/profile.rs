@@ -19,4 +19,6 @@ pub struct Profile {
     pub prescribed: Timer,
     /// Damping forces.
     pub damping: Timer,
+    /// Plastic flow, once in every accepted step.
+    pub plasticity: Timer,
 }

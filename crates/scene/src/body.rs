@@ -10,8 +10,9 @@ use crate::picture;
 use crate::simulation::Shape;
 use crate::tables::{MeshTable, SurfaceTable};
 use crate::values::{
-    Contact, DirichletCondition, Drag, MaterialRegion, Pressure, RayleighDamping, Spring, Traction, contact, curve,
-    damping, density_factors, dirichlet_conditions, drag, initial_velocity, regions, springs, surface_loads,
+    Contact, DirichletCondition, Drag, MaterialRegion, Plasticity, Pressure, RayleighDamping, Spring, Traction,
+    contact, curve, damping, density_factors, dirichlet_conditions, drag, initial_velocity, plasticity, regions,
+    springs, surface_loads,
 };
 use crate::{BodyMesh, LoadCurve, Material, Scene, SceneError};
 use fem_mesh::generate::odt::improve_inside;
@@ -34,6 +35,8 @@ pub struct Body {
     pub material: Material,
     /// Parts of the body with materials of their own. No element belongs to two of them.
     pub regions: Vec<MaterialRegion>,
+    /// Plastic flow of all elements.
+    pub plasticity: Option<Plasticity>,
     /// Whether the mass matrix is lumped instead of consistent: as the scene says, else for an explicit method and a mesh of more than
     /// [`CONSISTENT_MASS`] nodes or with obstacles.
     pub lumped_mass: bool,
@@ -96,6 +99,7 @@ pub fn body_of(scene: &Scene, mesh: impl Into<BodyMesh>, data: &Path) -> Result<
         name: scene.name.clone(),
         material: scene.material.clone(),
         regions,
+        plasticity: plasticity(scene),
         lumped_mass: scene.mass.lumped.unwrap_or(lumps_by_default(scene, mesh.vertices().len())),
         stiffness_factors: Vec::new(),
         density_factors,

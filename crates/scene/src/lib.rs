@@ -69,7 +69,7 @@ pub use tables::{Axis, MODELS, Material, Pipeline, Precision, Preconditioner, Pr
 pub use timer::Timer;
 pub use values::{
     Contact, ContactPlane, ContactTreatment, DirichletCondition, Drag, MaterialRegion, Method, Motion, NewtonSettings,
-    Pressure, RayleighDamping, Rotation, SolverSettings, Spring, Traction, highest_node,
+    Plasticity, Pressure, RayleighDamping, Rotation, SolverSettings, Spring, Traction, highest_node,
 };
 pub use warnings::warnings;
 

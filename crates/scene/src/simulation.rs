@@ -4,6 +4,7 @@ mod checkpoint;
 mod failure;
 mod parameter;
 mod part;
+mod plastic_flow;
 
 use std::sync::Arc;
 
@@ -17,6 +18,7 @@ pub use checkpoint::{Checkpoint, History};
 pub use failure::{Breakdown, Cause, Failure};
 pub use parameter::Parameter;
 pub use part::Part;
+pub use plastic_flow::PlasticFlow;
 
 /// A simulation of one body, whichever pipeline computes it. Lengths are in m, times in s, energies in J.
 pub trait Simulation: Send {
@@ -81,6 +83,11 @@ pub trait Simulation: Send {
 
     /// Cauchy stress of each element now, Pa.
     fn stresses(&self) -> Vec<Matrix3<f64>>;
+
+    /// Plastic flow of the body; `None` for a body without plasticity.
+    fn plastic_flow(&self) -> Option<PlasticFlow> {
+        None
+    }
 
     /// Name of the integrator in use, as scene files spell it.
     fn integrator(&self) -> &'static str;
@@ -168,7 +175,7 @@ pub struct Energies {
     /// ½ vᵀ M v
     pub kinetic: f64,
     /// Elastic energy, gravity, dead loads and springs, and pressures that have a potential: those whose surface is closed or
-    /// has a fixed edge.
+    /// has a fixed edge. Of a plastic body it is the stored energy; [`PlasticFlow`] has the dissipated one.
     pub potential: f64,
 }
 

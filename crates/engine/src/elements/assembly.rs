@@ -6,7 +6,7 @@ use super::kernel::{
     total_energy,
 };
 use super::parallel::over_chunks;
-use super::{Batch, Chunk, Elements};
+use super::{Batch, BatchLaws, Chunk, Elements};
 use crate::materials::Law;
 use simba::simd::SimdValue;
 
@@ -16,8 +16,8 @@ use crate::tensor::{from_fn, volume_change};
 
 impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     /// Elastic energy at displacements `u` of all nodes, J; not finite where the law does not allow an element.
-    pub fn energy(&self, law: &dyn Law<T::Lanes>, u: &[[T; 3]]) -> f64 {
-        let of_chunk = |chunk: &Chunk<T, D, N>, _: &mut [()]| energy_of(chunk, law, u);
+    pub fn energy<B: BatchLaws<T::Lanes>>(&self, laws: B, u: &[[T; 3]]) -> f64 {
+        let of_chunk = |chunk: &Chunk<T, D, N>, _: &mut [()]| energy_of(chunk, laws, u);
         over_chunks(&self.chunks, &mut [], |_| 0, &of_chunk)
     }
 
@@ -29,51 +29,45 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
     }
 
     /// Adds the gradient of the energy by the nodes' positions, N.
-    pub fn add_gradient<L: Law<T::Lanes> + ?Sized>(&self, law: &L, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
+    pub fn add_gradient<B: BatchLaws<T::Lanes>>(&self, laws: B, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
         let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; 3]]| {
-            add_gradient_of(chunk, law, u, sums);
+            add_gradient_of(chunk, laws, u, sums);
             0.0
         };
         over_chunks(&self.chunks, gradient, |chunk| chunk.nodes.end, &of_chunk);
     }
 
     /// Energy and gradient in one pass.
-    pub fn add_energy_and_gradient<L: Law<T::Lanes> + ?Sized>(
+    pub fn add_energy_and_gradient<B: BatchLaws<T::Lanes>>(
         &self,
-        law: &L,
+        laws: B,
         u: &[[T; 3]],
         gradient: &mut [[T; 3]],
     ) -> f64 {
-        let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; 3]]| add_energy_and_gradient_of(chunk, law, u, sums);
+        let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; 3]]| add_energy_and_gradient_of(chunk, laws, u, sums);
         over_chunks(&self.chunks, gradient, |chunk| chunk.nodes.end, &of_chunk)
     }
 
     /// Adds `factor` times the Hessian of the energy to the values of the pattern that the elements were made for, N/m.
-    pub fn add_stiffness<L: Law<T::Lanes> + ?Sized>(
-        &self,
-        law: &L,
-        factor: T,
-        u: &[[T; 3]],
-        values: &mut [Block<T, 3>],
-    ) {
+    pub fn add_stiffness<B: BatchLaws<T::Lanes>>(&self, laws: B, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
         let of_chunk = |chunk: &Chunk<T, D, N>, values: &mut [Block<T, 3>]| {
-            add_stiffness_of(chunk, law, factor, u, values);
+            add_stiffness_of(chunk, laws, factor, u, values);
             0.0
         };
         over_chunks(&self.chunks, values, |chunk| chunk.blocks.end, &of_chunk);
     }
 
     /// Adds `factor` K(u) d, the change of the gradient along a direction, without a matrix, N.
-    pub fn add_stiffness_times(
+    pub fn add_stiffness_times<B: BatchLaws<T::Lanes>>(
         &self,
-        law: &dyn Law<T::Lanes>,
+        laws: B,
         factor: T,
         u: &[[T; 3]],
         d: &[[T; 3]],
         product: &mut [[T; 3]],
     ) {
         let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; 3]]| {
-            add_stiffness_times_of(chunk, law, factor, u, d, sums);
+            add_stiffness_times_of(chunk, laws, factor, u, d, sums);
             0.0
         };
         over_chunks(&self.chunks, product, |chunk| chunk.nodes.end, &of_chunk);
@@ -168,13 +162,16 @@ fn batches<T: Real, const D: usize, const N: usize>(
     chunk.batches.iter().zip(chunk.corners.chunks_exact(T::WIDTH))
 }
 
-fn energy_of<T: Real, const D: usize, const N: usize>(
+fn energy_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
-    law: &dyn Law<T::Lanes>,
+    laws: B,
     u: &[[T; 3]],
 ) -> f64 {
-    let of_batch = |(batch, corners)| total_energy(batch, law.energy(&displacement_gradient(batch, corners, u)));
-    batches(chunk).map(of_batch).sum()
+    let of_batch = |(i, (batch, corners))| {
+        let law = laws.of_batch(&chunk.elements, i);
+        total_energy(batch, law.energy(&displacement_gradient(batch, corners, u)))
+    };
+    batches(chunk).enumerate().map(of_batch).sum()
 }
 
 fn squares_of<T: Real, const D: usize, const N: usize>(chunk: &Chunk<T, D, N>, u: &[[T; 3]]) -> f64 {
@@ -182,26 +179,28 @@ fn squares_of<T: Real, const D: usize, const N: usize>(chunk: &Chunk<T, D, N>, u
     batches(chunk).map(of_batch).sum()
 }
 
-fn add_gradient_of<T: Real, L: Law<T::Lanes> + ?Sized, const D: usize, const N: usize>(
+fn add_gradient_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
-    law: &L,
+    laws: B,
     u: &[[T; 3]],
     sums: &mut [[T; 3]],
 ) {
-    for (batch, corners) in batches(chunk) {
+    for (i, (batch, corners)) in batches(chunk).enumerate() {
+        let law = laws.of_batch(&chunk.elements, i);
         let G = displacement_gradient(batch, corners, u);
         scatter(chunk, corners, &corner_gradients(batch, &law.stress(&G)), sums);
     }
 }
 
-fn add_energy_and_gradient_of<T: Real, L: Law<T::Lanes> + ?Sized, const D: usize, const N: usize>(
+fn add_energy_and_gradient_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
-    law: &L,
+    laws: B,
     u: &[[T; 3]],
     sums: &mut [[T; 3]],
 ) -> f64 {
     let mut total = 0.0;
-    for (batch, corners) in batches(chunk) {
+    for (i, (batch, corners)) in batches(chunk).enumerate() {
+        let law = laws.of_batch(&chunk.elements, i);
         let G = displacement_gradient(batch, corners, u);
         let (energy, P) = law.energy_and_stress(&G);
         total += total_energy(batch, energy);
@@ -210,15 +209,16 @@ fn add_energy_and_gradient_of<T: Real, L: Law<T::Lanes> + ?Sized, const D: usize
     total
 }
 
-fn add_stiffness_of<T: Real, L: Law<T::Lanes> + ?Sized, const D: usize, const N: usize>(
+fn add_stiffness_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
-    law: &L,
+    laws: B,
     factor: T,
     u: &[[T; 3]],
     values: &mut [Block<T, 3>],
 ) {
     let factor = T::Lanes::splat(factor);
     for (i, (batch, corners)) in batches(chunk).enumerate() {
+        let law = laws.of_batch(&chunk.elements, i);
         let G = displacement_gradient(batch, corners, u);
         let mut scaled = *batch;
         scaled.volume *= factor;
@@ -230,16 +230,17 @@ fn add_stiffness_of<T: Real, L: Law<T::Lanes> + ?Sized, const D: usize, const N:
     }
 }
 
-fn add_stiffness_times_of<T: Real, const D: usize, const N: usize>(
+fn add_stiffness_times_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const N: usize>(
     chunk: &Chunk<T, D, N>,
-    law: &dyn Law<T::Lanes>,
+    laws: B,
     factor: T,
     u: &[[T; 3]],
     d: &[[T; 3]],
     sums: &mut [[T; 3]],
 ) {
     let factor = T::Lanes::splat(factor);
-    for (batch, corners) in batches(chunk) {
+    for (i, (batch, corners)) in batches(chunk).enumerate() {
+        let law = laws.of_batch(&chunk.elements, i);
         let G = displacement_gradient(batch, corners, u);
         let dF = displacement_gradient(batch, corners, d);
         let H = law.derivative(&G);

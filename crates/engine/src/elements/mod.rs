@@ -8,6 +8,7 @@
 mod assembly;
 mod build;
 mod kernel;
+mod laws;
 mod parallel;
 mod stress;
 
@@ -17,6 +18,7 @@ mod tests;
 use std::ops::Range;
 
 use crate::number::Real;
+pub use laws::BatchLaws;
 
 /// All elements of a mesh of simplices with `N = D + 1` corners, in batches, with the targets of their scatter.
 #[derive(Clone, Debug)]

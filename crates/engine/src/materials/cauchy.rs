@@ -11,6 +11,11 @@ pub fn cauchy_stress<T: Number>(law: &AnyLaw<T>, G: &Tensor<T>) -> Tensor<T> {
     if law.is_linear() {
         return P;
     }
+    pushed_forward(&P, G)
+}
+
+/// Cauchy stress P Fᵀ/J of a first Piola–Kirchhoff stress, Pa. Not finite for J = 0.
+pub fn pushed_forward<T: Number>(P: &Tensor<T>, G: &Tensor<T>) -> Tensor<T> {
     let J = T::one() + volume_change(G).0;
-    product(&P, &transpose(&plus_identity(G))).map(|row| row.map(|entry| entry / J))
+    product(P, &transpose(&plus_identity(G))).map(|row| row.map(|entry| entry / J))
 }

@@ -23,7 +23,7 @@ pub struct Corotated<T> {
 
 /// F = U diag(1 + e) Vᵀ and e.
 #[inline(always)]
-fn stretches<T: Number>(G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
+pub(crate) fn stretches<T: Number>(G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
     let F = svd(&plus_identity(G));
     let strain = green_strain(G);
     let is_small = dot(&strain, &strain).simd_lt(constant(0.0625));

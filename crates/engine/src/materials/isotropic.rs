@@ -15,7 +15,7 @@ const SWEEPS: usize = 5;
 
 /// The derivative in the principal basis; the index of twist and flip of the axes i and j is the third axis.
 #[derive(Clone, Copy)]
-pub(super) struct Principal<T> {
+pub(crate) struct Principal<T> {
     /// ∂²ψ/∂σ_i∂σ_j
     pub scaling: Tensor<T>,
     /// (p_i + p_j)/(σ_i + σ_j)
@@ -84,21 +84,16 @@ fn eigen<T: Number>(A: &Tensor<T>, size: T) -> ([T; 3], [[T; 3]; 3]) {
 }
 
 /// ∂P/∂F with its negative eigenvalues raised to zero.
-pub(super) fn projected_derivative_from<T: Number>(F: &Svd<T>, principal: &Principal<T>) -> Tensor4<T> {
+pub(crate) fn projected_derivative_from<T: Number>(F: &Svd<T>, principal: &Principal<T>) -> Tensor4<T> {
     derivative_from(F, &projected(principal))
 }
 
 /// ∂P/∂F. All laws share its code, compiled once for each number type.
 #[inline(never)]
-pub(super) fn derivative_from<T: Number>(F: &Svd<T>, principal: &Principal<T>) -> Tensor4<T> {
+pub(crate) fn derivative_from<T: Number>(F: &Svd<T>, principal: &Principal<T>) -> Tensor4<T> {
     let half = crate::tensor::half::<T>();
-    // A row of `q` is u_i v_jᵀ; with the same row of `images`, ∂P/∂F = Σ q ⊗ image.
-    let mut q = [[T::zero(); 9]; 9];
-    for row in 0..9 {
-        for column in 0..9 {
-            q[row][column] = F.U[row / 3][column / 3] * F.V[row % 3][column % 3];
-        }
-    }
+    let q = basis(F);
+    // With the same row of `images`, ∂P/∂F = Σ q ⊗ image.
     let mut images = [[T::zero(); 9]; 9];
     for i in 0..3 {
         for j in 0..3 {
@@ -114,6 +109,33 @@ pub(super) fn derivative_from<T: Number>(F: &Svd<T>, principal: &Principal<T>) -
         }
     }
     symmetric_product(&q, &images)
+}
+
+/// ∂P/∂F of which `H` has the components in the basis u_k v_lᵀ.
+#[inline(never)]
+pub(crate) fn derivative_in_basis<T: Number>(F: &Svd<T>, H: &Tensor4<T>) -> Tensor4<T> {
+    let q = basis(F);
+    let mut images = [[T::zero(); 9]; 9];
+    for row in 0..9 {
+        for entry in 0..9 {
+            for column in 0..9 {
+                images[row][entry] += H[row][column] * q[column][entry];
+            }
+        }
+    }
+    symmetric_product(&q, &images)
+}
+
+/// The matrices u_i v_jᵀ, one in each row.
+#[inline(always)]
+fn basis<T: Number>(F: &Svd<T>) -> Tensor4<T> {
+    let mut q = [[T::zero(); 9]; 9];
+    for row in 0..9 {
+        for column in 0..9 {
+            q[row][column] = F.U[row / 3][column / 3] * F.V[row % 3][column % 3];
+        }
+    }
+    q
 }
 
 /// Σ q ⊗ image, of which the upper half is computed and mirrored.

@@ -7,10 +7,12 @@
 mod any;
 mod cauchy;
 mod corotated;
+mod hencky;
 mod invariants;
 mod isochoric;
 mod isotropic;
 mod linear;
+mod logarithmic;
 mod mooney_rivlin;
 mod neo_hookean;
 mod st_venant_kirchhoff;
@@ -19,13 +21,16 @@ mod stable_neo_hookean;
 mod tests;
 mod yeoh;
 
-pub use cauchy::cauchy_stress;
+pub use cauchy::{cauchy_stress, pushed_forward};
 pub use invariants::OfInvariants;
 
 use crate::number::Number;
 use crate::tensor::{Tensor, Tensor4};
 use any::laws;
 pub(crate) use any::{match_law, with_law};
+pub(crate) use corotated::stretches;
+pub(crate) use isotropic::{derivative_from, derivative_in_basis, projected_derivative_from};
+pub(crate) use logarithmic::{Kirchhoff, Logarithmic};
 
 /// Hands the list of all laws, each as `file::Law`, to another macro.
 macro_rules! law_list {
@@ -36,6 +41,7 @@ macro_rules! law_list {
             st_venant_kirchhoff::StVenantKirchhoff,
             neo_hookean::NeoHookean,
             stable_neo_hookean::StableNeoHookean,
+            hencky::Hencky,
             mooney_rivlin::MooneyRivlin,
             yeoh::Yeoh,
         }
@@ -91,10 +97,43 @@ pub trait NamedLaw<T: Number>: Law<T> + Copy {
     fn moduli(&self) -> [T; 2];
 }
 
-/// A law whose derivative is the positive semi-definite projection of another's.
-pub struct Projected<'a, T>(pub &'a dyn Law<T>);
+impl<T: Number, L: Law<T> + ?Sized> Law<T> for &L {
+    #[inline(always)]
+    fn energy(&self, G: &Tensor<T>) -> T {
+        (**self).energy(G)
+    }
 
-impl<T: Number> Law<T> for Projected<'_, T> {
+    #[inline(always)]
+    fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
+        (**self).stress(G)
+    }
+
+    #[inline(always)]
+    fn energy_and_stress(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
+        (**self).energy_and_stress(G)
+    }
+
+    #[inline(always)]
+    fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
+        (**self).derivative(G)
+    }
+
+    #[inline(always)]
+    fn of_invariants(&self, G: &Tensor<T>) -> Option<OfInvariants<T>> {
+        (**self).of_invariants(G)
+    }
+
+    #[inline(always)]
+    fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
+        (**self).projected_derivative(G)
+    }
+}
+
+/// A law whose derivative is the positive semi-definite projection of another's; likewise for the laws of several batches.
+#[derive(Clone, Copy)]
+pub struct Projected<L>(pub L);
+
+impl<T: Number, L: Law<T>> Law<T> for Projected<L> {
     fn energy(&self, G: &Tensor<T>) -> T {
         self.0.energy(G)
     }

@@ -11,7 +11,9 @@ mod svd;
 mod symmetries;
 mod yeoh;
 
-use super::{AnyLaw, Corotated, Law, Linear, MooneyRivlin, NeoHookean, StVenantKirchhoff, StableNeoHookean, Yeoh};
+use super::{
+    AnyLaw, Corotated, Hencky, Law, Linear, MooneyRivlin, NeoHookean, StVenantKirchhoff, StableNeoHookean, Yeoh,
+};
 use crate::number::{Number, constant};
 use crate::tensor::{Tensor, Tensor4};
 
@@ -40,6 +42,10 @@ fn stable_neo_hookean<T: Number>() -> StableNeoHookean<T> {
     StableNeoHookean { mu: constant(MU), lambda: constant(LAMBDA) }
 }
 
+fn hencky<T: Number>() -> Hencky<T> {
+    Hencky { mu: constant(MU), lambda: constant(LAMBDA) }
+}
+
 fn mooney_rivlin<T: Number>() -> MooneyRivlin<T> {
     let NeoHookean { C, D } = neo_hookean::<T>();
     MooneyRivlin { C10: constant::<T>(0.625) * C, C01: constant::<T>(0.375) * C, D }
@@ -58,6 +64,7 @@ fn laws<T: Number>() -> Vec<AnyLaw<T>> {
         AnyLaw::StVenantKirchhoff(st_venant_kirchhoff()),
         AnyLaw::NeoHookean(neo_hookean()),
         AnyLaw::StableNeoHookean(stable_neo_hookean()),
+        AnyLaw::Hencky(hencky()),
         AnyLaw::MooneyRivlin(mooney_rivlin()),
         AnyLaw::Yeoh(yeoh()),
     ]

@@ -1,5 +1,6 @@
 //! A body as the engine computes with it: what never changes in a run ([`system`]), and what does ([`state`]).
 
+mod any_elements;
 pub mod mass;
 pub mod numbering;
 pub mod solids;

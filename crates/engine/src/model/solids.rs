@@ -1,12 +1,14 @@
 //! The elements of a body, grouped by material: the loops over a group are compiled for its law.
 
-use fem_scene::{Body, BodyMesh};
+use fem_scene::Body;
 use nalgebra::{Matrix3, Vector3};
 
-use crate::elements::Elements;
-use crate::materials::{AnyLaw, Projected, match_law, with_law};
+use crate::elements::BatchLaws;
+use crate::materials::{AnyLaw, Law, Projected, cauchy_stress, match_law, pushed_forward, with_law};
+use crate::model::any_elements::{AnyElements, with_elements};
 use crate::model::numbering::Numbering;
 use crate::number::Real;
+use crate::plasticity::{PlasticLaws, Plasticity};
 use crate::sparse::{Block, Pattern};
 
 /// All elements of a body. A body of one material is one group.
@@ -16,6 +18,7 @@ pub struct Solids<T: Real> {
     pub count: usize,
     /// Factor of the moduli of each of the mesh's elements; empty where all are 1.
     factors: Vec<f64>,
+    plasticity: Option<Plasticity<T>>,
 }
 
 /// The elements of one material.
@@ -26,32 +29,31 @@ struct Solid<T: Real> {
     numbers: Vec<usize>,
 }
 
-/// Elements of one shape. The loops over tetrahedra are compiled for each law; those over triangles call it by reference, once per batch.
-enum AnyElements<T: Real> {
-    Tetrahedra(Elements<T, 3, 4>),
-    Triangles(Elements<T, 2, 3>),
-}
-
-/// Evaluates an expression for the elements, whatever their shape.
-macro_rules! with_elements {
-    ($elements:expr, $name:ident => $value:expr) => {
-        match $elements {
-            AnyElements::Tetrahedra($name) => $value,
-            AnyElements::Triangles($name) => $value,
+/// Evaluates an expression for the elements of a group with its law; `with_law!` compiles the value for each law of tetrahedra that do not flow.
+macro_rules! with_law_and_elements {
+    ($solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
+        match (&$group.elements, $group.plastic_laws(&$solids.plasticity)) {
+            (AnyElements::Tetrahedra($elements), None) => with_law!(&$group.law, $law => $value),
+            (AnyElements::Triangles($elements), None) => {
+                let $law = $group.law.as_law();
+                $value
+            }
+            (AnyElements::Tetrahedra($elements), Some($law)) => $value,
+            (AnyElements::Triangles($elements), Some($law)) => $value,
         }
     };
 }
 
-/// The same with the group's law.
-macro_rules! with_law_and_elements {
-    ($group:expr, $law:ident, $elements:ident => $value:expr) => {
-        match &$group.elements {
-            AnyElements::Tetrahedra($elements) => with_law!(&$group.law, $law => $value),
-            AnyElements::Triangles($elements) => {
+/// The same with the law by reference.
+macro_rules! with_law_by_reference {
+    ($solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
+        with_elements!(&$group.elements, $elements => match $group.plastic_laws(&$solids.plasticity) {
+            None => {
                 let $law = $group.law.as_law();
                 $value
             }
-        }
+            Some($law) => $value,
+        })
     };
 }
 
@@ -60,32 +62,10 @@ impl<T: Real> Solid<T> {
     fn number(&self, element: usize) -> usize {
         self.numbers.get(element).copied().unwrap_or(element)
     }
-}
 
-impl<T: Real> AnyElements<T> {
-    /// The elements of these numbers; `factors` on their energies is empty where all are 1.
-    fn new(
-        mesh: &BodyMesh,
-        factors: &[f64],
-        numbers: &[usize],
-        rest: &[Vector3<f64>],
-        numbering: &Numbering,
-        pattern: &Pattern,
-    ) -> Self {
-        let factor = |&element: &usize| factors.get(element).copied().unwrap_or(1.0);
-        match mesh {
-            BodyMesh::Solid(mesh) => {
-                let corners = numbering.elements(numbers.iter().map(|&element| &mesh.elements[element]));
-                let factors: Vec<f64> =
-                    if factors.is_empty() { Vec::new() } else { numbers.iter().map(factor).collect() };
-                Self::Tetrahedra(Elements::stiffened(rest, &corners, &factors, pattern))
-            }
-            BodyMesh::Flat { triangles, thickness } => {
-                let corners = numbering.elements(numbers.iter().map(|&element| &triangles.elements[element]));
-                let factors: Vec<f64> = numbers.iter().map(|element| thickness * factor(element)).collect();
-                Self::Triangles(Elements::stiffened(rest, &corners, &factors, pattern))
-            }
-        }
+    /// The laws of its elements where they flow.
+    fn plastic_laws<'a>(&'a self, plasticity: &'a Option<Plasticity<T>>) -> Option<PlasticLaws<'a, T>> {
+        plasticity.as_ref().map(|plasticity| PlasticLaws::new(plasticity, &self.law, &self.numbers))
     }
 }
 
@@ -121,7 +101,29 @@ impl<T: Real> Solids<T> {
             });
             own.into_iter().chain(regions).map(|(law, numbers)| group(law, numbers)).collect()
         };
-        Self { groups, count, factors: factors.clone() }
+        let plasticity = body.plasticity.map(|model| Plasticity::new(model, count));
+        Self { groups, count, factors: factors.clone(), plasticity }
+    }
+
+    /// Plastic flow of the elements, where the scene has some.
+    pub fn plasticity(&self) -> Option<&Plasticity<T>> {
+        self.plasticity.as_ref()
+    }
+
+    /// The same, to be reset or restored.
+    pub fn plasticity_mut(&mut self) -> Option<&mut Plasticity<T>> {
+        self.plasticity.as_mut()
+    }
+
+    /// Lets the elements flow in an accepted step of `dt` seconds, which ends with the displacements `u`.
+    pub fn flow(&mut self, u: &[[T; 3]], dt: f64) {
+        let Self { groups, plasticity: Some(plasticity), .. } = self else { return };
+        for group in groups.iter() {
+            let moduli = group.law.moduli();
+            with_elements!(&group.elements, elements => elements.for_each_gradient(u, |element, volume, G| {
+                plasticity.flow(group.number(element), moduli, volume, G, dt);
+            }));
+        }
     }
 
     /// Whether the stress of every element is a linear function of the displacement gradient.
@@ -153,14 +155,14 @@ impl<T: Real> Solids<T> {
     pub fn energy(&self, u: &[[T; 3]]) -> f64 {
         self.groups
             .iter()
-            .map(|group| with_elements!(&group.elements, elements => elements.energy(group.law.as_law(), u)))
+            .map(|group| with_law_by_reference!(self, group, law, elements => elements.energy(law, u)))
             .sum()
     }
 
     /// Adds the gradient of the energy, N.
     pub fn add_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
         for group in &self.groups {
-            with_law_and_elements!(group, law, elements => elements.add_gradient(law, u, gradient));
+            with_law_and_elements!(self, group, law, elements => elements.add_gradient(law, u, gradient));
         }
     }
 
@@ -168,8 +170,9 @@ impl<T: Real> Solids<T> {
     pub fn add_energy_and_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) -> f64 {
         let mut energy = 0.0;
         for group in &self.groups {
-            energy +=
-                with_law_and_elements!(group, law, elements => elements.add_energy_and_gradient(law, u, gradient));
+            energy += with_law_and_elements!(self, group, law, elements => {
+                elements.add_energy_and_gradient(law, u, gradient)
+            });
         }
         energy
     }
@@ -177,21 +180,25 @@ impl<T: Real> Solids<T> {
     /// Adds `factor` times the exact Hessian of the energy, N/m.
     pub fn add_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
         for group in &self.groups {
-            with_law_and_elements!(group, law, elements => elements.add_stiffness(law, factor, u, values));
+            with_law_and_elements!(self, group, law, elements => elements.add_stiffness(law, factor, u, values));
         }
     }
 
     /// Adds `factor` times the Hessian of the energy, projected element by element to positive semi-definite, N/m.
     pub fn add_projected_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
-        for Solid { law, elements, .. } in &self.groups {
-            with_elements!(elements, elements => elements.add_stiffness(&Projected(law.as_law()), factor, u, values));
+        for group in &self.groups {
+            with_law_by_reference!(self, group, law, elements => {
+                elements.add_stiffness(Projected(law), factor, u, values)
+            });
         }
     }
 
     /// Adds `factor` K(u) d without a matrix, N.
     pub fn add_stiffness_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
-        for Solid { law, elements, .. } in &self.groups {
-            with_elements!(elements, elements => elements.add_stiffness_times(law.as_law(), factor, u, d, product));
+        for group in &self.groups {
+            with_law_by_reference!(self, group, law, elements => {
+                elements.add_stiffness_times(law, factor, u, d, product)
+            });
         }
     }
 
@@ -234,7 +241,14 @@ impl<T: Real> Solids<T> {
     pub fn cauchy_stresses(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
         let mut stresses = vec![Matrix3::zeros(); self.count];
         for group in &self.groups {
-            let of_group = with_elements!(&group.elements, elements => elements.cauchy_stresses(&group.law, u));
+            let of_group = with_elements!(&group.elements, elements => {
+                match group.plastic_laws(&self.plasticity) {
+                    None => elements.cauchy_stresses(u, |_, _, G| cauchy_stress(&group.law, G)),
+                    Some(laws) => elements.cauchy_stresses(u, |elements, batch, G| {
+                        pushed_forward(&laws.of_batch(elements, batch).stress(G), G)
+                    }),
+                }
+            });
             for (element, stress) in of_group.into_iter().enumerate() {
                 let number = group.number(element);
                 let factor = self.factors.get(number).copied().unwrap_or(1.0);

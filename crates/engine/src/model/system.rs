@@ -1,5 +1,5 @@
 //! A body as the engine computes with it: the undeformed body, its material, its constraints and the forces on it. None of this
-//! changes in a run, apart from a user's pull and the release of nodes.
+//! changes in a run, apart from a user's pull, the release of nodes and the internal variables of plastic elements.
 
 use std::sync::Arc;
 

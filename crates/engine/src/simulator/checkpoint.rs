@@ -16,6 +16,9 @@ pub(super) fn of<T: Real>(simulator: &Simulator<T>) -> Checkpoint {
     put(&mut history, "before.u", simulator.last_good.u.as_flattened());
     put(&mut history, "before.v", simulator.last_good.v.as_flattened());
     history.put("unconverged_steps", [simulator.counters.unconverged_steps as f64]);
+    if let Some(plasticity) = simulator.system.elements.plasticity() {
+        plasticity.save(&mut history);
+    }
     simulator.supplied.save(&mut history);
     if let Some(contact) = &simulator.contact {
         contact.save(&mut history);
@@ -45,6 +48,9 @@ pub(super) fn restore<T: Real>(simulator: &mut Simulator<T>, checkpoint: &Checkp
     simulator.set_state(u, v);
     (simulator.state.time, simulator.state.steps) = (checkpoint.time, checkpoint.steps);
     let (history, before) = (&checkpoint.history, &mut simulator.last_good);
+    if let Some(plasticity) = simulator.system.elements.plasticity_mut() {
+        plasticity.restore(history)?;
+    }
     take(history, "before.time", std::slice::from_mut(&mut before.time))?;
     take(history, "before.u", before.u.as_flattened_mut())?;
     take(history, "before.v", before.v.as_flattened_mut())?;

@@ -39,6 +39,7 @@ fn cost<T: Real>(simulator: &Simulator<T>, name: &str) -> Cost {
         "fixed" => once(size_of::<usize>() * system.dirichlet.conditions().next().map_or(0, |(c, _)| c.nodes.len())),
         "prescribed" => (system.dirichlet.bytes(), profile.prescribed.read()),
         "damping" => (0, profile.damping.read()),
+        "plasticity" => (system.elements.plasticity().map_or(0, |flow| flow.bytes()), profile.plasticity.read()),
         "drag" => (0, system.forces.anchors_timer.read()),
         "stiffness" => (9 * size_of::<T>() * system.pattern.blocks(), profile.stiffness.read()),
         "solver" | "preconditioner" => of_solver(simulator, name),

@@ -7,6 +7,7 @@ use fem_scene::{
 
 use crate::forces::{self, Potential, contact};
 use crate::number::Real;
+use crate::plasticity;
 use crate::solvers::SolverChoice;
 
 /// Bytes, uses and seconds, which only a simulation knows.
@@ -19,6 +20,8 @@ pub(super) struct Plan {
     kind: &'static str,
     materials: String,
     has_lumped_mass: bool,
+    /// Description of the plastic flow.
+    plasticity: Option<String>,
     /// Number of nodes of `[fixed]`, and the time until which they are, s.
     fixed: Option<(usize, Option<f64>)>,
     has_motion: bool,
@@ -40,6 +43,7 @@ impl Plan {
             kind: body.shape.mesh.kind(),
             materials: materials(body),
             has_lumped_mass: body.lumped_mass,
+            plasticity: body.plasticity.as_ref().map(plasticity::description),
             fixed: fixed.map(|condition| (condition.nodes.len(), condition.until)),
             has_motion: body.dirichlet.iter().any(|condition| condition.motion.is_some()),
             is_unconstrained: body.dirichlet.is_empty(),
@@ -76,8 +80,8 @@ impl Plan {
         parts
     }
 
-    /// Parts of every scene.
-    fn body(&self, kind: IntegratorKind, precision: Precision) -> [Part; 5] {
+    /// Parts of the body itself.
+    fn body(&self, kind: IntegratorKind, precision: Precision) -> [Part; 6] {
         let number = match precision {
             Precision::F64 => "f64",
             Precision::F32 => "f32",
@@ -85,6 +89,10 @@ impl Plan {
         [
             Part::mesh(self.nodes, self.elements, self.kind, 0),
             built("material", &self.materials),
+            match &self.plasticity {
+                Some(description) => built("plasticity", description),
+                None => left_out_without("plasticity", "[plasticity]"),
+            },
             built("state", format!("displacements and velocities in {number}")),
             built("mass", mass(self.has_lumped_mass, kind.is_explicit())),
             built("forces", "elastic forces, where no energy is needed"),

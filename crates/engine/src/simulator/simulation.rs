@@ -5,8 +5,8 @@ use std::sync::atomic::Ordering;
 
 use fem_scene::Integrator as IntegratorKind;
 use fem_scene::simulation::{
-    Cause, Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, PlaneContact, Pull, Reaction, Shape,
-    Simulation,
+    Cause, Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, PlaneContact, PlasticFlow, Pull, Reaction,
+    Shape, Simulation,
 };
 use nalgebra::{DVector, Matrix3, Vector3};
 
@@ -15,6 +15,7 @@ use super::{Simulator, checkpoint, parts};
 use crate::boundary::reactions::reactions;
 use crate::integrators::{Convergence, critical_time_step};
 use crate::model::state::State;
+use crate::model::system::System;
 use crate::number::Real;
 use crate::pick;
 
@@ -74,6 +75,7 @@ impl<T: Real> Simulation for Simulator<T> {
             Ok(convergence) => {
                 self.counters.unconverged_steps += usize::from(convergence == Convergence::NotConverged);
                 self.counters.steps += 1;
+                self.flow();
                 self.state.steps += 1;
                 self.state.time = self.last_good.time + self.dt;
                 Ok(())
@@ -88,6 +90,9 @@ impl<T: Real> Simulation for Simulator<T> {
 
     fn reset(&mut self) {
         self.system.apply_conditions_at(0.0);
+        if let Some(plasticity) = self.system.elements.plasticity_mut() {
+            plasticity.clear();
+        }
         self.state = State::at_start(self.system.nodes(), &self.initial_velocity);
         self.last_good.copy_from(&self.state);
         self.forget();
@@ -130,6 +135,12 @@ impl<T: Real> Simulation for Simulator<T> {
 
     fn stresses(&self) -> Vec<Matrix3<f64>> {
         self.system.stresses(&self.state.u)
+    }
+
+    fn plastic_flow(&self) -> Option<PlasticFlow> {
+        let plasticity = self.system.elements.plasticity()?;
+        let strains = plasticity.variables().iter().map(|of| of.strain.as_f64()).collect();
+        Some(PlasticFlow { strains, dissipated: plasticity.dissipated() })
     }
 
     fn integrator(&self) -> &'static str {
@@ -239,6 +250,14 @@ impl<T: Real> Simulator<T> {
             return Ok(());
         }
         self.supplied.check(&self.system, &*self.integrator, &self.last_good, &self.state, self.dt)
+    }
+
+    /// Lets the material flow in a step that has been accepted.
+    fn flow(&mut self) {
+        let Self { system: System { elements, profile, .. }, state, dt, .. } = self;
+        if elements.plasticity().is_some() {
+            profile.plasticity.time(|| elements.flow(&state.u, *dt));
+        }
     }
 
     fn failure(&self, cause: Cause) -> Failure {

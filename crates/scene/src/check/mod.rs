@@ -8,6 +8,7 @@ mod initial;
 mod loads;
 mod materials;
 pub(crate) mod numbers;
+mod plasticity;
 mod selector;
 mod unused;
 
@@ -23,6 +24,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     check_mesh(&scene.mesh)?;
     scene.material.check("material")?;
     materials::check(scene)?;
+    plasticity::check(scene)?;
     check_time(&scene.time)?;
     unused::check(scene)?;
     loads::check(scene)?;

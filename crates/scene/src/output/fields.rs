@@ -11,7 +11,7 @@ use fem_mesh::write::{Field, write_vtu};
 
 /// Writes the undeformed mesh with the fields of the state. Names have neither blanks nor units, so that programs can use them:
 /// point data `displacement` (m), `velocity` (m/s), `nodal_force` (N), `contact_force` (N) and `stress_averaged` (Pa), cell data `stress`,
-/// `von_mises` (Pa), `strain` and `J`. Matrices have nine components, row by row.
+/// `von_mises` (Pa), `strain`, `J` and, of a plastic body, `plastic_strain`. Matrices have nine components, row by row.
 pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<(), MeshError> {
     let shape = simulation.shape();
     let (q, qdot) = (simulation.positions(), simulation.velocities());
@@ -37,12 +37,16 @@ pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<
     if let Some(contact) = &contact {
         point.push(Field { name: "contact_force", components: 3, values: contact.as_slice() });
     }
-    let cell = [
+    let flow = simulation.plastic_flow();
+    let mut cell = vec![
         Field { name: "stress", components: 9, values: &stress },
         Field { name: "von_mises", components: 1, values: &von_mises },
         Field { name: "strain", components: 9, values: &strain },
         Field { name: "J", components: 1, values: &J },
     ];
+    if let Some(flow) = &flow {
+        cell.push(Field { name: "plastic_strain", components: 1, values: &flow.strains });
+    }
     match &shape.mesh {
         BodyMesh::Solid(mesh) => write_vtu(path, mesh, &point, &cell),
         BodyMesh::Flat { triangles, .. } => write_vtu(path, triangles, &point, &cell),

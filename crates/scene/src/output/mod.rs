@@ -18,7 +18,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::simulate::{Run, quantile};
-use crate::simulation::{Energies, Part, PlaneContact, Simulation};
+use crate::simulation::{Energies, Part, PlaneContact, PlasticFlow, Simulation};
 use fem_mesh::write::{Frame, save, write_glb, write_surface};
 use fem_mesh::{MeshError, Problem, SurfaceMesh};
 
@@ -65,6 +65,12 @@ pub struct Stats {
     pub peak_memory_bytes: Option<usize>,
     #[serde(rename = "min_J")]
     pub min_J: f64,
+    /// Largest plastic strain of an element; without a key for a body without plasticity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_plastic_strain: Option<f64>,
+    /// Energy that plastic flow has dissipated, J; without a key for a body without plasticity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dissipated_energy: Option<f64>,
     /// Reaction force of each Dirichlet condition, N; empty without conditions or if the pipeline does not compute reactions.
     pub reactions: serde_json::Map<String, serde_json::Value>,
     /// Force (N) and smallest gap (m) of each obstacle; empty without obstacles.
@@ -78,6 +84,7 @@ impl Stats {
     /// Collects the numbers after a run.
     pub fn of(simulation: &dyn Simulation, run: &Run, seconds_setup: f64) -> Self {
         let (shape, counters) = (simulation.shape(), simulation.counters());
+        let flow = simulation.plastic_flow();
         let built = simulation.parts().into_iter().filter(|part| part.built);
         let reactions =
             simulation.reactions().into_iter().map(|reaction| (reaction.name, reaction.force.to_vec().into()));
@@ -111,6 +118,8 @@ impl Stats {
             skinning_rows: counters.skinning_rows,
             peak_memory_bytes: peak_memory_bytes(),
             min_J: simulation.min_J().0,
+            largest_plastic_strain: flow.as_ref().map(PlasticFlow::largest_strain),
+            dissipated_energy: flow.map(|flow| flow.dissipated),
             reactions: reactions.collect(),
             contacts: simulation.contacts().into_iter().map(contact).collect(),
             lag_residual: simulation.lag_residual(),

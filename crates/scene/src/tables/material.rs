@@ -11,6 +11,7 @@ pub const MODELS: &[(&str, &[&[&str]])] = &[
     ("st_venant_kirchhoff", &[ELASTIC]),
     ("neo_hookean", &[&["C", "D"], ELASTIC]),
     ("stable_neo_hookean", &[ELASTIC]),
+    ("hencky", &[ELASTIC]),
     ("mooney_rivlin", &[&["C10", "C01", "D"]]),
     ("yeoh", &[&["C1", "C2", "C3", "D"]]),
 ];

@@ -6,6 +6,7 @@ mod initial;
 mod loads;
 mod material;
 mod method;
+mod plasticity;
 mod selector;
 mod vectors;
 
@@ -19,7 +20,7 @@ pub use material::{MODELS, Material, MaterialsTable};
 pub use method::{
     DampingTable, NewtonTable, Precision, Preconditioner, Projection, SolverKind, SolverTable, StaticTable, TimeTable,
 };
-
+pub use plasticity::{PlasticModel, PlasticityTable};
 pub use selector::{BoxTable, On, Plane, Region, Selector, SidePlane, SphereTable};
 
 use std::path::PathBuf;
@@ -57,6 +58,8 @@ pub struct Scene {
     /// `[[materials]]`
     #[serde(default)]
     pub materials: Vec<MaterialsTable>,
+    /// `[plasticity]`
+    pub plasticity: Option<PlasticityTable>,
     /// `[mass]`
     #[serde(default)]
     pub mass: MassTable,

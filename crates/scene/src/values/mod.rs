@@ -6,6 +6,7 @@ mod initial;
 mod loads;
 mod materials;
 mod method;
+mod plasticity;
 mod selection;
 
 pub use constraints::{DirichletCondition, Motion, Rotation};
@@ -13,6 +14,7 @@ pub use contact::{Contact, ContactPlane, ContactTreatment};
 pub use loads::{Drag, Pressure, Spring, Traction, highest_node};
 pub use materials::MaterialRegion;
 pub use method::{Method, NewtonSettings, RayleighDamping, SolverSettings};
+pub use plasticity::Plasticity;
 
 pub(crate) use constraints::dirichlet_conditions;
 pub(crate) use contact::contact;
@@ -20,3 +22,4 @@ pub(crate) use initial::initial_velocity;
 pub(crate) use loads::{curve, drag, springs, surface_loads};
 pub(crate) use materials::{density_factors, regions};
 pub(crate) use method::damping;
+pub(crate) use plasticity::plasticity;

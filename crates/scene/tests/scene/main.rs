@@ -12,6 +12,7 @@ mod materials;
 mod moduli;
 mod motions;
 mod overrides;
+mod plasticity;
 mod selectors;
 mod tables;
 

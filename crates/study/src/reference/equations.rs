@@ -46,6 +46,9 @@ impl Equations {
         if body.contact.is_some() {
             return Err("[[planes]] make motions with impacts, which the reference in time does not compute".to_owned());
         }
+        if body.plasticity.is_some() {
+            return Err("the material flows, which the reference in time does not compute".to_owned());
+        }
         let kinks = kinks(&body);
         let density = Density::new(&body);
         let velocities = body.initial_velocity.clone();

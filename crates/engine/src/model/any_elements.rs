@@ -1,0 +1,53 @@
+//! Elements of either shape.
+
+use fem_scene::BodyMesh;
+use nalgebra::Vector3;
+
+use crate::elements::Elements;
+use crate::model::numbering::Numbering;
+use crate::number::Real;
+use crate::sparse::Pattern;
+
+/// Elements of one shape. The loops over tetrahedra are compiled for each law; those over triangles call it by reference, once per batch.
+pub(super) enum AnyElements<T: Real> {
+    Tetrahedra(Elements<T, 3, 4>),
+    Triangles(Elements<T, 2, 3>),
+}
+
+/// Evaluates an expression for the elements, whatever their shape.
+macro_rules! with_elements {
+    ($elements:expr, $name:ident => $value:expr) => {
+        match $elements {
+            AnyElements::Tetrahedra($name) => $value,
+            AnyElements::Triangles($name) => $value,
+        }
+    };
+}
+pub(super) use with_elements;
+
+impl<T: Real> AnyElements<T> {
+    /// The elements of these numbers; `factors` on their energies is empty where all are 1.
+    pub(super) fn new(
+        mesh: &BodyMesh,
+        factors: &[f64],
+        numbers: &[usize],
+        rest: &[Vector3<f64>],
+        numbering: &Numbering,
+        pattern: &Pattern,
+    ) -> Self {
+        let factor = |&element: &usize| factors.get(element).copied().unwrap_or(1.0);
+        match mesh {
+            BodyMesh::Solid(mesh) => {
+                let corners = numbering.elements(numbers.iter().map(|&element| &mesh.elements[element]));
+                let factors: Vec<f64> =
+                    if factors.is_empty() { Vec::new() } else { numbers.iter().map(factor).collect() };
+                Self::Tetrahedra(Elements::stiffened(rest, &corners, &factors, pattern))
+            }
+            BodyMesh::Flat { triangles, thickness } => {
+                let corners = numbering.elements(numbers.iter().map(|&element| &triangles.elements[element]));
+                let factors: Vec<f64> = numbers.iter().map(|element| thickness * factor(element)).collect();
+                Self::Triangles(Elements::stiffened(rest, &corners, &factors, pattern))
+            }
+        }
+    }
+}
