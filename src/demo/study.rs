@@ -1,5 +1,6 @@
 //! Studies of the engine.
 
+mod experiment;
 mod report;
 mod stability;
 mod sweep;
@@ -15,6 +16,8 @@ pub enum Study {
     Report(report::Arguments),
     /// Stiff and extreme cases: the outcome with each integrator beside the expected one
     Stability(stability::Arguments),
+    /// Experiments of theses beside their figures
+    Experiment(experiment::Arguments),
 }
 
 impl Study {
@@ -23,6 +26,7 @@ impl Study {
         match self {
             Self::Report(arguments) => report::run(arguments),
             Self::Stability(arguments) => stability::run(arguments),
+            Self::Experiment(arguments) => experiment::run(arguments),
         }
     }
 }

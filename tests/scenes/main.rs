@@ -11,6 +11,7 @@ mod bad_meshes;
 mod bad_scenes;
 mod driving;
 mod energies;
+mod experiments;
 mod exports;
 mod flags;
 mod freedom;

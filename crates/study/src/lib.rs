@@ -18,6 +18,7 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
 mod csv_table;
+pub mod experiments;
 pub mod machine;
 pub mod reference;
 pub mod report;

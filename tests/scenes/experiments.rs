@@ -1,0 +1,41 @@
+//! `experiment`: the experiments of theses.
+
+use std::fs;
+
+use crate::program::Desk;
+
+#[test]
+fn the_short_experiments_on_flat_bodies_hold_their_marks_and_write_a_page_tables_and_pictures() {
+    let desk = Desk::new();
+    let said = desk.run_well("experiment flat --quick --out found").stdout;
+    assert!(!said.contains("DOES NOT HOLD"), "{said}");
+    for part in ["stability", "speed", "modulus", "mesh"] {
+        assert!(said.lines().any(|line| line.starts_with(part)), "{part}: {said}");
+        let table = fs::read_to_string(desk.path(&format!("found/flat-{part}.csv"))).unwrap();
+        assert!(table.lines().count() > 1, "{part}: {table}");
+    }
+    let page = fs::read_to_string(desk.path("found/flat.html")).unwrap();
+    assert!(page.contains("marks hold") && !page.contains("does not hold") && page.contains("<svg"), "{page}");
+    for picture in ["flat-speed.svg", "flat-mesh.svg"] {
+        assert!(fs::read_to_string(desk.path("found").join(picture)).unwrap().starts_with("<svg"), "{picture}");
+    }
+}
+
+#[test]
+fn explicit_substeps_live_at_the_predicted_number_and_explode_at_one_less() {
+    let desk = Desk::new();
+    desk.run_well("experiment flat stability --quick --out found");
+    let table = fs::read_to_string(desk.path("found/flat-stability.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 6, "{table}");
+    for row in rows {
+        assert_eq!((row[6], row[7]), ("lives", "explodes"), "{table}");
+    }
+}
+
+#[test]
+fn an_unknown_part_of_an_experiment_is_refused_with_the_known_ones() {
+    let run = Desk::new().run("experiment flat fast");
+    assert_eq!(run.code, Some(2));
+    assert!(run.stderr.contains("fast") && run.stderr.contains("stability"), "{}", run.stderr);
+}
