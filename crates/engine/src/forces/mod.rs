@@ -71,8 +71,9 @@ pub trait Potential<T: Real>: Send + Sync {
         false
     }
 
-    /// Evaluates again what it keeps fixed in a step, at the displacements of its end. Returns the relative change.
-    fn update_lag(&mut self, _u: &[[T; 3]]) -> f64 {
+    /// Evaluates again what it keeps fixed in a step, at the displacements of its end, and takes over this part of the change (1 for all
+    /// of it). Returns the whole relative change.
+    fn update_lag(&mut self, _u: &[[T; 3]], _relaxation: f64) -> f64 {
         0.0
     }
 
@@ -245,8 +246,8 @@ impl<T: Real> Forces<T> {
         self.active().any(|(potential, _)| potential.has_lag())
     }
 
-    /// Evaluates again what forces keep fixed in a step. Returns the largest relative change.
-    pub fn update_lag(&mut self, u: &[[T; 3]]) -> f64 {
-        self.potentials.iter_mut().map(|(potential, _)| potential.update_lag(u)).fold(0.0, f64::max)
+    /// Evaluates again what forces keep fixed in a step, and takes over this part of the change. Returns the largest relative change.
+    pub fn update_lag(&mut self, u: &[[T; 3]], relaxation: f64) -> f64 {
+        self.potentials.iter_mut().map(|(potential, _)| potential.update_lag(u, relaxation)).fold(0.0, f64::max)
     }
 }

@@ -67,6 +67,6 @@ pub(super) fn restore<T: Real>(simulator: &mut Simulator<T>, checkpoint: &Checkp
     // Forces of a step, such as friction, show in reports until the next one.
     let (before, forces) = (&simulator.last_good, &mut simulator.system.forces);
     forces.begin_step(&before.u, Moment::at(before.time), simulator.dt);
-    forces.update_lag(&simulator.state.u);
+    forces.update_lag(&simulator.state.u, 1.0);
     simulator.integrator.restore(history)
 }

@@ -20,6 +20,12 @@ const ROUNDING: f64 = 1e-3;
 /// Most repetitions of a step.
 const REPETITIONS: usize = 100;
 
+/// Most of them in which Newton's method may end early; the next one goes on where it has ended.
+const UNCONVERGED: usize = 5;
+
+/// Repetitions after which lagged forces take over half of their change, then a quarter, and so on: some go to and fro.
+const PATIENCE: usize = 15;
+
 /// Depth of a node behind a plane that is rounding error, in lengths of the body.
 const DEPTH: f64 = 1e-9;
 
@@ -119,13 +125,18 @@ impl<T: Real> Simulator<T> {
     /// The initial guess of a repetition assumes the change of velocity of the one before, so it starts at that one's end.
     fn advance_with_lag(&mut self) -> Result<Convergence, Cause> {
         let Self { integrator, system, state, dt, counters, last_good, contact, .. } = self;
-        let mut before = f64::INFINITY;
+        let (mut before, mut unconverged) = (f64::INFINITY, 0);
         for repetition in 1.. {
             let convergence = integrator.step(system, state, *dt, counters)?;
-            let change = system.forces.update_lag(&state.u);
+            let relaxation = 0.5f64.powi((repetition / PATIENCE) as i32);
+            let change = system.forces.update_lag(&state.u, relaxation);
             let is_rounding = change < ROUNDING && change >= before;
-            if change <= CONVERGED || is_rounding || repetition == REPETITIONS || convergence != Convergence::Converged
-            {
+            let is_converged = convergence == Convergence::Converged;
+            unconverged += usize::from(!is_converged);
+            let is_last = repetition == REPETITIONS || unconverged > UNCONVERGED;
+            if (is_converged && (change <= CONVERGED || is_rounding)) || is_last {
+                // Reports take the forces at the end of the step.
+                system.forces.update_lag(&state.u, 1.0);
                 if let Some(contact) = contact {
                     contact.residual = contact.residual.max(change);
                 }

@@ -144,11 +144,15 @@ impl<T: Real> Potential<T> for Friction<T> {
         true
     }
 
-    fn update_lag(&mut self, u: &[[T; 3]]) -> f64 {
+    fn update_lag(&mut self, u: &[[T; 3]], relaxation: f64) -> f64 {
         std::mem::swap(&mut self.lagged, &mut self.previous);
         self.evaluate(u, self.times[1]);
         let dt = self.times[1] - self.times[0];
-        change(&self.previous, &self.lagged, RESOLUTION * self.mass_times_length / (dt * dt))
+        let change = change(&self.previous, &self.lagged, RESOLUTION * self.mass_times_length / (dt * dt));
+        if relaxation < 1.0 {
+            relax(&self.previous, &mut self.lagged, relaxation);
+        }
+        change
     }
 
     fn energy(&self, u: &[[T; 3]], _: Moment) -> Energy {
@@ -241,9 +245,21 @@ fn change(before: &[Lagged], now: &[Lagged], least: f64) -> f64 {
     if changes > 0.0 { changes / size } else { 0.0 }
 }
 
+/// Takes over a part of the change from `before` in `now`.
+fn relax(before: &[Lagged], now: &mut Vec<Lagged>, part: f64) {
+    now.iter_mut().for_each(|lagged| lagged.bound *= part);
+    for lagged in before {
+        let (key, rest) = ((lagged.plane, lagged.node), (1.0 - part) * lagged.bound);
+        match now.binary_search_by_key(&key, |lagged| (lagged.plane, lagged.node)) {
+            Ok(place) => now[place].bound += rest,
+            Err(place) => now.insert(place, Lagged { bound: rest, ..*lagged }),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Lagged, change, curvature, slope_over_y, smoothed};
+    use super::{Lagged, change, curvature, relax, slope_over_y, smoothed};
 
     #[test]
     fn the_force_of_friction_is_the_slope_of_its_potential_and_grows_to_one_at_the_transition() {
@@ -267,5 +283,8 @@ mod tests {
         assert_eq!(change(&[lagged(1, 2.0)], &[lagged(1, 2.0)], 0.0), 0.0);
         assert_eq!(change(&[lagged(1, 2.0)], &[], 0.0), 1.0);
         assert_eq!(change(&[lagged(1, 2.0)], &[], 8.0), 0.25);
+        let mut relaxed = vec![lagged(1, 4.0), lagged(7, 1.0)];
+        relax(&[lagged(1, 2.0), lagged(4, 3.0)], &mut relaxed, 0.25);
+        assert_eq!(relaxed, [lagged(1, 2.5), lagged(4, 2.25), lagged(7, 0.25)]);
     }
 }
