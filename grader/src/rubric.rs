@@ -4,7 +4,8 @@ mod checked;
 mod deadline;
 mod judging;
 
-use std::fs;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
@@ -15,6 +16,9 @@ pub use deadline::{Deadline, Extension, Lateness};
 
 /// The rubric that comes with the grader.
 const OURS: &str = include_str!("../rubric.toml");
+
+/// Size of the largest rubric, bytes: the tree of a text takes about a hundred times its memory.
+const MOST_BYTES: u64 = 1 << 20;
 
 /// How submissions are judged.
 #[derive(Clone, Debug, Deserialize)]
@@ -228,7 +232,15 @@ fn submission_seconds() -> f64 {
 
 /// A file as text, or the line that is not UTF-8.
 fn text(path: &Path) -> Result<String, RubricError> {
-    let bytes = fs::read(path).map_err(|error| RubricError::Io(path.to_owned(), error))?;
+    let mut bytes = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes));
+    read.map_err(|error| RubricError::Io(path.to_owned(), error))?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(RubricError::Whole(
+            path.to_owned(),
+            format!("has more than {MOST_BYTES} bytes, which no rubric needs"),
+        ));
+    }
     String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;

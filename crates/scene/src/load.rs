@@ -11,8 +11,8 @@ use crate::check::check;
 use crate::overrides::Override;
 use crate::{Scene, SceneError};
 
-/// Largest scene file, bytes: the tree of a text takes about a hundred times its memory.
-const MOST_BYTES: u64 = 1 << 24;
+/// Largest scene file, bytes: the tree of a text takes up to a hundred times its memory, so at most 128 MiB.
+const MOST_BYTES: u64 = 1 << 20;
 
 /// Reads and checks a scene.
 ///
@@ -30,7 +30,10 @@ pub fn load_with(name: &str, data: &Path, overrides: &[Override]) -> Result<Scen
     let opened = File::open(&path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes));
     opened.map_err(|error| unreadable(error.to_string()))?;
     if bytes.len() as u64 > MOST_BYTES {
-        return Err(unreadable(format!("it has more than {MOST_BYTES} bytes, which no scene needs")));
+        let problem = format!(
+            "the file has more than {MOST_BYTES} bytes; name many nodes by a set of the mesh, and give their velocities in a file of their own"
+        );
+        return Err(SceneError::Line { file: path, line: 1, problem });
     }
     let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text".to_owned()))?;
     parse_with(text.trim_start_matches('\u{feff}'), &path, overrides)

@@ -1,5 +1,6 @@
 //! Classes graded by a grader that obeys its submissions: each holds a `do.sh` that tells it what to do.
 
+mod fuzz;
 mod limits;
 
 use std::collections::BTreeSet;

@@ -1,5 +1,7 @@
 //! Mistakes in rubrics, and what a change of one asks to be graded again.
 
+use std::fs;
+
 use super::*;
 
 fn problem(text: impl AsRef<[u8]>) -> String {

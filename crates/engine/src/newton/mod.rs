@@ -132,7 +132,8 @@ impl<T: Real> Newton<T> {
         self.forget();
         let is_kept = take_flag(history, "newton.is_matrix_kept")?;
         let first_iterations = take_option(history, "newton.first_iterations")?;
-        self.first_iterations = first_iterations.map(|count| count as usize);
+        // No solve takes more iterations than fit into 32 bits.
+        self.first_iterations = first_iterations.map(|count| count as u32 as usize);
         self.is_new_preconditioner = take_flag(history, "newton.is_new_preconditioner")?;
         self.solver.restore(is_kept || first_iterations.is_some(), history)?;
         if is_kept {

@@ -59,7 +59,7 @@ pub(super) fn restore<T: Real>(simulator: &mut Simulator<T>, checkpoint: &Checkp
     // Steps that have not converged show at the end of the whole run.
     let mut unconverged_steps = [0.0];
     take(history, "unconverged_steps", &mut unconverged_steps)?;
-    simulator.counters.unconverged_steps = unconverged_steps[0] as usize;
+    simulator.counters.unconverged_steps = (unconverged_steps[0] as usize).min(checkpoint.steps);
     simulator.supplied.restore(history)?;
     if let Some(contact) = &mut simulator.contact {
         contact.restore(history, &mut simulator.system, simulator.dt)?;

@@ -1,9 +1,10 @@
-//! A million mutated bytes for every reader of mesh files: it reads them or refuses them, without a panic, without a hang, and without
+//! A million mutated bytes for every reader of mesh files and of pictures: it reads them or refuses them, without a panic, without a hang, and without
 //! memory beyond four times the file.
 //!
 //! `FUZZ_BYTES=10000000 cargo test --release -p fem-mesh --test fuzz` mutates more.
 
 mod mutation;
+mod pictures;
 
 use std::fs;
 use std::io::{Read, Write};

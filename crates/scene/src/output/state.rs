@@ -12,6 +12,9 @@ use crate::simulation::{Checkpoint, History, Simulation};
 use fem_mesh::MeshError;
 use fem_mesh::write::save;
 
+/// Largest number of steps of a state: more take longer than any computer lasts, and counters go on from it.
+const MOST_STEPS: usize = 1 << 53;
+
 /// A state file as it is read.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -100,6 +103,10 @@ pub fn resume(path: &Path, scene: &Scene, simulation: &mut dyn Simulation) -> Re
         return Err(ResumeError::OtherScene { file: file(), difference });
     }
     let StateFile { time, q, qdot, steps, displacements, history, .. } = state;
+    if steps > MOST_STEPS {
+        let problem = format!("its `steps` is {steps}, and {MOST_STEPS} is the most");
+        return Err(ResumeError::Unfit { file: file(), problem });
+    }
     let checkpoint = Checkpoint { time, steps, positions: q, velocities: qdot, displacements, history };
     simulation.restore(&checkpoint).map_err(|problem| ResumeError::Unfit { file: file(), problem })
 }

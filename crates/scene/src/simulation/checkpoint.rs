@@ -1,10 +1,11 @@
 //! The complete state of a simulation, from which it goes on as if it had not been interrupted.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
-use serde::de::Error as _;
+use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// The complete state of a simulation.
@@ -66,14 +67,28 @@ impl Serialize for Packed {
 
 impl<'de> Deserialize<'de> for Packed {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let text = String::deserialize(deserializer)?;
+        deserializer.deserialize_str(PackedText)
+    }
+}
+
+/// Reads packed numbers from a text without a copy of it.
+struct PackedText;
+
+impl Visitor<'_> for PackedText {
+    type Value = Packed;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("an array of the history")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<Packed, E> {
         let values = match (text.strip_prefix(SINGLE), text.strip_prefix(DOUBLE)) {
             (Some(single), _) => numbers(single, |bytes| f64::from(f32::from_le_bytes(bytes))),
             (_, Some(double)) => numbers(double, f64::from_le_bytes),
             (None, None) => None,
         };
         let values = values.filter(|values| values.iter().all(|x| x.is_finite()));
-        values.map(Self).ok_or_else(|| D::Error::custom("an array of the history is damaged"))
+        values.map(Packed).ok_or_else(|| E::custom("an array of the history is damaged"))
     }
 }
 

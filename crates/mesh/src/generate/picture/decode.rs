@@ -12,8 +12,12 @@ use super::Picture;
 
 /// Largest number of pixels.
 const MOST_PIXELS: u64 = 1 << 26;
-/// Bytes that the decoder may use.
-const MOST_BYTES: u64 = 1 << 30;
+/// Most pixels that a byte of a file stands for: deflate packs 1032 bytes into one, each of eight pixels.
+const PNG_PIXELS: u64 = 8 * 1032;
+/// The same for JPEG, where each block of 8 × 8 pixels has a bit at least.
+const JPEG_PIXELS: u64 = 8 * 64;
+/// Bytes that a colour profile and a row of a PNG file may take beside four times the file.
+const BESIDE: u64 = 1 << 20;
 
 /// Reason why a file is no picture of a region.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -30,7 +34,8 @@ pub struct PictureError {
 /// luminance from the median of the light ones to that of the dark ones.
 ///
 /// # Errors
-/// A file that cannot be read or is no such picture, one of more than 2²⁶ pixels, and a picture of one colour.
+/// A file that cannot be read or is no such picture, one of more than 2²⁶ pixels or of more than its bytes can stand for, and a picture of one
+/// colour.
 pub fn read_picture(file: &Path) -> Result<Picture, PictureError> {
     let problem = |problem: String| PictureError { file: file.to_owned(), problem };
     let opened = File::open(file).map_err(|error| {
@@ -39,9 +44,9 @@ pub fn read_picture(file: &Path) -> Result<Picture, PictureError> {
             _ => format!("cannot be read ({error}); check that it is a file and that you may read it"),
         })
     })?;
-    let picture = decode(BufReader::new(opened)).map_err(problem)?;
-    if picture.has_alpha() && has_transparent_pixel(&picture) {
-        let alpha: Vec<u8> = picture.to_rgba8().pixels().map(|pixel| pixel.0[3]).collect();
+    let length = opened.metadata().map_or(0, |data| data.len());
+    let picture = decode(BufReader::new(opened), length).map_err(problem)?;
+    if let Some(alpha) = transparency(&picture) {
         return Ok(with_coverage(&picture, alpha));
     }
     let luminance = picture.to_luma8().into_raw();
@@ -57,15 +62,18 @@ fn with_coverage(picture: &DynamicImage, coverage: Vec<u8>) -> Picture {
     Picture { width: picture.width() as usize, height: picture.height() as usize, coverage }
 }
 
-fn decode(reader: BufReader<File>) -> Result<DynamicImage, String> {
+/// Decodes a file of this length. Memory for pixels is taken only if the file can have so many.
+fn decode(reader: BufReader<File>, length: u64) -> Result<DynamicImage, String> {
     let mut reader = ImageReader::new(reader)
         .with_guessed_format()
         .map_err(|error| format!("cannot be read ({error}); check that it is a file and that you may read it"))?;
-    if !matches!(reader.format(), Some(ImageFormat::Png | ImageFormat::Jpeg)) {
-        return Err("is neither a PNG nor a JPEG file; convert it to one of them".to_owned());
-    }
+    let most_of_a_byte = match reader.format() {
+        Some(ImageFormat::Png) => PNG_PIXELS,
+        Some(ImageFormat::Jpeg) => JPEG_PIXELS,
+        _ => return Err("is neither a PNG nor a JPEG file; convert it to one of them".to_owned()),
+    };
     let mut limits = Limits::default();
-    limits.max_alloc = Some(MOST_BYTES);
+    limits.max_alloc = Some(length.saturating_mul(4).saturating_add(BESIDE));
     reader.limits(limits);
     let mut decoder = reader.into_decoder().map_err(damaged)?;
     let (width, height) = decoder.dimensions();
@@ -75,6 +83,11 @@ fn decode(reader: BufReader<File>) -> Result<DynamicImage, String> {
             "has {width} × {height} = {pixels} pixels, and {MOST_PIXELS} is the most; make it smaller"
         ));
     }
+    if pixels > length.saturating_mul(most_of_a_byte) {
+        return Err(format!(
+            "claims to have {width} × {height} pixels, more than its {length} bytes can hold; it is damaged or cut off: save it again"
+        ));
+    }
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let mut picture = DynamicImage::from_decoder(decoder).map_err(damaged)?;
     picture.apply_orientation(orientation);
@@ -82,15 +95,25 @@ fn decode(reader: BufReader<File>) -> Result<DynamicImage, String> {
 }
 
 fn damaged(error: ImageError) -> String {
-    format!("is damaged or of a kind that is not supported ({error}); save it again as PNG")
+    // Some of the decoder's messages have several lines.
+    let reason = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    format!("is damaged or of a kind that is not supported ({reason}); save it again as PNG")
 }
 
-fn has_transparent_pixel(picture: &DynamicImage) -> bool {
+/// Opacity of the pixels; `None` if all are opaque.
+fn transparency(picture: &DynamicImage) -> Option<Vec<u8>> {
+    let narrow = |alpha: u16| ((u32::from(alpha) + 128) / 257) as u8;
     match picture {
-        DynamicImage::ImageRgba8(pixels) => pixels.pixels().any(|pixel| pixel.0[3] < 255),
-        DynamicImage::ImageLumaA8(pixels) => pixels.pixels().any(|pixel| pixel.0[1] < 255),
-        _ => picture.to_rgba16().pixels().any(|pixel| pixel.0[3] < u16::MAX),
+        DynamicImage::ImageRgba8(all) => unless_opaque(all.pixels().map(|pixel| pixel.0[3])),
+        DynamicImage::ImageLumaA8(all) => unless_opaque(all.pixels().map(|pixel| pixel.0[1])),
+        DynamicImage::ImageRgba16(all) => unless_opaque(all.pixels().map(|pixel| narrow(pixel.0[3]))),
+        DynamicImage::ImageLumaA16(all) => unless_opaque(all.pixels().map(|pixel| narrow(pixel.0[1]))),
+        _ => None,
     }
+}
+
+fn unless_opaque(alpha: impl Iterator<Item = u8> + Clone) -> Option<Vec<u8>> {
+    alpha.clone().any(|alpha| alpha < u8::MAX).then(|| alpha.collect())
 }
 
 /// Coverage by the dark region; `None` if all pixels have one luminance.
