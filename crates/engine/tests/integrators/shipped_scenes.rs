@@ -71,3 +71,22 @@ fn the_planned_parts_of_every_scene_and_method_are_those_that_are_built() {
         }
     }
 }
+
+#[test]
+fn flat_bodies_from_pictures_move_as_their_scenes_say_to_the_end() {
+    for (name, triangles) in [("donut", 850..1050), ("gear", 2000..2600)] {
+        let scene = load(name, &data()).unwrap();
+        let body = body(&scene, &data()).unwrap();
+        assert!(triangles.contains(&body.shape.mesh.elements()), "{name}: {}", body.shape.mesh.elements());
+        let mut simulation = build(&scene, body).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let start = simulation.positions();
+        let mut farthest = 0.0_f64;
+        for step in 1..=scene.time.steps.unwrap() {
+            simulation.step().unwrap_or_else(|failure| panic!("{name}, step {step}: {failure}"));
+            let q = simulation.positions();
+            farthest = farthest.max(q.iter().zip(&start).map(|(x, rest)| (x - rest).abs()).fold(0.0, f64::max));
+        }
+        assert_eq!(simulation.counters().unconverged_steps, 0, "{name}");
+        assert!(simulation.min_J().0 > 0.1 && farthest > 0.1 && farthest < 1.0, "{name}: {farthest} m");
+    }
+}
