@@ -16,6 +16,7 @@ mod exports;
 mod flags;
 mod freedom;
 mod mesh_command;
+mod mesh_refusals;
 mod mesh_shapes;
 mod momentum;
 mod moral;

@@ -31,6 +31,7 @@ pub struct Arguments {
 /// Fills the region, writes the triangles and prints their quality.
 pub fn run(arguments: &Arguments) -> Result<(), End> {
     let Arguments { picture: file, out, edge, height, improve } = arguments;
+    fem_mesh::write::check_surface(out).map_err(End::unusable)?;
     let picture = read_picture(file).map_err(End::unusable)?;
     let options = FromPicture { edge: *edge, height: *height, improve: *improve };
     let found = progress::during("filling the region", || mesh_picture(&picture, options))

@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 use std::path::PathBuf;
 
-use fem_mesh::generate::odt::{improve_inside, improve_tetrahedra};
-use fem_mesh::generate::{Solid, cage, keep_features, stuff_graded};
+use fem_mesh::generate::odt::{improve_inside_with, improve_tetrahedra_with};
+use fem_mesh::generate::{Solid, cage, keep_features, stuff_graded_with};
 use fem_mesh::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
 use super::write_tetrahedra;
@@ -35,17 +35,21 @@ pub struct Arguments {
 /// Fills the surface and writes the tetrahedra.
 pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
     let Arguments { surface: file, out, edge, grading, features, improve, cage: is_cage } = arguments;
+    fem_mesh::write::check_tetrahedra(out)?;
     let surface = fem_mesh::read_surface(file)?;
-    let fill = || if *is_cage { cage(&surface, *edge) } else { stuff_graded(&surface, *edge, *grading) };
-    let made = progress::during("filling the surface", fill);
+    let made = if *is_cage {
+        progress::during("enclosing the surface", || cage(&surface, *edge))
+    } else {
+        progress::with_share("filling the surface", |told| stuff_graded_with(&surface, *edge, *grading, told))
+    };
     let mesh = made.map_err(|error| MeshError::in_file(file, Problem::Stuffing(error)))?;
     fem_mesh::check(&mesh, file)?;
     if *is_cage {
         return write_tetrahedra(out, &mesh);
     }
-    let mesh = progress::during("improving the elements", || match features {
-        None => improve_inside(&mesh, *improve, &Solid::new(&surface)).mesh,
-        Some(angle) => improve_tetrahedra(&with_features(&mesh, &surface, *angle), *improve).mesh,
+    let mesh = progress::with_share("improving the elements", |told| match features {
+        None => improve_inside_with(&mesh, *improve, &Solid::new(&surface), told).mesh,
+        Some(angle) => improve_tetrahedra_with(&with_features(&mesh, &surface, *angle), *improve, told).mesh,
     });
     let faults = fem_mesh::surface_quality(&surface);
     if !faults.is_closed() {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use fem_mesh::generate::odt::{improve_tetrahedra, improve_triangles};
+use fem_mesh::generate::odt::{improve_tetrahedra_with, improve_triangles};
 use fem_mesh::{AnyMesh, Mesh, MeshError, Quality, SurfaceMesh, TetrahedralMesh, TriangleQuality};
 use fem_mesh::{quality, triangle_quality};
 
@@ -29,8 +29,11 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
 }
 
 fn tetrahedra(arguments: &Arguments, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
+    fem_mesh::write::check_tetrahedra(&arguments.out)?;
     fem_mesh::check(mesh, &arguments.mesh)?;
-    let improved = progress::during("improving the elements", || improve_tetrahedra(mesh, arguments.iterations));
+    let improved = progress::with_share("improving the elements", |progress| {
+        improve_tetrahedra_with(mesh, arguments.iterations, progress)
+    });
     write_tetrahedra(&arguments.out, &improved.mesh)?;
     print_both(&quality(mesh), &quality(&improved.mesh));
     if !mesh.sets.is_empty() && !fem_mesh::write::keeps_sets(&arguments.out) {
@@ -42,6 +45,7 @@ fn tetrahedra(arguments: &Arguments, mesh: &TetrahedralMesh) -> Result<(), MeshE
 
 /// Improves a flat body.
 fn triangles(arguments: &Arguments, mesh: &SurfaceMesh) -> Result<(), End> {
+    fem_mesh::write::check_surface(&arguments.out).map_err(End::unusable)?;
     fem_mesh::check_plane(mesh, &arguments.mesh).map_err(End::unusable)?;
     let plane = Mesh {
         vertices: mesh.vertices.iter().map(|x| x.xy()).collect(),

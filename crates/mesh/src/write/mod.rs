@@ -29,6 +29,9 @@ pub use self::vtu::{Field, write_vtu};
 use super::read::{MESHES, SURFACES, extension, is_packed, is_surface, unknown_extension};
 use super::{AnyMesh, MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
+/// Extensions for tetrahedra, and for triangles beside those of surfaces.
+const TETRAHEDRA: [&str; 6] = ["node", "ele", "mesh", "msh", "vtu", "vtk"];
+
 /// Writes tetrahedra or triangles, as [`write_tetrahedra`] and [`write_surface`] do.
 pub fn write_mesh(path: &Path, mesh: &AnyMesh) -> Result<(), MeshError> {
     match mesh {
@@ -47,13 +50,18 @@ pub fn write_tetrahedra(path: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshE
         "msh" => save_mesh(path, |out| gmsh::write(out, mesh)),
         "vtu" => write_vtu(path, mesh, &[], &[]),
         "vtk" => save_mesh(path, |out| vtk::write(out, mesh)),
-        found if is_surface(path) => {
-            let found = format!("a mesh of tetrahedra in a .{found} file, which holds triangles,");
-            let instead = "write it as .node, .mesh, .msh, .vtu or .vtk";
-            Err(MeshError::in_file(path, Problem::Unsupported { found, instead }))
-        }
-        _ => Err(unknown_extension(path, MESHES)),
+        _ => Err(no_tetrahedra(path)),
     }
+}
+
+/// The error of an extension for which [`write_tetrahedra`] has no format.
+fn no_tetrahedra(path: &Path) -> MeshError {
+    if !is_surface(path) {
+        return unknown_extension(path, MESHES);
+    }
+    let found = format!("a mesh of tetrahedra in a .{} file, which holds triangles,", extension(path));
+    let instead = "write it as .node, .mesh, .msh, .vtu or .vtk";
+    MeshError::in_file(path, Problem::Unsupported { found, instead })
 }
 
 /// Writes a triangle mesh: `.obj` (Wavefront), `.ply` (Stanford, binary) or `.stl` (binary), or a file of [`write_tetrahedra`]; each also
@@ -71,6 +79,28 @@ pub fn write_surface(path: &Path, mesh: &SurfaceMesh) -> Result<(), MeshError> {
         "vtk" => save_mesh(path, |out| vtk::write(out, mesh)),
         _ => Err(unknown_extension(path, SURFACES)),
     }
+}
+
+/// Refuses a path to which [`write_tetrahedra`] cannot write: before the work of making a mesh, not after it.
+pub fn check_tetrahedra(path: &Path) -> Result<(), MeshError> {
+    if TETRAHEDRA.contains(&extension(path).as_str()) { check_place(path) } else { Err(no_tetrahedra(path)) }
+}
+
+/// Refuses a path to which [`write_surface`] cannot write.
+pub fn check_surface(path: &Path) -> Result<(), MeshError> {
+    let is_known = is_surface(path) || TETRAHEDRA.contains(&extension(path).as_str());
+    if is_known { check_place(path) } else { Err(unknown_extension(path, SURFACES)) }
+}
+
+/// Refuses the path of a folder, and a file in a folder that does not exist.
+fn check_place(path: &Path) -> Result<(), MeshError> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let reason = match (path.is_dir(), folder.is_dir()) {
+        (true, _) => "it is a folder",
+        (false, false) => "its folder does not exist",
+        (false, true) => return Ok(()),
+    };
+    Err(MeshError::in_file(path, Problem::Unwritable { reason: reason.to_owned() }))
 }
 
 /// Whether a file of this extension keeps the named sets of a mesh.

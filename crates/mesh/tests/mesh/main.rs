@@ -15,6 +15,7 @@ mod odt_space;
 mod other_programs;
 mod packed;
 mod pictures;
+mod progress;
 mod refined;
 mod round_trip;
 mod shipped;

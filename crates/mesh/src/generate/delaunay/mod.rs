@@ -19,7 +19,7 @@ use crate::Mesh;
 pub use constrained::triangulate_region;
 pub(crate) use constrained::triangulate_with;
 pub(crate) use refinement::{Bounds, cut_encroached, refine};
-pub use tetrahedra::tetrahedralize;
+pub use tetrahedra::{tetrahedralize, tetrahedralize_with};
 pub use triangles::triangulate;
 
 /// The Delaunay mesh of points.

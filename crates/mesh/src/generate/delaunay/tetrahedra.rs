@@ -7,6 +7,10 @@ use super::cavity::Growing;
 use super::hilbert::insertion_order;
 use super::{Delaunay, DelaunayError, in_range, number_distinct};
 use crate::Mesh;
+use crate::generate::Progress;
+
+/// Times that the progress is told.
+const TOLD: usize = 200;
 
 /// The Delaunay tetrahedralization of points, m. Where five and more points lie on an empty sphere, one of the possible ones.
 ///
@@ -24,13 +28,25 @@ use crate::Mesh;
 /// # Ok::<(), fem_mesh::generate::delaunay::DelaunayError>(())
 /// ```
 pub fn tetrahedralize(points: &[Vector3<f64>]) -> Result<Delaunay<3, 4>, DelaunayError> {
+    tetrahedralize_with(points, &|_| ())
+}
+
+/// The tetrahedralization of [`tetrahedralize`], which tells how many of the points are inserted.
+///
+/// # Errors
+/// Those of [`tetrahedralize`].
+pub fn tetrahedralize_with(points: &[Vector3<f64>], progress: Progress) -> Result<Delaunay<3, 4>, DelaunayError> {
     let points = &in_range(points)?;
     let order = insertion_order(points);
     let flat = DelaunayError::Flat { points: points.len(), in_what: "in one plane" };
     let start = first_tetrahedron(points, &order).ok_or(flat)?;
     let mut growing = Growing::new(points, start);
     let mut first: Vec<usize> = (0..points.len()).collect();
-    for &point in order.iter().filter(|&&point| !start.contains(&(point as u32))) {
+    let told_after = points.len().div_ceil(TOLD);
+    for (done, &point) in order.iter().filter(|&&point| !start.contains(&(point as u32))).enumerate() {
+        if done % told_after == 0 {
+            progress(done as f64 / points.len() as f64);
+        }
         if let Some(vertex) = growing.insert(point as u32) {
             first[point] = vertex as usize;
         }

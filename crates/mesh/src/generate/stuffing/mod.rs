@@ -9,9 +9,12 @@ pub(super) mod lattice;
 pub(super) mod octree;
 pub(super) mod stencils;
 
+use std::cell::Cell;
+
 use nalgebra::Vector3;
 use thiserror::Error;
 
+use super::Progress;
 use super::solid::Solid;
 use crate::{Mesh, SurfaceMesh, TetrahedralMesh};
 use lattice::Lattice;
@@ -25,6 +28,10 @@ const MEAN_EDGE: f64 = 0.910_683_602_522_959;
 
 /// Largest number of doublings of an edge: more than a lattice of the largest size has.
 const LEVELS: usize = 20;
+
+/// Times that the progress is told while nodes are found to be inside or outside, and the share of the whole time that this takes.
+const TOLD: usize = 200;
+const SIGNS: f64 = 0.8;
 
 /// Reason why a surface has no tetrahedra inside.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -82,7 +89,7 @@ pub enum StuffingError {
 /// # Errors
 /// Too many tetrahedra or none, and numbers that are not finite.
 pub fn stuff(surface: &SurfaceMesh, edge: f64) -> Result<TetrahedralMesh, StuffingError> {
-    stuff_with(surface, edge, |lattice| Octree::uniform(lattice.cubes()))
+    stuff_with(surface, edge, |lattice| Octree::uniform(lattice.cubes()), &|_| ())
 }
 
 /// Tetrahedra as those of [`stuff`] at the surface, and with edges that double up to `doublings` times towards the inside. The boundary and the
@@ -91,7 +98,20 @@ pub fn stuff(surface: &SurfaceMesh, edge: f64) -> Result<TetrahedralMesh, Stuffi
 /// # Errors
 /// As [`stuff`].
 pub fn stuff_graded(surface: &SurfaceMesh, edge: f64, doublings: usize) -> Result<TetrahedralMesh, StuffingError> {
-    stuff_with(surface, edge, |lattice| Octree::graded(lattice, doublings, |_, _| true))
+    stuff_graded_with(surface, edge, doublings, &|_| ())
+}
+
+/// The tetrahedra of [`stuff_graded`]. Tells how far it is: for most of the time, of how many nodes of the lattice it knows whether they are inside.
+///
+/// # Errors
+/// As [`stuff`].
+pub fn stuff_graded_with(
+    surface: &SurfaceMesh,
+    edge: f64,
+    doublings: usize,
+    progress: Progress,
+) -> Result<TetrahedralMesh, StuffingError> {
+    stuff_with(surface, edge, |lattice| Octree::graded(lattice, doublings, |_, _| true), progress)
 }
 
 /// Tetrahedra as those of [`stuff`] at the surface, and with edges inside that double where they stay below `size` (m) at their place.
@@ -115,22 +135,33 @@ pub fn stuff_sized(
     edge: f64,
     size: impl Fn(&Vector3<f64>) -> f64,
 ) -> Result<TetrahedralMesh, StuffingError> {
-    stuff_with(surface, edge, |lattice| {
+    let octree = |lattice: &Lattice| {
         let may_be = |place, level: usize| edge * 2_f64.powi(level as i32) <= size(&lattice.undeformed(place));
         Octree::graded(lattice, LEVELS, may_be)
-    })
+    };
+    stuff_with(surface, edge, octree, &|_| ())
 }
 
 fn stuff_with(
     surface: &SurfaceMesh,
     edge: f64,
     octree: impl FnOnce(&Lattice) -> Octree,
+    progress: Progress,
 ) -> Result<TetrahedralMesh, StuffingError> {
     let (solid, mut lattice) = lattice_around(surface, edge, 0.0)?;
-    lattice.find_signs(|point| solid.contains(point));
+    let (nodes, known) = (lattice.places().count(), Cell::new(0));
+    let told_after = nodes.div_ceil(TOLD);
+    lattice.find_signs(|point| {
+        let done = known.replace(known.get() + 1);
+        if done % told_after == 0 {
+            progress(SIGNS * done as f64 / nodes as f64);
+        }
+        solid.contains(point)
+    });
     let octree = octree(&lattice);
     lattice.cut(|inside, outside| solid.exit(inside, outside));
     lattice.warp();
+    progress(0.5 * (1.0 + SIGNS));
     let (vertices, elements) = stencils::fill(&lattice, &octree);
     if elements.is_empty() {
         let [least, largest] = solid.bounds();

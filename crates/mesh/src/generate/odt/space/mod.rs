@@ -13,7 +13,7 @@ mod smooth;
 
 use nalgebra::Vector3;
 
-use crate::generate::Solid;
+use crate::generate::{Progress, Solid};
 use crate::{TetrahedralMesh, boundary, quality};
 pub(crate) use cells::{Cells, Freedom};
 use polish::Project;
@@ -63,7 +63,12 @@ pub struct Improved {
 /// # Ok::<(), fem_mesh::MeshError>(())
 /// ```
 pub fn improve_tetrahedra(mesh: &TetrahedralMesh, iterations: usize) -> Improved {
-    improve_with(mesh, Cells::new(mesh), iterations, &|_| 1.0, &|_, _| None)
+    improve_tetrahedra_with(mesh, iterations, &|_| ())
+}
+
+/// The improvement of [`improve_tetrahedra`], which tells how many of the iterations and passes are done.
+pub fn improve_tetrahedra_with(mesh: &TetrahedralMesh, iterations: usize, progress: Progress) -> Improved {
+    improve_with(mesh, Cells::new(mesh), iterations, &|_| 1.0, &|_, _| None, progress)
 }
 
 /// Improves a mesh as [`improve_tetrahedra`] does, towards elements with edges proportional to `size` (m, above 0) at their place. The
@@ -71,12 +76,17 @@ pub fn improve_tetrahedra(mesh: &TetrahedralMesh, iterations: usize) -> Improved
 pub fn improve_graded(mesh: &TetrahedralMesh, iterations: usize, size: impl Fn(&Vector3<f64>) -> f64) -> Improved {
     let cells = Cells::new(mesh);
     let unit = cells.mean_edge_of_all();
-    improve_with(mesh, cells, iterations, &|x| (unit / size(x)).powi(5), &|_, _| None)
+    improve_with(mesh, cells, iterations, &|x| (unit / size(x)).powi(5), &|_, _| None, &|_| ())
 }
 
 /// Improves a mesh as [`improve_tetrahedra`] does, and lets the vertices of its boundary that lie on a surface slide on it, while the worst
 /// elements are improved. Volume and boundary change by as much as two meshes of the surface differ.
 pub fn improve_inside(mesh: &TetrahedralMesh, iterations: usize, surface: &Solid) -> Improved {
+    improve_inside_with(mesh, iterations, surface, &|_| ())
+}
+
+/// The improvement of [`improve_inside`], which tells how many of the iterations and passes are done.
+pub fn improve_inside_with(mesh: &TetrahedralMesh, iterations: usize, surface: &Solid, progress: Progress) -> Improved {
     if iterations == 0 {
         return improve_tetrahedra(mesh, 0);
     }
@@ -89,7 +99,7 @@ pub fn improve_inside(mesh: &TetrahedralMesh, iterations: usize, surface: &Solid
             cells.freedom[vertex] = Freedom::OnSurface;
         }
     }
-    improve_with(mesh, cells, iterations, &|_| 1.0, &|_, x| surface.closest(x))
+    improve_with(mesh, cells, iterations, &|_| 1.0, &|_, x| surface.closest(x), progress)
 }
 
 fn improve_with(
@@ -98,10 +108,14 @@ fn improve_with(
     iterations: usize,
     density: &dyn Fn(&Vector3<f64>) -> f64,
     project: Project,
+    progress: Progress,
 ) -> Improved {
+    // Iterations and passes take about the same time.
+    let tell = |done: f64| progress(done / (2.0 * iterations as f64));
     let mut smoothing: Vec<Iteration> = vec![state(&cells, density)];
     let floor_of = |cells: &Cells| Floor::of(cells.cells().map(|cell| cells.shape(cell)));
-    for _ in 0..iterations {
+    for iteration in 0..iterations {
+        tell(iteration as f64);
         let floor = floor_of(&cells);
         reconnect(&mut cells, &floor, density);
         move_vertices(&mut cells, &floor, density);
@@ -112,7 +126,8 @@ fn improve_with(
         }
     }
     let mut polishing = Vec::new();
-    for _ in 0..iterations {
+    for pass in 0..iterations {
+        tell(iterations as f64 + pass as f64);
         let floor = floor_of(&cells);
         if raise_the_worst(&mut cells, &floor, project) == 0 {
             break;
