@@ -1,8 +1,10 @@
 //! Scenes that the engine runs.
 
 use fem_engine::cantilever;
+use fem_mesh::TetrahedralMesh;
 use fem_scene::simulation::{Part, Simulation};
 use fem_scene::{Body, Scene};
+use fem_study::space::conditioning::conditioning;
 use nalgebra::Vector3;
 
 use super::end::End;
@@ -28,4 +30,22 @@ pub fn print_tip(simulation: &dyn Simulation, expected: &Vector3<f64>) {
     let along = if size > 0.0 { found.dot(expected) / size } else { found.norm() };
     let ratio = if size > 0.0 { format!(", ratio {:.4}", along / size) } else { String::new() };
     say!("tip displacement {along:.6e} m, by Timoshenko's theory {size:.6e} m{ratio}");
+}
+
+/// Prints the extreme eigenvalues of the stiffness that a mesh leads to.
+pub fn print_conditioning(mesh: &TetrahedralMesh) -> Result<(), End> {
+    let found = conditioning(mesh).map_err(|problem| End::unusable(format!("--stiffness: {problem}")))?;
+    let axis = ["x", "y", "z"][found.axis];
+    say!();
+    say!(
+        "stiffness of linear elasticity over Young's modulus, m (Poisson's ratio 0.3, the lowest tenth along {axis} fixed)"
+    );
+    for (name, value) in [
+        ("largest eigenvalue", found.largest),
+        ("smallest eigenvalue", found.smallest),
+        ("condition number", found.number()),
+    ] {
+        say!("{name:<26}{value:>12.4e}");
+    }
+    Ok(())
 }

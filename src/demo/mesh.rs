@@ -36,7 +36,7 @@ impl MeshAction {
     /// Runs the subcommand.
     pub fn run(&self) -> Result<(), End> {
         match self {
-            Self::Info(arguments) => info::run(arguments).map_err(End::unusable),
+            Self::Info(arguments) => info::run(arguments),
             Self::Convert { from, to } => convert::run(from, to).map_err(End::unusable),
             Self::Delaunay { points, out } => delaunay::run(points, out),
             Self::FromPicture(arguments) => from_picture::run(arguments),

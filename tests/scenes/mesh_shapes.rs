@@ -35,6 +35,33 @@ fn info_prints_distributions_and_the_boundary_and_draws_them() {
 }
 
 #[test]
+fn info_prints_the_condition_number_of_the_stiffness_which_slivers_raise() {
+    let desk = Desk::new();
+    // Points on a grid that are moved a little: their Delaunay tetrahedra have slivers.
+    let shift = |k: usize| 0.01 * (k as f64 * 12.9898).sin();
+    let row = |i: usize| {
+        format!(
+            "{},{},{}\n",
+            (i % 5) as f64 + shift(3 * i),
+            (i / 5 % 5) as f64 + shift(3 * i + 1),
+            (i / 25) as f64 + shift(3 * i + 2)
+        )
+    };
+    desk.write("points.csv", (0..125).map(row).collect::<String>());
+    desk.run_well("mesh delaunay points.csv slivers.msh");
+    desk.run_well("mesh improve slivers.msh improved.msh");
+    let number = |file: &str| {
+        let text = desk.run_well(&format!("mesh info {file} --stiffness")).stdout;
+        let line = text.lines().find(|line| line.starts_with("condition number")).unwrap_or_else(|| panic!("{text}"));
+        line.split_whitespace().last().unwrap().parse::<f64>().unwrap()
+    };
+    let (before, after) = (number("slivers.msh"), number("improved.msh"));
+    assert!(after > 10.0 && before > 1.5 * after, "{before} {after}");
+    desk.write("s.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
+    assert!(desk.refused("mesh info s.obj --stiffness").contains("--stiffness: s.obj has no tetrahedra"));
+}
+
+#[test]
 fn info_counts_crossing_triangles_of_a_surface() {
     let desk = Desk::new();
     desk.write("s.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0.5 0.5 -1\nv 0.5 0.5 1\nv 3 3 0\nf 1 2 3\nf 4 5 6\n");

@@ -9,6 +9,8 @@ use fem_mesh::{
 };
 
 use super::shapes;
+use crate::demo::end::End;
+use crate::demo::engine;
 
 /// Arguments of the subcommand.
 #[derive(Debug, clap::Args)]
@@ -17,25 +19,37 @@ pub struct Arguments {
     /// Draw the mesh and the histograms
     #[arg(long, value_name = "OUT.svg")]
     picture: Option<PathBuf>,
+    /// Print the condition number of the stiffness that tetrahedra lead to
+    #[arg(long)]
+    stiffness: bool,
 }
 
 /// Prints the measures of a mesh or of a surface.
-pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
+pub fn run(arguments: &Arguments) -> Result<(), End> {
     let file = &arguments.file;
-    arguments.picture.as_deref().map_or(Ok(()), shapes::check)?;
-    let (surface, distributions) = match fem_mesh::read_mesh(file)? {
+    arguments.picture.as_deref().map_or(Ok(()), shapes::check).map_err(End::unusable)?;
+    let mesh = fem_mesh::read_mesh(file).map_err(End::unusable)?;
+    let (surface, distributions) = match &mesh {
         AnyMesh::Tetrahedra(mesh) => {
-            info(file, &mesh)?;
-            (surface_of(&mesh), tetrahedron_distributions(&mesh))
+            info(file, mesh).map_err(End::unusable)?;
+            (surface_of(mesh), tetrahedron_distributions(mesh))
+        }
+        AnyMesh::Triangles(_) if arguments.stiffness => {
+            let problem = format!("--stiffness: {} has no tetrahedra; give a mesh that has some", file.display());
+            return Err(End::unusable(problem));
         }
         AnyMesh::Triangles(mesh) => {
-            surface_info(&mesh);
-            let distributions = triangle_distributions(&mesh);
-            (mesh, distributions)
+            surface_info(mesh);
+            (mesh.clone(), triangle_distributions(mesh))
         }
     };
     shapes::print(&distributions);
-    draw(arguments, &surface, &distributions)
+    if let AnyMesh::Tetrahedra(mesh) = &mesh
+        && arguments.stiffness
+    {
+        engine::print_conditioning(mesh)?;
+    }
+    draw(arguments, &surface, &distributions).map_err(End::unusable)
 }
 
 fn draw(arguments: &Arguments, surface: &SurfaceMesh, distributions: &[Distribution]) -> Result<(), MeshError> {

@@ -1,0 +1,198 @@
+//! Condition number of the stiffness that a mesh leads to.
+//!
+//! One bad tetrahedron raises the largest eigenvalue without bound, and the smallest belongs to the body and hardly depends on shapes: Shewchuk,
+//! What Is a Good Linear Finite Element? (2002), §3. Iterative solvers need as many more iterations as the root of the condition number grows,
+//! and explicit methods as much shorter steps as the root of the largest eigenvalue does.
+
+use std::path::Path;
+
+use fem_engine::forces::HessianKind;
+use fem_engine::model::system::System;
+use fem_engine::simulator::Simulator;
+use fem_engine::solvers::{Solver, SolverChoice};
+use fem_engine::vector::dot;
+use fem_mesh::TetrahedralMesh;
+use fem_scene::{body_of, parse};
+use nalgebra::DMatrix;
+
+/// Relative change within [`BLOCK`] iterations at which Lanczos's method ends, and its largest number of iterations.
+const ACCURACY: (f64, usize) = (1e-6, 400);
+
+/// Iterations between two looks at the eigenvalues.
+const BLOCK: usize = 8;
+
+/// Part of the longest side of the mesh in which nodes are fixed.
+const FIXED: f64 = 0.1;
+
+/// Extreme eigenvalues of the stiffness of linear elasticity with Poisson's ratio 0.3, over Young's modulus, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conditioning {
+    /// The largest; a lower bound that is close.
+    pub largest: f64,
+    /// The smallest; an upper bound that is close.
+    pub smallest: f64,
+    /// Axis along which the mesh is longest, 0 to 2: nodes in the lowest tenth along it are fixed.
+    pub axis: usize,
+}
+
+impl Conditioning {
+    /// The condition number.
+    pub fn number(&self) -> f64 {
+        self.largest / self.smallest
+    }
+}
+
+/// Conditioning of the stiffness that a mesh leads to which has passed the check. The smallest eigenvalue comes from a Cholesky factor.
+///
+/// # Errors
+/// A mesh whose stiffness cannot be assembled or factored, as a sentence.
+///
+/// ```
+/// let mesh = fem_mesh::box_mesh([1.0, 1.0, 2.0], 3)?;
+/// let found = fem_study::space::conditioning::conditioning(&mesh).unwrap();
+/// assert!(found.axis == 2 && found.number() > 100.0);
+/// # Ok::<(), fem_mesh::MeshError>(())
+/// ```
+pub fn conditioning(mesh: &TetrahedralMesh) -> Result<Conditioning, String> {
+    let bounds = |axis: usize| {
+        let values = mesh.vertices.iter().map(move |x| x[axis]);
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], x| [least.min(x), most.max(x)])
+    };
+    let sizes = [0, 1, 2].map(|axis| bounds(axis)[1] - bounds(axis)[0]);
+    let axis = (0..3).max_by(|&a, &b| sizes[a].total_cmp(&sizes[b])).unwrap_or(0);
+    let text = scene(["x", "y", "z"][axis], FIXED * sizes[axis]);
+    let scene = parse(&text, Path::new("conditioning")).map_err(|error| error.to_string())?;
+    let body = body_of(&scene, mesh.clone(), Path::new("")).map_err(|error| error.to_string())?;
+    let simulator = Simulator::<f64>::new(&scene, body).map_err(|error| error.to_string())?;
+    let system = simulator.system();
+    let undeformed = vec![[0.0; 3]; system.nodes()];
+    let times_stiffness = |x: &[[f64; 3]], y: &mut [[f64; 3]]| system.add_stiffness_times(1.0, &undeformed, x, y);
+    let largest = largest_eigenvalue(system, times_stiffness);
+    let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
+    system.add_stiffness(1.0, &undeformed, HessianKind::Exact, &mut values);
+    let rest: Vec<[f64; 3]> = system.rest.iter().map(|&x| x.into()).collect();
+    let mut solver = Solver::new(SolverChoice::Cholesky, &system.pattern, &rest);
+    solver.prepare(&values).map_err(|breakdown| format!("the stiffness cannot be factored: {breakdown}"))?;
+    let smallest = 1.0 / largest_eigenvalue(system, |x, y| solver.apply(x, y));
+    Ok(Conditioning { largest, smallest, axis })
+}
+
+/// A body of Young's modulus 1 Pa, clamped within a distance (m) of its lowest end along an axis.
+fn scene(axis: &str, below: f64) -> String {
+    format!(
+        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 1 }}\n[material]\nmodel = \"linear\"\n\
+         young = 1.0\npoisson = 0.3\ndensity = 1.0\n[fixed]\nplane = {{ axis = \"{axis}\", below = {below:?} }}\n[time]\ndt = 1.0\n\
+         integrator = \"implicit_euler\"\n[solver]\nkind = \"cholesky\"\n"
+    )
+}
+
+/// The largest eigenvalue of a positive definite operator on the free nodes, which `apply` adds to zero, by Lanczos's method: Golub and Van Loan,
+/// Matrix Computations (2013), §10.1. It approaches the eigenvalue from below.
+fn largest_eigenvalue(system: &System<f64>, mut apply: impl FnMut(&[[f64; 3]], &mut [[f64; 3]])) -> f64 {
+    let zero = || vec![[0.0; 3]; system.nodes()];
+    let (mut before, mut x, mut next) = (zero(), irregular(system.nodes()), zero());
+    system.dirichlet.clear_constrained(&mut x);
+    let length = dot(&x, &x).sqrt();
+    scale(1.0 / length, &mut x);
+    let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
+    let (mut found, mut last) = (0.0_f64, 0.0);
+    while diagonal.len() < ACCURACY.1 {
+        next.fill([0.0; 3]);
+        apply(&x, &mut next);
+        system.dirichlet.clear_constrained(&mut next);
+        let alpha = dot(&x, &next);
+        add(-alpha, &x, &mut next);
+        add(-last, &before, &mut next);
+        diagonal.push(alpha);
+        last = dot(&next, &next).sqrt();
+        // A body of few degrees of freedom has no further direction.
+        let is_exhausted = !(last > 1e-12 * alpha.abs());
+        if is_exhausted || diagonal.len() % BLOCK == 0 {
+            let eigenvalue = of_tridiagonal(&diagonal, &beside);
+            let is_settled = (eigenvalue - found).abs() <= ACCURACY.0 * eigenvalue;
+            found = eigenvalue;
+            if is_exhausted || is_settled {
+                break;
+            }
+        }
+        beside.push(last);
+        scale(1.0 / last, &mut next);
+        std::mem::swap(&mut before, &mut x);
+        std::mem::swap(&mut x, &mut next);
+    }
+    found
+}
+
+/// The largest eigenvalue of a symmetric tridiagonal matrix.
+fn of_tridiagonal(diagonal: &[f64], beside: &[f64]) -> f64 {
+    let matrix = DMatrix::from_fn(diagonal.len(), diagonal.len(), |i, j| match i.abs_diff(j) {
+        0 => diagonal[i],
+        1 => beside[i.min(j)],
+        _ => 0.0,
+    });
+    matrix.symmetric_eigenvalues().max()
+}
+
+/// A vector in which every vibration takes part: multiples of the golden ratio, modulo 1.
+fn irregular(nodes: usize) -> Vec<[f64; 3]> {
+    let entry = |k: usize| (k as f64 * 0.618_033_988_749_894_9).fract() - 0.5;
+    (0..nodes).map(|node| std::array::from_fn(|i| entry(3 * node + i + 1))).collect()
+}
+
+fn scale(factor: f64, x: &mut [[f64; 3]]) {
+    x.as_flattened_mut().iter_mut().for_each(|x| *x *= factor);
+}
+
+fn add(factor: f64, x: &[[f64; 3]], sum: &mut [[f64; 3]]) {
+    sum.as_flattened_mut().iter_mut().zip(x.as_flattened()).for_each(|(sum, x)| *sum += factor * x);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+
+    /// The largest and the smallest eigenvalue of the free nodes' stiffness as a full matrix.
+    fn dense(mesh: &TetrahedralMesh, axis: usize) -> [f64; 2] {
+        let n = 3 * mesh.vertices.len();
+        let (mu, lambda) = (0.5 / 1.3, 0.3 / (1.3 * 0.4));
+        let mut K = DMatrix::<f64>::zeros(n, n);
+        for element in &mesh.elements {
+            let [a, b, c, d] = element.map(|i| mesh.vertices[i]);
+            let edges = nalgebra::Matrix3::from_columns(&[b - a, c - a, d - a]);
+            let inverse = edges.try_inverse().unwrap();
+            let volume = edges.determinant() / 6.0;
+            let mut gradients: Vec<Vector3<f64>> = (0..3).map(|i| inverse.row(i).transpose()).collect();
+            gradients.insert(0, -(gradients[0] + gradients[1] + gradients[2]));
+            for (p, g) in gradients.iter().enumerate() {
+                for (q, h) in gradients.iter().enumerate() {
+                    let block = lambda * g * h.transpose()
+                        + mu * h * g.transpose()
+                        + mu * g.dot(h) * nalgebra::Matrix3::identity();
+                    let mut target = K.view_mut((3 * element[p], 3 * element[q]), (3, 3));
+                    target += volume * block;
+                }
+            }
+        }
+        let values = mesh.vertices.iter().map(|x| x[axis]);
+        let (least, most) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max));
+        let is_free = |i: &usize| mesh.vertices[i / 3][axis] > least + FIXED * (most - least);
+        let free: Vec<usize> = (0..n).filter(is_free).collect();
+        let eigenvalues = K.select_rows(&free).select_columns(&free).symmetric_eigenvalues();
+        [eigenvalues.max(), eigenvalues.min()]
+    }
+
+    #[test]
+    fn the_extreme_eigenvalues_are_those_of_the_full_matrix() {
+        let mut mesh = fem_mesh::box_mesh([1.0, 0.6, 1.4], 5).unwrap();
+        for (i, x) in mesh.vertices.iter_mut().enumerate() {
+            let shift = Vector3::from_fn(|k, _| 0.02 * ((3 * i + k) as f64 * 12.9898).sin());
+            *x += shift;
+        }
+        let found = conditioning(&mesh).unwrap();
+        let [largest, smallest] = dense(&mesh, found.axis);
+        assert_eq!(found.axis, 2);
+        assert!((found.largest / largest - 1.0).abs() < 1e-4, "{found:?} {largest}");
+        assert!((found.smallest / smallest - 1.0).abs() < 1e-4, "{found:?} {smallest}");
+    }
+}
