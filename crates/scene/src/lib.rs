@@ -65,7 +65,9 @@ pub use integrator::Integrator;
 pub use interaction::{Anchor, Interaction};
 pub use load::{load, load_with, names, parse};
 pub use overrides::Override;
-pub use tables::{Axis, MODELS, Material, Pipeline, Precision, Preconditioner, Projection, Scene, SolverKind};
+pub use tables::{
+    Axis, MODELS, Material, Pipeline, PlaneState, Precision, Preconditioner, Projection, Scene, SolverKind,
+};
 pub use timer::Timer;
 pub use values::{
     Contact, ContactPlane, ContactTreatment, DirichletCondition, Drag, MaterialRegion, Method, Motion, NewtonSettings,

@@ -21,7 +21,7 @@ mod stable_neo_hookean;
 mod tests;
 mod yeoh;
 
-pub use cauchy::{cauchy_stress, pushed_forward};
+pub use cauchy::{cauchy_stress, plane_cauchy_stress, pushed_forward};
 pub use invariants::OfInvariants;
 
 use crate::number::Number;

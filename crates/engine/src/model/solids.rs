@@ -1,10 +1,12 @@
 //! The elements of a body, grouped by material: the loops over a group are compiled for its law.
 
-use fem_scene::Body;
+use fem_scene::{Body, PlaneState};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::elements::BatchLaws;
-use crate::materials::{AnyLaw, Law, Projected, cauchy_stress, match_law, pushed_forward, with_law};
+use crate::materials::{
+    AnyLaw, Law, Projected, cauchy_stress, match_law, plane_cauchy_stress, pushed_forward, with_law,
+};
 use crate::model::any_elements::{AnyElements, with_elements};
 use crate::model::numbering::Numbering;
 use crate::number::Real;
@@ -19,6 +21,8 @@ pub struct Solids<T: Real> {
     /// Factor of the moduli of each of the mesh's elements; empty where all are 1.
     factors: Vec<f64>,
     plasticity: Option<Plasticity<T>>,
+    /// No stress acts across a flat body.
+    is_in_plane_stress: bool,
 }
 
 /// The elements of one material.
@@ -102,7 +106,8 @@ impl<T: Real> Solids<T> {
             own.into_iter().chain(regions).map(|(law, numbers)| group(law, numbers)).collect()
         };
         let plasticity = body.plasticity.map(|model| Plasticity::new(model, count));
-        Self { groups, count, factors: factors.clone(), plasticity }
+        let is_in_plane_stress = body.material.plane == Some(PlaneState::Stress);
+        Self { groups, count, factors: factors.clone(), plasticity, is_in_plane_stress }
     }
 
     /// Plastic flow of the elements, where the scene has some.
@@ -243,6 +248,9 @@ impl<T: Real> Solids<T> {
         for group in &self.groups {
             let of_group = with_elements!(&group.elements, elements => {
                 match group.plastic_laws(&self.plasticity) {
+                    None if self.is_in_plane_stress => {
+                        elements.cauchy_stresses(u, |_, _, G| plane_cauchy_stress(&group.law, G))
+                    }
                     None => elements.cauchy_stresses(u, |_, _, G| cauchy_stress(&group.law, G)),
                     Some(laws) => elements.cauchy_stresses(u, |elements, batch, G| {
                         pushed_forward(&laws.of_batch(elements, batch).stress(G), G)

@@ -81,6 +81,28 @@ fn a_strip_stretched_in_plane_strain_contracts_and_resists_as_hooke_says() {
 }
 
 #[test]
+fn a_strip_in_plane_stress_pulls_contracts_and_is_stressed_as_a_bar_with_free_sides() {
+    for (model, stretch) in [("linear", 0.002), ("corotated", 0.4)] {
+        let tables = side("x", "min", 0.0) + &side("x", "max", stretch) + &side("y", "min", 0.0);
+        let thin = flat(&block(model, &tables)).replace("[material]\n", "[material]\nplane = \"stress\"\n");
+        let (mut strip, mut bar) = (build(&thin), build(&block(model, &(tables + &side("z", "min", 0.0)))));
+        run(&mut *strip, 1);
+        run(&mut *bar, 1);
+        let force = strip.reactions()[1].force[0];
+        let expected = 0.3 * bar.reactions()[1].force[0];
+        assert!((force - expected).abs() < 1e-9 * expected, "{model}: {force} {expected}");
+        let (E, strain) = (1e5, 0.5 * stretch);
+        assert!((force - E * strain * 0.3).abs() < 1e-9 * force, "{model}: {force}");
+        let (q, of_bar) = (strip.positions(), bar.positions());
+        let [width, expected] = [&q, &of_bar].map(|q| q[q.len() - 2]);
+        assert!((width - expected).abs() < 1e-10, "{model}: {width} {expected}");
+        let (stress, expected) = (strip.stresses()[0], bar.stresses()[0]);
+        assert!((stress - expected).amax() < 1e-8 * expected.amax(), "{model}: {stress} {expected}");
+        assert_eq!(stress[(2, 2)], 0.0, "{model}");
+    }
+}
+
+#[test]
 fn reactions_of_a_flat_body_carry_its_weight_in_the_plane_for_every_law() {
     let rest = "[gravity]\nacceleration = [1, -3, 0]\n[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n";
     for (model, _) in MODELS {

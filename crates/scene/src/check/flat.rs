@@ -2,7 +2,7 @@
 
 use super::numbers::{Problem, problem};
 use crate::Scene;
-use crate::tables::{Axis, InitialVelocityTable, PrescribedTable};
+use crate::tables::{Axis, IN_PLANE_STRESS, InitialVelocityTable, Material, PlaneState, PrescribedTable};
 
 /// Refuses the first key that has no effect on a flat body, or no meaning.
 pub(crate) fn check(scene: &Scene) -> Result<(), Problem> {
@@ -35,8 +35,32 @@ pub(crate) fn check(scene: &Scene) -> Result<(), Problem> {
 
 /// Refuses the first key that has no effect on a solid body.
 pub(crate) fn check_solid(scene: &Scene) -> Result<(), Problem> {
-    match scene.material.thickness {
-        Some(_) => problem("material.thickness", "belongs to flat bodies, and this one is solid; remove it"),
+    let Material { thickness, plane, .. } = &scene.material;
+    match [("material.thickness", thickness.is_some()), ("material.plane", plane.is_some())].iter().find(|key| key.1) {
+        Some((key, _)) => problem(key, "belongs to flat bodies, and this one is solid; remove it"),
+        None => Ok(()),
+    }
+}
+
+/// Refuses plane stress of a law without a form for it, and of a body that flows.
+pub(super) fn check_plane(scene: &Scene) -> Result<(), Problem> {
+    if scene.material.plane != Some(PlaneState::Stress) {
+        return Ok(());
+    }
+    let tables =
+        scene.materials.iter().enumerate().map(|(number, table)| (format!("materials[{number}]"), &table.model));
+    let all = std::iter::once(("material".to_owned(), &scene.material.model)).chain(tables);
+    if let Some((table, model)) = all.into_iter().find(|(_, model)| !IN_PLANE_STRESS.contains(&model.as_str())) {
+        let known = IN_PLANE_STRESS.join(" or ");
+        let text = format!(
+            "is \"stress\", which {table}.model = \"{model}\" has no form for; write model = {known}, or plane = \"strain\""
+        );
+        return problem("material.plane", text);
+    }
+    match scene.plasticity {
+        Some(_) => {
+            problem("material.plane", "is \"stress\", in which bodies with [plasticity] cannot be; write \"strain\"")
+        }
         None => Ok(()),
     }
 }

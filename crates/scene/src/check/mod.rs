@@ -25,6 +25,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     scene.material.check("material")?;
     materials::check(scene)?;
     plasticity::check(scene)?;
+    flat::check_plane(scene)?;
     check_time(&scene.time)?;
     unused::check(scene)?;
     loads::check(scene)?;

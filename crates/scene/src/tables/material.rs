@@ -19,6 +19,20 @@ pub const MODELS: &[(&str, &[&[&str]])] = &[
 /// Poisson's ratio above which linear tetrahedra lock visibly.
 const LOCKS_ABOVE: f64 = 0.45;
 
+/// Laws with a form for plane stress.
+pub(crate) const IN_PLANE_STRESS: [&str; 2] = ["linear", "corotated"];
+
+/// State of a flat body across its plane.
+#[derive(Clone, Copy, Debug, Default, serde::Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum PlaneState {
+    /// The thickness stays as it is.
+    #[default]
+    Strain,
+    /// No stress acts across the plane, and the thickness changes.
+    Stress,
+}
+
 /// Young's modulus and Poisson's ratio of small strain.
 const ELASTIC: &[&str] = &["young", "poisson"];
 
@@ -48,7 +62,7 @@ macro_rules! material {
         impl MaterialsTable {
             /// The material without its place.
             pub fn material(&self) -> Material {
-                Material { model: self.model.clone(), density: self.density, thickness: None, $($name: self.$name,)* }
+                Material { model: self.model.clone(), density: self.density, thickness: None, plane: None, $($name: self.$name,)* }
             }
         }
 
@@ -62,6 +76,8 @@ macro_rules! material {
             pub density: f64,
             /// Thickness of a flat body, m; 1 by default.
             pub thickness: Option<f64>,
+            /// State of a flat body across its plane; plane strain by default.
+            pub plane: Option<PlaneState>,
             $($(#[$doc])* pub $name: Option<f64>,)*
         }
 
@@ -111,10 +127,15 @@ impl MaterialsTable {
 }
 
 impl Material {
-    /// Lamé's constants μ = E/(2(1+ν)) and λ = Eν/((1+ν)(1−2ν)), Pa, of `young` and `poisson`.
+    /// Lamé's constants μ = E/(2(1+ν)) and λ = Eν/((1+ν)(1−2ν)), Pa, of `young` and `poisson`. In plane stress, λ is that of the law after
+    /// the strain across the plane has been eliminated, 2λμ/(λ+2μ) = Eν/(1−ν²): Timoshenko and Goodier, Theory of Elasticity (1970), §15 f.
     pub fn lame(&self) -> Option<(f64, f64)> {
         let (E, nu) = (self.young?, self.poisson?);
-        Some((E / (2.0 * (1.0 + nu)), E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))))
+        let lambda = match self.plane.unwrap_or_default() {
+            PlaneState::Strain => E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+            PlaneState::Stress => E * nu / ((1.0 + nu) * (1.0 - nu)),
+        };
+        Some((E / (2.0 * (1.0 + nu)), lambda))
     }
 
     /// Poisson's ratio at small strain: as given, or (3K − 2G)/(2(3K + G)) of the shear modulus G and the bulk modulus K = 2D.

@@ -16,7 +16,8 @@ pub use constraints::{FixedTable, PrescribedTable, RotationTable};
 pub use contact::{ContactTable, PlaneTable};
 pub use initial::{AngularVelocityTable, InitialVelocityTable};
 pub use loads::{BodyForceTable, DragTable, DragVertex, GravityTable, SpringTable, TractionTable};
-pub use material::{MODELS, Material, MaterialsTable};
+pub(crate) use material::IN_PLANE_STRESS;
+pub use material::{MODELS, Material, MaterialsTable, PlaneState};
 pub use method::{
     DampingTable, NewtonTable, Precision, Preconditioner, Projection, SolverKind, SolverTable, StaticTable, TimeTable,
 };

@@ -26,7 +26,7 @@ pub(crate) fn regions(scene: &Scene, mesh: &BodyMesh) -> Result<Vec<MaterialRegi
     }
     let region = |number: usize| MaterialRegion {
         name: format!("materials[{number}]"),
-        material: scene.materials[number].material(),
+        material: Material { plane: scene.material.plane, ..scene.materials[number].material() },
         elements: (0..owner.len()).filter(|&element| owner[element] == Some(number)).collect(),
     };
     Ok((0..scene.materials.len()).map(region).filter(|region| !region.elements.is_empty()).collect())

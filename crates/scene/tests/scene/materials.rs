@@ -81,3 +81,17 @@ fn the_poissons_ratio_of_every_law_s_parameters_is_known() {
         assert!((close.0 - 2998.0 / 6002.0).abs() < 1e-12 && close.1 == 1, "{law}: {close:?}");
     }
 }
+
+#[test]
+fn plane_stress_is_refused_for_laws_without_a_form_for_it_and_for_solid_bodies() {
+    let stress = |text: &str| edit(text, "[material]\n", "[material]\nplane = \"stress\"\n");
+    let of_law = "material.plane is \"stress\", which material.model = \"neo_hookean\" has no form for";
+    assert_refused(&stress(LEAST), 5, of_law);
+    let table = LEFT.replace("linear", "stable_neo_hookean");
+    let linear =
+        edit(LEAST, "model = \"neo_hookean\"\nC = 1e5\nD = 4e5", "model = \"linear\"\nyoung = 1e5\npoisson = 0.3");
+    let of_table = "material.plane is \"stress\", which materials[0].model = \"stable_neo_hookean\" has no form for";
+    assert_refused(&format!("{}{table}", stress(&linear)), 5, of_table);
+    let message = body(&stress(&linear)).unwrap_err().to_string();
+    assert!(message.contains("material.plane belongs to flat bodies"), "{message}");
+}
