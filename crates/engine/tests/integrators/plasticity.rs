@@ -254,7 +254,7 @@ fn a_yield_stress_that_is_never_reached_changes_the_last_digits_alone() {
 
 #[test]
 fn combinations_without_meaning_are_refused_with_both_keys() {
-    let refused = |text: &str| fem_scene::parse(text, "a.toml".as_ref()).err().expect("it is refused").to_string();
+    let refused = |text: &str| fem_scene::parse(text, "a.toml".as_ref()).expect_err("it is refused").to_string();
     let other = of_law("neo_hookean", &soft("verlet", 1e-3, J2));
     assert!(
         refused(&other)
