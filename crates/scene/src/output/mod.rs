@@ -73,9 +73,11 @@ pub struct Stats {
     pub dissipated_energy: Option<f64>,
     /// Reaction force of each Dirichlet condition, N; empty without conditions or if the pipeline does not compute reactions.
     pub reactions: serde_json::Map<String, serde_json::Value>,
-    /// Force (N) and smallest gap (m) of each obstacle; empty without obstacles.
+    /// Force (N) and smallest gap (m) of each obstacle; no key without obstacles.
+    #[serde(skip_serializing_if = "serde_json::Map::is_empty")]
     pub contacts: serde_json::Map<String, serde_json::Value>,
-    /// Largest relative change that the normal forces of friction were left with in a step; `None` without such forces.
+    /// Largest relative change that the normal forces of friction were left with in a step; no key without such forces.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub lag_residual: Option<f64>,
     pub parts: serde_json::Map<String, serde_json::Value>,
 }
