@@ -181,8 +181,8 @@ impl<'a, S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'a, S> {
         shares.fold((0.0, 0.0), |(sum, worst), [energy, shape]| (sum + energy, shape.max(worst)))
     }
 
-    /// The same as if the vertex were elsewhere; none if a triangle is turned over.
-    fn energy_at(&mut self, star: &[(u32, usize)], place: Vector2<f64>, size: f64) -> Option<(f64, f64)> {
+    /// The same as if the vertex were elsewhere; none if a triangle is turned over, or its squared ratio above `bound`.
+    fn energy_at(&mut self, star: &[(u32, usize)], place: Vector2<f64>, size: f64, bound: f64) -> Option<(f64, f64)> {
         self.tried.clear();
         let (mut sum, mut worst) = (0.0, 0.0_f64);
         for &(triangle, i) in star {
@@ -192,6 +192,9 @@ impl<'a, S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'a, S> {
                 return None;
             }
             let (energy, shape) = energy_and_shape([place, a, b]);
+            if !(shape <= bound) {
+                return None;
+            }
             let energy = self.density([size, self.sizes[q as usize], self.sizes[r as usize]]) * energy;
             self.tried.push([energy, shape]);
             sum += energy;
@@ -244,12 +247,12 @@ impl<'a, S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'a, S> {
             return false;
         }
         let (old, shape) = self.energy_around(star);
+        let bound = self.worst.min(shape.max(ACCEPTED));
         for halving in 0..HALVINGS {
             let Some((point, on_curve)) = place(0.5_f64.powi(halving as i32)) else { continue };
             let size = (self.size)(vertex, point);
-            if let Some((energy, worst)) = self.energy_at(star, point, size)
+            if let Some((energy, _)) = self.energy_at(star, point, size, bound)
                 && energy < old
-                && worst <= self.worst.min(shape.max(ACCEPTED))
             {
                 self.gained += old - energy;
                 self.move_to(vertex, star, point, size);

@@ -50,7 +50,7 @@ impl<S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'_, S> {
         let (mut best, mut least) = (None, 0.98 * shape);
         for direction in DIRECTIONS {
             let point = from + reach * size * direction;
-            if let Some((energy, worst)) = self.energy_at(star, point, size)
+            if let Some((energy, worst)) = self.energy_at(star, point, size, least)
                 && worst < least
                 && energy - old <= budget
             {
@@ -61,7 +61,7 @@ impl<S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'_, S> {
         let point = best?;
         // The density at the new place counts.
         let size = (self.size)(vertex, point);
-        let cost = self.energy_at(star, point, size)?.0 - old;
+        let cost = self.energy_at(star, point, size, f64::INFINITY)?.0 - old;
         if cost > budget {
             return None;
         }
