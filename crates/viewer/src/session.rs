@@ -13,7 +13,7 @@ use kiss3d::glamx::{Vec2, Vec3};
 use kiss3d::window::Window;
 
 use crate::camera::OrbitCamera;
-use crate::geometry::single;
+use crate::geometry::{Bounds, single};
 use crate::interaction::Interaction;
 use crate::options::WindowOptions;
 use crate::panel::{self, Panel, UserRequest, ViewState};
@@ -23,6 +23,7 @@ use crate::worker::{Command, Snapshot, Worker};
 
 const IDLE_INTERVAL: Duration = Duration::from_millis(15); // between polls for input while the picture does not change
 const LONGEST_IDLE: Duration = Duration::from_secs(1); // after which a frame is drawn in any case
+const WANDERED: f32 = 1.15; // growth of the box around body and view beyond which the camera moves back
 const AFTER_INPUT: Duration = Duration::from_millis(500); // during which the panel may be animated
 
 /// An open window with a running simulation.
@@ -31,6 +32,9 @@ pub struct Session {
     view: SceneView,
     window: Window,
     camera: OrbitCamera,
+    /// The box that the camera shows, as long as it moves back with a body that goes far.
+    framed: Option<Bounds>,
+    up: Vec3,
     worker: Worker,
     snapshot: Snapshot,
     name: String,
@@ -63,6 +67,8 @@ impl Session {
         prepare(&mut window);
         let camera = OrbitCamera::framing(view.bounds(), up, size(&window), covered(&window));
         Session {
+            framed: Some(*view.bounds()),
+            up,
             view,
             window,
             camera,
@@ -113,8 +119,19 @@ impl Session {
     fn read_snapshot(&mut self) -> bool {
         let Some(snapshot) = self.worker.latest() else { return false };
         self.snapshot = snapshot;
-        self.view.update(&self.snapshot.positions, &self.snapshot.display);
+        let body = self.view.update(&self.snapshot.positions, &self.snapshot.display);
+        self.keep_in_view(&body);
         true
+    }
+
+    /// Moves the camera back if the body has left the picture, until the user moves the camera or the body.
+    fn keep_in_view(&mut self, body: &Bounds) {
+        let Some(framed) = self.framed else { return };
+        let joined = framed.joined(body);
+        if joined.radius() > WANDERED * framed.radius() {
+            self.framed = Some(joined);
+            self.camera = OrbitCamera::framing(&joined, self.up, size(&self.window), covered(&self.window));
+        }
     }
 
     fn read_input(&mut self) {
@@ -128,7 +145,10 @@ impl Session {
                 WindowEvent::MouseButton(button, Action::Press, modifiers) => self.press(button, modifiers),
                 WindowEvent::MouseButton(_, Action::Release, _) => self.interaction.release(&self.worker),
                 WindowEvent::CursorPos(x, y, _) => self.move_cursor(Vec2::new(x as f32, y as f32)),
-                WindowEvent::Scroll(_, amount, _) if !self.is_on_panel() => self.camera.zoom(notches(amount)),
+                WindowEvent::Scroll(_, amount, _) if !self.is_on_panel() => {
+                    self.framed = None;
+                    self.camera.zoom(notches(amount));
+                }
                 _ => {}
             }
         }
@@ -153,6 +173,7 @@ impl Session {
         if self.is_on_panel() {
             return;
         }
+        self.framed = None;
         // A mouse without a middle button moves the camera with shift.
         let button = if modifiers.contains(Modifiers::Shift) { MouseButton::Button3 } else { button };
         let (eye, ray) = (self.camera.eye(), self.camera.ray(self.cursor));
