@@ -1,7 +1,7 @@
 //! Additive plasticity of the corotated law: with F = R S and ε = S − 1, ψ = μ |ε − εᵖ|² + λ/2 tr(ε − εᵖ)².
 //!
-//! Where the elastic strain εᵉ = ε − εᵖ is larger than the yield strain y in the Frobenius norm, εᵖ grows by
-//! c (|εᵉ| − y) εᵉ/|εᵉ| a second, which at fixed ε leaves |εᵉ| = y + (|εᵉ₀| − y) e^(−c t). O'Brien, Bargteil and Hodgins, Graphical
+//! Where the elastic strain εᵉ = ε − εᵖ is larger than the yield strain y in the Frobenius norm, εᵖ flows at the rate
+//! c (|εᵉ| − y) εᵉ/|εᵉ|, c in 1/s. At fixed ε this gives |εᵉ| = y + (|εᵉ₀| − y) e^(−c t). O'Brien, Bargteil and Hodgins, Graphical
 //! Modeling and Animation of Ductile Fracture (2002), have a flow of this kind in Green's strain. εᵖ belongs to the undeformed
 //! body and may change its volume; in the plane strain of a flat body it has no part along z.
 //!

@@ -169,11 +169,11 @@ fn a_released_body_comes_to_rest_at_its_plastic_strain() {
     let tables = stretched("until = 5.0\n") + "[damping]\nalpha = 4.0\n";
     let mut simulation = build(&plastic(ADDITIVE, "implicit_euler", 0.1, &tables));
     run(&mut *simulation, 50);
-    let held = simulation.stresses()[0].amax();
+    let loaded = simulation.stresses()[0].amax();
     run(&mut *simulation, 200);
     assert!(simulation.velocities().amax() < 1e-9, "{}", simulation.velocities().amax());
     let stress = simulation.stresses().iter().map(|stress| stress.amax()).fold(0.0, f64::max);
-    assert!(stress < 1e-6 * held, "{stress} of {held} Pa");
+    assert!(stress < 1e-6 * loaded, "{stress} of {loaded} Pa");
     let (q, strains) = (simulation.positions(), simulation.plastic_flow().unwrap().strains);
     assert!(strains.iter().all(|strain| (strain - 0.08).abs() < 1e-8), "{strains:?}");
     let edge = |node: usize| (0..3).map(|i| (q[3 * node + i] - q[i]).powi(2)).sum::<f64>().sqrt();

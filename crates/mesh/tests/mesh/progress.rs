@@ -1,4 +1,4 @@
-//! What makes and improves meshes tells how far it is, without a change of the result.
+//! Progress of the functions that make and improve meshes: it grows to the whole, and the result is the same with it.
 
 use std::cell::RefCell;
 

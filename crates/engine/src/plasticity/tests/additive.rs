@@ -72,7 +72,7 @@ fn a_body_deformed_to_its_plastic_strain_is_at_rest() {
     assert!(norm(&law.stress(&at_rest)) < 1e-13);
 }
 
-/// The elastic strain after `steps` of `dt` seconds at a held displacement gradient.
+/// The elastic strain after `steps` of `dt` seconds at a fixed displacement gradient.
 fn elastic_strain(G: &Tensor<f64>, creep: f64, dt: f64, steps: usize) -> f64 {
     let mut of = law(zero());
     for _ in 0..steps {
