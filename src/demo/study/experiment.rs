@@ -41,10 +41,12 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
     if out.exists() && !out.is_dir() {
         return Err(End::unusable(format!("--out {}: is a file; give the name of a folder", out.display())));
     }
+    let unwritable = |error| End::unusable(format!("--out {}: cannot be written: {error}", out.display()));
+    // Before the experiment, which takes a minute.
+    std::fs::create_dir_all(out).map_err(unwritable)?;
     let part = part.as_deref();
     let found = progress::during("running the experiment", || flat::run(part, &data::folder(), *quick));
     let experiment = found.map_err(End::unusable)?;
-    let unwritable = |error| End::unusable(format!("--out {}: cannot be written: {error}", out.display()));
     write(&experiment, out).map_err(unwritable)?;
     for part in &experiment.parts {
         for mark in &part.marks {
