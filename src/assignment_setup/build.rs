@@ -108,6 +108,7 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         ("fixed.until", scene.fixed.as_ref().is_some_and(|fixed| fixed.until.is_some())),
         ("mesh.refine", scene.mesh.refine > 0),
         ("time.precision", scene.time.precision != Precision::F64),
+        ("time.substeps", scene.time.substeps.is_some()),
         ("materials", !scene.materials.is_empty()),
         ("plasticity", scene.plasticity.is_some()),
         ("newton", scene.newton.is_some()),

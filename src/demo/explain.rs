@@ -1,6 +1,6 @@
 //! `--explain`: the parts that a scene builds and those that it leaves out.
 
-use fem_scene::simulation::Part;
+use fem_scene::simulation::{Part, Simulation, least_stable_substeps};
 use fem_scene::{Body, Integrator, Pipeline, Scene};
 
 use super::build;
@@ -28,7 +28,10 @@ pub fn print(scene: &Scene) -> Result<(), End> {
     };
     let step = match scene.time.integrator {
         Integrator::Static => format!("load steps: {}", scene.method().load_steps),
-        _ => format!("dt = {} s", scene.time.dt()),
+        _ => match scene.method().substeps {
+            1 => format!("dt = {} s", scene.time.dt()),
+            substeps => format!("dt = {} s in {substeps} substeps", scene.time.dt()),
+        },
     };
     say!("pipeline {pipeline}, {}, {step}", scene.time.integrator.name());
     if let Some(line) = stability {
@@ -54,19 +57,22 @@ fn stability(scene: &Scene, body: Body) -> Result<String, End> {
     if body.shape.mesh.vertices().len() > MOST_NODES {
         return Ok(format!("critical time step: not computed for more than {MOST_NODES} nodes"));
     }
-    let critical = engine::build(scene, body)?.critical_time_step();
-    Ok(critical.map_or("critical time step: none, as the body has no stiffness".to_owned(), |critical| {
-        verdict(critical, scene.time.dt())
-    }))
+    let simulation = engine::build(scene, body)?;
+    Ok(match simulation.critical_time_step() {
+        None => "critical time step: none, as the body has no stiffness".to_owned(),
+        Some(0.0) => "critical time step: none, as the method is unstable at any time step without damping".to_owned(),
+        Some(critical) => verdict(critical, &*simulation),
+    })
 }
 
-fn verdict(critical: f64, dt: f64) -> String {
-    if critical == 0.0 {
-        return "critical time step: none, as the method is unstable at any time step without damping".to_owned();
-    }
+fn verdict(critical: f64, simulation: &dyn Simulation) -> String {
+    let substeps = simulation.substeps();
+    let (dt, step) = (simulation.dt() / substeps as f64, if substeps == 1 { "dt" } else { "a substep" });
     let verdict =
         if dt < critical { "shorter: stable for small vibrations" } else { "too long: motions grow without bound" };
-    format!("critical time step: about {critical:.3e} s; dt is {verdict}")
+    let least = least_stable_substeps(simulation.dt(), critical);
+    let remedy = if least > substeps { format!("; time.substeps = {least} is stable") } else { String::new() };
+    format!("critical time step: about {critical:.3e} s; {step} is {verdict}{remedy}")
 }
 
 /// Names of the parts that are built, for the list of scenes.

@@ -122,6 +122,8 @@ fn numbers_out_of_range_are_refused_with_their_field() {
         assert_refused("[material]", &scale, 5, &["mesh.scale is ", "give a positive number"]);
     }
     assert_refused("steps = 4", "steps = 0", 17, &["time.steps is 0", "at least one"]);
+    assert_refused("steps = 4", "substeps = 0", 17, &["time.substeps is 0", "at least one"]);
+    assert_refused("steps = 4", "substeps = 2", 17, &["time.substeps", "engine"]);
     assert_refused("-9.81", "1e999", 11, &["overflow", "README.md"]);
     for value in ["nan", "inf", "-inf"] {
         assert_refused("-9.81", value, 11, &["gravity.acceleration is ", "give finite numbers"]);

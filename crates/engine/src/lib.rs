@@ -56,6 +56,7 @@ pub mod newton;
 pub mod number;
 mod pick;
 pub mod plasticity;
+mod polar;
 pub mod profile;
 mod refusal;
 pub mod simulator;

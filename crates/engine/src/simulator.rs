@@ -49,7 +49,10 @@ pub struct Simulator<T: Real> {
     integrator: Box<dyn Integrator<T>>,
     kind: IntegratorKind,
     solver: SolverChoice,
+    /// Time step, the number of its substeps, and the duration of one, s.
     dt: f64,
+    substeps: usize,
+    substep_dt: f64,
     skinning: Option<Skinning>,
     counters: Counters,
     /// Display vertices that were computed; pictures are asked for through `&self`.
@@ -133,6 +136,8 @@ impl<T: Real> Simulator<T> {
             kind: method.integrator,
             solver,
             dt: method.dt,
+            substeps: method.substeps,
+            substep_dt: method.dt / method.substeps as f64,
             skinning,
             counters: Counters::default(),
             skinned_rows: AtomicUsize::default(),
@@ -184,7 +189,7 @@ impl<T: Real> Simulator<T> {
     /// Lets the Dirichlet conditions apply that apply in a step from this time, s. Returns whether these are others than before.
     fn apply_conditions_at(&mut self, time: f64) -> bool {
         // Times are sums of steps, so the release may lie a rounding error beyond the one that was meant.
-        self.system.apply_conditions_at(time + ROUNDING * self.dt)
+        self.system.apply_conditions_at(time + ROUNDING * self.substep_dt)
     }
 }
 

@@ -5,7 +5,8 @@
 //! Inversion of Matrices by Biorthogonalization and Related Results (1958). Unlike eigenvalues of FᵀF, this loses no digits.
 
 use crate::number::{Number, Real, constant};
-use crate::tensor::Tensor;
+use crate::polar::PlaneRotation;
+use crate::tensor::{Tensor, half};
 
 /// A vector.
 type Vector<T> = [T; 3];
@@ -65,6 +66,30 @@ pub fn svd<T: Number>(F: &Tensor<T>) -> Svd<T> {
         |k: usize| size * inner(&U[k], &B[k]),
     );
     Svd { U, sigma, V }
+}
+
+/// Decomposes F = 1 + G of a flat body, where G has zeros in the third row and column: σ_1 and σ_2, of which the second is negative if
+/// det F < 0, belong to the plane, and σ_3 = 1. Polar decomposition in closed form, then the eigenvectors of a symmetric 2×2 matrix.
+pub fn svd_in_plane<T: Number>(G: &Tensor<T>) -> Svd<T> {
+    let R = PlaneRotation::of(G);
+    let (c, s) = (R.cos, R.sin);
+    let F = crate::tensor::plus_identity(G);
+    // S = RᵀF
+    let p = half::<T>() * (c * (F[0][1] + F[1][0]) + s * (F[1][1] - F[0][0]));
+    let (x, y) = (c * F[0][0] + s * F[1][0], c * F[1][1] - s * F[0][1]);
+    let size = x.simd_abs().simd_max(y.simd_abs()).simd_max(p.simd_abs());
+    let inverse = T::one() / size.select(size.simd_gt(T::zero()), T::one());
+    let (cos, sin) = rotation(p * inverse, (y - x) * inverse);
+    let change = sin / cos * p;
+    let mut V = unit();
+    turn(&mut V, 0, 1, cos, sin);
+    let mut sigma = [x - change, y + change, T::one()];
+    let in_order = sigma[0].simd_ge(sigma[1]);
+    let (keep, swap) = (T::one().select(in_order, T::zero()), T::zero().select(in_order, T::one()));
+    turn(&mut V, 0, 1, keep, -swap);
+    sigma = [sigma[0].select(in_order, sigma[1]), sigma[1].select(in_order, sigma[0]), sigma[2]];
+    let turned = |v: &Vector<T>| [c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]];
+    Svd { U: [turned(&V[0]), turned(&V[1]), turned(&V[2])], sigma, V }
 }
 
 /// The largest |entry|, or one if all are zero.

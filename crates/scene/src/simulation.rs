@@ -46,7 +46,12 @@ pub trait Simulation: Send {
     /// Time step, s.
     fn dt(&self) -> f64;
 
-    /// Advances by one time step. A step that fails leaves the state as it was before the step.
+    /// Number of equal substeps in which a step is computed.
+    fn substeps(&self) -> usize {
+        1
+    }
+
+    /// Advances by one time step. A step that fails leaves the state as it was before the substep that failed.
     fn step(&mut self) -> Result<(), Failure>;
 
     /// Returns to the initial state: undeformed, at rest, time zero. Parameters and integrator keep their values.
@@ -155,6 +160,14 @@ pub trait Simulation: Send {
 
     /// The parts that the scene builds and those that it leaves out.
     fn parts(&self) -> Vec<Part>;
+}
+
+/// The smallest number of substeps with which a step of `dt` is stable, given the critical time step, s; no number is enough if
+/// that is zero.
+pub fn least_stable_substeps(dt: f64, critical: f64) -> usize {
+    // A substep as long as the critical time step is not stable.
+    let least = (dt / critical).floor() + 1.0;
+    if least.is_finite() { least as usize } else { usize::MAX }
 }
 
 /// The undeformed body.

@@ -9,7 +9,7 @@
 use super::isotropic::{Principal, derivative_from, projected_derivative_from};
 use super::{Law, NamedLaw};
 use crate::number::{Number, Real, constant};
-use crate::svd::{Svd, svd};
+use crate::svd::{Svd, svd, svd_in_plane};
 use crate::tensor::{Tensor, Tensor4, dot, green_strain, half, plus_identity};
 
 /// Lamé's constants of small strain, Pa.
@@ -24,7 +24,17 @@ pub struct Corotated<T> {
 /// F = U diag(1 + e) Vᵀ and e.
 #[inline(always)]
 pub(crate) fn stretches<T: Number>(G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
-    let F = svd(&plus_identity(G));
+    with_strains(svd(&plus_identity(G)), G)
+}
+
+/// The same of a flat body, whose third row and column of G are zero, with rotations within the plane.
+#[inline(always)]
+pub(crate) fn stretches_in_plane<T: Number>(G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
+    with_strains(svd_in_plane(G), G)
+}
+
+#[inline(always)]
+fn with_strains<T: Number>(F: Svd<T>, G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
     let strain = green_strain(G);
     let is_small = dot(&strain, &strain).simd_lt(constant(0.0625));
     let mut e = F.sigma;

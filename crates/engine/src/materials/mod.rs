@@ -15,6 +15,7 @@ mod linear;
 mod logarithmic;
 mod mooney_rivlin;
 mod neo_hookean;
+mod plane_corotated;
 mod st_venant_kirchhoff;
 mod stable_neo_hookean;
 #[cfg(test)]
@@ -23,12 +24,13 @@ mod yeoh;
 
 pub use cauchy::{cauchy_stress, plane_cauchy_stress, pushed_forward};
 pub use invariants::OfInvariants;
+pub use plane_corotated::PlaneCorotated;
 
 use crate::number::Number;
 use crate::tensor::{Tensor, Tensor4};
 use any::laws;
 pub(crate) use any::{match_law, with_law};
-pub(crate) use corotated::stretches;
+pub(crate) use corotated::{stretches, stretches_in_plane};
 pub(crate) use isotropic::{derivative_from, derivative_in_basis, projected_derivative_from};
 pub(crate) use logarithmic::{Kirchhoff, Logarithmic};
 

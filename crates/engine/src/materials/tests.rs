@@ -5,6 +5,7 @@ mod derivatives;
 mod lanes;
 mod mooney_rivlin;
 mod near_rest;
+mod plane_corotated;
 mod projected;
 mod scenes;
 mod svd;

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::elements::BatchLaws;
 use crate::materials::{
-    AnyLaw, Law, Projected, cauchy_stress, match_law, plane_cauchy_stress, pushed_forward, with_law,
+    AnyLaw, Law, PlaneCorotated, Projected, cauchy_stress, match_law, plane_cauchy_stress, pushed_forward, with_law,
 };
 use crate::model::any_elements::{AnyElements, with_elements};
 use crate::model::numbering::Numbering;
@@ -28,6 +28,8 @@ pub struct Solids<T: Real> {
 /// The elements of one material.
 struct Solid<T: Real> {
     law: AnyLaw<T::Lanes>,
+    /// The law of triangles where it has a form of its own.
+    in_plane: Option<PlaneCorotated<T::Lanes>>,
     elements: AnyElements<T>,
     /// Number of each element in the mesh; empty where the group is the whole mesh in its order.
     numbers: Vec<usize>,
@@ -38,10 +40,13 @@ macro_rules! with_law_and_elements {
     ($solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
         match (&$group.elements, $group.plastic_laws(&$solids.plasticity)) {
             (AnyElements::Tetrahedra($elements), None) => with_law!(&$group.law, $law => $value),
-            (AnyElements::Triangles($elements), None) => {
-                let $law = $group.law.as_law();
-                $value
-            }
+            (AnyElements::Triangles($elements), None) => match &$group.in_plane {
+                Some($law) => $value,
+                None => {
+                    let $law = $group.law.as_law();
+                    $value
+                }
+            },
             (AnyElements::Tetrahedra($elements), Some($law)) => $value,
             (AnyElements::Triangles($elements), Some($law)) => $value,
         }
@@ -53,7 +58,7 @@ macro_rules! with_law_by_reference {
     ($solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
         with_elements!(&$group.elements, $elements => match $group.plastic_laws(&$solids.plasticity) {
             None => {
-                let $law = $group.law.as_law();
+                let $law = $group.as_law();
                 $value
             }
             Some($law) => $value,
@@ -65,6 +70,11 @@ impl<T: Real> Solid<T> {
     /// The number in the mesh of an element of the group.
     fn number(&self, element: usize) -> usize {
         self.numbers.get(element).copied().unwrap_or(element)
+    }
+
+    /// The law of its elements where they do not flow.
+    fn as_law(&self) -> &dyn Law<T::Lanes> {
+        self.in_plane.as_ref().map_or(self.law.as_law(), |law| law)
     }
 
     /// The laws of its elements where they flow.
@@ -87,7 +97,8 @@ impl<T: Real> Solids<T> {
         let count = body.shape.mesh.elements();
         let group = |law: AnyLaw<T::Lanes>, numbers: Vec<usize>| {
             let elements = AnyElements::new(&body.shape.mesh, factors, &numbers, rest, numbering, pattern);
-            Solid { law, elements, numbers }
+            let in_plane = if body.shape.mesh.is_flat() { law.in_plane() } else { None };
+            Solid { law, in_plane, elements, numbers }
         };
         let groups = if body.regions.is_empty() {
             vec![Solid { numbers: Vec::new(), ..group(law, (0..count).collect()) }]
@@ -105,7 +116,7 @@ impl<T: Real> Solids<T> {
             });
             own.into_iter().chain(regions).map(|(law, numbers)| group(law, numbers)).collect()
         };
-        let plasticity = body.plasticity.map(|model| Plasticity::new(model, count));
+        let plasticity = body.plasticity.map(|model| Plasticity::new(model, count, body.shape.mesh.is_flat()));
         let is_in_plane_stress = body.material.plane == Some(PlaneState::Stress);
         Self { groups, count, factors: factors.clone(), plasticity, is_in_plane_stress }
     }
@@ -249,9 +260,9 @@ impl<T: Real> Solids<T> {
             let of_group = with_elements!(&group.elements, elements => {
                 match group.plastic_laws(&self.plasticity) {
                     None if self.is_in_plane_stress => {
-                        elements.cauchy_stresses(u, |_, _, G| plane_cauchy_stress(&group.law, G))
+                        elements.cauchy_stresses(u, |_, _, G| plane_cauchy_stress(&group.law, &group.as_law().stress(G), G))
                     }
-                    None => elements.cauchy_stresses(u, |_, _, G| cauchy_stress(&group.law, G)),
+                    None => elements.cauchy_stresses(u, |_, _, G| cauchy_stress(&group.law, &group.as_law().stress(G), G)),
                     Some(laws) => elements.cauchy_stresses(u, |elements, batch, G| {
                         pushed_forward(&laws.of_batch(elements, batch).stress(G), G)
                     }),

@@ -9,7 +9,7 @@
 //! δS_ij = (δF_ji σ_j + σ_i δF_ij)/(σ_i + σ_j).
 
 use super::{Flow, Internal};
-use crate::materials::{Law, derivative_in_basis, stretches};
+use crate::materials::{Law, derivative_in_basis, stretches, stretches_in_plane};
 use crate::number::{Number, Real, constant};
 use crate::svd::Svd;
 use crate::tensor::{Tensor, Tensor4, dot, from_fn, half, trace};
@@ -23,6 +23,8 @@ pub struct Additive<T> {
     pub lambda: T,
     /// Plastic strain εᵖ.
     pub plastic: Tensor<T>,
+    /// Whether the body is flat, so that inverted elements are turned back within the plane.
+    pub is_flat: bool,
 }
 
 /// Relative distance from `maximum` at which rounding error leaves the plastic strain below it.
@@ -36,7 +38,7 @@ struct Strained<T> {
 
 impl<T: Number> Additive<T> {
     fn strained(&self, G: &Tensor<T>) -> Strained<T> {
-        let (F, e) = stretches(G);
+        let (F, e) = if self.is_flat { stretches_in_plane(G) } else { stretches(G) };
         let V = &F.V;
         let elastic = from_fn(|i, j| {
             let mut entry = if i == j { e[i] } else { T::zero() };

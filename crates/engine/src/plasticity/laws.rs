@@ -48,9 +48,12 @@ impl<T: Real> BatchLaws<T::Lanes> for PlasticLaws<'_, T> {
         let plastic = from_fn(|i, j| gather(&|of| of.plastic[i][j]));
         let [mu, bulk] = self.moduli;
         match self.plasticity.model() {
-            Model::Additive { .. } => {
-                PlasticLaw::Additive(Additive { mu, lambda: bulk - constant::<T::Lanes>(2.0 / 3.0) * mu, plastic })
-            }
+            Model::Additive { .. } => PlasticLaw::Additive(Additive {
+                mu,
+                lambda: bulk - constant::<T::Lanes>(2.0 / 3.0) * mu,
+                plastic,
+                is_flat: self.plasticity.is_flat(),
+            }),
             Model::J2 { yield_stress, hardening } => PlasticLaw::J2(J2 {
                 mu,
                 bulk,

@@ -32,6 +32,7 @@ pub struct Internal<T> {
 /// The plastic flow of all elements of a body.
 pub struct Plasticity<T> {
     model: Model,
+    is_flat: bool,
     /// Of each element of the mesh.
     variables: Vec<Internal<T>>,
     /// Energy dissipated so far, J.
@@ -42,14 +43,19 @@ pub struct Plasticity<T> {
 pub type Flow = (Internal<f64>, f64);
 
 impl<T: Real> Plasticity<T> {
-    /// No flow yet.
-    pub fn new(model: Model, elements: usize) -> Self {
-        Self { model, variables: vec![Internal::default(); elements], dissipated: 0.0 }
+    /// No flow yet, of a body that is flat or not.
+    pub fn new(model: Model, elements: usize, is_flat: bool) -> Self {
+        Self { model, is_flat, variables: vec![Internal::default(); elements], dissipated: 0.0 }
     }
 
     /// The model with its parameters.
     pub fn model(&self) -> Model {
         self.model
+    }
+
+    /// Whether the body is flat.
+    pub fn is_flat(&self) -> bool {
+        self.is_flat
     }
 
     /// Internal variables of each element of the mesh.
@@ -75,7 +81,7 @@ impl<T: Real> Plasticity<T> {
         let plastic = before.plastic.map(|row| row.map(T::as_f64));
         let (after, dissipated) = match self.model {
             Model::Additive { yield_strain, creep, maximum } => {
-                let law = Additive { mu: shear, lambda: bulk - 2.0 / 3.0 * shear, plastic };
+                let law = Additive { mu: shear, lambda: bulk - 2.0 / 3.0 * shear, plastic, is_flat: self.is_flat };
                 law.flow(G, yield_strain, -(-creep * dt).exp_m1(), maximum)
             }
             Model::J2 { yield_stress, hardening } => {

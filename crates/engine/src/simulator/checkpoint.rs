@@ -62,11 +62,11 @@ pub(super) fn restore<T: Real>(simulator: &mut Simulator<T>, checkpoint: &Checkp
     simulator.counters.unconverged_steps = (unconverged_steps[0] as usize).min(checkpoint.steps);
     simulator.supplied.restore(history)?;
     if let Some(contact) = &mut simulator.contact {
-        contact.restore(history, &mut simulator.system, simulator.dt)?;
+        contact.restore(history, &mut simulator.system, simulator.substep_dt)?;
     }
     // Forces of a step, such as friction, show in reports until the next one.
     let (before, forces) = (&simulator.last_good, &mut simulator.system.forces);
-    forces.begin_step(&before.u, Moment::at(before.time), simulator.dt);
+    forces.begin_step(&before.u, Moment::at(before.time), simulator.substep_dt);
     forces.update_lag(&simulator.state.u, 1.0);
     simulator.integrator.restore(history)
 }

@@ -111,7 +111,7 @@ impl<T: Real> Simulator<T> {
         if self.system.forces.has_lag() {
             return self.advance_with_lag();
         }
-        let Self { integrator, system, state, dt, counters, last_good, contact, supplied, kind, .. } = self;
+        let Self { integrator, system, state, substep_dt: dt, counters, last_good, contact, supplied, kind, .. } = self;
         let convergence = integrator.step(system, state, *dt, counters)?;
         let Some(Contacts { impulses: Some(impulses), timer, .. }) = contact else { return Ok(convergence) };
         if timer.time(|| impulses.apply(system, last_good, state, (*kind, *dt))) {
@@ -124,7 +124,7 @@ impl<T: Real> Simulator<T> {
 
     /// The initial guess of a repetition assumes the change of velocity of the one before, so it starts at that one's end.
     fn advance_with_lag(&mut self) -> Result<Convergence, Cause> {
-        let Self { integrator, system, state, dt, counters, last_good, contact, .. } = self;
+        let Self { integrator, system, state, substep_dt: dt, counters, last_good, contact, .. } = self;
         let (mut before, mut unconverged) = (f64::INFINITY, 0);
         for repetition in 1.. {
             let convergence = integrator.step(system, state, *dt, counters)?;
@@ -150,7 +150,7 @@ impl<T: Real> Simulator<T> {
 
     /// The force of each obstacle on each node near it in the last step, in the engine's numbering.
     fn contact_forces_on_nodes(&self) -> Vec<NodeForce> {
-        let Self { contact: Some(contact), state, last_good, dt, .. } = self else { return Vec::new() };
+        let Self { contact: Some(contact), state, last_good, substep_dt: dt, .. } = self else { return Vec::new() };
         if let Some(impulses) = &contact.impulses {
             let of_impulse = |impulse: &crate::integrators::Impulse| NodeForce {
                 plane: impulse.plane,
@@ -208,7 +208,7 @@ impl<T: Real> Simulator<T> {
     /// Whether the state lies outside all obstacles.
     pub(super) fn check_contact(&self) -> Result<(), Cause> {
         let Some(contact) = &self.contact else { return Ok(()) };
-        let time = self.last_good.time + self.dt;
+        let time = self.last_good.time + self.substep_dt;
         match contact.penetration(&self.state.u, time, self.system.length) {
             Some((plane, node, depth)) => {
                 let node = self.system.numbering.mesh_node[node] as usize;

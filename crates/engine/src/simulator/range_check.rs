@@ -27,7 +27,8 @@ pub(super) fn check_tolerance(method: &Method, epsilon: f64) -> Result<(), Refus
 pub(super) fn check<T: Real>(method: &Method, system: &System<T>) -> Result<(), Refusal> {
     let moduli: Vec<[T; 2]> = system.elements.moduli().map(|moduli| moduli.map(T::of)).collect();
     let mass = system.mass.diagonal();
-    let rate = T::of(1.0 / (method.dt * method.dt));
+    let dt = method.dt / method.substeps as f64;
+    let rate = T::of(1.0 / (dt * dt));
     let volumes = system.shape.mesh.volumes();
     let has_range = |volume: &f64| is_positive(T::of(*volume)) && is_positive(T::of(1.0 / volume));
     let derived = [

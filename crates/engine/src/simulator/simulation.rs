@@ -62,30 +62,21 @@ impl<T: Real> Simulation for Simulator<T> {
         self.dt
     }
 
+    fn substeps(&self) -> usize {
+        self.substeps
+    }
+
     fn step(&mut self) -> Result<(), Failure> {
-        if self.apply_conditions_at(self.state.time) {
-            self.integrator.forget();
-        }
-        let Self { integrator, system, state, dt, last_good, .. } = self;
-        last_good.copy_from(state);
-        let moment = integrator.moment(state);
-        system.forces.begin_step(&state.u, moment, *dt);
-        let outcome = self.advance();
-        match outcome.and_then(|convergence| self.check_state().map(|()| convergence)) {
-            Ok(convergence) => {
-                self.counters.unconverged_steps += usize::from(convergence == Convergence::NotConverged);
-                self.counters.steps += 1;
-                self.flow();
-                self.state.steps += 1;
-                self.state.time = self.last_good.time + self.dt;
-                Ok(())
-            }
-            Err(cause) => {
-                self.state.copy_from(&self.last_good);
-                self.forget();
-                Err(self.failure(cause))
+        let mut convergence = Convergence::Converged;
+        for _ in 0..self.substeps {
+            if self.substep()? == Convergence::NotConverged {
+                convergence = Convergence::NotConverged;
             }
         }
+        self.counters.unconverged_steps += usize::from(convergence == Convergence::NotConverged);
+        self.counters.steps += 1;
+        self.state.steps += 1;
+        Ok(())
     }
 
     fn reset(&mut self) {
@@ -160,14 +151,21 @@ impl<T: Real> Simulation for Simulator<T> {
     }
 
     fn parameters(&self) -> Vec<Parameter> {
-        vec![Parameter::dt(self.dt, (1e-5, 0.1)), Parameter::drag(self.system.forces.anchors.interaction.stiffness)]
+        let mut parameters = vec![Parameter::dt(self.dt, (1e-5, 0.1))];
+        if self.kind != IntegratorKind::Static {
+            parameters.push(Parameter::substeps(self.substeps));
+        }
+        parameters.push(Parameter::drag(self.system.forces.anchors.interaction.stiffness));
+        parameters
     }
 
     fn apply_parameter(&mut self, key: &'static str, value: f64) {
         match key {
             "dt" => self.dt = value,
+            "substeps" => self.substeps = value.round() as usize,
             _ => self.system.forces.anchors.interaction.stiffness = value,
         }
+        self.substep_dt = self.dt / self.substeps as f64;
         self.forget();
     }
 
@@ -235,6 +233,30 @@ impl<T: Real> Simulator<T> {
         V.iter().zip(u).map(|(X, u)| X + Vector3::from(u.map(T::as_f64))).collect()
     }
 
+    /// Advances by one substep, which leaves the state as it was if it fails.
+    fn substep(&mut self) -> Result<Convergence, Failure> {
+        if self.apply_conditions_at(self.state.time) {
+            self.integrator.forget();
+        }
+        let Self { integrator, system, state, substep_dt: dt, last_good, .. } = self;
+        last_good.copy_from(state);
+        let moment = integrator.moment(state);
+        system.forces.begin_step(&state.u, moment, *dt);
+        let outcome = self.advance();
+        match outcome.and_then(|convergence| self.check_state().map(|()| convergence)) {
+            Ok(convergence) => {
+                self.flow();
+                self.state.time = self.last_good.time + self.substep_dt;
+                Ok(convergence)
+            }
+            Err(cause) => {
+                self.state.copy_from(&self.last_good);
+                self.forget();
+                Err(self.failure(cause))
+            }
+        }
+    }
+
     /// Whether the state that a step has reached is finite, has no inverted element, unless the law allows that, and no more energy
     /// than it can have.
     fn check_state(&mut self) -> Result<(), Cause> {
@@ -249,19 +271,19 @@ impl<T: Real> Simulator<T> {
         if self.integrator.is_unconditionally_stable() || self.supplied.may_diverge {
             return Ok(());
         }
-        self.supplied.check(&self.system, &*self.integrator, &self.last_good, &self.state, self.dt)
+        self.supplied.check(&self.system, &*self.integrator, &self.last_good, &self.state, self.substep_dt)
     }
 
     /// Lets the material flow in a step that has been accepted.
     fn flow(&mut self) {
-        let Self { system: System { elements, profile, .. }, state, dt, .. } = self;
+        let Self { system: System { elements, profile, .. }, state, substep_dt: dt, .. } = self;
         if elements.plasticity().is_some() {
             profile.plasticity.time(|| elements.flow(&state.u, *dt));
         }
     }
 
     fn failure(&self, cause: Cause) -> Failure {
-        Failure::of_step(self.state.steps, self.state.time, self.dt, self.kind, cause)
+        Failure::of_step(self.state.steps, self.state.time, self.substep_dt, self.kind, cause)
     }
 }
 

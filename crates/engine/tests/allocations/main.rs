@@ -31,7 +31,12 @@ integrator = "INTEGRATOR"
 
 /// Allocations of twenty steps after ten.
 fn allocations(integrator: &str, more: &str) -> u64 {
-    let text = format!("{}{more}", SCENE.replace("INTEGRATOR", integrator));
+    allocations_of(&SCENE.replace("INTEGRATOR", integrator), more)
+}
+
+/// The same of another scene, with further tables.
+fn allocations_of(scene: &str, more: &str) -> u64 {
+    let text = format!("{scene}{more}");
     let scene = fem_scene::parse(&text, Path::new("allocations.toml")).unwrap();
     let body = fem_scene::body(&scene, Path::new("../../data")).unwrap();
     let mut simulation = simulator::build(&scene, body).unwrap();
@@ -67,6 +72,33 @@ fn steps_in_contact_allocate_nothing() {
     let floor = "[[planes]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nfriction = 0.3\n";
     for integrator in ["explicit_euler", "semi_implicit_euler", "rk2", "rk4", "verlet", "implicit_euler"] {
         assert_eq!(allocations(integrator, floor), 0, "{integrator}");
+    }
+}
+
+#[test]
+fn steps_with_plastic_flow_allocate_nothing() {
+    let hencky =
+        SCENE.replace("model = \"neo_hookean\"\nC = 1e5\nD = 4e5", "model = \"hencky\"\nyoung = 1e5\npoisson = 0.3");
+    let corotated = hencky.replace("hencky", "corotated");
+    let models = [
+        (hencky, "model = \"j2\"\nyield_stress = 1e3\nhardening = 1e3\n"),
+        (corotated, "model = \"additive\"\nyield_strain = 0.005\ncreep = 5.0\n"),
+    ];
+    for (scene, model) in models {
+        for integrator in ["verlet", "linearly_implicit_euler", "implicit_euler"] {
+            let more = format!("[plasticity]\n{model}");
+            assert_eq!(allocations_of(&scene.replace("INTEGRATOR", integrator), &more), 0, "{integrator}, {model}");
+        }
+    }
+}
+
+#[test]
+fn steps_of_flat_bodies_allocate_nothing() {
+    let flat = SCENE
+        .replace("box = { size = [2, 1, 1], cells_per_unit = 3 }", "rectangle = { size = [2, 1], cells_per_unit = 3 }")
+        .replace("acceleration = [0, 0, -9.81]", "acceleration = [0, -9.81, 0]");
+    for integrator in ["semi_implicit_euler", "implicit_euler"] {
+        assert_eq!(allocations_of(&flat.replace("INTEGRATOR", integrator), ""), 0, "{integrator}");
     }
 }
 

@@ -26,6 +26,7 @@ mod release;
 mod resume;
 mod shipped_scenes;
 mod statics;
+mod substeps;
 mod surface_loads;
 mod twists;
 mod vibrations;

@@ -75,6 +75,16 @@ fn check_time(time: &TimeTable) -> Result<(), Problem> {
             return problem("time.dt", text);
         }
     }
+    match time.substeps {
+        Some(0) => return problem("time.substeps", "is 0; give at least one substep"),
+        Some(_) if time.integrator == Integrator::Static => {
+            return problem(
+                "time.substeps",
+                "has no effect with time.integrator = \"static\"; remove it, or give static.load_steps",
+            );
+        }
+        _ => {}
+    }
     if time.steps == Some(0) { problem("time.steps", "is 0; give at least one step") } else { Ok(()) }
 }
 

@@ -105,7 +105,7 @@ impl Failure {
         } else {
             format!(
                 "the critical time step of the undeformed body is about {critical:.3e} s; use a time step well below \
-                 that, or implicit_euler"
+                 that, more time.substeps, or implicit_euler"
             )
         };
         self

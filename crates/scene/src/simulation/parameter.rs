@@ -23,6 +23,12 @@ impl Parameter {
         Self { key: "dt", label: "time step", unit: "s", value, range, logarithmic: true }
     }
 
+    /// The number of substeps of a step.
+    pub fn substeps(value: usize) -> Self {
+        let range = (1.0, 1000.0_f64.max(value as f64));
+        Self { key: "substeps", label: "substeps", unit: "", value: value as f64, range, logarithmic: true }
+    }
+
     /// The stiffness of the springs of `[drag]` and of the mouse, N/m.
     pub fn drag(value: f64) -> Self {
         Self { key: "drag", label: "drag stiffness", unit: "N/m", value, range: (1.0, 1e8), logarithmic: true }

@@ -14,6 +14,8 @@ pub struct TimeTable {
     pub integrator: Integrator,
     /// Number of steps of a run without a window.
     pub steps: Option<usize>,
+    /// Number of equal substeps in which each step is computed; 1 by default.
+    pub substeps: Option<usize>,
     /// Number type of the engine's computations.
     #[serde(default)]
     pub precision: Precision,

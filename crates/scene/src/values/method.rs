@@ -10,6 +10,8 @@ pub struct Method {
     pub integrator: Integrator,
     /// Time step, s; 1 for `static` without one.
     pub dt: f64,
+    /// Equal substeps in which each step is computed.
+    pub substeps: usize,
     /// Number type.
     pub precision: Precision,
     /// Equal parts in which `static` applies loads and prescribed motions.
@@ -70,11 +72,22 @@ impl Scene {
         Method {
             integrator: self.time.integrator,
             dt: self.time.dt(),
+            substeps: self.time.substeps.unwrap_or(1),
             precision: self.time.precision,
             load_steps: self.statics.as_ref().map_or(1, |statics| statics.load_steps),
             newton: self.newton.as_ref().map(newton).unwrap_or_default(),
             solver: self.solver.as_ref().map(solver),
         }
+    }
+}
+
+impl Scene {
+    /// Makes each substep a step of its own: the same motion, for those who compare time steps.
+    pub fn make_substeps_steps(&mut self) {
+        let time = &mut self.time;
+        let Some(substeps) = time.substeps.take() else { return };
+        time.dt = time.dt.map(|dt| dt / substeps as f64);
+        time.steps = time.steps.map(|steps| steps * substeps);
     }
 }
 

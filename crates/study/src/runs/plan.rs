@@ -219,6 +219,7 @@ fn single(scene: &Scene) -> Scene {
 pub fn base(scene: &Scene, is_quick: bool) -> Scene {
     let mut scene = Scene { pipeline: Pipeline::Engine, ..scene.clone() };
     scene.mesh.display = None;
+    scene.make_substeps_steps();
     // Every method moves the same body, whatever its size.
     scene.mass.lumped = Some(scene.mass.lumped == Some(true));
     if is_quick && let Some(cuboid) = &mut scene.mesh.cuboid {

@@ -153,7 +153,7 @@ fn rigid(integrator: &'static str, mass: &'static str, steps: usize) -> Case {
 }
 
 /// Σ M v, kg m/s.
-fn momentum(simulation: &Simulator<f64>) -> Vector3<f64> {
+pub fn momentum(simulation: &Simulator<f64>) -> Vector3<f64> {
     let (masses, v) = (simulation.system().mass.lumped(), &simulation.state().v);
     masses.iter().zip(v).map(|(mass, v)| *mass * Vector3::from(*v)).sum()
 }

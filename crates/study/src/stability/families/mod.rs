@@ -1,13 +1,16 @@
 //! Families of cases, one file each.
 
+mod contact;
 mod degenerate_bodies;
 mod explosions;
+mod flat_bodies;
 pub mod incompressibility;
 mod invariance;
 mod large_strains;
 mod long_runs;
 pub mod maps;
 mod material_contrast;
+mod plastic_flow;
 mod recovery;
 mod refusals;
 mod single_precision;
@@ -33,6 +36,9 @@ pub fn cases(quick: bool, maps: &maps::Found) -> Vec<Case> {
     recovery::add(&mut cases, quick);
     degenerate_bodies::add(&mut cases, quick);
     long_runs::add(&mut cases, quick);
+    flat_bodies::add(&mut cases, quick);
+    plastic_flow::add(&mut cases, quick);
+    contact::add(&mut cases, quick);
     refusals::add(&mut cases);
     cases
 }

@@ -1,0 +1,89 @@
+//! Flat bodies: stiffness against time step, inverted triangles, pictures meshed coarsely and finely, momentum.
+
+use fem_scene::simulation::Simulation;
+use nalgebra::Vector3;
+
+use super::recovery::MARGIN_IS;
+use crate::stability::case::{Case, Finding, Outcome};
+use crate::stability::initial_state::{Random, place_moving};
+use crate::stability::march::march;
+use crate::stability::scene_text::{CLAMPED, DAMPED, DYNAMIC, SceneText, gravity};
+
+const FAMILY: &str = "flat bodies";
+
+/// Adds the family.
+pub fn add(cases: &mut Vec<Case>, quick: bool) {
+    let stiffness: &[f64] = if quick { &[1e5] } else { &[1e2, 1e5, 1e8, 1e12] };
+    for model in ["corotated", "stable_neo_hookean", "neo_hookean"] {
+        for &young in stiffness {
+            for dt in [1e-5, 1e-2, 1.0] {
+                cases.push(sagging(model, young, dt, if quick { 5 } else { 40 }));
+            }
+        }
+    }
+    for (model, expected) in [("corotated", Outcome::Untangles), ("stable_neo_hookean", Outcome::Untangles)] {
+        for seed in 0..if quick { 2 } else { 20 } {
+            cases.push(scrambled(model, expected, seed));
+        }
+    }
+    for integrator in DYNAMIC {
+        cases.push(rigid(integrator, if quick { 100 } else { 1000 }));
+    }
+}
+
+/// A rectangle of 2 × 1 m in squares of 0.5 m.
+fn rectangle(integrator: &'static str, model: &'static str) -> SceneText {
+    let mesh = "rectangle = { size = [2, 1], cells_per_unit = 2 }".to_owned();
+    SceneText { mesh, ..SceneText::small(integrator, model) }
+}
+
+/// A clamped rectangle under a weight that bends it as far at every stiffness.
+fn sagging(model: &'static str, young: f64, dt: f64, steps: usize) -> Case {
+    let weight = gravity([0.0, -0.02 * young / 1e3, 0.0]);
+    let text = SceneText { young, dt, ..rectangle("implicit_euler", model) }.with(CLAMPED).with(&weight);
+    let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, {steps} steps");
+    text.clone().case(FAMILY, "sags under its weight", parameters, move |deadline| {
+        Ok(march(&mut text.build()?, steps, deadline).survival())
+    })
+}
+
+/// Steps within which a scrambled body must reach an equilibrium.
+const STEPS: usize = 600;
+
+/// A clamped rectangle whose nodes start at random places of the plane.
+fn scrambled(model: &'static str, expected: Outcome, seed: u64) -> Case {
+    let text = SceneText { dt: 0.05, ..rectangle("implicit_euler", model) }.with(CLAMPED).with(DAMPED);
+    let parameters = format!("E = 1e5 Pa, dt = {} s, up to {STEPS} steps", text.dt);
+    let case = text.clone().case(FAMILY, "random positions in the plane", parameters, move |deadline| {
+        let (mut simulation, mut random) = (text.build()?, Random::new(seed));
+        place_moving(&mut simulation, |X| {
+            let mut place = Vector3::new(1.0, 0.5, 0.0) + random.vector().component_mul(&Vector3::new(1.0, 0.5, 0.0));
+            if X.x == 0.0 {
+                place = *X;
+            }
+            (place, Vector3::zeros())
+        });
+        Ok(super::recovery::back_at_rest(&mut simulation, STEPS, true, deadline))
+    });
+    Case { expected, margin_is: MARGIN_IS, seed: Some(seed), ..case }
+}
+
+/// A free rectangle in rigid motion without loads, which conserves its momentum and stays in its plane.
+fn rigid(integrator: &'static str, steps: usize) -> Case {
+    let text = SceneText { dt: 1e-3, ..rectangle(integrator, "corotated") };
+    let parameters = format!("dt = 1e-3 s, {steps} steps");
+    let case = text.clone().case(FAMILY, "translating and rotating", parameters, move |deadline| {
+        let mut simulation = text.build()?;
+        let (spin, speed) = (Vector3::new(0.0, 0.0, 0.5), Vector3::new(3.0, 2.0, 0.0));
+        place_moving(&mut simulation, |X| (*X, speed + spin.cross(&(X - Vector3::new(1.0, 0.5, 0.0)))));
+        let before = super::invariance::momentum(&simulation);
+        let end = march(&mut simulation, steps, deadline);
+        if let Some(trouble) = end.trouble() {
+            return Err(trouble);
+        }
+        let off = simulation.positions().iter().skip(2).step_by(3).fold(0.0f64, |off, z| off.max(z.abs()));
+        let change = (super::invariance::momentum(&simulation) - before).norm() / (1e-12 * before.norm());
+        Ok(Finding::within(change.max(off / f64::MIN_POSITIVE), end.note()))
+    });
+    Case { margin_is: "relative change of momentum / 1e-12, round-off; must be at most 1", ..case }
+}
