@@ -9,14 +9,14 @@ fn the_short_experiments_on_flat_bodies_hold_their_marks_and_write_a_page_tables
     let desk = Desk::new();
     let said = desk.run_well("experiment flat --quick --out found").stdout;
     assert!(!said.contains("DOES NOT HOLD"), "{said}");
-    for part in ["stability", "speed", "modulus", "mesh"] {
+    for part in ["stability", "speed", "modulus", "mesh", "convergence"] {
         assert!(said.lines().any(|line| line.starts_with(part)), "{part}: {said}");
         let table = fs::read_to_string(desk.path(&format!("found/flat-{part}.csv"))).unwrap();
         assert!(table.lines().count() > 1, "{part}: {table}");
     }
     let page = fs::read_to_string(desk.path("found/flat.html")).unwrap();
     assert!(page.contains("marks hold") && !page.contains("does not hold") && page.contains("<svg"), "{page}");
-    for picture in ["flat-speed.svg", "flat-mesh.svg"] {
+    for picture in ["flat-speed.svg", "flat-mesh.svg", "flat-convergence.svg"] {
         assert!(fs::read_to_string(desk.path("found").join(picture)).unwrap().starts_with("<svg"), "{picture}");
     }
 }

@@ -1,4 +1,4 @@
-//! Connectivity of a mesh: its connected parts, and nodes that coincide without being merged.
+//! Connectivity of a mesh: its edges and connected parts, and nodes that coincide without being merged.
 
 use nalgebra::Vector3;
 
@@ -15,6 +15,27 @@ pub fn parts<const N: usize>(mesh: &Mesh<3, N>) -> Vec<usize> {
         }
     }
     (0..parent.len()).map(|node| root(&mut parent, node)).collect()
+}
+
+/// Each edge once, its smaller node first, in ascending order.
+pub(crate) fn edges<const N: usize>(elements: &[[usize; N]]) -> Vec<[usize; 2]> {
+    let of_element = |element: &[usize; N]| {
+        let element = *element;
+        (1..N).flat_map(move |b| (0..b).map(move |a| sorted([element[a], element[b]])))
+    };
+    let mut edges: Vec<_> = elements.iter().flat_map(of_element).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    edges
+}
+
+pub(crate) fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// The four triangles that the corners a, b, c of a triangle and the middles of its sides a b, b c, c a form.
+pub(crate) fn quarters([a, b, c, ab, bc, ca]: [usize; 6]) -> [[usize; 3]; 4] {
+    [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
 }
 
 fn root(parent: &mut [usize], mut node: usize) -> usize {

@@ -37,6 +37,7 @@ pub mod generate;
 mod join;
 mod measures;
 mod orient;
+mod quadratic;
 mod quality;
 mod read;
 mod rectangle;
@@ -54,13 +55,14 @@ pub use join::join;
 pub(crate) use measures::signed_volume;
 pub use measures::{area_vector, volumes};
 pub use orient::oriented;
+pub use quadratic::{QuadraticMesh, QuadraticSide, quadratic, quarters_of, sides};
 pub use quality::{
     Distribution, Extreme, Quality, SelfIntersections, SurfaceQuality, TriangleQuality, quality, self_intersections,
     surface_quality, tetrahedron_distributions, triangle_distributions, triangle_quality,
 };
 pub use read::{AnyMesh, Points, is_surface, read_mesh, read_points, read_surface, read_tetrahedra};
 pub use rectangle::rectangle_mesh;
-pub use refine::refine;
+pub use refine::{refine, refine_triangles};
 pub use sets::MeshSet;
 pub use sides::{Side, faces_on_side, nodes_on_side};
 pub use write::{write_mesh, write_surface, write_tetrahedra};

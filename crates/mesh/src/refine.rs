@@ -1,12 +1,13 @@
-//! Uniform refinement: every tetrahedron becomes eight.
+//! Uniform refinement: every tetrahedron becomes eight, every triangle four.
 
 use std::path::Path;
 
 use nalgebra::Vector3;
 
 use super::box_mesh::MOST_ELEMENTS;
+use super::connectivity::{edges, quarters, sorted};
 use super::sets::EDGES;
-use super::{MeshError, MeshSet, Problem, TetrahedralMesh};
+use super::{Mesh, MeshError, MeshSet, Problem, SurfaceMesh, TetrahedralMesh};
 
 /// The three diagonals of the inner octahedron: the two ends of each, then the other four edge midpoints around it, such that
 /// `[end, end, ring[i], ring[i + 1]]` is positive. The numbers are indices of [`EDGES`].
@@ -22,40 +23,51 @@ const DIAGONALS: [([usize; 2], [usize; 4]); 3] =
 ///
 /// Returns an error for more than 50 million elements.
 pub fn refine(mesh: TetrahedralMesh, times: u32, source: &Path) -> Result<TetrahedralMesh, MeshError> {
-    let elements = mesh.elements.len() as f64 * 8f64.powf(f64::from(times));
-    if elements > MOST_ELEMENTS as f64 {
-        return Err(MeshError::in_file(source, Problem::RefinedTooFine { times, elements, most: MOST_ELEMENTS }));
-    }
+    check_size(mesh.elements.len(), 8.0, times, source)?;
     Ok((0..times).fold(mesh, |mesh, _| refine_once(&mesh)))
 }
 
+/// Cuts every triangle of a flat body into four at the midpoints of its edges, `times` times: similar ones of half its size. Numbers and
+/// sets are as for [`refine`]: the children of triangle t are the triangles 4 t to 4 t + 3.
+pub fn refine_triangles(mesh: SurfaceMesh, times: u32, source: &Path) -> Result<SurfaceMesh, MeshError> {
+    check_size(mesh.elements.len(), 4.0, times, source)?;
+    Ok((0..times).fold(mesh, |mesh, _| {
+        refined(&mesh, |&[a, b, c], midpoint, _| {
+            quarters([a, b, c, midpoint([a, b]), midpoint([b, c]), midpoint([c, a])])
+        })
+    }))
+}
+
+/// Refuses a refined mesh of too many elements.
+fn check_size(elements: usize, children: f64, times: u32, source: &Path) -> Result<(), MeshError> {
+    let elements = elements as f64 * children.powf(f64::from(times));
+    if elements > MOST_ELEMENTS as f64 {
+        return Err(MeshError::in_file(source, Problem::RefinedTooFine { times, elements, most: MOST_ELEMENTS }));
+    }
+    Ok(())
+}
+
 fn refine_once(mesh: &TetrahedralMesh) -> TetrahedralMesh {
-    let edges = edges(mesh);
+    refined(mesh, |element, midpoint, vertices| {
+        children(element, EDGES.map(|edge| midpoint(edge.map(|corner| element[corner]))), vertices)
+    })
+}
+
+/// The mesh with the midpoints of its edges as further vertices, and with `M` elements for each of its own: those that `cut` makes of
+/// an element, the vertex at the midpoint of an edge, and all vertices.
+fn refined<const N: usize, const M: usize>(
+    mesh: &Mesh<3, N>,
+    cut: impl Fn(&[usize; N], &dyn Fn([usize; 2]) -> usize, &[Vector3<f64>]) -> [[usize; N]; M],
+) -> Mesh<3, N> {
+    let edges = edges(&mesh.elements);
     let coarse = mesh.vertices.len();
     let midpoint = |[a, b]: &[usize; 2]| 0.5 * (mesh.vertices[*a] + mesh.vertices[*b]);
     let vertices: Vec<_> = mesh.vertices.iter().copied().chain(edges.iter().map(midpoint)).collect();
-    let number = |edge: [usize; 2]| coarse + edges.binary_search(&edge).expect("every edge is in the list");
-    let elements = mesh.elements.iter().flat_map(|element| {
-        let midpoints = EDGES.map(|edge| number(sorted(edge.map(|corner| element[corner]))));
-        children(element, midpoints, &vertices)
-    });
-    let elements = elements.collect();
-    let refined = |set: &MeshSet| set.refined(|edge| number(sorted(edge)));
-    let sets = mesh.sets.iter().map(|(name, set)| (name.clone(), refined(set))).collect();
-    TetrahedralMesh { vertices, elements, sets }
-}
-
-/// Each edge once, its smaller vertex first, in ascending order.
-fn edges(mesh: &TetrahedralMesh) -> Vec<[usize; 2]> {
-    let all = mesh.elements.iter().flat_map(|element| EDGES.map(|edge| sorted(edge.map(|corner| element[corner]))));
-    let mut edges: Vec<_> = all.collect();
-    edges.sort_unstable();
-    edges.dedup();
-    edges
-}
-
-fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
-    [a.min(b), a.max(b)]
+    let number = |edge: [usize; 2]| coarse + edges.binary_search(&sorted(edge)).expect("every edge is in the list");
+    let elements = mesh.elements.iter().flat_map(|element| cut(element, &number, &vertices)).collect();
+    let of_set = |set: &MeshSet| set.refined(M, number);
+    let sets = mesh.sets.iter().map(|(name, set)| (name.clone(), of_set(set))).collect();
+    Mesh { vertices, elements, sets }
 }
 
 fn children(&[a, b, c, d]: &[usize; 4], m: [usize; 6], vertices: &[Vector3<f64>]) -> [[usize; 4]; 8] {

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use super::connectivity::quarters;
 use super::{Mesh, Problem};
 
 /// The edges of a tetrahedron, by its corners.
@@ -76,15 +77,12 @@ impl MeshSet {
         sort_list(&mut self.points);
     }
 
-    /// The same part of the mesh after every tetrahedron has become eight; `midpoint` is the new node on an edge.
-    pub(crate) fn refined(&self, midpoint: impl Fn([usize; 2]) -> usize) -> Self {
-        let face = |&[a, b, c]: &[usize; 3]| {
-            let [ab, bc, ca] = [[a, b], [b, c], [a, c]].map(&midpoint);
-            [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
-        };
+    /// The same part of the mesh after every element has become so many; `midpoint` is the new node on an edge.
+    pub(crate) fn refined(&self, children: usize, midpoint: impl Fn([usize; 2]) -> usize) -> Self {
+        let face = |&[a, b, c]: &[usize; 3]| quarters([a, b, c, midpoint([a, b]), midpoint([b, c]), midpoint([a, c])]);
         let edge = |&[a, b]: &[usize; 2]| [[a, midpoint([a, b])], [midpoint([a, b]), b]];
         let mut fine = Self {
-            elements: self.elements.iter().flat_map(|element| 8 * element..8 * element + 8).collect(),
+            elements: self.elements.iter().flat_map(|element| children * element..children * (element + 1)).collect(),
             faces: self.faces.iter().flat_map(face).collect(),
             edges: self.edges.iter().flat_map(edge).collect(),
             points: self.points.clone(),

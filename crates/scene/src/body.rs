@@ -128,11 +128,27 @@ fn checked(scene: &Scene, mesh: BodyMesh) -> Result<BodyMesh, SceneError> {
     match mesh {
         BodyMesh::Solid(mesh) => tetrahedra(scene, mesh).map(BodyMesh::Solid),
         BodyMesh::Flat { triangles, thickness } => {
-            let triangles = scale(triangles, scene.mesh.scale);
-            fem_mesh::check_plane(&triangles, &source(scene)).map_err(|error| mesh_error(scene, "mesh", error))?;
-            Ok(BodyMesh::Flat { triangles, thickness })
+            let triangles = in_plane(scene, triangles)?;
+            Ok(match scene.mesh.order {
+                2 => BodyMesh::Quadratic { triangles: fem_mesh::quadratic(triangles), thickness },
+                _ => BodyMesh::Flat { triangles, thickness },
+            })
         }
+        // A body of a program's own, whose triangles are what they are.
+        BodyMesh::Quadratic { .. } => Ok(mesh),
     }
+}
+
+fn in_plane(scene: &Scene, mesh: SurfaceMesh) -> Result<SurfaceMesh, SceneError> {
+    let mesh = scale(mesh, scene.mesh.scale);
+    let source = source(scene);
+    fem_mesh::check_plane(&mesh, &source).map_err(|error| mesh_error(scene, "mesh", error))?;
+    if scene.mesh.refine == 0 {
+        return Ok(mesh);
+    }
+    let refined = fem_mesh::refine_triangles(mesh, scene.mesh.refine, &source);
+    let checked = refined.and_then(|mesh| fem_mesh::check_plane(&mesh, &source).map(|()| mesh));
+    checked.map_err(|error| mesh_error(scene, "mesh.refine", error))
 }
 
 fn tetrahedra(scene: &Scene, mesh: TetrahedralMesh) -> Result<TetrahedralMesh, SceneError> {

@@ -26,6 +26,7 @@ fn locking(body: &Body) -> impl Iterator<Item = String> {
         let (kind, figures) = match &body.shape.mesh {
             BodyMesh::Solid(_) => ("tetrahedra", format!(": {LOCKING}")),
             BodyMesh::Flat { .. } => ("triangles in plane strain", String::new()),
+            BodyMesh::Quadratic { .. } => return None,
         };
         Some(format!(
             "{table}: Poisson's ratio is {poisson:.4}, and linear {kind} lock near ½{figures}; refine the mesh until the \

@@ -14,23 +14,23 @@ use crate::number::{Real, constant};
 use crate::sparse::Block;
 use crate::tensor::{from_fn, volume_change};
 
-impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
+impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, N> {
     /// Elastic energy at displacements `u` of all nodes, J; not finite where the law does not allow an element.
     pub fn energy<B: BatchLaws<T::Lanes>>(&self, laws: B, u: &[[T; 3]]) -> f64 {
-        let of_chunk = |chunk: &Chunk<T, D, N>, _: &mut [()]| energy_of(chunk, laws, u);
+        let of_chunk = |chunk: &Chunk<T, D, E, N>, _: &mut [()]| energy_of(chunk, laws, u);
         over_chunks(&self.chunks, &mut [], |_| 0, &of_chunk)
     }
 
     /// Σ V G:G, m³: a measure of the rounding error in the energies of rotated elements. It grows with the rotation, their energies
     /// do not.
     pub fn squares(&self, u: &[[T; 3]]) -> f64 {
-        let of_chunk = |chunk: &Chunk<T, D, N>, _: &mut [()]| squares_of(chunk, u);
+        let of_chunk = |chunk: &Chunk<T, D, E, N>, _: &mut [()]| squares_of(chunk, u);
         over_chunks(&self.chunks, &mut [], |_| 0, &of_chunk)
     }
 
     /// Adds the gradient of the energy by the nodes' positions, N.
     pub fn add_gradient<B: BatchLaws<T::Lanes>>(&self, laws: B, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
-        let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; 3]]| {
+        let of_chunk = |chunk: &Chunk<T, D, E, N>, sums: &mut [[T; 3]]| {
             add_gradient_of(chunk, laws, u, sums);
             0.0
         };
@@ -44,13 +44,14 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
         u: &[[T; 3]],
         gradient: &mut [[T; 3]],
     ) -> f64 {
-        let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; 3]]| add_energy_and_gradient_of(chunk, laws, u, sums);
+        let of_chunk =
+            |chunk: &Chunk<T, D, E, N>, sums: &mut [[T; 3]]| add_energy_and_gradient_of(chunk, laws, u, sums);
         over_chunks(&self.chunks, gradient, |chunk| chunk.nodes.end, &of_chunk)
     }
 
     /// Adds `factor` times the Hessian of the energy to the values of the pattern that the elements were made for, N/m.
     pub fn add_stiffness<B: BatchLaws<T::Lanes>>(&self, laws: B, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
-        let of_chunk = |chunk: &Chunk<T, D, N>, values: &mut [Block<T, 3>]| {
+        let of_chunk = |chunk: &Chunk<T, D, E, N>, values: &mut [Block<T, 3>]| {
             add_stiffness_of(chunk, laws, factor, u, values);
             0.0
         };
@@ -66,7 +67,7 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
         d: &[[T; 3]],
         product: &mut [[T; 3]],
     ) {
-        let of_chunk = |chunk: &Chunk<T, D, N>, sums: &mut [[T; 3]]| {
+        let of_chunk = |chunk: &Chunk<T, D, E, N>, sums: &mut [[T; 3]]| {
             add_stiffness_times_of(chunk, laws, factor, u, d, sums);
             0.0
         };
@@ -87,7 +88,7 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
 
     /// Number of elements with det F ≤ 0.
     pub fn inverted(&self, u: &[[T; 3]]) -> usize {
-        let of_batch = |chunk: &Chunk<T, D, N>, number: usize, (batch, corners)| {
+        let of_batch = |chunk: &Chunk<T, D, E, N>, number: usize, (batch, corners)| {
             let J = volume_change(&displacement_gradient(batch, corners, u)).0 + constant(1.0);
             // The lanes of the last batch that belong to no element are empty.
             let elements = chunk.elements.len() - number * T::WIDTH;
@@ -101,10 +102,10 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
 
 /// Adds what the corners of a batch contribute to the nodes of its chunk.
 #[inline(always)]
-fn scatter<T: Real, const D: usize, const N: usize>(
-    chunk: &Chunk<T, D, N>,
+fn scatter<T: Real, const D: usize, const E: usize, const N: usize>(
+    chunk: &Chunk<T, D, E, N>,
     corners: &[[u32; N]],
-    gradients: &[[T::Lanes; D]; D],
+    gradients: &[[T::Lanes; D]; E],
     sums: &mut [[T; 3]],
 ) {
     let first = chunk.nodes.start as u32;
@@ -112,7 +113,7 @@ fn scatter<T: Real, const D: usize, const N: usize>(
     for lane in 0..T::WIDTH {
         let corners = &corners[lane];
         let mut of_first = [T::default(); D];
-        for e in 0..D {
+        for e in 0..E {
             let value: [T; D] = std::array::from_fn(|i| T::each(&gradients[e][i])[lane]);
             for i in 0..D {
                 of_first[i] -= value[i];
@@ -134,13 +135,13 @@ fn scatter<T: Real, const D: usize, const N: usize>(
 
 /// Adds the Hessian of a batch, of which the blocks of all corners but the first are given, to the rows of its chunk.
 #[inline(always)]
-fn add_hessian<T: Real, const D: usize, const N: usize>(
-    chunk: &Chunk<T, D, N>,
+fn add_hessian<T: Real, const D: usize, const E: usize, const N: usize>(
+    chunk: &Chunk<T, D, E, N>,
     batch: usize,
-    inner: &[[LaneBlock<T, D>; D]; D],
+    inner: &[[LaneBlock<T, D>; E]; E],
     values: &mut [Block<T, 3>],
 ) {
-    let hessian = element_hessian::<T, D, N>(inner);
+    let hessian = element_hessian::<T, D, E, N>(inner);
     let targets = &chunk.targets[batch * T::WIDTH..(batch + 1) * T::WIDTH];
     for a in 0..N {
         for b in 0..=a {
@@ -156,14 +157,14 @@ fn add_hessian<T: Real, const D: usize, const N: usize>(
 
 /// The batches of a chunk, with their corners.
 #[inline(always)]
-fn batches<T: Real, const D: usize, const N: usize>(
-    chunk: &Chunk<T, D, N>,
-) -> impl Iterator<Item = (&Batch<T, D>, &[[u32; N]])> {
+fn batches<T: Real, const D: usize, const E: usize, const N: usize>(
+    chunk: &Chunk<T, D, E, N>,
+) -> impl Iterator<Item = (&Batch<T, D, E>, &[[u32; N]])> {
     chunk.batches.iter().zip(chunk.corners.chunks_exact(T::WIDTH))
 }
 
-fn energy_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const N: usize>(
-    chunk: &Chunk<T, D, N>,
+fn energy_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const E: usize, const N: usize>(
+    chunk: &Chunk<T, D, E, N>,
     laws: B,
     u: &[[T; 3]],
 ) -> f64 {
@@ -174,13 +175,13 @@ fn energy_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const N: usize>(
     batches(chunk).enumerate().map(of_batch).sum()
 }
 
-fn squares_of<T: Real, const D: usize, const N: usize>(chunk: &Chunk<T, D, N>, u: &[[T; 3]]) -> f64 {
+fn squares_of<T: Real, const D: usize, const E: usize, const N: usize>(chunk: &Chunk<T, D, E, N>, u: &[[T; 3]]) -> f64 {
     let of_batch = |(batch, corners)| squares(batch, &displacement_gradient(batch, corners, u));
     batches(chunk).map(of_batch).sum()
 }
 
-fn add_gradient_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const N: usize>(
-    chunk: &Chunk<T, D, N>,
+fn add_gradient_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const E: usize, const N: usize>(
+    chunk: &Chunk<T, D, E, N>,
     laws: B,
     u: &[[T; 3]],
     sums: &mut [[T; 3]],
@@ -192,8 +193,8 @@ fn add_gradient_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const N: usi
     }
 }
 
-fn add_energy_and_gradient_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const N: usize>(
-    chunk: &Chunk<T, D, N>,
+fn add_energy_and_gradient_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const E: usize, const N: usize>(
+    chunk: &Chunk<T, D, E, N>,
     laws: B,
     u: &[[T; 3]],
     sums: &mut [[T; 3]],
@@ -209,8 +210,8 @@ fn add_energy_and_gradient_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, c
     total
 }
 
-fn add_stiffness_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const N: usize>(
-    chunk: &Chunk<T, D, N>,
+fn add_stiffness_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const E: usize, const N: usize>(
+    chunk: &Chunk<T, D, E, N>,
     laws: B,
     factor: T,
     u: &[[T; 3]],
@@ -230,8 +231,8 @@ fn add_stiffness_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const N: us
     }
 }
 
-fn add_stiffness_times_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const N: usize>(
-    chunk: &Chunk<T, D, N>,
+fn add_stiffness_times_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const E: usize, const N: usize>(
+    chunk: &Chunk<T, D, E, N>,
     laws: B,
     factor: T,
     u: &[[T; 3]],
@@ -258,7 +259,10 @@ fn add_stiffness_times_of<T: Real, B: BatchLaws<T::Lanes>, const D: usize, const
     }
 }
 
-fn min_det_F_of<T: Real, const D: usize, const N: usize>(chunk: &Chunk<T, D, N>, u: &[[T; 3]]) -> (T, usize) {
+fn min_det_F_of<T: Real, const D: usize, const E: usize, const N: usize>(
+    chunk: &Chunk<T, D, E, N>,
+    u: &[[T; 3]],
+) -> (T, usize) {
     let mut least = (T::of(f64::INFINITY), 0);
     for ((batch, corners), elements) in batches(chunk).zip(chunk.elements.chunks(T::WIDTH)) {
         let J = volume_change(&displacement_gradient(batch, corners, u)).0 + constant(1.0);

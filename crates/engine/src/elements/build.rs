@@ -5,6 +5,7 @@ use std::ops::Range;
 use nalgebra::{SMatrix, Vector3};
 use simba::simd::SimdValue;
 
+use super::quadratic::{self, BARYCENTRIC, POINTS};
 use super::{Batch, Chunk, Elements};
 use crate::number::Real;
 use crate::sparse::Pattern;
@@ -16,8 +17,12 @@ const CHUNK: (usize, usize) = (4096, 16_384);
 /// A target beyond every block.
 pub(super) const NONE: u32 = u32::MAX;
 
-impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
-    /// Elements with corners and positions in the order of the rows of `pattern`; nodes beyond its rows have forces but no
+/// Gradients of the shape functions of all nodes but the first at a quadrature point, 1/m, and the volume that belongs to it, m³ (area
+/// in the plane, m²).
+type Shape<const D: usize, const E: usize> = ([[f64; D]; E], f64);
+
+impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, N> {
+    /// Simplices with corners and positions in the order of the rows of `pattern`; nodes beyond its rows have forces but no
     /// stiffness.
     pub fn new(positions: &[Vector3<f64>], elements: &[[u32; N]], pattern: &Pattern) -> Self {
         Self::stiffened(positions, elements, &[], pattern)
@@ -25,10 +30,43 @@ impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
 
     /// The same with a factor on the energy of each element; `factors` is empty where all are 1.
     pub fn stiffened(positions: &[Vector3<f64>], elements: &[[u32; N]], factors: &[f64], pattern: &Pattern) -> Self {
-        assert_eq!(N, D + 1, "a simplex in {D} dimensions has {} corners", D + 1);
-        let chunk = |nodes| chunk(nodes, positions, elements, factors, pattern);
-        let chunks = chunk_ranges(positions.len()).map(chunk).collect();
+        assert_eq!([N, E], [D + 1, D], "a simplex in {D} dimensions has {} corners", D + 1);
+        let shape = |element: usize, corners: &[u32; N]| {
+            let (inverse, volume) = simplex::<D, N>(corners, positions, factors.get(element).copied().unwrap_or(1.0));
+            (std::array::from_fn(|e| std::array::from_fn(|j| inverse[(e, j)])), volume)
+        };
+        Self::of_shapes(positions.len(), elements, pattern, &shape)
+    }
+
+    /// Elements with the shapes that `shape` gives for the number of an element and its nodes in ascending order.
+    fn of_shapes(
+        nodes: usize,
+        elements: &[[u32; N]],
+        pattern: &Pattern,
+        shape: &dyn Fn(usize, &[u32; N]) -> Shape<D, E>,
+    ) -> Self {
+        let chunks = chunk_ranges(nodes).map(|nodes| chunk(nodes, elements, pattern, shape)).collect();
         Self { chunks, count: elements.len() }
+    }
+}
+
+impl<T: Real> Elements<T, 2, 5, 6> {
+    /// Straight-sided quadratic triangles with their nodes in the order of [`quadratic::gradients`]. Each becomes three elements, its
+    /// quadrature points: element 3 t + k is point k of triangle t. `factors` is as for [`stiffened`](Elements::stiffened), one for
+    /// each triangle.
+    pub fn quadratic(positions: &[Vector3<f64>], triangles: &[[u32; 6]], factors: &[f64], pattern: &Pattern) -> Self {
+        let points: Vec<[u32; 6]> = triangles.iter().flat_map(|&triangle| [triangle; POINTS]).collect();
+        let shape = |point: usize, nodes: &[u32; 6]| {
+            let triangle = &triangles[point / POINTS];
+            let [a, b, c, ..] = *triangle;
+            let factor = factors.get(point / POINTS).copied().unwrap_or(1.0);
+            let (corners, area) = simplex::<2, 3>(&[a, b, c], positions, factor);
+            let gradients = quadratic::gradients(&corners, &BARYCENTRIC[point % POINTS]);
+            let of_node =
+                |node: u32| triangle.iter().position(|&other| other == node).map_or([0.0; 2], |i| gradients[i]);
+            (std::array::from_fn(|e| of_node(nodes[e + 1])), area / POINTS as f64)
+        };
+        Self::of_shapes(positions.len(), &points, pattern, &shape)
     }
 }
 
@@ -37,13 +75,12 @@ fn chunk_ranges(nodes: usize) -> impl Iterator<Item = Range<usize>> {
     (0..chunks).map(move |i| nodes * i / chunks..nodes * (i + 1) / chunks)
 }
 
-fn chunk<T: Real, const D: usize, const N: usize>(
+fn chunk<T: Real, const D: usize, const E: usize, const N: usize>(
     nodes: Range<usize>,
-    positions: &[Vector3<f64>],
     elements: &[[u32; N]],
-    factors: &[f64],
     pattern: &Pattern,
-) -> Chunk<T, D, N> {
+    shape: &dyn Fn(usize, &[u32; N]) -> Shape<D, E>,
+) -> Chunk<T, D, E, N> {
     let rows = nodes.start.min(pattern.rows())..nodes.end.min(pattern.rows());
     let blocks = pattern.starts[rows.start]..pattern.starts[rows.end];
     let touches = |element: &[u32; N]| element.iter().any(|&node| nodes.contains(&(node as usize)));
@@ -54,9 +91,8 @@ fn chunk<T: Real, const D: usize, const N: usize>(
 
     let mut corners: Vec<[u32; N]> = chosen.iter().map(|&element| ascending(elements[element as usize])).collect();
     let mut targets: Vec<_> = corners.iter().map(|corners| target(corners, &rows, blocks.start, pattern)).collect();
-    let factor = |&element: &u32| factors.get(element as usize).copied().unwrap_or(1.0);
-    let shape = |(corners, element)| shape(corners, positions, factor(element));
-    let shapes: Vec<_> = corners.iter().zip(&chosen).map(shape).collect();
+    let of_element = |(corners, &element): (&[u32; N], &u32)| shape(element as usize, corners);
+    let shapes: Vec<_> = corners.iter().zip(&chosen).map(of_element).collect();
     let owned: Vec<bool> = corners
         .iter()
         .map(|corners| corners.iter().min().is_some_and(|&least| nodes.contains(&(least as usize))))
@@ -85,7 +121,7 @@ fn target<const N: usize>(
 }
 
 /// Inverse of the edge matrix, and volume times a factor: energies, forces and stiffnesses are proportional to it.
-fn shape<const D: usize, const N: usize>(
+fn simplex<const D: usize, const N: usize>(
     corners: &[u32; N],
     positions: &[Vector3<f64>],
     factor: f64,
@@ -112,18 +148,22 @@ fn inverse_and_determinant<const D: usize>(a: &SMatrix<f64, D, D>) -> (SMatrix<f
     (SMatrix::from_fn(|i, j| cofactors[j][i] / determinant), determinant)
 }
 
-fn batch<T: Real, const D: usize>(first: usize, shapes: &[(SMatrix<f64, D, D>, f64)], owned: &[bool]) -> Batch<T, D> {
+fn batch<T: Real, const D: usize, const E: usize>(
+    first: usize,
+    shapes: &[Shape<D, E>],
+    owned: &[bool],
+) -> Batch<T, D, E> {
     let volume = |lane: usize| shapes.get(first + lane).map_or(0.0, |shape| shape.1);
-    let inverse = |lane: usize, e: usize, j: usize| shapes.get(first + lane).map_or(0.0, |shape| shape.0[(e, j)]);
+    let gradient = |lane: usize, e: usize, j: usize| shapes.get(first + lane).map_or(0.0, |shape| shape.0[e][j]);
     let counts = |lane: usize| owned.get(first + lane).copied().unwrap_or(false);
     let mut batch = Batch {
-        inverse: [[T::Lanes::splat(T::default()); D]; D],
+        gradients: [[T::Lanes::splat(T::default()); D]; E],
         volume: T::lanes(|lane| T::of(volume(lane))),
         counted: T::lanes(|lane| T::of(if counts(lane) { volume(lane) } else { 0.0 })),
     };
-    for e in 0..D {
+    for e in 0..E {
         for j in 0..D {
-            batch.inverse[e][j] = T::lanes(|lane| T::of(inverse(lane, e, j)));
+            batch.gradients[e][j] = T::lanes(|lane| T::of(gradient(lane, e, j)));
         }
     }
     batch

@@ -13,28 +13,28 @@ pub(super) type LaneBlock<T, const D: usize> = [[<T as Real>::Lanes; D]; D];
 /// Displacement gradients G_ij = Σ_e (u_{e+1} − u_0)_i (∇φ_{e+1})_j of the elements with these corners. In the plane the third
 /// direction does not deform: plane strain.
 #[inline(always)]
-pub(super) fn displacement_gradient<T: Real, const D: usize, const N: usize>(
-    batch: &Batch<T, D>,
+pub(super) fn displacement_gradient<T: Real, const D: usize, const E: usize, const N: usize>(
+    batch: &Batch<T, D, E>,
     corners: &[[u32; N]],
     u: &[[T; 3]],
 ) -> Tensor<T::Lanes> {
-    let mut edges = batch.inverse;
+    let mut differences = batch.gradients;
     for lane in 0..T::WIDTH {
         let corners = &corners[lane];
         let first = u[corners[0] as usize];
-        for e in 0..D {
+        for e in 0..E {
             let x = u[corners[e + 1] as usize];
             for i in 0..D {
-                T::each_mut(&mut edges[e][i])[lane] = x[i] - first[i];
+                T::each_mut(&mut differences[e][i])[lane] = x[i] - first[i];
             }
         }
     }
     let mut G = zero::<T::Lanes>();
     for i in 0..D {
         for j in 0..D {
-            G[i][j] = edges[0][i] * batch.inverse[0][j];
-            for e in 1..D {
-                G[i][j] += edges[e][i] * batch.inverse[e][j];
+            G[i][j] = differences[0][i] * batch.gradients[0][j];
+            for e in 1..E {
+                G[i][j] += differences[e][i] * batch.gradients[e][j];
             }
         }
     }
@@ -43,16 +43,16 @@ pub(super) fn displacement_gradient<T: Real, const D: usize, const N: usize>(
 
 /// Gradient of the element's energy by the positions of its corners but the first: V P ∇φ.
 #[inline(always)]
-pub(super) fn corner_gradients<T: Real, const D: usize>(
-    batch: &Batch<T, D>,
+pub(super) fn corner_gradients<T: Real, const D: usize, const E: usize>(
+    batch: &Batch<T, D, E>,
     P: &Tensor<T::Lanes>,
-) -> [[T::Lanes; D]; D] {
-    let mut gradients = batch.inverse;
-    for e in 0..D {
+) -> [[T::Lanes; D]; E] {
+    let mut gradients = batch.gradients;
+    for e in 0..E {
         for i in 0..D {
-            let mut sum = P[i][0] * batch.inverse[e][0];
+            let mut sum = P[i][0] * batch.gradients[e][0];
             for j in 1..D {
-                sum += P[i][j] * batch.inverse[e][j];
+                sum += P[i][j] * batch.gradients[e][j];
             }
             gradients[e][i] = sum * batch.volume;
         }
@@ -62,13 +62,13 @@ pub(super) fn corner_gradients<T: Real, const D: usize>(
 
 /// Blocks V Σ_jl H_(ij)(kl) (∇φ_a)_j (∇φ_b)_l of the element's Hessian for corners a + 1 and b + 1, b ≤ a.
 #[inline(always)]
-pub(super) fn corner_blocks<T: Real, const D: usize>(
-    batch: &Batch<T, D>,
+pub(super) fn corner_blocks<T: Real, const D: usize, const E: usize>(
+    batch: &Batch<T, D, E>,
     H: &Tensor4<T::Lanes>,
-) -> [[LaneBlock<T, D>; D]; D] {
+) -> [[LaneBlock<T, D>; E]; E] {
     let zero = T::Lanes::splat(T::default());
-    let mut blocks = [[[[zero; D]; D]; D]; D];
-    for b in 0..D {
+    let mut blocks = [[[[zero; D]; D]; E]; E];
+    for b in 0..E {
         // H contracted with ∇φ_b from the right, times the volume.
         let mut right = [[zero; D]; 9];
         for (row, right) in right.iter_mut().enumerate() {
@@ -76,19 +76,19 @@ pub(super) fn corner_blocks<T: Real, const D: usize>(
                 continue;
             }
             for k in 0..D {
-                let mut sum = H[row][3 * k] * batch.inverse[b][0];
+                let mut sum = H[row][3 * k] * batch.gradients[b][0];
                 for l in 1..D {
-                    sum += H[row][3 * k + l] * batch.inverse[b][l];
+                    sum += H[row][3 * k + l] * batch.gradients[b][l];
                 }
                 right[k] = sum * batch.volume;
             }
         }
-        for a in b..D {
+        for a in b..E {
             for i in 0..D {
                 for k in 0..D {
-                    let mut sum = right[3 * i][k] * batch.inverse[a][0];
+                    let mut sum = right[3 * i][k] * batch.gradients[a][0];
                     for j in 1..D {
-                        sum += right[3 * i + j][k] * batch.inverse[a][j];
+                        sum += right[3 * i + j][k] * batch.gradients[a][j];
                     }
                     blocks[a][b][i][k] = sum;
                 }
@@ -101,29 +101,29 @@ pub(super) fn corner_blocks<T: Real, const D: usize>(
 /// The same blocks for a law of invariants, without the 81 entries of H. With f_a = F ∇φ_a and c_a = cof ∇φ_a they are
 /// V (a ∇φ_a·∇φ_b 1 + s f_a⊗f_b + t (f_a⊗c_b + c_a⊗f_b) + r c_a⊗c_b + b [F (∇φ_a × ∇φ_b)]), where [w]_ik = ε_ikm w_m.
 #[inline(always)]
-pub(super) fn invariant_blocks<T: Real, const D: usize>(
-    batch: &Batch<T, D>,
+pub(super) fn invariant_blocks<T: Real, const D: usize, const E: usize>(
+    batch: &Batch<T, D, E>,
     terms: &OfInvariants<T::Lanes>,
-) -> [[LaneBlock<T, D>; D]; D] {
+) -> [[LaneBlock<T, D>; E]; E] {
     let zero = T::Lanes::splat(T::default());
     let OfInvariants { F, cof, a, b, s, t, r } = *terms;
     let (a, b) = (a * batch.volume, b * batch.volume);
-    let mut blocks = [[[[zero; D]; D]; D]; D];
-    let (mut g, mut f, mut c) = ([[zero; 3]; D], [[zero; D]; D], [[zero; D]; D]);
-    for e in 0..D {
-        g[e][..D].copy_from_slice(&batch.inverse[e]);
+    let mut blocks = [[[[zero; D]; D]; E]; E];
+    let (mut g, mut f, mut c) = ([[zero; 3]; E], [[zero; D]; E], [[zero; D]; E]);
+    for e in 0..E {
+        g[e][..D].copy_from_slice(&batch.gradients[e]);
         for i in 0..D {
             f[e][i] = F[i][0] * g[e][0] + F[i][1] * g[e][1] + F[i][2] * g[e][2];
             c[e][i] = cof[i][0] * g[e][0] + cof[i][1] * g[e][1] + cof[i][2] * g[e][2];
         }
     }
-    for column in 0..D {
+    for column in 0..E {
         let (mut of_f, mut of_c) = ([zero; D], [zero; D]);
         for k in 0..D {
             of_f[k] = (s * f[column][k] + t * c[column][k]) * batch.volume;
             of_c[k] = (t * f[column][k] + r * c[column][k]) * batch.volume;
         }
-        for row in column..D {
+        for row in column..E {
             let (x, y) = (&g[row], &g[column]);
             let along = a * (x[0] * y[0] + x[1] * y[1] + x[2] * y[2]);
             let block = &mut blocks[row][column];
@@ -155,23 +155,23 @@ pub(super) fn invariant_blocks<T: Real, const D: usize>(
 /// under translation, so each row of blocks adds up to zero, which gives the blocks of the first corner. Elements in the plane have no
 /// stiffness in the third direction.
 #[inline(always)]
-pub(super) fn element_hessian<T: Real, const D: usize, const N: usize>(
-    inner: &[[LaneBlock<T, D>; D]; D],
+pub(super) fn element_hessian<T: Real, const D: usize, const E: usize, const N: usize>(
+    inner: &[[LaneBlock<T, D>; E]; E],
 ) -> [[LaneBlock<T, 3>; N]; N] {
     let zero = T::Lanes::splat(T::default());
     let mut all = [[[[zero; 3]; 3]; N]; N];
-    for a in 0..D {
+    for a in 0..E {
         for b in 0..=a {
             for i in 0..D {
                 all[a + 1][b + 1][i][..D].copy_from_slice(&inner[a][b][i]);
             }
         }
     }
-    for a in 0..D {
+    for a in 0..E {
         for i in 0..D {
             for k in 0..D {
                 let mut sum = zero;
-                for b in 0..D {
+                for b in 0..E {
                     sum += if b <= a { inner[a][b][i][k] } else { inner[b][a][k][i] };
                 }
                 all[a + 1][0][i][k] = -sum;
@@ -184,7 +184,10 @@ pub(super) fn element_hessian<T: Real, const D: usize, const N: usize>(
 
 /// Energy of a batch from its densities, J.
 #[inline(always)]
-pub(super) fn total_energy<T: Real, const D: usize>(batch: &Batch<T, D>, densities: T::Lanes) -> f64 {
+pub(super) fn total_energy<T: Real, const D: usize, const E: usize>(
+    batch: &Batch<T, D, E>,
+    densities: T::Lanes,
+) -> f64 {
     // An element of no volume has no energy, whatever its lane contains.
     let zero = T::Lanes::splat(T::default());
     let energies = (densities * batch.counted).select(batch.counted.simd_gt(zero), zero);
@@ -193,7 +196,7 @@ pub(super) fn total_energy<T: Real, const D: usize>(batch: &Batch<T, D>, densiti
 
 /// Σ V G:G of a batch, m³.
 #[inline(always)]
-pub(super) fn squares<T: Real, const D: usize>(batch: &Batch<T, D>, G: &Tensor<T::Lanes>) -> f64 {
+pub(super) fn squares<T: Real, const D: usize, const E: usize>(batch: &Batch<T, D, E>, G: &Tensor<T::Lanes>) -> f64 {
     let squares = dot(G, G) * batch.counted;
     T::each(&squares).iter().map(|squares| squares.as_f64()).sum()
 }

@@ -4,25 +4,26 @@ use super::Chunk;
 use crate::number::Real;
 
 /// The work on one chunk and its part of the output. One call per chunk: it costs nothing, and the loop is compiled once.
-pub(super) type Work<'a, T, X, const D: usize, const N: usize> = &'a (dyn Fn(&Chunk<T, D, N>, &mut [X]) -> f64 + Sync);
+pub(super) type Work<'a, T, X, const D: usize, const E: usize, const N: usize> =
+    &'a (dyn Fn(&Chunk<T, D, E, N>, &mut [X]) -> f64 + Sync);
 
 /// Calls `work` for each chunk with its part of `output`, in parallel where there is more than one, and adds up what it
 /// returns, in the same order with any number of threads. `end` gives the end of a chunk's part.
-pub(super) fn over_chunks<T: Real, X: Send, const D: usize, const N: usize>(
-    chunks: &[Chunk<T, D, N>],
+pub(super) fn over_chunks<T: Real, X: Send, const D: usize, const E: usize, const N: usize>(
+    chunks: &[Chunk<T, D, E, N>],
     output: &mut [X],
-    end: fn(&Chunk<T, D, N>) -> usize,
-    work: Work<T, X, D, N>,
+    end: fn(&Chunk<T, D, E, N>) -> usize,
+    work: Work<T, X, D, E, N>,
 ) -> f64 {
     recurse(chunks, output, 0, end, work)
 }
 
-fn recurse<T: Real, X: Send, const D: usize, const N: usize>(
-    chunks: &[Chunk<T, D, N>],
+fn recurse<T: Real, X: Send, const D: usize, const E: usize, const N: usize>(
+    chunks: &[Chunk<T, D, E, N>],
     output: &mut [X],
     start: usize,
-    end: fn(&Chunk<T, D, N>) -> usize,
-    work: Work<T, X, D, N>,
+    end: fn(&Chunk<T, D, E, N>) -> usize,
+    work: Work<T, X, D, E, N>,
 ) -> f64 {
     match chunks {
         [] => 0.0,

@@ -5,7 +5,7 @@ use super::kernel::displacement_gradient;
 use crate::number::Real;
 use crate::tensor::Tensor;
 
-impl<T: Real, const D: usize, const N: usize> Elements<T, D, N> {
+impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, N> {
     /// Cauchy stress of each element, Pa: that which `stress` finds for the elements of a chunk, the number of a batch and its
     /// displacement gradients. They come from displacements, which keep their digits far from the origin and near rest.
     pub fn cauchy_stresses(

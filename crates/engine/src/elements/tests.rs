@@ -1,3 +1,5 @@
+mod quadratic;
+
 use nalgebra::Vector3;
 
 use super::Elements;
@@ -10,10 +12,10 @@ use fem_mesh::box_mesh;
 const C: f64 = 2e5;
 const D: f64 = 1e6;
 
-/// A body of `N`-cornered elements with a random, small deformation.
-struct Case<const D: usize, const N: usize> {
+/// A body of elements of `N` nodes with a random, small deformation.
+struct Case<const D: usize, const E: usize, const N: usize> {
     pattern: Pattern,
-    elements: Elements<f64, D, N>,
+    elements: Elements<f64, D, E, N>,
     u: Vec<[f64; 3]>,
     d: Vec<[f64; 3]>,
 }
@@ -27,22 +29,33 @@ fn random(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-fn case<const D: usize, const N: usize>(positions: &[Vector3<f64>], elements: &[[u32; N]]) -> Case<D, N> {
+fn case<const D: usize, const E: usize, const N: usize>(
+    positions: &[Vector3<f64>],
+    elements: &[[u32; N]],
+) -> Case<D, E, N> {
+    case_of(positions, elements, |pattern| Elements::new(positions, elements, pattern))
+}
+
+fn case_of<const D: usize, const E: usize, const N: usize>(
+    positions: &[Vector3<f64>],
+    elements: &[[u32; N]],
+    make: impl Fn(&Pattern) -> Elements<f64, D, E, N>,
+) -> Case<D, E, N> {
     let pattern = Pattern::new(positions.len(), elements, Stored::Full);
     let mut random = random(7);
     let mut vector = |size: f64| {
         let entry = |i: usize, x: f64| if i < D { size * x } else { 0.0 };
         (0..positions.len()).map(|_| std::array::from_fn(|i| entry(i, random()))).collect()
     };
-    Case { elements: Elements::new(positions, elements, &pattern), pattern, u: vector(0.05), d: vector(1.0) }
+    Case { elements: make(&pattern), pattern, u: vector(0.05), d: vector(1.0) }
 }
 
-fn tetrahedra(cells: usize) -> Case<3, 4> {
+fn tetrahedra(cells: usize) -> Case<3, 3, 4> {
     let mesh = box_mesh([2.0, 1.0, 1.0], cells).unwrap();
     case(&mesh.vertices, &mesh.elements.iter().map(|element| element.map(|node| node as u32)).collect::<Vec<_>>())
 }
 
-fn triangles() -> Case<2, 3> {
+fn triangles() -> Case<2, 2, 3> {
     let positions: Vec<_> = (0..16).map(|i| Vector3::new(f64::from(i % 4), f64::from(i / 4), 0.0)).collect();
     let cell = |i: u32| [[i, i + 1, i + 5], [i, i + 5, i + 4]];
     let cells = (0..12).filter(|i| i % 4 != 3);
@@ -78,7 +91,7 @@ fn largest(a: &[[f64; 3]]) -> f64 {
 }
 
 /// Errors of the central differences along d of energy and gradient, relative, with steps h and h/2.
-fn differences<const D: usize, const N: usize>(case: &Case<D, N>, h: f64) -> (f64, f64) {
+fn differences<const D: usize, const E: usize, const N: usize>(case: &Case<D, E, N>, h: f64) -> (f64, f64) {
     let Case { pattern, elements, u, d } = case;
     let gradient = |u: &[[f64; 3]]| {
         let mut sums = vec![[0.0; 3]; u.len()];
@@ -98,7 +111,7 @@ fn differences<const D: usize, const N: usize>(case: &Case<D, N>, h: f64) -> (f6
     ((slope - exact).abs() / exact.abs(), largest(&error) / largest(&product))
 }
 
-fn converges<const D: usize, const N: usize>(case: &Case<D, N>) {
+fn converges<const D: usize, const E: usize, const N: usize>(case: &Case<D, E, N>) {
     let (coarse, fine) = (differences(case, 2e-3), differences(case, 1e-3));
     for (coarse, fine) in [(coarse.0, fine.0), (coarse.1, fine.1)] {
         let order = (coarse / fine).log2();
@@ -116,7 +129,7 @@ fn energy_gradient_and_stiffness_of_triangles_in_the_plane_belong_together() {
     converges(&triangles());
 }
 
-fn product_without_a_matrix<const D: usize, const N: usize>(case: &Case<D, N>) {
+fn product_without_a_matrix<const D: usize, const E: usize, const N: usize>(case: &Case<D, E, N>) {
     let mut values = vec![[[0.0; 3]; 3]; case.pattern.blocks()];
     case.elements.add_stiffness(&law::<f64>(), 2.0, &case.u, &mut values);
     let (mut with, mut without) = (vec![[0.0; 3]; case.u.len()], vec![[0.0; 3]; case.u.len()]);
@@ -146,7 +159,7 @@ fn chunks_sum_up_to_what_one_chunk_does() {
     // 17 × 9 × 9 nodes a unit: two chunks and more at 14 cells.
     let mesh = box_mesh([4.0, 1.0, 1.0], 14).unwrap();
     let elements: Vec<[u32; 4]> = mesh.elements.iter().map(|element| element.map(|node| node as u32)).collect();
-    let case: Case<3, 4> = case(&mesh.vertices, &elements);
+    let case: Case<3, 3, 4> = case(&mesh.vertices, &elements);
     assert!(case.elements.chunks.len() > 2);
     let mut sums = vec![[0.0; 3]; case.u.len()];
     let u: Vec<_> = case.u.iter().map(|u| u.map(|u| 0.1 * u)).collect();
@@ -191,7 +204,7 @@ fn rows_beyond_the_pattern_have_forces_but_no_stiffness() {
     let mesh = box_mesh([1.0, 1.0, 1.0], 1).unwrap();
     let elements: Vec<[u32; 4]> = mesh.elements.iter().map(|element| element.map(|node| node as u32)).collect();
     let pattern = Pattern::new(3, &elements, Stored::Lower);
-    let few = Elements::<f64, 3, 4>::new(&mesh.vertices, &elements, &pattern);
+    let few = Elements::<f64, 3, 3, 4>::new(&mesh.vertices, &elements, &pattern);
     let mut values = vec![[[0.0; 3]; 3]; pattern.blocks()];
     let u = vec![[0.0; 3]; 8];
     few.add_stiffness(&law::<f64>(), 1.0, &u, &mut values);
@@ -220,8 +233,8 @@ impl<T: Number, L: Law<T>> Law<T> for Entries<L> {
     }
 }
 
-fn blocks_of_both_kinds_are_alike<const D: usize, const N: usize>(
-    case: &Case<D, N>,
+fn blocks_of_both_kinds_are_alike<const D: usize, const E: usize, const N: usize>(
+    case: &Case<D, E, N>,
     law: impl Law<<f64 as Real>::Lanes> + Copy,
 ) {
     let mut values = [vec![[[0.0; 3]; 3]; case.pattern.blocks()], vec![[[0.0; 3]; 3]; case.pattern.blocks()]];

@@ -56,32 +56,33 @@ impl Sums {
     }
 }
 
-/// Adds weight and body force: the nodes of a linear element carry equal shares of its load.
+/// Adds weight and body force. A weight acts on the masses of the nodes, so that all of them fall alike.
 fn add_volume_loads(body: &Body, sums: &mut Sums) {
     let mesh = &body.shape.mesh;
     let density = |element: usize| body.material.density * body.density_factors.get(element).copied().unwrap_or(1.0);
-    let mut add = |curve: &Option<LoadCurve>, per_volume: &dyn Fn(usize) -> Vector3<f64>| {
+    let mut add = |curve: &Option<LoadCurve>, shares: &[f64], per_volume: &dyn Fn(usize) -> Vector3<f64>| {
         let force = sums.of(curve);
         for (number, (nodes, volume)) in mesh.corners().zip(mesh.volumes()).enumerate() {
-            let share = volume / nodes.len() as f64 * per_volume(number);
-            nodes.iter().for_each(|&node| force[node] += share);
+            let load = volume * per_volume(number);
+            nodes.iter().zip(shares).for_each(|(&node, &share)| force[node] += share * load);
         }
     };
     if let Some(gravity) = body.gravity {
-        add(&body.gravity_curve, &|element| density(element) * gravity);
+        let shares = if body.lumped_mass { mesh.lumped_mass_shares() } else { mesh.load_shares() };
+        add(&body.gravity_curve, shares, &|element| density(element) * gravity);
     }
     if let Some(body_force) = body.body_force {
-        add(&body.body_force_curve, &|_| body_force);
+        add(&body.body_force_curve, mesh.load_shares(), &|_| body_force);
     }
 }
 
-/// Adds tractions: the nodes of a linear triangle or edge carry equal shares of its load.
+/// Adds tractions.
 fn add_tractions(body: &Body, sums: &mut Sums) {
     for traction in &body.tractions {
         let force = sums.of(&traction.curve);
         for face in &traction.faces {
-            let share = body.shape.mesh.area(face) / face.len() as f64 * traction.force_per_area;
-            face.iter().for_each(|&node| force[node] += share);
+            let load = body.shape.mesh.area(face) * traction.force_per_area;
+            face.iter().zip(body.shape.mesh.face_shares()).for_each(|(&node, &share)| force[node] += share * load);
         }
     }
 }

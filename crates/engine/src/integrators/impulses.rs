@@ -67,7 +67,7 @@ impl<T: Real> Impulses<T> {
         system.contact_force = vec![[T::default(); 3]; system.nodes()];
         Some(Self {
             planes,
-            masses: system.mass.lumped(),
+            masses: system.mass.row_sums(),
             length: system.length,
             impulses: Vec::new(),
             ordered: 0,

@@ -10,8 +10,9 @@ use crate::sparse::Pattern;
 
 /// Elements of one shape. The loops over tetrahedra are compiled for each law; those over triangles call it by reference, once per batch.
 pub(super) enum AnyElements<T: Real> {
-    Tetrahedra(Elements<T, 3, 4>),
-    Triangles(Elements<T, 2, 3>),
+    Tetrahedra(Elements<T, 3, 3, 4>),
+    Triangles(Elements<T, 2, 2, 3>),
+    QuadraticTriangles(Elements<T, 2, 5, 6>),
 }
 
 /// Evaluates an expression for the elements, whatever their shape.
@@ -20,6 +21,7 @@ macro_rules! with_elements {
         match $elements {
             AnyElements::Tetrahedra($name) => $value,
             AnyElements::Triangles($name) => $value,
+            AnyElements::QuadraticTriangles($name) => $value,
         }
     };
 }
@@ -47,6 +49,11 @@ impl<T: Real> AnyElements<T> {
                 let corners = numbering.elements(numbers.iter().map(|&element| &triangles.elements[element]));
                 let factors: Vec<f64> = numbers.iter().map(|element| thickness * factor(element)).collect();
                 Self::Triangles(Elements::stiffened(rest, &corners, &factors, pattern))
+            }
+            BodyMesh::Quadratic { triangles, thickness } => {
+                let nodes = numbering.elements(numbers.iter().map(|&element| &triangles.elements[element]));
+                let factors: Vec<f64> = numbers.iter().map(|element| thickness * factor(element)).collect();
+                Self::QuadraticTriangles(Elements::quadratic(rest, &nodes, &factors, pattern))
             }
         }
     }

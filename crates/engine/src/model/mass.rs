@@ -3,12 +3,12 @@
 use crate::number::Real;
 use crate::sparse::{Block, Pattern, Stored};
 
-/// Mass of a body of simplices, kg.
+/// Mass of a body, kg.
 #[derive(Clone, Debug)]
 pub enum Mass<T> {
-    /// Row sums of the consistent mass: each node carries its share of its elements.
+    /// Each node carries its share of its elements.
     Lumped(Vec<T>),
-    /// ∫ ρ φ_i φ_j: ρV/20 for each pair of corners of a tetrahedron, twice that on the diagonal.
+    /// ∫ ρ φ_i φ_j.
     Consistent(Consistent<T>),
 }
 
@@ -19,33 +19,61 @@ pub struct Consistent<T> {
     values: Vec<T>,
 }
 
+/// The consistent mass matrix of an element of `N` nodes and unit mass: ∫ φ_i φ_j over its volume. Rows and columns are in the order of
+/// the mesh's nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElementMass<const N: usize>([[f64; N]; N]);
+
+impl<const N: usize> ElementMass<N> {
+    /// A linear simplex of `N` corners: (1 + δ_ij) / (N (N + 1)).
+    pub fn simplex() -> Self {
+        let share = 1.0 / (N * (N + 1)) as f64;
+        Self(std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 2.0 * share } else { share })))
+    }
+}
+
+impl ElementMass<6> {
+    /// A straight-sided quadratic triangle: Zienkiewicz and Taylor, The Finite Element Method 1, section 17.2.
+    pub fn quadratic_triangle() -> Self {
+        let entries = [
+            [6.0, -1.0, -1.0, 0.0, -4.0, 0.0],
+            [-1.0, 6.0, -1.0, 0.0, 0.0, -4.0],
+            [-1.0, -1.0, 6.0, -4.0, 0.0, 0.0],
+            [0.0, 0.0, -4.0, 32.0, 16.0, 16.0],
+            [-4.0, 0.0, 0.0, 16.0, 32.0, 16.0],
+            [0.0, -4.0, 0.0, 16.0, 16.0, 32.0],
+        ];
+        Self(entries.map(|row| row.map(|entry| entry / 180.0)))
+    }
+}
+
 impl<T: Real> Mass<T> {
-    /// The mass of `nodes` nodes; `volumes` are those of the elements, m³ (area in the plane).
-    pub fn new<const N: usize>(
+    /// The lumped mass of `nodes` nodes. `masses` are those of the elements, kg, and `shares` the parts of them that the nodes of an
+    /// element carry.
+    pub fn lumped<const N: usize>(nodes: usize, elements: &[[u32; N]], masses: &[f64], shares: &[f64]) -> Self {
+        let mut lumped = vec![0.0; nodes];
+        for (element, mass) in elements.iter().zip(masses) {
+            for (&node, share) in element.iter().zip(shares) {
+                lumped[node as usize] += mass * share;
+            }
+        }
+        Self::Lumped(lumped.into_iter().map(T::of).collect())
+    }
+
+    /// The consistent mass of `nodes` nodes. `masses` are those of the elements, kg.
+    pub fn consistent<const N: usize>(
         nodes: usize,
         elements: &[[u32; N]],
-        volumes: &[f64],
-        density: f64,
-        lumped: bool,
+        masses: &[f64],
+        ElementMass(shares): &ElementMass<N>,
     ) -> Self {
-        if lumped {
-            let mut masses = vec![0.0; nodes];
-            for (element, volume) in elements.iter().zip(volumes) {
-                for &node in element {
-                    masses[node as usize] += density * volume / N as f64;
-                }
-            }
-            return Self::Lumped(masses.into_iter().map(T::of).collect());
-        }
         let pattern = Pattern::new(nodes, elements, Stored::Full);
         let mut values = vec![0.0; pattern.blocks()];
-        for (element, volume) in elements.iter().zip(volumes) {
-            // ∫ φ_i φ_j over a simplex of N corners is V (1 + δ_ij) / (N (N + 1)).
-            let share = density * volume / (N * (N + 1)) as f64;
-            for &row in element {
-                for &column in element {
+        for (element, mass) in elements.iter().zip(masses) {
+            for (&row, shares) in element.iter().zip(shares) {
+                for (&column, share) in element.iter().zip(shares) {
                     if let Some(pair) = pattern.find(row as usize, column as usize) {
-                        values[pair] += if row == column { 2.0 * share } else { share };
+                        values[pair] += mass * share;
                     }
                 }
             }
@@ -126,8 +154,9 @@ impl<T: Real> Mass<T> {
         }
     }
 
-    /// Row sums: the lumped mass of each node, kg.
-    pub fn lumped(&self) -> Vec<T> {
+    /// Row sums, kg: the momentum of the body is their sum over the nodes, each times its velocity. Those of a lumped mass are the masses
+    /// of the nodes, those of a consistent one are too if the elements are linear.
+    pub fn row_sums(&self) -> Vec<T> {
         match self {
             Self::Lumped(masses) => masses.clone(),
             Self::Consistent(mass) => (0..mass.pattern.rows())
@@ -160,24 +189,71 @@ impl<T: Real> Consistent<T> {
 
 #[cfg(test)]
 mod tests {
-    use super::Mass;
+    use super::{ElementMass, Mass};
     use crate::sparse::{Pattern, Stored};
 
+    fn masses() -> [Mass<f64>; 4] {
+        let (simplices, triangles) = ([[0, 1, 2, 3], [1, 2, 3, 4]], [[0, 1, 2, 3, 4, 5], [1, 6, 2, 7, 8, 4]]);
+        let shares = [16.0 / 57.0, 1.0 / 19.0].map(|share| [share; 3]);
+        [
+            Mass::lumped(9, &simplices, &[4.0, 2.0], &[0.25; 4]),
+            Mass::consistent(9, &simplices, &[4.0, 2.0], &ElementMass::simplex()),
+            Mass::lumped(9, &triangles, &[4.0, 2.0], [shares[1], shares[0]].as_flattened()),
+            Mass::consistent(9, &triangles, &[4.0, 2.0], &ElementMass::quadratic_triangle()),
+        ]
+    }
+
     #[test]
-    fn both_masses_weigh_the_same_and_move_alike_in_translation() {
-        let elements = [[0, 1, 2, 3], [1, 2, 3, 4]];
-        let v = [[1.0, -2.0, 0.5]; 5];
-        for lumped in [false, true] {
-            let mass = Mass::<f64>::new(5, &elements, &[0.5, 0.25], 8.0, lumped);
-            assert!((mass.lumped().iter().sum::<f64>() - 6.0).abs() < 1e-14);
+    fn all_masses_weigh_the_same_and_move_alike_in_translation() {
+        let v = [[1.0, -2.0, 0.5]; 9];
+        for mass in masses() {
+            assert!((mass.row_sums().iter().sum::<f64>() - 6.0).abs() < 1e-14);
             assert!((mass.kinetic_energy(&v) - 0.5 * 6.0 * 5.25).abs() < 1e-13);
+        }
+    }
+
+    /// ∫ φ_i φ_j over a triangle of unit area by a rule of degree 4 (Strang and Fix, 1973, six points).
+    fn by_quadrature() -> [[f64; 6]; 6] {
+        let (a, b) = (0.445_948_490_915_965, 0.091_576_213_509_771);
+        let (of_a, of_b) = (0.223_381_589_678_011, 0.109_951_743_655_322);
+        let points = [(a, of_a), (b, of_b)].map(|(x, weight)| {
+            [[1.0 - 2.0 * x, x, x], [x, 1.0 - 2.0 * x, x], [x, x, 1.0 - 2.0 * x]].map(|L| (L, weight))
+        });
+        let mut sums = [[0.0; 6]; 6];
+        for (L, weight) in points.into_iter().flatten() {
+            let corner = |i: usize| L[i] * (2.0 * L[i] - 1.0);
+            let phi = [corner(0), corner(1), corner(2), 4.0 * L[0] * L[1], 4.0 * L[1] * L[2], 4.0 * L[2] * L[0]];
+            for i in 0..6 {
+                (0..6).for_each(|j| sums[i][j] += weight * phi[i] * phi[j]);
+            }
+        }
+        sums
+    }
+
+    #[test]
+    fn the_mass_of_a_quadratic_triangle_is_the_integral_of_products_of_its_shape_functions() {
+        let ElementMass(shares) = ElementMass::quadratic_triangle();
+        let expected = by_quadrature();
+        for (share, expected) in shares.as_flattened().iter().zip(expected.as_flattened()) {
+            assert!((share - expected).abs() < 1e-13, "{share} {expected}");
+        }
+    }
+
+    #[test]
+    fn the_lumped_mass_of_a_quadratic_triangle_is_its_scaled_diagonal() {
+        let ElementMass(shares) = ElementMass::quadratic_triangle();
+        let trace: f64 = (0..6).map(|i| shares[i][i]).sum();
+        let mesh = fem_mesh::quadratic(fem_mesh::rectangle_mesh([1.0, 1.0], 1).unwrap());
+        let lumped = fem_scene::BodyMesh::Quadratic { triangles: mesh, thickness: 1.0 }.lumped_mass_shares();
+        for i in 0..6 {
+            assert!((lumped[i] - shares[i][i] / trace).abs() < 1e-15);
         }
     }
 
     #[test]
     fn a_matrix_gets_the_mass_of_its_rows() {
         let elements = [[0, 1, 2, 3], [1, 2, 3, 4]];
-        let mass = Mass::<f64>::new(5, &elements, &[20.0, 40.0], 1.0, false);
+        let mass = Mass::<f64>::consistent(5, &elements, &[20.0, 40.0], &ElementMass::simplex());
         let pattern = Pattern::new(3, &elements, Stored::Lower);
         let mut values = vec![[[0.0; 3]; 3]; pattern.blocks()];
         mass.add_to(10.0, &pattern, &mut values);

@@ -10,14 +10,15 @@ use crate::materials::{
 use crate::model::any_elements::{AnyElements, with_elements};
 use crate::model::numbering::Numbering;
 use crate::number::Real;
-use crate::plasticity::{PlasticLaws, Plasticity};
+use crate::plasticity::{Internal, PlasticLaws, Plasticity};
 use crate::sparse::{Block, Pattern};
 
 /// All elements of a body. A body of one material is one group.
 pub struct Solids<T: Real> {
     groups: Vec<Solid<T>>,
-    /// Number of elements.
+    /// Number of quadrature points: one in every linear element, three in a quadratic triangle.
     pub count: usize,
+    points_per_element: usize,
     /// Factor of the moduli of each of the mesh's elements; empty where all are 1.
     factors: Vec<f64>,
     plasticity: Option<Plasticity<T>>,
@@ -31,7 +32,7 @@ struct Solid<T: Real> {
     /// The law of triangles where it has a form of its own.
     in_plane: Option<PlaneCorotated<T::Lanes>>,
     elements: AnyElements<T>,
-    /// Number of each element in the mesh; empty where the group is the whole mesh in its order.
+    /// Number of each quadrature point in the mesh, those of the first element first; empty where the group is the whole mesh in its order.
     numbers: Vec<usize>,
 }
 
@@ -47,8 +48,13 @@ macro_rules! with_law_and_elements {
                     $value
                 }
             },
+            (AnyElements::QuadraticTriangles($elements), None) => {
+                let $law = $group.as_law();
+                $value
+            }
             (AnyElements::Tetrahedra($elements), Some($law)) => $value,
             (AnyElements::Triangles($elements), Some($law)) => $value,
+            (AnyElements::QuadraticTriangles($elements), Some($law)) => $value,
         }
     };
 }
@@ -67,9 +73,9 @@ macro_rules! with_law_by_reference {
 }
 
 impl<T: Real> Solid<T> {
-    /// The number in the mesh of an element of the group.
-    fn number(&self, element: usize) -> usize {
-        self.numbers.get(element).copied().unwrap_or(element)
+    /// The number in the mesh of a quadrature point of the group.
+    fn number(&self, point: usize) -> usize {
+        self.numbers.get(point).copied().unwrap_or(point)
     }
 
     /// The law of its elements where they do not flow.
@@ -77,7 +83,7 @@ impl<T: Real> Solid<T> {
         self.in_plane.as_ref().map_or(self.law.as_law(), |law| law)
     }
 
-    /// The laws of its elements where they flow.
+    /// The laws of its quadrature points where they flow.
     fn plastic_laws<'a>(&'a self, plasticity: &'a Option<Plasticity<T>>) -> Option<PlasticLaws<'a, T>> {
         plasticity.as_ref().map(|plasticity| PlasticLaws::new(plasticity, &self.law, &self.numbers))
     }
@@ -94,9 +100,11 @@ impl<T: Real> Solids<T> {
         pattern: &Pattern,
     ) -> Self {
         let factors = &body.stiffness_factors;
-        let count = body.shape.mesh.elements();
-        let group = |law: AnyLaw<T::Lanes>, numbers: Vec<usize>| {
-            let elements = AnyElements::new(&body.shape.mesh, factors, &numbers, rest, numbering, pattern);
+        let (count, points_per_element) = (body.shape.mesh.elements(), body.shape.mesh.points_per_element());
+        let group = |law: AnyLaw<T::Lanes>, elements: Vec<usize>| {
+            let of_element = |&element: &usize| element * points_per_element..(element + 1) * points_per_element;
+            let numbers = elements.iter().flat_map(of_element).collect();
+            let elements = AnyElements::new(&body.shape.mesh, factors, &elements, rest, numbering, pattern);
             let in_plane = if body.shape.mesh.is_flat() { law.in_plane() } else { None };
             Solid { law, in_plane, elements, numbers }
         };
@@ -116,9 +124,10 @@ impl<T: Real> Solids<T> {
             });
             own.into_iter().chain(regions).map(|(law, numbers)| group(law, numbers)).collect()
         };
+        let count = count * points_per_element;
         let plasticity = body.plasticity.map(|model| Plasticity::new(model, count, body.shape.mesh.is_flat()));
         let is_in_plane_stress = body.material.plane == Some(PlaneState::Stress);
-        Self { groups, count, factors: factors.clone(), plasticity, is_in_plane_stress }
+        Self { groups, count, points_per_element, factors: factors.clone(), plasticity, is_in_plane_stress }
     }
 
     /// Plastic flow of the elements, where the scene has some.
@@ -136,10 +145,19 @@ impl<T: Real> Solids<T> {
         let Self { groups, plasticity: Some(plasticity), .. } = self else { return };
         for group in groups.iter() {
             let moduli = group.law.moduli();
-            with_elements!(&group.elements, elements => elements.for_each_gradient(u, |element, volume, G| {
-                plasticity.flow(group.number(element), moduli, volume, G, dt);
+            with_elements!(&group.elements, elements => elements.for_each_gradient(u, |point, volume, G| {
+                plasticity.flow(group.number(point), moduli, volume, G, dt);
             }));
         }
+    }
+
+    /// Measure of the plastic strain of each element of the mesh, the mean of its quadrature points; `None` where the body does not flow.
+    pub fn plastic_strains(&self) -> Option<Vec<f64>> {
+        let points = self.plasticity.as_ref()?.variables().chunks_exact(self.points_per_element);
+        let mean = |points: &[Internal<T>]| {
+            points.iter().map(|of| of.strain.as_f64()).sum::<f64>() / self.points_per_element as f64
+        };
+        Some(points.map(mean).collect())
     }
 
     /// Whether the stress of every element is a linear function of the displacement gradient.
@@ -226,7 +244,7 @@ impl<T: Real> Solids<T> {
             .sum()
     }
 
-    /// Minimum of det F, and its element in the mesh.
+    /// Minimum of det F over the quadrature points, and its element in the mesh.
     pub fn min_det_F(&self, u: &[[T; 3]]) -> (T, usize) {
         self.least(u, |_| true)
     }
@@ -236,7 +254,7 @@ impl<T: Real> Solids<T> {
         self.least(u, |group| !group.law.allows_inversion())
     }
 
-    /// Number of elements with det F ≤ 0.
+    /// Number of quadrature points with det F ≤ 0.
     pub fn inverted(&self, u: &[[T; 3]]) -> usize {
         self.groups.iter().map(|group| with_elements!(&group.elements, elements => elements.inverted(u))).sum()
     }
@@ -244,18 +262,18 @@ impl<T: Real> Solids<T> {
     fn least(&self, u: &[[T; 3]], is_meant: impl Fn(&Solid<T>) -> bool) -> (T, usize) {
         let mut least = (T::of(f64::INFINITY), 0);
         for group in self.groups.iter().filter(|group| is_meant(group)) {
-            let (J, element) = with_elements!(&group.elements, elements => elements.min_det_F(u));
+            let (J, point) = with_elements!(&group.elements, elements => elements.min_det_F(u));
             // NaN is the smallest of all.
             if !(least.0 <= J) {
-                least = (J, group.number(element));
+                least = (J, group.number(point) / self.points_per_element);
             }
         }
         least
     }
 
-    /// Cauchy stress of each element of the mesh, Pa.
+    /// Cauchy stress of each element of the mesh, Pa: the mean of its quadrature points.
     pub fn cauchy_stresses(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
-        let mut stresses = vec![Matrix3::zeros(); self.count];
+        let mut stresses = vec![Matrix3::zeros(); self.count / self.points_per_element];
         for group in &self.groups {
             let of_group = with_elements!(&group.elements, elements => {
                 match group.plastic_laws(&self.plasticity) {
@@ -268,10 +286,10 @@ impl<T: Real> Solids<T> {
                     }),
                 }
             });
-            for (element, stress) in of_group.into_iter().enumerate() {
-                let number = group.number(element);
-                let factor = self.factors.get(number).copied().unwrap_or(1.0);
-                stresses[number] = factor * Matrix3::from_fn(|i, j| stress[i][j]);
+            for (point, stress) in of_group.into_iter().enumerate() {
+                let number = group.number(point) / self.points_per_element;
+                let factor = self.factors.get(number).copied().unwrap_or(1.0) / self.points_per_element as f64;
+                stresses[number] += factor * Matrix3::from_fn(|i, j| stress[i][j]);
             }
         }
         stresses

@@ -7,7 +7,7 @@ use fem_scene::simulation::Shape;
 use fem_scene::{Body, BodyMesh, Interaction, RayleighDamping};
 use nalgebra::{Matrix3, Vector3};
 
-use super::mass::Mass;
+use super::mass::{ElementMass, Mass};
 use super::numbering::Numbering;
 use super::solids::Solids;
 use crate::boundary::dirichlet::{DirichletConditions, fully_constrained_nodes};
@@ -65,13 +65,19 @@ impl<T: Real> System<T> {
     /// The same with forces of one's own beside those that the scene names.
     pub fn with_forces(body: Body, law: AnyLaw<T::Lanes>, choice: SolverChoice, own: OwnForces<T>) -> Self {
         match &body.shape.mesh {
-            BodyMesh::Solid(mesh) => Self::of_elements(&mesh.elements, &body, law, choice, own),
-            BodyMesh::Flat { triangles, .. } => Self::of_elements(&triangles.elements, &body, law, choice, own),
+            BodyMesh::Solid(mesh) => Self::of_elements(&mesh.elements, ElementMass::simplex(), &body, law, choice, own),
+            BodyMesh::Flat { triangles, .. } => {
+                Self::of_elements(&triangles.elements, ElementMass::simplex(), &body, law, choice, own)
+            }
+            BodyMesh::Quadratic { triangles, .. } => {
+                Self::of_elements(&triangles.elements, ElementMass::quadratic_triangle(), &body, law, choice, own)
+            }
         }
     }
 
     fn of_elements<const N: usize>(
         elements: &[[usize; N]],
+        shares: ElementMass<N>,
         body: &Body,
         law: AnyLaw<T::Lanes>,
         choice: SolverChoice,
@@ -93,13 +99,17 @@ impl<T: Real> System<T> {
         // Volumes that weigh as much at the scene's density.
         let weighted: Vec<f64> =
             volumes.iter().enumerate().map(|(element, volume)| relative_density(element) * volume).collect();
-        let mass = Mass::new(rest.len(), &corners, &weighted, body.material.density, body.lumped_mass);
+        let masses: Vec<f64> = weighted.iter().map(|volume| body.material.density * volume).collect();
+        let mass = match body.lumped_mass {
+            true => Mass::lumped(rest.len(), &corners, &masses, mesh.lumped_mass_shares()),
+            false => Mass::consistent(rest.len(), &corners, &masses, &shares),
+        };
         let dirichlet = DirichletConditions::new(body, &numbering);
         Self {
             elements: Solids::new(body, law, &rest, &numbering, &pattern),
             length: mesh.length(),
             total_mass: body.material.density * weighted.iter().sum::<f64>(),
-            node_masses: if dirichlet.is_empty() { mass.lumped() } else { Vec::new() },
+            node_masses: if dirichlet.is_empty() { mass.row_sums() } else { Vec::new() },
             name,
             damping: body.damping,
             shape,
@@ -118,7 +128,7 @@ impl<T: Real> System<T> {
     pub fn apply_conditions_at(&mut self, time: f64) -> bool {
         let has_changed = self.dirichlet.apply_at(time, self.rest.len());
         if has_changed {
-            self.node_masses = if self.is_unconstrained() { self.mass.lumped() } else { Vec::new() };
+            self.node_masses = if self.is_unconstrained() { self.mass.row_sums() } else { Vec::new() };
         }
         has_changed
     }

@@ -130,8 +130,7 @@ impl<T: Real> Simulation for Simulator<T> {
 
     fn plastic_flow(&self) -> Option<PlasticFlow> {
         let plasticity = self.system.elements.plasticity()?;
-        let strains = plasticity.variables().iter().map(|of| of.strain.as_f64()).collect();
-        Some(PlasticFlow { strains, dissipated: plasticity.dissipated() })
+        Some(PlasticFlow { strains: self.system.elements.plastic_strains()?, dissipated: plasticity.dissipated() })
     }
 
     fn integrator(&self) -> &'static str {

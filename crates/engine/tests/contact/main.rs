@@ -74,14 +74,14 @@ fn contact_force(simulation: &dyn Simulation) -> [f64; 3] {
 /// Mean velocity of the nodes' masses times the mass, kg m/s.
 fn momentum(simulation: &Simulator<f64>) -> [f64; 3] {
     let (system, state) = (simulation.system(), simulation.state());
-    let masses = system.mass.lumped();
+    let masses = system.mass.row_sums();
     std::array::from_fn(|i| masses.iter().zip(&state.v).map(|(mass, v)| mass * v[i]).sum())
 }
 
 /// Position of the centre of mass, m.
 fn centre(simulation: &Simulator<f64>) -> [f64; 3] {
     let (system, state) = (simulation.system(), simulation.state());
-    let masses = system.mass.lumped();
+    let masses = system.mass.row_sums();
     let place = |i: usize| {
         let nodes = masses.iter().zip(system.rest.iter().zip(&state.u));
         nodes.map(|(mass, (x, u))| mass * (x[i] + u[i])).sum::<f64>()

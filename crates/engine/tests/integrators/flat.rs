@@ -1,18 +1,18 @@
 //! Flat bodies: triangles in plane strain.
 
-use fem_mesh::{SurfaceMesh, rectangle_mesh};
+use fem_mesh::{Mesh, rectangle_mesh};
 use fem_scene::MODELS;
 
 use crate::{DYNAMIC, block, build, distance, of_law, run, side, soft};
 
 /// A strip of 2 × 1 m and 0.3 m thick in place of the box of a scene.
-fn flat(text: &str) -> String {
+pub fn flat(text: &str) -> String {
     text.replace("box = { size = [2, 1, 1], cells_per_unit = 1 }", "rectangle = { size = [2, 1], cells_per_unit = 3 }")
         .replace("[material]\n", "[material]\nthickness = 0.3\n")
 }
 
 /// Prescribes x and y of all nodes on the edges by the gradient G, and nothing inside.
-fn affine(mesh: &SurfaceMesh, G: [[f64; 2]; 2]) -> String {
+pub fn affine<const N: usize>(mesh: &Mesh<3, N>, G: [[f64; 2]; 2]) -> String {
     let (mut tables, size) = (String::new(), [2.0, 1.0]);
     for (node, x) in mesh.vertices.iter().enumerate() {
         if (0..2).any(|i| x[i] == 0.0 || x[i] == size[i]) {
@@ -195,8 +195,6 @@ fn keys_without_meaning_for_a_flat_body_or_for_a_solid_one_are_refused() {
     );
     let turned = "[[prescribed]]\nnodes = [1]\nrotation = { axis = \"x\", center = [0, 0, 0], turns = 1 }\n";
     assert!(of_flat(turned).contains("give the axis z"));
-    let pushed = "[[traction]]\non = \"all\"\npressure = 3\n";
-    assert!(of_flat(pushed).contains("give force_per_area"));
     let thick = block("linear", "").replace("[material]\n", "[material]\nthickness = 0.3\n");
     assert!(refused(&thick).contains("material.thickness belongs to flat bodies"));
     let out = flat(&block("linear", "")).replace("thickness = 0.3", "thickness = -1");

@@ -21,6 +21,8 @@ mod plastic_ring;
 mod plasticity;
 mod precision;
 mod pressures;
+mod quadratic;
+mod quadratic_motion;
 mod reactions;
 mod release;
 mod resume;

@@ -69,3 +69,41 @@ fn a_pressure_whose_surface_has_a_moving_edge_has_no_potential_and_the_list_of_p
     assert!(energy(&format!("{clamp}{}", pressed(&[("x", "max")], 1e3))) > 0.0);
     assert!(energy(&format!("{clamp}{}", closed(1e3))) < 0.0);
 }
+
+/// A strip of linear or quadratic triangles.
+const ORDERS: [fn(&str) -> String; 2] = [crate::flat::flat, crate::quadratic::quadratic];
+
+#[test]
+fn a_pressure_on_edges_is_the_stress_of_the_deformed_body() {
+    let sides = pressed(&[("x", "max")], 4e3) + &pressed(&[("y", "max")], 4e3);
+    let tables = crate::side("x", "min", 0.0) + &crate::side("y", "min", 0.0) + &sides;
+    for order in ORDERS {
+        let mut simulation = build(&order(&crate::block("neo_hookean", &tables)));
+        run(&mut *simulation, 1);
+        for stress in simulation.stresses() {
+            let error = (stress[(0, 0)] + 4e3).abs().max((stress[(1, 1)] + 4e3).abs());
+            assert!(error < 1e-6 * 4e3 && stress[(0, 1)].abs() < 1e-2, "{stress}");
+        }
+    }
+}
+
+#[test]
+fn a_pressure_on_a_closed_outline_keeps_the_energy_and_one_on_an_edge_with_free_ends_has_none() {
+    for order in ORDERS {
+        let all = order(&soft("rk4", 2e-4, "[[traction]]\non = \"all\"\npressure = 4e3\n"));
+        let mut simulation = build(&all);
+        let start = simulation.energies().total();
+        let (mut worst, mut largest) = (0.0f64, 0.0f64);
+        for _ in 0..250 {
+            run(&mut *simulation, 1);
+            let energies = simulation.energies();
+            worst = worst.max((energies.total() - start).abs());
+            largest = largest.max(energies.kinetic);
+        }
+        assert!(largest > 1.0, "it moves: {largest} J");
+        assert!(worst < 1e-6 * largest, "{worst:e} {largest}");
+        let one = build(&order(&soft("rk4", 2e-4, &pressed(&[("x", "max")], 4e3))));
+        let part = one.parts().into_iter().find(|part| part.name == "pressure").unwrap();
+        assert!(part.why.contains("the edge of its surface moves"), "{}", part.why);
+    }
+}

@@ -201,7 +201,7 @@ fn an_unknown_key_is_refused_in_every_table_and_in_every_table_within_one() {
 /// A passage, what it is replaced with, and how the message begins.
 const CASES: &[(&str, &str, &str)] = &[
     ("scale = 0.5", "scale = 0", "mesh.scale is 0; give a positive number"),
-    ("refine = 1", "refine = 5", "mesh.refine is 5; cut every tetrahedron at most 4 times"),
+    ("refine = 1", "refine = 5", "mesh.refine is 5; cut every element at most 4 times"),
     ("young = 1e5", "young = -1e5", "material.young is -100000; give a positive number of Pa"),
     ("young = 1e5", "young = 1e61", "material.young is 1e61, too large to compute with; give at most 1e60"),
     ("poisson = 0.3", "poisson = 0.5", "material.poisson is 0.5; Poisson's ratio lies above -1 and below 0.5"),

@@ -8,9 +8,13 @@ use base64::prelude::{BASE64_STANDARD, Engine};
 use super::{escape, save_mesh};
 use crate::{Mesh, MeshError, Problem};
 
-/// VTK's number for the triangle with 3 nodes and the tetrahedron with 4.
+/// VTK's number for the triangle with 3 nodes, the tetrahedron with 4 and the quadratic triangle with 6.
 pub(super) const fn cell_type<const N: usize>() -> u8 {
-    if N == 3 { 5 } else { 10 }
+    match N {
+        3 => 5,
+        6 => 22,
+        _ => 10,
+    }
 }
 
 /// Values at the points or in the cells of a mesh, such as `displacement` in m with 3 components.
@@ -24,7 +28,7 @@ pub struct Field<'a> {
     pub values: &'a [f64],
 }
 
-/// Writes tetrahedra or triangles with fields at the points (displacement, velocity) and in the cells (von Mises stress), for ParaView.
+/// Writes tetrahedra or triangles, linear or quadratic, with fields at the points (displacement, velocity) and in the cells (von Mises stress), for ParaView.
 ///
 /// Points keep the positions of `mesh`; ParaView's filter «Warp By Vector» moves them by a displacement.
 pub fn write_vtu<const N: usize>(

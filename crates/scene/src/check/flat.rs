@@ -6,13 +6,8 @@ use crate::tables::{Axis, IN_PLANE_STRESS, InitialVelocityTable, Material, Plane
 
 /// Refuses the first key that has no effect on a flat body, or no meaning.
 pub(crate) fn check(scene: &Scene) -> Result<(), Problem> {
-    let solid_only = [("mesh.display", scene.mesh.display.is_some()), ("mesh.refine", scene.mesh.refine > 0)];
-    if let Some((key, _)) = solid_only.iter().find(|(_, is_there)| *is_there) {
-        return problem(key, "belongs to solid bodies, and this one is flat; remove it");
-    }
-    if let Some(number) = scene.traction.iter().position(|traction| traction.pressure.is_some()) {
-        let text = "belongs to solid bodies, and this one is flat; give force_per_area instead";
-        return problem(&format!("traction[{number}].pressure"), text);
+    if scene.mesh.display.is_some() {
+        return problem("mesh.display", "belongs to solid bodies, and this one is flat; remove it");
     }
     if let Some(number) = scene.prescribed.iter().position(turns_out_of_the_plane) {
         let text = "turns a flat body out of its plane; give the axis z";
@@ -35,6 +30,10 @@ pub(crate) fn check(scene: &Scene) -> Result<(), Problem> {
 
 /// Refuses the first key that has no effect on a solid body.
 pub(crate) fn check_solid(scene: &Scene) -> Result<(), Problem> {
+    if scene.mesh.order == 2 {
+        let text = "is 2, and this body has tetrahedra, which are linear; write 1, and refine = 1 for more elements";
+        return problem("mesh.order", text);
+    }
     let Material { thickness, plane, .. } = &scene.material;
     match [("material.thickness", thickness.is_some()), ("material.plane", plane.is_some())].iter().find(|key| key.1) {
         Some((key, _)) => problem(key, "belongs to flat bodies, and this one is solid; remove it"),

@@ -16,7 +16,7 @@ use crate::tables::{DampingTable, MeshTable, NewtonTable, SolverTable, StaticTab
 use crate::{Integrator, Scene, SolverKind};
 use numbers::{Problem, check_not_negative, check_positive, problem};
 
-/// Largest number of refinements: 8⁴ = 4096 elements for each of the mesh file.
+/// Largest number of refinements: 8⁴ = 4096 tetrahedra for each of the mesh file, or 4⁴ = 256 triangles.
 const MOST_REFINEMENTS: u32 = 4;
 
 /// Returns the first problem of a scene.
@@ -42,8 +42,14 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
 fn check_mesh(mesh: &MeshTable) -> Result<(), Problem> {
     check_positive("mesh.scale", mesh.scale, "")?;
     if mesh.refine > MOST_REFINEMENTS {
-        let text = format!("is {}; cut every tetrahedron at most {MOST_REFINEMENTS} times", mesh.refine);
+        let text = format!("is {}; cut every element at most {MOST_REFINEMENTS} times", mesh.refine);
         return problem("mesh.refine", text);
+    }
+    if !(1..=2).contains(&mesh.order) {
+        return problem(
+            "mesh.order",
+            format!("is {}; write 1 for linear elements, or 2 for quadratic ones", mesh.order),
+        );
     }
     let sources = [
         ("file", mesh.file.is_some()),

@@ -50,6 +50,7 @@ pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<
     match &shape.mesh {
         BodyMesh::Solid(mesh) => write_vtu(path, mesh, &point, &cell),
         BodyMesh::Flat { triangles, .. } => write_vtu(path, triangles, &point, &cell),
+        BodyMesh::Quadratic { triangles, .. } => write_vtu(path, triangles, &point, &cell),
     }
 }
 
@@ -76,18 +77,10 @@ fn averages_at_nodes(mesh: &BodyMesh, values: &[Matrix3<f64>]) -> Vec<Matrix3<f6
     sums.into_iter().map(|(sum, volume)| sum / volume).collect()
 }
 
-/// G = F − 1 of each element, from the displacements `u  (3n)`, m.
+/// G = F − 1 of each element, from the displacements `u  (3n)`, m; of a quadratic triangle, the mean.
 fn displacement_gradients(mesh: &BodyMesh, u: &[f64]) -> Vec<Matrix3<f64>> {
-    let gradient = |element: usize| {
-        let mut change = mesh.edges(element, |node| Vector3::from_column_slice(&u[3 * node..3 * node + 3]));
-        if mesh.is_flat() {
-            change.set_column(2, &Vector3::zeros());
-        }
-        // A checked mesh has no element without volume.
-        let undeformed = mesh.edges(element, |node| mesh.vertices()[node]);
-        undeformed.try_inverse().map_or(Matrix3::zeros(), |inverse| change * inverse)
-    };
-    (0..mesh.elements()).map(gradient).collect()
+    let of_node = |node: usize| Vector3::from_column_slice(&u[3 * node..3 * node + 3]);
+    (0..mesh.elements()).map(|element| mesh.displacement_gradient(element, of_node)).collect()
 }
 
 /// E = (FᵀF − 1)/2 = (G + Gᵀ + GᵀG)/2, which keeps its digits near rest.

@@ -134,13 +134,20 @@ pub struct MeshTable {
     /// Factor on all coordinates of the tetrahedra and the display surface.
     #[serde(default = "one")]
     pub scale: f64,
-    /// Number of uniform refinements, each of which cuts every tetrahedron into eight.
+    /// Number of uniform refinements, each of which cuts every tetrahedron into eight, or every triangle of a flat body into four.
     #[serde(default)]
     pub refine: u32,
+    /// Polynomial order of the elements: 1, or 2 for the quadratic triangles of a flat body.
+    #[serde(default = "first")]
+    pub order: u32,
 }
 
 fn one() -> f64 {
     1.0
+}
+
+fn first() -> u32 {
+    1
 }
 
 /// A box from the origin, cut into cubes of six tetrahedra each.

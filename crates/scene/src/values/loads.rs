@@ -11,7 +11,7 @@ use crate::{BodyMesh, LoadCurve, Scene, SceneError};
 /// Dead load on a part of the surface: it keeps its direction and its sum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traction {
-    /// Nodes of each part of the boundary: triangles of a solid body, edges of a flat one.
+    /// Nodes of each part of the boundary: triangles of a solid body, edges of a flat one, as in [`BodyMesh::outline`].
     pub faces: Vec<Vec<usize>>,
     /// Force per undeformed area, Pa.
     pub force_per_area: Vector3<f64>,
@@ -19,11 +19,12 @@ pub struct Traction {
     pub curve: Option<LoadCurve>,
 }
 
-/// Follower load on a part of the surface: it acts along the normal of the deformed triangles.
+/// Follower load on a part of the surface: it acts along the normal of the deformed triangles or edges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pressure {
-    /// Boundary triangles, counter-clockwise from outside.
-    pub faces: Vec<[usize; 3]>,
+    /// Nodes of each part of the boundary: triangles of a solid body, counter-clockwise from outside; edges of a flat one, as in
+    /// [`BodyMesh::outline`].
+    pub faces: Vec<Vec<usize>>,
     /// Force per deformed area, Pa; positive pushes inward.
     pub pressure: f64,
     /// Factor of time on it.
@@ -77,18 +78,15 @@ pub(crate) fn surface_loads(
     let (mut tractions, mut pressures) = (Vec::new(), Vec::new());
     for (number, table) in scene.traction.iter().enumerate() {
         let (name, selector, curve) = (format!("traction[{number}]"), chosen(table.selectors()), curve(&table.curve));
-        let faces = || selection::faces(scene, &name, &selector, mesh, boundary);
-        match (table.force_per_area, table.pressure) {
-            (Some(force), _) => {
-                let faces = match mesh {
-                    BodyMesh::Solid(_) => faces()?.into_iter().map(Vec::from).collect(),
-                    BodyMesh::Flat { .. } => {
-                        let edges = selection::edges(scene, &name, &selector, mesh)?;
-                        edges.into_iter().map(Vec::from).collect()
-                    }
-                };
-                tractions.push(Traction { faces, force_per_area: force.into(), curve });
+        let faces = || match mesh.is_flat() {
+            true => selection::edges(scene, &name, &selector, mesh),
+            false => {
+                let triangles = selection::faces(scene, &name, &selector, mesh, boundary)?;
+                Ok(triangles.into_iter().map(Vec::from).collect())
             }
+        };
+        match (table.force_per_area, table.pressure) {
+            (Some(force), _) => tractions.push(Traction { faces: faces()?, force_per_area: force.into(), curve }),
             (None, Some(pressure)) => pressures.push(Pressure { faces: faces()?, pressure, curve }),
             (None, None) => unreachable!("a traction without a force is refused when the scene is read"),
         }

@@ -64,13 +64,14 @@ pub(crate) fn faces(
     not_empty(scene, table, selector, mesh, faces, "triangle of the boundary")
 }
 
-/// The edges of a flat body's outline that a selector of `table` names: those with both ends inside, or those of a set. At least one.
+/// The edges of a flat body's outline that a selector of `table` names, as in [`BodyMesh::outline`]: those with both ends inside, or those
+/// of a set. At least one.
 pub(crate) fn edges(
     scene: &Scene,
     table: &str,
     selector: &Selector,
     mesh: &BodyMesh,
-) -> Result<Vec<[usize; 2]>, SceneError> {
+) -> Result<Vec<Vec<usize>>, SceneError> {
     let mut outline = mesh.outline();
     match selector {
         Selector::Set(name) => {
@@ -79,7 +80,7 @@ pub(crate) fn edges(
                 let text = format!("is {name:?}, which has {} and no edges; name a set of edges", set.counts());
                 return Err(scene.refuse(&format!("{table}.set"), &text));
             }
-            outline.retain(|&[a, b]| set.edges.contains(&[a.min(b), a.max(b)]));
+            outline.retain(|edge| set.edges.contains(&[edge[0].min(edge[1]), edge[0].max(edge[1])]));
         }
         Selector::Faces(_) => {
             let text =
@@ -88,7 +89,7 @@ pub(crate) fn edges(
         }
         Selector::Region(_) | Selector::Nodes(_) => {
             let selected: HashSet<usize> = nodes(scene, table, selector, mesh)?.into_iter().collect();
-            outline.retain(|edge| edge.iter().all(|node| selected.contains(node)));
+            outline.retain(|edge| edge[..2].iter().all(|node| selected.contains(node)));
         }
     }
     not_empty(scene, table, selector, mesh, outline, "edge of the outline")

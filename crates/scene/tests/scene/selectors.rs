@@ -19,7 +19,7 @@ fn refusal(tables: &str) -> String {
 }
 
 /// The faces under a pressure.
-fn loaded(selector: &str) -> Vec<[usize; 3]> {
+fn loaded(selector: &str) -> Vec<Vec<usize>> {
     let text = format!("{LEAST}[[traction]]\n{selector}\npressure = 1.0\n");
     body(&text).unwrap().pressures.remove(0).faces
 }

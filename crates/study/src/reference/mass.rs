@@ -1,9 +1,10 @@
 //! The inverse mass matrix of the reference, factorised exactly.
 
 use fem_engine::model::system::System;
-use fem_scene::Body;
+use fem_scene::{Body, BodyMesh};
 
 use super::ldl::Ldl;
+use crate::space::points::points;
 
 /// Density of the elements, and whether the mass is lumped.
 pub(super) struct Density {
@@ -65,7 +66,15 @@ impl MassInverse {
     }
 }
 
-/// ∫ ρ φ_i φ_j of these nodes, or the row sums: the upper triangle by columns, kg.
+/// ∫ φ_i φ_j over an element of unit volume, row by row, by a rule of degree 7.
+fn shares(mesh: &BodyMesh) -> Vec<f64> {
+    let points = points(mesh);
+    let nodes = points[0].values.len();
+    let entry = |i: usize, j: usize| points.iter().map(|at| at.weight * at.values[i] * at.values[j]).sum();
+    (0..nodes * nodes).map(|k| entry(k / nodes, k % nodes)).collect()
+}
+
+/// ∫ ρ φ_i φ_j of these nodes, or the lumped mass: the upper triangle by columns, kg.
 fn mass(density: &Density, system: &System<f64>, nodes: &[usize]) -> Vec<Vec<(usize, f64)>> {
     let mesh = &system.shape.mesh;
     let mut place = vec![usize::MAX; mesh.vertices().len()];
@@ -82,14 +91,16 @@ fn mass(density: &Density, system: &System<f64>, nodes: &[usize]) -> Vec<Vec<(us
             None => columns[column].push((row, mass)),
         }
     };
+    let shares = shares(mesh);
     for (number, (corners, volume)) in mesh.corners().zip(mesh.volumes()).enumerate() {
         let mass = density.of_material * density.factors.get(number).copied().unwrap_or(1.0) * volume;
-        let share = mass / (corners.len() * (corners.len() + 1)) as f64;
         for (a, &row) in corners.iter().enumerate() {
+            if density.is_lumped {
+                add(place[row], place[row], mass * mesh.lumped_mass_shares()[a]);
+                continue;
+            }
             for (b, &column) in corners.iter().enumerate() {
-                let mass = if a == b { 2.0 * share } else { share };
-                let column = if density.is_lumped { row } else { column };
-                add(place[row], place[column], mass);
+                add(place[row], place[column], mass * shares[a * corners.len() + b]);
             }
         }
     }

@@ -1,12 +1,11 @@
 //! The charts of a report.
 
-use super::Report;
+use super::{Report, space_charts};
 use crate::report::text::{number, seconds, step};
 use crate::runs::convergence_order::asymptotic;
 use crate::runs::costs::{self, KINDS};
 use crate::runs::row::Row;
 use crate::studies::scene::{SceneStudy, competing_error};
-use crate::studies::space::{self, SpaceStudy};
 use fem_chart::{Axis, Bar, Chart, Dot, Guide, Picture, Series, bars};
 
 /// Charts that are written as files.
@@ -21,8 +20,9 @@ pub fn files(report: &Report) -> Vec<(String, Picture)> {
         files.push((format!("convergence-in-dt-{}.svg", study.name), convergence(study)));
     }
     files.push(("orders-in-dt.svg".to_owned(), convergence(&report.orders)));
-    files.push(("orders-in-h.svg".to_owned(), in_space(&report.space)));
-    files.push(("locking.svg".to_owned(), locking(&report.space)));
+    files.push(("orders-in-h.svg".to_owned(), space_charts::in_space(&report.space)));
+    files.push(("triangles-error-vs-time.svg".to_owned(), space_charts::time_in_plane(&report.space)));
+    files.push(("locking.svg".to_owned(), space_charts::locking(&report.space)));
     files
 }
 
@@ -205,64 +205,4 @@ pub fn costs_of_a_step(study: &SceneStudy) -> Option<Picture> {
     let label = format!("{}: costs of a step", study.name);
     let percent = |share: f64, whole: f64| format!("{:.0} %", 100.0 * share / whole);
     (!all.is_empty()).then(|| bars(&label, &kinds, &all, percent))
-}
-
-/// Errors of the manufactured solution over the edge of a cell.
-pub fn in_space(space: &SpaceStudy) -> Picture {
-    let label = "manufactured solution: convergence in h";
-    let mut chart = Chart::new(label, Axis::log("edge of a cell (m)"), Axis::log("relative error"));
-    for (place, (scene, l2, h1)) in space.orders.iter().enumerate() {
-        let law = scene.trim_start_matches("manufactured-");
-        for (norm, order, shape) in [("L2", l2, 0), ("H1", h1, 1)] {
-            let rows = space.rows.iter().filter(|row| row.config.scene == *scene);
-            let dot = |row: &Row| {
-                let error = if norm == "L2" { row.errors.space_l2 } else { row.errors.space_h1 };
-                let title =
-                    format!("{law}, {} nodes\nerror in {norm} {}\n{}", row.config.nodes, number(error), row.config.id);
-                Some(Dot { x: space::spacing(row), y: error?, title, ..Dot::default() })
-            };
-            let name =
-                format!("{law}, {norm}: {}", order.map_or("–".to_owned(), |order| format!("{:.2}", order.value)));
-            let dots = rows.filter_map(dot).collect();
-            chart.series.push(Series {
-                name,
-                colour: place,
-                shape,
-                is_joined: true,
-                has_dots: true,
-                dots,
-                ..Series::default()
-            });
-        }
-    }
-    chart.draw()
-}
-
-/// Tip deflection relative to theory over the edge of a cell, for each Poisson's ratio.
-pub fn locking(space: &SpaceStudy) -> Picture {
-    let label = "volumetric locking: tip deflection relative to Timoshenko's";
-    let y = Axis { range: Some((0.0, 1.05)), ..Axis::linear("tip deflection / Timoshenko's") };
-    let mut chart = Chart::new(label, Axis::log("edge of a cell, beam 1 m high (m)"), y);
-    chart.guides.push(Guide::Horizontal(1.0, "Timoshenko".to_owned()));
-    for (place, poisson) in crate::space::locking::RATIOS.into_iter().enumerate() {
-        let beams = space.tip_deflections.iter().filter(|bent| bent.poisson == poisson);
-        let dot = |bent: &crate::space::locking::TipDeflection| Dot {
-            x: 1.0 / bent.cells as f64,
-            y: bent.ratio,
-            title: format!("ν = {poisson}, {} cells\n{} of theory", bent.cells, number(Some(bent.ratio))),
-            ..Dot::default()
-        };
-        let dots = beams.map(dot).collect();
-        let name = format!("ν = {poisson}");
-        chart.series.push(Series {
-            name,
-            colour: place,
-            shape: place,
-            is_joined: true,
-            has_dots: true,
-            dots,
-            ..Series::default()
-        });
-    }
-    chart.draw()
 }

@@ -4,6 +4,7 @@ mod answer;
 mod charts;
 mod notes;
 mod scene_page;
+mod space_charts;
 mod space_page;
 pub(crate) mod text;
 
@@ -19,7 +20,7 @@ use crate::runs::row::Row;
 use crate::runs::table;
 use crate::space::locking;
 use crate::studies::scene::{self, Question, SceneStudy};
-use crate::studies::space::{self, SpaceStudy};
+use crate::studies::space::{self, SpaceOrders, SpaceStudy};
 use crate::studies::{Settings, make_folders};
 use fem_chart::page::page;
 use fem_mesh::write::save;
@@ -84,10 +85,11 @@ impl Report {
     /// Observed orders in time and in space.
     pub fn observed(&self) -> Vec<Observed> {
         let mut observed = orders_in_time(&self.orders);
-        for (scene, l2, h1) in &self.space.orders {
-            for (of, order, expected) in [("h in L2", l2, 2.0), ("h in H1", h1, 1.0)] {
-                let method = "linear tetrahedra".to_owned();
-                observed.push(Observed { scene: scene.clone(), method, of, order: *order, expected });
+        for SpaceOrders { scene, family, observed: orders } in &self.space.orders {
+            let expected = family.orders();
+            for (norm, of) in ["h in L2", "h in H1"].into_iter().enumerate() {
+                let (scene, method) = (scene.clone(), family.name().to_owned());
+                observed.push(Observed { scene, method, of, order: orders[norm], expected: expected[norm] });
             }
         }
         observed.extend(self.scenes.iter().flat_map(orders_in_time));

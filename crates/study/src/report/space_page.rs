@@ -4,10 +4,10 @@ use fem_chart::page::{figure, table};
 use maud::{Markup, html};
 
 use super::text::number;
-use super::{Report, charts, orders_in_time};
+use super::{Report, charts, orders_in_time, space_charts};
 use crate::runs::convergence_order::ConvergenceOrder;
 use crate::space::locking::RATIOS;
-use crate::studies::space::SpaceStudy;
+use crate::studies::space::{SpaceOrders, SpaceStudy};
 
 /// Convergence orders in time on the small body.
 pub(super) fn orders(report: &Report) -> Markup {
@@ -38,16 +38,22 @@ fn text(order: Option<ConvergenceOrder>) -> String {
 
 /// The manufactured solution, and locking.
 pub(super) fn space(study: &SpaceStudy) -> Markup {
-    let rows: Vec<_> = study.orders.iter().map(|(scene, l2, h1)| vec![scene.clone(), text(*l2), text(*h1)]).collect();
+    let row = |orders: &SpaceOrders| {
+        let [l2, h1] = orders.observed.map(text);
+        let [in_l2, in_h1] = orders.family.orders();
+        vec![orders.scene.clone(), orders.family.name().to_owned(), l2, h1, format!("{in_l2} and {in_h1}")]
+    };
+    let rows: Vec<_> = study.orders.iter().map(row).collect();
     html! {
         h2 id="space" { "Errors in space" }
         p {
-            "Equilibrium of a cube under the body force of the manufactured solution u" sub { "i" } " = a" sub { "i" } " sin πx sin πy sin πz. Theory: \
-             order 2 in L2, order 1 in H1. Orders are fitted to the two finest meshes."
+            "Equilibrium of a cube under the body force of the manufactured solution u" sub { "i" } " = a" sub { "i" } " sin πx sin πy sin πz, and of a \
+             square in plane strain under that of u" sub { "i" } " = a" sub { "i" } " sin πx sin πy. Orders are fitted to the two finest meshes."
         }
         div class="charts" {
-            (figure(&charts::in_space(study), "Relative errors, by quadrature of degree 7."))
-            div { (table(&["scene", ">order in L2", ">order in H1"], &rows)) }
+            (figure(&space_charts::in_space(study), "Relative errors, by quadrature of degree 7."))
+            (figure(&space_charts::time_in_plane(study), "Linear and quadratic triangles: error in H1 over the wall-clock time of the solution."))
+            div { (table(&["scene", "elements", ">order in L2", ">order in H1", ">theory"], &rows)) }
         } "\n"
         (locking(study))
     }
@@ -72,7 +78,7 @@ fn locking(study: &SpaceStudy) -> Markup {
              8 × 1 × 1 m relative to Timoshenko's beam theory. No mesh of this table is fine enough for ν near ½."
         }
         div class="charts" {
-            (figure(&charts::locking(study), "The exact ratio is 1."))
+            (figure(&space_charts::locking(study), "The exact ratio is 1."))
             div { (table(&head, &RATIOS.map(row))) }
         } "\n"
     }

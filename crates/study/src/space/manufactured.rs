@@ -1,4 +1,5 @@
-//! The method of manufactured solutions: a cube with u_i = a_i sin πx sin πy sin πz, which is zero on all faces.
+//! The method of manufactured solutions: a cube with u_i = a_i sin πx sin πy sin πz, or a square with u_i = a_i sin πx sin πy, which is zero
+//! on all sides.
 //!
 //! The body force is −Div P = −∂P/∂F : ∇∇u, exact in every point. P. J. Roache, "Code
 //! verification by the method of manufactured solutions", Journal of Fluids Engineering 124, 2002.
@@ -8,7 +9,7 @@ use std::path::Path;
 
 use nalgebra::{DVector, Vector3};
 
-use crate::space::quadrature::Rule;
+use crate::space::points::{LocalGradient, points};
 use fem_engine::forces::dead_load::DeadLoad;
 use fem_engine::integrators::{Integrator, Statics};
 use fem_engine::materials::AnyLaw;
@@ -18,16 +19,45 @@ use fem_engine::model::system::System;
 use fem_engine::newton::{Newton, NewtonLimits};
 use fem_engine::solvers::{Solver, SolverChoice};
 use fem_engine::tensor::{Tensor, from_fn};
-use fem_mesh::{TetrahedralMesh, volumes};
+use fem_mesh::TetrahedralMesh;
 use fem_scene::simulation::Counters;
 use fem_scene::tables::FixedTable;
-use fem_scene::{Body, Projection, Scene, body, parse};
+use fem_scene::{Body, BodyMesh, Projection, Scene, body, parse};
 
-/// a, m: large enough that the neo-Hookean law is far from linear.
+/// a, m: large enough that the neo-Hookean law is far from linear. The third belongs to the cube.
 pub const AMPLITUDE: [f64; 3] = [0.06, -0.05, 0.04];
 
-/// Index of the quadrature rule of the body force and the errors.
-const RULE: u32 = 3;
+/// The elements of the discrete solution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// Linear tetrahedra in the cube.
+    Tetrahedra,
+    /// Linear triangles in the square, in plane strain.
+    Triangles,
+    /// Quadratic triangles in the square, in plane strain.
+    QuadraticTriangles,
+}
+
+impl Family {
+    /// Number of coordinates on which the solution depends.
+    pub fn dimensions(self) -> usize {
+        if self == Self::Tetrahedra { 3 } else { 2 }
+    }
+
+    /// Orders in L2 and H1: Strang and Fix, An Analysis of the Finite Element Method (1973), chapter 3.
+    pub fn orders(self) -> [f64; 2] {
+        if self == Self::QuadraticTriangles { [3.0, 2.0] } else { [2.0, 1.0] }
+    }
+
+    /// The elements in the plural.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tetrahedra => "linear tetrahedra",
+            Self::Triangles => "linear triangles",
+            Self::QuadraticTriangles => "quadratic triangles",
+        }
+    }
+}
 
 /// The discrete solution on one mesh.
 #[derive(Clone, Debug)]
@@ -35,12 +65,12 @@ pub struct Solved {
     /// The scene.
     pub scene: Scene,
     /// The mesh.
-    pub mesh: TetrahedralMesh,
+    pub mesh: BodyMesh,
     /// Positions of all nodes, m.
     pub q: DVector<f64>,
-    /// ‖u − u_h‖ / ‖u‖ over the cube.
+    /// ‖u − u_h‖ / ‖u‖ over the body.
     pub l2: f64,
-    /// ‖∇u − ∇u_h‖ / ‖∇u‖ over the cube.
+    /// ‖∇u − ∇u_h‖ / ‖∇u‖ over the body.
     pub h1: f64,
     /// Counters of the solution.
     pub counters: Counters,
@@ -48,53 +78,75 @@ pub struct Solved {
     pub seconds: f64,
 }
 
-/// Exact displacement, m.
-pub fn displacement(X: &Vector3<f64>) -> [f64; 3] {
-    let product: f64 = X.iter().map(|x| (PI * x).sin()).product();
-    AMPLITUDE.map(|a| a * product)
+/// The exact solution in the unit cube (3 dimensions) or in the unit square (2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Exact {
+    /// Number of coordinates on which it depends.
+    pub dimensions: usize,
 }
 
-/// G_ij = ∂u_i/∂X_j.
-pub fn gradient(X: &Vector3<f64>) -> Tensor<f64> {
-    let (sin, cos) = (X.map(|x| (PI * x).sin()), X.map(|x| (PI * x).cos()));
-    let part = |j: usize| PI * (0..3).map(|k| if k == j { cos[k] } else { sin[k] }).product::<f64>();
-    from_fn(|i, j| AMPLITUDE[i] * part(j))
-}
+impl Exact {
+    /// a of a component, m.
+    fn amplitude(self, i: usize) -> f64 {
+        if i < self.dimensions { AMPLITUDE[i] } else { 0.0 }
+    }
 
-/// ∂²u_i/∂X_j∂X_l
-fn second(X: &Vector3<f64>, i: usize, j: usize, l: usize) -> f64 {
-    let (sin, cos) = (X.map(|x| (PI * x).sin()), X.map(|x| (PI * x).cos()));
-    let factor = |k: usize| match (k == j, k == l) {
-        (true, true) => -sin[k],
-        (false, false) => sin[k],
-        _ => cos[k],
-    };
-    AMPLITUDE[i] * PI * PI * (0..3).map(factor).product::<f64>()
-}
+    /// Displacement, m.
+    pub fn displacement(self, X: &Vector3<f64>) -> [f64; 3] {
+        let product: f64 = (0..self.dimensions).map(|k| (PI * X[k]).sin()).product();
+        std::array::from_fn(|i| self.amplitude(i) * product)
+    }
 
-/// −Div P, N/m³.
-fn body_force(law: &AnyLaw<f64>, X: &Vector3<f64>) -> [f64; 3] {
-    let G = gradient(X);
-    let H = law.as_law().derivative(&G);
-    let mut force = [0.0; 3];
-    for (i, force) in force.iter_mut().enumerate() {
-        for j in 0..3 {
-            for k in 0..3 {
-                for l in 0..3 {
-                    *force -= H[3 * i + j][3 * k + l] * second(X, k, l, j);
+    /// G_ij = ∂u_i/∂X_j.
+    pub fn gradient(self, X: &Vector3<f64>) -> Tensor<f64> {
+        let (sin, cos) = (X.map(|x| (PI * x).sin()), X.map(|x| (PI * x).cos()));
+        let all = 0..self.dimensions;
+        let part = |j: usize| {
+            let product: f64 = all.clone().map(|k| if k == j { cos[k] } else { sin[k] }).product();
+            if j < self.dimensions { PI * product } else { 0.0 }
+        };
+        let parts = [part(0), part(1), part(2)];
+        from_fn(|i, j| self.amplitude(i) * parts[j])
+    }
+
+    /// ∂²u_i/∂X_j∂X_l
+    fn second(self, X: &Vector3<f64>, i: usize, j: usize, l: usize) -> f64 {
+        if j.max(l) >= self.dimensions {
+            return 0.0;
+        }
+        let (sin, cos) = (X.map(|x| (PI * x).sin()), X.map(|x| (PI * x).cos()));
+        let factor = |k: usize| match (k == j, k == l) {
+            (true, true) => -sin[k],
+            (false, false) => sin[k],
+            _ => cos[k],
+        };
+        self.amplitude(i) * PI * PI * (0..self.dimensions).map(factor).product::<f64>()
+    }
+
+    /// −Div P, N/m³.
+    fn body_force(self, law: &AnyLaw<f64>, X: &Vector3<f64>) -> [f64; 3] {
+        let H = law.as_law().derivative(&self.gradient(X));
+        let mut force = [0.0; 3];
+        for (i, force) in force.iter_mut().enumerate() {
+            for j in 0..3 {
+                for k in 0..3 {
+                    for l in 0..3 {
+                        *force -= H[3 * i + j][3 * k + l] * self.second(X, k, l, j);
+                    }
                 }
             }
         }
+        force
     }
-    force
 }
 
 /// Solves on a mesh of `cells` cells in each direction.
-pub fn solve(model: &str, cells: usize) -> Result<Solved, String> {
-    let (scene, body) = cube(model, cells)?;
-    let mesh = body.shape.mesh.solid().cloned().ok_or("a box is made of tetrahedra")?;
+pub fn solve(model: &str, family: Family, cells: usize) -> Result<Solved, String> {
+    let (scene, body) = fixed_body(model, family, cells)?;
+    let exact = Exact { dimensions: family.dimensions() };
+    let mesh = body.shape.mesh.clone();
     let lacks = "the material lacks its parameters";
-    let load = nodal_load(&AnyLaw::new(&scene.material).ok_or(lacks)?, &mesh);
+    let load = nodal_load(&AnyLaw::new(&scene.material).ok_or(lacks)?, &mesh, exact);
     let law = AnyLaw::new(&scene.material).ok_or(lacks)?;
     let in_order = |numbering: &Numbering| numbering.mesh_node.iter().map(|&node| load[node as usize]).collect();
     let system = System::<f64>::with_forces(body, law, SolverChoice::Cholesky, &|numbering| {
@@ -113,43 +165,52 @@ pub fn solve(model: &str, cells: usize) -> Result<Solved, String> {
     counters.steps = 1;
     let seconds = start.elapsed().as_secs_f64();
     let u = system.numbering.to_mesh(&state.u);
-    let (l2, h1) = errors(&mesh, &u);
-    let q = DVector::from_fn(3 * u.len(), |i, _| mesh.vertices[i / 3][i % 3] + u[i / 3][i % 3]);
+    let (l2, h1) = errors(&mesh, &u, exact);
+    let q = DVector::from_fn(3 * u.len(), |i, _| mesh.vertices()[i / 3][i % 3] + u[i / 3][i % 3]);
     Ok(Solved { scene, mesh, q, l2, h1, counters, seconds })
 }
 
-/// The unit cube with fixed faces.
-fn cube(model: &str, cells: usize) -> Result<(Scene, Body), String> {
+/// The unit cube or square with fixed sides.
+fn fixed_body(model: &str, family: Family, cells: usize) -> Result<(Scene, Body), String> {
     let moduli = match model {
         "neo_hookean" => "model = \"neo_hookean\"\nC = 1e4\nD = 3e4",
         _ => "model = \"linear\"\nyoung = 1e5\npoisson = 0.3",
     };
+    let mesh = match family {
+        Family::Tetrahedra => format!("box = {{ size = [1, 1, 1], cells_per_unit = {cells} }}"),
+        Family::Triangles => format!("rectangle = {{ size = [1, 1], cells_per_unit = {cells} }}"),
+        Family::QuadraticTriangles => format!("rectangle = {{ size = [1, 1], cells_per_unit = {cells} }}\norder = 2"),
+    };
     let text = format!(
-        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = {cells} }}\n[material]\n{moduli}\n\
+        "pipeline = \"engine\"\n[mesh]\n{mesh}\n[material]\n{moduli}\n\
          density = 1000.0\n[time]\ndt = 1.0\nintegrator = \"static\"\nsteps = 1\n"
     );
-    let name = if model == "neo_hookean" { "manufactured-neo-hookean" } else { "manufactured-linear" };
-    let mut scene = parse(&text, Path::new(&format!("{name}.toml"))).map_err(|error| error.to_string())?;
-    let per_edge = cells + 1;
-    let is_inside = |node: usize| {
-        [node % per_edge, node / per_edge % per_edge, node / per_edge / per_edge].iter().all(|&i| i > 0 && i < cells)
+    let law = if model == "neo_hookean" { "neo-hookean" } else { "linear" };
+    let name = match family {
+        Family::Tetrahedra => format!("manufactured-{law}"),
+        Family::Triangles => format!("manufactured-{law}-triangles"),
+        Family::QuadraticTriangles => format!("manufactured-{law}-quadratic"),
     };
-    let sides = (0..per_edge.pow(3)).filter(|&node| !is_inside(node)).collect();
+    let mut scene = parse(&text, Path::new(&format!("{name}.toml"))).map_err(|error| error.to_string())?;
+    let unconstrained = body(&scene, Path::new("")).map_err(|error| error.to_string())?;
+    let is_inside = |x: &Vector3<f64>| (0..family.dimensions()).all(|i| x[i] > 0.0 && x[i] < 1.0);
+    let vertices = unconstrained.shape.mesh.vertices();
+    let sides = (0..vertices.len()).filter(|&node| !is_inside(&vertices[node])).collect();
     scene.fixed = Some(FixedTable { nodes: Some(sides), ..FixedTable::default() });
     let body = body(&scene, Path::new("")).map_err(|error| error.to_string())?;
     Ok((scene, body))
 }
 
 /// Nodal loads ∫ b φ, N.
-fn nodal_load(law: &AnyLaw<f64>, mesh: &TetrahedralMesh) -> Vec<[f64; 3]> {
-    let rule = Rule::of_index(RULE);
-    let mut load = vec![[0.0; 3]; mesh.vertices.len()];
-    for (element, volume) in mesh.elements.iter().zip(volumes(mesh)) {
-        for (at, weight) in &rule.points {
-            let force = body_force(law, &place(mesh, element, at));
-            for (corner, &node) in element.iter().enumerate() {
+fn nodal_load(law: &AnyLaw<f64>, mesh: &BodyMesh, exact: Exact) -> Vec<[f64; 3]> {
+    let points = points(mesh);
+    let mut load = vec![[0.0; 3]; mesh.vertices().len()];
+    for (nodes, volume) in mesh.corners().zip(mesh.volumes()) {
+        for point in &points {
+            let force = exact.body_force(law, &point.place(mesh, nodes));
+            for (&node, value) in nodes.iter().zip(&point.values) {
                 for i in 0..3 {
-                    load[node][i] += volume * weight * at[corner] * force[i];
+                    load[node][i] += volume * point.weight * value * force[i];
                 }
             }
         }
@@ -157,26 +218,23 @@ fn nodal_load(law: &AnyLaw<f64>, mesh: &TetrahedralMesh) -> Vec<[f64; 3]> {
     load
 }
 
-fn place(mesh: &TetrahedralMesh, element: &[usize; 4], at: &[f64; 4]) -> Vector3<f64> {
-    element.iter().zip(at).map(|(&node, &weight)| mesh.vertices[node] * weight).sum()
-}
-
 /// Relative errors in L2 and in the seminorm of H1.
-fn errors(mesh: &TetrahedralMesh, u: &[[f64; 3]]) -> (f64, f64) {
-    let rule = Rule::of_index(RULE);
+fn errors(mesh: &BodyMesh, u: &[[f64; 3]], exact: Exact) -> (f64, f64) {
+    let points = points(mesh);
     let [mut l2, mut h1, mut size, mut slope] = [0.0; 4];
-    for (element, volume) in mesh.elements.iter().zip(volumes(mesh)) {
-        let found = element_gradient(mesh, element, u);
-        for (at, weight) in &rule.points {
-            let X = place(mesh, element, at);
-            let (exact, steep) = (displacement(&X), gradient(&X));
+    for (element, (nodes, volume)) in mesh.corners().zip(mesh.volumes()).enumerate() {
+        let gradient = LocalGradient::new(mesh, element, u);
+        for point in &points {
+            let X = point.place(mesh, nodes);
+            let (is, steep, found) = (exact.displacement(&X), exact.gradient(&X), gradient.at(point));
+            let weight = volume * point.weight;
             for i in 0..3 {
-                let here: f64 = (0..4).map(|corner| at[corner] * u[element[corner]][i]).sum();
-                l2 += volume * weight * (here - exact[i]).powi(2);
-                size += volume * weight * exact[i].powi(2);
+                let here: f64 = nodes.iter().zip(&point.values).map(|(&node, value)| value * u[node][i]).sum();
+                l2 += weight * (here - is[i]).powi(2);
+                size += weight * is[i].powi(2);
                 for j in 0..3 {
-                    h1 += volume * weight * (found[i][j] - steep[i][j]).powi(2);
-                    slope += volume * weight * steep[i][j].powi(2);
+                    h1 += weight * (found[i][j] - steep[i][j]).powi(2);
+                    slope += weight * steep[i][j].powi(2);
                 }
             }
         }
@@ -201,18 +259,21 @@ mod tests {
 
     #[test]
     fn the_body_force_is_minus_the_divergence_of_the_stress() {
-        for model in ["linear", "neo_hookean"] {
-            let law = AnyLaw::<f64>::new(&cube(model, 1).unwrap().0.material).unwrap();
+        for (model, family) in
+            [("linear", Family::Tetrahedra), ("neo_hookean", Family::Tetrahedra), ("neo_hookean", Family::Triangles)]
+        {
+            let law = AnyLaw::<f64>::new(&fixed_body(model, family, 1).unwrap().0.material).unwrap();
+            let exact = Exact { dimensions: family.dimensions() };
             let X = Vector3::new(0.31, 0.62, 0.27);
-            let stress = |X: &Vector3<f64>| law.as_law().stress(&gradient(X));
+            let stress = |X: &Vector3<f64>| law.as_law().stress(&exact.gradient(X));
             let h = 1e-5;
-            for (i, force) in body_force(&law, &X).into_iter().enumerate() {
+            for (i, force) in exact.body_force(&law, &X).into_iter().enumerate() {
                 let slope = |j: usize| {
                     let step = Vector3::ith(j, h);
                     (stress(&(X + step))[i][j] - stress(&(X - step))[i][j]) / (2.0 * h)
                 };
                 let divergence: f64 = (0..3).map(slope).sum();
-                assert!((force + divergence).abs() < 1e-6 * force.abs(), "{model:?}: {force} {divergence}");
+                assert!((force + divergence).abs() <= 1e-6 * force.abs(), "{model:?}: {force} {divergence}");
             }
         }
     }
@@ -220,8 +281,17 @@ mod tests {
     #[test]
     fn errors_converge_under_refinement() {
         for model in ["linear", "neo_hookean"] {
-            let [coarse, fine] = [4, 8].map(|cells| solve(model, cells).unwrap());
+            let [coarse, fine] = [4, 8].map(|cells| solve(model, Family::Tetrahedra, cells).unwrap());
             assert!(coarse.l2 / fine.l2 > 3.0 && coarse.h1 / fine.h1 > 1.75, "{} {}", coarse.l2, fine.l2);
+        }
+    }
+
+    #[test]
+    fn triangles_have_the_orders_of_their_polynomials() {
+        for (family, order) in [(Family::Triangles, 1.0), (Family::QuadraticTriangles, 2.0)] {
+            let [coarse, fine] = [8, 16].map(|cells| solve("neo_hookean", family, cells).unwrap());
+            let (l2, h1) = ((coarse.l2 / fine.l2).log2(), (coarse.h1 / fine.h1).log2());
+            assert!((l2 - order - 1.0).abs() < 0.1 && (h1 - order).abs() < 0.1, "{family:?}: {l2} {h1}");
         }
     }
 }

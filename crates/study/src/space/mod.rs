@@ -6,4 +6,5 @@ pub mod locking;
 pub mod manufactured;
 pub mod nested;
 pub mod norms;
+pub mod points;
 mod quadrature;

@@ -2,12 +2,13 @@
 
 use fem_scene::BodyMesh;
 
-/// Weights of the nodes, m³: equal shares of the volume of every adjacent element.
+/// Weights of the nodes, m³: their shares of the volume of every adjacent element, which are the row sums of its consistent mass over the
+/// density. Those of corners of quadratic triangles are zero: sums over the nodes are integrals by the rule of mid-sides.
 pub fn weights(mesh: &BodyMesh) -> Vec<f64> {
     let mut weights = vec![0.0; mesh.vertices().len()];
     for (nodes, volume) in mesh.corners().zip(mesh.volumes()) {
-        for &node in nodes {
-            weights[node] += volume / nodes.len() as f64;
+        for (&node, share) in nodes.iter().zip(mesh.load_shares()) {
+            weights[node] += volume * share;
         }
     }
     weights

@@ -6,20 +6,30 @@ use crate::runs::plan;
 use crate::runs::row::{Configuration, Errors, Row, Times};
 use crate::runs::states::{Snapshot, write_reference, write_state};
 use crate::space::locking::{self, TipDeflection};
-use crate::space::manufactured;
+use crate::space::manufactured::{self, Family};
 use crate::space::norms;
 use fem_engine::cantilever::moduli;
-use fem_scene::BodyMesh;
 
 /// The results.
 #[derive(Clone, Debug, Default)]
 pub struct SpaceStudy {
     /// A row for each material and mesh of the manufactured solution.
     pub rows: Vec<Row>,
-    /// Scene, and orders in L2 and H1, of each material.
-    pub orders: Vec<(String, Option<ConvergenceOrder>, Option<ConvergenceOrder>)>,
+    /// Orders of each material and kind of elements.
+    pub orders: Vec<SpaceOrders>,
     /// Tip deflections of the cantilever.
     pub tip_deflections: Vec<TipDeflection>,
+}
+
+/// Orders in space of a material with one kind of elements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpaceOrders {
+    /// Name of the scene.
+    pub scene: String,
+    /// The elements.
+    pub family: Family,
+    /// Observed orders in L2 and H1.
+    pub observed: [Option<ConvergenceOrder>; 2],
 }
 
 /// Number of meshes of a fitted order: coarser ones are outside the asymptotic range.
@@ -28,21 +38,11 @@ const FINEST: usize = 2;
 /// Solves on a sequence of meshes.
 pub fn study(settings: &Settings) -> Result<SpaceStudy, String> {
     let mut space = SpaceStudy::default();
-    let cells: &[usize] = if settings.is_quick { &[4, 8, 16] } else { &[2, 4, 8, 16, 32] };
-    for model in ["linear", "neo_hookean"] {
-        let from = space.rows.len();
-        for (number, &cells) in cells.iter().enumerate() {
-            (settings.tell)(number, cells_count(settings), &format!("manufactured solution, {cells} cells"));
-            let row = solved(settings, model, cells, space.rows.len())?;
-            space.rows.push(row);
+    for family in [Family::Tetrahedra, Family::Triangles, Family::QuadraticTriangles] {
+        for model in ["linear", "neo_hookean"] {
+            let orders = sequence(settings, model, family, &mut space.rows)?;
+            space.orders.push(orders);
         }
-        let rows = &space.rows[from..];
-        let order = |error: fn(&Errors) -> Option<f64>| {
-            let pairs: Vec<_> = rows.iter().filter_map(|row| Some((spacing(row), error(&row.errors)?))).collect();
-            asymptotic(&pairs, FINEST, 0.0)
-        };
-        let orders = (rows[0].config.scene.clone(), order(|errors| errors.space_l2), order(|errors| errors.space_h1));
-        space.orders.push(orders);
     }
     let meshes: &[usize] = if settings.is_quick { &[1, 2] } else { &[1, 2, 4, 6, 8] };
     for &cells in meshes {
@@ -54,25 +54,51 @@ pub fn study(settings: &Settings) -> Result<SpaceStudy, String> {
     Ok(space)
 }
 
-fn cells_count(settings: &Settings) -> usize {
-    if settings.is_quick { 3 } else { 5 }
+/// Solves on a sequence of meshes and adds their rows.
+fn sequence(settings: &Settings, model: &str, family: Family, rows: &mut Vec<Row>) -> Result<SpaceOrders, String> {
+    let cells: &[usize] = match (family, settings.is_quick) {
+        (_, true) => &[4, 8, 16],
+        (Family::Tetrahedra, false) => &[2, 4, 8, 16, 32],
+        (_, false) => &[4, 8, 16, 32, 64, 128],
+    };
+    let from = rows.len();
+    for (number, &cells) in cells.iter().enumerate() {
+        (settings.tell)(number, cells.len(), &format!("manufactured solution, {}, {cells} cells", family.name()));
+        let row = solved(settings, model, family, cells, rows.len())?;
+        rows.push(row);
+    }
+    let rows = &rows[from..];
+    let order = |error: fn(&Errors) -> Option<f64>| {
+        let pairs: Vec<_> = rows.iter().filter_map(|row| Some((spacing(row), error(&row.errors)?))).collect();
+        asymptotic(&pairs, FINEST, 0.0)
+    };
+    let observed = [order(|errors| errors.space_l2), order(|errors| errors.space_h1)];
+    Ok(SpaceOrders { scene: rows[0].config.scene.clone(), family, observed })
 }
 
-/// Edge of a cell of the unit cube, m.
+/// Edge of a cell of the unit cube or square, m: six tetrahedra or two triangles fill a cell.
 pub fn spacing(row: &Row) -> f64 {
-    1.0 / ((row.config.nodes as f64).cbrt().round() - 1.0)
+    let elements = row.config.elements as f64;
+    let is_flat = ["-triangles", "-quadratic"].iter().any(|ending| row.config.scene.ends_with(ending));
+    if is_flat { (2.0 / elements).sqrt() } else { (6.0 / elements).cbrt() }
 }
 
-fn solved(settings: &Settings, model: &str, cells: usize, number: usize) -> Result<Row, String> {
-    let solved = manufactured::solve(model, cells)?;
+fn solved(settings: &Settings, model: &str, family: Family, cells: usize, number: usize) -> Result<Row, String> {
+    let solved = manufactured::solve(model, family, cells)?;
     let scene = &solved.scene;
     let id = format!("manufactured-{:03}", number + 1);
-    let (state, reference_state) = (format!("states/{id}.json"), format!("states/manufactured-{cells}-reference.json"));
+    let kind = match family {
+        Family::Tetrahedra => "",
+        Family::Triangles => "-triangles",
+        Family::QuadraticTriangles => "-quadratic",
+    };
+    let state = format!("states/{id}.json");
+    let reference_state = format!("states/manufactured{kind}-{cells}-reference.json");
     let qdot = nalgebra::DVector::zeros(solved.q.len());
     let snapshot = Snapshot { time: 1.0, q: &solved.q, qdot: &qdot, energies: (0.0, f64::NAN) };
     write_state(&settings.out.join(&state), &snapshot)?;
-    let mesh = BodyMesh::from(solved.mesh);
-    write_reference(&settings.out.join(&reference_state), &mesh, scene.material.density, None)?;
+    let mesh = &solved.mesh;
+    write_reference(&settings.out.join(&reference_state), mesh, scene.material.density, None)?;
     let moduli = moduli(&scene.material);
     let seconds = Some(solved.seconds);
     Ok(Row {
@@ -82,7 +108,7 @@ fn solved(settings: &Settings, model: &str, cells: usize, number: usize) -> Resu
             group: "space".to_owned(),
             method: format!("static, {cells} cells"),
             pipeline: "engine",
-            mesh_hash: norms::mesh_hash(&mesh),
+            mesh_hash: norms::mesh_hash(mesh),
             nodes: mesh.vertices().len(),
             elements: mesh.elements(),
             young: moduli.map(|moduli| moduli.0),

@@ -112,12 +112,12 @@ fn areas(body: &Body) -> Vec<f64> {
     let mesh = &body.shape.mesh;
     let mut areas = vec![0.0; mesh.vertices().len()];
     let outline: Vec<Vec<usize>> = match mesh.is_flat() {
-        true => mesh.outline().into_iter().map(Vec::from).collect(),
+        true => mesh.outline(),
         false => body.shape.boundary.iter().map(|face| face.to_vec()).collect(),
     };
     for face in &outline {
-        let share = mesh.area(face) / face.len() as f64;
-        face.iter().for_each(|&node| areas[node] += share);
+        let area = mesh.area(face);
+        face.iter().zip(mesh.face_shares()).for_each(|(&node, share)| areas[node] += share * area);
     }
     // A law that allows inversion lets nodes of the inside come to the front.
     let mut volumes = vec![0.0; areas.len()];

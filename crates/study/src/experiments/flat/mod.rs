@@ -1,5 +1,6 @@
 //! The experiments of a thesis on two-dimensional deformation with plasticity (2019): explicit integration of triangles from pictures.
 
+mod convergence;
 mod mesh;
 mod modulus;
 mod object;
@@ -14,8 +15,13 @@ use crate::machine::Machine;
 /// A part: its name, and its run, which takes the folder of the pictures' `data` and whether it is to be short.
 type Entry = (&'static str, fn(&Path, bool) -> Result<Part, String>);
 
-const PARTS: &[Entry] =
-    &[("stability", stability::run), ("speed", speed::run), ("modulus", modulus::run), ("mesh", mesh::run)];
+const PARTS: &[Entry] = &[
+    ("stability", stability::run),
+    ("speed", speed::run),
+    ("modulus", modulus::run),
+    ("mesh", mesh::run),
+    ("convergence", convergence::run),
+];
 
 /// Names of the parts, in their order.
 pub fn names() -> impl Iterator<Item = &'static str> {

@@ -154,6 +154,6 @@ fn rigid(integrator: &'static str, mass: &'static str, steps: usize) -> Case {
 
 /// Σ M v, kg m/s.
 pub fn momentum(simulation: &Simulator<f64>) -> Vector3<f64> {
-    let (masses, v) = (simulation.system().mass.lumped(), &simulation.state().v);
+    let (masses, v) = (simulation.system().mass.row_sums(), &simulation.state().v);
     masses.iter().zip(v).map(|(mass, v)| *mass * Vector3::from(*v)).sum()
 }

@@ -1,0 +1,158 @@
+//! Errors of linear and of quadratic triangles against a manufactured solution.
+
+use std::path::Path;
+
+use fem_chart::{Axis, Chart, Dot, Guide, Picture, Series};
+
+use crate::experiments::{Figure, Mark, Part, Table};
+use crate::runs::convergence_order::fit;
+use crate::space::manufactured::{Family, solve};
+
+const MODELS: [&str; 2] = ["linear", "neo_hookean"];
+
+const FAMILIES: [Family; 2] = [Family::Triangles, Family::QuadraticTriangles];
+
+/// Largest distance of an observed order from theory.
+const TOLERANCE: f64 = 0.1;
+
+/// The errors of one kind of elements and one law.
+struct Sequence {
+    model: &'static str,
+    family: Family,
+    levels: Vec<Level>,
+}
+
+/// The discrete solution on one mesh: edge of a cell (m), number of nodes, relative errors in L2 and H1, seconds.
+struct Level {
+    spacing: f64,
+    nodes: usize,
+    errors: [f64; 2],
+    seconds: f64,
+}
+
+/// Solves on a sequence of meshes of the unit square.
+pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
+    let cells: &[usize] = if quick { &[4, 8, 16] } else { &[4, 8, 16, 32, 64] };
+    let models = if quick { &MODELS[1..] } else { &MODELS };
+    let (mut sequences, mut marks) = (Vec::new(), Vec::new());
+    for &model in models {
+        for family in FAMILIES {
+            let levels = cells.iter().map(|&cells| level(model, family, cells)).collect::<Result<Vec<_>, _>>()?;
+            let sequence = Sequence { model, family, levels };
+            marks.extend((0..2).map(|norm| judge(&sequence, norm)));
+            sequences.push(sequence);
+        }
+    }
+    Ok(Part {
+        name: "convergence",
+        title: "Errors of linear and of quadratic triangles",
+        text: format!(
+            "Equilibrium of the unit square in plane strain under the body force of u = (0.06, −0.05) sin πx sin πy m, with fixed sides. Theory: the \
+             error of linear triangles falls with h² in L2 and with h in H1, that of quadratic ones with h³ and h². An order is that of the two \
+             finest of {} meshes. The thesis has no such figures.",
+            cells.len()
+        ),
+        marks,
+        tables: vec![Table {
+            name: "flat-convergence".to_owned(),
+            head: vec![
+                "law",
+                "elements",
+                ">h (m)",
+                ">nodes",
+                ">error in L2",
+                ">order",
+                ">error in H1",
+                ">order",
+                ">solution (ms)",
+            ],
+            rows: sequences.iter().flat_map(rows).collect(),
+        }],
+        figures: vec![Figure {
+            name: "flat-convergence".to_owned(),
+            picture: picture(&sequences),
+            caption: "Relative errors of the neo-Hookean square, by quadrature of degree 7.".to_owned(),
+        }],
+    })
+}
+
+fn level(model: &str, family: Family, cells: usize) -> Result<Level, String> {
+    let solved = solve(model, family, cells)?;
+    let nodes = solved.mesh.vertices().len();
+    Ok(Level { spacing: 1.0 / cells as f64, nodes, errors: [solved.l2, solved.h1], seconds: solved.seconds })
+}
+
+/// The order of the errors in a norm between two meshes.
+fn order(pair: &[Level], norm: usize) -> Option<f64> {
+    let pairs: Vec<_> = pair.iter().map(|level| (level.spacing, level.errors[norm])).collect();
+    fit(&pairs).map(|order| order.value)
+}
+
+fn judge(sequence: &Sequence, norm: usize) -> Mark {
+    let expected = sequence.family.orders()[norm];
+    let found = sequence.levels.windows(2).last().and_then(|pair| order(pair, norm));
+    let law = sequence.model.replace('_', "-");
+    let statement =
+        format!("{law}, {}: order {expected} in {} within {TOLERANCE}", sequence.family.name(), NORMS[norm]);
+    let holds = found.is_some_and(|found| (found - expected).abs() <= TOLERANCE);
+    Mark::new(statement, found.map_or("–".to_owned(), |found| format!("{found:.3}")), holds)
+}
+
+const NORMS: [&str; 2] = ["L2", "H1"];
+
+fn rows(sequence: &Sequence) -> Vec<Vec<String>> {
+    let of_level = |(number, level): (usize, &Level)| {
+        let pair = number.checked_sub(1).map(|before| &sequence.levels[before..=number]);
+        let observed = |norm: usize| {
+            pair.and_then(|pair| order(pair, norm)).map_or("–".to_owned(), |order| format!("{order:.3}"))
+        };
+        vec![
+            sequence.model.to_owned(),
+            sequence.family.name().to_owned(),
+            format!("{:.5}", level.spacing),
+            level.nodes.to_string(),
+            format!("{:.4e}", level.errors[0]),
+            observed(0),
+            format!("{:.4e}", level.errors[1]),
+            observed(1),
+            format!("{:.2}", 1e3 * level.seconds),
+        ]
+    };
+    sequence.levels.iter().enumerate().map(of_level).collect()
+}
+
+fn picture(sequences: &[Sequence]) -> Picture {
+    let label = "errors of linear and quadratic triangles over the edge of a cell";
+    let mut chart = Chart::new(label, Axis::log("edge of a cell (m)"), Axis::log("relative error"));
+    let shown = sequences.iter().filter(|sequence| sequence.model == "neo_hookean");
+    for (place, sequence) in shown.enumerate() {
+        for (norm, name) in NORMS.into_iter().enumerate() {
+            let dot = |level: &Level| Dot {
+                x: level.spacing,
+                y: level.errors[norm],
+                title: format!(
+                    "{}, {} nodes\nerror in {name} {:.3e}",
+                    sequence.family.name(),
+                    level.nodes,
+                    level.errors[norm]
+                ),
+                ..Dot::default()
+            };
+            let finest = sequence.levels.last().map(|level| (level.spacing, 0.6 * level.errors[norm]));
+            let slope = sequence.family.orders()[norm];
+            if let Some(through) = finest {
+                chart.guides.push(Guide::Slope { through, slope, name: format!("h^{slope}") });
+            }
+            chart.series.push(Series {
+                name: format!("{}, {name}", sequence.family.name()),
+                colour: place,
+                shape: norm,
+                is_joined: true,
+                has_dots: true,
+                dots: sequence.levels.iter().map(dot).collect(),
+                ..Series::default()
+            });
+        }
+    }
+    chart.draw()
+}
