@@ -14,18 +14,21 @@ fn slope(s: f64) -> f64 {
 #[test]
 fn a_block_rests_where_the_barrier_carries_its_weight_however_stiff_it_is() {
     // The softer block leans by its strain.
-    for (young, tolerance) in [(1e7, 1e-5), (2e11, 1e-8)] {
+    // The nodes below have their shares of the lower side and of half of the sides beside it: halves, or Simpson's.
+    let quadratic = format!("{SQUARE}\norder = 2");
+    let cases = [(SQUARE, 1e7, 2.0, 1e-5), (SQUARE, 2e11, 2.0, 1e-8), (&quadratic, 2e11, 4.0 / 3.0, 1e-8)];
+    for (mesh, young, area, tolerance) in cases {
         let tables = gravity(0.0, -9.81) + &floor(-5e-4, "");
-        let mut simulation = build(&text(SQUARE, "corotated", young, "implicit_euler", 0.1, &tables));
+        let mut simulation = build(&text(mesh, "corotated", young, "implicit_euler", 0.1, &tables));
         run(&mut simulation, 400);
         let contact = &simulation.contacts()[0];
         assert!((contact.force[1] - WEIGHT).abs() < 1e-8 * WEIGHT, "E = {young:e}: {:?}", contact.force);
-        // Each node below has half of two sides, 1 m²: κ |b'(gap/d̂)| · 2 m² = m g.
+        // κ |b'(gap/d̂)| times that area is m g.
         let (distance, stiffness) = (1e-3, young / 2.6 + WEIGHT);
         let (mut lower, mut upper) = (1e-6, 1.0);
         for _ in 0..200 {
             let middle = 0.5 * (lower + upper);
-            *(if -2.0 * stiffness * slope(middle) > WEIGHT { &mut lower } else { &mut upper }) = middle;
+            *(if -area * stiffness * slope(middle) > WEIGHT { &mut lower } else { &mut upper }) = middle;
         }
         let error = contact.smallest_gap - lower * distance;
         assert!(error.abs() < tolerance * distance, "E = {young:e}: {} and {}", contact.smallest_gap, lower * distance);
@@ -49,6 +52,22 @@ fn a_body_that_touches_the_floor_at_the_start_comes_to_rest_on_it_with_every_met
         assert!((sum - force[1]).abs() < 1e-9 * WEIGHT, "{method}");
         // All forces on the nodes, the contact's included, are in balance.
         assert!(simulation.nodal_forces().unwrap().amax() < 1e-4 * WEIGHT, "{method}");
+    }
+}
+
+#[test]
+fn quadratic_triangles_come_to_rest_on_the_floor() {
+    let mesh = "rectangle = { size = [1, 1], cells_per_unit = 2 }\norder = 2";
+    for (method, dt, steps) in [("implicit_euler", 0.02, 300), ("verlet", 5e-4, 8000)] {
+        let tables = gravity(0.0, -9.81) + &floor(-0.01, "friction = 0.3") + "[damping]\nbeta = 0.02\n";
+        let mut simulation = build(&text(mesh, "neo_hookean", 1e5, method, dt, &tables));
+        for _ in 0..steps {
+            run(&mut simulation, 1);
+            assert!(simulation.contacts()[0].smallest_gap > 0.0, "{method}");
+        }
+        let force = contact_force(&simulation);
+        assert!((force[1] - WEIGHT).abs() < 1e-4 * WEIGHT, "{method}: {force:?}");
+        assert!(simulation.nodal_forces().unwrap().amax() < 1e-3 * WEIGHT, "{method}");
     }
 }
 

@@ -1,6 +1,6 @@
 //! Quadratic triangles in motion.
 
-use fem_scene::output::{resume, write_state};
+use fem_scene::output::{export, resume, write_state};
 use fem_scene::simulation::Simulation;
 use nalgebra::Vector3;
 
@@ -142,4 +142,23 @@ fn a_drag_a_spring_and_a_prescribed_motion_move_the_nodes_at_mid_sides() {
     let rest = build(&quadratic(&soft("implicit_euler", 1e-3, tables))).positions();
     assert!((coarse[3 * 60 + 1] - rest[3 * 60 + 1]) > 1e-3);
     assert!(distance(&coarse, &fine) < 0.1 * distance(&coarse, &rest));
+}
+
+#[test]
+fn exports_have_quadratic_triangles_in_vtu_and_four_linear_ones_for_each_elsewhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut simulation = build(&quadratic(&soft("verlet", 1e-3, THROWN)));
+    run(&mut *simulation, 3);
+    let mesh = simulation.shape().mesh.clone();
+    let path = |name: &str| folder.path().join(name);
+    for name in ["a.vtu", "a.obj", "a.glb"] {
+        export(&path(name), &*simulation, &[]).unwrap();
+    }
+    let surface = fem_mesh::read_surface(&path("a.obj")).unwrap();
+    assert_eq!((surface.vertices.len(), surface.elements.len()), (mesh.vertices().len(), 4 * mesh.elements()));
+    let text = std::fs::read_to_string(path("a.vtu")).unwrap();
+    let (points, cells) = (mesh.vertices().len(), mesh.elements());
+    assert!(text.contains(&format!("NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\"")));
+    let error = fem_mesh::read_mesh(&path("a.vtu")).unwrap_err().to_string();
+    assert!(error.contains("triangles with 6 nodes"), "{error}");
 }

@@ -62,9 +62,9 @@ fn sequence(settings: &Settings, model: &str, family: Family, rows: &mut Vec<Row
         (_, false) => &[4, 8, 16, 32, 64, 128],
     };
     let from = rows.len();
-    for (number, &cells) in cells.iter().enumerate() {
-        (settings.tell)(number, cells.len(), &format!("manufactured solution, {}, {cells} cells", family.name()));
-        let row = solved(settings, model, family, cells, rows.len())?;
+    for (number, &per_unit) in cells.iter().enumerate() {
+        (settings.tell)(number, cells.len(), &format!("manufactured solution, {}, {per_unit} cells", family.name()));
+        let row = solved(settings, model, family, per_unit, rows.len())?;
         rows.push(row);
     }
     let rows = &rows[from..];
