@@ -1,5 +1,7 @@
 //! Mass of the nodes: M = m ⊗ 1, one number for each pair of nodes, the same in all directions.
 
+use fem_scene::Body;
+
 use crate::number::Real;
 use crate::sparse::{Block, Pattern, Stored};
 
@@ -45,6 +47,13 @@ impl ElementMass<6> {
         ];
         Self(entries.map(|row| row.map(|entry| entry / 180.0)))
     }
+}
+
+/// Mass of each element of a body, kg.
+pub fn element_masses(body: &Body) -> Vec<f64> {
+    let relative_density = |element: usize| body.density_factors.get(element).copied().unwrap_or(1.0);
+    let mass = |(element, volume)| body.material.density * (relative_density(element) * volume);
+    body.shape.mesh.volumes().into_iter().enumerate().map(mass).collect()
 }
 
 impl<T: Real> Mass<T> {

@@ -7,7 +7,7 @@ use fem_scene::simulation::Shape;
 use fem_scene::{Body, BodyMesh, Interaction, RayleighDamping};
 use nalgebra::{Matrix3, Vector3};
 
-use super::mass::{ElementMass, Mass};
+use super::mass::{ElementMass, Mass, element_masses};
 use super::numbering::Numbering;
 use super::solids::Solids;
 use crate::boundary::dirichlet::{DirichletConditions, fully_constrained_nodes};
@@ -94,12 +94,7 @@ impl<T: Real> System<T> {
         let forces = Forces::new(body, anchors, &numbering, own);
         let couplings: Vec<[u32; 2]> = forces.all().flat_map(|(potential, _)| potential.couplings()).collect();
         let pattern = Pattern::joined(numbering.free, &corners, &couplings, choice.stored());
-        let volumes = mesh.volumes();
-        let relative_density = |element: usize| body.density_factors.get(element).copied().unwrap_or(1.0);
-        // Volumes that weigh as much at the scene's density.
-        let weighted: Vec<f64> =
-            volumes.iter().enumerate().map(|(element, volume)| relative_density(element) * volume).collect();
-        let masses: Vec<f64> = weighted.iter().map(|volume| body.material.density * volume).collect();
+        let masses = element_masses(body);
         let mass = match body.lumped_mass {
             true => Mass::lumped(rest.len(), &corners, &masses, mesh.lumped_mass_shares()),
             false => Mass::consistent(rest.len(), &corners, &masses, &shares),
@@ -108,7 +103,7 @@ impl<T: Real> System<T> {
         Self {
             elements: Solids::new(body, law, &rest, &numbering, &pattern),
             length: mesh.length(),
-            total_mass: body.material.density * weighted.iter().sum::<f64>(),
+            total_mass: masses.iter().sum(),
             node_masses: if dirichlet.is_empty() { mass.row_sums() } else { Vec::new() },
             name,
             damping: body.damping,
