@@ -71,7 +71,7 @@ pub use tables::{
 pub use timer::Timer;
 pub use values::{
     Contact, ContactPlane, ContactTreatment, DirichletCondition, Drag, MaterialRegion, Method, Motion, NewtonSettings,
-    Plasticity, Pressure, RayleighDamping, Rotation, SolverSettings, Spring, Traction, highest_node,
+    PlaneMotion, Plasticity, Pressure, RayleighDamping, Rotation, SolverSettings, Spring, Traction, highest_node,
 };
 pub use warnings::warnings;
 

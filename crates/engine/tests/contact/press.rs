@@ -35,6 +35,22 @@ fn a_press_squashes_a_body_to_its_gap_and_both_plates_push_alike() {
 }
 
 #[test]
+fn a_plate_that_rises_again_releases_an_elastic_body_which_takes_its_shape_again() {
+    let curve = "displacement = [0, -0.2, 0]\ncurve = { table = [[0, 0], [0.4, 1], [0.5, 1], [0.9, 0]] }\n";
+    for method in ["verlet", "implicit_euler"] {
+        let (dt, per_second) = if method == "implicit_euler" { (0.02, 50) } else { (5e-4, 2000) };
+        let mut simulation = build(&press(method, dt).replace("velocity = [0, -0.5, 0]\nuntil = 0.4\n", curve));
+        run(&mut simulation, per_second / 2);
+        let squashed = simulation.contacts()[1].force[1];
+        assert!(squashed < -1e4, "{method}: {squashed} N");
+        run(&mut simulation, 3 * per_second);
+        let (contacts, J) = (simulation.contacts(), simulation.min_J().0);
+        assert!(contacts.iter().all(|contact| contact.force[1].abs() < 1e-3 * -squashed), "{method}: {contacts:?}");
+        assert!((J - 1.0).abs() < 1e-3, "{method}: {J}");
+    }
+}
+
+#[test]
 fn a_plate_that_meets_a_fixed_node_ends_the_run_with_its_name() {
     for method in ["verlet", "implicit_euler"] {
         let top = "[fixed]\non = { axis = \"y\", side = \"max\", within = 1e-9 }\n";

@@ -44,6 +44,22 @@ fn methods_without_contact_and_keys_without_meaning_are_refused_with_both_keys()
 }
 
 #[test]
+fn a_curve_and_a_displacement_of_a_plane_belong_together_and_do_not_jump() {
+    let plane = |keys: &str| with("implicit_euler", &floor(-1.0, keys));
+    let both = "displacement = [0, 0.5, 0]\ncurve = { ramp = 1.0 }";
+    assert!(try_build(&plane(both)).is_ok());
+    assert_refused(&plane("displacement = [0, 0.5, 0]"), &["planes[0].displacement", "curve"]);
+    assert_refused(&plane("curve = { ramp = 1.0 }"), &["planes[0].curve", "displacement"]);
+    assert_refused(&plane(&format!("{both}\nvelocity = [0, 1, 0]")), &["planes[0].displacement", "velocity"]);
+    assert_refused(&plane(&both.replace("ramp", "on")), &["planes[0].curve jumps", "ramp"]);
+    assert_refused(&plane(&both.replace("ramp = 1.0", "ramp = -1.0")), &["planes[0].curve.ramp is -1"]);
+    assert_refused(&with("static", &floor(-1.0, both)), &["planes[0].displacement", "static"]);
+    // A curve that does not begin at zero moves the plane at once, here into the body.
+    let inside = "displacement = [0, 2, 0]\ncurve = { table = [[0, 1], [1, 0]] }";
+    assert_refused(&plane(inside), &["planes[0]", "behind it at the start"]);
+}
+
+#[test]
 fn numbers_that_make_no_plane_are_refused() {
     let plane = |from: &str, to: &str| with("implicit_euler", &floor(-1.0, "friction = 0.5").replace(from, to));
     assert_refused(&plane("[0, 1, 0]", "[0, 0, 0]"), &["planes[0].normal is zero"]);
@@ -62,4 +78,6 @@ fn planes_of_a_flat_body_stand_upright_on_its_plane() {
     assert_refused(&text(SQUARE, "neo_hookean", 1e5, "verlet", 1e-3, tilted), &["planes[0].normal", "z = 0"]);
     let moving = floor(-1.0, "velocity = [0, 0, 1]");
     assert_refused(&text(SQUARE, "neo_hookean", 1e5, "verlet", 1e-3, &moving), &["planes[0].velocity", "z = 0"]);
+    let moving = floor(-1.0, "displacement = [0, 0, 1]\ncurve = { ramp = 1.0 }");
+    assert_refused(&text(SQUARE, "neo_hookean", 1e5, "verlet", 1e-3, &moving), &["planes[0].displacement", "z = 0"]);
 }

@@ -35,25 +35,47 @@ fn check_plane(table: &str, plane: &PlaneTable, method: Integrator) -> Result<()
     let largest = plane.normal.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     check_positive(&normal, largest, " for its largest component")?;
     check_not_negative(&format!("{table}.friction"), plane.friction, "(no friction)")?;
-    let velocity = format!("{table}.velocity");
-    plane.velocity.map_or(Ok(()), |vector| check_vector(&velocity, &vector))?;
-    let until = format!("{table}.until");
-    plane.until.map_or(Ok(()), |time| check_positive(&until, time, " of seconds"))?;
-    if plane.until.is_some() && plane.velocity.is_none() {
-        return problem(&until, "ends the motion of a plane, and this one has no velocity; give it one or remove it");
-    }
+    check_motion(table, plane)?;
     if method != Integrator::Static {
         return Ok(());
     }
-    if plane.velocity.is_some() {
+    let motions = [("velocity", plane.velocity.is_some()), ("displacement", plane.displacement.is_some())];
+    if let Some((key, _)) = motions.into_iter().find(|(_, is_given)| *is_given) {
         let text = "is a motion, and time.integrator = \"static\" has none; move the body by [[prescribed]] instead, or use implicit_euler";
-        return problem(&velocity, text);
+        return problem(&format!("{table}.{key}"), text);
     }
     if plane.friction > 0.0 {
         let text = "depends on the motion, and time.integrator = \"static\" has none; remove it, or use implicit_euler";
         return problem(&format!("{table}.friction"), text);
     }
     Ok(())
+}
+
+/// Checks the motion of a plane: a velocity, or a displacement with its curve.
+fn check_motion(table: &str, plane: &PlaneTable) -> Result<(), Problem> {
+    let field = |key: &str| format!("{table}.{key}");
+    plane.velocity.map_or(Ok(()), |vector| check_vector(&field("velocity"), &vector))?;
+    plane.displacement.map_or(Ok(()), |vector| check_vector(&field("displacement"), &vector))?;
+    plane.until.map_or(Ok(()), |time| check_positive(&field("until"), time, " of seconds"))?;
+    if plane.until.is_some() && plane.velocity.is_none() {
+        let text = "ends the motion of a plane, and this one has no velocity; give it one or remove it";
+        return problem(&field("until"), text);
+    }
+    if plane.velocity.is_some() && plane.displacement.is_some() {
+        return problem(&field("displacement"), "stands beside velocity, which is a motion too; remove one of the two");
+    }
+    match (&plane.displacement, &plane.curve) {
+        (None, None) => Ok(()),
+        (Some(_), None) => problem(&field("displacement"), "needs a factor of time; give the plane a curve"),
+        (None, Some(_)) => problem(&field("curve"), "is the factor of a displacement; give the plane one"),
+        (Some(_), Some(curve)) => {
+            curve.check(&field("curve"))?;
+            if !curve.curve().has_jumps() {
+                return Ok(());
+            }
+            problem(&field("curve"), "jumps, and a plane would go through the body; give a ramp, a table or a sine")
+        }
+    }
 }
 
 /// Refuses methods that cannot keep a body outside an obstacle.

@@ -93,6 +93,11 @@ fn vectors(scene: &Scene) -> impl Iterator<Item = (String, [f64; 3])> {
         .iter()
         .enumerate()
         .filter_map(|(number, plane)| Some((format!("planes[{number}].velocity"), plane.velocity?)));
-    let planes = normals.chain(velocities);
+    let displacements = scene
+        .planes
+        .iter()
+        .enumerate()
+        .filter_map(|(number, plane)| Some((format!("planes[{number}].displacement"), plane.displacement?)));
+    let planes = normals.chain(velocities).chain(displacements);
     gravity.chain(body_force).chain(drag).chain(traction).chain(prescribed).chain(velocity).chain(planes)
 }

@@ -2,13 +2,14 @@
 
 use serde::Deserialize;
 
+use super::CurveTable;
 use super::vectors::{three_numbers, three_numbers_if_any};
 
 /// `[[planes]]`: an obstacle, the half-space behind a plane. The body stays on the side to which the normal points.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneTable {
-    /// A point of the plane at the start, m.
+    /// A point of the plane before its motion, m.
     #[serde(deserialize_with = "three_numbers")]
     pub point: [f64; 3],
     /// Direction from the plane to the body, of any length.
@@ -20,8 +21,13 @@ pub struct PlaneTable {
     /// Velocity of the plane, m/s; by default it is at rest.
     #[serde(default, deserialize_with = "three_numbers_if_any")]
     pub velocity: Option<[f64; 3]>,
-    /// Time at which a moving plane stops, s.
+    /// Time at which a plane with a velocity stops, s.
     pub until: Option<f64>,
+    /// Displacement of the plane at a factor 1 of `curve`, m; in place of `velocity`.
+    #[serde(default, deserialize_with = "three_numbers_if_any")]
+    pub displacement: Option<[f64; 3]>,
+    /// Factor of the displacement as a function of time.
+    pub curve: Option<CurveTable>,
 }
 
 /// `[contact]`: the numbers of contact in implicit methods.

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::check::contact::check;
 use crate::tables::PlaneTable;
-use crate::{BodyMesh, Scene, SceneError};
+use crate::{BodyMesh, LoadCurve, Scene, SceneError};
 
 /// Obstacles, and how the body is kept outside.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,29 +29,61 @@ pub enum ContactTreatment {
 }
 
 /// A half-space that the body does not enter.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ContactPlane {
-    /// A point of the plane at time zero, m.
+    /// A point of the plane before its motion, m.
     pub point: Vector3<f64>,
     /// Unit normal, towards the body.
     pub normal: Vector3<f64>,
     /// Coefficient of Coulomb friction.
     pub friction: f64,
-    /// m/s
-    pub velocity: Vector3<f64>,
-    /// Time at which the motion ends, s; infinite where it does not.
-    pub until: f64,
+    /// How the plane moves.
+    pub motion: PlaneMotion,
+}
+
+/// Motion of an obstacle.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlaneMotion {
+    /// The plane stays where it is.
+    AtRest,
+    /// A constant velocity.
+    Uniform {
+        /// m/s
+        velocity: Vector3<f64>,
+        /// Time at which the motion ends, s; infinite for a motion without end.
+        until: f64,
+    },
+    /// A displacement times a factor of time.
+    Curve {
+        /// m
+        displacement: Vector3<f64>,
+        /// Its factor, without jumps.
+        curve: LoadCurve,
+    },
 }
 
 impl ContactPlane {
     /// Displacement of the plane at a time (s), m.
     pub fn displacement(&self, time: f64) -> Vector3<f64> {
-        self.velocity * time.min(self.until)
+        match &self.motion {
+            PlaneMotion::AtRest => Vector3::zeros(),
+            PlaneMotion::Uniform { velocity, until } => velocity * time.min(*until),
+            PlaneMotion::Curve { displacement, curve } => displacement * curve.factor(time),
+        }
     }
 
     /// Its mean velocity between two times (s), m/s.
     pub fn mean_velocity(&self, [from, to]: [f64; 2]) -> Vector3<f64> {
-        if to <= self.until { self.velocity } else { (self.displacement(to) - self.displacement(from)) / (to - from) }
+        match &self.motion {
+            PlaneMotion::AtRest => Vector3::zeros(),
+            PlaneMotion::Uniform { velocity, until } if to <= *until => *velocity,
+            _ => (self.displacement(to) - self.displacement(from)) / (to - from),
+        }
+    }
+
+    /// Returns true if the plane never moves.
+    pub fn is_at_rest(&self) -> bool {
+        self.motion == PlaneMotion::AtRest
     }
 
     fn new(table: &PlaneTable) -> Self {
@@ -59,8 +91,20 @@ impl ContactPlane {
             point: table.point.into(),
             normal: unit(table.normal.into()),
             friction: table.friction,
-            velocity: table.velocity.map_or(Vector3::zeros(), Vector3::from),
-            until: table.until.unwrap_or(f64::INFINITY),
+            motion: PlaneMotion::new(table),
+        }
+    }
+}
+
+impl PlaneMotion {
+    fn new(table: &PlaneTable) -> Self {
+        let curve = table.curve.as_ref().map(|curve| curve.curve());
+        match (table.velocity, table.displacement.zip(curve)) {
+            (_, Some((displacement, curve))) => Self::Curve { displacement: displacement.into(), curve },
+            (Some(velocity), None) if velocity != [0.0; 3] => {
+                Self::Uniform { velocity: velocity.into(), until: table.until.unwrap_or(f64::INFINITY) }
+            }
+            _ => Self::AtRest,
         }
     }
 }
@@ -84,7 +128,7 @@ pub(crate) fn contact(scene: &Scene, mesh: &BodyMesh) -> Result<Option<Contact>,
     let planes: Vec<_> = scene.planes.iter().map(ContactPlane::new).collect();
     let length = mesh.length();
     for (number, plane) in planes.iter().enumerate() {
-        let gaps = mesh.vertices().iter().map(|x| plane.normal.dot(&(x - plane.point))).enumerate();
+        let gaps = mesh.vertices().iter().map(|x| plane.normal.dot(&(x - plane.point - plane.displacement(0.0)))).enumerate();
         let (node, gap) = gaps.fold((0, f64::INFINITY), |least, next| if next.1 < least.1 { next } else { least });
         // NaN fails the comparison.
         if !(gap >= -TOUCHING * length) {

@@ -10,7 +10,7 @@ mod plasticity;
 mod selection;
 
 pub use constraints::{DirichletCondition, Motion, Rotation};
-pub use contact::{Contact, ContactPlane, ContactTreatment};
+pub use contact::{Contact, ContactPlane, ContactTreatment, PlaneMotion};
 pub use loads::{Drag, Pressure, Spring, Traction, highest_node};
 pub use materials::MaterialRegion;
 pub use method::{Method, NewtonSettings, RayleighDamping, SolverSettings};

@@ -71,7 +71,7 @@ impl<T: Real> Potential<T> for Contact {
     }
 
     fn is_steady(&self) -> bool {
-        self.planes.planes.iter().all(|plane| plane.velocity == nalgebra::Vector3::zeros())
+        self.planes.planes.iter().all(|plane| plane.is_at_rest())
     }
 
     fn begin_step(&mut self, _: &[[T; 3]], start: Moment, dt: f64) {
