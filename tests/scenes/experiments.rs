@@ -9,14 +9,26 @@ fn the_short_experiments_on_flat_bodies_hold_their_marks_and_write_a_page_tables
     let desk = Desk::new();
     let said = desk.run_well("experiment flat --quick --out found").stdout;
     assert!(!said.contains("DOES NOT HOLD"), "{said}");
-    for part in ["stability", "speed", "modulus", "mesh", "convergence"] {
+    for (part, table) in [
+        ("stability", "stability"),
+        ("speed", "speed"),
+        ("modulus", "modulus"),
+        ("mesh", "mesh"),
+        ("plasticity", "plasticity"),
+        ("plasticity", "plasticity-cylinder"),
+        ("drop", "drop"),
+        ("contact", "contact-stopping"),
+        ("contact", "contact-hertz"),
+        ("mistakes", "mistakes"),
+        ("convergence", "convergence"),
+    ] {
         assert!(said.lines().any(|line| line.starts_with(part)), "{part}: {said}");
-        let table = fs::read_to_string(desk.path(&format!("found/flat-{part}.csv"))).unwrap();
+        let table = fs::read_to_string(desk.path(&format!("found/flat-{table}.csv"))).unwrap();
         assert!(table.lines().count() > 1, "{part}: {table}");
     }
     let page = fs::read_to_string(desk.path("found/flat.html")).unwrap();
     assert!(page.contains("marks hold") && !page.contains("does not hold") && page.contains("<svg"), "{page}");
-    for picture in ["flat-speed.svg", "flat-mesh.svg", "flat-convergence.svg"] {
+    for picture in ["flat-speed.svg", "flat-mesh.svg", "flat-convergence.svg", "flat-plasticity.svg", "flat-drop.svg"] {
         assert!(fs::read_to_string(desk.path("found").join(picture)).unwrap().starts_with("<svg"), "{picture}");
     }
 }
@@ -30,6 +42,20 @@ fn explicit_substeps_live_at_the_predicted_number_and_explode_at_one_less() {
     assert_eq!(rows.len(), 6, "{table}");
     for row in rows {
         assert_eq!((row[6], row[7]), ("lives", "explodes"), "{table}");
+    }
+}
+
+#[test]
+fn every_mistake_of_the_thesis_has_figures_of_its_own_that_differ_from_the_truth() {
+    let desk = Desk::new();
+    desk.run_well("experiment flat mistakes --quick --out found");
+    let table = fs::read_to_string(desk.path("found/flat-mistakes.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|line| line.rsplit(',').take(3).collect()).collect();
+    // Friction has a row for each number of substeps.
+    assert_eq!(rows.len(), 11, "{table}");
+    for row in rows {
+        let [truth, ours, theirs] = [0, 1, 2].map(|i| row[i].parse::<f64>().unwrap());
+        assert!((theirs - truth).abs() > 10.0 * (ours - truth).abs(), "{row:?}: {table}");
     }
 }
 

@@ -18,7 +18,7 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Experiment {
-    /// Two-dimensional deformation: substeps, time, stiffness and triangles of bodies from pictures
+    /// Two-dimensional deformation: substeps, time, stiffness, triangles, plastic flow and contact of bodies from pictures
     Flat(Flat),
 }
 

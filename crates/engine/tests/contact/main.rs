@@ -5,8 +5,6 @@
 mod derivatives;
 mod explained;
 mod friction;
-mod hertz;
-mod impact;
 mod outside;
 mod press;
 mod refused;
@@ -76,15 +74,4 @@ fn momentum(simulation: &Simulator<f64>) -> [f64; 3] {
     let (system, state) = (simulation.system(), simulation.state());
     let masses = system.mass.row_sums();
     std::array::from_fn(|i| masses.iter().zip(&state.v).map(|(mass, v)| mass * v[i]).sum())
-}
-
-/// Position of the centre of mass, m.
-fn centre(simulation: &Simulator<f64>) -> [f64; 3] {
-    let (system, state) = (simulation.system(), simulation.state());
-    let masses = system.mass.row_sums();
-    let place = |i: usize| {
-        let nodes = masses.iter().zip(system.rest.iter().zip(&state.u));
-        nodes.map(|(mass, (x, u))| mass * (x[i] + u[i])).sum::<f64>()
-    };
-    std::array::from_fn(|i| place(i) / system.total_mass)
 }

@@ -17,7 +17,6 @@ mod initial_velocity;
 mod laws;
 mod orders;
 mod parts;
-mod plastic_ring;
 mod plasticity;
 mod precision;
 mod pressures;

@@ -1,9 +1,14 @@
 //! The experiments of a thesis on two-dimensional deformation with plasticity (2019): explicit integration of triangles from pictures.
 
 mod convergence;
+mod contact;
+mod drop;
 mod mesh;
+mod mistakes;
 mod modulus;
 mod object;
+mod plasticity;
+mod simulation;
 mod speed;
 mod stability;
 
@@ -21,6 +26,10 @@ const PARTS: &[Entry] = &[
     ("modulus", modulus::run),
     ("mesh", mesh::run),
     ("convergence", convergence::run),
+    ("plasticity", plasticity::run),
+    ("drop", drop::run),
+    ("contact", contact::run),
+    ("mistakes", mistakes::run),
 ];
 
 /// Names of the parts, in their order.

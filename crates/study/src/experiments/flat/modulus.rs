@@ -2,16 +2,15 @@
 
 use std::path::Path;
 
-use fem_engine::simulator::Simulator;
 use fem_scene::simulation::Simulation;
-use fem_scene::{body, parse};
 
+use super::simulation::{simulation, step};
 use crate::experiments::{Mark, Part, Table};
 
 /// Young's modulus, Pa.
-const YOUNG: f64 = 1e5;
+pub const YOUNG: f64 = 1e5;
 /// Strain along the strip.
-const STRAIN: f64 = 1e-3;
+pub const STRAIN: f64 = 1e-3;
 /// Share of the force that is left where the force of a triangle is divided by 3 in place of 2.
 const THEIRS: f64 = 2.0 / 3.0;
 
@@ -48,7 +47,8 @@ pub fn run(_: &Path, _: bool) -> Result<Part, String> {
     })
 }
 
-fn modulus(model: &str) -> Result<f64, String> {
+/// The modulus of a strip of a law, Pa.
+pub fn modulus(model: &str) -> Result<f64, String> {
     let end = |side: &str, u: f64| {
         format!(
             "[[prescribed]]\non = {{ axis = \"x\", side = \"{side}\", within = 1e-9 }}\ndisplacement = [{u:e}, 0, 0]\ncomponents = [\"x\"]\n"
@@ -61,10 +61,8 @@ fn modulus(model: &str) -> Result<f64, String> {
         end("min", 0.0),
         end("max", 2.0 * STRAIN)
     );
-    let scene = parse(&text, Path::new("modulus.toml")).map_err(|error| error.to_string())?;
-    let body = body(&scene, Path::new("")).map_err(|error| error.to_string())?;
-    let mut simulation = Simulator::<f64>::new(&scene, body).map_err(|error| error.to_string())?;
-    simulation.step().map_err(|failure| failure.to_string())?;
+    let mut simulation = simulation(&text, None)?;
+    step(&mut simulation)?;
     // The strip is 1 m high and 1 m thick.
     Ok(simulation.reactions()[1].force[0] / STRAIN)
 }

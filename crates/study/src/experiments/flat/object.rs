@@ -5,7 +5,9 @@ use std::path::Path;
 use fem_engine::simulator::Simulator;
 use fem_mesh::SurfaceMesh;
 use fem_mesh::generate::picture::{FromPicture, Picture, PictureMesh, mesh_picture, read_picture};
-use fem_scene::{BodyMesh, body_of, parse};
+use fem_scene::BodyMesh;
+
+use super::simulation::simulation;
 
 /// The objects, each a picture in `data/pictures`.
 pub const OBJECTS: [&str; 5] = ["donut", "armadillo", "bunny", "triangle", "square"];
@@ -31,12 +33,9 @@ pub fn simulator(mesh: &PictureMesh, lame: f64, method: &str, rest: &str) -> Res
          young = {:e}\npoisson = 0.25\ndensity = {DENSITY}\n[time]\n{method}\n[mass]\nlumped = true\n{rest}",
         2.5 * lame
     );
-    let scene = parse(&text, Path::new("flat.toml")).map_err(|error| error.to_string())?;
     let vertices = mesh.mesh.vertices.iter().map(|x| x.push(0.0)).collect();
     let triangles = SurfaceMesh::new(vertices, mesh.mesh.elements.clone());
-    let mesh = BodyMesh::Flat { triangles, thickness: 1.0 };
-    let body = body_of(&scene, mesh, Path::new("")).map_err(|error| error.to_string())?;
-    Simulator::new(&scene, body).map_err(|error| error.to_string())
+    simulation(&text, Some(BodyMesh::Flat { triangles, thickness: 1.0 }))
 }
 
 /// Displacements of a few parts in a million of the height in which every vibration takes part: multiples of the golden ratio, modulo 1.

@@ -1,0 +1,222 @@
+//! The five objects, dropped from 2 m between three planes, until they rest.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use fem_chart::{Axis, Chart, Dot, Series};
+use fem_engine::simulator::Simulator;
+use fem_mesh::generate::picture::PictureMesh;
+use fem_scene::simulation::Simulation;
+use nalgebra::Vector2;
+
+use super::object::{DENSITY, LAME, OBJECTS, meshed, picture, simulator};
+use super::simulation::step;
+use crate::experiments::{Figure, Mark, Part, Table};
+
+/// Length of the edges, m, for a height of 1 m.
+const EDGE: f64 = 0.1;
+/// Frames in a second, and the duration, s.
+const FRAMES: f64 = 60.0;
+const DURATION: f64 = 5.0;
+/// Height from which the bodies fall, and the distance of the planes from their common centre, m.
+const HEIGHT: f64 = 2.0;
+const OFFSET: f64 = 2.8;
+/// The thesis' damping of stresses, Pa s.
+const DAMPING: f64 = 250.0;
+const FRICTION: f64 = 0.4;
+const GRAVITY: f64 = 9.81;
+/// Largest relative difference of the forces of the planes and the weight at rest.
+const BALANCE: f64 = 1e-6;
+/// Normals of the planes, each of length 5.
+const NORMALS: [[f64; 2]; 3] = [[0.0, 5.0], [4.0, 3.0], [-4.0, 3.0]];
+
+/// A body that has fallen.
+struct Fallen {
+    name: &'static str,
+    triangles: usize,
+    /// Smallest distance of a node from a plane after any step, m.
+    smallest_gap: f64,
+    /// Time from which the forces of the planes carry the weight, s; `None` if they do not at the end.
+    at_rest: Option<f64>,
+    /// Largest speed of a node at the end, m/s.
+    speed: f64,
+    /// Relative difference of the forces of the planes and the weight at the end.
+    balance: f64,
+    /// Largest relative change with which the lag of friction has ended.
+    lag: f64,
+    /// Outlines at the end, and the planes' lines.
+    outlines: Vec<Vec<Vector2<f64>>>,
+    planes: Vec<Vector2<f64>>,
+}
+
+/// Drops each object.
+pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
+    let objects = if quick { &OBJECTS[3..] } else { &OBJECTS[..] };
+    let fallen = objects.iter().map(|name| fall(data, name)).collect::<Result<Vec<_>, _>>()?;
+    let mut marks = Vec::new();
+    for body in &fallen {
+        let name = body.name;
+        let gap = Mark::new(
+            format!("{name}: no node behind a plane after any step"),
+            format!("smallest gap {:.1e} m", body.smallest_gap),
+            body.smallest_gap > 0.0,
+        );
+        let rest = body.at_rest.map_or("not at rest".to_owned(), |time| format!("after {time:.2} s"));
+        marks.extend([
+            gap,
+            Mark::new(format!("{name}: at rest within {DURATION} s"), rest, body.at_rest.is_some()),
+            Mark::new(
+                format!("{name}: the forces of the planes are m g within 1e-6"),
+                format!("{:.1e}", body.balance),
+                body.balance <= BALANCE,
+            ),
+        ]);
+    }
+    let row = |body: &Fallen| {
+        vec![
+            body.name.to_owned(),
+            body.triangles.to_string(),
+            format!("{:.2e}", body.smallest_gap),
+            body.at_rest.map_or("".to_owned(), |time| format!("{time:.2}")),
+            format!("{:.1e}", body.speed),
+            format!("{:.1e}", body.balance),
+            format!("{:.1e}", body.lag),
+        ]
+    };
+    Ok(Part {
+        name: "drop",
+        title: "Dropped bodies",
+        text: format!(
+            "Each object of {DENSITY} kg/m³ with λ = μ = {LAME} Pa falls {HEIGHT} m onto a floor between two slopes, each plane {OFFSET} m from a common centre, \
+             with friction {FRICTION} and the thesis' damping of {DAMPING} Pa s, by implicit Euler at {FRAMES} steps a second. It rests from the time on at which the \
+             planes carry its weight within {BALANCE:e}."
+        ),
+        marks,
+        tables: vec![Table {
+            name: "flat-drop".to_owned(),
+            head: vec![
+                "object",
+                ">triangles",
+                ">smallest gap (m)",
+                ">at rest after (s)",
+                ">speed at the end (m/s)",
+                ">|Σ F − m g| / m g",
+                ">residual of the lag",
+            ],
+            rows: fallen.iter().map(row).collect(),
+        }],
+        figures: vec![Figure {
+            name: "flat-drop".to_owned(),
+            picture: chart(&fallen).draw(),
+            caption: format!("The bodies after {DURATION} s."),
+        }],
+    })
+}
+
+fn fall(data: &Path, name: &'static str) -> Result<Fallen, String> {
+    let mesh = meshed(&picture(data, name)?, EDGE, 5)?;
+    let centre = centre(&mesh);
+    let method = format!("integrator = \"implicit_euler\"\ndt = {:e}", 1.0 / FRAMES);
+    let mut simulation = simulator(&mesh, LAME, &method, &tables(centre))?;
+    let area: f64 = simulation.shape().mesh.volumes().iter().sum();
+    let weight = DENSITY * area * GRAVITY;
+    let (mut smallest_gap, mut at_rest, mut balance) = (f64::INFINITY, None, f64::INFINITY);
+    for _ in 0..(DURATION * FRAMES) as usize {
+        step(&mut simulation).map_err(|problem| format!("{name}: {problem}"))?;
+        for contact in simulation.contacts() {
+            smallest_gap = if contact.smallest_gap >= smallest_gap { smallest_gap } else { contact.smallest_gap };
+        }
+        balance = imbalance(&simulation, weight);
+        at_rest = if balance <= BALANCE { at_rest.or(Some(simulation.time())) } else { None };
+    }
+    let corner = |side: f64| centre + OFFSET * Vector2::new(side * 0.5, -1.0);
+    let top = |side: f64| corner(side) + Vector2::new(side * 0.9, 1.2);
+    Ok(Fallen {
+        name,
+        triangles: mesh.mesh.elements.len(),
+        smallest_gap,
+        at_rest,
+        speed: simulation.velocities().amax(),
+        balance,
+        lag: simulation.lag_residual().unwrap_or(0.0),
+        outlines: outlines(&simulation),
+        planes: vec![top(-1.0), corner(-1.0), corner(1.0), top(1.0)],
+    })
+}
+
+/// Distance of the sum of the planes' forces from the weight, over the weight.
+fn imbalance(simulation: &Simulator<f64>, weight: f64) -> f64 {
+    let mut sum = [0.0, -weight];
+    for contact in simulation.contacts() {
+        (0..2).for_each(|i| sum[i] += contact.force[i]);
+    }
+    sum[0].hypot(sum[1]) / weight
+}
+
+/// The common centre of the planes, for which the lowest point of a body falls from [`HEIGHT`].
+fn centre(mesh: &PictureMesh) -> Vector2<f64> {
+    let points = mesh.mesh.vertices.iter();
+    let (low, high) = points.fold((mesh.mesh.vertices[0], mesh.mesh.vertices[0]), |(a, b), x| (a.inf(x), b.sup(x)));
+    Vector2::new(0.5 * (low.x + high.x), low.y - HEIGHT + OFFSET)
+}
+
+fn tables(centre: Vector2<f64>) -> String {
+    let plane = |normal: &[f64; 2]| {
+        let point = centre - OFFSET / 5.0 * Vector2::from(*normal);
+        format!(
+            "[[planes]]\npoint = [{:e}, {:e}, 0]\nnormal = [{}, {}, 0]\nfriction = {FRICTION}\n",
+            point.x, point.y, normal[0], normal[1]
+        )
+    };
+    let planes: String = NORMALS.iter().map(plane).collect();
+    format!("[gravity]\nacceleration = [0, -{GRAVITY}, 0]\n[damping]\nbeta = {:e}\n{planes}", DAMPING / LAME)
+}
+
+/// The closed lines around a body and its holes.
+fn outlines(simulation: &Simulator<f64>) -> Vec<Vec<Vector2<f64>>> {
+    let (shape, q) = (simulation.shape(), simulation.positions());
+    let mut next: HashMap<usize, usize> = shape.mesh.outline().into_iter().map(|[a, b]| (a, b)).collect();
+    let mut loops = Vec::new();
+    while let Some(&first) = next.keys().min() {
+        let (mut line, mut node) = (Vec::new(), first);
+        while let Some(following) = next.remove(&node) {
+            line.push(Vector2::new(q[3 * node], q[3 * node + 1]));
+            node = following;
+        }
+        line.push(line[0]);
+        loops.push(line);
+    }
+    loops
+}
+
+/// The bodies side by side, to one scale.
+fn chart(fallen: &[Fallen]) -> Chart {
+    let width = 5.2;
+    let mut series = Vec::new();
+    for (number, body) in fallen.iter().enumerate() {
+        let centre = 0.5 * (body.planes[1] + body.planes[2]);
+        let shift = Vector2::new(width * (number as f64 + 0.5), 0.0) - centre;
+        let dots = |line: &[Vector2<f64>]| {
+            let placed = line.iter().map(|x| x + shift);
+            placed.map(|x| Dot { x: x.x, y: x.y, ..Dot::default() }).collect::<Vec<_>>()
+        };
+        let curve = |name: &str, colour: usize, line: &[Vector2<f64>]| Series {
+            name: name.to_owned(),
+            colour,
+            is_joined: true,
+            dots: dots(line),
+            ..Series::default()
+        };
+        series.push(curve("", 8, &body.planes));
+        for (i, line) in body.outlines.iter().enumerate() {
+            series.push(curve(if i == 0 { body.name } else { "" }, number, line));
+        }
+    }
+    let range = width * fallen.len() as f64;
+    let mut chart = Chart::new("bodies at rest between three planes", Axis::linear("x (m)"), Axis::linear("y (m)"));
+    (chart.x.range, chart.y.range) = (Some((0.0, range)), Some((-0.2, 1.6)));
+    // The margins of a chart are 76 and 72 pixels.
+    chart.size = (200.0 * fallen.len() as f64 + 76.0, 200.0 / width * 1.8 + 72.0);
+    chart.series = series;
+    chart
+}
