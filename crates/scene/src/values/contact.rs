@@ -128,7 +128,8 @@ pub(crate) fn contact(scene: &Scene, mesh: &BodyMesh) -> Result<Option<Contact>,
     let planes: Vec<_> = scene.planes.iter().map(ContactPlane::new).collect();
     let length = mesh.length();
     for (number, plane) in planes.iter().enumerate() {
-        let gaps = mesh.vertices().iter().map(|x| plane.normal.dot(&(x - plane.point - plane.displacement(0.0)))).enumerate();
+        let gaps =
+            mesh.vertices().iter().map(|x| plane.normal.dot(&(x - plane.point - plane.displacement(0.0)))).enumerate();
         let (node, gap) = gaps.fold((0, f64::INFINITY), |least, next| if next.1 < least.1 { next } else { least });
         // NaN fails the comparison.
         if !(gap >= -TOUCHING * length) {
