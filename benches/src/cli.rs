@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use fem_scene::tables::SolverTable;
-use fem_scene::{Preconditioner, Scene, SolverKind};
+use fem_scene::{Override, Preconditioner, Scene, SolverKind};
 
-/// Times the engine: beside its peers, part by part, by size and by solver.
+/// Times the engine: beside its peers, part by part, by size, by solver and by frames.
 #[derive(Debug, Parser)]
 #[command(version, after_help = "Exit codes: 0 done, 1 answers disagree or a run failed, 2 unusable arguments.")]
 pub struct Arguments {
@@ -24,6 +24,8 @@ pub enum Command {
     Scaling(ScalingArguments),
     /// The beam with each linear solver
     Solvers(SizesArguments),
+    /// The largest flat body that each method advances by 1/60 s within a frame, on one thread
+    Frame(FrameArguments),
     /// Runs a scene once and prints its times as JSON
     Run(RunArguments),
 }
@@ -78,6 +80,22 @@ pub struct ScalingArguments {
     pub solver: Option<SolverName>,
 }
 
+#[derive(Debug, Args)]
+pub struct FrameArguments {
+    /// Longest time of a frame, ms
+    #[arg(long, value_name = "MS", default_value_t = 16.0, value_parser = duration)]
+    pub budget: f64,
+    /// Frames of each run, whose median counts
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = positive)]
+    pub frames: usize,
+    /// Value of a key of benches/frame.toml; repeatable
+    #[arg(long = "set", value_name = "TABLE.KEY=VALUE")]
+    pub overrides: Vec<Override>,
+    /// Folder of meshes and scenes
+    #[arg(long, value_name = "DIR", default_value = "data")]
+    pub data: PathBuf,
+}
+
 /// A scene with overrides.
 #[derive(Clone, Debug, Args)]
 pub struct RunArguments {
@@ -92,6 +110,9 @@ pub struct RunArguments {
     /// Linear solver instead of the scene's
     #[arg(long, value_name = "NAME")]
     pub solver: Option<SolverName>,
+    /// Value of a key instead of the scene's; repeatable
+    #[arg(long = "set", value_name = "TABLE.KEY=VALUE")]
+    pub overrides: Vec<Override>,
     /// Folder of meshes and scenes
     #[arg(long, value_name = "DIR", default_value = "data")]
     pub data: PathBuf,
@@ -136,7 +157,8 @@ impl SolverName {
 impl RunArguments {
     /// The scene with the overrides.
     pub fn scene(&self) -> Result<Scene, String> {
-        let mut scene = fem_scene::load(&self.scene, &self.data).map_err(|error| error.to_string())?;
+        let mut scene =
+            fem_scene::load_with(&self.scene, &self.data, &self.overrides).map_err(|error| error.to_string())?;
         scene.time.steps = self.steps.or(scene.time.steps);
         if let Some(solver) = self.solver {
             scene.solver = Some(solver.table());
@@ -147,6 +169,14 @@ impl RunArguments {
             (Some(_), None) => return Err(format!("--cells: {} is no box; leave it out", self.scene)),
         }
         Ok(scene)
+    }
+}
+
+/// Positive numbers.
+fn duration(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("give a positive number of milliseconds".to_owned()),
     }
 }
 

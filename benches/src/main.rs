@@ -1,4 +1,4 @@
-//! Reproducible timings of the engine: beside its peers, part by part, by size and by solver.
+//! Reproducible timings of the engine: beside its peers, part by part, by size, by solver and by frames.
 //!
 //! Whatever is timed runs in a process of its own, so that its threads, its memory and its processor time are its own.
 
@@ -6,6 +6,7 @@
 
 mod cli;
 mod end;
+mod frame;
 mod parts;
 mod peers;
 mod race;
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
         Command::Parts(arguments) => parts::run(&arguments),
         Command::Scaling(arguments) => scaling::run(&arguments),
         Command::Solvers(arguments) => solvers::run(&arguments),
+        Command::Frame(arguments) => frame::run(&arguments),
         Command::Run(arguments) => run::print(&arguments),
     };
     match ended {

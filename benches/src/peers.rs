@@ -120,7 +120,8 @@ fn beam(arguments: &PeersArguments, program: &Path, cells: usize) -> Result<Row,
 
 fn ours(scene: &str, cells: Option<usize>, arguments: &PeersArguments) -> RunArguments {
     let PeersArguments { steps, data, .. } = arguments;
-    RunArguments { scene: scene.to_owned(), steps: *steps, cells, solver: None, data: data.clone() }
+    let (scene, overrides) = (scene.to_owned(), Vec::new());
+    RunArguments { scene, steps: *steps, cells, solver: None, overrides, data: data.clone() }
 }
 
 /// The engine as a contestant that stores its last run.

@@ -15,7 +15,7 @@ use crate::race::{Contestant, Time};
 /// Number of steps if neither the scene nor the arguments give one.
 const DEFAULT_STEPS: usize = 100;
 
-/// The measurement of a run. Times are means over its steps, s.
+/// The measurement of a run. Times are means over its steps, s, unless they are medians.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Measurement {
     pub nodes: usize,
@@ -24,6 +24,8 @@ pub struct Measurement {
     pub seconds_setup: f64,
     /// Wall-clock time.
     pub wall_per_step: f64,
+    /// Median of the wall-clock times.
+    pub wall_per_step_median: f64,
     /// Processor time of all threads.
     pub cpu_per_step: f64,
     pub newton_per_step: f64,
@@ -64,6 +66,7 @@ fn here(arguments: &RunArguments) -> Result<Measurement, End> {
         steps,
         seconds_setup,
         wall_per_step: wall / steps as f64,
+        wall_per_step_median: stats.seconds_per_step_median.unwrap_or(f64::NAN),
         cpu_per_step: cpu / steps as f64,
         newton_per_step: counters.newton_iterations as f64 / steps as f64,
         unconverged_steps: counters.unconverged_steps,
@@ -91,6 +94,9 @@ pub fn apart(arguments: &RunArguments, threads: usize) -> Result<Measurement, En
     }
     if let Some(solver) = arguments.solver {
         command.args(["--solver", solver.name()]);
+    }
+    for change in &arguments.overrides {
+        command.arg("--set").arg(change.to_string());
     }
     let printed = output_of(&mut command)?;
     serde_json::from_str(&printed).map_err(|error| End::wrong(format!("a run printed no valid JSON: {error}")))

@@ -33,6 +33,7 @@ fn beam(arguments: &ScalingArguments, cells: usize) -> RunArguments {
         steps: Some(arguments.sizes.steps),
         cells: Some(cells),
         solver: arguments.solver,
+        overrides: Vec::new(),
         data: arguments.sizes.data.clone(),
     }
 }

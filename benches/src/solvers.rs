@@ -38,6 +38,7 @@ fn beam(arguments: &SizesArguments, cells: usize, solver: SolverName) -> RunArgu
         steps: Some(arguments.steps),
         cells: Some(cells),
         solver: Some(solver),
+        overrides: Vec::new(),
         data: arguments.data.clone(),
     }
 }
