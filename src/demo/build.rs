@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use fem_scene::simulation::Simulation;
+use fem_scene::simulation::{Shape, Simulation};
 use fem_scene::{Body, Integrator, Pipeline, Scene};
 use finite_elements_3d::assignment_setup::AssignmentSetup;
 use nalgebra::Vector3;
@@ -40,6 +40,16 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
     let down = down.or_else(|| expected_tip.and_then(|tip| tip.try_normalize(0.0)));
     let up = down.map_or(Vector3::y(), |down| -down);
     Ok(Ready { simulation, seconds_setup, steps: steps(scene), up, expected_tip })
+}
+
+/// Builds the simulation of a scene of the engine that a user has changed, on the shape of the former one if its mesh has not changed.
+#[cfg(feature = "viewer")]
+pub fn rebuild(scene: &Scene, shape: Option<&Shape>) -> Result<Box<dyn Simulation>, String> {
+    let body = match shape {
+        Some(shape) => fem_scene::body_of_shape(scene, shape.clone(), &data::folder()),
+        None => fem_scene::body(scene, &data::folder()),
+    };
+    engine::build(scene, body.map_err(|error| error.problem())?).map_err(|end| end.message())
 }
 
 /// Reads the meshes of a scene, with warnings of what is seldom meant.

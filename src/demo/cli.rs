@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
+use fem_scene::output::ElementField;
 use fem_scene::{Integrator, Override};
 
 use super::mesh::MeshAction;
@@ -22,7 +23,8 @@ pub struct Arguments {
 }
 
 const EXIT_CODES: &str = "\
-Keys in the window: S skinned or simulation mesh, N next integrator, space pause, R reset; drag the body to pull it.
+Keys in the window: S skinned or simulation mesh, C colours, F contact forces, N next integrator, space pause, R reset;
+drag the body to pull it.
 
 Ctrl-C ends a run after its step, or closes the window, and writes what the options ask for; a second one ends it at once.
 
@@ -97,6 +99,9 @@ pub struct RunArguments {
     /// Take 30 pictures a second of simulated time
     #[arg(long, value_name = "DIR")]
     pub record: Option<PathBuf>,
+    /// Colour the elements in the window and in pictures: stress (von Mises), plastic_strain or quality
+    #[arg(long, value_name = "FIELD")]
+    pub color: Option<ElementField>,
     /// Print the parts that the scene builds and those that it leaves out, and why, then exit
     #[arg(long)]
     pub explain: bool,

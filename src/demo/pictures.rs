@@ -38,6 +38,7 @@ mod with_viewer {
                 .and_then(|renderer| renderer.inspect_err(|reason| eprintln!("no pictures: {reason}")).ok());
             if let Some(renderer) = &mut renderer {
                 renderer.set_up(up);
+                renderer.set_color(arguments.color);
             }
             let (screenshot, record) = (arguments.screenshot.clone(), arguments.record.clone());
             Self { renderer, screenshot, record, recorder: None, start: 0.0 }

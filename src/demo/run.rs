@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use fem_scene::output::ElementField;
+use fem_scene::simulation::Simulation;
 use fem_scene::{Scene, output};
 
 use super::build::{Ready, build};
@@ -17,6 +19,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), End> {
         return explain::print(&scene);
     }
     let mut ready = build(&scene)?;
+    check_color(arguments.color, &*ready.simulation)?;
     if let Some(file) = &arguments.resume {
         resume(file, &scene, &mut ready)?;
     }
@@ -31,6 +34,17 @@ pub fn run(arguments: &RunArguments) -> Result<(), End> {
             headless::run(ready, &scene, arguments)
         }
     }
+}
+
+/// Refuses the colours of a field that the body does not have.
+fn check_color(color: Option<ElementField>, simulation: &dyn Simulation) -> Result<(), End> {
+    let fields = ElementField::of(simulation);
+    let Some(missing) = color.filter(|field| !fields.contains(field)) else { return Ok(()) };
+    let others = fields.iter().map(|field| field.name()).collect::<Vec<_>>().join(" or ");
+    Err(End::unusable(format!(
+        "--color {missing}: the body has no {}; give the scene a table [plasticity], or the option {others}",
+        missing.label()
+    )))
 }
 
 /// Continues from a state file; the steps that it has done count.

@@ -32,10 +32,12 @@ pub fn run(ready: Ready, scene: &Scene, arguments: &RunArguments) -> Result<(), 
     let signals = Signals::catch()?;
     let options = WindowOptions {
         up,
+        color: arguments.color,
         screenshot: arguments.screenshot.clone(),
         record: arguments.record.clone(),
         quit_after_steps: arguments.steps.map(|_| steps),
         log_energies: arguments.energies.is_some(),
+        editing: editing(scene),
         close: signals.number(),
         ..WindowOptions::default()
     };
@@ -64,7 +66,7 @@ pub fn run(ready: Ready, scene: &Scene, arguments: &RunArguments) -> Result<(), 
     let run = Run { step_seconds: outcome.step_seconds, failure, interrupted: signal.is_some() };
     let finished = Finished {
         simulation: &*simulation,
-        scene,
+        scene: outcome.scene.as_ref().unwrap_or(scene),
         signal,
         run,
         seconds_setup,
@@ -73,6 +75,19 @@ pub fn run(ready: Ready, scene: &Scene, arguments: &RunArguments) -> Result<(), 
         expected_tip,
     };
     finish(&finished, arguments)
+}
+
+/// The scene for a panel that changes it. The course's pipeline has its own parameters.
+#[cfg(feature = "viewer")]
+fn editing(scene: &Scene) -> Option<fem_viewer::Editing> {
+    use fem_viewer::{Builder, Editing};
+
+    let is_engine = scene.pipeline == fem_scene::Pipeline::Engine;
+    is_engine.then(|| Editing {
+        scene: scene.clone(),
+        objects: super::data::pictures(),
+        builder: Builder::new(super::build::rebuild),
+    })
 }
 
 /// Never called, because no window is available.

@@ -197,3 +197,13 @@ fn an_output_file_does_not_replace_a_link_or_a_device() {
     desk.run_well("cube.toml --headless --steps 1 --state /dev/null");
     assert!(std::fs::metadata("/dev/null").unwrap().file_type().is_char_device(), "/dev/null has become a file");
 }
+
+#[test]
+fn colours_of_a_field_that_the_body_does_not_have_are_refused() {
+    let desk = Desk::with("cube.toml", CUBE);
+    let message = desk.refused("cube.toml --headless --color plastic_strain");
+    assert!(message.starts_with("error: --color plastic_strain: the body has no plastic strain"), "{message}");
+    let message = desk.refused("cube.toml --headless --color pressure");
+    assert!(message.contains("stress, plastic_strain, quality"), "{message}");
+    desk.run_well("cube.toml --headless --color stress");
+}

@@ -46,6 +46,8 @@ pub struct Simulator<T: Real> {
     /// The energy that the kinetic energy of a method that can diverge is compared with.
     supplied: SuppliedEnergy<T>,
     contact: Option<Contacts<T>>,
+    /// N; `None` without gravity.
+    weight: Option<f64>,
     integrator: Box<dyn Integrator<T>>,
     kind: IntegratorKind,
     solver: SolverChoice,
@@ -122,6 +124,7 @@ impl<T: Real> Simulator<T> {
         let solver = integrator::solver_choice(&method, body.shape.mesh.vertices().len());
         let velocities = body.initial_velocity.clone();
         let mut plan = Plan::new(&body);
+        let gravity = body.gravity;
         let with_obstacles = body.contact.is_some().then(|| body.clone());
         let mut system = System::with_forces(body, law, solver, own);
         range_check::check(&method, &system).map_err(|(field, problem)| scene.refuse(field, &problem))?;
@@ -133,6 +136,7 @@ impl<T: Real> Simulator<T> {
             integrator: integrator::build(method.integrator, &method, &system, solver),
             supplied: SuppliedEnergy::default(),
             contact,
+            weight: gravity.map(|gravity| gravity.norm() * system.total_mass),
             kind: method.integrator,
             solver,
             dt: method.dt,

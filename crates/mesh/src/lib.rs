@@ -58,7 +58,8 @@ pub use orient::oriented;
 pub use quadratic::{QuadraticMesh, QuadraticSide, quadratic, quarters_of, sides};
 pub use quality::{
     Distribution, Extreme, Quality, SelfIntersections, SurfaceQuality, TriangleQuality, quality, self_intersections,
-    surface_quality, tetrahedron_distributions, triangle_distributions, triangle_quality,
+    surface_quality, tetrahedron_distributions, tetrahedron_radius_to_edge, triangle_distributions, triangle_quality,
+    triangle_radius_to_edge,
 };
 pub use read::{AnyMesh, Points, is_surface, read_mesh, read_points, read_surface, read_tetrahedra};
 pub use rectangle::rectangle_mesh;

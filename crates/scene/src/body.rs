@@ -79,16 +79,27 @@ impl Body {
 
 /// Reads and checks the meshes of a scene, and builds the body. A mesh file is searched beside the scene, then in `data`.
 pub fn body(scene: &Scene, data: &Path) -> Result<Body, SceneError> {
-    body_of(scene, elements(scene, data)?, data)
+    let Some(table) = &scene.mesh.picture else { return body_of(scene, elements(scene, data)?, data) };
+    let found = picture::triangles(table, &find(scene, data, &table.file), scene.mesh.scale);
+    let (triangles, place) = found.map_err(|text| scene.refuse("mesh.picture", &text))?;
+    let mut body = body_of(scene, flat_body(scene, triangles), data)?;
+    body.shape.picture = Some(place);
+    Ok(body)
 }
 
 /// Builds the body on a mesh in memory, in place of the one that the scene names.
 pub fn body_of(scene: &Scene, mesh: impl Into<BodyMesh>, data: &Path) -> Result<Body, SceneError> {
     let mesh = checked(scene, mesh.into())?;
-    let check = if mesh.is_flat() { flat::check } else { flat::check_solid };
-    check(scene).map_err(|(field, problem)| scene.refuse(&field, &problem))?;
     let display = scene.mesh.display.as_ref().map(|file| surface(scene, data, file)).transpose()?;
     let boundary = mesh.surface();
+    body_of_shape(scene, Shape { mesh, boundary, display, picture: None }, data)
+}
+
+/// Builds the body of a shape that was made for a scene with the same `[mesh]`.
+pub fn body_of_shape(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, SceneError> {
+    let Shape { mesh, boundary, display, picture } = shape;
+    let check = if mesh.is_flat() { flat::check } else { flat::check_solid };
+    check(scene).map_err(|(field, problem)| scene.refuse(&field, &problem))?;
     let dirichlet = dirichlet_conditions(scene, &mesh)?;
     let (tractions, pressures) = surface_loads(scene, &mesh, &boundary)?;
     let regions = regions(scene, &mesh)?;
@@ -115,7 +126,7 @@ pub fn body_of(scene: &Scene, mesh: impl Into<BodyMesh>, data: &Path) -> Result<
         contact: contact(scene, &mesh)?,
         drag: drag(scene, &mesh)?,
         damping: damping(scene),
-        shape: Shape { mesh, boundary, display },
+        shape: Shape { mesh, boundary, display, picture },
     })
 }
 
@@ -175,6 +186,7 @@ fn source(scene: &Scene) -> PathBuf {
     }
 }
 
+/// The elements of a mesh that is not made from a picture.
 fn elements(scene: &Scene, data: &Path) -> Result<BodyMesh, SceneError> {
     let read = |field: &'static str, file: &Path| {
         fem_mesh::read_tetrahedra(&find(scene, data, file)).map_err(|error| mesh_error(scene, field, error))
@@ -212,10 +224,6 @@ fn elements(scene: &Scene, data: &Path) -> Result<BodyMesh, SceneError> {
                 Ok(improve_inside(&mesh, surface.improve, &Solid::new(&triangles)).mesh)
             });
             mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.surface", error))
-        }
-        MeshTable { picture: Some(table), .. } => {
-            let triangles = picture::triangles(table, &find(scene, data, &table.file));
-            triangles.map(|triangles| flat_body(scene, triangles)).map_err(|text| scene.refuse("mesh.picture", &text))
         }
         MeshTable { rectangle: Some(rectangle), .. } => {
             let mesh = fem_mesh::rectangle_mesh(rectangle.size, rectangle.cells_per_unit);

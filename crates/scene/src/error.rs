@@ -56,3 +56,14 @@ pub enum SceneError {
         error: MeshError,
     },
 }
+
+impl SceneError {
+    /// The problem and its remedy without the place in a file or an option, for a user who has changed a number in a window.
+    pub fn problem(&self) -> String {
+        match self {
+            Self::Line { problem, .. } | Self::Override { problem, .. } => problem.clone(),
+            Self::Mesh { error, .. } => error.to_string(),
+            Self::Unknown { .. } | Self::Unreadable { .. } => self.to_string(),
+        }
+    }
+}

@@ -57,7 +57,7 @@ mod timer;
 mod values;
 mod warnings;
 
-pub use body::{Body, CONSISTENT_MASS, body, body_of};
+pub use body::{Body, CONSISTENT_MASS, body, body_of, body_of_shape};
 pub use body_mesh::BodyMesh;
 pub use curve::{LoadCurve, is_before};
 pub use error::SceneError;

@@ -79,6 +79,35 @@ fn overridden(text: &str, path: &Path, source: &Table, overrides: &[Override]) -
     })
 }
 
+impl Scene {
+    /// The scene with some keys changed, such as by a user of its window. The values of all keys are checked as those of a file. Another
+    /// integrator, time step or number of steps than that of the file stays.
+    pub fn changed(&self, changes: &[Override]) -> Result<Self, SceneError> {
+        let mut source = self.source.clone();
+        for change in changes {
+            let refuse = |problem| SceneError::Override { option: change.to_string(), problem };
+            change.apply(&mut source).map_err(refuse)?;
+        }
+        let text = self.source.to_string();
+        let mut scene = overridden(&text, &self.path, &source, changes)?;
+        let is_changed = |field: &str| changes.iter().any(|change| change.concerns(field));
+        if !is_changed("time.dt") {
+            scene.time.dt = self.time.dt;
+        }
+        if !is_changed("time.integrator") && scene.time.integrator != self.time.integrator {
+            scene.time.integrator = self.time.integrator;
+            scene.remove_unused_tables();
+        }
+        scene.time.steps = self.time.steps;
+        scene.name.clone_from(&self.name);
+        scene.path.clone_from(&self.path);
+        scene.source = source;
+        scene.overrides = self.overrides.iter().chain(changes).cloned().collect();
+        check(&scene).map_err(|(field, problem)| refused(&text, &scene, &field, &format!("{field} {problem}")))?;
+        Ok(scene)
+    }
+}
+
 fn of_line(text: &str, path: &Path, error: &toml::de::Error) -> SceneError {
     let line = error.span().map_or(1, |span| line_at(text, span.start));
     SceneError::Line { file: path.to_owned(), line, problem: problem_of(error) }

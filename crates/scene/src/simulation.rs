@@ -4,6 +4,8 @@ mod checkpoint;
 mod failure;
 mod parameter;
 mod part;
+mod picture_place;
+mod plane;
 mod plastic_flow;
 
 use std::sync::Arc;
@@ -18,6 +20,8 @@ pub use checkpoint::{Checkpoint, History};
 pub use failure::{Breakdown, Cause, Failure};
 pub use parameter::Parameter;
 pub use part::Part;
+pub use picture_place::PicturePlace;
+pub use plane::Plane;
 pub use plastic_flow::PlasticFlow;
 
 /// A simulation of one body, whichever pipeline computes it. Lengths are in m, times in s, energies in J.
@@ -138,6 +142,16 @@ pub trait Simulation: Send {
         Vec::new()
     }
 
+    /// The obstacles where they are now; empty without obstacles.
+    fn planes(&self) -> Vec<Plane> {
+        Vec::new()
+    }
+
+    /// Weight of the body, N; `None` without gravity, and for a pipeline that does not compute it.
+    fn weight(&self) -> Option<f64> {
+        None
+    }
+
     /// `(3n)` force of the obstacles on each node in the last step, N; `None` without obstacles.
     fn contact_forces(&self) -> Option<DVector<f64>> {
         None
@@ -180,6 +194,8 @@ pub struct Shape {
     pub boundary: Vec<[usize; 3]>,
     /// The display surface, if the scene has one.
     pub display: Option<SurfaceMesh>,
+    /// The picture that a flat body was made from.
+    pub picture: Option<PicturePlace>,
 }
 
 /// Energies of the whole body, J.

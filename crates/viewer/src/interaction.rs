@@ -7,7 +7,7 @@ use kiss3d::event::MouseButton;
 use kiss3d::glamx::{Vec2, Vec3};
 use kiss3d::window::Window;
 
-use crate::camera::OrbitCamera;
+use crate::camera::Camera;
 use crate::geometry::double;
 use crate::theme;
 use crate::worker::{Anchors, Command, Worker};
@@ -42,7 +42,7 @@ pub enum Interaction {
 
 impl Interaction {
     /// Handles a button pressed at `cursor`; `grip` is the point of the surface there, if there is one.
-    pub fn press(&mut self, button: MouseButton, cursor: Vec2, grip: Option<Vec3>, camera: &OrbitCamera, to: &Worker) {
+    pub fn press(&mut self, button: MouseButton, cursor: Vec2, grip: Option<Vec3>, camera: &Camera, to: &Worker) {
         if !matches!(self, Interaction::Idle) {
             return; // the button pressed first decides
         }
@@ -52,13 +52,13 @@ impl Interaction {
                 to.send(Command::Pick(camera.click(cursor), reply));
                 Interaction::Picking { answer, grip }
             }
-            (MouseButton::Button1 | MouseButton::Button2, _) => Interaction::Orbiting,
+            (MouseButton::Button1 | MouseButton::Button2, _) if camera.turns() => Interaction::Orbiting,
             _ => Interaction::Panning,
         };
     }
 
     /// Handles a mouse motion to `cursor`, by `motion`, both in physical pixels.
-    pub fn moved(&mut self, cursor: Vec2, motion: Vec2, scale: f32, camera: &mut OrbitCamera, to: &Worker) {
+    pub fn moved(&mut self, cursor: Vec2, motion: Vec2, scale: f32, camera: &mut Camera, to: &Worker) {
         match self {
             Interaction::Orbiting => camera.orbit(motion / scale),
             Interaction::Panning => camera.pan(motion),
@@ -71,7 +71,7 @@ impl Interaction {
     }
 
     /// Starts the drag once the simulation has answered.
-    pub fn poll_pick(&mut self, cursor: Vec2, camera: &mut OrbitCamera, to: &Worker) {
+    pub fn poll_pick(&mut self, cursor: Vec2, camera: &mut Camera, to: &Worker) {
         let Interaction::Picking { answer, grip } = self else { return };
         match answer.try_recv() {
             Ok(anchors) if !anchors.is_empty() => {
@@ -92,11 +92,11 @@ impl Interaction {
     }
 
     /// Draws the picked nodes and the line from their centroid to the mouse into the next frame.
-    pub fn draw(&self, window: &mut Window, positions: &[Vec3], eye: Vec3) {
+    pub fn draw(&self, window: &mut Window, positions: &[Vec3], camera: &Camera) {
         let Interaction::Dragging { anchors, grip, offset } = self else { return };
         let scale = window.scale_factor() as f32;
         let picked: Vec<Vec3> = anchors.iter().filter_map(|(node, _)| positions.get(*node)).copied().collect();
-        let nearer = |point: Vec3| point + (eye - point) * 0.1; // in front of the surface that would hide the nodes
+        let nearer = |point: Vec3| camera.nearer(point, 0.1); // in front of the surface that would hide the nodes
         for &point in &picked {
             window.draw_point(nearer(point), theme::DRAG, 7.0 * scale);
         }

@@ -23,26 +23,37 @@
 #![deny(missing_docs)]
 
 mod camera;
+mod color_scale;
 mod display;
+mod frame;
 mod geometry;
 mod history;
 mod interaction;
+mod legend;
+mod obstacles;
 mod offscreen;
 mod options;
 mod pacing;
+mod paint;
 mod panel;
+mod parameter_rows;
 mod pictures;
 mod plot;
+mod request;
+mod scene_changes;
+mod scene_parameters;
 mod scene_view;
 mod session;
 mod shader;
+mod surface;
+mod texture;
 mod theme;
 mod window;
 mod worker;
 
 pub use display::display_available;
 pub use offscreen::{NoAdapter, OffscreenRenderer};
-pub use options::WindowOptions;
+pub use options::{Builder, Editing, WindowOptions};
 pub use pictures::{FRAMES_PER_SECOND, NotWritten, Picture, Recorder};
 pub use scene_view::DisplayedSurface;
 pub use window::{NoWindow, Outcome, WindowError, open};

@@ -4,18 +4,20 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
+use fem_scene::output::ElementField;
 use fem_scene::simulation::{Shape, Simulation};
-use kiss3d::camera::Camera3d;
 use kiss3d::glamx::{Vec2, Vec3};
 use kiss3d::window::{CanvasSetup, NumSamples, OffscreenSurface};
 use nalgebra::Vector3;
 use thiserror::Error;
 
-use crate::camera::OrbitCamera;
+use crate::camera::{Camera, View};
 use crate::display::{adapter_available, without_panic, without_wayland_message};
-use crate::geometry::{Bounds, points, single};
+use crate::frame::{Frame, Wanted};
+use crate::geometry::{Bounds, single};
 use crate::pictures::Picture;
 use crate::scene_view::{DisplayedSurface, SceneView, prepare};
+use crate::{legend, obstacles, theme};
 
 /// This machine has no graphics adapter that can render.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -33,13 +35,13 @@ pub struct OffscreenRenderer {
     /// follow another.
     thread: Option<JoinHandle<()>>,
     up: Vec3,
+    color: Option<ElementField>,
 }
 
 /// A picture to render.
 struct Request {
     shape: Arc<Shape>,
-    positions: Vec<Vec3>,
-    display: Vec<Vec3>,
+    frame: Frame,
     shown: DisplayedSurface,
     up: Vec3,
 }
@@ -51,7 +53,8 @@ impl OffscreenRenderer {
         let (requests, received) = channel();
         let (answer, results) = channel();
         let thread = std::thread::spawn(move || serve(width, height, &received, &answer));
-        let mut renderer = OffscreenRenderer { requests: Some(requests), results, thread: Some(thread), up: Vec3::Y };
+        let mut renderer =
+            OffscreenRenderer { requests: Some(requests), results, thread: Some(thread), up: Vec3::Y, color: None };
         renderer.result()?; // the empty picture that a ready thread sends
         Ok(renderer)
     }
@@ -61,12 +64,16 @@ impl OffscreenRenderer {
         self.up = single(up).try_normalize().unwrap_or(Vec3::Y);
     }
 
+    /// Sets the field that colours the elements of the simulation mesh, with a legend; `None` for plain colours.
+    pub fn set_color(&mut self, color: Option<ElementField>) {
+        self.color = color;
+    }
+
     /// Renders the current state of the simulation.
     pub fn render(&mut self, simulation: &dyn Simulation, shown: DisplayedSurface) -> Result<Picture, NoAdapter> {
         let request = Request {
             shape: simulation.shape(),
-            positions: points(&simulation.positions()),
-            display: simulation.display_positions().iter().map(single).collect(),
+            frame: Frame::of(simulation, Wanted { field: self.color, contact_forces: true }),
             shown,
             up: self.up,
         };
@@ -111,9 +118,17 @@ fn serve(width: u32, height: u32, requests: &Receiver<Request>, answer: &Sender<
 /// An offscreen surface and the scene rendered on it.
 struct SceneSurface {
     // The view holds resources of the surface's device, so it is dropped first: fields are dropped in order.
-    /// The body, the upward direction, the scene, and the bounding box of all positions so far.
-    view: Option<(Arc<Shape>, Vec3, SceneView, Bounds)>,
+    view: Option<Viewed>,
     surface: OffscreenSurface,
+}
+
+/// The scene of the last picture.
+struct Viewed {
+    shape: Arc<Shape>,
+    up: Vec3,
+    scene: SceneView,
+    /// The box of all positions so far, and of the obstacles.
+    framed: Bounds,
 }
 
 impl SceneSurface {
@@ -121,27 +136,31 @@ impl SceneSurface {
         let setup = CanvasSetup { vsync: false, samples: NumSamples::Four, ..CanvasSetup::default() };
         let open = || pollster::block_on(OffscreenSurface::with_setup(width, height, setup));
         let mut surface = without_wayland_message(open);
-        prepare(surface.window_mut());
+        theme::set_style(surface.window_mut().egui_context_mut());
         SceneSurface { view: None, surface }
     }
 
     fn render(&mut self, request: Request) -> Picture {
-        let Request { shape, positions, display, shown, up } = request;
-        let (_, _, view, framed) = match self.view.take() {
-            Some(view) if Arc::ptr_eq(&view.0, &shape) && view.1 == up => self.view.insert(view),
+        let Request { shape, frame, shown, up } = request;
+        let view = View::of(&shape);
+        let Viewed { scene, framed, .. } = match self.view.take() {
+            Some(viewed) if Arc::ptr_eq(&viewed.shape, &shape) && viewed.up == up => self.view.insert(viewed),
             _ => {
-                let view = SceneView::new(&shape, up);
-                let framed = *view.bounds();
-                self.view.insert((shape, up, view, framed))
+                prepare(self.surface.window_mut(), view);
+                let scene = SceneView::new(&shape, &frame.planes, up);
+                let framed = obstacles::arena(scene.bounds(), &frame.planes);
+                self.view.insert(Viewed { shape, up, scene, framed })
             }
         };
-        view.show(shown);
+        scene.show(shown);
         // The camera moves back to keep the whole motion in the picture, and does not come nearer again.
-        *framed = framed.joined(&view.update(&positions, &display));
+        *framed = framed.joined(&scene.update(&frame));
         let size = Vec2::new(self.surface.width() as f32, self.surface.height() as f32);
-        let mut camera = OrbitCamera::framing(framed, up, size, 0.0);
-        view.draw_edges(self.surface.window_mut(), &positions, camera.eye());
-        pollster::block_on(self.surface.render_3d(&mut view.root, &mut camera));
+        let mut camera = Camera::framing(view, framed, up, size, 0.0);
+        scene.draw_lines(self.surface.window_mut(), &frame, &camera);
+        let scale = scene.scale().copied();
+        self.surface.draw_ui(|context| scale.iter().for_each(|scale| legend::show(context, scale)));
+        pollster::block_on(self.surface.render_3d(&mut scene.root, &mut camera));
         Picture::new(self.surface.snap_image())
     }
 }

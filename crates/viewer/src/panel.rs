@@ -1,13 +1,14 @@
 //! The panel at the left, the help line at the bottom, and the banner of a failure.
 
-use std::time::{Duration, Instant};
+use std::path::PathBuf;
 
-use fem_scene::simulation::Parameter;
 use kiss3d::egui::{
     Align2, Area, Button, Color32, Context, CornerRadius, Frame, Grid, Id, Margin, Pos2, Rect, RichText, ScrollArea,
-    Slider, SliderClamping, Ui, vec2,
+    Ui, vec2,
 };
 
+use crate::parameter_rows::ParameterRows;
+use crate::request::UserRequest;
 use crate::scene_view::DisplayedSurface;
 use crate::worker::Snapshot;
 use crate::{pacing, plot, theme};
@@ -15,35 +16,25 @@ use crate::{pacing, plot, theme};
 /// Width of the panel including its margins, logical pixels.
 pub const WIDTH: f32 = 356.0;
 const CONTENT_WIDTH: f32 = 312.0;
-const HELP_WIDTH: f32 = 890.0; // of the text in one line
-const HELP: &str = "drag the body: pull  ·  drag beside it: turn  ·  middle button: move  ·  wheel: zoom  ·  \
-                    S surface  ·  N integrator  ·  Space pause  ·  R reset  ·  Esc quit";
-/// Time for which a slider keeps its dragged value while the simulation has not answered.
-const ANSWER_TIME: Duration = Duration::from_millis(600);
-
-/// A request that the user makes through the panel or a key.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum UserRequest {
-    /// Pause or continue.
-    TogglePause,
-    /// Go back to the initial state.
-    Reset,
-    /// Continue with the next integrator.
-    NextIntegrator,
-    /// Show the other surface.
-    NextSurface,
-    /// Set a parameter.
-    Set(&'static str, f64),
-}
-
+const HELP_WIDTH: f32 = 990.0; // of the text in one line
+const HELP: [&str; 2] = [
+    "drag the body: pull  ·  drag beside it: turn  ·  middle button: move  ·  wheel: zoom  ·  \
+     S surface  ·  C colours  ·  F forces  ·  N integrator  ·  Space pause  ·  R reset  ·  Esc quit",
+    "drag the body: pull  ·  drag beside it, or right button: move  ·  wheel: zoom  ·  \
+     C colours  ·  T picture  ·  F forces  ·  N integrator  ·  Space pause  ·  R reset  ·  Esc quit",
+];
 /// Values that the panel shows beside those of the snapshot.
 pub struct ViewState<'a> {
     /// The scene's name.
     pub name: &'a str,
+    /// Pictures that the body can be made from.
+    pub objects: &'a [PathBuf],
     /// The displayed surface.
     pub shown: DisplayedSurface,
     /// Whether the body has a display surface beside its simulation mesh.
     pub has_skin: bool,
+    /// Whether the camera turns around the body.
+    pub turns: bool,
     /// Running mean of the time per frame, s.
     pub frame_seconds: f64,
 }
@@ -52,7 +43,7 @@ pub struct ViewState<'a> {
 #[derive(Default)]
 pub struct Panel {
     places: Vec<Rect>,
-    dragged: Option<(&'static str, f64, Instant)>,
+    parameters: ParameterRows,
 }
 
 impl Panel {
@@ -77,7 +68,7 @@ impl Panel {
             },
         );
         self.places.push(area.response.rect);
-        help(context);
+        help(context, if state.turns { HELP[0] } else { HELP[1] });
         if let Some(stop) = &snapshot.stop {
             self.banner(context, &stop.to_string(), &mut requests);
         }
@@ -92,35 +83,16 @@ impl Panel {
         numbers(ui, snapshot, state, requests);
         ui.add_space(6.0);
         plot::show(ui, &snapshot.history);
-        if !snapshot.parameters.is_empty() {
-            ui.separator();
-        }
-        for parameter in &snapshot.parameters {
-            self.slider(ui, parameter, requests);
+        ui.separator();
+        self.parameters.show(ui, snapshot, state.objects, requests);
+        if snapshot.is_building {
+            ui.horizontal(|ui| {
+                ui.spinner();
+                ui.label("building the changed scene …");
+            });
         }
         if let Some(refusal) = &snapshot.refusal {
             ui.label(RichText::new(refusal).color(theme::FAILURE));
-        }
-    }
-
-    fn slider(&mut self, ui: &mut Ui, parameter: &Parameter, requests: &mut Vec<UserRequest>) {
-        self.dragged.take_if(|(_, _, since)| since.elapsed() > ANSWER_TIME);
-        let mut value = match self.dragged {
-            Some((key, value, _)) if key == parameter.key => value,
-            _ => parameter.value,
-        };
-        let (low, high) = parameter.range;
-        let unit = if parameter.unit.is_empty() { String::new() } else { format!(" ({})", parameter.unit) };
-        ui.label(format!("{}{unit}", parameter.label));
-        ui.spacing_mut().slider_width = CONTENT_WIDTH - 84.0;
-        let slider = Slider::new(&mut value, low..=high)
-            .logarithmic(parameter.logarithmic)
-            .clamping(SliderClamping::Never) // the simulation refuses a typed value outside, with a message
-            .custom_formatter(|value, _| plot::short(value))
-            .custom_parser(parse);
-        if ui.add(slider).changed() {
-            self.dragged = Some((parameter.key, value, Instant::now()));
-            requests.push(UserRequest::Set(parameter.key, value));
         }
     }
 
@@ -174,7 +146,24 @@ fn numbers(ui: &mut Ui, snapshot: &Snapshot, state: &ViewState, requests: &mut V
         row(ui, "one step", format!("{} ms", plot::short(1e3 * snapshot.step_seconds)));
         row(ui, "one frame", format!("{} ms", plot::short(1e3 * state.frame_seconds)));
         row(ui, "speed", speed(snapshot));
+        if let Some(critical) = snapshot.critical_time_step {
+            row(ui, "stable step", stability(critical));
+        }
+        if let Some(force) = snapshot.contact_force {
+            row(ui, "contact force", contact_force(force, snapshot.weight));
+        }
     });
+}
+
+/// The longest stable time step, s, of small vibrations.
+fn stability(critical: f64) -> String {
+    if critical <= 0.0 { "none: unstable at any".into() } else { format!("{} ms", plot::short(1e3 * critical)) }
+}
+
+/// A force beside the weight, both in N.
+fn contact_force(force: f64, weight: Option<f64>) -> String {
+    let beside = weight.filter(|weight| *weight > 0.0).map(|weight| format!(", {:.2} × the weight", force / weight));
+    format!("{} N{}", plot::short(force), beside.unwrap_or_default())
 }
 
 /// Describes the speed of simulated time, or why it does not run.
@@ -188,14 +177,14 @@ fn speed(snapshot: &Snapshot) -> String {
     }
 }
 
-fn help(context: &Context) {
+fn help(context: &Context, text: &str) {
     let width = (context.content_rect().width() - 48.0).min(HELP_WIDTH);
     let area = Area::new(Id::new("help")).anchor(Align2::CENTER_BOTTOM, vec2(0.0, -8.0)).interactable(false);
     area.show(context, |ui| {
         let margin = Margin::symmetric(12, 4);
         panel_frame().inner_margin(margin).show(ui, |ui| {
             ui.set_width(width);
-            ui.label(RichText::new(HELP).size(12.0));
+            ui.label(RichText::new(text).size(12.0));
         });
     });
 }
@@ -204,24 +193,9 @@ fn panel_frame() -> Frame {
     Frame::new().fill(theme::PANEL).corner_radius(CornerRadius::same(6)).inner_margin(Margin::same(12))
 }
 
-/// Parses a number in the panel's format: k is a thousand, M a million.
-fn parse(text: &str) -> Option<f64> {
-    let text = text.trim();
-    let scaled = |letter: char, factor: f64| text.strip_suffix(letter)?.trim().parse::<f64>().ok().map(|v| v * factor);
-    text.parse().ok().or_else(|| scaled('k', 1e3)).or_else(|| scaled('M', 1e6))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn shown_numbers_parse_back_to_themselves() {
-        for value in [0.25, 12_300.0, 2.5e6, 1e-5, 3e10] {
-            assert_eq!(parse(&plot::short(value)), Some(value));
-        }
-        assert_eq!(parse("soft"), None);
-    }
 
     #[test]
     fn a_simulation_that_does_not_run_has_no_speed() {

@@ -1,17 +1,25 @@
-//! The drawn scene: the body, the floor and the shadow on it. The window and the offscreen renderer share it.
+//! The drawn scene: the body, the floor and the shadow on it, or the obstacles. The window and the offscreen renderer share it.
 
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::sync::Arc;
 
-use fem_scene::simulation::Shape;
-use kiss3d::color::Color;
+use fem_scene::simulation::{Plane, Shape};
+use kiss3d::camera::Camera3d;
 use kiss3d::glamx::Vec3;
+use kiss3d::post_processing::Tonemap;
 use kiss3d::resource::GpuMesh3d;
 use kiss3d::scene::SceneNode3d;
 use kiss3d::window::Window;
 
-use crate::geometry::{Bounds, edges, faces, first_hit, level_axes, single, smooth_normals};
+use crate::camera::{Camera, View};
+use crate::color_scale::ColorScale;
+use crate::frame::Frame;
+use crate::geometry::{Bounds, edges, first_hit, level_axes, single};
+use crate::obstacles::{self, Faces};
+use crate::paint::Paint;
 use crate::shader::{Environment, Kind, Shared, shader};
+use crate::surface::{Shading, Surface};
 use crate::theme;
 
 /// The surface of the body that is drawn.
@@ -24,7 +32,7 @@ pub enum DisplayedSurface {
     SimulationMesh,
 }
 
-/// The scene graph of a body, its shadow and the floor.
+/// The scene graph of a body, its shadow, the floor and the obstacles.
 pub struct SceneView {
     /// Root of kiss3d's scene graph.
     pub root: SceneNode3d,
@@ -33,13 +41,17 @@ pub struct SceneView {
     edges: Vec<[usize; 2]>,
     shown: DisplayedSurface,
     bounds: Bounds,
-    floor: SceneNode3d,
+    /// A flat body has none.
+    floor: Option<SceneNode3d>,
+    obstacles: Option<Faces>,
     environment: Rc<RefCell<Environment>>,
+    paint: Paint,
+    shape: Arc<Shape>,
 }
 
 impl SceneView {
-    /// The view of a body at rest. kiss3d's window or offscreen surface must exist before.
-    pub fn new(shape: &Shape, up: Vec3) -> Self {
+    /// The view of a body at rest among obstacles. kiss3d's window or offscreen surface must exist before.
+    pub fn new(shape: &Arc<Shape>, planes: &[Plane], up: Vec3) -> Self {
         let mut root = SceneNode3d::empty();
         let nodes: Vec<Vec3> = shape.mesh.vertices().iter().map(single).collect();
         let shown: Vec<Vec3> = match &shape.display {
@@ -48,16 +60,28 @@ impl SceneView {
         };
         let bounds = Bounds::of(&shown);
         let environment = Rc::new(RefCell::new(environment(&bounds, up)));
-        let floor = floor(&environment.borrow(), shader(Kind::Floor, &environment));
-        root.add_child(floor.clone());
-        let paint = [shader(Kind::Body, &environment), shader(Kind::Shadow, &environment)];
+        let paint = Paint::new();
+        let shader = |kind| shader(kind, &environment, paint.painting());
+        let is_flat = shape.mesh.is_flat();
+        let floor = (!is_flat).then(|| floor(&environment.borrow(), shader(Kind::Floor)));
+        floor.iter().for_each(|floor| root.add_child(floor.clone()));
+        let body = shader(if is_flat { Kind::Flat } else { Kind::Body });
+        let shadow = (!is_flat).then(|| shader(Kind::Shadow));
+        let materials = (&body, shadow.as_ref());
         let skin =
-            shape.display.as_ref().map(|d| Surface::new(&mut root, &shown, &d.elements, Shading::Smooth, &paint));
-        let mesh = Surface::new(&mut root, &nodes, &shape.boundary, Shading::Flat, &paint);
+            shape.display.as_ref().map(|d| Surface::new(&mut root, &shown, &d.elements, Shading::Smooth, materials));
+        let mesh = Surface::new(&mut root, &nodes, &shape.boundary, Shading::Flat, materials);
+        let has_faces = !is_flat && !planes.is_empty();
+        let obstacles = has_faces.then(|| Faces::new(&mut root, planes.len(), shader(Kind::Obstacle)));
         let edges = edges(&shape.boundary);
+        let shape = Arc::clone(shape);
+        let shown = DisplayedSurface::Skinned;
         let mut view =
-            SceneView { root, skin, mesh, edges, shown: DisplayedSurface::Skinned, bounds, floor, environment };
+            SceneView { root, skin, mesh, edges, shown, bounds, floor, obstacles, environment, paint, shape };
         view.show(DisplayedSurface::Skinned);
+        if let (Some(floor), Some(_)) = (&mut view.floor, &view.obstacles) {
+            floor.set_visible(false); // it would cut through the obstacles
+        }
         view
     }
 
@@ -76,32 +100,59 @@ impl SceneView {
         self.shown
     }
 
+    /// The scale of the colours of the last frame, if they show a field.
+    pub fn scale(&self) -> Option<&ColorScale> {
+        self.paint.scale()
+    }
+
+    /// Shows the picture that the body was made from, or plain colours, where no field is shown.
+    pub fn show_picture(&mut self, shows_picture: bool) {
+        self.paint.show_picture(shows_picture);
+    }
+
     /// Displays one of the two surfaces; the simulation mesh if there is no other.
     pub fn show(&mut self, shown: DisplayedSurface) {
         self.shown = if self.skin.is_some() { shown } else { DisplayedSurface::SimulationMesh };
-        if let Some(skin) = &mut self.skin {
-            skin.set_visible(self.shown == DisplayedSurface::Skinned);
-        }
-        self.mesh.set_visible(self.shown == DisplayedSurface::SimulationMesh);
+        self.set_visible();
     }
 
-    /// Moves the displayed surface to the current positions, and returns its bounding box.
-    pub fn update(&mut self, positions: &[Vec3], display: &[Vec3]) -> Bounds {
-        let shown = match (&mut self.skin, self.shown) {
-            (Some(skin), DisplayedSurface::Skinned) => skin.update(display),
-            _ => self.mesh.update(positions),
+    /// Only the simulation mesh has elements whose colours show a field.
+    fn shows_skin(&self) -> bool {
+        self.skin.is_some() && self.shown == DisplayedSurface::Skinned && self.paint.scale().is_none()
+    }
+
+    fn set_visible(&mut self) {
+        let (skin_shows, has_shadow) = (self.shows_skin(), self.obstacles.is_none());
+        if let Some(skin) = &mut self.skin {
+            skin.set_visible(skin_shows, has_shadow);
+        }
+        self.mesh.set_visible(!skin_shows, has_shadow);
+    }
+
+    /// Moves the displayed surface to a frame, with its colours, and returns its bounding box.
+    pub fn update(&mut self, frame: &Frame) -> Bounds {
+        self.paint.apply(frame, &self.shape, &mut self.mesh);
+        self.set_visible();
+        let shows_skin = self.shows_skin();
+        let shown = match &mut self.skin {
+            Some(skin) if shows_skin => skin.update(&frame.display),
+            _ => self.mesh.update(&frame.positions),
         };
         self.lower_floor(&shown);
+        if let Some(obstacles) = &mut self.obstacles {
+            obstacles.update(&frame.planes, &self.bounds, &shown);
+        }
         shown
     }
 
     /// Lowers the floor under a body that reaches below it.
     fn lower_floor(&mut self, body: &Bounds) {
+        let Some(floor) = &mut self.floor else { return };
         let mut environment = self.environment.borrow_mut();
         let lowest = floor_under(body, environment.up, environment.radius);
         if lowest < environment.floor {
             let up = environment.up;
-            self.floor.modify_vertices(&mut |corners| {
+            floor.modify_vertices(&mut |corners| {
                 corners.iter_mut().for_each(|corner| *corner += up * (lowest - environment.floor));
             });
             environment.floor = lowest;
@@ -109,98 +160,28 @@ impl SceneView {
     }
 
     /// Distance along a ray to the displayed surface, m.
-    pub fn hit(&self, origin: Vec3, ray: Vec3, positions: &[Vec3], display: &[Vec3]) -> Option<f32> {
-        match (&self.skin, self.shown) {
-            (Some(skin), DisplayedSurface::Skinned) => first_hit(origin, ray, display, &skin.triangles),
-            _ => first_hit(origin, ray, positions, &self.mesh.triangles),
+    pub fn hit(&self, (origin, ray): (Vec3, Vec3), frame: &Frame) -> Option<f32> {
+        match &self.skin {
+            Some(skin) if self.shows_skin() => first_hit(origin, ray, &frame.display, &skin.triangles),
+            _ => first_hit(origin, ray, &frame.positions, &self.mesh.triangles),
         }
     }
 
-    /// Draws the edges of the simulation mesh into the next frame, if it is displayed.
-    pub fn draw_edges(&self, window: &mut Window, positions: &[Vec3], eye: Vec3) {
-        if self.shown == DisplayedSurface::SimulationMesh {
-            // Slightly towards the eye, so that the faces do not hide the edges.
-            let nearer = |i: usize| positions[i] + (eye - positions[i]) * 2e-3;
+    /// Draws the lines of a frame into the next picture: edges of the simulation mesh if it is displayed, obstacles, and arrows.
+    pub fn draw_lines(&self, window: &mut Window, frame: &Frame, camera: &Camera) {
+        if !self.shows_skin() {
+            let nearer = |i: usize| camera.nearer(frame.positions[i], 2e-3); // so that the faces do not hide the edges
             let width = theme::EDGE_WIDTH * window.scale_factor() as f32;
             for &[a, b] in &self.edges {
                 window.draw_line(nearer(a), nearer(b), theme::EDGE, width, false);
             }
         }
-    }
-}
-
-/// Shading of a surface.
-#[derive(Clone, Copy, PartialEq)]
-enum Shading {
-    /// Normals are interpolated between vertices.
-    Smooth,
-    /// Each triangle has its own normal.
-    Flat,
-}
-
-/// A moving triangle mesh and its shadow.
-struct Surface {
-    node: SceneNode3d,
-    shadow: SceneNode3d,
-    mesh: Rc<RefCell<GpuMesh3d>>,
-    triangles: Vec<[usize; 3]>,
-    faces: Vec<[u32; 3]>,
-    shading: Shading,
-}
-
-impl Surface {
-    fn new(
-        root: &mut SceneNode3d,
-        points: &[Vec3],
-        triangles: &[[usize; 3]],
-        shading: Shading,
-        [body, shadow]: &[Shared; 2],
-    ) -> Self {
-        let triangles = triangles.to_vec();
-        let faces = match shading {
-            Shading::Smooth => faces(&triangles),
-            // Each triangle has three corners of its own, because a corner has one normal.
-            Shading::Flat => (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
-        };
-        let coords = corners(points, &triangles, shading);
-        let normals = smooth_normals(&coords, &faces);
-        let mesh = Rc::new(RefCell::new(GpuMesh3d::new(coords, faces.clone(), Some(normals), None, true)));
-        let color = if shading == Shading::Smooth { theme::CLAY } else { theme::MESH };
-        let mut add = |material: &Shared, color: Color| {
-            let mut node = SceneNode3d::mesh(Rc::clone(&mesh), Vec3::ONE);
-            node.set_material(Rc::clone(material)).set_color(color);
-            root.add_child(node.clone());
-            node
-        };
-        let (node, shadow) = (add(body, color), add(shadow, theme::SHADOW));
-        Surface { node, shadow, mesh, triangles, faces, shading }
-    }
-
-    fn set_visible(&mut self, visible: bool) {
-        self.node.set_visible(visible);
-        self.shadow.set_visible(visible);
-    }
-
-    /// Moves the corners and returns their bounding box.
-    fn update(&mut self, points: &[Vec3]) -> Bounds {
-        let coords = corners(points, &self.triangles, self.shading);
-        let bounds = Bounds::of(&coords);
-        let normals = smooth_normals(&coords, &self.faces);
-        let mesh = self.mesh.borrow();
-        if let Ok(mut buffer) = mesh.coords().write() {
-            *buffer.data_mut() = Some(coords);
+        let radius = self.bounds.radius();
+        match &self.obstacles {
+            Some(faces) => faces.draw_grids(window, &frame.planes, camera.eye(), radius),
+            None => obstacles::draw_hatched_lines(window, &frame.planes, self.bounds.centre(), radius),
         }
-        if let Ok(mut buffer) = mesh.normals().write() {
-            *buffer.data_mut() = Some(normals);
-        }
-        bounds
-    }
-}
-
-fn corners(points: &[Vec3], triangles: &[[usize; 3]], shading: Shading) -> Vec<Vec3> {
-    match shading {
-        Shading::Smooth => points.to_vec(),
-        Shading::Flat => triangles.iter().flatten().map(|&i| points[i]).collect(),
+        obstacles::draw_arrows(window, frame, camera, radius);
     }
 }
 
@@ -227,8 +208,12 @@ fn floor(environment: &Environment, material: Shared) -> SceneNode3d {
     node
 }
 
-/// Sets up a window before its first frame.
-pub fn prepare(window: &mut Window) {
+/// Sets up a window before its first frame. Colours of a flat body, which is not lit, are shown as they are.
+pub fn prepare(window: &mut Window, view: View) {
     window.set_background_color(theme::BACKGROUND);
     window.set_shadows_enabled(false); // the shader draws its own
+    window.set_tonemap(match view {
+        View::Orbit => Tonemap::default(),
+        View::Front => Tonemap::None,
+    });
 }

@@ -5,21 +5,25 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use fem_scene::simulation::Shape;
-use kiss3d::camera::Camera3d;
+use fem_scene::output::ElementField;
+use fem_scene::simulation::{Shape, Simulation};
 use kiss3d::egui::pos2;
 use kiss3d::event::{Action, Key, Modifiers, MouseButton, WindowEvent};
 use kiss3d::glamx::{Vec2, Vec3};
 use kiss3d::window::Window;
 
-use crate::camera::OrbitCamera;
+use crate::camera::{Camera, View};
+use crate::frame::{Frame, Wanted};
 use crate::geometry::{Bounds, single};
 use crate::interaction::Interaction;
 use crate::options::WindowOptions;
-use crate::panel::{self, Panel, UserRequest, ViewState};
+use crate::panel::{self, Panel, ViewState};
 use crate::pictures::{NotWritten, Picture, Recorder};
+use crate::request::UserRequest;
+use crate::scene_changes::SceneChanges;
 use crate::scene_view::{DisplayedSurface, SceneView, prepare};
 use crate::worker::{Command, Snapshot, Worker};
+use crate::{legend, obstacles};
 
 const IDLE_INTERVAL: Duration = Duration::from_millis(15); // between polls for input while the picture does not change
 const LONGEST_IDLE: Duration = Duration::from_secs(1); // after which a frame is drawn in any case
@@ -31,12 +35,20 @@ pub struct Session {
     // The view holds resources of the window's graphics device, so it is dropped first.
     view: SceneView,
     window: Window,
-    camera: OrbitCamera,
+    camera: Camera,
+    view_kind: View,
     /// The box that the camera shows, as long as it moves back with a body that goes far.
     framed: Option<Bounds>,
     up: Vec3,
+    shape: Arc<Shape>,
     worker: Worker,
     snapshot: Snapshot,
+    wanted: Wanted,
+    /// Whether the picture that the body was made from is shown on it.
+    shows_picture: bool,
+    /// Pictures that the body can be made from.
+    objects: Vec<PathBuf>,
+    changes: SceneChanges,
     name: String,
     interaction: Interaction,
     panel: Panel,
@@ -52,28 +64,53 @@ pub struct Session {
     close: Arc<AtomicUsize>,
 }
 
+/// The simulation as it starts.
+pub struct Start {
+    name: String,
+    shape: Arc<Shape>,
+    frame: Frame,
+}
+
+impl Start {
+    /// The name, body and state of a simulation.
+    pub fn of(simulation: &dyn Simulation) -> Self {
+        let frame = Frame::of(simulation, Wanted::default());
+        Start { name: simulation.name().to_owned(), shape: simulation.shape(), frame }
+    }
+}
+
 impl Session {
     /// A session in a new window, with the body at rest.
     pub fn new(
         mut window: Window,
         worker: Worker,
-        name: String,
-        shape: &Shape,
+        start: Start,
         recorder: Option<Recorder>,
         options: &WindowOptions,
     ) -> Self {
         let up = single(&options.up).try_normalize().unwrap_or(Vec3::Y);
-        let view = SceneView::new(shape, up);
-        prepare(&mut window);
-        let camera = OrbitCamera::framing(view.bounds(), up, size(&window), covered(&window));
+        let Start { name, shape, frame } = start;
+        let view_kind = View::of(&shape);
+        prepare(&mut window, view_kind);
+        let view = SceneView::new(&shape, &frame.planes, up);
+        let framed = obstacles::arena(view.bounds(), &frame.planes);
+        let camera = Camera::framing(view_kind, &framed, up, size(&window), covered(&window));
+        let wanted = Wanted { field: options.color, contact_forces: true };
+        worker.send(Command::Want(wanted));
         Session {
-            framed: Some(*view.bounds()),
+            framed: Some(framed),
             up,
             view,
             window,
             camera,
+            view_kind,
             worker,
-            snapshot: Snapshot::default(),
+            snapshot: Snapshot { frame, ..Snapshot::default() },
+            wanted,
+            shows_picture: false,
+            objects: options.editing.as_ref().map_or_else(Vec::new, |editing| editing.objects.clone()),
+            changes: SceneChanges::default(),
+            shape,
             name,
             interaction: Interaction::default(),
             panel: Panel::default(),
@@ -94,6 +131,7 @@ impl Session {
     pub fn run(mut self) -> (Worker, Option<NotWritten>) {
         while !self.closing && self.close.load(Ordering::Relaxed) == 0 {
             self.read_input();
+            self.send_changes();
             let fresh = self.read_snapshot();
             if !fresh && self.is_idle() {
                 self.window.canvas_mut().poll_events();
@@ -113,15 +151,44 @@ impl Session {
 
     /// Whether the next frame would equal the last one.
     fn is_idle(&self) -> bool {
-        self.last_input.elapsed() > AFTER_INPUT && self.last_frame.elapsed() < LONGEST_IDLE
+        let is_building = self.changes.is_under_way(self.snapshot.changes);
+        !is_building && self.last_input.elapsed() > AFTER_INPUT && self.last_frame.elapsed() < LONGEST_IDLE
     }
 
     fn read_snapshot(&mut self) -> bool {
         let Some(snapshot) = self.worker.latest() else { return false };
         self.snapshot = snapshot;
-        let body = self.view.update(&self.snapshot.positions, &self.snapshot.display);
+        self.show_shape();
+        let body = self.view.update(&self.snapshot.frame);
         self.keep_in_view(&body);
         true
+    }
+
+    /// Shows another body than before, if the user has changed its mesh.
+    fn show_shape(&mut self) {
+        let Some(shape) = &self.snapshot.shape else { return };
+        if Arc::ptr_eq(shape, &self.shape) {
+            return;
+        }
+        let is_same = **shape == *self.shape; // built anew on the same mesh
+        self.shape = Arc::clone(shape);
+        if is_same {
+            return;
+        }
+        let (planes, shown) = (&self.snapshot.frame.planes, self.view.shown());
+        self.view = SceneView::new(&self.shape, planes, self.up);
+        self.view.show(shown);
+        self.view.show_picture(self.shows_picture);
+        self.interaction.release(&self.worker);
+        let framed = obstacles::arena(self.view.bounds(), planes);
+        self.framed = Some(framed);
+        self.camera = Camera::framing(self.view_kind, &framed, self.up, size(&self.window), covered(&self.window));
+    }
+
+    fn send_changes(&mut self) {
+        if let Some(changes) = self.changes.take(self.snapshot.changes) {
+            self.worker.send(Command::Change(changes));
+        }
     }
 
     /// Moves the camera back if the body has left the picture, until the user moves the camera or the body.
@@ -130,7 +197,8 @@ impl Session {
         let joined = framed.joined(body);
         if joined.radius() > WANDERED * framed.radius() {
             self.framed = Some(joined);
-            self.camera = OrbitCamera::framing(&joined, self.up, size(&self.window), covered(&self.window));
+            let (size, covered) = (size(&self.window), covered(&self.window));
+            self.camera = Camera::framing(self.view_kind, &joined, self.up, size, covered);
         }
     }
 
@@ -147,7 +215,7 @@ impl Session {
                 WindowEvent::CursorPos(x, y, _) => self.move_cursor(Vec2::new(x as f32, y as f32)),
                 WindowEvent::Scroll(_, amount, _) if !self.is_on_panel() => {
                     self.framed = None;
-                    self.camera.zoom(notches(amount));
+                    self.camera.zoom(notches(amount), self.cursor);
                 }
                 _ => {}
             }
@@ -156,13 +224,16 @@ impl Session {
     }
 
     fn key(&mut self, key: Key) {
-        if self.window.is_egui_capturing_keyboard() {
+        if self.window.egui_context().text_edit_focused() {
             return; // a number is being typed
         }
         match key {
             Key::S => self.apply(UserRequest::NextSurface),
             Key::N => self.apply(UserRequest::NextIntegrator),
             Key::R => self.apply(UserRequest::Reset),
+            Key::C => self.apply(UserRequest::NextColor),
+            Key::T => self.apply(UserRequest::TogglePicture),
+            Key::F => self.apply(UserRequest::ToggleForces),
             Key::Space => self.apply(UserRequest::TogglePause),
             Key::Escape => self.closing = true,
             _ => {}
@@ -176,9 +247,9 @@ impl Session {
         self.framed = None;
         // A mouse without a middle button moves the camera with shift.
         let button = if modifiers.contains(Modifiers::Shift) { MouseButton::Button3 } else { button };
-        let (eye, ray) = (self.camera.eye(), self.camera.ray(self.cursor));
-        let hit = self.view.hit(eye, ray, &self.snapshot.positions, &self.snapshot.display);
-        let grip = hit.map(|distance| eye + ray * distance);
+        let (origin, ray) = self.camera.ray(self.cursor);
+        let hit = self.view.hit((origin, ray), &self.snapshot.frame);
+        let grip = hit.map(|distance| origin + ray * distance);
         self.interaction.press(button, self.cursor, grip, &self.camera, &self.worker);
     }
 
@@ -199,6 +270,7 @@ impl Session {
             UserRequest::TogglePause => self.worker.send(Command::TogglePause),
             UserRequest::Reset => self.worker.send(Command::Reset),
             UserRequest::NextIntegrator => self.worker.send(Command::NextIntegrator),
+            UserRequest::Change(change) => self.changes.add(change),
             UserRequest::Set(key, value) => self.worker.send(Command::Set(key, value)),
             UserRequest::NextSurface => {
                 let other = match self.view.shown() {
@@ -206,9 +278,30 @@ impl Session {
                     DisplayedSurface::SimulationMesh => DisplayedSurface::Skinned,
                 };
                 self.view.show(other);
-                self.view.update(&self.snapshot.positions, &self.snapshot.display);
+                self.view.update(&self.snapshot.frame);
+            }
+            UserRequest::TogglePicture => {
+                self.shows_picture = !self.shows_picture;
+                self.view.show_picture(self.shows_picture);
+                self.view.update(&self.snapshot.frame);
+            }
+            UserRequest::NextColor => self.want(Wanted { field: self.next_field(), ..self.wanted }),
+            UserRequest::ToggleForces => {
+                self.want(Wanted { contact_forces: !self.wanted.contact_forces, ..self.wanted });
             }
         }
+    }
+
+    fn want(&mut self, wanted: Wanted) {
+        self.wanted = wanted;
+        self.worker.send(Command::Want(wanted));
+    }
+
+    /// The field after the present one; plain colours after the last.
+    fn next_field(&self) -> Option<ElementField> {
+        let fields = &self.snapshot.fields;
+        let next = self.wanted.field.and_then(|field| fields.iter().position(|other| *other == field));
+        fields.get(next.map_or(0, |place| place + 1)).copied()
     }
 
     /// Draws one frame; returns false if the window was closed.
@@ -216,9 +309,8 @@ impl Session {
         let begun = Instant::now();
         self.camera.resize(size(&self.window), covered(&self.window));
         self.draw_panel();
-        let eye = self.camera.eye();
-        self.view.draw_edges(&mut self.window, &self.snapshot.positions, eye);
-        self.interaction.draw(&mut self.window, &self.snapshot.positions, eye);
+        self.view.draw_lines(&mut self.window, &self.snapshot.frame, &self.camera);
+        self.interaction.draw(&mut self.window, &self.snapshot.frame.positions, &self.camera);
         let open = pollster::block_on(self.window.render_3d(&mut self.view.root, &mut self.camera));
         self.last_frame = Instant::now();
         let seconds = begun.elapsed().as_secs_f64();
@@ -228,11 +320,21 @@ impl Session {
     }
 
     fn draw_panel(&mut self) {
-        let Session { window, panel, snapshot, view, name, .. } = self;
-        let state =
-            ViewState { name, shown: view.shown(), has_skin: view.has_skin(), frame_seconds: self.frame_seconds };
+        let Session { window, panel, snapshot, view, name, objects, .. } = self;
+        let state = ViewState {
+            name,
+            objects,
+            shown: view.shown(),
+            has_skin: view.has_skin(),
+            turns: self.camera.turns(),
+            frame_seconds: self.frame_seconds,
+        };
+        let scale = view.scale().copied();
         let mut requests = Vec::new();
-        window.draw_ui(|context| requests = panel.show(context, snapshot, &state));
+        window.draw_ui(|context| {
+            requests = panel.show(context, snapshot, &state);
+            scale.iter().for_each(|scale| legend::show(context, scale));
+        });
         for request in requests {
             self.apply(request);
         }

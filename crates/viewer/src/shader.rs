@@ -14,11 +14,17 @@ use kiss3d::resource::vertex_index::VERTEX_INDEX_FORMAT;
 use kiss3d::resource::{GpuData, GpuMesh3d, Material3d, PipelineCache, RenderContext, multisample_state};
 use kiss3d::scene::{InstancesBuffer3d, ObjectData3d};
 
+use crate::texture::{self, Texture};
 use crate::theme;
 
 const FLOATS: usize = 16 + 7 * 4; // in `Scene` of the WGSL code
-const ATTRIBUTES: [[wgpu::VertexAttribute; 1]; 2] =
-    [wgpu::vertex_attr_array![0 => Float32x3], wgpu::vertex_attr_array![1 => Float32x3]];
+/// Positions, normals and texture coordinates.
+const ATTRIBUTES: [[wgpu::VertexAttribute; 1]; 3] = [
+    wgpu::vertex_attr_array![0 => Float32x3],
+    wgpu::vertex_attr_array![1 => Float32x3],
+    wgpu::vertex_attr_array![2 => Float32x2],
+];
+const STRIDES: [u64; 3] = [12, 12, 8];
 
 /// The kind of object that a shader draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +35,10 @@ pub enum Kind {
     Floor,
     /// The body, projected onto the floor along the strongest light.
     Shadow,
+    /// A flat body: without light.
+    Flat,
+    /// The face of an obstacle: translucent.
+    Obstacle,
 }
 
 /// Properties common to all objects of a scene. Lengths are in m.
@@ -48,17 +58,24 @@ pub struct Environment {
     pub radius: f32,
 }
 
+/// The picture on the body, if there is one.
+pub type Painting = Rc<RefCell<Option<Texture>>>;
+
 /// A shader as kiss3d holds it.
 pub type Shared = Rc<RefCell<Box<dyn Material3d>>>;
 
-/// The shader of one kind of object. It reads `environment` at each frame.
-pub fn shader(kind: Kind, environment: &Rc<RefCell<Environment>>) -> Shared {
-    Rc::new(RefCell::new(Box::new(Shader::new(kind, Rc::clone(environment)))))
+/// The shader of one kind of object. It reads `environment` and `painting` at each frame; only bodies have a picture.
+pub fn shader(kind: Kind, environment: &Rc<RefCell<Environment>>, painting: &Painting) -> Shared {
+    let painting = matches!(kind, Kind::Body | Kind::Flat).then(|| Rc::clone(painting)).unwrap_or_default();
+    Rc::new(RefCell::new(Box::new(Shader::new(kind, Rc::clone(environment), painting))))
 }
 
 struct Shader {
     kind: Kind,
     environment: Rc<RefCell<Environment>>,
+    painting: Painting,
+    /// In place of a painting.
+    white: Texture,
     layout: wgpu::BindGroupLayout,
     pipelines: PipelineCache,
 }
@@ -80,7 +97,7 @@ impl GpuData for Uniforms {
 }
 
 impl Shader {
-    fn new(kind: Kind, environment: Rc<RefCell<Environment>>) -> Self {
+    fn new(kind: Kind, environment: Rc<RefCell<Environment>>, painting: Painting) -> Self {
         let context = Context::get();
         let layout = context.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("body, floor and shadow"),
@@ -97,12 +114,12 @@ impl Shader {
         });
         let pipeline_layout = context.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("body, floor and shadow"),
-            bind_group_layouts: &[Some(&layout)],
+            bind_group_layouts: &[Some(&layout), Some(&texture::layout())],
             immediate_size: 0,
         });
         let shader = context.create_shader_module(Some("body, floor and shadow"), include_str!("shader.wgsl"));
-        let pipelines = PipelineCache::new(move |samples| pipeline(&pipeline_layout, &shader, samples));
-        Shader { kind, environment, layout, pipelines }
+        let pipelines = PipelineCache::new(move |samples| pipeline(kind, &pipeline_layout, &shader, samples));
+        Shader { kind, environment, painting, white: Texture::white(), layout, pipelines }
     }
 
     /// `Scene` of the WGSL code as floats.
@@ -112,6 +129,8 @@ impl Shader {
             Kind::Body => 0.0,
             Kind::Floor => 1.0,
             Kind::Shadow => 2.0,
+            Kind::Flat => 3.0,
+            Kind::Obstacle => 4.0,
         };
         // The shadow lies slightly above the floor, which would hide it.
         let floor = if self.kind == Kind::Shadow { floor + 3e-3 * radius } else { floor };
@@ -122,9 +141,9 @@ impl Shader {
             camera.eye().extend(kind),
             up.extend(floor),
             key.extend(radius),
-            fill.extend(0.0),
+            fill.extend(if self.painting.borrow().is_some() { 1.0 } else { 0.0 }),
             centre.extend(0.0),
-            Vec3::new(color.r, color.g, color.b).extend(1.0),
+            Vec3::new(color.r, color.g, color.b).extend(color.a),
             Vec3::new(background.r, background.g, background.b).extend(1.0),
         ];
         let mut uniforms = [0.0; FLOATS];
@@ -182,22 +201,34 @@ impl Material3d for Shader {
     ) {
         let indices = mesh.num_indices();
         let Some(data) = data.as_any().downcast_ref::<Uniforms>() else { return };
-        let Some((coords, faces, normals, _)) = mesh.ensure_on_gpu() else { return };
+        let Some((coords, faces, normals, places)) = mesh.ensure_on_gpu() else { return };
         pass.set_pipeline(&self.pipelines.get(context.sample_count));
         pass.set_bind_group(0, &data.group, &[]);
+        pass.set_bind_group(1, &self.painting.borrow().as_ref().unwrap_or(&self.white).group, &[]);
         pass.set_vertex_buffer(0, coords.slice(..));
         pass.set_vertex_buffer(1, normals.slice(..));
+        pass.set_vertex_buffer(2, places.slice(..));
         pass.set_index_buffer(faces.slice(..), VERTEX_INDEX_FORMAT);
         pass.draw_indexed(0..indices, 0, 0..1);
     }
 }
 
-fn pipeline(layout: &wgpu::PipelineLayout, shader: &wgpu::ShaderModule, samples: u32) -> wgpu::RenderPipeline {
-    let vectors = ATTRIBUTES.each_ref().map(|attributes| {
-        Some(wgpu::VertexBufferLayout { array_stride: 12, step_mode: wgpu::VertexStepMode::Vertex, attributes })
+fn pipeline(
+    kind: Kind,
+    layout: &wgpu::PipelineLayout,
+    shader: &wgpu::ShaderModule,
+    samples: u32,
+) -> wgpu::RenderPipeline {
+    let vectors: [_; 3] = std::array::from_fn(|i| {
+        let (array_stride, attributes) = (STRIDES[i], &ATTRIBUTES[i][..]);
+        Some(wgpu::VertexBufferLayout { array_stride, step_mode: wgpu::VertexStepMode::Vertex, attributes })
     });
-    let target =
-        wgpu::ColorTargetState { format: Context::render_format(), blend: None, write_mask: wgpu::ColorWrites::ALL };
+    let is_translucent = kind == Kind::Obstacle;
+    let target = wgpu::ColorTargetState {
+        format: Context::render_format(),
+        blend: is_translucent.then_some(wgpu::BlendState::ALPHA_BLENDING),
+        write_mask: wgpu::ColorWrites::ALL,
+    };
     Context::get().create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("body, floor and shadow"),
         layout: Some(layout),
@@ -216,7 +247,7 @@ fn pipeline(layout: &wgpu::PipelineLayout, shader: &wgpu::ShaderModule, samples:
         primitive: wgpu::PrimitiveState::default(), // triangles, both sides
         depth_stencil: Some(wgpu::DepthStencilState {
             format: Context::depth_format(),
-            depth_write_enabled: Some(true),
+            depth_write_enabled: Some(!is_translucent),
             depth_compare: Some(wgpu::CompareFunction::Less),
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState::default(),

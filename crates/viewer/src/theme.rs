@@ -1,7 +1,7 @@
-//! Colours and line widths.
+//! Colours, line widths and the style of text.
 
 use kiss3d::color::Color;
-use kiss3d::egui::Color32;
+use kiss3d::egui::{self, Color32, Theme};
 
 // Colours of the scene are linear, and look brighter on the screen.
 
@@ -38,3 +38,28 @@ pub const SECONDARY_TEXT: Color32 = Color32::from_rgb(0x60, 0x60, 0x60);
 pub const FAILURE: Color32 = Color32::from_rgb(0xb3, 0x26, 0x1e);
 /// Background of the panel.
 pub const PANEL: Color32 = Color32::from_rgba_premultiplied(0xec, 0xec, 0xec, 0xee);
+
+/// Lines of obstacles.
+pub const OBSTACLE: Color = Color::new(0.10, 0.12, 0.16, 1.0);
+/// Grid lines of obstacles' faces.
+pub const GRID_LINE: Color = Color::new(0.42, 0.46, 0.52, 1.0);
+/// Faces of obstacles.
+pub const FACE: Color = Color::new(0.62, 0.66, 0.72, 0.45);
+/// Arrows of contact forces.
+pub const FORCE: Color = Color::new(0.62, 0.02, 0.02, 1.0);
+
+/// Dark text on a light background.
+pub fn set_style(context: &egui::Context) {
+    context.set_theme(Theme::Light);
+    context.all_styles_mut(|style| {
+        style.visuals.override_text_color = Some(TEXT);
+        style.interaction.selectable_labels = false;
+        for (kind, font) in &mut style.text_styles {
+            font.size = match kind {
+                egui::TextStyle::Small => 12.0,
+                egui::TextStyle::Heading => 20.0,
+                _ => 14.0,
+            };
+        }
+    });
+}

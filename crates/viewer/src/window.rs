@@ -3,17 +3,18 @@
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use fem_scene::Scene;
 use fem_scene::simulation::{Energies, Simulation};
 use kiss3d::context::Context;
-use kiss3d::egui::{self, Theme};
 use kiss3d::window::{CanvasSetup, NumSamples, Window};
 use thiserror::Error;
 
 use crate::display::{display_available, without_panic, without_wayland_message};
 use crate::options::WindowOptions;
 use crate::pictures::{FRAMES_PER_SECOND, NotWritten, Recorder, check_writable};
-use crate::session::Session;
+use crate::session::{Session, Start};
 use crate::theme;
+use crate::worker::scene_editor::SceneEditor;
 use crate::worker::{LoopOptions, Stepping, Stop, Worker};
 
 /// Results of a run in a window.
@@ -26,6 +27,8 @@ pub struct Outcome {
     pub energies: Vec<(f64, Energies)>,
     /// The failure that had stopped the simulation when the window was closed.
     pub stop: Option<Stop>,
+    /// The scene with the changes of its user, if it could be changed.
+    pub scene: Option<Scene>,
     /// A picture that could not be written while the window was open.
     pub not_written: Option<NotWritten>,
 }
@@ -73,15 +76,17 @@ pub fn open(simulation: Box<dyn Simulation>, options: WindowOptions) -> Result<O
         steps: options.quit_after_steps,
         log_energies: options.log_energies,
     };
-    let (name, shape) = (simulation.name().to_owned(), simulation.shape());
-    let worker = Worker::start(simulation, loop_options);
-    let (worker, not_written) = Session::new(window, worker, name, &shape, recorder, &options).run();
+    let start = Start::of(&*simulation);
+    let editor = options.editing.clone().map(|editing| SceneEditor::new(editing, options.up));
+    let worker = Worker::start(simulation, loop_options, editor);
+    let (worker, not_written) = Session::new(window, worker, start, recorder, &options).run();
     let finished = worker.finish();
     Ok(Outcome {
         simulation: finished.simulation,
         step_seconds: finished.step_seconds,
         energies: finished.energies,
         stop: finished.stop,
+        scene: finished.scene,
         not_written,
     })
 }
@@ -97,26 +102,10 @@ fn create(name: &str, (width, height): (u32, u32)) -> Result<Window, String> {
     if Context::get().adapter.get_info().device_type == wgpu::DeviceType::Cpu {
         window.set_samples(NumSamples::One); // multisampling is too slow in software
     }
-    set_style(window.egui_context_mut());
+    theme::set_style(window.egui_context_mut());
     Ok(window)
 }
 
 fn title(name: &str) -> String {
     format!("{name} – finite elements 3d")
-}
-
-/// Dark text on a light background.
-fn set_style(context: &egui::Context) {
-    context.set_theme(Theme::Light);
-    context.all_styles_mut(|style| {
-        style.visuals.override_text_color = Some(theme::TEXT);
-        style.interaction.selectable_labels = false;
-        for (kind, font) in &mut style.text_styles {
-            font.size = match kind {
-                egui::TextStyle::Small => 12.0,
-                egui::TextStyle::Heading => 20.0,
-                _ => 14.0,
-            };
-        }
-    });
 }

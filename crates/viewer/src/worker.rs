@@ -1,20 +1,28 @@
 //! The simulation's thread: the window sends it commands and reads its latest snapshot.
 
+#[cfg(test)]
+mod editing_tests;
+pub mod scene_editor;
 pub mod simulation_loop;
 #[cfg(test)]
 mod tests;
 
 use std::fmt;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 
-use fem_scene::simulation::{Click, Energies, Failure, Parameter, Pull, Simulation};
-use kiss3d::glamx::Vec3;
+use fem_scene::Scene;
+use fem_scene::output::ElementField;
+use fem_scene::simulation::{Click, Energies, Failure, Parameter, Pull, Shape, Simulation};
 use nalgebra::Vector3;
 
+use crate::frame::{Frame, Wanted};
 use crate::history::Sample;
+use crate::scene_parameters::Change;
+use scene_editor::SceneEditor;
 
 /// The reason why a simulation has stopped until it is reset.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +54,10 @@ pub enum Command {
     NextIntegrator,
     /// Set a parameter by its key.
     Set(&'static str, f64),
+    /// Change the scene, and build its simulation anew.
+    Change(Vec<Change>),
+    /// Compute these parts of the frames.
+    Want(Wanted),
     /// Pull nodes, or release them.
     Pull(Option<Pull>),
     /// Reply with the nodes that a click picks and their positions.
@@ -82,10 +94,16 @@ pub struct LoopOptions {
 /// A copy of the simulation's state for the window.
 #[derive(Clone, Debug, Default)]
 pub struct Snapshot {
-    /// Positions of the nodes, m.
-    pub positions: Vec<Vec3>,
-    /// Positions of the display surface's vertices, m.
-    pub display: Vec<Vec3>,
+    /// The state as a picture shows it.
+    pub frame: Frame,
+    /// The undeformed body; `None` before the first snapshot.
+    pub shape: Option<Arc<Shape>>,
+    /// The fields that the body has.
+    pub fields: Vec<ElementField>,
+    /// Length of the sum of all forces of obstacles, N; `None` without obstacles.
+    pub contact_force: Option<f64>,
+    /// Weight of the body, N.
+    pub weight: Option<f64>,
     /// Simulated time, s.
     pub time: f64,
     /// Steps since the start or the last reset.
@@ -98,6 +116,18 @@ pub struct Snapshot {
     pub integrator: &'static str,
     /// The parameters that the user may change.
     pub parameters: Vec<Parameter>,
+    /// The numbers of the scene that the user may change.
+    pub scene_parameters: Vec<Parameter>,
+    /// The picture of the body, if it is made from one that the user may change.
+    pub object: Option<PathBuf>,
+    /// Whether a changed scene is being built.
+    pub is_building: bool,
+    /// Number of commands [`Command::Change`] that were executed or refused.
+    pub changes: usize,
+    /// Time step, s.
+    pub dt: f64,
+    /// The longest stable time step of an explicit method, s, if the scene may be changed.
+    pub critical_time_step: Option<f64>,
     /// Energies of the last simulated seconds.
     pub history: Vec<Sample>,
     /// Whether the simulation is paused.
@@ -120,6 +150,8 @@ pub struct Finished {
     pub energies: Vec<(f64, Energies)>,
     /// The failure that had stopped the simulation at the end.
     pub stop: Option<Stop>,
+    /// The scene with the user's changes, if it could be changed.
+    pub scene: Option<Scene>,
 }
 
 /// Shared storage for the latest snapshot.
@@ -144,13 +176,13 @@ pub struct Worker {
 }
 
 impl Worker {
-    /// Starts the thread of `simulation`.
-    pub fn start(simulation: Box<dyn Simulation>, options: LoopOptions) -> Self {
+    /// Starts the thread of `simulation`. `editor` changes its scene; without one, the scene stays.
+    pub fn start(simulation: Box<dyn Simulation>, options: LoopOptions, editor: Option<SceneEditor>) -> Self {
         let (commands, received) = channel();
         let slot = Arc::new(Slot::default());
         let shared_slot = Arc::clone(&slot);
         let thread = std::thread::spawn(move || {
-            simulation_loop::SimulationLoop::new(simulation, options, received, shared_slot).run()
+            simulation_loop::SimulationLoop::new(simulation, options, editor, received, shared_slot).run()
         });
         Worker { commands, slot, thread }
     }
@@ -175,6 +207,7 @@ impl Worker {
             step_seconds: Vec::new(),
             energies: Vec::new(),
             stop: Some(Stop::Panicked(simulation_loop::panic_message(panic.as_ref()))),
+            scene: None,
         })
     }
 }

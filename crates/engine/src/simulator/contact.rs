@@ -1,7 +1,7 @@
 //! Contact in a simulation: steps that keep the body outside its obstacles, and the forces of the obstacles.
 
-use fem_scene::simulation::{Cause, History, PlaneContact};
-use fem_scene::{Body, Timer};
+use fem_scene::simulation::{Cause, History, Plane, PlaneContact};
+use fem_scene::{Body, ContactPlane, Timer};
 use nalgebra::Vector3;
 
 use super::Simulator;
@@ -186,6 +186,16 @@ impl<T: Real> Simulator<T> {
             }
         };
         (0..contact.planes.planes.len()).map(of_plane).collect()
+    }
+
+    /// The obstacles where they are now.
+    pub(super) fn planes_now(&self) -> Vec<Plane> {
+        let planes = self.contact.iter().flat_map(|contact| &contact.planes.planes);
+        let now = |plane: &ContactPlane| Plane {
+            point: plane.point + plane.displacement(self.state.time),
+            normal: plane.normal,
+        };
+        planes.map(now).collect()
     }
 
     /// The force of all obstacles on each node, in the mesh's numbering, N; `None` without obstacles.

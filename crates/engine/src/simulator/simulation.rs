@@ -5,8 +5,8 @@ use std::sync::atomic::Ordering;
 
 use fem_scene::Integrator as IntegratorKind;
 use fem_scene::simulation::{
-    Cause, Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, PlaneContact, PlasticFlow, Pull, Reaction,
-    Shape, Simulation,
+    Cause, Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, Plane, PlaneContact, PlasticFlow, Pull,
+    Reaction, Shape, Simulation,
 };
 use nalgebra::{DVector, Matrix3, Vector3};
 
@@ -199,6 +199,14 @@ impl<T: Real> Simulation for Simulator<T> {
 
     fn contacts(&self) -> Vec<PlaneContact> {
         self.contacts_now()
+    }
+
+    fn planes(&self) -> Vec<Plane> {
+        self.planes_now()
+    }
+
+    fn weight(&self) -> Option<f64> {
+        self.weight
     }
 
     fn contact_forces(&self) -> Option<DVector<f64>> {

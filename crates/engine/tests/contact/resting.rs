@@ -17,6 +17,7 @@ fn a_block_of_quadratic_triangles_rests_where_the_barrier_carries_its_weight() {
     let tables = gravity(0.0, -9.81) + &floor(-5e-4, "");
     let mut simulation = build(&text(&mesh, "corotated", young, "implicit_euler", 0.1, &tables));
     run(&mut simulation, 400);
+    assert!((simulation.weight().unwrap() - WEIGHT).abs() < 1e-12 * WEIGHT);
     let contact = &simulation.contacts()[0];
     assert!((contact.force[1] - WEIGHT).abs() < 1e-8 * WEIGHT, "{:?}", contact.force);
     // κ |b'(gap/d̂)| times the area of the nodes below is m g: they have Simpson's shares of the lower side and of the sides beside it.

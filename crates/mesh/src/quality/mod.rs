@@ -13,9 +13,9 @@ pub use intersections::{SelfIntersections, self_intersections};
 pub(crate) use intersections::{Triangle, meet, segment_meets};
 pub(crate) use surface::branching_places;
 pub use surface::{SurfaceQuality, surface_quality};
-pub use tetrahedra::{Quality, quality};
+pub use tetrahedra::{Quality, quality, tetrahedron_radius_to_edge};
 pub(crate) use tetrahedra::{extreme_dihedral_angles, smallest_dihedral_angle};
-pub use triangles::{TriangleQuality, triangle_quality};
+pub use triangles::{TriangleQuality, triangle_quality, triangle_radius_to_edge};
 
 /// An extreme value and its element, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -66,6 +66,11 @@ pub(super) struct Shape {
     pub radius_to_edge: f64,
 }
 
+/// Circumradius over shortest edge of a tetrahedron; infinite or NaN without volume.
+pub fn tetrahedron_radius_to_edge(corners: [Vector3<f64>; 4]) -> f64 {
+    shape(corners).radius_to_edge.abs()
+}
+
 /// Smallest dihedral angle of a tetrahedron, degrees.
 pub(crate) fn smallest_dihedral_angle(corners: [Vector3<f64>; 4]) -> f64 {
     least(&dihedral_angles(FACES.map(|face| area_vector(face.map(|i| corners[i])))))

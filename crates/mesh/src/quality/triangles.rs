@@ -66,6 +66,11 @@ pub fn triangle_quality<const D: usize>(mesh: &Mesh<D, 3>) -> TriangleQuality {
     }
 }
 
+/// Circumradius over shortest edge of a triangle; infinite or NaN without area.
+pub fn triangle_radius_to_edge(corners: [Vector3<f64>; 3]) -> f64 {
+    measure(corners).radius_to_edge
+}
+
 fn edge_lengths<const D: usize>(mesh: &Mesh<D, 3>) -> Vec<f64> {
     let sides = mesh.elements.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
     let edges: HashSet<[usize; 2]> = sides.map(|[a, b]| [a.min(b), a.max(b)]).collect();

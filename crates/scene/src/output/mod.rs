@@ -1,10 +1,12 @@
 //! The files of a run: state, energies, statistics, the final mesh, a series of meshes.
 
+mod element_field;
 mod fields;
 mod probe;
 mod series;
 mod state;
 
+pub use element_field::ElementField;
 pub use fields::von_mises;
 pub use probe::Probe;
 pub use series::Series;

@@ -97,3 +97,29 @@ fn an_error_of_the_body_names_the_override_too() {
     let message = fem_scene::body(&scene, Path::new("no data")).unwrap_err().to_string();
     assert!(message.starts_with("--set mesh.box.cells_per_unit=0: mesh.box"), "{message}");
 }
+
+#[test]
+fn a_changed_scene_is_that_of_the_file_with_the_values() {
+    let scene = read(LEAST);
+    let changed = scene.changed(&["material.C=2e5".parse().unwrap()]).unwrap();
+    assert_eq!(tables(changed.clone()), tables(read(&edit(LEAST, "C = 1e5", "C = 2e5"))));
+    let again = changed.changed(&["material.density=7".parse().unwrap()]).unwrap();
+    assert_eq!((again.material.C, again.material.density), (Some(2e5), 7.0));
+    assert_eq!(again.overrides.len(), 2);
+}
+
+#[test]
+fn a_change_keeps_another_time_step_and_integrator_than_the_files() {
+    let mut scene = read(LEAST);
+    scene.time.dt = Some(0.003);
+    scene.time.integrator = fem_scene::Integrator::LinearlyImplicitEuler;
+    let changed = scene.changed(&["material.density=7".parse().unwrap()]).unwrap();
+    assert_eq!((changed.time.dt, changed.time.integrator), (scene.time.dt, scene.time.integrator));
+    assert_eq!(scene.changed(&["time.dt=0.5".parse().unwrap()]).unwrap().time.dt, Some(0.5));
+}
+
+#[test]
+fn a_change_that_is_refused_names_the_field_without_a_place() {
+    let error = read(LEAST).changed(&["material.density=-1".parse().unwrap()]).unwrap_err();
+    assert!(error.problem().starts_with("material.density is -1"), "{}", error.problem());
+}

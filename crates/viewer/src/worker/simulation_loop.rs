@@ -8,19 +8,31 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use fem_scene::simulation::{Energies, Simulation};
+use fem_scene::output::ElementField;
+use fem_scene::simulation::{Energies, Pull, Simulation};
+use nalgebra::Vector3;
 
+use super::scene_editor::{Motion, SceneEditor};
 use super::{Command, Finished, LoopOptions, Slot, Snapshot, Stepping, Stop};
-use crate::geometry::{points, single};
+use crate::frame::{Frame, Wanted};
 use crate::history::{History, Sample};
 use crate::pacing::{Pace, Rate};
+use crate::scene_parameters::Change;
 
 const STEPS_IN_MEDIAN: usize = 61;
+
+/// Largest number of nodes for which the longest stable time step is computed.
+const MOST_NODES: usize = 5000;
 
 /// The simulation and the state of its loop.
 pub struct SimulationLoop {
     simulation: Box<dyn Simulation>,
     options: LoopOptions,
+    editor: Option<SceneEditor>,
+    /// Number of changes of the scene so far, refused ones included.
+    changes: usize,
+    /// The longest stable time step of an explicit method, s.
+    critical_time_step: Option<f64>,
     commands: Receiver<Command>,
     slot: Arc<Slot>,
     started: Instant,
@@ -36,6 +48,9 @@ pub struct SimulationLoop {
     paused: bool,
     stop: Option<Stop>,
     refusal: Option<String>,
+    wanted: Wanted,
+    /// The fields that the body has.
+    fields: Vec<ElementField>,
     last: Snapshot,
 }
 
@@ -44,12 +59,16 @@ impl SimulationLoop {
     pub fn new(
         simulation: Box<dyn Simulation>,
         options: LoopOptions,
+        editor: Option<SceneEditor>,
         commands: Receiver<Command>,
         slot: Arc<Slot>,
     ) -> Self {
         SimulationLoop {
             simulation,
             options,
+            editor,
+            changes: 0,
+            critical_time_step: None,
             commands,
             slot,
             started: Instant::now(),
@@ -64,6 +83,8 @@ impl SimulationLoop {
             paused: false,
             stop: None,
             refusal: None,
+            wanted: Wanted::default(),
+            fields: Vec::new(),
             last: Snapshot::default(),
         }
     }
@@ -83,12 +104,24 @@ impl SimulationLoop {
             step_seconds: self.step_seconds,
             energies: self.energies,
             stop: self.stop,
+            scene: self.editor.map(|editor| editor.scene().clone()),
         }
     }
 
     fn begin(&mut self) {
+        self.inspect();
         self.sample();
         self.publish();
+    }
+
+    /// Finds out what the panel shows of a simulation and its method.
+    fn inspect(&mut self) {
+        self.fields = ElementField::of(&*self.simulation);
+        let is_small = self.simulation.shape().mesh.vertices().len() <= MOST_NODES;
+        self.critical_time_step = match &self.editor {
+            Some(_) if is_small => self.simulation.critical_time_step(),
+            _ => None,
+        };
     }
 
     /// Calls `part`. A panic in it stops the simulation and is published with the last snapshot.
@@ -127,9 +160,14 @@ impl SimulationLoop {
         match command {
             Command::TogglePause => self.paused = !self.paused,
             Command::Reset => self.reset(),
-            Command::NextIntegrator => drop(self.simulation.next_integrator()),
+            Command::NextIntegrator => {
+                self.simulation.next_integrator();
+                self.inspect();
+            }
+            Command::Change(changes) => self.change(&changes),
             Command::Set(key, value) => self.refusal = self.simulation.set_parameter(key, value).err(),
-            Command::Pull(pull) => return self.simulation.pull(pull),
+            Command::Want(wanted) => self.wanted = wanted,
+            Command::Pull(pull) => return self.pull(pull),
             Command::Pick(click, reply) => {
                 let positions = self.simulation.positions();
                 let place = |node: usize| (node, positions.fixed_rows::<3>(3 * node).into_owned());
@@ -142,10 +180,45 @@ impl SimulationLoop {
         self.publish();
     }
 
+    /// Pulls nodes. Those of a mesh that has been replaced since they were picked may not exist.
+    fn pull(&mut self, pull: Option<Pull>) {
+        let nodes = self.simulation.shape().mesh.vertices().len();
+        let exists = |pull: &Pull| pull.anchors.iter().all(|(node, _)| *node < nodes);
+        self.simulation.pull(pull.filter(exists));
+    }
+
+    /// Changes the scene. A refused change leaves the simulation as it is, with a message.
+    fn change(&mut self, changes: &[Change]) {
+        let Some(editor) = &mut self.editor else { return };
+        self.last.is_building = true;
+        self.slot.put(self.last.clone());
+        self.changes += 1;
+        let outcome = editor.apply(changes, &mut self.simulation);
+        // The wall clock did not stop meanwhile.
+        self.pace.restart();
+        self.rate.restart();
+        match outcome {
+            Ok(motion) => {
+                self.refusal = None;
+                self.stop = None;
+                if motion == Motion::StartsAgain {
+                    self.forget_run();
+                }
+                self.inspect();
+            }
+            Err(message) => self.refusal = Some(message),
+        }
+    }
+
     fn reset(&mut self) {
         self.simulation.reset();
         self.stop = None;
         self.refusal = None;
+        self.forget_run();
+    }
+
+    /// Drops the results of a run that starts again.
+    fn forget_run(&mut self) {
         self.history.clear();
         self.step_seconds.clear();
         self.energies.clear();
@@ -208,14 +281,23 @@ impl SimulationLoop {
     fn publish(&mut self) {
         let simulation = &self.simulation;
         self.last = Snapshot {
-            positions: points(&simulation.positions()),
-            display: simulation.display_positions().iter().map(single).collect(),
+            frame: Frame::of(&**simulation, self.wanted),
+            shape: Some(simulation.shape()),
+            fields: self.fields.clone(),
+            contact_force: contact_force(&**simulation),
+            weight: simulation.weight(),
             time: simulation.time(),
             steps: self.step_seconds.len(),
             step_seconds: median(&self.recent),
             rate: self.rate.factor(),
             integrator: simulation.integrator(),
             parameters: simulation.parameters(),
+            scene_parameters: self.editor.as_ref().map_or_else(Vec::new, |editor| editor.parameters()),
+            object: self.editor.as_ref().and_then(|editor| editor.object()),
+            is_building: false,
+            changes: self.changes,
+            dt: simulation.dt(),
+            critical_time_step: self.critical_time_step,
             history: self.history.to_vec(),
             paused: self.paused,
             finished: self.is_finished(),
@@ -224,6 +306,13 @@ impl SimulationLoop {
         };
         self.slot.put(self.last.clone());
     }
+}
+
+/// Length of the sum of all forces of obstacles, N; `None` without obstacles.
+fn contact_force(simulation: &dyn Simulation) -> Option<f64> {
+    let contacts = simulation.contacts();
+    let sum: Vector3<f64> = contacts.iter().map(|contact| Vector3::from(contact.force)).sum();
+    (!contacts.is_empty()).then(|| sum.norm())
 }
 
 fn median(values: &VecDeque<f64>) -> f64 {

@@ -10,23 +10,25 @@ use nalgebra::{DVector, Matrix3, Matrix4, Vector4};
 use super::*;
 
 const TIMEOUT: Duration = Duration::from_secs(10);
-const REAL_TIME: LoopOptions = LoopOptions { stepping: Stepping::RealTime, steps: None, log_energies: true };
+pub const REAL_TIME: LoopOptions = LoopOptions { stepping: Stepping::RealTime, steps: None, log_energies: true };
 
 /// One node that rises by one metre per second, and fails or panics at given steps.
-struct Fake {
-    time: f64,
-    offset: f64,
-    fails_at_step: usize,
-    panics_at_step: usize,
-    steps: usize,
-    step_seconds: f64,
-    calls: Arc<AtomicUsize>,
-    pulled: Option<Pull>,
+pub struct Fake {
+    pub time: f64,
+    pub density: f64,
+    pub offset: f64,
+    pub fails_at_step: usize,
+    pub panics_at_step: usize,
+    pub steps: usize,
+    pub step_seconds: f64,
+    pub calls: Arc<AtomicUsize>,
+    pub pulled: Option<Pull>,
 }
 
-fn fake() -> Fake {
+pub fn fake() -> Fake {
     Fake {
         time: 0.0,
+        density: 1.0,
         offset: 0.0,
         fails_at_step: usize::MAX,
         panics_at_step: usize::MAX,
@@ -42,7 +44,8 @@ impl Simulation for Fake {
         "fake"
     }
     fn shape(&self) -> Arc<Shape> {
-        Arc::new(Shape { mesh: TetrahedralMesh::default().into(), boundary: Vec::new(), display: None })
+        let mesh = TetrahedralMesh::default().into();
+        Arc::new(Shape { mesh, boundary: Vec::new(), display: None, picture: None })
     }
     fn positions(&self) -> DVector<f64> {
         DVector::from_vec(vec![self.offset, self.time, 0.0])
@@ -81,10 +84,14 @@ impl Simulation for Fake {
         self.panics_at_step = usize::MAX;
     }
     fn checkpoint(&self) -> Checkpoint {
-        Checkpoint::default()
+        Checkpoint { time: self.time, steps: self.steps, ..Checkpoint::default() }
     }
-    fn restore(&mut self, _: &Checkpoint) -> Result<(), String> {
+    fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), String> {
+        (self.time, self.steps) = (checkpoint.time, checkpoint.steps);
         Ok(())
+    }
+    fn weight(&self) -> Option<f64> {
+        Some(self.density)
     }
     fn energies(&self) -> Energies {
         Energies { kinetic: 1.0, potential: self.time }
@@ -122,8 +129,12 @@ impl Simulation for Fake {
     }
 }
 
+fn start(simulation: Box<dyn Simulation>, options: LoopOptions) -> Worker {
+    Worker::start(simulation, options, None)
+}
+
 /// Takes snapshots until one satisfies `wanted`.
-fn wait_for(worker: &Worker, what: &str, wanted: impl Fn(&Snapshot) -> bool) -> Snapshot {
+pub fn wait_for(worker: &Worker, what: &str, wanted: impl Fn(&Snapshot) -> bool) -> Snapshot {
     let begun = Instant::now();
     while begun.elapsed() < TIMEOUT {
         match worker.latest() {
@@ -136,10 +147,10 @@ fn wait_for(worker: &Worker, what: &str, wanted: impl Fn(&Snapshot) -> bool) -> 
 
 #[test]
 fn steps_follow_the_first_snapshot() {
-    let worker = Worker::start(Box::new(fake()), REAL_TIME);
+    let worker = start(Box::new(fake()), REAL_TIME);
     let later = wait_for(&worker, "some steps on", |s| s.steps >= 3);
     assert!((later.time - 0.01 * later.steps as f64).abs() < 1e-9);
-    assert_eq!(later.positions[0].y, later.time as f32);
+    assert_eq!(later.frame.positions[0].y, later.time as f32);
     let finished = worker.finish();
     assert_eq!(finished.step_seconds.len(), finished.energies.len());
     assert!(finished.stop.is_none() && finished.simulation.is_some());
@@ -148,7 +159,7 @@ fn steps_follow_the_first_snapshot() {
 #[test]
 fn a_fast_simulation_runs_in_real_time() {
     let begun = Instant::now();
-    let worker = Worker::start(Box::new(fake()), REAL_TIME);
+    let worker = start(Box::new(fake()), REAL_TIME);
     let snapshot = wait_for(&worker, "0.2 s on", |s| s.time >= 0.2);
     assert!(begun.elapsed().as_secs_f64() >= snapshot.time - 0.02);
 }
@@ -157,7 +168,7 @@ fn a_fast_simulation_runs_in_real_time() {
 fn a_paused_simulation_takes_no_steps_and_continues() {
     let fake = fake();
     let calls = Arc::clone(&fake.calls);
-    let worker = Worker::start(Box::new(fake), REAL_TIME);
+    let worker = start(Box::new(fake), REAL_TIME);
     worker.send(Command::TogglePause);
     let paused = wait_for(&worker, "paused", |s| s.paused);
     let before = calls.load(Ordering::SeqCst);
@@ -169,7 +180,7 @@ fn a_paused_simulation_takes_no_steps_and_continues() {
 
 #[test]
 fn a_reset_restores_the_initial_state_also_during_a_pause() {
-    let worker = Worker::start(Box::new(fake()), REAL_TIME);
+    let worker = start(Box::new(fake()), REAL_TIME);
     wait_for(&worker, "some steps on", |s| s.steps >= 3);
     worker.send(Command::TogglePause);
     worker.send(Command::Reset);
@@ -180,7 +191,7 @@ fn a_reset_restores_the_initial_state_also_during_a_pause() {
 
 #[test]
 fn a_failure_keeps_the_last_good_state_until_a_reset() {
-    let worker = Worker::start(Box::new(Fake { fails_at_step: 4, ..fake() }), REAL_TIME);
+    let worker = start(Box::new(Fake { fails_at_step: 4, ..fake() }), REAL_TIME);
     let failed = wait_for(&worker, "failed", |s| s.stop.is_some());
     assert_eq!(failed.steps, 3);
     assert!(failed.stop.unwrap().to_string().contains("smaller steps"));
@@ -190,17 +201,17 @@ fn a_failure_keeps_the_last_good_state_until_a_reset() {
 
 #[test]
 fn a_panic_stops_the_simulation_until_a_reset() {
-    let worker = Worker::start(Box::new(Fake { panics_at_step: 2, ..fake() }), REAL_TIME);
+    let worker = start(Box::new(Fake { panics_at_step: 2, ..fake() }), REAL_TIME);
     let stopped = wait_for(&worker, "stopped", |s| s.stop.is_some());
     assert_eq!(stopped.stop, Some(Stop::Panicked("index out of bounds".into())));
-    assert_eq!(stopped.positions.len(), 1, "the last snapshot stays");
+    assert_eq!(stopped.frame.positions.len(), 1, "the last snapshot stays");
     worker.send(Command::Reset);
     wait_for(&worker, "running again", |s| s.stop.is_none() && s.steps > 2);
 }
 
 #[test]
 fn a_refused_parameter_has_a_message_and_a_valid_one_clears_it() {
-    let worker = Worker::start(Box::new(fake()), REAL_TIME);
+    let worker = start(Box::new(fake()), REAL_TIME);
     worker.send(Command::Set("offset", 2.0));
     let refused = wait_for(&worker, "refused", |s| s.refusal.is_some());
     assert_eq!(refused.parameters[0].value, 0.0);
@@ -211,7 +222,7 @@ fn a_refused_parameter_has_a_message_and_a_valid_one_clears_it() {
 
 #[test]
 fn a_pick_returns_nodes_and_positions_also_during_a_pause() {
-    let worker = Worker::start(Box::new(Fake { offset: 0.25, ..fake() }), REAL_TIME);
+    let worker = start(Box::new(Fake { offset: 0.25, ..fake() }), REAL_TIME);
     worker.send(Command::TogglePause);
     let pick = |x: f64| {
         let (reply, answer) = channel();
@@ -227,7 +238,7 @@ fn a_pick_returns_nodes_and_positions_also_during_a_pause() {
 
 #[test]
 fn the_simulation_finishes_after_the_given_number_of_steps() {
-    let worker = Worker::start(Box::new(fake()), LoopOptions { steps: Some(5), ..REAL_TIME });
+    let worker = start(Box::new(fake()), LoopOptions { steps: Some(5), ..REAL_TIME });
     assert_eq!(wait_for(&worker, "finished", |s| s.finished).steps, 5);
     assert_eq!(worker.finish().energies.len(), 5);
 }
@@ -235,7 +246,7 @@ fn the_simulation_finishes_after_the_given_number_of_steps() {
 #[test]
 fn frames_come_on_request_at_even_intervals() {
     let options = LoopOptions { stepping: Stepping::Frames(1.0 / 30.0), ..REAL_TIME };
-    let worker = Worker::start(Box::new(fake()), options);
+    let worker = start(Box::new(fake()), options);
     let mut times = vec![wait_for(&worker, "the start", |_| true).time];
     for _ in 0..6 {
         std::thread::sleep(Duration::from_millis(5));
@@ -251,7 +262,7 @@ fn frames_come_on_request_at_even_intervals() {
 fn the_thread_ends_when_its_window_is_gone() {
     let fake = Fake { step_seconds: 0.001, ..fake() };
     let calls = Arc::clone(&fake.calls);
-    let Worker { commands, thread, .. } = Worker::start(Box::new(fake), REAL_TIME);
+    let Worker { commands, thread, .. } = start(Box::new(fake), REAL_TIME);
     drop(commands);
     assert!(thread.join().unwrap().simulation.is_some());
     let after = calls.load(Ordering::SeqCst);

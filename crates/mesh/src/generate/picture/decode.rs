@@ -37,6 +37,40 @@ pub struct PictureError {
 /// A file that cannot be read or is no such picture, one of more than 2²⁶ pixels or of more than its bytes can stand for, and a picture of one
 /// colour.
 pub fn read_picture(file: &Path) -> Result<Picture, PictureError> {
+    let picture = read(file)?;
+    if let Some(alpha) = transparency(&picture) {
+        return Ok(with_coverage(&picture, alpha));
+    }
+    let luminance = picture.to_luma8().into_raw();
+    let coverage = darkness(&luminance).ok_or_else(|| PictureError {
+        file: file.to_owned(),
+        problem: "all pixels have one colour, so there is no region; give it a transparent or a light background"
+            .to_owned(),
+    })?;
+    Ok(with_coverage(&picture, coverage))
+}
+
+/// The colours of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pixels {
+    /// Number of columns.
+    pub width: u32,
+    /// Number of rows.
+    pub height: u32,
+    /// Red, green, blue and opacity of each pixel, sRGB, row by row from the upper left.
+    pub rgba: Vec<u8>,
+}
+
+/// Reads the colours of a PNG or JPEG file.
+///
+/// # Errors
+/// A file that cannot be read or is no such picture, one of more than 2²⁶ pixels or of more than its bytes can stand for.
+pub fn read_pixels(file: &Path) -> Result<Pixels, PictureError> {
+    let picture = read(file)?;
+    Ok(Pixels { width: picture.width(), height: picture.height(), rgba: picture.to_rgba8().into_raw() })
+}
+
+fn read(file: &Path) -> Result<DynamicImage, PictureError> {
     let problem = |problem: String| PictureError { file: file.to_owned(), problem };
     let opened = File::open(file).map_err(|error| {
         problem(match error.kind() {
@@ -45,17 +79,7 @@ pub fn read_picture(file: &Path) -> Result<Picture, PictureError> {
         })
     })?;
     let length = opened.metadata().map_or(0, |data| data.len());
-    let picture = decode(BufReader::new(opened), length).map_err(problem)?;
-    if let Some(alpha) = transparency(&picture) {
-        return Ok(with_coverage(&picture, alpha));
-    }
-    let luminance = picture.to_luma8().into_raw();
-    let coverage = darkness(&luminance).ok_or_else(|| {
-        problem(
-            "all pixels have one colour, so there is no region; give it a transparent or a light background".to_owned(),
-        )
-    })?;
-    Ok(with_coverage(&picture, coverage))
+    decode(BufReader::new(opened), length).map_err(problem)
 }
 
 fn with_coverage(picture: &DynamicImage, coverage: Vec<u8>) -> Picture {

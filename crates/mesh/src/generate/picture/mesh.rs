@@ -42,6 +42,8 @@ pub struct PictureMesh {
     pub contours: Vec<Vec<Vector2<f64>>>,
     /// Side of a pixel, m.
     pub pixel: f64,
+    /// Place of the mesh's origin in the picture, in pixels from the lower left.
+    pub origin: Vector2<f64>,
     /// Area of the region as the picture's pixels cover it, m².
     pub area: f64,
     /// Number of triangles that the edge asks for.
@@ -134,7 +136,8 @@ pub fn mesh_picture(picture: &Picture, options: FromPicture) -> Result<PictureMe
     let meshing = start.elapsed();
     mesh.vertices.iter_mut().for_each(|x| *x = to_metres(x));
     let contours = found.iter().map(|points| points.iter().map(to_metres).collect()).collect();
-    Ok(PictureMesh { mesh, contours, pixel, area: picture.area() * pixel * pixel, wish, steps, specks, meshing })
+    let area = picture.area() * pixel * pixel;
+    Ok(PictureMesh { mesh, contours, pixel, origin: least, area, wish, steps, specks, meshing })
 }
 
 /// Points of each contour of a picture.

@@ -13,7 +13,7 @@ mod size;
 
 pub use contour::contours;
 #[cfg(feature = "pictures")]
-pub use decode::{PictureError, read_picture};
+pub use decode::{PictureError, Pixels, read_picture, read_pixels};
 pub use mesh::{FromPicture, PictureMesh, PictureMeshError, mesh_picture};
 
 /// How far each pixel lies inside a region.

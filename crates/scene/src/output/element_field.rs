@@ -1,0 +1,112 @@
+//! Fields of one number per element, for the colours of pictures. They are computed on demand.
+
+use std::fmt;
+use std::str::FromStr;
+
+use fem_mesh::{tetrahedron_radius_to_edge, triangle_radius_to_edge};
+use nalgebra::Vector3;
+
+use super::von_mises;
+use crate::BodyMesh;
+use crate::simulation::Simulation;
+
+/// A field of one number per element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ElementField {
+    /// Von Mises stress of the Cauchy stress, Pa.
+    Stress,
+    /// Plastic strain, as in [`PlasticFlow`](crate::simulation::PlasticFlow).
+    PlasticStrain,
+    /// Circumradius over shortest edge of the deformed element: 1/√3 for an equilateral triangle, √6/4 for a regular tetrahedron,
+    /// more for all others.
+    Quality,
+}
+
+impl ElementField {
+    /// All fields.
+    pub const ALL: [Self; 3] = [Self::Stress, Self::PlasticStrain, Self::Quality];
+
+    /// Name for the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stress => "stress",
+            Self::PlasticStrain => "plastic_strain",
+            Self::Quality => "quality",
+        }
+    }
+
+    /// Name on the screen.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Stress => "von Mises stress",
+            Self::PlasticStrain => "plastic strain",
+            Self::Quality => "circumradius / edge",
+        }
+    }
+
+    /// SI unit; empty for a field without one.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Stress => "Pa",
+            Self::PlasticStrain | Self::Quality => "",
+        }
+    }
+
+    /// The fields that a body has.
+    pub fn of(simulation: &dyn Simulation) -> Vec<Self> {
+        let exists = |field: &Self| match field {
+            Self::Stress | Self::Quality => true,
+            Self::PlasticStrain => simulation.plastic_flow().is_some(),
+        };
+        Self::ALL.into_iter().filter(exists).collect()
+    }
+
+    /// The values of all elements now; `None` if the body has no such field.
+    pub fn values(self, simulation: &dyn Simulation) -> Option<Vec<f64>> {
+        let values: Vec<f64> = match self {
+            Self::Stress => simulation.stresses().iter().map(von_mises).collect(),
+            Self::PlasticStrain => simulation.plastic_flow()?.strains,
+            Self::Quality => radius_to_edge(simulation),
+        };
+        (values.len() == simulation.shape().mesh.elements()).then_some(values)
+    }
+}
+
+impl fmt::Display for ElementField {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for ElementField {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let found = Self::ALL.into_iter().find(|field| field.name() == text);
+        found.ok_or_else(|| format!("give one of {}", Self::ALL.map(Self::name).join(", ")))
+    }
+}
+
+fn radius_to_edge(simulation: &dyn Simulation) -> Vec<f64> {
+    let q = simulation.positions();
+    let x = |node: usize| -> Vector3<f64> { q.fixed_rows::<3>(3 * node).into_owned() };
+    match &simulation.shape().mesh {
+        BodyMesh::Solid(mesh) => mesh.elements.iter().map(|nodes| tetrahedron_radius_to_edge(nodes.map(x))).collect(),
+        BodyMesh::Flat { triangles, .. } => {
+            triangles.elements.iter().map(|nodes| triangle_radius_to_edge(nodes.map(x))).collect()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_field_is_parsed_from_its_name() {
+        for field in ElementField::ALL {
+            assert_eq!(field.name().parse(), Ok(field));
+        }
+        assert!("color".parse::<ElementField>().unwrap_err().contains("plastic_strain"));
+    }
+}

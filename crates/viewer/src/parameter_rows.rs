@@ -1,0 +1,169 @@
+//! The rows of the panel that change parameters.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use fem_scene::simulation::{Parameter, least_stable_substeps};
+use kiss3d::egui::{Align2, ComboBox, FontId, Sense, Slider, SliderClamping, Ui, vec2};
+
+use crate::request::UserRequest;
+use crate::scene_parameters::Change;
+use crate::worker::Snapshot;
+use crate::{plot, theme};
+
+// Logical pixels.
+const LABEL_WIDTH: f32 = 128.0; // of a parameter's name
+const VALUE_WIDTH: f32 = 68.0;
+
+/// Time for which a slider keeps its dragged value while the simulation has not answered.
+const ANSWER_TIME: Duration = Duration::from_millis(600);
+
+/// The order of the parameters, that of figure 5.1 of the thesis; others follow.
+const ORDER: [&str; 19] = [
+    "improve",
+    "edge",
+    "cells",
+    "scale",
+    "gravity",
+    "density",
+    "substeps",
+    "dt",
+    "lambda",
+    "mu",
+    "yield",
+    "creep",
+    "maximum",
+    "yield_stress",
+    "hardening",
+    "friction",
+    "alpha",
+    "beta",
+    "drag",
+];
+
+/// Parameters that are counts.
+const WHOLE: [&str; 3] = ["improve", "cells", "substeps"];
+
+/// State of the rows between frames.
+#[derive(Default)]
+pub struct ParameterRows {
+    dragged: Option<(&'static str, f64, Instant)>,
+}
+
+impl ParameterRows {
+    /// A row for the picture and each parameter, in the order of [`ORDER`].
+    pub fn show(&mut self, ui: &mut Ui, snapshot: &Snapshot, objects: &[PathBuf], requests: &mut Vec<UserRequest>) {
+        if let Some(object) = &snapshot.object {
+            choice(ui, object, objects, requests);
+        }
+        let of_scene = snapshot.scene_parameters.iter().map(|parameter| (parameter, true));
+        let of_simulation = snapshot.parameters.iter().map(|parameter| (parameter, false));
+        let mut rows: Vec<_> = of_scene.chain(of_simulation).collect();
+        rows.sort_by_key(|(parameter, _)| ORDER.iter().position(|key| *key == parameter.key).unwrap_or(ORDER.len()));
+        for (parameter, is_of_scene) in rows {
+            let name = name(parameter, snapshot.dt, snapshot.critical_time_step);
+            let Some(value) = self.slider(ui, parameter, &name, snapshot.is_building) else { continue };
+            requests.push(match is_of_scene {
+                true => UserRequest::Change(Change::Number(parameter.key, value)),
+                false => UserRequest::Set(parameter.key, value),
+            });
+        }
+    }
+
+    /// A row with a slider; returns the value that the user gives.
+    fn slider(&mut self, ui: &mut Ui, parameter: &Parameter, name: &str, is_building: bool) -> Option<f64> {
+        self.dragged.take_if(|(_, _, since)| since.elapsed() > ANSWER_TIME && !is_building);
+        let mut value = match self.dragged {
+            Some((key, value, _)) if key == parameter.key => value,
+            _ => parameter.value,
+        };
+        let (low, high) = parameter.range;
+        let changed = ui.horizontal(|ui| {
+            label(ui, name);
+            ui.spacing_mut().slider_width = (ui.available_width() - VALUE_WIDTH).max(40.0);
+            let slider = Slider::new(&mut value, low..=high)
+                .logarithmic(parameter.logarithmic)
+                .update_while_editing(false) // a number that is being typed has no meaning yet
+                .clamping(SliderClamping::Never) // the simulation refuses a typed value outside, with a message
+                .custom_formatter(|value, _| plot::short(value))
+                .custom_parser(parse);
+            let slider = if WHOLE.contains(&parameter.key) { slider.integer() } else { slider };
+            ui.add(slider).changed()
+        });
+        changed.inner.then(|| {
+            self.dragged = Some((parameter.key, value, Instant::now()));
+            value
+        })
+    }
+}
+
+/// The name of a parameter with its unit; beside substeps, their smallest number with which small vibrations are stable, for steps of `dt`
+/// and an explicit method of this critical time step, s.
+fn name(parameter: &Parameter, dt: f64, critical: Option<f64>) -> String {
+    match (parameter.key, critical) {
+        ("substeps", Some(critical)) if critical > 0.0 => {
+            format!("{}, at least {}", parameter.label, least_stable_substeps(dt, critical))
+        }
+        _ if parameter.unit.is_empty() => parameter.label.to_owned(),
+        _ => format!("{} ({})", parameter.label, parameter.unit),
+    }
+}
+
+/// The name of a row, as wide in all rows.
+fn label(ui: &mut Ui, text: &str) {
+    let (place, _) = ui.allocate_exact_size(vec2(LABEL_WIDTH, 18.0), Sense::hover());
+    let font = FontId::proportional(12.5);
+    ui.painter().text(place.left_center(), Align2::LEFT_CENTER, text, font, theme::TEXT);
+}
+
+/// The choice of the picture that the body is made from.
+fn choice(ui: &mut Ui, object: &Path, objects: &[PathBuf], requests: &mut Vec<UserRequest>) {
+    let name = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    ui.horizontal(|ui| {
+        label(ui, "object");
+        ComboBox::from_id_salt("object").selected_text(name(object)).show_ui(ui, |ui| {
+            for other in objects {
+                let is_present = name(other) == name(object);
+                if ui.selectable_label(is_present, name(other)).clicked() && !is_present {
+                    requests.push(UserRequest::Change(Change::Object(other.clone())));
+                }
+            }
+        });
+    });
+}
+
+/// Parses a number in the panel's format: k is a thousand, M a million.
+fn parse(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let scaled = |letter: char, factor: f64| text.strip_suffix(letter)?.trim().parse::<f64>().ok().map(|v| v * factor);
+    text.parse().ok().or_else(|| scaled('k', 1e3)).or_else(|| scaled('M', 1e6))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shown_numbers_parse_back_to_themselves() {
+        for value in [0.25, 12_300.0, 2.5e6, 1e-5, 3e10] {
+            assert_eq!(parse(&plot::short(value)), Some(value));
+        }
+        assert_eq!(parse("soft"), None);
+    }
+
+    #[test]
+    fn the_smallest_stable_number_of_substeps_stands_beside_the_chosen_one() {
+        let substeps = Parameter {
+            key: "substeps",
+            label: "substeps",
+            unit: "",
+            value: 4.0,
+            range: (1.0, 9.0),
+            logarithmic: true,
+        };
+        assert_eq!(name(&substeps, 1.0 / 60.0, Some(1.2e-3)), "substeps, at least 14");
+        assert_eq!(name(&substeps, 1.0 / 60.0, None), "substeps");
+        let dt = Parameter::dt(0.01, (0.0, 1.0));
+        assert_eq!(name(&dt, 0.01, Some(1.2e-3)), "time step (s)");
+    }
+}
