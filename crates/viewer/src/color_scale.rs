@@ -80,7 +80,7 @@ fn largest(values: &[f64]) -> f64 {
 
 /// The smallest of 1, 2, 3 or 5 times a power of ten that is not below `least`; a small number if that is zero.
 fn round_up(least: f64) -> f64 {
-    if !(least > 1e-300) {
+    if least < 1e-300 {
         return 1e-6;
     }
     let power = 10f64.powf(least.log10().floor());
