@@ -89,7 +89,9 @@ fn texture_coordinate(place: &PicturePlace, point: &Vector3<f64>, size: Vec2) ->
 /// The element of each triangle of the boundary.
 fn elements_of_triangles(shape: &Shape) -> Vec<usize> {
     if shape.mesh.is_flat() {
-        return (0..shape.boundary.len()).collect(); // all triangles, in the mesh's order
+        // All triangles in the mesh's order; a quadratic one is drawn as four.
+        let parts = shape.boundary.len() / shape.mesh.elements().max(1);
+        return (0..shape.boundary.len()).map(|triangle| triangle / parts).collect();
     }
     let sorted = |mut nodes: [usize; 3]| {
         nodes.sort_unstable();

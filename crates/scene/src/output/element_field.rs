@@ -95,6 +95,10 @@ fn radius_to_edge(simulation: &dyn Simulation) -> Vec<f64> {
         BodyMesh::Flat { triangles, .. } => {
             triangles.elements.iter().map(|nodes| triangle_radius_to_edge(nodes.map(x))).collect()
         }
+        BodyMesh::Quadratic { triangles, .. } => {
+            let of_corners = |&[a, b, c, ..]: &[usize; 6]| triangle_radius_to_edge([a, b, c].map(x));
+            triangles.elements.iter().map(of_corners).collect()
+        }
     }
 }
 

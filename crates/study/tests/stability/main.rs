@@ -28,7 +28,10 @@ fn every_case_ends_as_expected_and_as_stored() {
         rows.keys().filter(|name| !others.contains_key(*name)).cloned().collect::<Vec<_>>()
     };
     let (new, lost) = (only_in(&found, &stored), only_in(&stored, &found));
-    assert!(new.is_empty() && lost.is_empty(), "write the stored table anew; new cases: {new:#?}, lost ones: {lost:#?}");
+    assert!(
+        new.is_empty() && lost.is_empty(),
+        "write the stored table anew; new cases: {new:#?}, lost ones: {lost:#?}"
+    );
     let changes = found.iter().filter_map(|(name, row)| Some(format!("{name}: {}", change(&stored[name], row)?)));
     let changes: Vec<String> = changes.collect();
     assert!(changes.is_empty(), "\n{}\n", changes.join("\n"));

@@ -1,7 +1,7 @@
 //! The experiments of a thesis on two-dimensional deformation with plasticity (2019): explicit integration of triangles from pictures.
 
-mod convergence;
 mod contact;
+mod convergence;
 mod drop;
 mod mesh;
 mod mistakes;

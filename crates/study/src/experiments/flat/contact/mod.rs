@@ -198,12 +198,12 @@ fn told(errors: &[f64]) -> String {
 /// Mean velocity of the nodes' masses times the mass, along x, kg m/s.
 fn momentum(simulation: &Simulator<f64>) -> f64 {
     let (system, state) = (simulation.system(), simulation.state());
-    system.mass.lumped().iter().zip(&state.v).map(|(mass, v)| mass * v[0]).sum()
+    system.mass.row_sums().iter().zip(&state.v).map(|(mass, v)| mass * v[0]).sum()
 }
 
 /// Displacement of the centre of mass along x, m.
 fn travel(simulation: &Simulator<f64>) -> f64 {
     let (system, state) = (simulation.system(), simulation.state());
-    let moment: f64 = system.mass.lumped().iter().zip(&state.u).map(|(mass, u)| mass * u[0]).sum();
+    let moment: f64 = system.mass.row_sums().iter().zip(&state.u).map(|(mass, u)| mass * u[0]).sum();
     moment / system.total_mass
 }
