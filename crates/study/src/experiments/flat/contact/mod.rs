@@ -64,11 +64,11 @@ fn add_resting(marks: &mut Vec<Mark>, tables: &mut Vec<Table>) -> Result<(), Str
             ),
         ]);
         let [gap, root] = [block.gap, block.root].map(|length| format!("{length:.12e}"));
-        rows.push(vec![format!("{young:e}"), gap, root, format!("{:.9}", block.force)]);
+        rows.push(vec![format!("{young:e}"), gap, root, format!("{:.9}", block.force), block.unconverged.to_string()]);
     }
     tables.push(Table {
         name: "flat-contact-resting".to_owned(),
-        head: vec![">E (Pa)", ">gap (m)", ">root (m)", ">force (N)"],
+        head: vec![">E (Pa)", ">gap (m)", ">root (m)", ">force (N)", ">of 2000 steps unconverged"],
         rows,
     });
     Ok(())
