@@ -120,6 +120,8 @@ struct SceneSurface {
     // The view holds resources of the surface's device, so it is dropped first: fields are dropped in order.
     view: Option<Viewed>,
     surface: OffscreenSurface,
+    /// Whether a legend was drawn. The first one does not show in its frame, in which egui prepares its fonts.
+    had_legend: bool,
 }
 
 /// The scene of the last picture.
@@ -137,7 +139,7 @@ impl SceneSurface {
         let open = || pollster::block_on(OffscreenSurface::with_setup(width, height, setup));
         let mut surface = without_wayland_message(open);
         theme::set_style(surface.window_mut().egui_context_mut());
-        SceneSurface { view: None, surface }
+        SceneSurface { view: None, surface, had_legend: false }
     }
 
     fn render(&mut self, request: Request) -> Picture {
@@ -157,10 +159,13 @@ impl SceneSurface {
         *framed = framed.joined(&scene.update(&frame));
         let size = Vec2::new(self.surface.width() as f32, self.surface.height() as f32);
         let mut camera = Camera::framing(view, framed, up, size, 0.0);
-        scene.draw_lines(self.surface.window_mut(), &frame, &camera);
         let scale = scene.scale().copied();
-        self.surface.draw_ui(|context| scale.iter().for_each(|scale| legend::show(context, scale)));
-        pollster::block_on(self.surface.render_3d(&mut scene.root, &mut camera));
+        let frames = if scale.is_some() && !std::mem::replace(&mut self.had_legend, true) { 2 } else { 1 };
+        for _ in 0..frames {
+            scene.draw_lines(self.surface.window_mut(), &frame, &camera);
+            self.surface.draw_ui(|context| scale.iter().for_each(|scale| legend::show(context, scale)));
+            pollster::block_on(self.surface.render_3d(&mut scene.root, &mut camera));
+        }
         Picture::new(self.surface.snap_image())
     }
 }
