@@ -23,7 +23,7 @@ pub struct Arguments {
 }
 
 const EXIT_CODES: &str = "\
-Keys in the window: S skinned or simulation mesh, C colours, F contact forces, N next integrator, space pause, R reset;
+Keys in the window: S skinned or simulation mesh, C colours, T picture, F contact forces, N next integrator, space pause, R reset;
 drag the body to pull it.
 
 Ctrl-C ends a run after its step, or closes the window, and writes what the options ask for; a second one ends it at once.

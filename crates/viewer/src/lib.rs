@@ -1,6 +1,7 @@
 //! An interactive window and offscreen pictures of a [`Simulation`](fem_scene::simulation::Simulation).
 //!
 //! - [`open`] shows a simulation in a window until it is closed; the simulation runs on a thread of its own.
+//! - [`Editing`] lets the window's panel change the scene; the simulation is built anew on its own thread.
 //! - [`OffscreenRenderer`] draws the same pictures without a window or a display server.
 //! - [`display_available`] tells in advance whether a window can be opened, and if not, why.
 //!
