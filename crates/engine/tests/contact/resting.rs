@@ -2,7 +2,7 @@
 
 use fem_scene::simulation::Simulation;
 
-use crate::{CUBE, METHODS, build, contact_force, floor, gravity, momentum, run, text};
+use crate::{CUBE, METHODS, SQUARE, build, contact_force, floor, gravity, momentum, run, text};
 
 const WEIGHT: f64 = 9810.0;
 
