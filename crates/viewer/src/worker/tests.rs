@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use fem_mesh::TetrahedralMesh;
 use fem_scene::simulation::{Cause, Checkpoint, Counters, Part, Shape};
+use kiss3d::glamx::Vec3;
 use nalgebra::{DVector, Matrix3, Matrix4, Vector4};
 
 use super::*;
@@ -22,6 +23,8 @@ pub struct Fake {
     pub steps: usize,
     pub step_seconds: f64,
     pub calls: Arc<AtomicUsize>,
+    /// Number of times that stresses or contact forces were computed.
+    pub fields: Arc<AtomicUsize>,
     pub pulled: Option<Pull>,
 }
 
@@ -35,6 +38,7 @@ pub fn fake() -> Fake {
         steps: 0,
         step_seconds: 0.0,
         calls: Arc::default(),
+        fields: Arc::default(),
         pulled: None,
     }
 }
@@ -100,7 +104,12 @@ impl Simulation for Fake {
         (1.0, 0)
     }
     fn stresses(&self) -> Vec<Matrix3<f64>> {
+        self.fields.fetch_add(1, Ordering::SeqCst);
         vec![]
+    }
+    fn contact_forces(&self) -> Option<DVector<f64>> {
+        self.fields.fetch_add(1, Ordering::SeqCst);
+        Some(DVector::from_vec(vec![0.0, 1.0, 0.0]))
     }
     fn integrator(&self) -> &'static str {
         "verlet"
@@ -268,4 +277,20 @@ fn the_thread_ends_when_its_window_is_gone() {
     let after = calls.load(Ordering::SeqCst);
     std::thread::sleep(Duration::from_millis(20));
     assert_eq!(calls.load(Ordering::SeqCst), after);
+}
+
+#[test]
+fn fields_and_contact_forces_are_computed_only_while_they_are_wanted() {
+    let fake = fake();
+    let fields = Arc::clone(&fake.fields);
+    let worker = start(Box::new(fake), REAL_TIME);
+    wait_for(&worker, "some steps on", |s| s.steps >= 5);
+    assert_eq!(fields.load(Ordering::SeqCst), 0);
+    worker.send(Command::Want(Wanted { field: Some(ElementField::Stress), contact_forces: true }));
+    let shown = wait_for(&worker, "with arrows", |s| !s.frame.arrows.is_empty());
+    assert_eq!(shown.frame.field, Some((ElementField::Stress, vec![])));
+    assert_eq!(shown.frame.arrows, [(0, Vec3::new(0.0, 3.0, 0.0))], "three times the force, over the weight of 1 N");
+    worker.send(Command::Want(Wanted::default()));
+    let plain = wait_for(&worker, "plain", |s| s.frame.arrows.is_empty());
+    assert_eq!(plain.frame.field, None);
 }
