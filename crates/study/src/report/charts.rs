@@ -21,6 +21,7 @@ pub fn files(report: &Report) -> Vec<(String, Picture)> {
     }
     files.push(("orders-in-dt.svg".to_owned(), convergence(&report.orders)));
     files.push(("orders-in-h.svg".to_owned(), space_charts::in_space(&report.space)));
+    files.push(("triangles-error-vs-time.svg".to_owned(), space_charts::time_in_plane(&report.space)));
     files.push(("locking.svg".to_owned(), space_charts::locking(&report.space)));
     files
 }

@@ -1,6 +1,6 @@
 //! The charts of errors in space.
 
-use crate::report::text::number;
+use crate::report::text::{number, seconds};
 use crate::runs::row::Row;
 use crate::studies::space::{self, SpaceOrders, SpaceStudy};
 use fem_chart::{Axis, Chart, Dot, Guide, Picture, Series};
@@ -32,6 +32,37 @@ pub fn in_space(space: &SpaceStudy) -> Picture {
                 ..Series::default()
             });
         }
+    }
+    chart.draw()
+}
+
+/// Errors of linear and quadratic triangles over the time of the solution.
+pub fn time_in_plane(space: &SpaceStudy) -> Picture {
+    let label = "manufactured solution in the plane: error against run time";
+    let mut chart = Chart::new(label, Axis::log("wall-clock time (s)"), Axis::log("relative error in H1"));
+    let flat = space.orders.iter().filter(|orders| orders.family.dimensions() == 2);
+    for (place, orders) in flat.enumerate() {
+        let rows = space.rows.iter().filter(|row| row.config.scene == orders.scene);
+        let dot = |row: &Row| {
+            let (time, error) = (row.times.total_s[1]?, row.errors.space_h1?);
+            let title = format!(
+                "{}, {} nodes\nerror in H1 {}\n{}",
+                orders.scene,
+                row.config.nodes,
+                number(Some(error)),
+                seconds(Some(time))
+            );
+            Some(Dot { x: time, y: error, title, ..Dot::default() })
+        };
+        chart.series.push(Series {
+            name: orders.scene.trim_start_matches("manufactured-").to_owned(),
+            colour: place,
+            shape: place,
+            is_joined: true,
+            has_dots: true,
+            dots: rows.filter_map(dot).collect(),
+            ..Series::default()
+        });
     }
     chart.draw()
 }

@@ -47,10 +47,12 @@ pub(super) fn space(study: &SpaceStudy) -> Markup {
     html! {
         h2 id="space" { "Errors in space" }
         p {
-            "Equilibrium of a cube under the body force of the manufactured solution u" sub { "i" } " = a" sub { "i" } " sin πx sin πy sin πz. Orders are fitted to the two finest meshes."
+            "Equilibrium of a cube under the body force of the manufactured solution u" sub { "i" } " = a" sub { "i" } " sin πx sin πy sin πz, and of a \
+             square in plane strain under that of u" sub { "i" } " = a" sub { "i" } " sin πx sin πy. Orders are fitted to the two finest meshes."
         }
         div class="charts" {
             (figure(&space_charts::in_space(study), "Relative errors, by quadrature of degree 7."))
+            (figure(&space_charts::time_in_plane(study), "Linear and quadratic triangles: error in H1 over the wall-clock time of the solution."))
             div { (table(&["scene", "elements", ">order in L2", ">order in H1", ">theory"], &rows)) }
         } "\n"
         (locking(study))

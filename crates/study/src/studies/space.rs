@@ -38,9 +38,11 @@ const FINEST: usize = 2;
 /// Solves on a sequence of meshes.
 pub fn study(settings: &Settings) -> Result<SpaceStudy, String> {
     let mut space = SpaceStudy::default();
-    for model in ["linear", "neo_hookean"] {
-        let orders = sequence(settings, model, Family::Tetrahedra, &mut space.rows)?;
-        space.orders.push(orders);
+    for family in [Family::Tetrahedra, Family::Triangles, Family::QuadraticTriangles] {
+        for model in ["linear", "neo_hookean"] {
+            let orders = sequence(settings, model, family, &mut space.rows)?;
+            space.orders.push(orders);
+        }
     }
     let meshes: &[usize] = if settings.is_quick { &[1, 2] } else { &[1, 2, 4, 6, 8] };
     for &cells in meshes {
