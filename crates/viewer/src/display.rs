@@ -6,7 +6,7 @@ use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 
-use crate::worker::simulation_loop;
+use crate::panics::panic_message;
 
 /// Checks whether a window can be opened; the error says in one line why not.
 pub fn display_available() -> Result<(), String> {
@@ -62,7 +62,7 @@ pub fn without_panic<R>(call: impl FnOnce() -> R) -> Result<R, String> {
     QUIET.set(true);
     let result = catch_unwind(AssertUnwindSafe(call));
     QUIET.set(false);
-    result.map_err(|panic| one_line(&simulation_loop::panic_message(panic.as_ref())))
+    result.map_err(|panic| one_line(&panic_message(panic.as_ref())))
 }
 
 fn one_line(text: &str) -> String {

@@ -37,6 +37,7 @@ mod options;
 mod pacing;
 mod paint;
 mod panel;
+mod panics;
 mod parameter_rows;
 mod pictures;
 mod plot;

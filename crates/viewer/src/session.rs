@@ -1,14 +1,13 @@
 //! The window's loop: input, latest snapshot, panel, frame.
 
+mod input;
+
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use fem_scene::output::ElementField;
 use fem_scene::simulation::{Shape, Simulation};
-use kiss3d::egui::pos2;
-use kiss3d::event::{Action, Key, Modifiers, MouseButton, WindowEvent};
 use kiss3d::glamx::{Vec2, Vec3};
 use kiss3d::window::Window;
 
@@ -19,9 +18,8 @@ use crate::interaction::Interaction;
 use crate::options::WindowOptions;
 use crate::panel::{self, Panel, ViewState};
 use crate::pictures::{NotWritten, Picture, Recorder};
-use crate::request::UserRequest;
 use crate::scene_changes::SceneChanges;
-use crate::scene_view::{DisplayedSurface, SceneView, prepare};
+use crate::scene_view::{SceneView, prepare};
 use crate::worker::{Command, Snapshot, Worker};
 use crate::{legend, obstacles};
 
@@ -202,108 +200,6 @@ impl Session {
         }
     }
 
-    fn read_input(&mut self) {
-        let events: Vec<WindowEvent> = self.window.events().iter().map(|event| event.value).collect();
-        if !events.is_empty() {
-            self.last_input = Instant::now();
-        }
-        for event in events {
-            match event {
-                WindowEvent::Key(key, Action::Press, _) => self.key(key),
-                WindowEvent::MouseButton(button, Action::Press, modifiers) => self.press(button, modifiers),
-                WindowEvent::MouseButton(_, Action::Release, _) => self.interaction.release(&self.worker),
-                WindowEvent::CursorPos(x, y, _) => self.move_cursor(Vec2::new(x as f32, y as f32)),
-                WindowEvent::Scroll(_, amount, _) if !self.is_on_panel() => {
-                    self.framed = None;
-                    self.camera.zoom(notches(amount), self.cursor);
-                }
-                _ => {}
-            }
-        }
-        self.interaction.poll_pick(self.cursor, &mut self.camera, &self.worker);
-    }
-
-    fn key(&mut self, key: Key) {
-        if self.window.egui_context().text_edit_focused() {
-            return; // a number is being typed
-        }
-        match key {
-            Key::S => self.apply(UserRequest::NextSurface),
-            Key::N => self.apply(UserRequest::NextIntegrator),
-            Key::R => self.apply(UserRequest::Reset),
-            Key::C => self.apply(UserRequest::NextColor),
-            Key::T => self.apply(UserRequest::TogglePicture),
-            Key::F => self.apply(UserRequest::ToggleForces),
-            Key::Space => self.apply(UserRequest::TogglePause),
-            Key::Escape => self.closing = true,
-            _ => {}
-        }
-    }
-
-    fn press(&mut self, button: MouseButton, modifiers: Modifiers) {
-        if self.is_on_panel() {
-            return;
-        }
-        self.framed = None;
-        // A mouse without a middle button moves the camera with shift.
-        let button = if modifiers.contains(Modifiers::Shift) { MouseButton::Button3 } else { button };
-        let (origin, ray) = self.camera.ray(self.cursor);
-        let hit = self.view.hit((origin, ray), &self.snapshot.frame);
-        let grip = hit.map(|distance| origin + ray * distance);
-        self.interaction.press(button, self.cursor, grip, &self.camera, &self.worker);
-    }
-
-    fn move_cursor(&mut self, cursor: Vec2) {
-        let motion = cursor - self.cursor;
-        self.cursor = cursor;
-        let scale = self.window.scale_factor() as f32;
-        self.interaction.moved(cursor, motion, scale, &mut self.camera, &self.worker);
-    }
-
-    fn is_on_panel(&self) -> bool {
-        let logical = self.cursor / self.window.scale_factor() as f32;
-        self.panel.covers(pos2(logical.x, logical.y)) || self.window.is_egui_capturing_mouse()
-    }
-
-    fn apply(&mut self, request: UserRequest) {
-        match request {
-            UserRequest::TogglePause => self.worker.send(Command::TogglePause),
-            UserRequest::Reset => self.worker.send(Command::Reset),
-            UserRequest::NextIntegrator => self.worker.send(Command::NextIntegrator),
-            UserRequest::Change(change) => self.changes.add(change),
-            UserRequest::Set(key, value) => self.worker.send(Command::Set(key, value)),
-            UserRequest::NextSurface => {
-                let other = match self.view.shown() {
-                    DisplayedSurface::Skinned => DisplayedSurface::SimulationMesh,
-                    DisplayedSurface::SimulationMesh => DisplayedSurface::Skinned,
-                };
-                self.view.show(other);
-                self.view.update(&self.snapshot.frame);
-            }
-            UserRequest::TogglePicture => {
-                self.shows_picture = !self.shows_picture;
-                self.view.show_picture(self.shows_picture);
-                self.view.update(&self.snapshot.frame);
-            }
-            UserRequest::NextColor => self.want(Wanted { field: self.next_field(), ..self.wanted }),
-            UserRequest::ToggleForces => {
-                self.want(Wanted { contact_forces: !self.wanted.contact_forces, ..self.wanted });
-            }
-        }
-    }
-
-    fn want(&mut self, wanted: Wanted) {
-        self.wanted = wanted;
-        self.worker.send(Command::Want(wanted));
-    }
-
-    /// The field after the present one; plain colours after the last.
-    fn next_field(&self) -> Option<ElementField> {
-        let fields = &self.snapshot.fields;
-        let next = self.wanted.field.and_then(|field| fields.iter().position(|other| *other == field));
-        fields.get(next.map_or(0, |place| place + 1)).copied()
-    }
-
     /// Draws one frame; returns false if the window was closed.
     fn draw_frame(&mut self) -> bool {
         let begun = Instant::now();
@@ -369,9 +265,4 @@ fn size(window: &Window) -> Vec2 {
 fn covered(window: &Window) -> f32 {
     let width = panel::WIDTH * window.scale_factor() as f32;
     if size(window).x > 2.0 * width { width } else { 0.0 }
-}
-
-/// Notches of a mouse wheel; touch pads send many small amounts.
-fn notches(amount: f64) -> f32 {
-    (amount as f32 / 10.0).clamp(-3.0, 3.0)
 }

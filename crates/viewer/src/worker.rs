@@ -21,6 +21,7 @@ use nalgebra::Vector3;
 
 use crate::frame::{Frame, Wanted};
 use crate::history::Sample;
+use crate::panics::panic_message;
 use crate::scene_parameters::Change;
 use scene_editor::SceneEditor;
 
@@ -206,7 +207,7 @@ impl Worker {
             simulation: None,
             step_seconds: Vec::new(),
             energies: Vec::new(),
-            stop: Some(Stop::Panicked(simulation_loop::panic_message(panic.as_ref()))),
+            stop: Some(Stop::Panicked(panic_message(panic.as_ref()))),
             scene: None,
         })
     }

@@ -7,8 +7,8 @@ use fem_scene::Scene;
 use fem_scene::simulation::{Parameter, Simulation};
 use nalgebra::Vector3;
 
-use super::simulation_loop::panic_message;
 use crate::options::{Builder, Editing};
+use crate::panics::panic_message;
 use crate::scene_parameters::{self, Change};
 
 /// A scene, and what builds its simulation anew.

@@ -1,6 +1,7 @@
 //! The loop that runs on the simulation's thread.
 
-use std::any::Any;
+mod changes;
+
 use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -9,20 +10,17 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use fem_scene::output::ElementField;
-use fem_scene::simulation::{Energies, Pull, Simulation};
+use fem_scene::simulation::{Energies, Simulation};
 use nalgebra::Vector3;
 
-use super::scene_editor::{Motion, SceneEditor};
+use super::scene_editor::SceneEditor;
 use super::{Command, Finished, LoopOptions, Slot, Snapshot, Stepping, Stop};
 use crate::frame::{Frame, Wanted};
 use crate::history::{History, Sample};
 use crate::pacing::{Pace, Rate};
-use crate::scene_parameters::Change;
+use crate::panics::panic_message;
 
 const STEPS_IN_MEDIAN: usize = 61;
-
-/// Largest number of nodes for which the longest stable time step is computed.
-const MOST_NODES: usize = 5000;
 
 /// The simulation and the state of its loop.
 pub struct SimulationLoop {
@@ -114,16 +112,6 @@ impl SimulationLoop {
         self.publish();
     }
 
-    /// Finds out what the panel shows of a simulation and its method.
-    fn inspect(&mut self) {
-        self.fields = ElementField::of(&*self.simulation);
-        let is_small = self.simulation.shape().mesh.vertices().len() <= MOST_NODES;
-        self.critical_time_step = match &self.editor {
-            Some(_) if is_small => self.simulation.critical_time_step(),
-            _ => None,
-        };
-    }
-
     /// Calls `part`. A panic in it stops the simulation and is published with the last snapshot.
     fn guarded(&mut self, part: impl FnOnce(&mut Self)) {
         if let Err(panic) = catch_unwind(AssertUnwindSafe(|| part(self))) {
@@ -178,36 +166,6 @@ impl SimulationLoop {
             Command::Quit => return,
         }
         self.publish();
-    }
-
-    /// Pulls nodes. Those of a mesh that has been replaced since they were picked may not exist.
-    fn pull(&mut self, pull: Option<Pull>) {
-        let nodes = self.simulation.shape().mesh.vertices().len();
-        let exists = |pull: &Pull| pull.anchors.iter().all(|(node, _)| *node < nodes);
-        self.simulation.pull(pull.filter(exists));
-    }
-
-    /// Changes the scene. A refused change leaves the simulation as it is, with a message.
-    fn change(&mut self, changes: &[Change]) {
-        let Some(editor) = &mut self.editor else { return };
-        self.last.is_building = true;
-        self.slot.put(self.last.clone());
-        self.changes += 1;
-        let outcome = editor.apply(changes, &mut self.simulation);
-        // The wall clock did not stop meanwhile.
-        self.pace.restart();
-        self.rate.restart();
-        match outcome {
-            Ok(motion) => {
-                self.refusal = None;
-                self.stop = None;
-                if motion == Motion::StartsAgain {
-                    self.forget_run();
-                }
-                self.inspect();
-            }
-            Err(message) => self.refusal = Some(message),
-        }
     }
 
     fn reset(&mut self) {
@@ -319,10 +277,4 @@ fn median(values: &VecDeque<f64>) -> f64 {
     let mut sorted: Vec<f64> = values.iter().copied().collect();
     sorted.sort_by(f64::total_cmp);
     sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
-}
-
-/// The message of a panic.
-pub fn panic_message(panic: &(dyn Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
-    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no message".into())
 }

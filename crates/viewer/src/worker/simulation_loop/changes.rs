@@ -1,0 +1,53 @@
+//! Commands that change the scene or pull at the body.
+
+use fem_scene::output::ElementField;
+use fem_scene::simulation::Pull;
+
+use super::SimulationLoop;
+use crate::scene_parameters::Change;
+use crate::worker::scene_editor::Motion;
+
+/// Largest number of nodes for which the longest stable time step is computed.
+const MOST_NODES: usize = 5000;
+
+impl SimulationLoop {
+    /// Finds out what the panel shows of a simulation and its method.
+    pub(super) fn inspect(&mut self) {
+        self.fields = ElementField::of(&*self.simulation);
+        let is_small = self.simulation.shape().mesh.vertices().len() <= MOST_NODES;
+        self.critical_time_step = match &self.editor {
+            Some(_) if is_small => self.simulation.critical_time_step(),
+            _ => None,
+        };
+    }
+
+    /// Pulls nodes. Those of a mesh that has been replaced since they were picked may not exist.
+    pub(super) fn pull(&mut self, pull: Option<Pull>) {
+        let nodes = self.simulation.shape().mesh.vertices().len();
+        let exists = |pull: &Pull| pull.anchors.iter().all(|(node, _)| *node < nodes);
+        self.simulation.pull(pull.filter(exists));
+    }
+
+    /// Changes the scene. A refused change leaves the simulation as it is, with a message.
+    pub(super) fn change(&mut self, changes: &[Change]) {
+        let Some(editor) = &mut self.editor else { return };
+        self.last.is_building = true;
+        self.slot.put(self.last.clone());
+        self.changes += 1;
+        let outcome = editor.apply(changes, &mut self.simulation);
+        // The wall clock did not stop meanwhile.
+        self.pace.restart();
+        self.rate.restart();
+        match outcome {
+            Ok(motion) => {
+                self.refusal = None;
+                self.stop = None;
+                if motion == Motion::StartsAgain {
+                    self.forget_run();
+                }
+                self.inspect();
+            }
+            Err(message) => self.refusal = Some(message),
+        }
+    }
+}
