@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use fem_scene::simulation::{Shape, Simulation};
+use fem_scene::simulation::Simulation;
 use fem_scene::{Body, Integrator, Pipeline, Scene};
 use finite_elements_3d::assignment_setup::AssignmentSetup;
 use nalgebra::Vector3;
@@ -44,7 +44,7 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
 
 /// Builds the simulation of a scene of the engine that a user has changed, on the shape of the former one if its mesh has not changed.
 #[cfg(feature = "viewer")]
-pub fn rebuild(scene: &Scene, shape: Option<&Shape>) -> Result<Box<dyn Simulation>, String> {
+pub fn rebuild(scene: &Scene, shape: Option<&fem_scene::simulation::Shape>) -> Result<Box<dyn Simulation>, String> {
     let body = match shape {
         Some(shape) => fem_scene::body_of_shape(scene, shape.clone(), &data::folder()),
         None => fem_scene::body(scene, &data::folder()),

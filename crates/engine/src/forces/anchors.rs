@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use fem_scene::simulation::Shape;
-use fem_scene::{Anchor, Interaction};
+use fem_scene::{Anchor, Body, Interaction};
 
 use super::{Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
@@ -100,4 +100,9 @@ impl<T: Real> Potential<T> for Anchors {
         let fits = !self.interaction.has_drag() || is_positive(T::of(self.interaction.stiffness));
         (!fits).then_some(("drag", "a stiffness"))
     }
+}
+
+/// Modulus of a user's pull, Pa: times the body's length it deforms the body visibly without tearing it.
+pub fn pull_modulus(body: &Body) -> f64 {
+    body.material.C.or(body.material.young.map(|young| young / 5.0)).unwrap_or(1e5)
 }

@@ -11,7 +11,7 @@ use super::mass::{ElementMass, Mass, element_masses};
 use super::numbering::Numbering;
 use super::solids::Solids;
 use crate::boundary::dirichlet::{DirichletConditions, fully_constrained_nodes};
-use crate::forces::anchors::Anchors;
+use crate::forces::anchors::{self, Anchors};
 use crate::forces::{Energy, Forces, HessianKind, Moment, Potential};
 use crate::materials::AnyLaw;
 use crate::number::Real;
@@ -90,7 +90,8 @@ impl<T: Real> System<T> {
         let rest: Vec<_> = numbering.mesh_node.iter().map(|&node| mesh.vertices()[node as usize]).collect();
         let own = own(&numbering);
         let (name, shape) = (body.name.clone(), Arc::new(body.shape.clone()));
-        let anchors = Anchors::new(Interaction::new(body.drag, pull_modulus(body) * mesh.length()), &shape, &numbering);
+        let anchors =
+            Anchors::new(Interaction::new(body.drag, anchors::pull_modulus(body) * mesh.length()), &shape, &numbering);
         let forces = Forces::new(body, anchors, &numbering, own);
         let couplings: Vec<[u32; 2]> = forces.all().flat_map(|(potential, _)| potential.couplings()).collect();
         let pattern = Pattern::joined(numbering.free, &corners, &couplings, choice.stored());
@@ -294,9 +295,4 @@ impl<T: Real> System<T> {
             }
         }
     }
-}
-
-/// Modulus of a user's pull, Pa: times the body's length it deforms the body visibly without tearing it.
-fn pull_modulus(body: &Body) -> f64 {
-    body.material.C.or(body.material.young.map(|young| young / 5.0)).unwrap_or(1e5)
 }

@@ -17,9 +17,10 @@ const COARSE: f64 = 0.01;
 const SLOW: f64 = 0.2;
 
 impl Iterate {
-    /// Estimate of the size of the next update, m.
+    /// Estimate of the size of the next update, m. What an obstacle has cut off from the last one is still to come.
     pub(super) fn remaining_update(&self) -> f64 {
-        self.size * self.rate.unwrap_or(1.0).max(self.forcing).min(1.0)
+        let update = self.size * self.rate.unwrap_or(1.0).max(self.forcing).min(1.0);
+        update.max(self.left_out)
     }
 
     /// Relative residual with which the next direction would be the last: the update after it is within the tolerance.

@@ -36,6 +36,7 @@ impl<T: Real> Newton<T> {
     ) -> Option<f64> {
         let feasible = SAFETY * potential.largest_step(w, &self.direction, &mut self.workspace);
         let (mut length, mut cancelled) = (f64::min(1.0, feasible), None);
+        at.left_out = (1.0 - length) * max_norm(&self.direction);
         let lower_bound = self.lower_bound_of_det_F(potential, w);
         while length >= SHORTEST {
             self.next.copy_from_slice(w);

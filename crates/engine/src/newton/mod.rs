@@ -72,8 +72,9 @@ enum Factor {
 /// Progress of the iteration.
 struct Iterate {
     energy: Energy,
-    /// Size of the last update, m.
+    /// Size of the last update, m, and of the part of its direction that was not feasible.
     size: f64,
+    left_out: f64,
     /// Ratio of the last two sizes, from the second iteration on.
     rate: Option<f64>,
     /// Norm of the gradient, N, and that of the previous iterate.
@@ -180,7 +181,8 @@ impl<T: Real> Newton<T> {
         self.is_matrix_outdated = false;
         let energy = potential.energy_and_gradient(w, &mut self.gradient, &mut self.workspace);
         let norm = norm(&self.gradient);
-        let mut at = Iterate { energy, size: f64::INFINITY, rate: None, norms: (norm, norm), forcing: 0.0 };
+        let mut at =
+            Iterate { energy, size: f64::INFINITY, left_out: 0.0, rate: None, norms: (norm, norm), forcing: 0.0 };
         let tolerance = self.limits.tolerance * potential.system.length;
         for iteration in 0..self.limits.max_iterations {
             if at.norms.0 == 0.0 {

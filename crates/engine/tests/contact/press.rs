@@ -62,3 +62,21 @@ fn a_plate_that_meets_a_fixed_node_ends_the_run_with_its_name() {
         assert!(text.contains("planes[1]") && text.contains("constrained"), "{method}: {text}");
     }
 }
+
+#[test]
+fn a_block_pressed_in_one_load_step_is_in_balance_or_its_step_is_not_converged() {
+    let top = "[[prescribed]]\non = { axis = \"y\", side = \"max\", within = 1e-9 }\ndisplacement = [0, -0.01, 0]\n";
+    for distance in [1e-3, 1e-5, 1e-6] {
+        let plane = format!(
+            "[[planes]]\npoint = [0, -2e-3, 0]\nnormal = [0, 1, 0]\n[contact]\nactivation_distance = {distance:e}\n"
+        );
+        let tables = format!("{top}{plane}[static]\nload_steps = 1\n");
+        let mut simulation = build(&text(CUBE, "linear", 1e5, "static", 1.0, &tables));
+        run(&mut simulation, 1);
+        let (below, above) = (simulation.contacts()[0].force[1], simulation.reactions()[0].force[1]);
+        let is_converged = simulation.counters().unconverged_steps == 0;
+        // 1e-10 m, the tolerance of Newton's method, is a ten-thousandth of the thinnest layer.
+        let is_balanced = (below + above).abs() < 1e-3 * below;
+        assert!(below > 100.0 && (is_balanced || !is_converged), "{distance:e}: {below} N and {above} N");
+    }
+}

@@ -28,7 +28,8 @@ fn a_block_of_quadratic_triangles_rests_where_the_barrier_carries_its_weight() {
         *(if -area * stiffness * slope(middle) > WEIGHT { &mut lower } else { &mut upper }) = middle;
     }
     let error = contact.smallest_gap - lower * distance;
-    assert!(error.abs() < 1e-8 * distance, "{} and {}", contact.smallest_gap, lower * distance);
+    // The middle of the side sinks deeper than its ends.
+    assert!(error.abs() < WEIGHT / young, "{} and {}", contact.smallest_gap, lower * distance);
 }
 
 #[test]
