@@ -43,35 +43,44 @@ pub fn run(arguments: &FrameArguments) -> Result<(), End> {
     println!("| method | law | steps per frame | triangles | nodes | ms per frame |\n|---|---|---:|---:|---:|---:|");
     for method in METHODS {
         for law in LAWS {
-            let Some(frame) = largest(arguments, method, law)? else {
-                println!("| `{method}` | `{law}` | – | fewer than {} | – | over the budget |", 4 * CELLS[0] * CELLS[0]);
-                continue;
+            let (frame, problem) = largest(arguments, method, law)?;
+            // A motion that a method cannot compute with a step of a frame is a finding.
+            let finer = problem.map_or(String::new(), |problem| format!("; finer: {problem}"));
+            let cells = match frame {
+                Some(frame) => cells_of(&frame) + &finer,
+                None => format!("– | fewer than {} | – | over the budget{finer}", 4 * CELLS[0] * CELLS[0]),
             };
-            let (substeps, milliseconds) = (frame.substeps, 1e3 * frame.seconds());
-            let Measurement { elements, nodes, .. } = frame.run;
-            println!("| `{method}` | `{law}` | {substeps} | {elements} | {nodes} | {milliseconds:.1} |");
+            println!("| `{method}` | `{law}` | {cells} |");
         }
     }
     Ok(())
 }
 
-/// The finest mesh whose frame is within the budget; `None` if the coarsest is not.
-fn largest(arguments: &FrameArguments, method: &str, law: &str) -> Result<Option<Frame>, End> {
+fn cells_of(frame: &Frame) -> String {
+    let Measurement { elements, nodes, .. } = &frame.run;
+    format!("{} | {elements} | {nodes} | {:.1}", frame.substeps, 1e3 * frame.seconds())
+}
+
+/// The finest mesh whose frame is within the budget, `None` if the coarsest is not; and why finer ones fail, if they do.
+fn largest(arguments: &FrameArguments, method: &str, law: &str) -> Result<(Option<Frame>, Option<String>), End> {
     let [mut cells, most] = CELLS;
-    let (mut within, mut beyond) = (None, None);
+    let (mut within, mut beyond, mut problem) = (None, None, None);
     loop {
-        let frame = measured(arguments, method, law, cells)?;
-        if 1e3 * frame.seconds() <= arguments.budget {
-            within = Some(frame);
-        } else {
-            beyond = Some(cells);
+        match measured(arguments, method, law, cells) {
+            Ok(frame) if 1e3 * frame.seconds() <= arguments.budget => within = Some(frame),
+            Ok(_) => (beyond, problem) = (Some(cells), None),
+            Err(End::Wrong(message)) => {
+                let said = message.rsplit("error: ").next().unwrap_or_default();
+                (beyond, problem) = (Some(cells), Some(said.to_owned()));
+            }
+            Err(end) => return Err(end),
         }
         let finest = within.as_ref().map_or(0, |frame| frame.cells);
         cells = match beyond {
-            None if finest == most => return Ok(within),
+            None if finest == most => return Ok((within, None)),
             None => (2 * finest).min(most),
             Some(beyond) if finest == 0 || (beyond - finest) * 50 <= finest || beyond - finest == 1 => {
-                return Ok(within);
+                return Ok((within, problem));
             }
             Some(beyond) => finest.midpoint(beyond),
         };
