@@ -7,7 +7,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
 g++ -O3 -march=native -o "$folder/sandbox2d" "$here/main.cpp"
-cargo build --quiet --release --no-default-features --features engine
+cargo build --quiet --release
 program="${CARGO_TARGET_DIR:-target}/release/finite-elements-3d"
 
 echo "C++, f32, one thread:"

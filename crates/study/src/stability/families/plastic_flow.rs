@@ -42,15 +42,16 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
     }
 }
 
-/// The bar pulled to twice its length, and squashed to half of it, to and fro.
+/// The bar pulled to twice its length, and squashed to half of it, to and fro, each way in as many passages of a wave at every stiffness.
 fn driven(text: &SceneText, flow: &str, parameters: &str) -> [Case; 2] {
+    let half = 5.0 / (text.young / text.density).sqrt();
     [("pulled to twice its length and back", 2.0), ("squashed to half its length and back", -1.0)].map(|(case, distance)| {
-        let curve = "curve = { table = [[0, 0], [0.5, 1], [1.0, 0]] }";
+        let curve = format!("curve = {{ table = [[0, 0], [{half:e}, 1], [{:e}, 0]] }}", 2.0 * half);
         let motion = format!(
             "[[prescribed]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\ndisplacement = [{distance}, 0, 0]\n{curve}\n"
         );
         let text = text.clone().with(CLAMPED).with(&motion).with(&format!("[plasticity]\n{flow}"));
-        let text = SceneText { dt: 0.02, ..text };
+        let text = SceneText { dt: half / 25.0, ..text };
         Case {
             margin_is: "smallest J",
             ..text.clone().case(FAMILY, case, parameters.to_owned(), move |deadline| watched(&text, deadline))
