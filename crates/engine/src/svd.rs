@@ -4,6 +4,8 @@
 //! Simulation of Large Deformation (2004). Rotations of pairs of columns make the columns of F orthogonal: Hestenes,
 //! Inversion of Matrices by Biorthogonalization and Related Results (1958). Unlike eigenvalues of FᵀF, this loses no digits.
 
+use pulp::{Simd, WithSimd};
+
 use crate::number::{Number, Real, constant};
 use crate::polar::PlaneRotation;
 use crate::tensor::{Tensor, half};
@@ -43,6 +45,22 @@ impl<T: Number> Svd<T> {
 /// Decomposes any finite F, to round-off relative to its largest entry.
 #[inline(never)] // one instance for each number type
 pub fn svd<T: Number>(F: &Tensor<T>) -> Svd<T> {
+    T::vectorize(Decomposition(F))
+}
+
+struct Decomposition<'a, T>(&'a Tensor<T>);
+
+impl<T: Number> WithSimd for Decomposition<'_, T> {
+    type Output = Svd<T>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) -> Svd<T> {
+        decompose(self.0)
+    }
+}
+
+#[inline(always)]
+fn decompose<T: Number>(F: &Tensor<T>) -> Svd<T> {
     let size = largest_entry(F);
     let inverse = T::one() / size;
     let mut B = crate::tensor::from_fn(
@@ -61,15 +79,13 @@ pub fn svd<T: Number>(F: &Tensor<T>) -> Svd<T> {
         sort(&mut B, &mut V, i, j);
     }
     let U = basis(&B);
-    let sigma = [0, 1, 2].map(
-        #[inline(always)]
-        |k: usize| size * inner(&U[k], &B[k]),
-    );
+    let sigma = [size * inner(&U[0], &B[0]), size * inner(&U[1], &B[1]), size * inner(&U[2], &B[2])];
     Svd { U, sigma, V }
 }
 
 /// Decomposes F = 1 + G of a flat body, where G has zeros in the third row and column: σ_1 and σ_2, of which the second is negative if
 /// det F < 0, belong to the plane, and σ_3 = 1. Polar decomposition in closed form, then the eigenvectors of a symmetric 2×2 matrix.
+#[inline(always)]
 pub fn svd_in_plane<T: Number>(G: &Tensor<T>) -> Svd<T> {
     let R = PlaneRotation::of(G);
     let (c, s) = (R.cos, R.sin);
@@ -77,19 +93,22 @@ pub fn svd_in_plane<T: Number>(G: &Tensor<T>) -> Svd<T> {
     // S = RᵀF
     let p = half::<T>() * (c * (F[0][1] + F[1][0]) + s * (F[1][1] - F[0][0]));
     let (x, y) = (c * F[0][0] + s * F[1][0], c * F[1][1] - s * F[0][1]);
-    let size = x.simd_abs().simd_max(y.simd_abs()).simd_max(p.simd_abs());
-    let inverse = T::one() / size.select(size.simd_gt(T::zero()), T::one());
+    let size = x.abs().max(y.abs()).max(p.abs());
+    let inverse = T::one() / size.select(size.gt(T::zero()), T::one());
     let (cos, sin) = rotation(p * inverse, (y - x) * inverse);
     let change = sin / cos * p;
     let mut V = unit();
     turn(&mut V, 0, 1, cos, sin);
     let mut sigma = [x - change, y + change, T::one()];
-    let in_order = sigma[0].simd_ge(sigma[1]);
+    let in_order = sigma[0].ge(sigma[1]);
     let (keep, swap) = (T::one().select(in_order, T::zero()), T::zero().select(in_order, T::one()));
     turn(&mut V, 0, 1, keep, -swap);
     sigma = [sigma[0].select(in_order, sigma[1]), sigma[1].select(in_order, sigma[0]), sigma[2]];
-    let turned = |v: &Vector<T>| [c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]];
-    Svd { U: [turned(&V[0]), turned(&V[1]), turned(&V[2])], sigma, V }
+    let mut U = V;
+    for k in 0..3 {
+        (U[k][0], U[k][1]) = (c * V[k][0] - s * V[k][1], s * V[k][0] + c * V[k][1]);
+    }
+    Svd { U, sigma, V }
 }
 
 /// The largest |entry|, or one if all are zero.
@@ -98,10 +117,10 @@ pub(crate) fn largest_entry<T: Number>(a: &Tensor<T>) -> T {
     let mut largest = T::zero();
     for row in a {
         for entry in row {
-            largest = largest.simd_max(entry.simd_abs());
+            largest = largest.max(entry.abs());
         }
     }
-    largest.select(largest.simd_gt(T::zero()), T::one())
+    largest.select(largest.gt(T::zero()), T::one())
 }
 
 /// The three unit vectors.
@@ -117,9 +136,9 @@ pub(crate) fn unit<T: Number>() -> Tensor<T> {
 pub(crate) fn rotation<T: Number>(p: T, d: T) -> (T, T) {
     let epsilon = Real::as_f64(<T::Element as Real>::EPSILON);
     let twice = p + p;
-    let denominator = (d.simd_abs() + (d * d + twice * twice).simd_sqrt()).simd_max(constant(epsilon * epsilon));
-    let tangent = twice.simd_copysign(p * d) / denominator;
-    let c = T::one() / (T::one() + tangent * tangent).simd_sqrt();
+    let denominator = (d.abs() + (d * d + twice * twice).sqrt()).max(constant(epsilon * epsilon));
+    let tangent = twice.copysign(p * d) / denominator;
+    let c = T::one() / (T::one() + tangent * tangent).sqrt();
     (c, c * tangent)
 }
 
@@ -136,7 +155,7 @@ pub(crate) fn turn<T: Number>(a: &mut [Vector<T>; 3], i: usize, j: usize, c: T, 
 /// Rotates i and j by a quarter turn if j is the longer one.
 #[inline(always)]
 fn sort<T: Number>(B: &mut [Vector<T>; 3], V: &mut [Vector<T>; 3], i: usize, j: usize) {
-    let keep = inner(&B[i], &B[i]).simd_ge(inner(&B[j], &B[j]));
+    let keep = inner(&B[i], &B[i]).ge(inner(&B[j], &B[j]));
     let (c, s) = (T::one().select(keep, T::zero()), T::zero().select(keep, T::one()));
     turn(B, i, j, c, -s);
     turn(V, i, j, c, -s);
@@ -147,11 +166,11 @@ fn sort<T: Number>(B: &mut [Vector<T>; 3], V: &mut [Vector<T>; 3], i: usize, j: 
 fn basis<T: Number>(B: &[Vector<T>; 3]) -> [Vector<T>; 3] {
     let [x, y, _] = unit::<T>();
     let (zero, epsilon) = (T::zero(), Real::as_f64(<T::Element as Real>::EPSILON));
-    let first = normalized(&choose(inner(&B[0], &B[0]).simd_gt(zero), &B[0], &x));
+    let first = normalized(&choose(inner(&B[0], &B[0]).gt(zero), &B[0], &x));
     // Of the axes x and y, one is at least 45° away from it.
-    let axis = choose(first[0].simd_abs().simd_lt(constant(0.7)), &x, &y);
+    let axis = choose(first[0].abs().lt(constant(0.7)), &x, &y);
     let second = without(&B[1], &first);
-    let is_long = inner(&second, &second).simd_gt(constant(epsilon * epsilon * epsilon * epsilon));
+    let is_long = inner(&second, &second).gt(constant(epsilon * epsilon * epsilon * epsilon));
     let second = normalized(&choose(is_long, &second, &without(&axis, &first)));
     // A second pass: the rest of a short column may still have a part along the first.
     let second = normalized(&without(&second, &first));
@@ -177,12 +196,12 @@ fn without<T: Number>(a: &Vector<T>, u: &Vector<T>) -> Vector<T> {
 
 #[inline(always)]
 fn normalized<T: Number>(a: &Vector<T>) -> Vector<T> {
-    let factor = T::one() / inner(a, a).simd_sqrt();
+    let factor = T::one() / inner(a, a).sqrt();
     [a[0] * factor, a[1] * factor, a[2] * factor]
 }
 
 /// `a` in lanes with the condition, else `b`.
 #[inline(always)]
-fn choose<T: Number>(condition: T::SimdBool, a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
+fn choose<T: Number>(condition: T::Mask, a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
     [a[0].select(condition, b[0]), a[1].select(condition, b[1]), a[2].select(condition, b[2])]
 }

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use crate::number::Number;
 use nalgebra::{SMatrix, Vector3};
-use simba::simd::SimdValue;
 
 use super::quadratic::{self, BARYCENTRIC, POINTS};
 use super::{Batch, Chunk, Elements};
@@ -97,8 +97,9 @@ fn chunk<T: Real, const D: usize, const E: usize, const N: usize>(
         .iter()
         .map(|corners| corners.iter().min().is_some_and(|&least| nodes.contains(&(least as usize))))
         .collect();
-    let batches =
-        (0..chosen.len().div_ceil(T::WIDTH)).map(|i| batch(i * T::WIDTH, &shapes, &owned)).collect::<Vec<_>>();
+    let batches = (0..chosen.len().div_ceil(T::WIDTH))
+        .map(|i| batch::<T, D, E>(i * T::WIDTH, &shapes, &owned))
+        .collect::<Vec<_>>();
 
     let filling = batches.len() * T::WIDTH - chosen.len();
     corners.extend(std::iter::repeat_n([nodes.start as u32; N], filling));
@@ -152,12 +153,12 @@ fn batch<T: Real, const D: usize, const E: usize>(
     first: usize,
     shapes: &[Shape<D, E>],
     owned: &[bool],
-) -> Batch<T, D, E> {
+) -> Batch<T::Lanes, D, E> {
     let volume = |lane: usize| shapes.get(first + lane).map_or(0.0, |shape| shape.1);
     let gradient = |lane: usize, e: usize, j: usize| shapes.get(first + lane).map_or(0.0, |shape| shape.0[e][j]);
     let counts = |lane: usize| owned.get(first + lane).copied().unwrap_or(false);
     let mut batch = Batch {
-        gradients: [[T::Lanes::splat(T::default()); D]; E],
+        gradients: [[T::Lanes::zero(); D]; E],
         volume: T::lanes(|lane| T::of(volume(lane))),
         counted: T::lanes(|lane| T::of(if counts(lane) { volume(lane) } else { 0.0 })),
     };

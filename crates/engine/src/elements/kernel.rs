@@ -1,35 +1,33 @@
 //! Kernels: computations for one batch of elements, one element in each SIMD lane.
 
-use simba::simd::{SimdPartialOrd, SimdValue};
-
 use super::Batch;
 use crate::materials::OfInvariants;
-use crate::number::Real;
+use crate::number::{Lanes, Real};
 use crate::tensor::{Tensor, Tensor4, dot, zero};
 
 /// A D×D block for each lane.
-pub(super) type LaneBlock<T, const D: usize> = [[<T as Real>::Lanes; D]; D];
+pub(super) type LaneBlock<L, const D: usize> = [[L; D]; D];
 
 /// Displacement gradients G_ij = Σ_e (u_{e+1} − u_0)_i (∇φ_{e+1})_j of the elements with these corners. In the plane the third
 /// direction does not deform: plane strain.
 #[inline(always)]
-pub(super) fn displacement_gradient<T: Real, const D: usize, const E: usize, const N: usize>(
-    batch: &Batch<T, D, E>,
+pub(super) fn displacement_gradient<L: Lanes, const D: usize, const E: usize, const N: usize>(
+    batch: &Batch<L, D, E>,
     corners: &[[u32; N]],
-    u: &[[T; 3]],
-) -> Tensor<T::Lanes> {
+    u: &[[L::Element; 3]],
+) -> Tensor<L> {
     let mut differences = batch.gradients;
-    for lane in 0..T::WIDTH {
+    for lane in 0..L::LANES {
         let corners = &corners[lane];
         let first = u[corners[0] as usize];
         for e in 0..E {
             let x = u[corners[e + 1] as usize];
             for i in 0..D {
-                T::each_mut(&mut differences[e][i])[lane] = x[i] - first[i];
+                differences[e][i].as_mut_slice()[lane] = x[i] - first[i];
             }
         }
     }
-    let mut G = zero::<T::Lanes>();
+    let mut G = zero::<L>();
     for i in 0..D {
         for j in 0..D {
             G[i][j] = differences[0][i] * batch.gradients[0][j];
@@ -43,10 +41,10 @@ pub(super) fn displacement_gradient<T: Real, const D: usize, const E: usize, con
 
 /// Gradient of the element's energy by the positions of its corners but the first: V P ∇φ.
 #[inline(always)]
-pub(super) fn corner_gradients<T: Real, const D: usize, const E: usize>(
-    batch: &Batch<T, D, E>,
-    P: &Tensor<T::Lanes>,
-) -> [[T::Lanes; D]; E] {
+pub(super) fn corner_gradients<L: Lanes, const D: usize, const E: usize>(
+    batch: &Batch<L, D, E>,
+    P: &Tensor<L>,
+) -> [[L; D]; E] {
     let mut gradients = batch.gradients;
     for e in 0..E {
         for i in 0..D {
@@ -62,11 +60,11 @@ pub(super) fn corner_gradients<T: Real, const D: usize, const E: usize>(
 
 /// Blocks V Σ_jl H_(ij)(kl) (∇φ_a)_j (∇φ_b)_l of the element's Hessian for corners a + 1 and b + 1, b ≤ a.
 #[inline(always)]
-pub(super) fn corner_blocks<T: Real, const D: usize, const E: usize>(
-    batch: &Batch<T, D, E>,
-    H: &Tensor4<T::Lanes>,
-) -> [[LaneBlock<T, D>; E]; E] {
-    let zero = T::Lanes::splat(T::default());
+pub(super) fn corner_blocks<L: Lanes, const D: usize, const E: usize>(
+    batch: &Batch<L, D, E>,
+    H: &Tensor4<L>,
+) -> [[LaneBlock<L, D>; E]; E] {
+    let zero = L::zero();
     let mut blocks = [[[[zero; D]; D]; E]; E];
     for b in 0..E {
         // H contracted with ∇φ_b from the right, times the volume.
@@ -101,11 +99,11 @@ pub(super) fn corner_blocks<T: Real, const D: usize, const E: usize>(
 /// The same blocks for a law of invariants, without the 81 entries of H. With f_a = F ∇φ_a and c_a = cof ∇φ_a they are
 /// V (a ∇φ_a·∇φ_b 1 + s f_a⊗f_b + t (f_a⊗c_b + c_a⊗f_b) + r c_a⊗c_b + b [F (∇φ_a × ∇φ_b)]), where [w]_ik = ε_ikm w_m.
 #[inline(always)]
-pub(super) fn invariant_blocks<T: Real, const D: usize, const E: usize>(
-    batch: &Batch<T, D, E>,
-    terms: &OfInvariants<T::Lanes>,
-) -> [[LaneBlock<T, D>; E]; E] {
-    let zero = T::Lanes::splat(T::default());
+pub(super) fn invariant_blocks<L: Lanes, const D: usize, const E: usize>(
+    batch: &Batch<L, D, E>,
+    terms: &OfInvariants<L>,
+) -> [[LaneBlock<L, D>; E]; E] {
+    let zero = L::zero();
     let OfInvariants { F, cof, a, b, s, t, r } = *terms;
     let (a, b) = (a * batch.volume, b * batch.volume);
     let mut blocks = [[[[zero; D]; D]; E]; E];
@@ -155,10 +153,10 @@ pub(super) fn invariant_blocks<T: Real, const D: usize, const E: usize>(
 /// under translation, so each row of blocks adds up to zero, which gives the blocks of the first corner. Elements in the plane have no
 /// stiffness in the third direction.
 #[inline(always)]
-pub(super) fn element_hessian<T: Real, const D: usize, const E: usize, const N: usize>(
-    inner: &[[LaneBlock<T, D>; E]; E],
-) -> [[LaneBlock<T, 3>; N]; N] {
-    let zero = T::Lanes::splat(T::default());
+pub(super) fn element_hessian<L: Lanes, const D: usize, const E: usize, const N: usize>(
+    inner: &[[LaneBlock<L, D>; E]; E],
+) -> [[LaneBlock<L, 3>; N]; N] {
+    let zero = L::zero();
     let mut all = [[[[zero; 3]; 3]; N]; N];
     for a in 0..E {
         for b in 0..=a {
@@ -184,19 +182,16 @@ pub(super) fn element_hessian<T: Real, const D: usize, const E: usize, const N: 
 
 /// Energy of a batch from its densities, J.
 #[inline(always)]
-pub(super) fn total_energy<T: Real, const D: usize, const E: usize>(
-    batch: &Batch<T, D, E>,
-    densities: T::Lanes,
-) -> f64 {
+pub(super) fn total_energy<L: Lanes, const D: usize, const E: usize>(batch: &Batch<L, D, E>, densities: L) -> f64 {
     // An element of no volume has no energy, whatever its lane contains.
-    let zero = T::Lanes::splat(T::default());
-    let energies = (densities * batch.counted).select(batch.counted.simd_gt(zero), zero);
-    T::each(&energies).iter().map(|energy| energy.as_f64()).sum()
+    let zero = L::zero();
+    let energies = (densities * batch.counted).select(batch.counted.gt(zero), zero);
+    energies.as_slice().iter().map(|energy| energy.as_f64()).sum()
 }
 
 /// Σ V G:G of a batch, m³.
 #[inline(always)]
-pub(super) fn squares<T: Real, const D: usize, const E: usize>(batch: &Batch<T, D, E>, G: &Tensor<T::Lanes>) -> f64 {
+pub(super) fn squares<L: Lanes, const D: usize, const E: usize>(batch: &Batch<L, D, E>, G: &Tensor<L>) -> f64 {
     let squares = dot(G, G) * batch.counted;
-    T::each(&squares).iter().map(|squares| squares.as_f64()).sum()
+    squares.as_slice().iter().map(|squares| squares.as_f64()).sum()
 }

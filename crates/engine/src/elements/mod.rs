@@ -10,6 +10,7 @@
 
 mod assembly;
 mod build;
+mod chunk_sums;
 mod kernel;
 mod laws;
 mod parallel;
@@ -44,20 +45,20 @@ struct Chunk<T: Real, const D: usize, const E: usize, const N: usize> {
     /// Block that each pair of nodes is added to, counted from the first of `blocks`; pairs without a block have a target
     /// beyond the last.
     targets: Vec<[[u32; N]; N]>,
-    batches: Vec<Batch<T, D, E>>,
+    batches: Vec<Batch<T::Lanes, D, E>>,
     /// Number of each element in the list that the elements were made from.
     elements: Vec<u32>,
 }
 
 /// The undeformed shape of as many elements as there are lanes.
 #[derive(Clone, Copy, Debug)]
-struct Batch<T: Real, const D: usize, const E: usize> {
+struct Batch<L, const D: usize, const E: usize> {
     /// Gradients of the shape functions, 1/m: row e is that of node e + 1. Of a simplex it is the inverse of the edge matrix.
-    gradients: [[T::Lanes; D]; E],
+    gradients: [[L; D]; E],
     /// Volume, m³ (area in the plane, m²).
-    volume: T::Lanes,
+    volume: L,
     /// The volume where this chunk counts the element's energy, zero where another does.
-    counted: T::Lanes,
+    counted: L,
 }
 
 impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, N> {

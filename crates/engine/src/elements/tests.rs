@@ -1,4 +1,5 @@
 mod quadratic;
+mod registers;
 
 use nalgebra::Vector3;
 
@@ -63,7 +64,6 @@ fn triangles() -> Case<2, 2, 3> {
 }
 
 fn law<T: Real>() -> NeoHookean<T::Lanes> {
-    use simba::simd::SimdValue;
     NeoHookean { C: T::Lanes::splat(T::of(C)), D: T::Lanes::splat(T::of(D)) }
 }
 
@@ -249,7 +249,6 @@ fn blocks_of_both_kinds_are_alike<const D: usize, const E: usize, const N: usize
 
 #[test]
 fn blocks_from_invariants_are_those_from_all_entries_of_the_derivative() {
-    use simba::simd::SimdValue;
     let lanes = <f64 as Real>::Lanes::splat;
     let stable = StableNeoHookean { mu: lanes(C), lambda: lanes(D) };
     blocks_of_both_kinds_are_alike(&tetrahedra(2), law::<f64>());

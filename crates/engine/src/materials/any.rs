@@ -18,6 +18,44 @@ macro_rules! laws {
             pub const NAMES: &'static [&'static str] = &[$($Law::<f64>::NAME),*];
         }
 
+        impl<T: Number> Law<T> for AnyLaw<T> {
+            fn energy(&self, G: &Tensor<T>) -> T {
+                match self {
+                    $(Self::$Law(law) => Vectorized(*law).energy(G),)*
+                }
+            }
+
+            fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
+                match self {
+                    $(Self::$Law(law) => Vectorized(*law).stress(G),)*
+                }
+            }
+
+            fn energy_and_stress(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
+                match self {
+                    $(Self::$Law(law) => Vectorized(*law).energy_and_stress(G),)*
+                }
+            }
+
+            fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
+                match self {
+                    $(Self::$Law(law) => Vectorized(*law).derivative(G),)*
+                }
+            }
+
+            fn of_invariants(&self, G: &Tensor<T>) -> Option<OfInvariants<T>> {
+                match self {
+                    $(Self::$Law(law) => Vectorized(*law).of_invariants(G),)*
+                }
+            }
+
+            fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
+                match self {
+                    $(Self::$Law(law) => Vectorized(*law).projected_derivative(G),)*
+                }
+            }
+        }
+
         impl<T: Number> AnyLaw<T> {
             /// The law of a scene's table; `None` if the table lacks a known name or its parameters, as a checked table
             /// never does.
@@ -28,11 +66,9 @@ macro_rules! laws {
                 None
             }
 
-            /// The law itself.
+            /// The law by reference.
             pub fn as_law(&self) -> &dyn Law<T> {
-                match self {
-                    $(Self::$Law(law) => law,)*
-                }
+                self
             }
 
             /// The name in scene files.
@@ -61,7 +97,7 @@ macro_rules! laws {
                 let of_all_lanes = match self {
                     $(Self::$Law(law) => law.moduli(),)*
                 };
-                of_all_lanes.map(|modulus| $crate::number::Real::as_f64(modulus.extract(0)))
+                of_all_lanes.map(|modulus| $crate::number::Real::as_f64(modulus.lane(0)))
             }
 
             /// The sum of its moduli, Pa: the size of its stress where strain is 1.

@@ -3,14 +3,19 @@
 //! Sifakis and Barbič, FEM Simulation of 3D Deformable Solids (2012), part one, §3.4; eigenvalues: Smith, de Goes and Kim,
 //! Analytic Eigensystems for Isotropic Distortion Energies (2019).
 //!
-//! With F = U diag(σ) Vᵀ, R = U Vᵀ and e = σ − 1: ψ = μ Σe² + λ/2 (Σe)², P = U diag(2μ e + λ Σe) Vᵀ. R is always proper: an
-//! inverted element has σ_3 < 0 and is pushed back. Where σ_i + σ_j = 0, R jumps and ψ has a crease.
+//! With y = tr(RᵀF) − 3, P = 2μ (F − R) + λ y R and ∂P/∂F = 2μ 1 + λ R⊗R + (λ y − 2μ) ∂R/∂F: [`SpaceRotation`] has R and its derivative
+//! in closed form. R is always proper: an inverted element, of which the last singular value is negative, is pushed back. Where
+//! σ_i + σ_j = 0, R jumps and ψ has a crease; near there the singular value decomposition F = U diag(σ) Vᵀ takes over, R = U Vᵀ: with
+//! e = σ − 1, ψ = μ Σe² + λ/2 (Σe)² and P = U diag(2μ e + λ Σe) Vᵀ.
+
+use pulp::{Simd, WithSimd};
 
 use super::isotropic::{Principal, derivative_from, projected_derivative_from};
 use super::{Law, NamedLaw};
 use crate::number::{Number, Real, constant};
+use crate::polar::SpaceRotation;
 use crate::svd::{Svd, svd, svd_in_plane};
-use crate::tensor::{Tensor, Tensor4, dot, green_strain, half, plus_identity};
+use crate::tensor::{Tensor, Tensor4, add_diagonal, dot, from_fn, green_strain, half, plus_identity};
 
 /// Lamé's constants of small strain, Pa.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +41,7 @@ pub(crate) fn stretches_in_plane<T: Number>(G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
 #[inline(always)]
 fn with_strains<T: Number>(F: Svd<T>, G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
     let strain = green_strain(G);
-    let is_small = dot(&strain, &strain).simd_lt(constant(0.0625));
+    let is_small = dot(&strain, &strain).lt(constant(0.0625));
     let mut e = F.sigma;
     for k in 0..3 {
         let v = &F.V[k];
@@ -45,7 +50,7 @@ fn with_strains<T: Number>(F: Svd<T>, G: &Tensor<T>) -> (Svd<T>, [T; 3]) {
             green += v[i] * (strain[i][0] * v[0] + strain[i][1] * v[1] + strain[i][2] * v[2]);
         }
         // σ² − 1 = 2 vᵀEv has the digits that σ − 1 loses near rest. A mirror image is without strain, too.
-        let keeps_digits = is_small & F.sigma[k].simd_gt(T::zero());
+        let keeps_digits = is_small & F.sigma[k].gt(T::zero());
         let from_strain = constant::<T>(2.0) * green / (F.sigma[k] + T::one());
         e[k] = from_strain.select(keeps_digits, F.sigma[k] - T::one());
     }
@@ -65,6 +70,16 @@ impl<T: Number> Corotated<T> {
         F.with_values(&[two_mu * e[0] + pressure, two_mu * e[1] + pressure, two_mu * e[2] + pressure])
     }
 
+    #[inline(never)] // rare
+    fn energy_and_stress_on_crease(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
+        T::vectorize(OnCrease { law: self, G })
+    }
+
+    #[inline(never)] // rare
+    fn derivative_on_crease(&self, G: &Tensor<T>) -> Tensor4<T> {
+        T::vectorize(DerivativeOnCrease { law: self, G })
+    }
+
     #[inline(always)]
     fn principal(&self, F: &Svd<T>, e: &[T; 3]) -> Principal<T> {
         let two = constant::<T>(2.0);
@@ -74,7 +89,7 @@ impl<T: Number> Corotated<T> {
         let mut principal = Principal::zero();
         for k in 0..3 {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            let sum = (F.sigma[i] + F.sigma[j]).simd_max(floor);
+            let sum = (F.sigma[i] + F.sigma[j]).max(floor);
             principal.twist[k] = (two * self.mu * (e[i] + e[j]) + pressure) / sum;
             principal.flip[k] = two * self.mu;
             principal.scaling[k] = [self.lambda; 3];
@@ -84,29 +99,131 @@ impl<T: Number> Corotated<T> {
     }
 }
 
+/// Energy and stress by singular values.
+struct OnCrease<'a, T> {
+    law: &'a Corotated<T>,
+    G: &'a Tensor<T>,
+}
+
+impl<T: Number> WithSimd for OnCrease<'_, T> {
+    type Output = (T, Tensor<T>);
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) -> (T, Tensor<T>) {
+        let (F, e) = stretches(self.G);
+        (self.law.energy_of(&e), self.law.stress_of(&F, &e))
+    }
+}
+
+/// The derivative by singular values.
+struct DerivativeOnCrease<'a, T> {
+    law: &'a Corotated<T>,
+    G: &'a Tensor<T>,
+}
+
+impl<T: Number> WithSimd for DerivativeOnCrease<'_, T> {
+    type Output = Tensor4<T>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) -> Tensor4<T> {
+        let (F, e) = stretches(self.G);
+        derivative_from(&F, &self.law.principal(&F, &e))
+    }
+}
+
+/// Energy, stress and derivative from the closed form of the rotation.
+impl<T: Number> Corotated<T> {
+    #[inline(always)]
+    fn energy_at(&self, R: &SpaceRotation<T>, difference: &Tensor<T>) -> T {
+        self.mu * dot(difference, difference) + half::<T>() * self.lambda * R.strain * R.strain
+    }
+
+    #[inline(always)]
+    fn stress_at(&self, R: &SpaceRotation<T>, difference: &Tensor<T>) -> Tensor<T> {
+        let (two_mu, pressure) = (constant::<T>(2.0) * self.mu, self.lambda * R.strain);
+        let rotation = R.rotation();
+        from_fn(
+            #[inline(always)]
+            |i, j| two_mu * difference[i][j] + pressure * rotation[i][j],
+        )
+    }
+
+    #[inline(always)]
+    fn derivative_at(&self, R: &SpaceRotation<T>, G: &Tensor<T>) -> Tensor4<T> {
+        let two_mu = constant::<T>(2.0) * self.mu;
+        let factor = self.lambda * R.strain - two_mu;
+        let (rotation, B) = (R.rotation(), R.spin(G));
+        // t_k = R [e_k]×: its column k + 1 is column k + 2 of R, and its column k + 2 is minus column k + 1.
+        let mut t = [[T::zero(); 9]; 3];
+        for k in 0..3 {
+            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+            for i in 0..3 {
+                t[k][3 * i + next] = rotation[i][last];
+                t[k][3 * i + last] = -rotation[i][next];
+            }
+        }
+        let mut H = [[T::zero(); 9]; 9];
+        for row in 0..9 {
+            let pressure = self.lambda * rotation[row / 3][row % 3];
+            let mut of_t = [T::zero(); 3];
+            for l in 0..3 {
+                of_t[l] = factor * (B[0][l] * t[0][row] + B[1][l] * t[1][row] + B[2][l] * t[2][row]);
+            }
+            for column in row..9 {
+                let spin = of_t[0] * t[0][column] + of_t[1] * t[1][column] + of_t[2] * t[2][column];
+                H[row][column] = pressure * rotation[column / 3][column % 3] + spin;
+                H[column][row] = H[row][column];
+            }
+        }
+        add_diagonal(&mut H, two_mu);
+        H
+    }
+}
+
+/// F − R
+#[inline(always)]
+fn difference<T: Number>(G: &Tensor<T>, R: &SpaceRotation<T>) -> Tensor<T> {
+    from_fn(
+        #[inline(always)]
+        |i, j| G[i][j] - R.change[i][j],
+    )
+}
+
 impl<T: Number> Law<T> for Corotated<T> {
     #[inline(always)]
     fn energy(&self, G: &Tensor<T>) -> T {
-        self.energy_of(&stretches(G).1)
+        match SpaceRotation::of(G) {
+            Some(R) => self.energy_at(&R, &difference(G, &R)),
+            None => self.energy_and_stress_on_crease(G).0,
+        }
     }
 
     #[inline(always)]
     fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
-        let (F, e) = stretches(G);
-        self.stress_of(&F, &e)
+        match SpaceRotation::of(G) {
+            Some(R) => self.stress_at(&R, &difference(G, &R)),
+            None => self.energy_and_stress_on_crease(G).1,
+        }
     }
 
-    /// With one singular value decomposition for both.
+    /// With one rotation for both.
     #[inline(always)]
     fn energy_and_stress(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
-        let (F, e) = stretches(G);
-        (self.energy_of(&e), self.stress_of(&F, &e))
+        match SpaceRotation::of(G) {
+            Some(R) => {
+                let difference = difference(G, &R);
+                (self.energy_at(&R, &difference), self.stress_at(&R, &difference))
+            }
+            None => self.energy_and_stress_on_crease(G),
+        }
     }
 
     #[inline(always)]
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        let (F, e) = stretches(G);
-        derivative_from(&F, &self.principal(&F, &e))
+        match SpaceRotation::of(G) {
+            Some(R) => self.derivative_at(&R, G),
+            None => self.derivative_on_crease(G),
+        }
     }
 
     #[inline(always)]

@@ -29,6 +29,7 @@ impl<T: Number> OfInvariants<T> {
     }
 
     /// ∂P/∂F with its negative eigenvalues raised to zero.
+    #[inline(always)]
     pub fn projected_derivative(&self) -> Tensor4<T> {
         let F = svd(&self.F);
         projected_derivative_from(&F, &self.principal(&F.sigma))

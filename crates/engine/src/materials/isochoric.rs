@@ -36,7 +36,7 @@ impl<T: Number> Isochoric<T> {
     /// The energy density if J > 0, else infinity. Without this check an inverted element would have a finite energy.
     #[inline(always)]
     pub fn allowed(&self, energy: T) -> T {
-        energy.select(self.J.simd_gt(T::zero()), constant(f64::INFINITY))
+        energy.select(self.J.gt(T::zero()), constant(f64::INFINITY))
     }
 
     /// I − 3

@@ -6,6 +6,8 @@
 //! Energies (2019). Laws give the ratios with their denominators divided out, so that equal stretches give
 //! no 0/0.
 
+use pulp::{Simd, WithSimd};
+
 use crate::number::Number;
 use crate::svd::{Svd, largest_entry, rotation, turn, unit};
 use crate::tensor::{Tensor, Tensor4, zero};
@@ -32,12 +34,12 @@ impl<T: Number> Principal<T> {
 }
 
 /// The positive semi-definite projection: negative eigenvalues raised to zero.
-#[inline(never)]
+#[inline(always)]
 fn projected<T: Number>(principal: &Principal<T>) -> Principal<T> {
     let mut raised = *principal;
     for k in 0..3 {
-        raised.twist[k] = raised.twist[k].simd_max(T::zero());
-        raised.flip[k] = raised.flip[k].simd_max(T::zero());
+        raised.twist[k] = raised.twist[k].max(T::zero());
+        raised.flip[k] = raised.flip[k].max(T::zero());
     }
     add_negative_part(&mut raised.scaling);
     raised
@@ -49,7 +51,7 @@ fn add_negative_part<T: Number>(A: &mut Tensor<T>) {
     let size = largest_entry(A);
     let (eigenvalues, w) = eigen(A, size);
     for k in 0..3 {
-        let lift = -size * eigenvalues[k].simd_min(T::zero());
+        let lift = -size * eigenvalues[k].min(T::zero());
         for i in 0..3 {
             for j in 0..3 {
                 A[i][j] += lift * (w[k][i] * w[k][j]);
@@ -84,13 +86,35 @@ fn eigen<T: Number>(A: &Tensor<T>, size: T) -> ([T; 3], [[T; 3]; 3]) {
 }
 
 /// ∂P/∂F with its negative eigenvalues raised to zero.
+#[inline(never)]
 pub(crate) fn projected_derivative_from<T: Number>(F: &Svd<T>, principal: &Principal<T>) -> Tensor4<T> {
-    derivative_from(F, &projected(principal))
+    T::vectorize(DerivativeOf { F, principal, is_projected: true })
 }
 
 /// ∂P/∂F. All laws share its code, compiled once for each number type.
 #[inline(never)]
 pub(crate) fn derivative_from<T: Number>(F: &Svd<T>, principal: &Principal<T>) -> Tensor4<T> {
+    T::vectorize(DerivativeOf { F, principal, is_projected: false })
+}
+
+struct DerivativeOf<'a, T> {
+    F: &'a Svd<T>,
+    principal: &'a Principal<T>,
+    is_projected: bool,
+}
+
+impl<T: Number> WithSimd for DerivativeOf<'_, T> {
+    type Output = Tensor4<T>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) -> Tensor4<T> {
+        let principal = if self.is_projected { projected(self.principal) } else { *self.principal };
+        derivative_of(self.F, &principal)
+    }
+}
+
+#[inline(always)]
+fn derivative_of<T: Number>(F: &Svd<T>, principal: &Principal<T>) -> Tensor4<T> {
     let half = crate::tensor::half::<T>();
     let q = basis(F);
     // With the same row of `images`, ∂P/∂F = Σ q ⊗ image.
@@ -114,6 +138,25 @@ pub(crate) fn derivative_from<T: Number>(F: &Svd<T>, principal: &Principal<T>) -
 /// ∂P/∂F of which `H` has the components in the basis u_k v_lᵀ.
 #[inline(never)]
 pub(crate) fn derivative_in_basis<T: Number>(F: &Svd<T>, H: &Tensor4<T>) -> Tensor4<T> {
+    T::vectorize(InBasis { F, H })
+}
+
+struct InBasis<'a, T> {
+    F: &'a Svd<T>,
+    H: &'a Tensor4<T>,
+}
+
+impl<T: Number> WithSimd for InBasis<'_, T> {
+    type Output = Tensor4<T>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) -> Tensor4<T> {
+        product_in_basis(self.F, self.H)
+    }
+}
+
+#[inline(always)]
+fn product_in_basis<T: Number>(F: &Svd<T>, H: &Tensor4<T>) -> Tensor4<T> {
     let q = basis(F);
     let mut images = [[T::zero(); 9]; 9];
     for row in 0..9 {

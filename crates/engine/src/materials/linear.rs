@@ -35,14 +35,10 @@ impl<T: Number> Law<T> for Linear<T> {
     #[inline(always)]
     fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
         let two_mu = constant::<T>(2.0) * self.mu;
-        let mut P = strain(G).map(
+        let strain = strain(G);
+        let mut P = from_fn(
             #[inline(always)]
-            |row| {
-                row.map(
-                    #[inline(always)]
-                    |strain| two_mu * strain,
-                )
-            },
+            |i, j| two_mu * strain[i][j],
         );
         let pressure = self.lambda * trace(G);
         for i in 0..3 {

@@ -34,14 +34,13 @@ impl<T: Number> Logarithmic<T> {
     #[inline(always)]
     pub fn new(G: &Tensor<T>) -> Self {
         let (F, e) = stretches(G);
-        let ln_1p = |e: T| e - minus_ln_1p(e);
-        Self { F, strains: [ln_1p(e[0]), ln_1p(e[1]), ln_1p(e[2])] }
+        Self { F, strains: [e[0] - minus_ln_1p(e[0]), e[1] - minus_ln_1p(e[1]), e[2] - minus_ln_1p(e[2])] }
     }
 
     /// The energy, which is infinite where an element is flat or inverted.
     #[inline(always)]
     pub fn allowed(&self, energy: T) -> T {
-        energy.select(self.F.sigma[2].simd_gt(T::zero()), constant(f64::INFINITY))
+        energy.select(self.F.sigma[2].gt(T::zero()), constant(f64::INFINITY))
     }
 
     /// P = U diag(τ_i/σ_i) Vᵀ
@@ -62,7 +61,7 @@ impl<T: Number> Logarithmic<T> {
             let (sum, product) = (sigma[i] + sigma[j], sigma[i] * sigma[j]);
             let x = (sigma[i] - sigma[j]) / sigma[j];
             // 1 − ln(1 + x)/x, of which the limit at x = 0 is zero.
-            let lost = (minus_ln_1p(x) / x).select(x.simd_ne(T::zero()), T::zero());
+            let lost = T::zero().select(x.eq(T::zero()), minus_ln_1p(x) / x);
             let slope = stress.ratio * (T::one() - lost) / sigma[j];
             principal.twist[k] = (tau[i] / sigma[i] + tau[j] / sigma[j]) / sum;
             principal.flip[k] = half::<T>() * (slope * sum - (tau[i] + tau[j])) / product;

@@ -20,11 +20,13 @@ mod st_venant_kirchhoff;
 mod stable_neo_hookean;
 #[cfg(test)]
 mod tests;
+mod vectorized;
 mod yeoh;
 
 pub use cauchy::{cauchy_stress, plane_cauchy_stress, pushed_forward};
 pub use invariants::OfInvariants;
 pub use plane_corotated::PlaneCorotated;
+pub use vectorized::Vectorized;
 
 use crate::number::Number;
 use crate::tensor::{Tensor, Tensor4};

@@ -47,7 +47,7 @@ impl<T: Number> PlaneCorotated<T> {
     #[inline(always)]
     fn of_rotation(&self, R: &PlaneRotation<T>) -> T {
         let floor = constant::<T>(Real::as_f64(<T::Element as Real>::EPSILON).sqrt());
-        (self.lambda * R.strain - constant::<T>(2.0) * self.mu) / R.trace.simd_max(floor)
+        (self.lambda * R.strain - constant::<T>(2.0) * self.mu) / R.trace.max(floor)
     }
 
     /// 2μ 1 + λ R⊗R + `of_rotation` T⊗T
@@ -105,7 +105,7 @@ impl<T: Number> Law<T> for PlaneCorotated<T> {
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         let R = PlaneRotation::of(G);
-        self.derivative_of(&R, self.of_rotation(&R).simd_max(-self.mu))
+        self.derivative_of(&R, self.of_rotation(&R).max(-self.mu))
     }
 }
 

@@ -1,15 +1,16 @@
 //! The elements of a body, grouped by material: the loops over a group are compiled for its law.
 
-use fem_scene::{Body, PlaneState};
+use fem_scene::{Body, Material, PlaneState};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::elements::BatchLaws;
 use crate::materials::{
-    AnyLaw, Law, PlaneCorotated, Projected, cauchy_stress, match_law, plane_cauchy_stress, pushed_forward, with_law,
+    AnyLaw, Law, PlaneCorotated, Projected, Vectorized, cauchy_stress, match_law, plane_cauchy_stress, pushed_forward,
+    with_law,
 };
 use crate::model::any_elements::{AnyElements, with_elements};
 use crate::model::numbering::Numbering;
-use crate::number::Real;
+use crate::number::{Lanes, Real};
 use crate::plasticity::{Internal, PlasticLaws, Plasticity};
 use crate::sparse::{Block, Pattern};
 
@@ -28,28 +29,53 @@ pub struct Solids<T: Real> {
 
 /// The elements of one material.
 struct Solid<T: Real> {
-    law: AnyLaw<T::Lanes>,
-    /// The law of triangles where it has a form of its own.
-    in_plane: Option<PlaneCorotated<T::Lanes>>,
+    laws: SolidLaws<T::Lanes>,
+    /// The same in wide registers, on processors that have them.
+    fast: Option<SolidLaws<T::Fast>>,
     elements: AnyElements<T>,
     /// Number of each quadrature point in the mesh, those of the first element first; empty where the group is the whole mesh in its order.
     numbers: Vec<usize>,
 }
 
-/// Evaluates an expression for the elements of a group with its law; `with_law!` compiles the value for each law of tetrahedra that do not flow.
+/// The law of a material, in one kind of lanes.
+struct SolidLaws<L> {
+    law: AnyLaw<L>,
+    /// The law of triangles where it has a form of its own.
+    in_plane: Option<Vectorized<PlaneCorotated<L>>>,
+}
+
+impl<L: Lanes> SolidLaws<L> {
+    fn new(law: AnyLaw<L>, is_flat: bool) -> Self {
+        Self { law, in_plane: if is_flat { law.in_plane().map(Vectorized) } else { None } }
+    }
+
+    /// The law of elements that do not flow.
+    fn as_law(&self) -> &dyn Law<L> {
+        self.in_plane.as_ref().map_or(self.law.as_law(), |law| law)
+    }
+}
+
+/// Evaluates an expression for the elements of a group with its law, in the widest lanes of this processor. For these `with_law!` compiles
+/// the value for each law of tetrahedra that do not flow; old processors without them call laws by reference, to keep the program small.
 macro_rules! with_law_and_elements {
     ($solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
-        match (&$group.elements, $group.plastic_laws(&$solids.plasticity)) {
-            (AnyElements::Tetrahedra($elements), None) => with_law!(&$group.law, $law => $value),
-            (AnyElements::Triangles($elements), None) => match &$group.in_plane {
-                Some($law) => $value,
+        match &$group.fast {
+            Some(laws) => with_law_and_elements!(in laws, $solids, $group, $law, $elements => $value),
+            None => with_law_by_reference!(in &$group.laws, $solids, $group, $law, $elements => $value),
+        }
+    };
+    (in $laws:expr, $solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
+        match (&$group.elements, $group.plastic_laws(&$solids.plasticity, $laws)) {
+            (AnyElements::Tetrahedra($elements), None) => with_law!(&$laws.law, $law => $value),
+            (AnyElements::Triangles($elements), None) => match &$laws.in_plane {
+                Some(Vectorized($law)) => $value,
                 None => {
-                    let $law = $group.law.as_law();
+                    let $law = $laws.law.as_law();
                     $value
                 }
             },
             (AnyElements::QuadraticTriangles($elements), None) => {
-                let $law = $group.as_law();
+                let $law = $laws.as_law();
                 $value
             }
             (AnyElements::Tetrahedra($elements), Some($law)) => $value,
@@ -62,9 +88,15 @@ macro_rules! with_law_and_elements {
 /// The same with the law by reference.
 macro_rules! with_law_by_reference {
     ($solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
-        with_elements!(&$group.elements, $elements => match $group.plastic_laws(&$solids.plasticity) {
+        match &$group.fast {
+            Some(laws) => with_law_by_reference!(in laws, $solids, $group, $law, $elements => $value),
+            None => with_law_by_reference!(in &$group.laws, $solids, $group, $law, $elements => $value),
+        }
+    };
+    (in $laws:expr, $solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
+        with_elements!(&$group.elements, $elements => match $group.plastic_laws(&$solids.plasticity, $laws) {
             None => {
-                let $law = $group.as_law();
+                let $law = $laws.as_law();
                 $value
             }
             Some($law) => $value,
@@ -78,14 +110,13 @@ impl<T: Real> Solid<T> {
         self.numbers.get(point).copied().unwrap_or(point)
     }
 
-    /// The law of its elements where they do not flow.
-    fn as_law(&self) -> &dyn Law<T::Lanes> {
-        self.in_plane.as_ref().map_or(self.law.as_law(), |law| law)
-    }
-
     /// The laws of its quadrature points where they flow.
-    fn plastic_laws<'a>(&'a self, plasticity: &'a Option<Plasticity<T>>) -> Option<PlasticLaws<'a, T>> {
-        plasticity.as_ref().map(|plasticity| PlasticLaws::new(plasticity, &self.law, &self.numbers))
+    fn plastic_laws<'a, L: Lanes<Element = T>>(
+        &'a self,
+        plasticity: &'a Option<Plasticity<T>>,
+        laws: &SolidLaws<L>,
+    ) -> Option<PlasticLaws<'a, T, L>> {
+        plasticity.as_ref().map(|plasticity| PlasticLaws::new(plasticity, &laws.law, &self.numbers))
     }
 }
 
@@ -101,26 +132,29 @@ impl<T: Real> Solids<T> {
     ) -> Self {
         let factors = &body.stiffness_factors;
         let (count, points_per_element) = (body.shape.mesh.elements(), body.shape.mesh.points_per_element());
-        let group = |law: AnyLaw<T::Lanes>, elements: Vec<usize>| {
+        let is_flat = body.shape.mesh.is_flat();
+        let group = |(law, material): (AnyLaw<T::Lanes>, &Material), elements: Vec<usize>| {
             let of_element = |&element: &usize| element * points_per_element..(element + 1) * points_per_element;
             let numbers = elements.iter().flat_map(of_element).collect();
             let elements = AnyElements::new(&body.shape.mesh, factors, &elements, rest, numbering, pattern);
-            let in_plane = if body.shape.mesh.is_flat() { law.in_plane() } else { None };
-            Solid { law, in_plane, elements, numbers }
+            let fast = if T::has_fast() { AnyLaw::<T::Fast>::new(material) } else { None };
+            if let Some(fast) = &fast {
+                assert_eq!(fast.moduli(), law.moduli(), "the law is that of the body's material");
+            }
+            let fast = fast.map(|fast| SolidLaws::new(fast, is_flat));
+            Solid { laws: SolidLaws::new(law, is_flat), fast, elements, numbers }
         };
         let groups = if body.regions.is_empty() {
-            vec![Solid { numbers: Vec::new(), ..group(law, (0..count).collect()) }]
+            vec![Solid { numbers: Vec::new(), ..group((law, &body.material), (0..count).collect()) }]
         } else {
             let mut is_own = vec![true; count];
             body.regions.iter().flat_map(|region| &region.elements).for_each(|&element| is_own[element] = false);
             let own: Vec<usize> = (0..count).filter(|&element| is_own[element]).collect();
-            let own = (!own.is_empty()).then_some((law, own));
+            let own = (!own.is_empty()).then_some(((law, &body.material), own));
             let regions = body.regions.iter().map(|region| {
                 let law = AnyLaw::new(&region.material);
-                (
-                    law.unwrap_or_else(|| unreachable!("a material without parameters is refused")),
-                    region.elements.clone(),
-                )
+                let law = law.unwrap_or_else(|| unreachable!("a material without parameters is refused"));
+                ((law, &region.material), region.elements.clone())
             });
             own.into_iter().chain(regions).map(|(law, numbers)| group(law, numbers)).collect()
         };
@@ -144,7 +178,7 @@ impl<T: Real> Solids<T> {
     pub fn flow(&mut self, u: &[[T; 3]], dt: f64) {
         let Self { groups, plasticity: Some(plasticity), .. } = self else { return };
         for group in groups.iter() {
-            let moduli = group.law.moduli();
+            let moduli = group.laws.law.moduli();
             with_elements!(&group.elements, elements => elements.for_each_gradient(u, |point, volume, G| {
                 plasticity.flow(group.number(point), moduli, volume, G, dt);
             }));
@@ -162,17 +196,17 @@ impl<T: Real> Solids<T> {
 
     /// Whether the stress of every element is a linear function of the displacement gradient.
     pub fn is_linear(&self) -> bool {
-        self.groups.iter().all(|group| group.law.is_linear())
+        self.groups.iter().all(|group| group.laws.law.is_linear())
     }
 
     /// Whether every law allows J = det F ≤ 0.
     pub fn allow_inversion(&self) -> bool {
-        self.groups.iter().all(|group| group.law.allows_inversion())
+        self.groups.iter().all(|group| group.laws.law.allows_inversion())
     }
 
     /// Shear modulus and bulk modulus of each material at small strain, Pa.
     pub fn moduli(&self) -> impl Iterator<Item = [f64; 2]> {
-        self.groups.iter().map(|group| group.law.moduli())
+        self.groups.iter().map(|group| group.laws.law.moduli())
     }
 
     /// Memory, bytes.
@@ -240,7 +274,7 @@ impl<T: Real> Solids<T> {
     pub fn cancelled(&self, u: &[[T; 3]]) -> f64 {
         self.groups
             .iter()
-            .map(|group| group.law.size() * with_elements!(&group.elements, elements => elements.squares(u)))
+            .map(|group| group.laws.law.size() * with_elements!(&group.elements, elements => elements.squares(u)))
             .sum()
     }
 
@@ -251,7 +285,7 @@ impl<T: Real> Solids<T> {
 
     /// Minimum of det F over the elements whose law does not allow inversion, and its element in the mesh; infinite if there are none.
     pub fn min_det_F_of_barriers(&self, u: &[[T; 3]]) -> (T, usize) {
-        self.least(u, |group| !group.law.allows_inversion())
+        self.least(u, |group| !group.laws.law.allows_inversion())
     }
 
     /// Number of quadrature points with det F ≤ 0.
@@ -276,11 +310,11 @@ impl<T: Real> Solids<T> {
         let mut stresses = vec![Matrix3::zeros(); self.count / self.points_per_element];
         for group in &self.groups {
             let of_group = with_elements!(&group.elements, elements => {
-                match group.plastic_laws(&self.plasticity) {
+                match group.plastic_laws(&self.plasticity, &group.laws) {
                     None if self.is_in_plane_stress => {
-                        elements.cauchy_stresses(u, |_, _, G| plane_cauchy_stress(&group.law, &group.as_law().stress(G), G))
+                        elements.cauchy_stresses(u, |_, _, G| plane_cauchy_stress(&group.laws.law, &group.laws.as_law().stress(G), G))
                     }
-                    None => elements.cauchy_stresses(u, |_, _, G| cauchy_stress(&group.law, &group.as_law().stress(G), G)),
+                    None => elements.cauchy_stresses(u, |_, _, G| cauchy_stress(&group.laws.law, &group.laws.as_law().stress(G), G)),
                     Some(laws) => elements.cauchy_stresses(u, |elements, batch, G| {
                         pushed_forward(&laws.of_batch(elements, batch).stress(G), G)
                     }),

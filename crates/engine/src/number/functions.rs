@@ -22,10 +22,7 @@ pub fn is_positive<T: Real>(x: T) -> bool {
 /// digits.
 #[inline(always)]
 pub fn inverse_cube_root<T: Number>(x: T) -> T {
-    let mut y = x.map_lanes(
-        #[inline(always)]
-        |x| x.rough_inverse_cube_root(),
-    );
+    let mut y = x.rough_inverse_cube_root();
     for _ in 0..4 {
         y *= (constant::<T>(4.0) - x * y * y * y) * constant(1.0 / 3.0);
     }
@@ -38,16 +35,9 @@ pub fn inverse_cube_root<T: Number>(x: T) -> T {
 #[inline(always)]
 pub fn minus_ln_1p<T: Number>(x: T) -> T {
     let z = T::one() + x;
-    let k = z.map_lanes(
-        #[inline(always)]
-        |z| z.binary_exponent(),
-    );
-    let m = z.map_lanes(
-        #[inline(always)]
-        |z| z.significand(),
-    );
+    let (k, m) = z.exponent_and_significand();
     // The sum z has lost digits of a small x.
-    let y = x.select(k.simd_eq(T::zero()), m - T::one());
+    let y = x.select(k.eq(T::zero()), m - T::one());
     let s = y / (constant::<T>(2.0) + y);
     let squared = s * s;
     // |s| < 0.172: eleven terms are enough for f64.

@@ -1,20 +1,249 @@
 //! The floats that a simulation runs in, and their SIMD lanes.
 
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, BitAnd, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
 use faer::traits::RealField as FaerReal;
 use nalgebra::RealField;
-use simba::simd::{SimdRealField, SimdValue, WideF32x8, WideF64x4};
+use pulp::WithSimd;
 
 use super::Packed;
+#[cfg(target_arch = "x86_64")]
+use super::avx2::{Avx2F32x8 as FastF32, Avx2F64x4 as FastF64, is_available as has_fast};
+use super::lanes::{F32x8, F64x4};
+#[cfg(not(target_arch = "x86_64"))]
+use super::lanes::{F32x8 as FastF32, F64x4 as FastF64};
 
-/// The type that a kernel computes with: one [`Real`], or lanes of them.
-pub trait Number: SimdRealField + SimdValue<Element: Real> + Copy {}
+/// Other processors have one kind of lanes.
+#[cfg(not(target_arch = "x86_64"))]
+fn has_fast() -> bool {
+    true
+}
 
-impl<T: SimdRealField + SimdValue<Element: Real> + Copy> Number for T {}
+/// The type that a kernel computes with: one [`Real`], or lanes of them. A branch is written as a [`select`](Self::select) between two
+/// values, so that lanes never part.
+pub trait Number:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + DivAssign
+{
+    /// The number in a lane.
+    type Element: Real;
+    /// A truth value in each lane.
+    type Mask: Copy + BitAnd<Output = Self::Mask>;
+
+    /// Number of lanes.
+    const LANES: usize;
+
+    /// Runs work with the instructions that these lanes are made for. Functions that it calls must be inlined into it.
+    ///
+    /// Work is a type of its own, not a closure: only its `with_simd`, marked `inline(always)`, is sure to become one with the kernel.
+    #[inline(always)]
+    fn vectorize<W: WithSimd>(work: W) -> W::Output {
+        work.with_simd(pulp::Scalar::new())
+    }
+
+    /// The same number in every lane.
+    fn splat(x: Self::Element) -> Self;
+
+    /// x^(−1/3) to a few percent, for normal x > 0: divides the exponent by three in the binary representation.
+    fn rough_inverse_cube_root(self) -> Self;
+
+    /// The number in a lane.
+    fn lane(&self, lane: usize) -> Self::Element;
+
+    /// Replaces the number in a lane.
+    fn set_lane(&mut self, lane: usize, x: Self::Element);
+
+    /// The function of the number in each lane.
+    fn map_lanes(self, value: impl Fn(Self::Element) -> Self::Element) -> Self;
+
+    /// The integer k for which x/2^k lies in [√½, √2), and x/2^k, for normal x > 0.
+    #[inline(always)]
+    fn exponent_and_significand(self) -> (Self, Self) {
+        let exponent = self.map_lanes(
+            #[inline(always)]
+            |x| x.binary_exponent(),
+        );
+        let significand = self.map_lanes(
+            #[inline(always)]
+            |x| x.significand(),
+        );
+        (exponent, significand)
+    }
+
+    /// This number in lanes where the mask is true, else the other.
+    fn select(self, mask: Self::Mask, other: Self) -> Self;
+
+    /// √x
+    fn sqrt(self) -> Self;
+
+    /// |x|
+    fn abs(self) -> Self;
+
+    /// |x| with the sign of another number.
+    fn copysign(self, sign: Self) -> Self;
+
+    /// x > y
+    fn gt(self, other: Self) -> Self::Mask;
+
+    /// x ≥ y
+    fn ge(self, other: Self) -> Self::Mask;
+
+    /// x = y
+    fn eq(self, other: Self) -> Self::Mask;
+
+    /// Whether a mask is true in every lane.
+    fn all(mask: Self::Mask) -> bool;
+
+    /// x ≤ y
+    #[inline(always)]
+    fn le(self, other: Self) -> Self::Mask {
+        other.ge(self)
+    }
+
+    /// x < y
+    #[inline(always)]
+    fn lt(self, other: Self) -> Self::Mask {
+        other.gt(self)
+    }
+
+    /// The larger of two numbers; the other one if this is NaN.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.select(self.gt(other), other)
+    }
+
+    /// The smaller of two numbers; the other one if this is NaN.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.select(self.lt(other), other)
+    }
+
+    /// 0
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::splat(Self::Element::default())
+    }
+
+    /// 1
+    #[inline(always)]
+    fn one() -> Self {
+        Self::splat(Self::Element::of(1.0))
+    }
+}
+
+/// Numbers of as many elements as a register holds.
+pub trait Lanes: Number {
+    /// Lanes of this kind from the form in which they are stored.
+    fn load(self, stored: &<Self::Element as Real>::Lanes) -> Self;
+
+    /// The numbers of all lanes.
+    fn as_slice(&self) -> &[Self::Element];
+
+    /// The numbers of all lanes, mutable.
+    fn as_mut_slice(&mut self) -> &mut [Self::Element];
+
+    /// Adds each lane of a block to the block `target(lane)`, unless that is out of range. Lanes are transposed in registers,
+    /// not number by number: extracting numbers from lanes takes much of the time of an assembly.
+    fn add_by_lane(lanes: &[[Self; 3]; 3], blocks: &mut [[[Self::Element; 3]; 3]], target: impl Fn(usize) -> u32);
+}
+
+/// Implements [`Number`] for a float.
+macro_rules! number {
+    ($float:ident) => {
+        impl Number for $float {
+            type Element = Self;
+            type Mask = bool;
+            const LANES: usize = 1;
+
+            #[inline(always)]
+            fn splat(x: Self) -> Self {
+                x
+            }
+
+            #[inline(always)]
+            fn rough_inverse_cube_root(self) -> Self {
+                Real::rough_inverse_cube_root(self)
+            }
+
+            #[inline(always)]
+            fn lane(&self, _lane: usize) -> Self {
+                *self
+            }
+
+            #[inline(always)]
+            fn set_lane(&mut self, _lane: usize, x: Self) {
+                *self = x;
+            }
+
+            #[inline(always)]
+            fn map_lanes(self, value: impl Fn(Self) -> Self) -> Self {
+                value(self)
+            }
+
+            #[inline(always)]
+            fn select(self, mask: bool, other: Self) -> Self {
+                if mask { self } else { other }
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $float::sqrt(self)
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
+
+            #[inline(always)]
+            fn copysign(self, sign: Self) -> Self {
+                $float::copysign(self, sign)
+            }
+
+            #[inline(always)]
+            fn gt(self, other: Self) -> bool {
+                self > other
+            }
+
+            #[inline(always)]
+            fn ge(self, other: Self) -> bool {
+                self >= other
+            }
+
+            #[inline(always)]
+            fn eq(self, other: Self) -> bool {
+                self == other
+            }
+
+            #[inline(always)]
+            fn all(mask: bool) -> bool {
+                mask
+            }
+        }
+    };
+}
+
+number!(f64);
+number!(f32);
 
 /// The float that a whole simulation runs in.
 pub trait Real: RealField + FaerReal + Packed + Default + std::iter::Sum {
-    /// As many of them as a register of 256 bits holds.
-    type Lanes: Number<Element = Self>;
+    /// As many of them as a register of 256 bits holds, on any processor: the form in which lanes are stored.
+    type Lanes: Lanes<Element = Self>;
+    /// The same for processors that [have](Self::has_fast) wide registers.
+    type Fast: Lanes<Element = Self>;
     /// Number of lanes in [`Lanes`](Self::Lanes).
     const WIDTH: usize;
     /// Number of lanes in the widest register of any processor, to which dense columns are padded.
@@ -31,9 +260,8 @@ pub trait Real: RealField + FaerReal + Packed + Default + std::iter::Sum {
     /// The numbers of all lanes, mutable.
     fn each_mut(lanes: &mut Self::Lanes) -> &mut [Self];
 
-    /// Adds each lane of a block to the block `target(lane)`, unless that is out of range. Lanes are transposed in registers,
-    /// not number by number: extracting numbers from lanes takes much of the time of an assembly.
-    fn add_by_lane(lanes: &[[Self::Lanes; 3]; 3], blocks: &mut [[[Self; 3]; 3]], target: impl Fn(usize) -> u32);
+    /// Whether this processor has the instructions of [`Fast`](Self::Fast).
+    fn has_fast() -> bool;
 
     /// The nearest number of this type.
     fn of(x: f64) -> Self;
@@ -51,52 +279,39 @@ pub trait Real: RealField + FaerReal + Packed + Default + std::iter::Sum {
     fn significand(self) -> Self;
 }
 
+/// The bits of x^(−1/3) are about these minus a third of those of x, which shifts and additions find: (¼ + 1/16) (1 + 1/16) (1 + 1/256) …
+pub(super) const CUBE_ROOT_F64: u64 = 0x553e_f0ff_289d_d796;
+pub(super) const CUBE_ROOT_F32: u32 = 0x54a2_fa8c;
+
 /// Implements [`Real`] for a float with its lanes, their number and [`Real::MAX_WIDTH`]; the conversions and the functions that
 /// work on binary representations are given by the last argument.
 macro_rules! real {
-    ($float:ident, $lanes:ident, $wide:ty, $width:literal, $max_width:literal, { $($conversions:tt)* }) => {
+    ($float:ident, $lanes:ident, $fast:ident, $width:literal, $max_width:literal, { $($conversions:tt)* }) => {
         impl Real for $float {
             type Lanes = $lanes;
+            type Fast = $fast;
             const WIDTH: usize = $width;
             const MAX_WIDTH: usize = $max_width;
             const EPSILON: Self = $float::EPSILON;
 
             #[inline(always)]
             fn lanes(value: impl FnMut(usize) -> $float) -> Self::Lanes {
-                $lanes(<$wide>::new(std::array::from_fn(value)))
+                $lanes::from_lanes(value)
             }
 
             #[inline(always)]
             fn each(lanes: &Self::Lanes) -> &[$float] {
-                lanes.0.as_array()
+                lanes.as_array()
             }
 
             #[inline(always)]
             fn each_mut(lanes: &mut Self::Lanes) -> &mut [$float] {
-                lanes.0.as_mut_array()
+                lanes.as_array_mut()
             }
 
             #[inline(always)]
-            fn add_by_lane(
-                lanes: &[[Self::Lanes; 3]; 3],
-                blocks: &mut [[[$float; 3]; 3]],
-                target: impl Fn(usize) -> u32,
-            ) {
-                let (full, rest) = lanes.as_flattened().as_chunks::<$width>();
-                let mut rows = [[<$wide>::ZERO; $width]; 2];
-                for (rows, lanes) in rows.iter_mut().zip(full) {
-                    *rows = <$wide>::transpose(lanes.map(|lanes| lanes.0));
-                }
-                for lane in 0..$width {
-                    let Some(block) = blocks.get_mut(target(lane) as usize) else { continue };
-                    let (sums, last) = block.as_flattened_mut().as_chunks_mut::<$width>();
-                    for (sums, rows) in sums.iter_mut().zip(&rows) {
-                        *sums = (<$wide>::new(*sums) + rows[lane]).to_array();
-                    }
-                    for (sum, lanes) in last.iter_mut().zip(rest) {
-                        *sum += lanes.0.as_array()[lane];
-                    }
-                }
+            fn has_fast() -> bool {
+                has_fast()
             }
 
             $($conversions)*
@@ -104,7 +319,7 @@ macro_rules! real {
     };
 }
 
-real!(f64, WideF64x4, wide::f64x4, 4, 8, {
+real!(f64, F64x4, FastF64, 4, 8, {
     #[inline(always)]
     fn of(x: f64) -> f64 {
         x
@@ -117,9 +332,12 @@ real!(f64, WideF64x4, wide::f64x4, 4, 8, {
 
     #[inline(always)]
     fn rough_inverse_cube_root(self) -> f64 {
-        // Exponents beyond those of f32 saturate, and Newton's iteration would then need more than its four steps. No element
-        // is compressed or stretched by 1e38.
-        f64::from((self as f32).rough_inverse_cube_root())
+        let bits = self.to_bits();
+        let third = (bits >> 2) + (bits >> 4);
+        let third = third + (third >> 4);
+        let third = third + (third >> 8);
+        let third = third + (third >> 16);
+        f64::from_bits(CUBE_ROOT_F64.wrapping_sub(third))
     }
 
     #[inline(always)]
@@ -135,7 +353,7 @@ real!(f64, WideF64x4, wide::f64x4, 4, 8, {
     }
 });
 
-real!(f32, WideF32x8, wide::f32x8, 8, 16, {
+real!(f32, F32x8, FastF32, 8, 16, {
     #[inline(always)]
     fn of(x: f64) -> f32 {
         x as f32
@@ -148,7 +366,11 @@ real!(f32, WideF32x8, wide::f32x8, 8, 16, {
 
     #[inline(always)]
     fn rough_inverse_cube_root(self) -> f32 {
-        f32::from_bits(0x54a2_fa8cu32.wrapping_sub(self.to_bits() / 3))
+        let bits = self.to_bits();
+        let third = (bits >> 2) + (bits >> 4);
+        let third = third + (third >> 4);
+        let third = third + (third >> 8);
+        f32::from_bits(CUBE_ROOT_F32.wrapping_sub(third))
     }
 
     #[inline(always)]

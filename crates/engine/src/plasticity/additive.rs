@@ -37,55 +37,75 @@ struct Strained<T> {
 }
 
 impl<T: Number> Additive<T> {
+    #[inline(always)]
     fn strained(&self, G: &Tensor<T>) -> Strained<T> {
         let (F, e) = if self.is_flat { stretches_in_plane(G) } else { stretches(G) };
         let V = &F.V;
-        let elastic = from_fn(|i, j| {
-            let mut entry = if i == j { e[i] } else { T::zero() };
-            for k in 0..3 {
-                for l in 0..3 {
-                    entry -= V[i][k] * self.plastic[k][l] * V[j][l];
+        let elastic = from_fn(
+            #[inline(always)]
+            |i, j| {
+                let mut entry = if i == j { e[i] } else { T::zero() };
+                for k in 0..3 {
+                    for l in 0..3 {
+                        entry -= V[i][k] * self.plastic[k][l] * V[j][l];
+                    }
                 }
-            }
-            entry
-        });
+                entry
+            },
+        );
         Strained { F, elastic }
     }
 
     /// Energy density of an elastic strain, J/m³.
+    #[inline(always)]
     fn energy_of(&self, elastic: &Tensor<T>) -> T {
         let sum = trace(elastic);
         self.mu * dot(elastic, elastic) + half::<T>() * self.lambda * sum * sum
     }
 
     /// σ̂
+    #[inline(always)]
     fn conjugate(&self, elastic: &Tensor<T>) -> Tensor<T> {
         let (two_mu, pressure) = (constant::<T>(2.0) * self.mu, self.lambda * trace(elastic));
-        from_fn(|i, j| if i == j { two_mu * elastic[i][j] + pressure } else { two_mu * elastic[i][j] })
+        from_fn(
+            #[inline(always)]
+            |i, j| if i == j { two_mu * elastic[i][j] + pressure } else { two_mu * elastic[i][j] },
+        )
     }
 
+    #[inline(always)]
     fn stress_of(&self, at: &Strained<T>) -> Tensor<T> {
         let (w, conjugate) = (weights(&at.F.sigma), self.conjugate(&at.elastic));
         let two = constant::<T>(2.0);
-        let P = from_fn(|i, j| if i == j { conjugate[i][j] } else { two * w[i][j] * conjugate[i][j] });
+        let P = from_fn(
+            #[inline(always)]
+            |i, j| if i == j { conjugate[i][j] } else { two * w[i][j] * conjugate[i][j] },
+        );
         let (U, V) = (&at.F.U, &at.F.V);
-        from_fn(|i, j| {
-            let mut sum = T::zero();
-            for k in 0..3 {
-                for l in 0..3 {
-                    sum += P[k][l] * U[k][i] * V[l][j];
+        from_fn(
+            #[inline(always)]
+            |i, j| {
+                let mut sum = T::zero();
+                for k in 0..3 {
+                    for l in 0..3 {
+                        sum += P[k][l] * U[k][i] * V[l][j];
+                    }
                 }
-            }
-            sum
-        })
+                sum
+            },
+        )
     }
 
     /// ∂P/∂F in the basis u_k v_lᵀ. The direction kl changes S by w_kl (e_k e_lᵀ + e_l e_kᵀ), with w_kk = ½; of Z = σ̂_ij/(σ_i + σ_j), which
     /// the second variation has, the diagonal divides out.
+    #[inline(always)]
     fn components(&self, at: &Strained<T>) -> Tensor4<T> {
         let (two, sigma) = (constant::<T>(2.0), &at.F.sigma);
         let (w, conjugate) = (weights(sigma), self.conjugate(&at.elastic));
-        let Z = from_fn(|i, j| if i == j { T::zero() } else { conjugate[i][j] / sum(sigma, i, j) });
+        let Z = from_fn(
+            #[inline(always)]
+            |i, j| if i == j { T::zero() } else { conjugate[i][j] / sum(sigma, i, j) },
+        );
         let mut H = [[T::zero(); 9]; 9];
         for row in 0..9 {
             for column in 0..9 {
@@ -127,12 +147,16 @@ impl<T: Number> Additive<T> {
 /// σ_i + σ_j. On the crease, where it is zero, the derivative is not finite; beside it, it is cut off.
 #[inline(always)]
 fn sum<T: Number>(sigma: &[T; 3], i: usize, j: usize) -> T {
-    (sigma[i] + sigma[j]).simd_max(constant::<T>(Real::as_f64(<T::Element as Real>::EPSILON).sqrt()))
+    (sigma[i] + sigma[j]).max(constant::<T>(Real::as_f64(<T::Element as Real>::EPSILON).sqrt()))
 }
 
 /// σ_i/(σ_i + σ_j), and ½ on the diagonal.
+#[inline(always)]
 fn weights<T: Number>(sigma: &[T; 3]) -> Tensor<T> {
-    from_fn(|i, j| if i == j { half() } else { sigma[i] / sum(sigma, i, j) })
+    from_fn(
+        #[inline(always)]
+        |i, j| if i == j { half() } else { sigma[i] / sum(sigma, i, j) },
+    )
 }
 
 impl Additive<f64> {
@@ -182,25 +206,30 @@ fn norm(a: &Tensor<f64>) -> f64 {
 }
 
 impl<T: Number> Law<T> for Additive<T> {
+    #[inline(always)]
     fn energy(&self, G: &Tensor<T>) -> T {
         self.energy_of(&self.strained(G).elastic)
     }
 
+    #[inline(always)]
     fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
         self.stress_of(&self.strained(G))
     }
 
+    #[inline(always)]
     fn energy_and_stress(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
         let at = self.strained(G);
         (self.energy_of(&at.elastic), self.stress_of(&at))
     }
 
+    #[inline(always)]
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         let at = self.strained(G);
         derivative_in_basis(&at.F, &self.components(&at))
     }
 
     /// By the eigenvalues of the 9×9 matrix: the law is not isotropic, so that they have no closed form.
+    #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         let at = self.strained(G);
         derivative_in_basis(&at.F, &raised(&self.components(&at)))
@@ -211,14 +240,14 @@ impl<T: Number> Law<T> for Additive<T> {
 fn raised<T: Number>(H: &Tensor4<T>) -> Tensor4<T> {
     let mut result = *H;
     for lane in 0..T::LANES {
-        let entry = |i: usize, j: usize| Real::as_f64(H[i][j].extract(lane));
+        let entry = |i: usize, j: usize| Real::as_f64(H[i][j].lane(lane));
         let matrix = nalgebra::SMatrix::<f64, 9, 9>::from_fn(entry);
         let Some(eigen) = nalgebra::SymmetricEigen::try_new(matrix, f64::EPSILON, 1000) else { continue };
         let values = eigen.eigenvalues.map(|value| value.max(0.0));
         let raised = eigen.eigenvectors * nalgebra::SMatrix::from_diagonal(&values) * eigen.eigenvectors.transpose();
         for i in 0..9 {
             for j in 0..9 {
-                result[i][j].replace(lane, <T::Element as Real>::of(raised[(i, j)]));
+                result[i][j].set_lane(lane, <T::Element as Real>::of(raised[(i, j)]));
             }
         }
     }

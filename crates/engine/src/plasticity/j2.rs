@@ -56,23 +56,25 @@ impl<T: Number> J2<T> {
         )
     }
 
+    #[inline(always)]
     fn returned(&self, G: &Tensor<T>) -> Returned<T> {
         let trial = Logarithmic::new(&self.trial(G));
         let e = &trial.strains;
         let volume = e[0] + e[1] + e[2];
         let mean = constant::<T>(1.0 / 3.0) * volume;
         let deviator = [e[0] - mean, e[1] - mean, e[2] - mean];
-        let norm = (deviator[0] * deviator[0] + deviator[1] * deviator[1] + deviator[2] * deviator[2]).simd_sqrt();
+        let norm = (deviator[0] * deviator[0] + deviator[1] * deviator[1] + deviator[2] * deviator[2]).sqrt();
         let three_mu = constant::<T>(3.0) * self.mu;
         let q = constant::<T>(6f64.sqrt()) * self.mu * norm;
         let excess = q - (self.yield_stress + self.hardening * self.strain);
-        let yields = excess.simd_gt(T::zero());
+        let yields = excess.gt(T::zero());
         let flow = (excess / (three_mu + self.hardening)).select(yields, T::zero());
         let elastic = (T::one() - three_mu * flow / q).select(yields, T::one());
         let slope = (self.hardening / (three_mu + self.hardening)).select(yields, T::one());
         Returned { trial, deviator, norm, volume, flow, elastic, slope }
     }
 
+    #[inline(always)]
     fn energy_of(&self, at: &Returned<T>) -> T {
         let norm = at.elastic * at.norm;
         let strain = self.strain + at.flow;
@@ -81,11 +83,12 @@ impl<T: Number> J2<T> {
         at.trial.allowed(stored + self.yield_stress * at.flow)
     }
 
+    #[inline(always)]
     fn kirchhoff(&self, at: &Returned<T>) -> Kirchhoff<T> {
         let two_mu = constant::<T>(2.0) * self.mu;
         let (ratio, pressure) = (two_mu * at.elastic, self.bulk * at.volume);
         // A state of no deviator does not yield, and has no direction.
-        let over_norm = (T::one() / at.norm).select(at.norm.simd_gt(T::zero()), T::zero());
+        let over_norm = (T::one() / at.norm).select(at.norm.gt(T::zero()), T::zero());
         let n = [at.deviator[0] * over_norm, at.deviator[1] * over_norm, at.deviator[2] * over_norm];
         let along = two_mu * (at.slope - at.elastic);
         let beside = self.bulk - constant::<T>(1.0 / 3.0) * ratio;
@@ -102,17 +105,22 @@ impl<T: Number> J2<T> {
     }
 
     /// The stress of F from that of F Fᵖ⁻¹: P Fᵖ⁻ᵀ.
+    #[inline(always)]
     fn stress_of(&self, at: &Returned<T>) -> Tensor<T> {
         product(&at.trial.stress(&self.kirchhoff(at).tau), &transpose(&plus_identity(&self.plastic)))
     }
 
     /// The derivative by F from that by F Fᵖ⁻¹.
+    #[inline(always)]
     fn pulled_back(&self, H: &Tensor4<T>) -> Tensor4<T> {
         let A = plus_identity(&self.plastic);
         let mut result = [[T::zero(); 9]; 9];
         for i in 0..3 {
             for k in 0..3 {
-                let block = from_fn(|m, n| H[3 * i + m][3 * k + n]);
+                let block = from_fn(
+                    #[inline(always)]
+                    |m, n| H[3 * i + m][3 * k + n],
+                );
                 let block = product(&product(&A, &block), &transpose(&A));
                 for j in 0..3 {
                     result[3 * i + j][3 * k..3 * k + 3].copy_from_slice(&block[j]);
@@ -141,24 +149,29 @@ impl J2<f64> {
 }
 
 impl<T: Number> Law<T> for J2<T> {
+    #[inline(always)]
     fn energy(&self, G: &Tensor<T>) -> T {
         self.energy_of(&self.returned(G))
     }
 
+    #[inline(always)]
     fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
         self.stress_of(&self.returned(G))
     }
 
+    #[inline(always)]
     fn energy_and_stress(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
         let at = self.returned(G);
         (self.energy_of(&at), self.stress_of(&at))
     }
 
+    #[inline(always)]
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         let at = self.returned(G);
         self.pulled_back(&derivative_from(&at.trial.F, &at.trial.principal(&self.kirchhoff(&at))))
     }
 
+    #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         let at = self.returned(G);
         self.pulled_back(&projected_derivative_from(&at.trial.F, &at.trial.principal(&self.kirchhoff(&at))))

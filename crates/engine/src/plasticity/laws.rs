@@ -4,8 +4,8 @@ use fem_scene::Plasticity as Model;
 
 use super::{Additive, J2, Plasticity};
 use crate::elements::BatchLaws;
-use crate::materials::{AnyLaw, Law};
-use crate::number::{Number, Real, constant};
+use crate::materials::{AnyLaw, Law, Vectorized};
+use crate::number::{Lanes, Number, Real, constant};
 use crate::tensor::{Tensor, Tensor4, from_fn};
 
 /// A law with the internal variables of a batch.
@@ -18,39 +18,44 @@ pub enum PlasticLaw<T> {
 
 /// The laws of the elements of one material.
 #[derive(Clone, Copy)]
-pub struct PlasticLaws<'a, T: Real> {
+pub struct PlasticLaws<'a, T: Real, L> {
     plasticity: &'a Plasticity<T>,
-    moduli: [T::Lanes; 2],
+    moduli: [L; 2],
     /// Number in the mesh of each element; empty where elements are numbered as there.
     numbers: &'a [usize],
 }
 
-impl<'a, T: Real> PlasticLaws<'a, T> {
+impl<'a, T: Real, L: Lanes<Element = T>> PlasticLaws<'a, T, L> {
     /// The laws of elements with these numbers in the mesh; without numbers of all elements of the mesh.
-    pub fn new(plasticity: &'a Plasticity<T>, law: &AnyLaw<T::Lanes>, numbers: &'a [usize]) -> Self {
+    pub fn new(plasticity: &'a Plasticity<T>, law: &AnyLaw<L>, numbers: &'a [usize]) -> Self {
         Self { plasticity, moduli: law.moduli().map(constant), numbers }
     }
 }
 
-impl<T: Real> BatchLaws<T::Lanes> for PlasticLaws<'_, T> {
-    type Law = PlasticLaw<T::Lanes>;
+impl<T: Real, L: Lanes<Element = T>> BatchLaws<L> for PlasticLaws<'_, T, L> {
+    type Law = PlasticLaw<L>;
 
-    fn of_batch(&self, elements: &[u32], batch: usize) -> PlasticLaw<T::Lanes> {
-        let first = batch * T::WIDTH;
+    fn of_batch(&self, elements: &[u32], batch: usize) -> PlasticLaw<L> {
+        let first = batch * L::LANES;
         // The last batch is filled up with elements without history.
         let variables = |lane: usize| {
             let element = *elements.get(first + lane)? as usize;
             let number = self.numbers.get(element).copied().unwrap_or(element);
             Some(&self.plasticity.variables()[number])
         };
-        let gather =
-            |entry: &dyn Fn(&super::Internal<T>) -> T| T::lanes(|lane| variables(lane).map_or(T::default(), entry));
+        let gather = |entry: &dyn Fn(&super::Internal<T>) -> T| {
+            let mut lanes = L::zero();
+            for (lane, number) in lanes.as_mut_slice().iter_mut().enumerate() {
+                *number = variables(lane).map_or(T::default(), entry);
+            }
+            lanes
+        };
         let plastic = from_fn(|i, j| gather(&|of| of.plastic[i][j]));
         let [mu, bulk] = self.moduli;
         match self.plasticity.model() {
             Model::Additive { .. } => PlasticLaw::Additive(Additive {
                 mu,
-                lambda: bulk - constant::<T::Lanes>(2.0 / 3.0) * mu,
+                lambda: bulk - constant::<L>(2.0 / 3.0) * mu,
                 plastic,
                 is_flat: self.plasticity.is_flat(),
             }),
@@ -78,22 +83,22 @@ macro_rules! with_model {
 
 impl<T: Number> Law<T> for PlasticLaw<T> {
     fn energy(&self, G: &Tensor<T>) -> T {
-        with_model!(self, law => law.energy(G))
+        with_model!(self, law => Vectorized(*law).energy(G))
     }
 
     fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
-        with_model!(self, law => law.stress(G))
+        with_model!(self, law => Vectorized(*law).stress(G))
     }
 
     fn energy_and_stress(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
-        with_model!(self, law => law.energy_and_stress(G))
+        with_model!(self, law => Vectorized(*law).energy_and_stress(G))
     }
 
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        with_model!(self, law => law.derivative(G))
+        with_model!(self, law => Vectorized(*law).derivative(G))
     }
 
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        with_model!(self, law => law.projected_derivative(G))
+        with_model!(self, law => Vectorized(*law).projected_derivative(G))
     }
 }

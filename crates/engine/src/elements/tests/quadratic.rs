@@ -91,7 +91,7 @@ fn a_rigid_motion_of_quadratic_triangles_has_no_forces() {
 
 #[test]
 fn the_rule_integrates_the_energy_of_a_linear_law_exactly() {
-    use simba::simd::SimdValue;
+    use crate::number::Number;
     let lanes = <f64 as Real>::Lanes::splat;
     let law = Linear { mu: lanes(2.0), lambda: lanes(3.0) };
     let u = |x: &Vector3<f64>| [x.x * x.y + 0.2 * x.x * x.x, x.y * x.y - 0.4 * x.x * x.y, 0.0];

@@ -1,7 +1,7 @@
 //! Lanes against single numbers, single against double precision.
 
 use super::*;
-use crate::number::Real;
+use crate::number::{Lanes, Real};
 use crate::tensor::from_fn;
 
 /// Energy, stress, both at once, derivative and projected derivative of one law at G.
@@ -17,24 +17,28 @@ fn answers<T: Number>(law: &dyn Law<T>, G: &Tensor<T>) -> Vec<T> {
 }
 
 /// The largest difference between lanes and single numbers, and between those and f64, relative to the largest answer.
-fn differences<T: Real + Number<Element = T>>(
+fn differences<T: Real + Number<Element = T>, L: Lanes<Element = T>>(
     one: &dyn Law<T>,
-    many: &dyn Law<T::Lanes>,
+    many: &dyn Law<L>,
     exact: &dyn Law<f64>,
     gradients: &[Tensor<f64>],
 ) -> (f64, f64) {
     let (mut of_lanes, mut of_precision) = (0.0f64, 0.0f64);
-    for batch in gradients.chunks_exact(<T as Real>::WIDTH) {
+    for batch in gradients.chunks_exact(L::LANES) {
         let single = |lane: usize| from_fn(|i, j| <T as Real>::of(batch[lane][i][j]));
-        let lanes = from_fn(|i, j| T::lanes(|lane| single(lane)[i][j]));
+        let lanes = from_fn(|i, j| {
+            let mut entry = L::zero();
+            (0..L::LANES).for_each(|lane| entry.set_lane(lane, single(lane)[i][j]));
+            entry
+        });
         let found = answers(many, &lanes);
-        for lane in 0..<T as Real>::WIDTH {
+        for lane in 0..L::LANES {
             let expected = answers(one, &single(lane));
             // In double precision at the very same gradient.
             let exact = answers(exact, &single(lane).map(|row| row.map(Real::as_f64)));
             let size = exact.iter().fold(MU, |size, x| size.max(x.abs()));
             for ((found, expected), exact) in found.iter().zip(expected).zip(exact) {
-                let (found, expected) = (Real::as_f64(T::each(found)[lane]), Real::as_f64(expected));
+                let (found, expected) = (Real::as_f64(found.lane(lane)), Real::as_f64(expected));
                 of_lanes = of_lanes.max((found - expected).abs() / size);
                 of_precision = of_precision.max((expected - exact).abs() / size);
             }
@@ -44,21 +48,33 @@ fn differences<T: Real + Number<Element = T>>(
 }
 
 /// The same for every law in one precision: name, and the two differences.
-fn of_all_laws<T: Real + Number<Element = T>>() -> impl Iterator<Item = (&'static str, f64, f64)> {
-    let (one, many, exact) = (laws::<T>(), laws::<T::Lanes>(), laws::<f64>());
+fn of_all_laws<T: Real + Number<Element = T>, L: Lanes<Element = T>>() -> impl Iterator<Item = (&'static str, f64, f64)>
+{
+    let (one, many, exact) = (laws::<T>(), laws::<L>(), laws::<f64>());
     (0..exact.len()).map(move |i| {
-        let (lanes, precision) = differences::<T>(one[i].as_law(), many[i].as_law(), exact[i].as_law(), &upright());
+        let (lanes, precision) = differences::<T, L>(one[i].as_law(), many[i].as_law(), exact[i].as_law(), &upright());
         (exact[i].name(), lanes, precision)
     })
 }
 
-#[test]
-fn lanes_agree_with_single_numbers_and_single_precision_with_double() {
-    for (name, of_lanes, of_precision) in of_all_laws::<f64>() {
+fn lanes_agree<D: Lanes<Element = f64>, S: Lanes<Element = f32>>() {
+    for (name, of_lanes, of_precision) in of_all_laws::<f64, D>() {
         assert!(of_lanes < 1e-14 && of_precision == 0.0, "{name}: {of_lanes:e}");
     }
-    for (name, of_lanes, of_precision) in of_all_laws::<f32>() {
+    for (name, of_lanes, of_precision) in of_all_laws::<f32, S>() {
         assert!(of_lanes < 1e-6, "{name}, f32: {of_lanes:e}");
         assert!(of_precision < 1e-4, "{name}, f32 against f64: {of_precision:e}");
+    }
+}
+
+#[test]
+fn lanes_agree_with_single_numbers_and_single_precision_with_double() {
+    lanes_agree::<<f64 as Real>::Lanes, <f32 as Real>::Lanes>();
+}
+
+#[test]
+fn lanes_in_wide_registers_agree_with_single_numbers_where_the_processor_has_them() {
+    if f64::has_fast() {
+        lanes_agree::<<f64 as Real>::Fast, <f32 as Real>::Fast>();
     }
 }

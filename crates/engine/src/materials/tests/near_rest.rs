@@ -84,3 +84,14 @@ fn an_energy_written_in_stretches_loses_those_digits() {
     let naive = law.C * (J.powf(-2.0 / 3.0) * crate::tensor::dot(&F, &F) - 3.0) + law.D * (J - 1.0) * (J - 1.0);
     assert!((naive / linear::<f64>().energy(&G) - 1.0).abs() > 1e-3, "the test above could not fail");
 }
+
+#[test]
+fn the_corotated_stress_of_a_strain_of_a_billionth_keeps_its_digits() {
+    let mut random = Random(9);
+    for _ in 0..200 {
+        let G = random.tensor(1e-9);
+        let (P, hooke) = (corotated::<f64>().stress(&G), linear::<f64>().stress(&G));
+        // The laws differ by the product of strain and rotation.
+        assert!(distance(&P, &hooke) < 1e-8 * largest(&hooke), "{:e} at {G:?}", distance(&P, &hooke) / largest(&hooke));
+    }
+}

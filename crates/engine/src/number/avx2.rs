@@ -1,0 +1,351 @@
+//! Lanes in registers of 256 bits, for processors with AVX2.
+//!
+//! A value carries pulp's proof that the processor has the instructions; the proof takes no room. Operations are single instructions
+//! inside [`Number::vectorize`], and calls outside.
+
+use std::arch::x86_64::{__m256, __m256d, __m256i};
+use std::ops::{Add, AddAssign, BitAnd, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use pulp::bytemuck::{cast, cast_mut, cast_ref};
+use pulp::x86::{V3, V4};
+use pulp::{Simd, WithSimd};
+
+use super::lanes::{F32x8, F64x4};
+use super::{Lanes, Number};
+
+/// The proof of AVX2; the program ends on a processor without.
+#[inline(always)]
+fn proof() -> V3 {
+    V3::try_new().unwrap_or_else(
+        #[cold]
+        || panic!("these lanes are for processors with AVX2"),
+    )
+}
+
+/// Whether this processor has AVX2.
+pub(super) fn is_available() -> bool {
+    V3::try_new().is_some()
+}
+
+/// Defines lanes of a float in a register, with the instructions that work on them.
+macro_rules! avx2_lanes {
+    ($(#[$doc:meta])* $Lanes:ident, $Mask:ident, $float:ident, $Stored:ident, $Register:ident, $width:literal, $all:literal;
+     $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident, $max:ident, $min:ident, $and:ident, $andnot:ident, $or:ident, $xor:ident,
+     $compare:ident, $blend:ident, $movemask:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $Lanes {
+            register: $Register,
+            simd: V3,
+        }
+
+        /// A truth value in each lane, all bits of it.
+        #[derive(Clone, Copy, Debug)]
+        pub struct $Mask($Lanes);
+
+        impl BitAnd for $Mask {
+            type Output = Self;
+
+            #[inline(always)]
+            fn bitand(self, other: Self) -> Self {
+                Self(self.0.with(self.0.simd.avx.$and(self.0.register, other.0.register)))
+            }
+        }
+
+        impl $Lanes {
+            #[inline(always)]
+            fn with(self, register: $Register) -> Self {
+                Self { register, ..self }
+            }
+
+            /// −0 in every lane: the sign alone.
+            #[inline(always)]
+            fn sign(self) -> $Register {
+                cast([-0.0 as $float; $width])
+            }
+        }
+
+        impl Number for $Lanes {
+            type Element = $float;
+            type Mask = $Mask;
+            const LANES: usize = $width;
+
+            #[inline(always)]
+            fn vectorize<W: WithSimd>(work: W) -> W::Output {
+                // The same registers, but twice as many of them.
+                match V4::try_new() {
+                    Some(simd) => Simd::vectorize(simd, work),
+                    None => Simd::vectorize(proof(), work),
+                }
+            }
+
+            #[inline(always)]
+            fn splat(x: $float) -> Self {
+                Self { register: cast([x; $width]), simd: proof() }
+            }
+
+            #[inline(always)]
+            fn lane(&self, lane: usize) -> $float {
+                self.as_slice()[lane]
+            }
+
+            #[inline(always)]
+            fn set_lane(&mut self, lane: usize, x: $float) {
+                self.as_mut_slice()[lane] = x;
+            }
+
+            #[inline(always)]
+            fn map_lanes(self, value: impl Fn($float) -> $float) -> Self {
+                let mut numbers: [$float; $width] = cast(self.register);
+                for number in &mut numbers {
+                    *number = value(*number);
+                }
+                self.with(cast(numbers))
+            }
+
+            #[inline(always)]
+            fn rough_inverse_cube_root(self) -> Self {
+                let rough = self.rough_bits();
+                self.with(rough)
+            }
+
+            #[inline(always)]
+            fn exponent_and_significand(self) -> (Self, Self) {
+                let (exponent, significand) = self.parts();
+                (self.with(exponent), self.with(significand))
+            }
+
+            #[inline(always)]
+            fn select(self, mask: $Mask, other: Self) -> Self {
+                self.with(self.simd.avx.$blend(other.register, self.register, mask.0.register))
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                self.with(self.simd.avx.$sqrt(self.register))
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                self.with(self.simd.avx.$andnot(self.sign(), self.register))
+            }
+
+            #[inline(always)]
+            fn copysign(self, sign: Self) -> Self {
+                let sign = self.simd.avx.$and(self.sign(), sign.register);
+                self.with(self.simd.avx.$or(self.abs().register, sign))
+            }
+
+            #[inline(always)]
+            fn gt(self, other: Self) -> $Mask {
+                $Mask(self.with(self.simd.avx.$compare::<GREATER>(self.register, other.register)))
+            }
+
+            #[inline(always)]
+            fn ge(self, other: Self) -> $Mask {
+                $Mask(self.with(self.simd.avx.$compare::<GREATER_OR_EQUAL>(self.register, other.register)))
+            }
+
+            #[inline(always)]
+            fn eq(self, other: Self) -> $Mask {
+                $Mask(self.with(self.simd.avx.$compare::<EQUAL>(self.register, other.register)))
+            }
+
+            #[inline(always)]
+            fn all(mask: $Mask) -> bool {
+                mask.0.simd.avx.$movemask(mask.0.register) == $all
+            }
+
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                self.with(self.simd.avx.$max(self.register, other.register))
+            }
+
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                self.with(self.simd.avx.$min(self.register, other.register))
+            }
+        }
+
+        impl Lanes for $Lanes {
+            #[inline(always)]
+            fn load(self, stored: &$Stored) -> Self {
+                self.with(stored.0)
+            }
+
+            #[inline(always)]
+            fn as_slice(&self) -> &[$float] {
+                cast_ref::<$Register, [$float; $width]>(&self.register)
+            }
+
+            #[inline(always)]
+            fn as_mut_slice(&mut self) -> &mut [$float] {
+                cast_mut::<$Register, [$float; $width]>(&mut self.register)
+            }
+
+            #[inline(always)]
+            fn add_by_lane(lanes: &[[Self; 3]; 3], blocks: &mut [[[$float; 3]; 3]], target: impl Fn(usize) -> u32) {
+                let (full, rest) = lanes.as_flattened().as_chunks::<$width>();
+                let mut rows = [[lanes[0][0]; $width]; 2];
+                for (rows, lanes) in rows.iter_mut().zip(full) {
+                    *rows = Self::transpose(*lanes);
+                }
+                for lane in 0..$width {
+                    let Some(block) = blocks.get_mut(target(lane) as usize) else { continue };
+                    let (sums, last) = block.as_flattened_mut().as_chunks_mut::<$width>();
+                    for (sums, rows) in sums.iter_mut().zip(&rows) {
+                        let row = rows[lane];
+                        *sums = cast(row.simd.avx.$add(cast(*sums), row.register));
+                    }
+                    for (sum, lanes) in last.iter_mut().zip(rest) {
+                        *sum += lanes.as_slice()[lane];
+                    }
+                }
+            }
+        }
+
+        operators!($Lanes, Add::add $add, AddAssign::add_assign);
+        operators!($Lanes, Sub::sub $sub, SubAssign::sub_assign);
+        operators!($Lanes, Mul::mul $mul, MulAssign::mul_assign);
+        operators!($Lanes, Div::div $div, DivAssign::div_assign);
+
+        impl Neg for $Lanes {
+            type Output = Self;
+
+            #[inline(always)]
+            fn neg(self) -> Self {
+                self.with(self.simd.avx.$xor(self.sign(), self.register))
+            }
+        }
+    };
+}
+
+macro_rules! operators {
+    ($Lanes:ident, $Operator:ident::$operate:ident $instruction:ident, $Assign:ident::$assign:ident) => {
+        impl $Operator for $Lanes {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $operate(self, other: Self) -> Self {
+                self.with(self.simd.avx.$instruction(self.register, other.register))
+            }
+        }
+
+        impl $Assign for $Lanes {
+            #[inline(always)]
+            fn $assign(&mut self, other: Self) {
+                self.register = self.simd.avx.$instruction(self.register, other.register);
+            }
+        }
+    };
+}
+
+/// Comparisons that are false for NaN and raise nothing, as `_mm256_cmp_pd` numbers them.
+const EQUAL: i32 = 0;
+const GREATER_OR_EQUAL: i32 = 29;
+const GREATER: i32 = 30;
+
+avx2_lanes!(
+    /// Four double-precision lanes.
+    Avx2F64x4, MaskF64x4, f64, F64x4, __m256d, 4, 0b1111;
+    _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_sqrt_pd, _mm256_max_pd, _mm256_min_pd, _mm256_and_pd,
+    _mm256_andnot_pd, _mm256_or_pd, _mm256_xor_pd, _mm256_cmp_pd, _mm256_blendv_pd, _mm256_movemask_pd
+);
+avx2_lanes!(
+    /// Eight single-precision lanes.
+    Avx2F32x8, MaskF32x8, f32, F32x8, __m256, 8, 0b1111_1111;
+    _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_sqrt_ps, _mm256_max_ps, _mm256_min_ps, _mm256_and_ps,
+    _mm256_andnot_ps, _mm256_or_ps, _mm256_xor_ps, _mm256_cmp_ps, _mm256_blendv_ps, _mm256_movemask_ps
+);
+
+impl Avx2F64x4 {
+    /// A constant minus a third of the bits.
+    #[inline(always)]
+    fn rough_bits(self) -> __m256d {
+        let avx2 = self.simd.avx2;
+        let bits: __m256i = cast(self.register);
+        let third = avx2._mm256_add_epi64(avx2._mm256_srli_epi64::<2>(bits), avx2._mm256_srli_epi64::<4>(bits));
+        let third = avx2._mm256_add_epi64(third, avx2._mm256_srli_epi64::<4>(third));
+        let third = avx2._mm256_add_epi64(third, avx2._mm256_srli_epi64::<8>(third));
+        let third = avx2._mm256_add_epi64(third, avx2._mm256_srli_epi64::<16>(third));
+        cast(avx2._mm256_sub_epi64(cast([super::real::CUBE_ROOT_F64; 4]), third))
+    }
+
+    /// The exponent k and x/2^k in [√½, √2): the bits beyond those of √½ begin with the exponent.
+    #[inline(always)]
+    fn parts(self) -> (__m256d, __m256d) {
+        let (avx, avx2) = (self.simd.avx, self.simd.avx2);
+        let bits: __m256i = cast(self.register);
+        let beyond = avx2._mm256_sub_epi64(bits, cast([std::f64::consts::FRAC_1_SQRT_2.to_bits(); 4]));
+        let whole = avx2._mm256_and_si256(beyond, cast([0xfff0_0000_0000_0000u64; 4]));
+        let high =
+            avx2._mm256_permutevar8x32_epi32(avx2._mm256_srai_epi32::<20>(beyond), cast([1i32, 3, 5, 7, 1, 3, 5, 7]));
+        let exponent = avx._mm256_cvtepi32_pd(avx._mm256_castsi256_si128(high));
+        (exponent, cast(avx2._mm256_sub_epi64(bits, whole)))
+    }
+
+    /// The transpose of four rows.
+    #[inline(always)]
+    fn transpose(rows: [Self; 4]) -> [Self; 4] {
+        let avx = rows[0].simd.avx;
+        let [a, b, c, d] = [rows[0].register, rows[1].register, rows[2].register, rows[3].register];
+        let (ab, cd) = (avx._mm256_unpacklo_pd(a, b), avx._mm256_unpacklo_pd(c, d));
+        let (high_ab, high_cd) = (avx._mm256_unpackhi_pd(a, b), avx._mm256_unpackhi_pd(c, d));
+        [
+            rows[0].with(avx._mm256_permute2f128_pd::<0x20>(ab, cd)),
+            rows[0].with(avx._mm256_permute2f128_pd::<0x20>(high_ab, high_cd)),
+            rows[0].with(avx._mm256_permute2f128_pd::<0x31>(ab, cd)),
+            rows[0].with(avx._mm256_permute2f128_pd::<0x31>(high_ab, high_cd)),
+        ]
+    }
+}
+
+impl Avx2F32x8 {
+    /// A constant minus a third of the bits.
+    #[inline(always)]
+    fn rough_bits(self) -> __m256 {
+        let avx2 = self.simd.avx2;
+        let bits: __m256i = cast(self.register);
+        let third = avx2._mm256_add_epi32(avx2._mm256_srli_epi32::<2>(bits), avx2._mm256_srli_epi32::<4>(bits));
+        let third = avx2._mm256_add_epi32(third, avx2._mm256_srli_epi32::<4>(third));
+        let third = avx2._mm256_add_epi32(third, avx2._mm256_srli_epi32::<8>(third));
+        cast(avx2._mm256_sub_epi32(cast([super::real::CUBE_ROOT_F32; 8]), third))
+    }
+
+    /// The exponent k and x/2^k in [√½, √2): the bits beyond those of √½ begin with the exponent.
+    #[inline(always)]
+    fn parts(self) -> (__m256, __m256) {
+        let (avx, avx2) = (self.simd.avx, self.simd.avx2);
+        let bits: __m256i = cast(self.register);
+        let beyond = avx2._mm256_sub_epi32(bits, cast([std::f32::consts::FRAC_1_SQRT_2.to_bits(); 8]));
+        let whole = avx2._mm256_and_si256(beyond, cast([0xff80_0000u32; 8]));
+        (avx._mm256_cvtepi32_ps(avx2._mm256_srai_epi32::<23>(beyond)), cast(avx2._mm256_sub_epi32(bits, whole)))
+    }
+
+    /// The transpose of eight rows: pairs within each half of a register, then fours, then the halves.
+    #[inline(always)]
+    fn transpose(rows: [Self; 8]) -> [Self; 8] {
+        let avx = rows[0].simd.avx;
+        let mut upper = [rows[0].register; 4];
+        let mut lower = upper;
+        for (half, first) in [(&mut upper, 0), (&mut lower, 4)] {
+            let [a, b, c, d] = [rows[first], rows[first + 1], rows[first + 2], rows[first + 3]];
+            let (ab, cd) =
+                (avx._mm256_unpacklo_ps(a.register, b.register), avx._mm256_unpacklo_ps(c.register, d.register));
+            let (high_ab, high_cd) =
+                (avx._mm256_unpackhi_ps(a.register, b.register), avx._mm256_unpackhi_ps(c.register, d.register));
+            *half = [
+                avx._mm256_shuffle_ps::<0x44>(ab, cd),
+                avx._mm256_shuffle_ps::<0xEE>(ab, cd),
+                avx._mm256_shuffle_ps::<0x44>(high_ab, high_cd),
+                avx._mm256_shuffle_ps::<0xEE>(high_ab, high_cd),
+            ];
+        }
+        let mut columns = rows;
+        for i in 0..4 {
+            columns[i].register = avx._mm256_permute2f128_ps::<0x20>(upper[i], lower[i]);
+            columns[i + 4].register = avx._mm256_permute2f128_ps::<0x31>(upper[i], lower[i]);
+        }
+        columns
+    }
+}
