@@ -8,6 +8,7 @@ mod parts;
 mod plan;
 mod range_check;
 mod simulation;
+mod step;
 
 use std::sync::atomic::AtomicUsize;
 

@@ -7,8 +7,22 @@ use crate::number::Real;
 /// Number of independent partial sums, so that an addition does not wait for the one before it.
 const PARTIAL_SUMS: usize = 8;
 
+/// Largest number of nodes whose terms one thread sums up. Longer vectors are halved in whole chunks, whatever the number of threads.
+const CHUNK: usize = 8192;
+
 /// x·y, accumulated in double precision.
 pub fn dot<T: Real>(x: &[[T; 3]], y: &[[T; 3]]) -> f64 {
+    let nodes = x.len().min(y.len());
+    if nodes <= CHUNK {
+        return dot_of_chunk(&x[..nodes], &y[..nodes]);
+    }
+    let middle = nodes.div_ceil(CHUNK) / 2 * CHUNK;
+    let (x, y) = (x.split_at(middle), y.split_at(middle));
+    let (a, b) = rayon::join(|| dot(x.0, y.0), || dot(x.1, y.1));
+    a + b
+}
+
+fn dot_of_chunk<T: Real>(x: &[[T; 3]], y: &[[T; 3]]) -> f64 {
     let (x, x_rest) = x.as_flattened().as_chunks::<PARTIAL_SUMS>();
     let (y, y_rest) = y.as_flattened().as_chunks::<PARTIAL_SUMS>();
     let mut sums = [0.0; PARTIAL_SUMS];

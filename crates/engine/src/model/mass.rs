@@ -1,9 +1,14 @@
 //! Mass of the nodes: M = m ⊗ 1, one number for each pair of nodes, the same in all directions.
 
 use fem_scene::Body;
+use rayon::prelude::*;
 
 use crate::number::Real;
 use crate::sparse::{Block, Pattern, Stored};
+
+/// From this many rows on several threads share the rows of a product, so many at a time.
+const ROWS_FOR_THREADS: usize = 3000;
+const CHUNK: usize = 1024;
 
 /// Mass of a body, kg.
 #[derive(Clone, Debug)]
@@ -100,14 +105,11 @@ impl<T: Real> Mass<T> {
                     }
                 }
             }
-            Self::Consistent(mass) => {
-                for (row, sum) in product.iter_mut().enumerate() {
-                    let of_row = mass.row_times(row, x);
-                    for i in 0..D {
-                        sum[i] += factor * of_row[i];
-                    }
-                }
-            }
+            Self::Consistent(mass) if product.len() < ROWS_FOR_THREADS => mass.add_rows_times(0, factor, x, product),
+            Self::Consistent(mass) => product
+                .par_chunks_mut(CHUNK)
+                .enumerate()
+                .for_each(|(chunk, product)| mass.add_rows_times(chunk * CHUNK, factor, x, product)),
         }
     }
 
@@ -184,6 +186,16 @@ impl<T: Real> Mass<T> {
 }
 
 impl<T: Real> Consistent<T> {
+    /// Adds the rows of `factor` M x from `first` on.
+    fn add_rows_times<const D: usize>(&self, first: usize, factor: T, x: &[[T; D]], product: &mut [[T; D]]) {
+        for (row, sum) in product.iter_mut().enumerate() {
+            let of_row = self.row_times(first + row, x);
+            for i in 0..D {
+                sum[i] += factor * of_row[i];
+            }
+        }
+    }
+
     fn row_times<const D: usize>(&self, row: usize, x: &[[T; D]]) -> [T; D] {
         let mut sum = [T::default(); D];
         for pair in self.pattern.row(row) {

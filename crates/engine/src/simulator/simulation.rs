@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering;
 
 use fem_scene::Integrator as IntegratorKind;
 use fem_scene::simulation::{
-    Cause, Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, Plane, PlaneContact, PlasticFlow, Pull,
+    Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, Plane, PlaneContact, PlasticFlow, Pull,
     Reaction, Shape, Simulation,
 };
 use nalgebra::{DVector, Matrix3, Vector3};
@@ -13,9 +13,8 @@ use nalgebra::{DVector, Matrix3, Vector3};
 use super::integrator::{build, integrators, solver_choice};
 use super::{Simulator, checkpoint, parts};
 use crate::boundary::reactions::reactions;
-use crate::integrators::{Convergence, critical_time_step};
+use crate::integrators::critical_time_step;
 use crate::model::state::State;
-use crate::model::system::System;
 use crate::number::Real;
 use crate::pick;
 
@@ -67,16 +66,7 @@ impl<T: Real> Simulation for Simulator<T> {
     }
 
     fn step(&mut self) -> Result<(), Failure> {
-        let mut convergence = Convergence::Converged;
-        for _ in 0..self.substeps {
-            if self.substep()? == Convergence::NotConverged {
-                convergence = Convergence::NotConverged;
-            }
-        }
-        self.counters.unconverged_steps += usize::from(convergence == Convergence::NotConverged);
-        self.counters.steps += 1;
-        self.state.steps += 1;
-        Ok(())
+        self.advance_step()
     }
 
     fn reset(&mut self) {
@@ -238,59 +228,6 @@ impl<T: Real> Simulator<T> {
         let u = self.system.numbering.to_mesh(&self.state.u);
         let V = self.system.shape.mesh.vertices();
         V.iter().zip(u).map(|(X, u)| X + Vector3::from(u.map(T::as_f64))).collect()
-    }
-
-    /// Advances by one substep, which leaves the state as it was if it fails.
-    fn substep(&mut self) -> Result<Convergence, Failure> {
-        if self.apply_conditions_at(self.state.time) {
-            self.integrator.forget();
-        }
-        let Self { integrator, system, state, substep_dt: dt, last_good, .. } = self;
-        last_good.copy_from(state);
-        let moment = integrator.moment(state);
-        system.forces.begin_step(&state.u, moment, *dt);
-        let outcome = self.advance();
-        match outcome.and_then(|convergence| self.check_state().map(|()| convergence)) {
-            Ok(convergence) => {
-                self.flow();
-                self.state.time = self.last_good.time + self.substep_dt;
-                Ok(convergence)
-            }
-            Err(cause) => {
-                self.state.copy_from(&self.last_good);
-                self.forget();
-                Err(self.failure(cause))
-            }
-        }
-    }
-
-    /// Whether the state that a step has reached is finite, has no inverted element, unless the law allows that, and no more energy
-    /// than it can have.
-    fn check_state(&mut self) -> Result<(), Cause> {
-        if let Some(node) = self.state.first_not_finite() {
-            return Err(Cause::NotFinite { node: self.system.numbering.mesh_node[node] as usize });
-        }
-        if !self.system.elements.allow_inversion() {
-            let (J, element) = self.system.elements.min_det_F_of_barriers(&self.state.u);
-            Cause::inverted((J.as_f64(), element)).map_or(Ok(()), Err)?;
-        }
-        self.check_contact()?;
-        if self.integrator.is_unconditionally_stable() || self.supplied.may_diverge {
-            return Ok(());
-        }
-        self.supplied.check(&self.system, &*self.integrator, &self.last_good, &self.state, self.substep_dt)
-    }
-
-    /// Lets the material flow in a step that has been accepted.
-    fn flow(&mut self) {
-        let Self { system: System { elements, profile, .. }, state, substep_dt: dt, .. } = self;
-        if elements.plasticity().is_some() {
-            profile.plasticity.time(|| elements.flow(&state.u, *dt));
-        }
-    }
-
-    fn failure(&self, cause: Cause) -> Failure {
-        Failure::of_step(self.state.steps, self.state.time, self.substep_dt, self.kind, cause)
     }
 }
 

@@ -34,7 +34,7 @@ impl SolverChoice {
     pub fn ordering(self) -> Ordering {
         match self {
             Self::Cholesky | Self::Lu => Ordering::FillReducing,
-            Self::Cg | Self::Pcg(_) => Ordering::LongestAxis,
+            Self::Cg | Self::Pcg(_) => Ordering::Parts,
         }
     }
 

@@ -8,6 +8,7 @@ mod choice;
 mod direct;
 mod inverse;
 mod krylov;
+mod parts;
 mod preconditioners;
 mod solver;
 

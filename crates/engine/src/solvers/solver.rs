@@ -5,7 +5,8 @@ use std::sync::Arc;
 use super::ApproximateInverse;
 use super::choice::{Preconditioner, SolverChoice};
 use super::direct::{Lu, cholesky};
-use super::krylov::{Workspace, conjugate_gradients, product, refine};
+use super::krylov::{Workspace, conjugate_gradients, parts, product, refine};
+use super::parts::Part;
 use super::preconditioners::{BlockJacobi, Identity, IncompleteCholesky, Multigrid, Ssor};
 use crate::number::Real;
 use crate::sparse::{Block, Pattern};
@@ -30,6 +31,8 @@ pub struct SolverCounters {
 pub struct Solver<T: Real> {
     choice: SolverChoice,
     pattern: Arc<Pattern>,
+    /// The parts of the matrix for products.
+    parts: Part,
     inverse: Box<dyn ApproximateInverse<T>>,
     workspace: Workspace<T>,
     counters: SolverCounters,
@@ -52,6 +55,7 @@ impl<T: Real> Solver<T> {
         };
         Self {
             choice,
+            parts: parts(pattern),
             pattern: Arc::clone(pattern),
             inverse,
             workspace: Workspace::new(pattern.rows()),
@@ -82,10 +86,10 @@ impl<T: Real> Solver<T> {
         tolerance: f64,
     ) -> Result<usize, Breakdown> {
         self.counters.solves += 1;
-        let Self { choice, pattern, inverse, workspace, solving, .. } = self;
+        let Self { choice, pattern, parts, inverse, workspace, solving, .. } = self;
         let (b, x) = (&b[..pattern.rows()], &mut x[..pattern.rows()]);
         let iterations = solving.time(|| {
-            let A = |x: &[[T; 3]], y: &mut [[T; 3]]| product(pattern, values, x, y);
+            let A = |x: &[[T; 3]], y: &mut [[T; 3]]| product(pattern, parts, values, x, y);
             let mut corrections = 0;
             if !choice.is_iterative() {
                 inverse.apply(b, x);

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::extent;
+use super::bisection::Bisection;
 use super::minimum_degree::minimum_degree;
 
 /// Up to this many nodes minimum degree is tried as well. For larger bodies, rows that are near in memory should belong to
@@ -18,8 +18,9 @@ pub(super) fn fill_reducing<const N: usize>(
     vertices: &[Vector3<f64>],
     elements: &[[usize; N]],
 ) -> Vec<u32> {
-    let adjacency = adjacency(vertices.len(), elements);
-    dissect(&mut nodes, vertices, &adjacency, &mut vec![Side::Outside; vertices.len()]);
+    let mut bisection = Bisection::new(vertices, elements);
+    dissect(&mut nodes, &mut bisection);
+    let adjacency = bisection.adjacency;
     if nodes.len() <= NODES_FOR_MINIMUM_DEGREE {
         let mut position = vec![u32::MAX; vertices.len()];
         let by_degree = by_minimum_degree(&nodes, &adjacency, &mut position);
@@ -31,21 +32,6 @@ pub(super) fn fill_reducing<const N: usize>(
         }
     }
     nodes
-}
-
-/// The other nodes of each node's elements, ascending.
-fn adjacency<const N: usize>(nodes: usize, elements: &[[usize; N]]) -> Vec<Vec<u32>> {
-    let mut adjacency = vec![Vec::new(); nodes];
-    for element in elements {
-        for &node in element {
-            adjacency[node].extend(element.iter().filter(|&&other| other != node).map(|&other| other as u32));
-        }
-    }
-    for list in &mut adjacency {
-        list.sort_unstable();
-        list.dedup();
-    }
-    adjacency
 }
 
 /// Sets the position of each node in the list.
@@ -90,49 +76,15 @@ fn factorisation_cost(nodes: &[u32], adjacency: &[Vec<u32>], position: &mut [u32
     cost
 }
 
-/// The half of the present bisection in which a node is.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Outside,
-    Left,
-    Right,
-}
-
 /// Nested dissection by coordinates: first the two halves, then the separator between them. George, Nested Dissection of a
 /// Regular Finite Element Mesh (1973).
-fn dissect(nodes: &mut [u32], x: &[Vector3<f64>], adjacency: &[Vec<u32>], side: &mut [Side]) {
+fn dissect(nodes: &mut [u32], bisection: &mut Bisection) {
     if nodes.len() <= LEAF {
         return;
     }
-    let axis = extent(nodes, x).imax();
-    let middle = nodes.len() / 2;
-    // Ties are broken by number, so that the ordering depends on the mesh alone.
-    nodes.select_nth_unstable_by(middle, |&a, &b| x[a as usize][axis].total_cmp(&x[b as usize][axis]).then(a.cmp(&b)));
-    for (place, &node) in nodes.iter().enumerate() {
-        side[node as usize] = if place < middle { Side::Left } else { Side::Right };
-    }
-    let is_separator = |node: u32, side: &[Side]| {
-        side[node as usize] == Side::Left
-            && adjacency[node as usize].iter().any(|&other| side[other as usize] == Side::Right)
-    };
-    let rank = |node: u32, side: &[Side]| match (is_separator(node, side), side[node as usize]) {
-        (true, _) => 2,
-        (false, Side::Left) => 0,
-        (false, _) => 1,
-    };
-    let mut ranked: Vec<(u8, u32)> = nodes.iter().map(|&node| (rank(node, side), node)).collect();
-    ranked.sort_unstable();
-    let left = ranked.iter().filter(|&&(rank, _)| rank == 0).count();
-    let halves = ranked.iter().filter(|&&(rank, _)| rank < 2).count();
-    for (place, &(_, node)) in nodes.iter_mut().zip(&ranked) {
-        *place = node;
-        side[node as usize] = Side::Outside;
-    }
-    let (first, rest) = nodes.split_at_mut(left);
-    let (second, _) = rest.split_at_mut(halves - left);
     // A half that holds all nodes would be cut in the same way again, without end.
-    if first.len() < ranked.len() && second.len() < ranked.len() {
-        dissect(first, x, adjacency, side);
-        dissect(second, x, adjacency, side);
+    if let Some(halves) = bisection.cut(nodes) {
+        dissect(halves.left, bisection);
+        dissect(halves.right, bisection);
     }
 }

@@ -1,11 +1,14 @@
 //! Node numbering of the engine: free nodes first, then the fully constrained ones, which have no row in any matrix.
 
+mod bisection;
 mod fill_reducing;
 mod minimum_degree;
+mod parts;
 
 use nalgebra::Vector3;
 
 use fill_reducing::fill_reducing;
+use parts::by_parts;
 
 /// The engine's numbers of a mesh's nodes.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,8 +26,9 @@ pub struct Numbering {
 pub enum Ordering {
     /// Keeps the fill-in of a factor small: for direct solvers.
     FillReducing,
-    /// Along the longest axis of the body, then along the next: for sweeps over the rows, whose neighbours are near in memory.
-    LongestAxis,
+    /// By parts that several threads can sweep over side by side, each along its longest axis, so that neighbours are near in
+    /// memory; small bodies are one part.
+    Parts,
 }
 
 impl Numbering {
@@ -40,7 +44,7 @@ impl Numbering {
         let free = mesh_node.len();
         match ordering {
             Ordering::FillReducing => mesh_node = fill_reducing(mesh_node, vertices, elements),
-            Ordering::LongestAxis => sort_along_longest_axis(&mut mesh_node, vertices),
+            Ordering::Parts => mesh_node = by_parts(mesh_node, vertices, elements),
         }
         mesh_node.extend((0..vertices.len() as u32).filter(|&node| constrained[node as usize]));
         let mut engine_node = vec![0; mesh_node.len()];
@@ -67,19 +71,15 @@ impl Numbering {
     }
 }
 
-/// Sorts along the longest axis; ties along the next axes, and at last by number.
-fn sort_along_longest_axis(nodes: &mut [u32], vertices: &[Vector3<f64>]) {
+/// The axes by the extent of these nodes, longest first; `None` without nodes.
+fn longest_axes(nodes: &[u32], vertices: &[Vector3<f64>]) -> Option<[usize; 3]> {
     if nodes.is_empty() {
-        return;
+        return None;
     }
     let extent = extent(nodes, vertices);
     let mut axes = [0, 1, 2];
     axes.sort_by(|&a, &b| extent[b].total_cmp(&extent[a]));
-    nodes.sort_unstable_by(|&a, &b| {
-        let (x, y) = (&vertices[a as usize], &vertices[b as usize]);
-        let along = |axis: usize| x[axis].total_cmp(&y[axis]);
-        along(axes[0]).then(along(axes[1])).then(along(axes[2])).then(a.cmp(&b))
-    });
+    Some(axes)
 }
 
 /// Edge lengths of the bounding box of these nodes, of which there is at least one.
@@ -114,7 +114,7 @@ mod tests {
     fn nodes_are_sorted_along_the_longest_axis_first() {
         let mesh = box_mesh([1.0, 3.0, 2.0], 2).unwrap();
         let constrained = vec![false; mesh.vertices.len()];
-        let numbering = Numbering::new(Ordering::LongestAxis, &mesh.vertices, &mesh.elements, &constrained);
+        let numbering = Numbering::new(Ordering::Parts, &mesh.vertices, &mesh.elements, &constrained);
         let x = numbering.mesh_node.iter().map(|&node| mesh.vertices[node as usize]).collect::<Vec<_>>();
         assert!(x.windows(2).all(|x| (x[0].y, x[0].z, x[0].x) < (x[1].y, x[1].z, x[1].x)));
     }

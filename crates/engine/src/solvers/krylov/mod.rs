@@ -4,7 +4,7 @@ mod cg;
 mod product;
 mod refine;
 
-pub(super) use product::product;
+pub(super) use product::{parts, product};
 
 pub(super) use cg::{Workspace, conjugate_gradients};
 pub(super) use refine::refine;

@@ -173,14 +173,6 @@ impl Coarse {
         }
     }
 
-    /// Adds the contribution of a node to Pᵀ r.
-    pub fn restrict(&mut self, row: usize, r: &[f32; 3]) {
-        let (point, free) = (&self.grid.nodes[row], &self.free[row]);
-        for (&corner, weight) in self.grid.cells[point.cell as usize].iter().zip(point.weights()) {
-            (0..3).for_each(|i| self.residual[corner as usize][i] += weight * free[i] * r[i]);
-        }
-    }
-
     /// Computes the correction for the coarse residual; returns their inner product.
     pub fn solve(&mut self) -> f64 {
         if self.scale.is_none() {

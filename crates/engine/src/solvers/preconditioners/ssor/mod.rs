@@ -6,23 +6,28 @@
 //! incomplete factorisation would make to the diagonal blocks. Scaled by G, the matrix is L̃ + K + 2 + L̃ᵀ with L̃ = G⁻¹ L G⁻ᵀ
 //! and K = G⁻¹ D G⁻ᵀ − 2, and the preconditioner is (L̃ + 1)(1 + L̃ᵀ). It reduces oscillating errors well and smooth errors
 //! badly, so the inverse of the matrix on a coarse grid is added.
+//!
+//! Threads sweep over the parts of the matrix that are not coupled with each other, side by side.
 
+mod advance;
 mod coarse;
 mod grid;
 mod scaled;
+mod shares;
 mod sweeps;
 
-use std::array::from_fn;
-
 use super::single_precision_scale;
-use crate::number::{Real, vectorized};
+use crate::number::Real;
 use crate::solvers::ApproximateInverse;
+use crate::solvers::parts::Part;
 use crate::sparse::{Block, Pattern};
 use crate::vector::norm;
+use advance::Advance;
 use coarse::Coarse;
 use fem_scene::simulation::{Breakdown, History};
 use scaled::Scaled;
-use sweeps::{Backward, Forward};
+use shares::Shares;
+use sweeps::{Start, Sweeps};
 
 /// The largest number of iterations of one correction.
 const MAX_ITERATIONS: usize = 2000;
@@ -44,8 +49,11 @@ type Pair = [Row; 2];
 
 /// The preconditioned matrix, and the vectors of the iteration.
 pub(crate) struct Ssor {
+    parts: Part,
     matrix: Scaled,
     coarse: Coarse,
+    /// Restriction of residuals to the coarse grid.
+    shares: Shares,
     x: Vec<Row>,
     r: Vec<Row>,
     p: Vec<Row>,
@@ -59,10 +67,14 @@ impl Ssor {
     /// Takes the lower half of a pattern, which may store all blocks, and the undeformed positions of its nodes, m.
     pub(crate) fn new(pattern: &Pattern, rest: &[[f64; 3]]) -> Self {
         let (rows, matrix) = (pattern.rows(), Scaled::new(pattern));
+        let parts = Part::new(rows, |row| &matrix.pattern.columns[matrix.pattern.row(row)]);
+        let coarse = Coarse::new(&matrix.pattern, rest);
         let (vector, pairs) = (vec![[0.0; 4]; rows], vec![[[0.0; 4]; 2]; rows]);
         Self {
-            coarse: Coarse::new(&matrix.pattern, rest),
+            shares: Shares::new(&parts, &coarse.grid),
+            coarse,
             matrix,
+            parts,
             x: vector.clone(),
             r: vector.clone(),
             p: vector,
@@ -71,30 +83,37 @@ impl Ssor {
         }
     }
 
-    /// Starts an iteration: x = 0, r̃ = (L̃ + 1)⁻¹ G⁻¹ r and the coarse residual Pᵀ r, with r scaled by `factor`, and no
+    /// Starts an iteration: x = 0, r̃ = (L̃ + 1)⁻¹ G⁻¹ b and the coarse residual Pᵀ b, with b scaled by `factor`, and no
     /// direction.
-    fn start<T: Real>(&mut self, r: &[[T; 3]], factor: f64) {
-        let Scaled { pattern, L, inverses, .. } = &self.matrix;
-        self.coarse.residual.fill([0.0; 4]);
-        for (row, r) in r.iter().enumerate() {
-            let r = r.map(|r| (r.as_f64() * factor) as f32);
-            self.coarse.restrict(row, &r);
-            let mut scaled: [f32; 3] = from_fn(|i| (0..=i).map(|j| inverses[row][i][j] * r[j]).sum());
-            for block in pattern.row(row) {
-                let known = &self.r[pattern.columns[block] as usize];
-                (0..3).for_each(|i| scaled[i] -= (0..3).map(|k| L[9 * block + 3 * i + k] * known[k]).sum::<f32>());
-            }
-            self.r[row] = [scaled[0], scaled[1], scaled[2], 0.0];
-        }
+    fn start<T: Real>(&mut self, b: &[[T; 3]], factor: f64) {
+        let Self { parts, matrix, coarse, shares, r, .. } = self;
+        shares.sums.fill([0.0; 4]);
+        let (residual, places) = shares.all();
+        Start { matrix, coarse, places, b, factor, first: 0, r, residual }.over(parts);
+        shares.collect(&mut coarse.residual);
         self.x.fill([0.0; 4]);
         self.p.fill([0.0; 4]);
         self.st.fill([[0.0; 4]; 2]);
     }
 
-    /// The next direction, and the backward sweep for it.
-    fn next_direction(&mut self, beta: f32) {
-        let Self { matrix, coarse, r, p, st, sums, .. } = self;
-        vectorized(Backward { matrix, coarse, beta, r, p, st, sums });
+    /// The next direction, and the sweeps for it; returns the curvature along it.
+    fn next_direction(&mut self, beta: f32) -> f64 {
+        let Self { parts, matrix, coarse, shares, r, p, st, sums, .. } = self;
+        shares.sums.fill([0.0; 4]);
+        let (change, places) = shares.all();
+        let curvature = Sweeps { matrix, coarse, places, beta, r, first: 0, p, st, sums, change }.over(parts);
+        shares.collect(&mut coarse.change);
+        curvature
+    }
+
+    /// A step of length α along the direction; returns r·r.
+    fn advance(&mut self, alpha: f32) -> f64 {
+        let Self { parts, st, x, r, coarse, .. } = self;
+        let sum = Advance { alpha, st, x, r }.rows(parts);
+        for (residual, change) in coarse.residual.iter_mut().zip(&coarse.change) {
+            (0..4).for_each(|k| residual[k] -= alpha * change[k]);
+        }
+        sum
     }
 
     /// x += factor G⁻ᵀ x̃
@@ -115,10 +134,8 @@ impl Ssor {
         for iteration in 1..=MAX_ITERATIONS {
             // r·P⁻¹r: the sweeps contribute r̃·r̃.
             let rz = rr + self.coarse.solve();
-            self.next_direction((rz / before) as f32);
+            let curvature = self.next_direction((rz / before) as f32);
             before = rz;
-            let Self { matrix, coarse, p, st, .. } = self;
-            let curvature = vectorized(Forward { matrix, coarse, p, st });
             if !(curvature > 0.0) {
                 return Err(self.no_curvature(curvature));
             }
@@ -139,28 +156,6 @@ impl Ssor {
         Err(Breakdown::NotConverged { residual: (best / target).sqrt() * tolerance })
     }
 
-    /// x += α t, r −= α (t + s); returns r·r.
-    fn advance(&mut self, alpha: f32) -> f64 {
-        let Self { st, x, r, coarse, .. } = self;
-        let mut sum = 0.0;
-        let chunks = st.chunks(CHUNK).zip(x.chunks_mut(CHUNK)).zip(r.chunks_mut(CHUNK));
-        for ((st, x), r) in chunks {
-            let mut squares = [0.0; 4];
-            for (([s, t], x), r) in st.iter().zip(x).zip(r) {
-                for k in 0..4 {
-                    x[k] += alpha * t[k];
-                    r[k] -= alpha * (t[k] + s[k]);
-                    squares[k] += r[k] * r[k];
-                }
-            }
-            sum += f64::from(squares.iter().sum::<f32>());
-        }
-        for (residual, change) in coarse.residual.iter_mut().zip(&coarse.change) {
-            (0..4).for_each(|k| residual[k] -= alpha * change[k]);
-        }
-        sum
-    }
-
     /// The cause of a curvature p·Ãp that is not positive.
     fn no_curvature(&self, curvature: f64) -> Breakdown {
         match curvature.abs() <= ROUND_OFF * square(&self.p) {
@@ -176,7 +171,7 @@ impl<T: Real> ApproximateInverse<T> for Ssor {
         let scale = single_precision_scale(values, &self.matrix.pattern.diagonal)?;
         self.matrix.scale = scale;
         self.coarse.prepare(&self.matrix.pattern, values, scale);
-        self.matrix.prepare(values, &self.coarse.free)
+        self.matrix.prepare(values, &self.coarse.free, &self.parts)
     }
 
     /// The residual is measured in the norm of the preconditioner.
@@ -219,12 +214,12 @@ impl<T: Real> ApproximateInverse<T> for Ssor {
     /// The coarse matrix may be that of an earlier matrix; it is restored.
     fn prepare_again(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
         self.matrix.scale = single_precision_scale(values, &self.matrix.pattern.diagonal)?;
-        self.matrix.prepare(values, &self.coarse.free)
+        self.matrix.prepare(values, &self.coarse.free, &self.parts)
     }
 
     fn bytes(&self) -> usize {
         let vectors = 3 * size_of_val(self.x.as_slice()) + 2 * size_of_val(self.st.as_slice());
-        self.matrix.bytes() + self.coarse.bytes() + vectors
+        self.matrix.bytes() + self.coarse.bytes() + self.shares.bytes() + vectors
     }
 }
 

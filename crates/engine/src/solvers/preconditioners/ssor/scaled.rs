@@ -1,8 +1,13 @@
 //! The scaled matrix G⁻¹ A G⁻ᵀ = L̃ + K + 2 + L̃ᵀ in single precision.
 
+use std::ops::Range;
+
+use pulp::{Simd, WithSimd};
+
 use super::super::lower_half::LowerHalf;
-use crate::number::Real;
+use crate::number::{Real, vectorized};
 use crate::solvers::block::{factor, invert_lower};
+use crate::solvers::parts::Part;
 use crate::sparse::{Block, Pattern};
 use fem_scene::simulation::Breakdown;
 
@@ -50,10 +55,17 @@ impl Scaled {
     }
 
     /// Computes L̃, K and G. `free` is 1 for each free direction of a row and 0 for a constrained one.
-    pub fn prepare<T: Real>(&mut self, values: &[Block<T, 3>], free: &[[f32; 3]]) -> Result<(), Breakdown> {
+    pub fn prepare<T: Real>(
+        &mut self,
+        values: &[Block<T, 3>],
+        free: &[[f32; 3]],
+        parts: &Part,
+    ) -> Result<(), Breakdown> {
         let mut outcome = Ok(());
         for fraction in FRACTIONS {
-            outcome = self.factor(values, free, fraction);
+            let Self { pattern, L, K, G, inverses, scale } = self;
+            let rows = Rows { pattern, values, free, fraction, scale: *scale, first: 0, L, K, G, inverses };
+            outcome = rows.factor(parts);
             if outcome.is_ok() {
                 break;
             }
@@ -61,44 +73,100 @@ impl Scaled {
         outcome
     }
 
-    fn factor<T: Real>(&mut self, values: &[Block<T, 3>], free: &[[f32; 3]], fraction: f32) -> Result<(), Breakdown> {
-        let Self { pattern, L, K, G, inverses, scale } = self;
-        let single = |block: u32| values[block as usize].map(|row| row.map(|entry| (entry.as_f64() * *scale) as f32));
-        for row in 0..pattern.rows() {
+    pub fn bytes(&self) -> usize {
+        let triangles = size_of_val(self.K.as_slice()) + size_of_val(self.G.as_slice());
+        self.pattern.bytes() + size_of_val(self.L.as_slice()) + triangles + size_of_val(self.inverses.as_slice())
+    }
+}
+
+/// Consecutive rows, from `first` on.
+struct Rows<'a, T> {
+    pattern: &'a LowerHalf,
+    values: &'a [Block<T, 3>],
+    free: &'a [[f32; 3]],
+    fraction: f32,
+    scale: f64,
+    first: usize,
+    L: &'a mut [f32],
+    K: &'a mut [Triangle],
+    G: &'a mut [Triangle],
+    inverses: &'a mut [Block<f32, 3>],
+}
+
+impl<T: Real> Rows<'_, T> {
+    /// Factorises the rows of a part: its halves side by side, then its own.
+    fn factor(mut self, part: &Part) -> Result<(), Breakdown> {
+        if let Some([left, right]) = part.halves.as_deref() {
+            let [a, rest] = self.reborrow().split(right.rows.start);
+            let [b, _] = rest.split(right.rows.end);
+            let (a, b) = rayon::join(|| a.factor(left), || b.factor(right));
+            a.and(b)?;
+        }
+        vectorized(Factor { all: self, rows: part.own() })
+    }
+
+    fn reborrow(&mut self) -> Rows<'_, T> {
+        let Self { pattern, values, free, fraction, scale, first, L, K, G, inverses } = self;
+        Rows { pattern, values, free, fraction: *fraction, scale: *scale, first: *first, L, K, G, inverses }
+    }
+
+    /// The rows before and from `middle` on.
+    fn split(self, middle: usize) -> [Self; 2] {
+        let Self { pattern, values, free, fraction, scale, first, L, K, G, inverses } = self;
+        let (L, L_right) = L.split_at_mut(9 * (pattern.row(middle).start - pattern.row(first).start));
+        let (K, K_right) = K.split_at_mut(middle - first);
+        let (G, G_right) = G.split_at_mut(middle - first);
+        let (inverses, inverses_right) = inverses.split_at_mut(middle - first);
+        let rows = |first, L, K, G, inverses| Self { pattern, values, free, fraction, scale, first, L, K, G, inverses };
+        [rows(first, L, K, G, inverses), rows(middle, L_right, K_right, G_right, inverses_right)]
+    }
+}
+
+/// The factorisation of some rows, whose blocks are in columns of rows that are factorised before.
+struct Factor<'a, T> {
+    all: Rows<'a, T>,
+    rows: Range<usize>,
+}
+
+impl<T: Real> WithSimd for Factor<'_, T> {
+    type Output = Result<(), Breakdown>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) -> Result<(), Breakdown> {
+        let Rows { pattern, values, free, fraction, scale, first, L, K, G, inverses } = self.all;
+        let single = |block: u32| values[block as usize].map(|row| row.map(|entry| (entry.as_f64() * scale) as f32));
+        let first_block = pattern.row(first).start;
+        for row in self.rows {
             let blocks = pattern.row(row);
+            let own = &mut L[9 * (blocks.start - first_block)..][..9 * blocks.len()];
+            let (own, _) = own.as_chunks_mut::<9>();
             let diagonal = single(pattern.diagonal[row]);
             let mut W = diagonal;
-            for block in blocks.clone() {
-                let column = pattern.columns[block] as usize;
+            for (block, L) in blocks.zip(own.iter_mut()) {
+                let column = pattern.columns[block] as usize - first;
                 let half = times_transpose(&single(pattern.sources[block]), &inverses[column]);
                 for i in 0..3 {
                     for j in 0..3 {
                         W[i][j] -= fraction * (0..3).map(|k| half[i][k] * half[j][k]).sum::<f32>();
                     }
-                    L[9 * block + 3 * i..][..3].copy_from_slice(&half[i]);
                 }
+                L.copy_from_slice(half.as_flattened());
             }
             if fraction > 0.0 && (0..3).any(|i| !(W[i][i] > MIN_DIAGONAL * diagonal[i][i])) {
                 return Err(Breakdown::NotPositiveDefinite);
             }
             let root = factor(&W)?;
             let inverse = invert_lower(&root);
-            G[row] = LOWER.map(|(i, j)| free[row][i] * root[i][j]);
-            for block in blocks {
-                let half: Block<f32, 3> = std::array::from_fn(|i| std::array::from_fn(|j| L[9 * block + 3 * i + j]));
-                let whole = times(&inverse, &half);
-                L[9 * block..9 * block + 9].copy_from_slice(whole.as_flattened());
+            G[row - first] = LOWER.map(|(i, j)| free[row][i] * root[i][j]);
+            for L in own {
+                let half: Block<f32, 3> = std::array::from_fn(|i| std::array::from_fn(|j| L[3 * i + j]));
+                L.copy_from_slice(times(&inverse, &half).as_flattened());
             }
             let scaled = times_transpose(&times(&inverse, &diagonal), &inverse);
-            K[row] = LOWER.map(|(i, j)| scaled[i][j] - if i == j { 2.0 } else { 0.0 });
-            inverses[row] = inverse;
+            K[row - first] = LOWER.map(|(i, j)| scaled[i][j] - if i == j { 2.0 } else { 0.0 });
+            inverses[row - first] = inverse;
         }
         Ok(())
-    }
-
-    pub fn bytes(&self) -> usize {
-        let triangles = size_of_val(self.K.as_slice()) + size_of_val(self.G.as_slice());
-        self.pattern.bytes() + size_of_val(self.L.as_slice()) + triangles + size_of_val(self.inverses.as_slice())
     }
 }
 

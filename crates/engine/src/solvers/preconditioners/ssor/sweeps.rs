@@ -1,62 +1,89 @@
 //! The two sweeps of an iteration. Each reads a block once and applies it to two vectors together.
 
-use std::array::from_fn;
+mod backward;
+mod forward;
+mod registers;
+mod start;
+#[cfg(test)]
+mod tests;
 
-use pulp::{Simd, WithSimd};
-use simba::simd::WideF32x8;
+pub use start::Start;
+
+use backward::Backward;
+use forward::Forward;
+use registers::dispatch;
 
 use super::coarse::Coarse;
 use super::scaled::{Scaled, Triangle};
-use super::{CHUNK, Pair, Row};
+use super::shares::{Places, Sums};
+use super::{Pair, Row};
+use crate::solvers::parts::Part;
 
-/// The next direction, p = r + (1 + L̃ᵀ) c + β p and t = (1 + L̃ᵀ)⁻¹ p, where c is the coarse correction.
-pub struct Backward<'a> {
+/// The next direction, p = r + (1 + L̃ᵀ) c + β p with the coarse correction c, t = (1 + L̃ᵀ)⁻¹ p, s = (L̃ + 1)⁻¹ (p + K t), and the
+/// change of the coarse residual along the direction.
+pub struct Sweeps<'a> {
     pub matrix: &'a Scaled,
     pub coarse: &'a Coarse,
+    pub places: Places<'a>,
     pub beta: f32,
     pub r: &'a [Row],
+    /// The first row of the vectors below.
+    pub first: usize,
     pub p: &'a mut [Row],
-    /// The pairs (s, t), of which t is written.
+    /// The pairs (s, t).
     pub st: &'a mut [Pair],
-    /// Sums for the rows that the sweep has not reached, zero before and after.
+    /// Workspace of the backward sweep, zero before and after.
     pub sums: &'a mut [Pair],
+    pub change: Sums<'a>,
 }
 
-impl WithSimd for Backward<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _simd: S) {
-        let Self { matrix: Scaled { pattern, L, G, .. }, coarse, beta, r, p, st, sums } = self;
-        for row in (0..r.len()).rev() {
-            let point = &coarse.grid.nodes[row];
-            let mut e = [0.0; 4];
-            for (&corner, weight) in coarse.grid.cells[point.cell as usize].iter().zip(point.weights()) {
-                e = plus_products(e, coarse.correction[corner as usize], [weight; 4]);
+impl Sweeps<'_> {
+    /// Both sweeps over the rows of a part: backward over its own, then both over its halves, side by side, while their blocks are in
+    /// the cache, then forward over its own. Returns p·(t + s).
+    pub fn over(mut self, part: &Part) -> f64 {
+        let Self { matrix, coarse, places, beta, r, first, .. } = self;
+        let (p, st, sums) = (&mut *self.p, &mut *self.st, &mut *self.sums);
+        dispatch(Backward { matrix, coarse, beta, r, rows: part.own(), first, p, st, sums });
+        let of_halves = match part.halves.as_deref() {
+            Some([left, right]) => {
+                let [a, b] = self.halves(part);
+                let (a, b) = rayon::join(|| a.over(left), || b.over(right));
+                a + b
             }
-            // Zero again for the next sweep.
-            let sum = std::mem::take(&mut sums[row]);
-            let c = transposed_times(&G[row], &e);
-            let w: Row = from_fn(|k| if k < 3 { r[row][k] - sum[0][k] } else { 0.0 });
-            for k in 0..3 {
-                p[row][k] = r[row][k] + (c[k] + sum[1][k]) + beta * p[row][k];
-                st[row][1][k] = w[k] + c[k] + beta * st[row][1][k];
-            }
-            let blocks = pattern.row(row);
-            // From the last block to the first, so that memory is read in one direction.
-            for block in blocks.rev() {
-                let (L, above) = (rows(L, block), &mut sums[pattern.columns[block] as usize]);
-                let [of_w, of_c] = *above;
-                *above = [plus_product(of_w, &L, &w), plus_product(of_c, &L, &c)];
-            }
-        }
+            None => 0.0,
+        };
+        let Self { p, st, change, .. } = &mut self;
+        let [_, _, change] = change.split(part, &places);
+        let points = &coarse.grid.nodes;
+        of_halves + dispatch(Forward { matrix, points, places, rows: part.own(), first, p, st, change })
     }
+
+    /// The halves of a part that has halves.
+    fn halves(&mut self, part: &Part) -> [Sweeps<'_>; 2] {
+        let Self { matrix, coarse, places, beta, r, first, p, st, sums, change } = self;
+        let (matrix, coarse, places, beta, r) = (*matrix, *coarse, *places, *beta, *r);
+        let [left, right, _] = change.split(part, &places);
+        let middle = part.middle() - *first;
+        let (p, p_right) = p.split_at_mut(middle);
+        let (st, st_right) = st.split_at_mut(middle);
+        let (sums, sums_right) = sums.split_at_mut(middle);
+        let sweeps =
+            |first, p, st, sums, change| Sweeps { matrix, coarse, places, beta, r, first, p, st, sums, change };
+        [sweeps(*first, p, st, sums, left), sweeps(part.middle(), p_right, st_right, sums_right, right)]
+    }
+}
+
+/// The rows of a block, each followed by a meaningless number.
+#[inline(always)]
+fn rows(L: &[f32], block: usize) -> [Row; 3] {
+    let L = &L[9 * block..9 * block + 10];
+    [[L[0], L[1], L[2], L[3]], [L[3], L[4], L[5], L[6]], [L[6], L[7], L[8], L[9]]]
 }
 
 /// Gᵀ x for a lower triangular G.
 #[inline(always)]
 fn transposed_times(G: &Triangle, x: &Row) -> Row {
-    [G[0] * x[0] + G[1] * x[1] + G[3] * x[2], G[2] * x[1] + G[4] * x[2], G[5] * x[2], 0.0]
+    [G[0] * x[0] + G[1] * x[1] + G[3] * x[2], G[2] * x[1] + G[4] * x[2], G[5] * x[2], x[3]]
 }
 
 /// G x for a lower triangular G.
@@ -73,79 +100,4 @@ fn symmetric_times(K: &Triangle, x: &Row) -> [f32; 3] {
         K[1] * x[0] + K[2] * x[1] + K[4] * x[2],
         K[3] * x[0] + K[4] * x[1] + K[5] * x[2],
     ]
-}
-
-/// The rows of a block, each followed by a meaningless number.
-#[inline(always)]
-fn rows(L: &[f32], block: usize) -> [Row; 3] {
-    let L = &L[9 * block..9 * block + 10];
-    [[L[0], L[1], L[2], L[3]], [L[3], L[4], L[5], L[6]], [L[6], L[7], L[8], L[9]]]
-}
-
-/// sum + Lᵀ x. The sum is passed by value, so that the compiler knows that it has no alias.
-#[inline(always)]
-fn plus_product(sum: Row, L: &[Row; 3], x: &Row) -> Row {
-    from_fn(|k| sum[k] + (L[0][k] * x[0] + L[1][k] * x[1] + L[2][k] * x[2]))
-}
-
-/// Two rows in one register.
-#[inline(always)]
-fn wide(a: Row, b: Row) -> WideF32x8 {
-    WideF32x8::from([a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]])
-}
-
-/// sum + a b by entries.
-#[inline(always)]
-fn plus_products(sum: Row, a: Row, b: Row) -> Row {
-    from_fn(|k| sum[k] + a[k] * b[k])
-}
-
-/// s = (L̃ + 1)⁻¹ (p + K t), and the change of the coarse residual along the direction. Returns p·(t + s).
-pub struct Forward<'a> {
-    pub matrix: &'a Scaled,
-    pub coarse: &'a mut Coarse,
-    pub p: &'a [Row],
-    pub st: &'a mut [Pair],
-}
-
-impl WithSimd for Forward<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _simd: S) -> f64 {
-        let Self { matrix: Scaled { pattern, L, K, G, .. }, coarse, p, st } = self;
-        let (mut total, mut sum) = (0.0, 0.0);
-        coarse.change.fill([0.0; 4]);
-        for row in 0..p.len() {
-            // Each entry of a block has sums of its own, so that no addition waits for another.
-            let mut sums = [wide([0.0; 4], [0.0; 4]); 3];
-            let blocks = pattern.row(row);
-            for block in blocks {
-                let (L, [s, t]) = (rows(L, block), st[pattern.columns[block] as usize]);
-                for (sums, L) in sums.iter_mut().zip(L) {
-                    *sums += wide(L, L) * wide(s, t);
-                }
-            }
-            let ([s, t], mut y) = (&mut st[row], [0.0; 3]);
-            let Kt = symmetric_times(&K[row], t);
-            for i in 0..3 {
-                let sums: [f32; 8] = sums[i].0.to_array();
-                let (Ls, Lt) = (sums[0] + sums[1] + sums[2], sums[4] + sums[5] + sums[6]);
-                s[i] = p[row][i] + Kt[i] - Ls;
-                y[i] = t[i] + p[row][i] + Kt[i] + Lt;
-                sum += p[row][i] * (t[i] + s[i]);
-            }
-            let change = lower_times(&G[row], &y);
-            let point = &coarse.grid.nodes[row];
-            for (&corner, weight) in coarse.grid.cells[point.cell as usize].iter().zip(point.weights()) {
-                let of_corner = &mut coarse.change[corner as usize];
-                *of_corner = plus_products(*of_corner, change, [weight; 4]);
-            }
-            if row % CHUNK == 0 {
-                total += f64::from(sum);
-                sum = 0.0;
-            }
-        }
-        total + f64::from(sum)
-    }
 }
