@@ -12,8 +12,9 @@ use fem_scene::simulation::{Breakdown, History};
 /// Steps of the power iteration for the largest eigenvalue of D⁻¹A. It starts from the vector of the last preparation.
 const POWER_STEPS: usize = 4;
 
-/// Relative shift of the coarse diagonal: the rotations of an aggregate of one or two nodes are not independent.
-const SHIFT: f32 = 1e-5;
+/// Smallest pivot of a coarse diagonal block relative to its diagonal entry: the rotations of an aggregate of one or two nodes are not
+/// independent.
+const PIVOT: f32 = 1e-5;
 
 /// A level whose nodes have D unknowns.
 pub struct Level<const D: usize> {
@@ -93,9 +94,7 @@ impl<const D: usize> Level<D> {
         Product { A: &self.R, B: &self.AP, C: coarse, slots: &mut self.slots }.compute();
         for row in 0..coarse.rows() {
             let block = diagonal(coarse, row);
-            let block = &mut coarse.values[block];
-            let most = (0..6).map(|i| block[i][i]).fold(0.0, f32::max);
-            (0..6).for_each(|i| block[i][i] += SHIFT * if block[i][i] > SHIFT * most { block[i][i] } else { most });
+            regularize(&mut coarse.values[block]);
         }
         Ok(())
     }
@@ -162,6 +161,25 @@ impl<const D: usize> Level<D> {
     pub fn bytes(&self) -> usize {
         let vectors = 5 * size_of_val(self.x.as_slice()) + size_of_val(self.inverses.as_slice());
         self.A.bytes() + self.rigid.bytes() + self.P.bytes() + self.R.bytes() + self.AP.bytes() + vectors
+    }
+}
+
+/// Enlarges the diagonal entries whose pivots are too small in a factorisation of the block. The others stay as they are: a shift of
+/// all would exceed the smallest eigenvalues of a slender body.
+fn regularize(block: &mut [[f32; 6]; 6]) {
+    let most = (0..6).map(|i| block[i][i]).fold(0.0, f32::max);
+    let mut L = [[0.0f32; 6]; 6];
+    for j in 0..6 {
+        let entry = block[j][j];
+        let least = PIVOT * if entry > PIVOT * most { entry } else { most };
+        let pivot = entry - (0..j).map(|k| L[j][k] * L[j][k]).sum::<f32>();
+        if pivot < least {
+            block[j][j] += least - pivot;
+        }
+        L[j][j] = pivot.max(least).sqrt();
+        for i in j + 1..6 {
+            L[i][j] = (block[i][j] - (0..j).map(|k| L[i][k] * L[j][k]).sum::<f32>()) / L[j][j];
+        }
     }
 }
 

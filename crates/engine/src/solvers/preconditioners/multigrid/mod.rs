@@ -17,8 +17,8 @@ use crate::sparse::{Block, Pattern, Stored};
 use crate::vector::norm;
 use fem_scene::simulation::{Breakdown, History};
 
-/// Coarse matrices of up to this many nodes are factorised.
-const MAX_COARSEST: usize = 150;
+/// Coarse matrices of up to this many nodes are factorised. One level more would leave too few nodes for the motions of a slender body.
+const MAX_COARSEST: usize = 1000;
 
 /// A symmetric V-cycle.
 pub(crate) struct Multigrid {
