@@ -5,6 +5,7 @@ mod contact;
 mod divergence;
 mod integrator;
 mod parts;
+mod path_check;
 mod plan;
 mod range_check;
 mod simulation;
@@ -86,6 +87,9 @@ pub fn planned_parts(scene: &Scene, body: &Body) -> Result<Vec<Part>, SceneError
     let nodes = body.shape.mesh.vertices().len();
     let numbering = Numbering::of_mesh(nodes);
     let forces: Vec<_> = forces::kinds::<f64>().into_iter().filter_map(|kind| (kind.build)(body, &numbering)).collect();
+    for force in &forces {
+        path_check::check_force(&method, force.is_conservative()).map_err(|(field, problem)| scene.refuse(field, &problem))?;
+    }
     let is_linear = is_law_linear && forces.iter().all(|force| force.is_quadratic());
     let mut plan = Plan::new(body);
     plan.add_forces(forces.iter().map(|force| &**force));
@@ -104,6 +108,7 @@ fn check<T: Real>(scene: &Scene, body: &Body, epsilon: f64) -> Result<AnyLaw<T::
     }
     let method = scene.method();
     range_check::check_tolerance(&method, epsilon).map_err(refuse)?;
+    path_check::check(&method, body).map_err(refuse)?;
     if method.integrator == IntegratorKind::Static {
         rigid_modes::check(body).map_err(refuse)?;
     }
@@ -129,6 +134,8 @@ impl<T: Real> Simulator<T> {
         let with_obstacles = body.contact.is_some().then(|| body.clone());
         let mut system = System::with_forces(body, law, solver, own);
         range_check::check(&method, &system).map_err(|(field, problem)| scene.refuse(field, &problem))?;
+        let is_conservative = !system.forces.has_followers();
+        path_check::check_force(&method, is_conservative).map_err(|(field, problem)| scene.refuse(field, &problem))?;
         plan.add_forces(system.forces.all().map(|(force, _)| force).filter(|force| force.name() != anchors::NAME));
         let contact = Contacts::new(with_obstacles.as_ref(), &mut system);
         let initial_velocity = initial_velocity(&velocities, &system);

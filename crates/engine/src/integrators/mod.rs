@@ -1,6 +1,7 @@
 //! Time integration methods, one file each, behind the trait [`Integrator`].
 
 mod accelerations;
+mod arc_length;
 mod critical_time_step;
 mod explicit_euler;
 mod followers;

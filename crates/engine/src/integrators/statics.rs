@@ -2,6 +2,7 @@
 
 use fem_scene::simulation::{Cause, Counters, History};
 
+use super::arc_length::ArcLength;
 use super::followers::Followers;
 use super::initial_guess::infeasible;
 use super::{Convergence, Integrator};
@@ -28,6 +29,7 @@ pub struct Statics<T: Real> {
 enum Method<T: Real> {
     Linear(Box<Linear<T>>),
     Newton(Box<Newton<T>>),
+    ArcLength(Box<ArcLength<T>>),
 }
 
 /// K u = f with its solver and vectors.
@@ -68,8 +70,19 @@ impl<T: Real> Statics<T> {
         Self { method, followers: Followers::new(system), load_steps, prescribed: zero(), step: zero() }
     }
 
+    /// The same along the equilibrium path, through limit points; only the solver and the limits of `newton` are kept.
+    pub fn by_arc_length(newton: Newton<T>, system: &System<T>, load_steps: usize) -> Self {
+        let limits = *newton.limits();
+        let path = ArcLength::new(newton.into_solver(), limits, system, load_steps);
+        let method = Method::ArcLength(Box::new(path));
+        Self { method, followers: Followers::new(system), load_steps, prescribed: Vec::new(), step: Vec::new() }
+    }
+
     /// Load factor after so many steps; it stays at 1 after the last load step.
     fn load_factor(&self, steps: usize) -> f64 {
+        if let Method::ArcLength(path) = &self.method {
+            return path.load_factor(steps);
+        }
         steps.min(self.load_steps) as f64 / self.load_steps as f64
     }
 }
@@ -83,8 +96,8 @@ impl<T: Real> Integrator<T> for Statics<T> {
         dt: f64,
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
-        let (from, to) = (self.load_factor(state.steps), self.load_factor(state.steps + 1));
         let time = state.time + dt;
+        let (from, to) = (self.load_factor(state.steps), self.load_factor(state.steps + 1));
         let Self { method, followers, prescribed, step, .. } = self;
         match method {
             Method::Linear(linear) => {
@@ -95,6 +108,7 @@ impl<T: Real> Integrator<T> for Statics<T> {
                 let mut load_step = LoadStep { newton, system, time, followers, prescribed, step };
                 load_step.advance(&mut state.u, (from, to), counters)
             }
+            Method::ArcLength(path) => path.step(system, &mut state.u, (time, state.steps), counters),
         }
     }
 
@@ -112,6 +126,7 @@ impl<T: Real> Integrator<T> for Statics<T> {
                 linear.solver.save(false, history);
             }
             Method::Newton(newton) => newton.save(history),
+            Method::ArcLength(path) => path.save(history),
         }
     }
 
@@ -122,6 +137,7 @@ impl<T: Real> Integrator<T> for Statics<T> {
                 linear.solver.restore(false, history)
             }
             Method::Newton(newton) => newton.restore(history),
+            Method::ArcLength(path) => path.restore(history),
         }
     }
 
@@ -133,6 +149,7 @@ impl<T: Real> Integrator<T> for Statics<T> {
         Some(match &self.method {
             Method::Linear(linear) => &linear.solver,
             Method::Newton(newton) => newton.solver(),
+            Method::ArcLength(path) => &path.solver,
         })
     }
 

@@ -55,6 +55,8 @@ pub(super) fn solver_choice(method: &Method, nodes: usize) -> SolverChoice {
     let is_static = method.integrator == IntegratorKind::Static;
     match &method.solver {
         Some(settings) => settings.into(),
+        // Beyond a limit point the matrix is not positive definite.
+        None if is_static && method.arc_length => SolverChoice::Lu,
         None if nodes <= if is_static { DIRECT.1 } else { DIRECT.0 } => SolverChoice::Cholesky,
         // Inertia keeps the iterations of the cheapest preconditioner few; in equilibrium only multigrid does.
         None if is_static => SolverChoice::Pcg(Preconditioner::Multigrid),
@@ -85,6 +87,9 @@ pub(super) fn build<T: Real>(
         IntegratorKind::Verlet => Box::new(Verlet::new(system)),
         IntegratorKind::LinearlyImplicitEuler => Box::new(LinearlyImplicitEuler::new(solver(), tolerance, system)),
         IntegratorKind::ImplicitEuler => Box::new(ImplicitEuler::new(newton(), system)),
+        IntegratorKind::Static if method.arc_length => {
+            Box::new(Statics::by_arc_length(newton(), system, method.load_steps))
+        }
         IntegratorKind::Static => Box::new(Statics::new(newton(), system, method.load_steps)),
     }
 }

@@ -70,7 +70,9 @@ impl Plan {
         let mut parts = self.body(kind, method.precision).to_vec();
         parts.extend(self.constraints());
         parts.extend(self.forces());
-        parts.extend(of_method(kind, method.newton.projection, solver, is_linear));
+        // Along a path there is nothing to minimise.
+        let is_minimized = !(kind == IntegratorKind::Static && (is_linear || method.arc_length));
+        parts.extend(of_method(kind, method.newton.projection, solver, is_minimized));
         parts.push(Part::skinning(self.has_display.then_some(0), NO_COST));
         parts.push(if self.is_unconstrained {
             Part::left_out("reactions", "the body is unconstrained")
@@ -181,16 +183,16 @@ fn mass(is_lumped: bool, is_explicit: bool) -> String {
 }
 
 /// Parts of the time integration method.
-fn of_method(kind: IntegratorKind, projection: Projection, choice: SolverChoice, is_linear: bool) -> Vec<Part> {
+fn of_method(kind: IntegratorKind, projection: Projection, choice: SolverChoice, is_minimized: bool) -> Vec<Part> {
     let name = kind.name();
     let has_matrix = !kind.is_explicit();
-    let has_line_search = kind.has_newton() && !(kind == IntegratorKind::Static && is_linear);
+    let has_line_search = kind.has_newton() && is_minimized;
     let mut parts: Vec<Part> = if has_matrix {
         solver(name, choice).into()
     } else {
         ["stiffness", "solver", "preconditioner"].map(|part| Part::left_out(part, needs_no(name, "matrix"))).into()
     };
-    parts.push(if !has_matrix || (kind == IntegratorKind::Static && is_linear) {
+    parts.push(if !has_matrix || !is_minimized {
         Part::left_out("projection", format!("{name} does without"))
     } else if projection == Projection::Never {
         Part::left_out("projection", "newton.projection is \"never\"")

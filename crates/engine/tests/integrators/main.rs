@@ -4,6 +4,7 @@
 #![allow(non_snake_case)] // C, D and E are the names that the mathematics uses
 
 mod affine;
+mod arc_length;
 mod balance;
 mod bars;
 mod cantilever;

@@ -123,4 +123,7 @@ pub struct DampingTable {
 pub struct StaticTable {
     /// Number of equal load steps in which loads and prescribed motions are applied.
     pub load_steps: usize,
+    /// Whether the load factor is an unknown, so that the equilibrium path is followed through its limit points.
+    #[serde(default)]
+    pub arc_length: bool,
 }

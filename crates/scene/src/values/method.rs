@@ -16,6 +16,8 @@ pub struct Method {
     pub precision: Precision,
     /// Equal parts in which `static` applies loads and prescribed motions.
     pub load_steps: usize,
+    /// Whether `static` follows the equilibrium path by arc length.
+    pub arc_length: bool,
     /// Newton's method.
     pub newton: NewtonSettings,
     /// Linear solver; `None` if the scene leaves the choice to the pipeline.
@@ -75,6 +77,7 @@ impl Scene {
             substeps: self.time.substeps.unwrap_or(1),
             precision: self.time.precision,
             load_steps: self.statics.as_ref().map_or(1, |statics| statics.load_steps),
+            arc_length: self.statics.as_ref().is_some_and(|statics| statics.arc_length),
             newton: self.newton.as_ref().map(newton).unwrap_or_default(),
             solver: self.solver.as_ref().map(solver),
         }

@@ -56,7 +56,7 @@ fn the_tables_of_the_engine_are_read() {
 #[test]
 fn load_steps_are_read_for_equilibrium() {
     let text = format!("{}[static]\nload_steps = 4\n", edit(LEAST, "implicit_euler", "static"));
-    assert_eq!(read(&text).statics, Some(StaticTable { load_steps: 4 }));
+    assert_eq!(read(&text).statics, Some(StaticTable { load_steps: 4, arc_length: false }));
     assert_refused(&edit(&text, "load_steps = 4", "load_steps = 0"), 13, "static.load_steps is 0; give at least one");
 }
 
