@@ -20,7 +20,7 @@ pub enum Command {
     Peers(PeersArguments),
     /// The costs of the parts of a step
     Parts(RunArguments),
-    /// The beam from 1 000 to 60 000 nodes: time per step, its exponent, memory
+    /// A box from 1 000 to 60 000 nodes and more: time per step, its exponent, memory
     Scaling(ScalingArguments),
     /// The beam with each linear solver
     Solvers(SizesArguments),
@@ -75,6 +75,9 @@ pub struct SizesArguments {
 pub struct ScalingArguments {
     #[command(flatten)]
     pub sizes: SizesArguments,
+    /// Scene of a box; `cantilever` with `--steps 1` and 13,20,29 cells per metre is an equilibrium of up to 209 700 nodes
+    #[arg(long, value_name = "NAME", default_value = "beam")]
+    pub scene: String,
     /// Linear solver instead of the scene's
     #[arg(long, value_name = "NAME")]
     pub solver: Option<SolverName>,

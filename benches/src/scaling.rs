@@ -13,7 +13,7 @@ use crate::run::{self, Measurement};
 /// Cells per metre of beams of 1 225 to 60 625 nodes.
 const CELLS: [usize; 7] = [6, 8, 10, 13, 16, 20, 24];
 
-/// Times beams of increasing size in turn, and prints a table and the fitted exponents.
+/// Times boxes of increasing size in turn, and prints a table and the fitted exponents.
 pub fn run(arguments: &ScalingArguments) -> Result<(), End> {
     let sizes = &arguments.sizes;
     let cells = if sizes.cells.is_empty() { CELLS.to_vec() } else { sizes.cells.clone() };
@@ -29,7 +29,7 @@ pub fn run(arguments: &ScalingArguments) -> Result<(), End> {
 
 fn beam(arguments: &ScalingArguments, cells: usize) -> RunArguments {
     RunArguments {
-        scene: "beam".to_owned(),
+        scene: arguments.scene.clone(),
         steps: Some(arguments.sizes.steps),
         cells: Some(cells),
         solver: arguments.solver,
@@ -42,20 +42,21 @@ fn beam(arguments: &ScalingArguments, cells: usize) -> RunArguments {
 fn print(cells: &[usize], runs: &[Measurement], times: &[Time]) {
     println!("{}\n", Machine::this(Path::new(".")).line());
     println!(
-        "| cells per metre | nodes | one thread, ms per step (processor) | all threads, ms per step | Newton iterations per step | peak memory, MiB |"
+        "| cells per metre | nodes | one thread, ms per step (processor) | all threads, ms per step | Newton iterations per step | set-up, s | peak memory, MiB |"
     );
-    println!("|---:|---:|---:|---:|---:|---:|");
+    println!("|---:|---:|---:|---:|---:|---:|---:|");
     let mut rows = Vec::new();
     for ((cells, run), times) in cells.iter().zip(runs).zip(times.chunks(2)) {
         let memory =
             run.peak_memory_bytes.map_or("unknown".to_owned(), |bytes| format!("{:.0}", bytes as f64 / 1048576.0));
         let (one, all) = (times[0].cpu, times[1].wall);
         println!(
-            "| {cells} | {} | {:.2} | {:.2} | {:.2} | {memory} |",
+            "| {cells} | {} | {:.2} | {:.2} | {:.2} | {:.2} | {memory} |",
             run.nodes,
             1e3 * one,
             1e3 * all,
-            run.newton_per_step
+            run.newton_per_step,
+            run.seconds_setup
         );
         rows.push((run.nodes as f64, one, all));
     }

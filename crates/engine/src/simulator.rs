@@ -88,7 +88,8 @@ pub fn planned_parts(scene: &Scene, body: &Body) -> Result<Vec<Part>, SceneError
     let numbering = Numbering::of_mesh(nodes);
     let forces: Vec<_> = forces::kinds::<f64>().into_iter().filter_map(|kind| (kind.build)(body, &numbering)).collect();
     for force in &forces {
-        path_check::check_force(&method, force.is_conservative()).map_err(|(field, problem)| scene.refuse(field, &problem))?;
+        path_check::check_force(&method, force.is_conservative())
+            .map_err(|(field, problem)| scene.refuse(field, &problem))?;
     }
     let is_linear = is_law_linear && forces.iter().all(|force| force.is_quadratic());
     let mut plan = Plan::new(body);

@@ -78,7 +78,8 @@ impl<T: Real> ArcLength<T> {
             of_unbalanced: zero(),
             tangent: zero(),
         };
-        let (values, workspace) = (vec![[[T::default(); 3]; 3]; system.pattern.blocks()], Workspace::new(system.nodes()));
+        let (values, workspace) =
+            (vec![[[T::default(); 3]; 3]; system.pattern.blocks()], Workspace::new(system.nodes()));
         Self { solver, limits, load_steps, load_factor: 0.0, lengths: None, last: zero(), values, workspace, vectors }
     }
 
@@ -110,8 +111,7 @@ impl<T: Real> ArcLength<T> {
         let [mut length, first] = self.lengths.unwrap_or([tangent / self.load_steps as f64; 2]);
         let forward = if dot(&self.last, &self.vectors.tangent) < 0.0 { -1.0 } else { 1.0 };
         for _ in 0..=HALVINGS {
-            if let Some((load_factor, iterations)) =
-                self.attempt(system, u, time, forward * length / tangent, counters)
+            if let Some((load_factor, iterations)) = self.attempt(system, u, time, forward * length / tangent, counters)
             {
                 axpy(1.0, &self.vectors.increment, u);
                 self.last.copy_from_slice(&self.vectors.increment);

@@ -1,5 +1,7 @@
 //! Mass of the nodes: M = m ⊗ 1, one number for each pair of nodes, the same in all directions.
 
+use std::ops::Range;
+
 use fem_scene::Body;
 use rayon::prelude::*;
 
@@ -125,30 +127,13 @@ impl<T: Real> Mass<T> {
 
     /// Adds `factor` M to the blocks of a matrix of the first rows.
     pub fn add_to<const D: usize>(&self, factor: T, pattern: &Pattern, values: &mut [Block<T, D>]) {
-        let mut add = |block: usize, mass: T| {
-            for i in 0..D {
-                values[block][i][i] += factor * mass;
-            }
-        };
         match self {
             Self::Lumped(masses) => {
                 for (block, &mass) in pattern.diagonal().zip(masses) {
-                    add(block, mass);
+                    add_to_diagonal(factor * mass, &mut values[block]);
                 }
             }
-            Self::Consistent(mass) => {
-                // Both rows ascend, and every pair of free nodes is in both.
-                for row in 0..pattern.rows() {
-                    let mut blocks = pattern.row(row).peekable();
-                    for pair in mass.pattern.row(row) {
-                        let column = mass.pattern.columns[pair];
-                        while blocks.next_if(|&block| pattern.columns[block] < column).is_some() {}
-                        if let Some(block) = blocks.next_if(|&block| pattern.columns[block] == column) {
-                            add(block, mass.values[pair]);
-                        }
-                    }
-                }
-            }
+            Self::Consistent(mass) => mass.add_rows_to(factor, pattern, 0..pattern.rows(), values),
         }
     }
 
@@ -196,6 +181,37 @@ impl<T: Real> Consistent<T> {
         }
     }
 
+    /// Adds `factor` M to the blocks of some rows of a matrix. Threads share many rows.
+    fn add_rows_to<const D: usize>(
+        &self,
+        factor: T,
+        pattern: &Pattern,
+        rows: Range<usize>,
+        values: &mut [Block<T, D>],
+    ) {
+        let first = pattern.starts[rows.start];
+        if rows.len() > ROWS_FOR_THREADS {
+            let middle = rows.start.midpoint(rows.end);
+            let (left, right) = values.split_at_mut(pattern.starts[middle] - first);
+            rayon::join(
+                || self.add_rows_to(factor, pattern, rows.start..middle, left),
+                || self.add_rows_to(factor, pattern, middle..rows.end, right),
+            );
+            return;
+        }
+        // Both rows ascend, and every pair of free nodes is in both.
+        for row in rows {
+            let mut blocks = pattern.row(row).peekable();
+            for pair in self.pattern.row(row) {
+                let column = self.pattern.columns[pair];
+                while blocks.next_if(|&block| pattern.columns[block] < column).is_some() {}
+                if let Some(block) = blocks.next_if(|&block| pattern.columns[block] == column) {
+                    add_to_diagonal(factor * self.values[pair], &mut values[block - first]);
+                }
+            }
+        }
+    }
+
     fn row_times<const D: usize>(&self, row: usize, x: &[[T; D]]) -> [T; D] {
         let mut sum = [T::default(); D];
         for pair in self.pattern.row(row) {
@@ -208,77 +224,11 @@ impl<T: Real> Consistent<T> {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::{ElementMass, Mass};
-    use crate::sparse::{Pattern, Stored};
-
-    fn masses() -> [Mass<f64>; 4] {
-        let (simplices, triangles) = ([[0, 1, 2, 3], [1, 2, 3, 4]], [[0, 1, 2, 3, 4, 5], [1, 6, 2, 7, 8, 4]]);
-        let shares = [16.0 / 57.0, 1.0 / 19.0].map(|share| [share; 3]);
-        [
-            Mass::lumped(9, &simplices, &[4.0, 2.0], &[0.25; 4]),
-            Mass::consistent(9, &simplices, &[4.0, 2.0], &ElementMass::simplex()),
-            Mass::lumped(9, &triangles, &[4.0, 2.0], [shares[1], shares[0]].as_flattened()),
-            Mass::consistent(9, &triangles, &[4.0, 2.0], &ElementMass::quadratic_triangle()),
-        ]
-    }
-
-    #[test]
-    fn all_masses_weigh_the_same_and_move_alike_in_translation() {
-        let v = [[1.0, -2.0, 0.5]; 9];
-        for mass in masses() {
-            assert!((mass.row_sums().iter().sum::<f64>() - 6.0).abs() < 1e-14);
-            assert!((mass.kinetic_energy(&v) - 0.5 * 6.0 * 5.25).abs() < 1e-13);
-        }
-    }
-
-    /// ∫ φ_i φ_j over a triangle of unit area by a rule of degree 4 (Strang and Fix, 1973, six points).
-    fn by_quadrature() -> [[f64; 6]; 6] {
-        let (a, b) = (0.445_948_490_915_965, 0.091_576_213_509_771);
-        let (of_a, of_b) = (0.223_381_589_678_011, 0.109_951_743_655_322);
-        let points = [(a, of_a), (b, of_b)].map(|(x, weight)| {
-            [[1.0 - 2.0 * x, x, x], [x, 1.0 - 2.0 * x, x], [x, x, 1.0 - 2.0 * x]].map(|L| (L, weight))
-        });
-        let mut sums = [[0.0; 6]; 6];
-        for (L, weight) in points.into_iter().flatten() {
-            let corner = |i: usize| L[i] * (2.0 * L[i] - 1.0);
-            let phi = [corner(0), corner(1), corner(2), 4.0 * L[0] * L[1], 4.0 * L[1] * L[2], 4.0 * L[2] * L[0]];
-            for i in 0..6 {
-                (0..6).for_each(|j| sums[i][j] += weight * phi[i] * phi[j]);
-            }
-        }
-        sums
-    }
-
-    #[test]
-    fn the_mass_of_a_quadratic_triangle_is_the_integral_of_products_of_its_shape_functions() {
-        let ElementMass(shares) = ElementMass::quadratic_triangle();
-        let expected = by_quadrature();
-        for (share, expected) in shares.as_flattened().iter().zip(expected.as_flattened()) {
-            assert!((share - expected).abs() < 1e-13, "{share} {expected}");
-        }
-    }
-
-    #[test]
-    fn the_lumped_mass_of_a_quadratic_triangle_is_its_scaled_diagonal() {
-        let ElementMass(shares) = ElementMass::quadratic_triangle();
-        let trace: f64 = (0..6).map(|i| shares[i][i]).sum();
-        let mesh = fem_mesh::quadratic(fem_mesh::rectangle_mesh([1.0, 1.0], 1).unwrap());
-        let lumped = fem_scene::BodyMesh::Quadratic { triangles: mesh, thickness: 1.0 }.lumped_mass_shares();
-        for i in 0..6 {
-            assert!((lumped[i] - shares[i][i] / trace).abs() < 1e-15);
-        }
-    }
-
-    #[test]
-    fn a_matrix_gets_the_mass_of_its_rows() {
-        let elements = [[0, 1, 2, 3], [1, 2, 3, 4]];
-        let mass = Mass::<f64>::consistent(5, &elements, &[20.0, 40.0], &ElementMass::simplex());
-        let pattern = Pattern::new(3, &elements, Stored::Lower);
-        let mut values = vec![[[0.0; 3]; 3]; pattern.blocks()];
-        mass.add_to(10.0, &pattern, &mut values);
-        assert_eq!(values[pattern.find(0, 0).unwrap()][1][1], 20.0);
-        assert_eq!(values[pattern.find(2, 1).unwrap()], [[30.0, 0.0, 0.0], [0.0, 30.0, 0.0], [0.0, 0.0, 30.0]]);
+fn add_to_diagonal<T: Real, const D: usize>(mass: T, block: &mut Block<T, D>) {
+    for i in 0..D {
+        block[i][i] += mass;
     }
 }
+
+#[cfg(test)]
+mod tests;

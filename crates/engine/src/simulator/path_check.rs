@@ -12,7 +12,10 @@ pub(super) fn check(method: &Method, body: &Body) -> Result<(), Refusal> {
     }
     let moves = |motion: &fem_scene::Motion| motion.displacement != Vector3::zeros() || motion.rotation.is_some();
     if let Some(condition) = body.dirichlet.iter().find(|condition| condition.motion.as_ref().is_some_and(moves)) {
-        return refuse(format!("follows loads, and {} is a motion; prescribe a load, or remove arc_length", condition.name));
+        return refuse(format!(
+            "follows loads, and {} is a motion; prescribe a load, or remove arc_length",
+            condition.name
+        ));
     }
     if body.contact.is_some() {
         return refuse("does not know obstacles; remove [[planes]], or arc_length".to_owned());
@@ -29,7 +32,10 @@ pub(super) fn check(method: &Method, body: &Body) -> Result<(), Refusal> {
 /// Refuses follower loads: their stiffness is not part of the matrix.
 pub(super) fn check_force(method: &Method, is_conservative: bool) -> Result<(), Refusal> {
     if method.arc_length && !is_conservative {
-        return refuse("needs loads with a potential, and the edge of a pressure is free; fix it, or give force_per_area".to_owned());
+        return refuse(
+            "needs loads with a potential, and the edge of a pressure is free; fix it, or give force_per_area"
+                .to_owned(),
+        );
     }
     Ok(())
 }

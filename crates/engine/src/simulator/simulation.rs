@@ -5,8 +5,8 @@ use std::sync::atomic::Ordering;
 
 use fem_scene::Integrator as IntegratorKind;
 use fem_scene::simulation::{
-    Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, Plane, PlaneContact, PlasticFlow, Pull,
-    Reaction, Shape, Simulation,
+    Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, Plane, PlaneContact, PlasticFlow, Pull, Reaction,
+    Shape, Simulation,
 };
 use nalgebra::{DVector, Matrix3, Vector3};
 

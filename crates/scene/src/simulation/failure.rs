@@ -89,7 +89,10 @@ impl Failure {
     pub fn of_step(steps: usize, time: f64, dt: f64, integrator: Integrator, cause: Cause) -> Self {
         let half = 0.5 * dt;
         let remedy = match integrator {
-            Integrator::Static => "use more static.load_steps, smaller loads, or static.arc_length where the load has a limit point".to_owned(),
+            Integrator::Static => {
+                "use more static.load_steps, smaller loads, or static.arc_length where the load has a limit point"
+                    .to_owned()
+            }
             Integrator::ImplicitEuler => {
                 format!("use a time step of {half} s or less, smaller loads, or a gentler pull")
             }

@@ -1,9 +1,8 @@
 //! One level: a matrix, its smoother, and the prolongation from the next coarser level.
 
-use pulp::{Simd, WithSimd};
-
 use super::aggregate::{aggregate, centres, rigid};
-use super::blocks::{Blocks, Product, add_product, row_times, sum_products};
+use super::blocks::{Blocks, Product, add_product, row_times};
+use super::cycle::{Backward, Forward, Rows, Upper, over_rows, times};
 use crate::history::{put, take};
 use crate::number::vectorized;
 use crate::solvers::block::invert;
@@ -135,9 +134,12 @@ impl<const D: usize> Level<D> {
     fn largest_eigenvalue(&mut self) -> f32 {
         let mut largest = 1.0;
         for _ in 0..POWER_STEPS {
-            for row in 0..self.A.rows() {
-                self.r[row] = times(&self.inverses[row], &row_times(&self.A, row, &self.power));
-            }
+            let Self { A, inverses, power, r, .. } = self;
+            over_rows(r, |first, r| {
+                for (row, r) in r.iter_mut().enumerate() {
+                    *r = times(&inverses[first + row], &row_times(A, first + row, power));
+                }
+            });
             let size = |x: &[[f32; D]]| x.as_flattened().iter().map(|x| f64::from(x * x)).sum::<f64>().sqrt();
             let (before, after) = (size(&self.power), size(&self.r));
             largest = (after / before) as f32;
@@ -150,12 +152,21 @@ impl<const D: usize> Level<D> {
 
     /// Smooths from x = 0 and restricts the residual: `coarse` = Pᵀ (b − A x).
     pub fn descend(&mut self, coarse: &mut [[f32; 6]]) {
-        vectorized(Descend { level: self, coarse });
+        let Self { A, diagonal, inverses, R, b, x, r, .. } = self;
+        vectorized(Forward { A, diagonal, inverses, b, x });
+        // Blocks right of the diagonal have met zeros: with the others they leave no residual.
+        over_rows(r, |first, r| vectorized(Upper { A, diagonal, x, first, r }));
+        over_rows(coarse, |first, y| vectorized(Rows { A: R, x: r, first, y }));
     }
 
     /// Adds the coarse correction and smooths in the reverse order, so that the whole cycle is symmetric.
     pub fn ascend(&mut self, coarse: &[[f32; 6]]) {
-        vectorized(Ascend { level: self, coarse });
+        let Self { A, inverses, P, b, x, r, .. } = self;
+        over_rows(r, |first, y| vectorized(Rows { A: P, x: coarse, first, y }));
+        for (x, correction) in x.as_flattened_mut().iter_mut().zip(r.as_flattened()) {
+            *x += correction;
+        }
+        vectorized(Backward { A, inverses, b, x });
     }
 
     pub fn bytes(&self) -> usize {
@@ -186,60 +197,4 @@ fn regularize(block: &mut [[f32; 6]; 6]) {
 /// Number of the diagonal block of a row.
 fn diagonal<const D: usize>(A: &Blocks<D, D>, row: usize) -> usize {
     A.starts[row] + A.row(row).0.partition_point(|&column| (column as usize) < row)
-}
-
-#[inline(always)]
-fn times<const D: usize>(A: &[[f32; D]; D], x: &[f32; D]) -> [f32; D] {
-    std::array::from_fn(|i| (0..D).map(|j| A[i][j] * x[j]).sum())
-}
-
-struct Descend<'a, const D: usize> {
-    level: &'a mut Level<D>,
-    coarse: &'a mut [[f32; 6]],
-}
-
-impl<const D: usize> WithSimd for Descend<'_, D> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _simd: S) {
-        let Self { level: Level { A, diagonal, inverses, R, b, x, r, .. }, coarse } = self;
-        // Forward Gauss–Seidel from x = 0: blocks right of the diagonal meet zeros.
-        for row in 0..A.rows() {
-            let before = A.starts[row]..diagonal[row];
-            let product = sum_products(&A.columns[before.clone()], &A.values[before], x);
-            x[row] = times(&inverses[row], &std::array::from_fn(|i| b[row][i] - product[i]));
-        }
-        // The residual is then −(blocks right of the diagonal) x.
-        for row in 0..A.rows() {
-            let after = diagonal[row] + 1..A.starts[row + 1];
-            r[row] = sum_products(&A.columns[after.clone()], &A.values[after], x).map(|product| -product);
-        }
-        for (row, coarse) in coarse.iter_mut().enumerate() {
-            *coarse = row_times(R, row, r);
-        }
-    }
-}
-
-struct Ascend<'a, const D: usize> {
-    level: &'a mut Level<D>,
-    coarse: &'a [[f32; 6]],
-}
-
-impl<const D: usize> WithSimd for Ascend<'_, D> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _simd: S) {
-        let Self { level: Level { A, inverses, P, b, x, .. }, coarse } = self;
-        for row in 0..A.rows() {
-            let correction = row_times(P, row, coarse);
-            (0..D).for_each(|i| x[row][i] += correction[i]);
-        }
-        for row in (0..A.rows()).rev() {
-            let product = row_times(A, row, x);
-            let change = times(&inverses[row], &std::array::from_fn(|i| b[row][i] - product[i]));
-            (0..D).for_each(|i| x[row][i] += change[i]);
-        }
-    }
 }

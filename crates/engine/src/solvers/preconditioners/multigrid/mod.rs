@@ -3,6 +3,7 @@
 
 mod aggregate;
 mod blocks;
+mod cycle;
 mod level;
 
 use blocks::Blocks;

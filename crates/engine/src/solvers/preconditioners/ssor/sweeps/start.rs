@@ -42,7 +42,8 @@ impl<T: Real> Start<'_, T> {
     }
 
     fn rows(self, rows: Range<usize>) {
-        let Self { matrix: Scaled { pattern, L, inverses, .. }, coarse, places, b, factor, first, r, mut residual } = self;
+        let Self { matrix: Scaled { pattern, L, inverses, .. }, coarse, places, b, factor, first, r, mut residual } =
+            self;
         for row in rows {
             let b = b[row].map(|b| (b.as_f64() * factor) as f32);
             let free = &coarse.free[row];
