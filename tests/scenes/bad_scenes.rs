@@ -123,6 +123,7 @@ fn numbers_out_of_range_are_refused_with_their_field() {
     }
     assert_refused("steps = 4", "steps = 0", 17, &["time.steps is 0", "at least one"]);
     assert_refused("steps = 4", "substeps = 0", 17, &["time.substeps is 0", "at least one"]);
+    assert_refused("steps = 4", "substeps = 1000000", 17, &["time.substeps is 1000000", "at most 100000"]);
     assert_refused("steps = 4", "substeps = 2", 17, &["time.substeps", "engine"]);
     assert_refused("-9.81", "1e999", 11, &["overflow", "README.md"]);
     for value in ["nan", "inf", "-inf"] {

@@ -1,7 +1,7 @@
 //! Kernels: computations for one batch of elements, one element in each SIMD lane.
 
 use super::Batch;
-use crate::materials::OfInvariants;
+use crate::materials::{OfInvariants, OfRotation};
 use crate::number::{Lanes, Real};
 use crate::tensor::{Tensor, Tensor4, dot, zero};
 
@@ -143,6 +143,51 @@ pub(super) fn invariant_blocks<L: Lanes, const D: usize, const E: usize>(
                     block[i][k] += w;
                     block[k][i] -= w;
                 }
+            }
+        }
+    }
+    blocks
+}
+
+/// The same blocks for a law of the rotation R, V (a ∇φ_a·∇φ_b 1 + b (R ∇φ_a)⊗(R ∇φ_b) + W_a c W_bᵀ), where row i of W_a is R_i × ∇φ_a.
+#[inline(always)]
+pub(super) fn rotation_blocks<L: Lanes, const D: usize, const E: usize>(
+    batch: &Batch<L, D, E>,
+    terms: &OfRotation<L>,
+) -> [[LaneBlock<L, D>; E]; E] {
+    let zero = L::zero();
+    let OfRotation { R, identity, rotation, spin } = terms;
+    let (identity, rotation) = (*identity * batch.volume, *rotation * batch.volume);
+    let mut blocks = [[[[zero; D]; D]; E]; E];
+    let (mut g, mut r, mut W) = ([[zero; 3]; E], [[zero; D]; E], [[[zero; 3]; D]; E]);
+    for e in 0..E {
+        g[e][..D].copy_from_slice(&batch.gradients[e]);
+        for i in 0..D {
+            r[e][i] = R[i][0] * g[e][0] + R[i][1] * g[e][1] + R[i][2] * g[e][2];
+            for k in 0..3 {
+                let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+                W[e][i][k] = R[i][next] * g[e][last] - R[i][last] * g[e][next];
+            }
+        }
+    }
+    for column in 0..E {
+        let mut right = [[zero; 3]; D];
+        for k in 0..D {
+            for m in 0..3 {
+                let w = &W[column][k];
+                right[k][m] = (spin[m][0] * w[0] + spin[m][1] * w[1] + spin[m][2] * w[2]) * batch.volume;
+            }
+        }
+        for row in column..E {
+            let (x, y) = (&g[row], &g[column]);
+            let along = identity * (x[0] * y[0] + x[1] * y[1] + x[2] * y[2]);
+            let block = &mut blocks[row][column];
+            for i in 0..D {
+                let (w, of_r) = (&W[row][i], rotation * r[row][i]);
+                for k in 0..D {
+                    block[i][k] = of_r * r[column][k] + (w[0] * right[k][0] + w[1] * right[k][1] + w[2] * right[k][2]);
+                }
+                block[i][i] += along;
             }
         }
     }

@@ -15,6 +15,7 @@ mod kernel;
 mod laws;
 mod parallel;
 pub mod quadratic;
+mod scatter;
 mod stress;
 
 #[cfg(test)]

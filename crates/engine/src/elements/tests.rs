@@ -248,11 +248,12 @@ fn blocks_of_both_kinds_are_alike<const D: usize, const E: usize, const N: usize
 }
 
 #[test]
-fn blocks_from_invariants_are_those_from_all_entries_of_the_derivative() {
+fn blocks_from_invariants_and_from_a_rotation_are_those_from_all_entries_of_the_derivative() {
     let lanes = <f64 as Real>::Lanes::splat;
     let stable = StableNeoHookean { mu: lanes(C), lambda: lanes(D) };
     blocks_of_both_kinds_are_alike(&tetrahedra(2), law::<f64>());
     blocks_of_both_kinds_are_alike(&tetrahedra(2), stable);
+    blocks_of_both_kinds_are_alike(&tetrahedra(2), crate::materials::Corotated { mu: lanes(C), lambda: lanes(D) });
     blocks_of_both_kinds_are_alike(&triangles(), law::<f64>());
     blocks_of_both_kinds_are_alike(&triangles(), stable);
 }

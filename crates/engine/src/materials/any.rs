@@ -49,6 +49,12 @@ macro_rules! laws {
                 }
             }
 
+            fn of_rotation(&self, G: &Tensor<T>) -> Option<OfRotation<T>> {
+                match self {
+                    $(Self::$Law(law) => Vectorized(*law).of_rotation(G),)*
+                }
+            }
+
             fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
                 match self {
                     $(Self::$Law(law) => Vectorized(*law).projected_derivative(G),)*

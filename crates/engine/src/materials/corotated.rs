@@ -149,33 +149,58 @@ impl<T: Number> Corotated<T> {
     }
 
     #[inline(always)]
-    fn derivative_at(&self, R: &SpaceRotation<T>, G: &Tensor<T>) -> Tensor4<T> {
+    fn terms_at(&self, R: &SpaceRotation<T>, G: &Tensor<T>) -> OfRotation<T> {
         let two_mu = constant::<T>(2.0) * self.mu;
-        let factor = self.lambda * R.strain - two_mu;
-        let (rotation, B) = (R.rotation(), R.spin(G));
-        // t_k = R [e_k]×: its column k + 1 is column k + 2 of R, and its column k + 2 is minus column k + 1.
+        let (factor, B) = (self.lambda * R.strain - two_mu, R.spin(G));
+        let spin = from_fn(
+            #[inline(always)]
+            |k, l| factor * B[k][l],
+        );
+        OfRotation { R: R.rotation(), identity: two_mu, rotation: self.lambda, spin }
+    }
+}
+
+/// ∂P/∂F = a 1 + b R⊗R + Σ c_kl t_k⊗t_l, where t_k = R [e_k]× are the changes of R.
+#[derive(Clone, Copy, Debug)]
+pub struct OfRotation<T> {
+    /// The rotation nearest to F.
+    pub R: Tensor<T>,
+    /// a, Pa
+    pub identity: T,
+    /// b, Pa
+    pub rotation: T,
+    /// c, Pa
+    pub spin: Tensor<T>,
+}
+
+impl<T: Number> OfRotation<T> {
+    /// ∂P/∂F, entry by entry.
+    #[inline(always)]
+    pub fn derivative(&self) -> Tensor4<T> {
+        let Self { R, identity, rotation, spin } = self;
+        // Column k + 1 of t_k is column k + 2 of R, and its column k + 2 is minus column k + 1.
         let mut t = [[T::zero(); 9]; 3];
         for k in 0..3 {
             let (next, last) = ((k + 1) % 3, (k + 2) % 3);
             for i in 0..3 {
-                t[k][3 * i + next] = rotation[i][last];
-                t[k][3 * i + last] = -rotation[i][next];
+                t[k][3 * i + next] = R[i][last];
+                t[k][3 * i + last] = -R[i][next];
             }
         }
         let mut H = [[T::zero(); 9]; 9];
         for row in 0..9 {
-            let pressure = self.lambda * rotation[row / 3][row % 3];
+            let of_R = *rotation * R[row / 3][row % 3];
             let mut of_t = [T::zero(); 3];
             for l in 0..3 {
-                of_t[l] = factor * (B[0][l] * t[0][row] + B[1][l] * t[1][row] + B[2][l] * t[2][row]);
+                of_t[l] = spin[0][l] * t[0][row] + spin[1][l] * t[1][row] + spin[2][l] * t[2][row];
             }
             for column in row..9 {
-                let spin = of_t[0] * t[0][column] + of_t[1] * t[1][column] + of_t[2] * t[2][column];
-                H[row][column] = pressure * rotation[column / 3][column % 3] + spin;
+                let of_spin = of_t[0] * t[0][column] + of_t[1] * t[1][column] + of_t[2] * t[2][column];
+                H[row][column] = of_R * R[column / 3][column % 3] + of_spin;
                 H[column][row] = H[row][column];
             }
         }
-        add_diagonal(&mut H, two_mu);
+        add_diagonal(&mut H, *identity);
         H
     }
 }
@@ -221,9 +246,17 @@ impl<T: Number> Law<T> for Corotated<T> {
     #[inline(always)]
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         match SpaceRotation::of(G) {
-            Some(R) => self.derivative_at(&R, G),
+            Some(R) => self.terms_at(&R, G).derivative(),
             None => self.derivative_on_crease(G),
         }
+    }
+
+    #[inline(always)]
+    fn of_rotation(&self, G: &Tensor<T>) -> Option<OfRotation<T>> {
+        SpaceRotation::of(G).map(
+            #[inline(always)]
+            |R| self.terms_at(&R, G),
+        )
     }
 
     #[inline(always)]

@@ -32,6 +32,7 @@ use crate::number::Number;
 use crate::tensor::{Tensor, Tensor4};
 use any::laws;
 pub(crate) use any::{match_law, with_law};
+pub use corotated::OfRotation;
 pub(crate) use corotated::{stretches, stretches_in_plane};
 pub(crate) use isotropic::{derivative_from, derivative_in_basis, projected_derivative_from};
 pub(crate) use logarithmic::{Kirchhoff, Logarithmic};
@@ -76,6 +77,11 @@ pub trait Law<T: Number>: Send + Sync {
     /// The terms of [`derivative`](Self::derivative), if the law has no invariants but tr(FᵀF) and det F: far fewer
     /// numbers than its 81 entries.
     fn of_invariants(&self, _G: &Tensor<T>) -> Option<OfInvariants<T>> {
+        None
+    }
+
+    /// The terms of [`derivative`](Self::derivative) of a law of the rotation nearest to F, where it is well-conditioned.
+    fn of_rotation(&self, _G: &Tensor<T>) -> Option<OfRotation<T>> {
         None
     }
 
@@ -125,6 +131,11 @@ impl<T: Number, L: Law<T> + ?Sized> Law<T> for &L {
     #[inline(always)]
     fn of_invariants(&self, G: &Tensor<T>) -> Option<OfInvariants<T>> {
         (**self).of_invariants(G)
+    }
+
+    #[inline(always)]
+    fn of_rotation(&self, G: &Tensor<T>) -> Option<OfRotation<T>> {
+        (**self).of_rotation(G)
     }
 
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::{Law, OfInvariants};
+use super::{Law, OfInvariants, OfRotation};
 use crate::number::Number;
 use crate::tensor::{Tensor, Tensor4};
 
@@ -42,5 +42,6 @@ vectorized_law!(
     EnergyAndStress energy_and_stress -> (T, Tensor<T>),
     Derivative derivative -> Tensor4<T>,
     Invariants of_invariants -> Option<OfInvariants<T>>,
+    Rotation of_rotation -> Option<OfRotation<T>>,
     ProjectedDerivative projected_derivative -> Tensor4<T>,
 );

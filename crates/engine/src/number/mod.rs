@@ -3,6 +3,7 @@
 //! A kernel is written once over [`Number`]: a float for one element, or lanes with one float of each element of a batch, which
 //! one instruction of the processor handles together.
 
+mod arithmetic;
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 mod functions;
@@ -10,9 +11,10 @@ mod lanes;
 mod packed;
 mod real;
 
+pub use arithmetic::{Lanes, Number};
 pub use functions::{constant, inverse_cube_root, is_positive, minus_ln_1p};
 pub(crate) use packed::Packed;
-pub use real::{Lanes, Number, Real};
+pub use real::Real;
 
 /// Runs `work` with the widest instructions that this processor has. Functions that it calls must be inlined into it.
 ///

@@ -83,6 +83,10 @@ fn check_time(time: &TimeTable) -> Result<(), Problem> {
     }
     match time.substeps {
         Some(0) => return problem("time.substeps", "is 0; give at least one substep"),
+        Some(count) if count > MOST_SUBSTEPS => {
+            let text = format!("is {count}; give at most {MOST_SUBSTEPS}, and a shorter time.dt where these are too long");
+            return problem("time.substeps", text);
+        }
         Some(_) if time.integrator == Integrator::Static => {
             return problem(
                 "time.substeps",
@@ -93,6 +97,9 @@ fn check_time(time: &TimeTable) -> Result<(), Problem> {
     }
     if time.steps == Some(0) { problem("time.steps", "is 0; give at least one step") } else { Ok(()) }
 }
+
+/// Largest number of substeps: a run answers to a signal, and the window to its user, after a step.
+const MOST_SUBSTEPS: usize = 100_000;
 
 fn check_damping(damping: &DampingTable) -> Result<(), Problem> {
     check_not_negative("damping.alpha", damping.alpha, "1/s")?;

@@ -22,7 +22,7 @@ dt = 0.01
 integrator = "implicit_euler"
 "#;
 
-/// What a builder was called with: its thread, and whether the mesh was there.
+/// The thread on which a builder was called, and whether the mesh was there.
 type Calls = Arc<Mutex<Vec<(ThreadId, bool)>>>;
 
 /// A worker whose scene can be changed. The density of a scene that is built becomes that of the fake; it takes `seconds`, is refused above

@@ -20,7 +20,7 @@ pub struct SceneEditor {
     up: Vector3<f64>,
 }
 
-/// What became of the state of a simulation that was built anew.
+/// The fate of the state of a simulation that was built anew.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
     /// It goes on: positions, velocities and internal variables were carried over.

@@ -8,8 +8,8 @@ use crate::experiments::flat::plasticity::relaxation::relaxation;
 
 /// The elastic strain at constant strain after half a second.
 pub fn creep() -> Result<Mistake, String> {
-    let held = relaxation(0.05)?;
-    let at = held.instants.iter().find(|at| at.time >= 0.5 - 1e-9).ok_or("the relaxation is too short")?;
+    let found = relaxation(0.05)?;
+    let at = found.instants.iter().find(|at| at.time >= 0.5 - 1e-9).ok_or("the relaxation is too short")?;
     Ok(Mistake {
         rule: "creep flows by the whole strain",
         right: "by the elastic excess over the yield",

@@ -18,15 +18,15 @@ const PATHS: [usize; 2] = [1_000_000, 300];
 /// Runs all of it.
 pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     let (mut marks, mut tables) = (Vec::new(), Vec::new());
-    let held = relaxation::relaxation(0.05)?;
+    let fine = relaxation::relaxation(0.05)?;
     let coarse = relaxation::relaxation(0.25)?;
-    let error = held.error().max(coarse.error());
+    let error = fine.error().max(coarse.error());
     marks.push(Mark::new(
         "|εᵉ|(t) = y + (|ε₀| − y) e^(−ct) in a strip of constant strain within 1e-6, with steps of 0.05 s and 0.25 s",
         format!("{error:.1e}"),
         error <= 1e-6,
     ));
-    tables.push(relaxation_table(&held));
+    tables.push(relaxation_table(&fine));
     add_motion(&mut marks, &mut tables, quick)?;
     add_cylinder(&mut marks, &mut tables)?;
     add_paths(&mut marks, &mut tables, PATHS[usize::from(quick)]);
@@ -43,7 +43,7 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
         tables,
         figures: vec![Figure {
             name: "flat-plasticity".to_owned(),
-            picture: relaxation_chart(&held).draw(),
+            picture: relaxation_chart(&fine).draw(),
             caption: "The elastic strain of a strip of constant strain, and that of the thesis' rule with 10 substeps at 60 frames a second.".to_owned(),
         }],
     })
@@ -155,7 +155,7 @@ fn add_paths(marks: &mut Vec<Mark>, tables: &mut Vec<Table>, count: usize) {
     });
 }
 
-fn relaxation_table(held: &Relaxation) -> Table {
+fn relaxation_table(fine: &Relaxation) -> Table {
     let row = |at: &relaxation::Instant| {
         vec![
             format!("{:.2}", at.time),
@@ -168,11 +168,11 @@ fn relaxation_table(held: &Relaxation) -> Table {
     Table {
         name: "flat-plasticity".to_owned(),
         head: vec![">time (s)", ">closed form", ">here", ">error", ">the thesis' rule"],
-        rows: held.instants.iter().map(row).collect(),
+        rows: fine.instants.iter().map(row).collect(),
     }
 }
 
-fn relaxation_chart(held: &Relaxation) -> Chart {
+fn relaxation_chart(fine: &Relaxation) -> Chart {
     let dots = |value: fn(&relaxation::Instant) -> f64| {
         let dot = |at: &relaxation::Instant| Dot {
             x: at.time,
@@ -180,7 +180,7 @@ fn relaxation_chart(held: &Relaxation) -> Chart {
             title: format!("{:.2} s\n{:.5}", at.time, value(at)),
             ..Dot::default()
         };
-        held.instants.iter().map(dot).collect::<Vec<_>>()
+        fine.instants.iter().map(dot).collect::<Vec<_>>()
     };
     let curve = |name: &str, colour: usize, dots: Vec<Dot>| Series {
         name: name.to_owned(),

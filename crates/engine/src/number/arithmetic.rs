@@ -1,0 +1,226 @@
+//! The numbers that kernels compute with: [`Number`], and [`Lanes`] of them.
+
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, BitAnd, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use pulp::WithSimd;
+
+use super::Real;
+
+/// The type that a kernel computes with: one [`Real`], or lanes of them. A branch is written as a [`select`](Self::select) between two
+/// values, so that lanes never part.
+pub trait Number:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + DivAssign
+{
+    /// The number in a lane.
+    type Element: Real;
+    /// A truth value in each lane.
+    type Mask: Copy + BitAnd<Output = Self::Mask>;
+
+    /// Number of lanes.
+    const LANES: usize;
+
+    /// Runs work with the instructions that these lanes are made for. Functions that it calls must be inlined into it.
+    ///
+    /// Work is a type of its own, not a closure: only its `with_simd`, marked `inline(always)`, is sure to become one with the kernel.
+    #[inline(always)]
+    fn vectorize<W: WithSimd>(work: W) -> W::Output {
+        work.with_simd(pulp::Scalar::new())
+    }
+
+    /// The same number in every lane.
+    fn splat(x: Self::Element) -> Self;
+
+    /// x^(−1/3) to a few percent, for normal x > 0: divides the exponent by three in the binary representation.
+    fn rough_inverse_cube_root(self) -> Self;
+
+    /// The number in a lane.
+    fn lane(&self, lane: usize) -> Self::Element;
+
+    /// Replaces the number in a lane.
+    fn set_lane(&mut self, lane: usize, x: Self::Element);
+
+    /// The function of the number in each lane.
+    fn map_lanes(self, value: impl Fn(Self::Element) -> Self::Element) -> Self;
+
+    /// The integer k for which x/2^k lies in [√½, √2), and x/2^k, for normal x > 0.
+    #[inline(always)]
+    fn exponent_and_significand(self) -> (Self, Self) {
+        let exponent = self.map_lanes(
+            #[inline(always)]
+            |x| x.binary_exponent(),
+        );
+        let significand = self.map_lanes(
+            #[inline(always)]
+            |x| x.significand(),
+        );
+        (exponent, significand)
+    }
+
+    /// This number in lanes where the mask is true, else the other.
+    fn select(self, mask: Self::Mask, other: Self) -> Self;
+
+    /// √x
+    fn sqrt(self) -> Self;
+
+    /// |x|
+    fn abs(self) -> Self;
+
+    /// |x| with the sign of another number.
+    fn copysign(self, sign: Self) -> Self;
+
+    /// x > y
+    fn gt(self, other: Self) -> Self::Mask;
+
+    /// x ≥ y
+    fn ge(self, other: Self) -> Self::Mask;
+
+    /// x = y
+    fn eq(self, other: Self) -> Self::Mask;
+
+    /// Whether a mask is true in every lane.
+    fn all(mask: Self::Mask) -> bool;
+
+    /// x ≤ y
+    #[inline(always)]
+    fn le(self, other: Self) -> Self::Mask {
+        other.ge(self)
+    }
+
+    /// x < y
+    #[inline(always)]
+    fn lt(self, other: Self) -> Self::Mask {
+        other.gt(self)
+    }
+
+    /// The larger of two numbers; the other one if this is NaN.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.select(self.gt(other), other)
+    }
+
+    /// The smaller of two numbers; the other one if this is NaN.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.select(self.lt(other), other)
+    }
+
+    /// 0
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::splat(Self::Element::default())
+    }
+
+    /// 1
+    #[inline(always)]
+    fn one() -> Self {
+        Self::splat(Self::Element::of(1.0))
+    }
+}
+
+/// Numbers of as many elements as a register holds.
+pub trait Lanes: Number {
+    /// Lanes of this kind from the form in which they are stored.
+    fn load(self, stored: &<Self::Element as Real>::Lanes) -> Self;
+
+    /// The numbers of all lanes.
+    fn as_slice(&self) -> &[Self::Element];
+
+    /// The numbers of all lanes, mutable.
+    fn as_mut_slice(&mut self) -> &mut [Self::Element];
+
+    /// Adds each lane of a block to the block `target(lane)`, unless that is out of range. Lanes are transposed in registers,
+    /// not number by number: extracting numbers from lanes takes much of the time of an assembly.
+    fn add_by_lane(lanes: &[[Self; 3]; 3], blocks: &mut [[[Self::Element; 3]; 3]], target: impl Fn(usize) -> u32);
+}
+
+/// Implements [`Number`] for a float.
+macro_rules! number {
+    ($float:ident) => {
+        impl Number for $float {
+            type Element = Self;
+            type Mask = bool;
+            const LANES: usize = 1;
+
+            #[inline(always)]
+            fn splat(x: Self) -> Self {
+                x
+            }
+
+            #[inline(always)]
+            fn rough_inverse_cube_root(self) -> Self {
+                Real::rough_inverse_cube_root(self)
+            }
+
+            #[inline(always)]
+            fn lane(&self, _lane: usize) -> Self {
+                *self
+            }
+
+            #[inline(always)]
+            fn set_lane(&mut self, _lane: usize, x: Self) {
+                *self = x;
+            }
+
+            #[inline(always)]
+            fn map_lanes(self, value: impl Fn(Self) -> Self) -> Self {
+                value(self)
+            }
+
+            #[inline(always)]
+            fn select(self, mask: bool, other: Self) -> Self {
+                if mask { self } else { other }
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $float::sqrt(self)
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
+
+            #[inline(always)]
+            fn copysign(self, sign: Self) -> Self {
+                $float::copysign(self, sign)
+            }
+
+            #[inline(always)]
+            fn gt(self, other: Self) -> bool {
+                self > other
+            }
+
+            #[inline(always)]
+            fn ge(self, other: Self) -> bool {
+                self >= other
+            }
+
+            #[inline(always)]
+            fn eq(self, other: Self) -> bool {
+                self == other
+            }
+
+            #[inline(always)]
+            fn all(mask: bool) -> bool {
+                mask
+            }
+        }
+    };
+}
+
+number!(f64);
+number!(f32);
