@@ -28,6 +28,9 @@ pub fn print(scene: &Scene) -> Result<(), End> {
     };
     let step = match scene.time.integrator {
         Integrator::Static => format!("load steps: {}", scene.method().load_steps),
+        _ if scene.time.adaptive.is_some() => {
+            format!("dt = {} s in parts by their estimated error", scene.time.dt())
+        }
         _ => match scene.method().substeps {
             1 => format!("dt = {} s", scene.time.dt()),
             substeps => format!("dt = {} s in {substeps} substeps", scene.time.dt()),

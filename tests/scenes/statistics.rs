@@ -24,6 +24,8 @@ const KEYS: [&str; 22] = [
     "energy_evaluations",
     "line_search_backtracks",
     "projections",
+    "accepted_steps",
+    "rejected_steps",
     "skinning_rows",
     "peak_memory_bytes",
     "min_J",

@@ -1,5 +1,6 @@
 //! The engine's simulation of one scene: a [`System`] and its [`State`], advanced by an integrator, as a [`Simulation`].
 
+mod adaptive;
 mod checkpoint;
 mod contact;
 mod divergence;
@@ -10,6 +11,7 @@ mod plan;
 mod range_check;
 mod simulation;
 mod step;
+mod substep;
 
 use std::sync::atomic::AtomicUsize;
 
@@ -29,6 +31,7 @@ use crate::refusal::Refusal;
 use crate::skinning::Skinning;
 use crate::solvers::SolverChoice;
 
+use adaptive::Control;
 use contact::Contacts;
 use divergence::SuppliedEnergy;
 use plan::Plan;
@@ -57,6 +60,8 @@ pub struct Simulator<T: Real> {
     dt: f64,
     substeps: usize,
     substep_dt: f64,
+    /// Control of the size of substeps; `None` for equal ones.
+    control: Option<Control>,
     skinning: Option<Skinning>,
     counters: Counters,
     /// Display vertices that were computed; pictures are asked for through `&self`.
@@ -151,6 +156,7 @@ impl<T: Real> Simulator<T> {
             dt: method.dt,
             substeps: method.substeps,
             substep_dt: method.dt / method.substeps as f64,
+            control: method.adaptive.map(Control::new),
             skinning,
             counters: Counters::default(),
             skinned_rows: AtomicUsize::default(),
@@ -194,9 +200,17 @@ impl<T: Real> Simulator<T> {
     fn forget(&mut self) {
         self.integrator.forget();
         self.supplied.forget();
+        if let Some(control) = &mut self.control {
+            control.forget();
+        }
         if let Some(contact) = &mut self.contact {
             contact.forget(&mut self.system);
         }
+    }
+
+    /// Whether the size of steps follows an estimate of their error.
+    fn is_adaptive(&self) -> bool {
+        self.control.is_some() && IntegratorKind::SECOND_ORDER_IMPLICIT.contains(&self.kind)
     }
 
     /// Lets the Dirichlet conditions apply that apply in a step from this time, s. Returns whether these are others than before.

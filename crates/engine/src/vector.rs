@@ -58,6 +58,12 @@ pub(crate) fn axpy<T: Real>(a: f64, x: &[[T; 3]], y: &mut [[T; 3]]) {
     }
 }
 
+/// x = a x
+pub(crate) fn scale<T: Real>(a: f64, x: &mut [[T; 3]]) {
+    let a = <T as Real>::of(a);
+    x.as_flattened_mut().iter_mut().for_each(|x| *x *= a);
+}
+
 /// y = x + b y
 pub(crate) fn xpby<T: Real>(x: &[[T; 3]], b: f64, y: &mut [[T; 3]]) {
     let b = <T as Real>::of(b);

@@ -14,12 +14,16 @@ pub enum Integrator {
     Verlet,
     LinearlyImplicitEuler,
     ImplicitEuler,
+    ImplicitMidpoint,
+    Newmark,
+    GeneralizedAlpha,
+    Bdf2,
     Static,
 }
 
 impl Integrator {
     /// All methods.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 12] = [
         Self::ExplicitEuler,
         Self::SemiImplicitEuler,
         Self::Rk2,
@@ -27,8 +31,16 @@ impl Integrator {
         Self::Verlet,
         Self::LinearlyImplicitEuler,
         Self::ImplicitEuler,
+        Self::ImplicitMidpoint,
+        Self::Newmark,
+        Self::GeneralizedAlpha,
+        Self::Bdf2,
         Self::Static,
     ];
+
+    /// The implicit methods of second order in time.
+    pub const SECOND_ORDER_IMPLICIT: [Self; 4] =
+        [Self::ImplicitMidpoint, Self::Newmark, Self::GeneralizedAlpha, Self::Bdf2];
 
     /// The name as scene files spell it.
     pub fn name(self) -> &'static str {
@@ -40,6 +52,10 @@ impl Integrator {
             Self::Verlet => "verlet",
             Self::LinearlyImplicitEuler => "linearly_implicit_euler",
             Self::ImplicitEuler => "implicit_euler",
+            Self::ImplicitMidpoint => "implicit_midpoint",
+            Self::Newmark => "newmark",
+            Self::GeneralizedAlpha => "generalized_alpha",
+            Self::Bdf2 => "bdf2",
             Self::Static => "static",
         }
     }
@@ -49,6 +65,7 @@ impl Integrator {
         match self {
             Self::ExplicitEuler | Self::SemiImplicitEuler | Self::Rk2 | Self::Rk4 | Self::Verlet => true,
             Self::LinearlyImplicitEuler | Self::ImplicitEuler | Self::Static => false,
+            Self::ImplicitMidpoint | Self::Newmark | Self::GeneralizedAlpha | Self::Bdf2 => false,
         }
     }
 
@@ -62,6 +79,7 @@ impl Integrator {
         match self {
             Self::ExplicitEuler | Self::SemiImplicitEuler | Self::Rk2 | Self::Rk4 | Self::Verlet => true,
             Self::ImplicitEuler | Self::Static => true,
+            Self::ImplicitMidpoint | Self::Newmark | Self::GeneralizedAlpha | Self::Bdf2 => true,
             Self::LinearlyImplicitEuler => false,
         }
     }

@@ -71,6 +71,11 @@ pub trait Simulation: Send {
     /// Kinetic and potential energy now, J.
     fn energies(&self) -> Energies;
 
+    /// Sum of the estimated errors of the displacements in the last step, m; `None` without adaptive steps.
+    fn estimated_error(&self) -> Option<f64> {
+        None
+    }
+
     /// Part of the loads and prescribed motions that the load steps so far have applied; `None` for a motion.
     fn load_factor(&self) -> Option<f64> {
         None
@@ -281,5 +286,7 @@ pub struct Counters {
     pub energy_evaluations: usize,
     pub line_search_backtracks: usize,
     pub projections: usize,
+    pub accepted_steps: usize,
+    pub rejected_steps: usize,
     pub skinning_rows: usize,
 }

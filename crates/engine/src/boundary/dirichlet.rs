@@ -11,6 +11,7 @@ use crate::forces::Moment;
 use crate::model::numbering::Numbering;
 use crate::number::Real;
 use crate::sparse::{Block, Pattern, Stored};
+use crate::vector::scale;
 
 /// The Dirichlet conditions of a body. Nodes have the engine's numbers; those from `free` on are fully constrained at all times.
 #[derive(Clone, Debug, Default)]
@@ -126,6 +127,16 @@ impl DirichletConditions {
         for &(node, constrained) in &self.partly {
             for i in (0..3).filter(|&i| constrained[i]) {
                 x[node][i] = T::default();
+            }
+        }
+    }
+
+    /// Multiplies the constrained entries.
+    pub fn scale_constrained<T: Real>(&self, factor: f64, x: &mut [[T; 3]]) {
+        scale(factor, &mut x[self.free..]);
+        for &(node, constrained) in &self.partly {
+            for i in (0..3).filter(|&i| constrained[i]) {
+                x[node][i] *= T::of(factor);
             }
         }
     }

@@ -11,7 +11,32 @@ use crate::number::Real;
 /// One for each Dirichlet condition, zero where its nodes are free by now. The acceleration is the mean of the last step, which began at `before`; Rayleigh damping takes
 /// its stiffness there too.
 pub fn reactions<T: Real>(system: &System<T>, before: &State<T>, state: &State<T>, moment: Moment) -> Vec<Reaction> {
-    let force = unbalanced(system, before, state, moment);
+    of_unbalanced(system, &unbalanced(system, before, state, moment))
+}
+
+/// Reactions at a stage of the last step, of which `part` lies before it, with the accelerations there (m/s²).
+pub fn reactions_at<T: Real>(
+    system: &System<T>,
+    before: &State<T>,
+    state: &State<T>,
+    (part, acceleration): (f64, &[[T; 3]]),
+) -> Vec<Reaction> {
+    let between = |before: &[[T; 3]], end: &[[T; 3]]| -> Vec<[T; 3]> {
+        let mean = |a: T, b: T| T::of(1.0 - part) * a + T::of(part) * b;
+        before.iter().zip(end).map(|(a, b)| std::array::from_fn(|i| mean(a[i], b[i]))).collect()
+    };
+    let (u, v) = (between(&before.u, &state.u), between(&before.v, &state.v));
+    let time = (1.0 - part) * before.time + part * state.time;
+    let mut unbalanced = vec![[T::default(); 3]; system.nodes()];
+    system.force(&u, &v, &u, Moment::at(time), &mut unbalanced);
+    for force in unbalanced.as_flattened_mut() {
+        *force = -*force;
+    }
+    system.mass.add_times(T::one(), acceleration, &mut unbalanced);
+    of_unbalanced(system, &unbalanced)
+}
+
+fn of_unbalanced<T: Real>(system: &System<T>, force: &[[T; 3]]) -> Vec<Reaction> {
     let sum = |nodes: &[usize], components: [bool; 3]| {
         let along = |i: usize| nodes.iter().map(|&node| force[node][i].as_f64()).sum();
         std::array::from_fn(|i| if components[i] { along(i) } else { 0.0 })

@@ -62,6 +62,12 @@ pub trait Potential<T: Real>: Send + Sync {
         false
     }
 
+    /// Whether it is that of an obstacle: then it acts at the end of a step, whatever the stage at which a method takes the other
+    /// forces, so that the body ends outside of it.
+    fn is_obstacle(&self) -> bool {
+        false
+    }
+
     /// Called once before each step of `dt` seconds, with the displacements at its start.
     fn begin_step(&mut self, _u: &[[T; 3]], _start: Moment, _dt: f64) {}
 
@@ -229,6 +235,11 @@ impl<T: Real> Forces<T> {
     /// The active ones.
     pub fn active(&self) -> impl Iterator<Item = (&dyn Potential<T>, &Timer)> {
         self.all().filter(|(potential, _)| potential.is_active())
+    }
+
+    /// Whether the body has obstacles.
+    pub fn has_obstacles(&self) -> bool {
+        self.active().any(|(potential, _)| potential.is_obstacle())
     }
 
     /// Whether a follower load acts.

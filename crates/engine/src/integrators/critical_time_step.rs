@@ -29,7 +29,7 @@ pub fn critical_time_step<T: Real>(kind: IntegratorKind, system: &System<T>) -> 
         IntegratorKind::ExplicitEuler => limit_of_taylor_method(1, ratio),
         IntegratorKind::Rk2 => limit_of_taylor_method(2, ratio),
         IntegratorKind::Rk4 => limit_of_taylor_method(4, ratio),
-        IntegratorKind::LinearlyImplicitEuler | IntegratorKind::ImplicitEuler | IntegratorKind::Static => return None,
+        _ => return None,
     };
     Some(limit / omega)
 }

@@ -50,7 +50,7 @@ impl<T: Real> Integrator<T> for ImplicitEuler<T> {
         extrapolate(step, inertial, last_change, T::of(dt));
         InitialGuess { newton, followers, system, increment, inertia }.find(step, counters)?;
         let convergence = followers.minimize(newton, system, increment, step, counters)?;
-        momentum::restore(&followers.potential(system, increment), dt, step);
+        momentum::restore(&followers.potential(system, increment), dt, 1.0, step);
         finish(step, dt, state, last_change);
         Ok(convergence)
     }

@@ -1,4 +1,4 @@
-//! The initial guess of a step of implicit Euler: an increment of finite energy that satisfies the Dirichlet conditions.
+//! The initial guess of a step of an implicit method: an increment of finite energy that satisfies the Dirichlet conditions.
 
 use fem_scene::simulation::{Cause, Counters};
 
@@ -128,13 +128,13 @@ impl<T: Real> InitialGuess<'_, T> {
 
     /// Overwrites the constrained entries.
     fn prescribe(&self, step: &mut [[T; 3]]) {
-        self.system.prescribe(self.increment.start, self.increment.end, step);
+        self.increment.prescribe(self.system, step);
     }
 
     /// Whether Newton's method can start at an increment, which is moved out of obstacles first.
     fn is_feasible(&mut self, step: &mut [[T; 3]], counters: &mut Counters) -> bool {
         let Self { newton, followers, system, increment, .. } = self;
-        system.make_feasible(increment.start, increment.end, step);
+        increment.make_feasible(system, step);
         newton.is_feasible(&followers.potential(system, *increment), step, counters)
     }
 }

@@ -77,7 +77,7 @@ impl<T: Real> Integrator<T> for LinearlyImplicitEuler<T> {
         solver.solve(values, right, step, self.tolerance).map_err(Cause::Solver)?;
         system.dirichlet.clear_constrained(step);
         axpy(1.0, prescribed, step);
-        momentum::restore(&potential, dt, step);
+        momentum::restore(&potential, dt, 1.0, step);
         let over_dt = T::of(1.0 / dt);
         for (node, step) in step.iter().enumerate() {
             for i in 0..3 {

@@ -13,6 +13,7 @@ mod mass_inverse;
 mod momentum;
 mod rk2;
 mod rk4;
+mod second_order;
 mod semi_implicit_euler;
 mod statics;
 mod verlet;
@@ -26,6 +27,7 @@ pub use linearly_implicit_euler::LinearlyImplicitEuler;
 pub use mass_inverse::MassInverse;
 pub use rk2::Rk2;
 pub use rk4::Rk4;
+pub use second_order::{Scheme, SecondOrder};
 pub use semi_implicit_euler::SemiImplicitEuler;
 pub use statics::Statics;
 pub use verlet::Verlet;
@@ -52,6 +54,9 @@ pub trait Integrator<T: Real>: Send {
         counters: &mut Counters,
     ) -> Result<Convergence, Cause>;
 
+    /// The last step has been accepted: the next one starts where it ended. Until then a step may be repeated from its start.
+    fn accept(&mut self) {}
+
     /// Drops everything kept from earlier steps: the state or a parameter has changed.
     fn forget(&mut self) {}
 
@@ -69,6 +74,16 @@ pub trait Integrator<T: Real>: Send {
     /// The moment at which the forces of a state are evaluated.
     fn moment(&self, state: &State<T>) -> Moment {
         Moment::at(state.time)
+    }
+
+    /// The stage at which the last step has solved the equation of motion; `None` for its end, and before the first step.
+    fn last_stage(&self) -> Option<LastStage<'_, T>> {
+        None
+    }
+
+    /// Estimate of the largest error of a displacement that the last step has made, m; `None` for a method without one.
+    fn estimated_error(&self) -> Option<f64> {
+        None
     }
 
     /// The linear solver of an implicit method.
@@ -95,4 +110,14 @@ pub trait Integrator<T: Real>: Send {
     fn has_line_search(&self) -> bool {
         false
     }
+}
+
+/// A stage within a step: displacements, velocities and time are those at the end of the step times `part`, and the rest those at its
+/// start.
+#[derive(Clone, Copy, Debug)]
+pub struct LastStage<'a, T> {
+    /// The part of the step before it.
+    pub part: f64,
+    /// Accelerations there, m/s².
+    pub acceleration: &'a [[T; 3]],
 }

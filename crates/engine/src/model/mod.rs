@@ -3,6 +3,7 @@
 mod any_elements;
 pub mod mass;
 pub mod numbering;
+mod obstacles;
 pub mod solids;
 pub mod state;
 pub mod system;

@@ -6,8 +6,15 @@ use fem_scene::simulation::{Cause, Counters};
 use super::incremental_potential::IncrementalPotential;
 use super::{Factor, Newton};
 use crate::forces::HessianKind;
+use crate::model::system::System;
 use crate::number::Real;
 use crate::vector::max_norm;
+
+/// Change of 1/τ² up to which a factor is kept: with another one, an update would be too short or too long by about that.
+const SAME: f64 = 1.5;
+
+/// Relative residual of a solution that needs a few digits.
+const SMOOTHED: f64 = 0.05;
 
 impl<T: Real> Newton<T> {
     /// Writes into `w` the minimum of the energy to second order about w = 0 with the prescribed increments of the constrained
@@ -33,6 +40,33 @@ impl<T: Real> Newton<T> {
         Ok(())
     }
 
+    /// Whether the kept Hessian has about the inertia of this step.
+    pub(super) fn serves(&self, potential: &IncrementalPotential<T>) -> bool {
+        let inertia = potential.increment.inertia.map(|inertia| inertia.over_dt2);
+        self.inertia_of_hessian
+            .zip(inertia)
+            .is_none_or(|(kept, now)| now <= T::of(SAME) * kept && kept <= T::of(SAME) * now)
+    }
+
+    /// Replaces x by H⁻¹ M x/τ² with the kept Hessian H of an earlier iterate and its τ, to a few digits: the part of x that varies
+    /// slowly stays. Leaves it as it is if there is none. Overwrites `right`.
+    pub fn smooth(&mut self, system: &System<T>, right: &mut [[T; 3]], x: &mut [[T; 3]]) {
+        let Some(over_dt2) = self.inertia_of_hessian else { return };
+        right.fill([T::default(); 3]);
+        system.add_mass_times(over_dt2, x, right);
+        system.dirichlet.clear_constrained(right);
+        self.direction.fill([T::default(); 3]);
+        let is_solved = if self.solver.is_iterative() {
+            self.solver.solve(&self.values, right, &mut self.direction, SMOOTHED).is_ok()
+        } else {
+            self.solver.apply(right, &mut self.direction);
+            true
+        };
+        if is_solved {
+            x.copy_from_slice(&self.direction);
+        }
+    }
+
     /// Assembles the Hessian at w and factors it: the exact one if `kind` and the settings allow and it is positive definite, else
     /// the projected one, else that one shifted.
     pub(super) fn prepare(
@@ -46,7 +80,7 @@ impl<T: Real> Newton<T> {
         if kind == HessianKind::Exact && self.limits.projection != Projection::Always {
             counters.stiffness_assemblies += 1;
             potential.hessian(w, HessianKind::Exact, &mut self.values, &mut self.workspace);
-            if self.factor_values(counters) {
+            if self.factor_values(potential, counters) {
                 self.factor = Factor::Fresh;
                 return Ok(());
             }
@@ -55,7 +89,7 @@ impl<T: Real> Newton<T> {
             counters.stiffness_assemblies += 1;
             counters.projections += potential.system.elements.count;
             potential.hessian(w, HessianKind::Projected, &mut self.values, &mut self.workspace);
-            if self.factor_values(counters) {
+            if self.factor_values(potential, counters) {
                 self.factor = Factor::FreshProjected;
                 return Ok(());
             }
@@ -65,7 +99,8 @@ impl<T: Real> Newton<T> {
 
     /// Factors the assembled values, or makes a preconditioner for them unless the kept one still serves. Returns false if the
     /// factorization fails.
-    fn factor_values(&mut self, counters: &mut Counters) -> bool {
+    fn factor_values(&mut self, potential: &IncrementalPotential<T>, counters: &mut Counters) -> bool {
+        self.inertia_of_hessian = potential.increment.inertia.map(|inertia| inertia.over_dt2);
         if self.solver.is_iterative() && !self.solver.copies_matrix() && self.first_iterations.is_some() {
             return true;
         }

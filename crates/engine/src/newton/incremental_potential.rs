@@ -1,12 +1,19 @@
 //! The incremental potential: its minimum is a step of implicit Euler, or equilibrium.
 
-use crate::forces::{Energy, HessianKind, Moment};
+pub use super::increment::{Increment, Inertia, StepEnd};
+
+use crate::forces::{Energy, HessianKind};
 use crate::model::system::System;
 use crate::number::Real;
 use crate::sparse::Block;
+use crate::vector::axpy;
 
-/// E(w) = ‖w − ŵ‖²_M / (2 dt²) + wᵀ C w / (2 dt) + V(u₀ + w), C = α M + β K(u₀), for the displacement increment w: its minimum is a
-/// step of implicit Euler, M (w − ŵ)/dt² = f − C w/dt. Without the first two terms it is equilibrium.
+/// E(w) = ‖w − ŵ‖²_M / (2 τ²) + c (w − w̌)ᵀ C (w − w̌) / 2 + V(u₀ + w) + W(u₀ + s w) κ/s, C = α M + β K(u_d), for the displacement
+/// increment w: its minimum solves M (w − ŵ)/τ² + c C (w − w̌) = f(u₀ + w) + κ f_o(u₀ + s w). With τ = dt, c = 1/dt, w̌ = 0 and s = κ = 1
+/// it is a step of implicit Euler; without the first two terms it is equilibrium.
+///
+/// V is the energy of the body and of its loads, W that of the obstacles. Second-order methods have w lead to a stage within the step,
+/// and s w to its end.
 ///
 /// The unknown is the increment instead of the new displacement, so that velocities w/dt keep their digits in single precision.
 #[derive(Clone, Copy)]
@@ -19,55 +26,34 @@ pub struct IncrementalPotential<'a, T: Real> {
     pub followers: &'a [[T; 3]],
 }
 
-/// The start and the end of a step.
-#[derive(Clone, Copy)]
-pub struct Increment<'a, T> {
-    /// Displacements at its start, m.
-    pub start: &'a [[T; 3]],
-    /// Its end, at which forces are evaluated.
-    pub end: Moment,
-    /// Inertia and damping; `None` for equilibrium.
-    pub inertia: Option<Inertia<'a, T>>,
-}
-
-/// Inertia and damping of a step.
-#[derive(Clone, Copy)]
-pub struct Inertia<'a, T> {
-    /// ŵ = dt v₀, the increment without forces, m.
-    pub inertial: &'a [[T; 3]],
-    /// 1/dt², 1/s².
-    pub over_dt2: T,
-    /// α/dt, 1/s², and β/dt; `None` without damping.
-    pub damping: Option<(T, T)>,
-}
-
-impl<'a, T: Real> Inertia<'a, T> {
-    /// Inertia of a step of `dt` seconds.
-    pub fn new(system: &System<T>, inertial: &'a [[T; 3]], dt: f64) -> Self {
-        let rates = |damping: &fem_scene::RayleighDamping| (T::of(damping.alpha / dt), T::of(damping.beta / dt));
-        Self { inertial, over_dt2: T::of(1.0 / (dt * dt)), damping: system.damping.as_ref().map(rates) }
-    }
-}
-
 /// Vectors for evaluations, kept from step to step.
 #[derive(Clone, Debug, Default)]
 pub struct Workspace<T> {
     u: Vec<[T; 3]>,
     difference: Vec<[T; 3]>,
     product: Vec<[T; 3]>,
+    /// Displacements at the end of the step, m; empty until they are needed.
+    end: Vec<[T; 3]>,
 }
 
 impl<T: Real> Workspace<T> {
     /// Allocates vectors for so many nodes.
     pub fn new(nodes: usize) -> Self {
         let zero = || vec![[T::default(); 3]; nodes];
-        Self { u: zero(), difference: zero(), product: zero() }
+        Self { u: zero(), difference: zero(), product: zero(), end: Vec::new() }
     }
 
     fn set_u(&mut self, start: &[[T; 3]], w: &[[T; 3]]) {
         for (u, (start, w)) in self.u.iter_mut().zip(start.iter().zip(w)) {
             *u = std::array::from_fn(|i| start[i] + w[i]);
         }
+    }
+
+    /// Sets the displacements at the end of the step, u₀ + s w.
+    fn set_end(&mut self, start: &[[T; 3]], ratio: f64, w: &[[T; 3]]) {
+        self.end.resize(start.len(), [T::default(); 3]);
+        self.end.copy_from_slice(start);
+        axpy(ratio, w, &mut self.end);
     }
 }
 
@@ -76,7 +62,13 @@ impl<T: Real> IncrementalPotential<'_, T> {
     pub fn energy_and_gradient(&self, w: &[[T; 3]], gradient: &mut [[T; 3]], workspace: &mut Workspace<T>) -> Energy {
         let Increment { start, end, inertia } = self.increment;
         workspace.set_u(start, w);
-        let potential = self.system.potential_and_gradient(&workspace.u, end, gradient);
+        let potential = match self.end_with_obstacles() {
+            None => self.system.potential_and_gradient(&workspace.u, end, gradient),
+            Some(step_end) => {
+                let own = self.system.own_potential_and_gradient(&workspace.u, end, gradient);
+                own + self.add_obstacles(step_end, w, gradient, workspace)
+            }
+        };
         let of_followers = self.add_followers(&workspace.u, gradient);
         let kinetic = inertia.map_or(Energy::default(), |inertia| self.add_inertia(&inertia, w, gradient, workspace));
         self.system.dirichlet.clear_constrained(gradient);
@@ -98,7 +90,34 @@ impl<T: Real> IncrementalPotential<'_, T> {
     /// The largest multiple of `direction` from w up to which every force stays feasible.
     pub fn largest_step(&self, w: &[[T; 3]], direction: &[[T; 3]], workspace: &mut Workspace<T>) -> f64 {
         workspace.set_u(self.increment.start, w);
-        self.system.largest_step(&workspace.u, direction)
+        let Some(StepEnd { ratio, .. }) = self.end_with_obstacles() else {
+            return self.system.largest_step(&workspace.u, direction);
+        };
+        workspace.set_end(self.increment.start, ratio, w);
+        // A direction that is longer by a factor can be followed to a smaller multiple of it.
+        let of_obstacles = self.system.largest_step_to_obstacles(&workspace.end, direction) / ratio;
+        self.system.own_largest_step(&workspace.u, direction).min(of_obstacles)
+    }
+
+    /// The end of the step where it is not that of the increment and obstacles act on the body.
+    fn end_with_obstacles(&self) -> Option<StepEnd> {
+        self.increment.step_end().filter(|_| self.system.forces.has_obstacles())
+    }
+
+    /// Adds the gradient of W κ/s at the end of the step, and returns that energy.
+    fn add_obstacles(
+        &self,
+        StepEnd { moment, ratio, weight }: StepEnd,
+        w: &[[T; 3]],
+        gradient: &mut [[T; 3]],
+        workspace: &mut Workspace<T>,
+    ) -> Energy {
+        workspace.set_end(self.increment.start, ratio, w);
+        let Workspace { end, product, .. } = workspace;
+        let Energy { value, terms } = self.system.obstacle_energy_and_gradient(end, moment, product);
+        axpy(weight, product, gradient);
+        let factor = weight / ratio;
+        Energy { value: factor * value, terms: factor * terms }
     }
 
     /// Adds the fixed gradient of the follower loads, and returns the energy g·u that it is the gradient of.
@@ -132,10 +151,12 @@ impl<T: Real> IncrementalPotential<'_, T> {
         let mut energy = Energy::of(add_and_multiply(difference, product, gradient));
         if let Some((alpha, beta)) = inertia.damping {
             let damp = || {
+                let moved = inertia.moved(w, difference);
                 product.fill([T::default(); 3]);
-                self.system.mass.add_times(alpha, w, product);
-                self.system.add_stiffness_times(beta, self.increment.start, w, product);
-                Energy::of(add_and_multiply(w, product, gradient))
+                self.system.mass.add_times(alpha, moved, product);
+                let stiffness_at = inertia.stiffness_at.unwrap_or(self.increment.start);
+                self.system.add_stiffness_times(beta, stiffness_at, moved, product);
+                Energy::of(add_and_multiply(moved, product, gradient))
             };
             energy = energy + self.system.profile.damping.time(damp);
         }
@@ -146,7 +167,14 @@ impl<T: Real> IncrementalPotential<'_, T> {
     /// freedom, N. It needs neither an energy nor a matrix.
     pub fn linearized_gradient(&self, prescribed: &[[T; 3]], gradient: &mut [[T; 3]], workspace: &mut Workspace<T>) {
         let Self { system, increment: Increment { start, end, inertia }, .. } = *self;
-        system.gradient(start, end, gradient);
+        match self.end_with_obstacles() {
+            None => system.gradient(start, end, gradient),
+            Some(StepEnd { moment, weight, .. }) => {
+                system.own_potential_and_gradient(start, end, gradient);
+                system.obstacle_energy_and_gradient(start, moment, &mut workspace.product);
+                axpy(weight, &workspace.product, gradient);
+            }
+        }
         self.add_followers(start, gradient);
         let mut stiffness = T::of(1.0);
         if let Some(inertia) = inertia {
@@ -173,12 +201,19 @@ impl<T: Real> IncrementalPotential<'_, T> {
         workspace.set_u(start, w);
         values.fill([[T::default(); 3]; 3]);
         system.add_stiffness(T::of(1.0), &workspace.u, kind, values);
-        if let Some((_, beta)) = inertia.and_then(|inertia| inertia.damping)
+        if let Some(Inertia { damping: Some((_, beta)), stiffness_at, .. }) = inertia
             && beta > T::default()
         {
-            system.add_stiffness(beta, start, kind, values);
+            system.add_stiffness(beta, stiffness_at.unwrap_or(start), kind, values);
         }
-        system.add_external_hessian(&workspace.u, kind, values);
+        match self.end_with_obstacles() {
+            None => system.add_external_hessian(&workspace.u, kind, values),
+            Some(StepEnd { ratio, weight, .. }) => {
+                workspace.set_end(start, ratio, w);
+                system.add_own_external_hessian(&workspace.u, kind, values);
+                system.add_obstacle_hessian(T::of(weight * ratio), &workspace.end, kind, values);
+            }
+        }
         if let Some(inertia) = inertia {
             let mass = inertia.over_dt2 + inertia.damping.map_or(T::default(), |(alpha, _)| alpha);
             system.profile.mass.time(|| system.mass.add_to(mass, &system.pattern, values));

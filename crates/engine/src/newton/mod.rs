@@ -7,6 +7,7 @@
 
 mod forcing;
 mod hessian;
+mod increment;
 pub mod incremental_potential;
 mod lbfgs;
 mod limits;
@@ -48,6 +49,8 @@ pub struct Newton<T: Real> {
     next: Vec<[T; 3]>,
     /// The kept factor.
     factor: Factor,
+    /// 1/τ² of the last Hessian, 1/s²; `None` if there is none, or none of a motion.
+    inertia_of_hessian: Option<T>,
     /// Iterations of the first solve with the kept preconditioner; `None` where it has to be refactored.
     first_iterations: Option<usize>,
     /// Whether the next solve is the first with a new preconditioner.
@@ -102,6 +105,7 @@ impl<T: Real> Newton<T> {
             right: zero(),
             next: zero(),
             factor: Factor::Stale,
+            inertia_of_hessian: None,
             first_iterations: None,
             is_new_preconditioner: false,
             is_matrix_outdated: false,
@@ -110,7 +114,7 @@ impl<T: Real> Newton<T> {
 
     /// Drops the kept factor: a parameter or the state has changed.
     pub fn forget(&mut self) {
-        self.factor = Factor::Stale;
+        (self.factor, self.inertia_of_hessian) = (Factor::Stale, None);
         self.first_iterations = None;
         self.lbfgs.clear();
     }
@@ -123,6 +127,7 @@ impl<T: Real> Newton<T> {
         put_flag(history, "newton.is_new_preconditioner", self.is_new_preconditioner);
         self.solver.save(is_kept || first_iterations.is_some(), history);
         if is_kept {
+            put_option(history, "newton.inertia", self.inertia_of_hessian.map(|inertia| inertia.as_f64()));
             put(history, "newton.values", self.values.as_flattened().as_flattened());
             self.lbfgs.save(history);
         }
@@ -142,6 +147,7 @@ impl<T: Real> Newton<T> {
             self.solver.prepare_again(&self.values)?;
             self.lbfgs.restore(history)?;
             self.factor = Factor::Kept;
+            self.inertia_of_hessian = take_option(history, "newton.inertia")?.map(T::of);
         }
         Ok(())
     }
@@ -175,9 +181,8 @@ impl<T: Real> Newton<T> {
         w: &mut [[T; 3]],
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
-        if self.factor != Factor::Stale {
-            self.factor = Factor::Kept;
-        }
+        self.factor =
+            if self.factor == Factor::Stale || !self.serves(potential) { Factor::Stale } else { Factor::Kept };
         self.is_matrix_outdated = false;
         let energy = potential.energy_and_gradient(w, &mut self.gradient, &mut self.workspace);
         let norm = norm(&self.gradient);

@@ -23,6 +23,9 @@ pub(super) fn of<T: Real>(simulator: &Simulator<T>) -> Checkpoint {
     if let Some(contact) = &simulator.contact {
         contact.save(&mut history);
     }
+    if let Some(control) = &simulator.control {
+        control.save(&mut history);
+    }
     simulator.integrator.save(&mut history);
     Checkpoint {
         time: simulator.state.time,
@@ -61,6 +64,11 @@ pub(super) fn restore<T: Real>(simulator: &mut Simulator<T>, checkpoint: &Checkp
     take(history, "unconverged_steps", &mut unconverged_steps)?;
     simulator.counters.unconverged_steps = (unconverged_steps[0] as usize).min(checkpoint.steps);
     simulator.supplied.restore(history)?;
+    if let Some(control) = &mut simulator.control {
+        control.restore(history)?;
+        let last = simulator.state.time - simulator.last_good.time;
+        simulator.substep_dt = if last > 0.0 { last } else { simulator.substep_dt };
+    }
     if let Some(contact) = &mut simulator.contact {
         contact.restore(history, &mut simulator.system, simulator.substep_dt)?;
     }

@@ -42,6 +42,16 @@ impl<T: Real> SuppliedEnergy<T> {
         self.work += work;
     }
 
+    /// Its sums, which a step that is rejected must not change.
+    pub(super) fn sums(&self) -> [f64; 2] {
+        [self.work, self.largest]
+    }
+
+    /// Returns to earlier sums.
+    pub(super) fn set_sums(&mut self, sums: [f64; 2]) {
+        [self.work, self.largest] = sums;
+    }
+
     /// Adds its sums to a history.
     pub(super) fn save(&self, history: &mut History) {
         let (energy, potential) = self.start.unzip();

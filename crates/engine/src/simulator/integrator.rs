@@ -5,7 +5,8 @@ use std::sync::Arc;
 use fem_scene::{Integrator as IntegratorKind, Method};
 
 use crate::integrators::{
-    ExplicitEuler, ImplicitEuler, Integrator, LinearlyImplicitEuler, Rk2, Rk4, SemiImplicitEuler, Statics, Verlet,
+    ExplicitEuler, ImplicitEuler, Integrator, LinearlyImplicitEuler, Rk2, Rk4, Scheme, SecondOrder, SemiImplicitEuler,
+    Statics, Verlet,
 };
 use crate::model::system::System;
 use crate::newton::{Newton, NewtonLimits};
@@ -36,7 +37,19 @@ pub fn integrators(kind: IntegratorKind) -> &'static [IntegratorKind] {
     use IntegratorKind as Kind;
     match kind {
         Kind::Static => &[Kind::Static],
-        Kind::LinearlyImplicitEuler | Kind::ImplicitEuler => &[Kind::LinearlyImplicitEuler, Kind::ImplicitEuler],
+        Kind::LinearlyImplicitEuler
+        | Kind::ImplicitEuler
+        | Kind::ImplicitMidpoint
+        | Kind::Newmark
+        | Kind::GeneralizedAlpha
+        | Kind::Bdf2 => &[
+            Kind::LinearlyImplicitEuler,
+            Kind::ImplicitEuler,
+            Kind::ImplicitMidpoint,
+            Kind::Newmark,
+            Kind::GeneralizedAlpha,
+            Kind::Bdf2,
+        ],
         // Where one explicit method is meant to be stable, all are.
         Kind::ExplicitEuler | Kind::SemiImplicitEuler | Kind::Rk2 | Kind::Rk4 | Kind::Verlet => &[
             Kind::ExplicitEuler,
@@ -46,6 +59,10 @@ pub fn integrators(kind: IntegratorKind) -> &'static [IntegratorKind] {
             Kind::Verlet,
             Kind::LinearlyImplicitEuler,
             Kind::ImplicitEuler,
+            Kind::ImplicitMidpoint,
+            Kind::Newmark,
+            Kind::GeneralizedAlpha,
+            Kind::Bdf2,
         ],
     }
 }
@@ -89,6 +106,13 @@ pub(super) fn build<T: Real>(
         IntegratorKind::ImplicitEuler => Box::new(ImplicitEuler::new(newton(), system)),
         IntegratorKind::Static if method.arc_length => {
             Box::new(Statics::by_arc_length(newton(), system, method.load_steps))
+        }
+        IntegratorKind::ImplicitMidpoint
+        | IntegratorKind::Newmark
+        | IntegratorKind::GeneralizedAlpha
+        | IntegratorKind::Bdf2 => {
+            let scheme = Scheme::new(kind, method).expect("an implicit method of second order");
+            Box::new(SecondOrder::new(scheme, newton(), system, method.adaptive.is_some()))
         }
         IntegratorKind::Static => Box::new(Statics::new(newton(), system, method.load_steps)),
     }

@@ -12,8 +12,8 @@ use nalgebra::{DVector, Matrix3, Vector3};
 
 use super::integrator::{build, integrators, solver_choice};
 use super::{Simulator, checkpoint, parts};
-use crate::boundary::reactions::reactions;
-use crate::integrators::critical_time_step;
+use crate::boundary::reactions::{reactions, reactions_at};
+use crate::integrators::{LastStage, critical_time_step};
 use crate::model::state::State;
 use crate::number::Real;
 use crate::pick;
@@ -97,6 +97,10 @@ impl<T: Real> Simulation for Simulator<T> {
         Energies { kinetic: system.mass.kinetic_energy(&state.v), potential }
     }
 
+    fn estimated_error(&self) -> Option<f64> {
+        self.control.as_ref().filter(|_| self.is_adaptive()).map(|control| control.error)
+    }
+
     fn load_factor(&self) -> Option<f64> {
         self.integrator.moment(&self.state).load_factor
     }
@@ -176,7 +180,10 @@ impl<T: Real> Simulation for Simulator<T> {
         if system.is_unconstrained() {
             return Vec::new();
         }
-        self.reactions_timer.time(|| reactions(system, last_good, state, integrator.moment(state)))
+        self.reactions_timer.time(|| match integrator.last_stage() {
+            Some(LastStage { part, acceleration }) => reactions_at(system, last_good, state, (part, acceleration)),
+            None => reactions(system, last_good, state, integrator.moment(state)),
+        })
     }
 
     fn nodal_forces(&self) -> Option<DVector<f64>> {

@@ -2,7 +2,7 @@
 
 use fem_engine::simulator::Simulator;
 
-use crate::{METHODS, SQUARE, build, floor, gravity, momentum, run, text};
+use crate::{METHODS, SQUARE, build, floor, gravity, is_implicit, momentum, run, text};
 
 const G: f64 = 9.81;
 
@@ -16,7 +16,7 @@ fn speed(simulation: &Simulator<f64>) -> f64 {
 
 fn step_of(method: &str) -> f64 {
     match method {
-        "implicit_euler" => 5e-3,
+        _ if is_implicit(method) => 5e-3,
         // Its vibrations die out slowly, and rock the body.
         "explicit_euler" => 5e-5,
         _ => 5e-4,

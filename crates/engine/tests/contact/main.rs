@@ -18,7 +18,28 @@ use fem_scene::simulation::Simulation;
 use fem_scene::{Scene, SceneError, parse};
 
 /// The methods that support contact and move.
-const METHODS: [&str; 6] = ["explicit_euler", "semi_implicit_euler", "rk2", "rk4", "verlet", "implicit_euler"];
+const METHODS: [&str; 10] = [
+    "explicit_euler",
+    "semi_implicit_euler",
+    "rk2",
+    "rk4",
+    "verlet",
+    "implicit_euler",
+    "implicit_midpoint",
+    "newmark",
+    "generalized_alpha",
+    "bdf2",
+];
+
+/// The methods that do not keep vibrations against the barrier for long: a step of the others throws a node back at its speed.
+fn dissipative() -> impl Iterator<Item = &'static str> {
+    METHODS.into_iter().filter(|method| !["implicit_midpoint", "newmark", "generalized_alpha"].contains(method))
+}
+
+/// Whether a method keeps the body outside by a barrier.
+fn is_implicit(method: &str) -> bool {
+    METHODS[5..].contains(&method)
+}
 
 fn scene(text: &str) -> Scene {
     parse(text, Path::new("folder/name.toml")).unwrap_or_else(|error| panic!("{error}\n{text}"))

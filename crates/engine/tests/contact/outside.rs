@@ -2,7 +2,7 @@
 
 use fem_engine::simulator;
 
-use crate::{METHODS, floor, gravity, scene, text};
+use crate::{METHODS, floor, gravity, is_implicit, scene, text};
 
 const FLAT: &str = "rectangle = { size = [1, 1], cells_per_unit = 4 }";
 const SOLID: &str = "box = { size = [1, 1, 1], cells_per_unit = 2 }";
@@ -15,7 +15,7 @@ fn falling(mesh: &str, model: &str, method: &str, precision: &str) -> String {
                  [damping]\nalpha = 0.5\n";
     let tables = gravity(0.0, -9.81) + &floor(-0.4, "friction = 0.4") + slants + start;
     let (dt, unconverged) = match method {
-        "implicit_euler" => (0.01, "[newton]\naccept_unconverged = true\n"),
+        _ if is_implicit(method) => (0.01, "[newton]\naccept_unconverged = true\n"),
         _ => (5e-4, ""),
     };
     text(mesh, model, 5e4, method, dt, &format!("precision = \"{precision}\"\n{tables}{unconverged}"))

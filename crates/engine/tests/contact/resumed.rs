@@ -2,12 +2,12 @@
 
 use fem_scene::simulation::Simulation;
 
-use crate::{CUBE, METHODS, build, floor, gravity, run, text};
+use crate::{CUBE, METHODS, build, floor, gravity, is_implicit, run, text};
 
 #[test]
 fn a_resumed_run_with_friction_and_a_moving_plane_ends_bit_for_bit_where_the_whole_one_does() {
     for method in METHODS {
-        let dt = if method == "implicit_euler" { 0.01 } else { 5e-4 };
+        let dt = if is_implicit(method) { 0.01 } else { 5e-4 };
         let start = "[[initial_velocity]]\nvelocity = [1, -1, 0]\n";
         let plane = floor(-2e-3, "friction = 0.3\nvelocity = [0.1, 0.05, 0]\nuntil = 0.15");
         let text = text(CUBE, "neo_hookean", 1e5, method, dt, &(gravity(0.0, -9.81) + &plane + start));

@@ -56,6 +56,10 @@ const DRIFTS: &[(Integrator, f64, f64)] = &[
     (Integrator::ExplicitEuler, 1e-4, 4e-3),
     (Integrator::LinearlyImplicitEuler, 1e-3, 0.03),
     (Integrator::ImplicitEuler, 1e-3, 0.03),
+    (Integrator::ImplicitMidpoint, 1e-3, 1e-8),
+    (Integrator::Newmark, 1e-3, 1e-5),
+    (Integrator::GeneralizedAlpha, 1e-3, 1e-6),
+    (Integrator::Bdf2, 1e-3, 4e-5),
 ];
 
 #[test]

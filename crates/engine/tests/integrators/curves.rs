@@ -9,17 +9,46 @@ const STEPS: usize = 12;
 
 /// ∫ factor dt by the rule that each method integrates with, s.
 fn impulse(integrator: &str, factor: impl Fn(f64) -> f64) -> f64 {
+    match integrator {
+        "generalized_alpha" => return generalized_alpha(factor),
+        "bdf2" => return bdf2(factor),
+        _ => {}
+    }
     let step = |k: usize| {
         let at = |part: f64| factor((k as f64 + part) * DT);
         match integrator {
             "explicit_euler" | "semi_implicit_euler" => at(0.0),
-            "rk2" => at(0.5),
+            "rk2" | "implicit_midpoint" => at(0.5),
             "rk4" => (at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0,
-            "verlet" => (at(0.0) + at(1.0)) / 2.0,
+            "verlet" | "newmark" => (at(0.0) + at(1.0)) / 2.0,
             _ => at(1.0),
         }
     };
     DT * (0..STEPS).map(step).sum::<f64>()
+}
+
+/// Chung and Hulbert's formulas for ρ∞ = 0.8.
+fn generalized_alpha(factor: impl Fn(f64) -> f64) -> f64 {
+    let rho = 0.8;
+    let (of_mass, of_force) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
+    let gamma = 0.5 - of_mass + of_force;
+    let (mut v, mut a) = (0.0, factor(0.0));
+    for k in 0..STEPS {
+        let next = (factor((k as f64 + 1.0 - of_force) * DT) - of_mass * a) / (1.0 - of_mass);
+        v += DT * ((1.0 - gamma) * a + gamma * next);
+        a = next;
+    }
+    v
+}
+
+/// The formula of two steps, and Alexander's method for the first.
+fn bdf2(factor: impl Fn(f64) -> f64) -> f64 {
+    let part = 1.0 - 0.5f64.sqrt();
+    let (mut before, mut v) = (0.0, DT * ((1.0 - part) * factor(part * DT) + part * factor(DT)));
+    for k in 1..STEPS {
+        (before, v) = (v, (4.0 * v - before + 2.0 * DT * factor((k as f64 + 1.0) * DT)) / 3.0);
+    }
+    v
 }
 
 /// Mean velocity of the 2 m³ of the body after all steps, m/s: its momentum over its mass.

@@ -3,6 +3,7 @@
 
 #![allow(non_snake_case)] // C, D and E are the names that the mathematics uses
 
+mod adaptive;
 mod affine;
 mod arc_length;
 mod balance;
@@ -26,6 +27,7 @@ mod quadratic_motion;
 mod reactions;
 mod release;
 mod resume;
+mod second_order;
 mod shipped_scenes;
 mod statics;
 mod substeps;
@@ -115,8 +117,22 @@ fn of_law(model: &str, scene: &str) -> String {
 }
 
 /// The methods that move.
-const DYNAMIC: [&str; 7] =
-    ["explicit_euler", "semi_implicit_euler", "rk2", "rk4", "verlet", "linearly_implicit_euler", "implicit_euler"];
+const DYNAMIC: [&str; 11] = [
+    "explicit_euler",
+    "semi_implicit_euler",
+    "rk2",
+    "rk4",
+    "verlet",
+    "linearly_implicit_euler",
+    "implicit_euler",
+    "implicit_midpoint",
+    "newmark",
+    "generalized_alpha",
+    "bdf2",
+];
+
+/// The implicit methods of second order.
+const SECOND_ORDER: [&str; 4] = ["implicit_midpoint", "newmark", "generalized_alpha", "bdf2"];
 
 /// `[mass]` of each node when it is lumped, kg.
 fn node_masses(simulation: &dyn Simulation, density: f64) -> Vec<f64> {

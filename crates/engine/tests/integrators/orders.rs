@@ -85,6 +85,8 @@ fn free_fall_follows_the_formula_of_each_method() {
         ("verlet", n * n / 2.0),
         ("linearly_implicit_euler", n * (n + 1.0) / 2.0),
         ("implicit_euler", n * (n + 1.0) / 2.0),
+        ("implicit_midpoint", n * n / 2.0),
+        ("newmark", n * n / 2.0),
     ] {
         for lumped in [false, true] {
             let rest = format!("[gravity]\nacceleration = [0, -9.81, 0]\n[mass]\nlumped = {lumped}\n");

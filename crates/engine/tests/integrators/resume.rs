@@ -64,7 +64,8 @@ fn body_of(integrator: &str, precision: &str, solver: &str, cells: usize) -> Str
          [[traction]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\npressure = 300\n\
          [drag]\nvertex = 1\nstiffness = 100\ndirection = [0, 0, 1]\namplitude = 0.1\nfrequency = 3\n{solver}{motion}"
     );
-    let dt = if integrator.contains("implicit") && !integrator.contains("semi") { 0.01 } else { 1e-4 };
+    let is_explicit = ["explicit_euler", "semi_implicit_euler", "rk2", "rk4", "verlet"].contains(&integrator);
+    let dt = if is_explicit { 1e-4 } else { 0.01 };
     soft(integrator, dt, &tables).replace("cells_per_unit = 1", &format!("cells_per_unit = {cells}"))
 }
 
@@ -77,11 +78,20 @@ const NEWTON: &str = "[newton]\ntolerance = 1e-4\n";
 fn every_method_goes_on_in_double_and_single_precision() {
     for precision in PRECISIONS {
         for integrator in DYNAMIC {
-            let newton = if integrator == "implicit_euler" { NEWTON } else { "" };
+            let has_newton = integrator == "implicit_euler" || crate::SECOND_ORDER.contains(&integrator);
+            let newton = if has_newton { NEWTON } else { "" };
             let damping = "[damping]\nalpha = 1\nbeta = 1e-4\n";
             assert_goes_on(&body_of(integrator, precision, newton, 2));
             assert_goes_on(&body_of(integrator, precision, &format!("{damping}{newton}"), 1));
         }
+    }
+}
+
+#[test]
+fn adaptive_steps_go_on_with_the_size_that_they_had() {
+    for integrator in crate::SECOND_ORDER {
+        let text = body_of(integrator, "f64", "[damping]\nbeta = 1e-3\n", 1);
+        assert_goes_on(&text.replace("precision", "adaptive = { tolerance = 1e-4 }\nprecision"));
     }
 }
 
@@ -98,7 +108,8 @@ fn verlet_goes_on_with_the_acceleration_that_it_keeps() {
 
 #[test]
 fn a_release_before_or_after_the_interruption_is_kept() {
-    for (integrator, until) in [("implicit_euler", "0.08"), ("verlet", "8e-4")] {
+    let cases = ["implicit_euler", "newmark", "bdf2"].map(|integrator| (integrator, "0.08"));
+    for (integrator, until) in cases.into_iter().chain([("verlet", "8e-4")]) {
         let text = body_of(integrator, "f64", if integrator == "verlet" { "" } else { NEWTON }, 2);
         assert_goes_on(&format!("{text}until = {until}\n"));
     }
@@ -120,7 +131,8 @@ fn implicit_methods_go_on_with_every_solver() {
         for solver in SOLVERS {
             let tolerance = if precision == "f32" { 1e-4 } else { 1e-10 };
             for integrator in ["implicit_euler", "linearly_implicit_euler"] {
-                let newton = if integrator == "implicit_euler" { NEWTON } else { "" };
+                let has_newton = integrator == "implicit_euler" || crate::SECOND_ORDER.contains(&integrator);
+                let newton = if has_newton { NEWTON } else { "" };
                 let solver = format!("[solver]\n{solver}\ntolerance = {tolerance:e}\n{newton}");
                 assert_goes_on(&body_of(integrator, precision, &solver, 2));
             }

@@ -3,7 +3,7 @@
 use crate::{build, node_masses};
 
 /// All nodes of the box but one are fixed, its material is too soft to matter, and a spring along x holds that node.
-fn oscillator(integrator: &str, dt: f64, damping: &str) -> String {
+pub fn oscillator(integrator: &str, dt: f64, damping: &str) -> String {
     format!(
         r#"pipeline = "engine"
 [mesh]
@@ -30,7 +30,7 @@ integrator = "{integrator}"
 }
 
 /// √(k/m), 1/s.
-fn frequency() -> f64 {
+pub fn frequency() -> f64 {
     let masses = node_masses(&*build(&oscillator("verlet", 1.0, "")), 1000.0);
     (1e6 / masses[5]).sqrt()
 }
@@ -63,7 +63,7 @@ fn methods_are_stable_up_to_their_limit_and_not_beyond() {
         let at = swing(integrator, 0.5);
         assert!(at > 1e3, "{integrator} does not grow: {at}");
     }
-    for integrator in ["linearly_implicit_euler", "implicit_euler"] {
+    for integrator in ["linearly_implicit_euler", "implicit_euler", "generalized_alpha", "bdf2"] {
         let at = swing(integrator, 50.0);
         assert!(at < 1.0, "{integrator}: {at}");
     }
@@ -94,6 +94,10 @@ fn damping_decays_at_its_rate() {
             ("rk4", 40.0, 1e-6),
             ("verlet", 200.0, 1e-4),
             ("rk2", 200.0, 1e-4),
+            ("implicit_midpoint", 200.0, 1e-4),
+            ("newmark", 200.0, 1e-4),
+            ("generalized_alpha", 200.0, 1e-4),
+            ("bdf2", 200.0, 1e-3),
             ("semi_implicit_euler", 400.0, 5e-3),
             ("implicit_euler", 400.0, 2e-2),
             ("linearly_implicit_euler", 400.0, 2e-2),

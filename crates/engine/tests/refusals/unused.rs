@@ -20,6 +20,8 @@ fn tables_without_effect_are_refused_with_the_method_and_the_remedy() {
             "solver",
         ),
         (ALL.to_owned(), "static", "damping"),
+        (format!("{ALL}[newmark]\nbeta = 0.25\n"), "implicit_euler", "newmark"),
+        (format!("{ALL}[generalized_alpha]\nrho_inf = 0.5\n"), "bdf2", "generalized_alpha"),
     ];
     for (text, integrator, table) in cases {
         let text = edit(&text, "\"implicit_euler\"", &format!("\"{integrator}\""));

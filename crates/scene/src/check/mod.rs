@@ -9,6 +9,7 @@ mod loads;
 mod materials;
 pub(crate) mod numbers;
 mod plasticity;
+mod second_order;
 mod selector;
 mod unused;
 
@@ -28,6 +29,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     flat::check_plane(scene)?;
     check_time(&scene.time)?;
     unused::check(scene)?;
+    second_order::check(scene)?;
     loads::check(scene)?;
     constraints::check(scene)?;
     curves::check(scene)?;

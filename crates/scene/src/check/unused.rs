@@ -6,14 +6,31 @@ use crate::{Integrator, Pipeline, Scene};
 /// A table, whether the scene has it, whether its integrator uses it, and which integrators do.
 type Use = (&'static str, bool, bool, &'static str);
 
-fn uses(scene: &Scene) -> [Use; 5] {
+fn uses(scene: &Scene) -> [Use; 7] {
     let method = scene.time.integrator;
     let is_static = method == Integrator::Static;
     [
         ("static", scene.statics.is_some(), is_static, "static"),
-        ("newton", scene.newton.is_some(), method.has_newton(), "implicit_euler or static"),
+        ("newmark", scene.newmark.is_some(), method == Integrator::Newmark, "newmark"),
+        (
+            "generalized_alpha",
+            scene.generalized_alpha.is_some(),
+            method == Integrator::GeneralizedAlpha,
+            "generalized_alpha",
+        ),
+        (
+            "newton",
+            scene.newton.is_some(),
+            method.has_newton(),
+            "implicit_euler, an implicit method of second order, or static",
+        ),
         ("solver", scene.solver.is_some(), !method.is_explicit(), "an implicit method or static"),
-        ("contact", scene.contact.is_some(), !method.is_explicit(), "implicit_euler or static"),
+        (
+            "contact",
+            scene.contact.is_some(),
+            !method.is_explicit(),
+            "implicit_euler, an implicit method of second order, or static",
+        ),
         ("damping", scene.damping.is_some(), !is_static, "a method that moves: equilibrium has no velocities"),
     ]
 }
@@ -44,6 +61,8 @@ impl Scene {
         for name in &names {
             match *name {
                 "static" => self.statics = None,
+                "newmark" => self.newmark = None,
+                "generalized_alpha" => self.generalized_alpha = None,
                 "newton" => self.newton = None,
                 "solver" => self.solver = None,
                 "contact" => self.contact = None,

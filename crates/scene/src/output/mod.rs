@@ -62,6 +62,8 @@ pub struct Stats {
     pub energy_evaluations: usize,
     pub line_search_backtracks: usize,
     pub projections: usize,
+    pub accepted_steps: usize,
+    pub rejected_steps: usize,
     pub skinning_rows: usize,
     /// Peak memory of the process; `None` if the operating system does not report it.
     pub peak_memory_bytes: Option<usize>,
@@ -119,6 +121,8 @@ impl Stats {
             energy_evaluations: counters.energy_evaluations,
             line_search_backtracks: counters.line_search_backtracks,
             projections: counters.projections,
+            accepted_steps: counters.accepted_steps,
+            rejected_steps: counters.rejected_steps,
             skinning_rows: counters.skinning_rows,
             peak_memory_bytes: peak_memory_bytes(),
             min_J: simulation.min_J().0,

@@ -48,6 +48,13 @@ pub enum Cause {
         /// Largest energy that loads, prescribed motions and the initial state have supplied so far, J.
         supplied: f64,
     },
+    /// The estimated error of the smallest step that is tried is larger than the tolerance of `time.adaptive`.
+    SmallestStep {
+        /// That step, s.
+        dt: f64,
+        /// Its estimated error over the allowed one.
+        ratio: f64,
+    },
     /// At the start of a step, an energy or a force is too large for a number.
     Overflow,
     /// A linear system was not solved.
@@ -89,12 +96,18 @@ impl Failure {
     pub fn of_step(steps: usize, time: f64, dt: f64, integrator: Integrator, cause: Cause) -> Self {
         let half = 0.5 * dt;
         let remedy = match integrator {
+            _ if matches!(cause, Cause::SmallestStep { .. }) => {
+                "give a larger time.adaptive.tolerance, or loads without jumps".to_owned()
+            }
             Integrator::Static => {
                 "use more static.load_steps, smaller loads, or static.arc_length where the load has a limit point"
                     .to_owned()
             }
             Integrator::ImplicitEuler => {
                 format!("use a time step of {half} s or less, smaller loads, or a gentler pull")
+            }
+            _ if integrator.has_newton() => {
+                format!("use a time step of {half} s or less, a gentler pull, or implicit_euler")
             }
             _ => format!("use a time step of {half} s or less, or implicit_euler"),
         };
@@ -141,6 +154,10 @@ impl fmt::Display for Failure {
                 f,
                 "the motion grows without bound: its kinetic energy is {kinetic:.3e} J, and loads, prescribed motions and \
                  initial state have supplied {supplied:.3e} J"
+            )?,
+            Cause::SmallestStep { dt, ratio } => write!(
+                f,
+                "the error of the smallest step, {dt:.3e} s, is estimated at {ratio:.1e} times what time.adaptive allows"
             )?,
             Cause::Overflow => write!(f, "an energy or a force is too large for a number")?,
             Cause::Solver(breakdown) => write!(f, "{breakdown}")?,

@@ -16,9 +16,19 @@ pub struct TimeTable {
     pub steps: Option<usize>,
     /// Number of equal substeps in which each step is computed; 1 by default.
     pub substeps: Option<usize>,
+    /// Computes each step in parts whose size follows an estimate of their error.
+    pub adaptive: Option<AdaptiveTable>,
     /// Number type of the engine's computations.
     #[serde(default)]
     pub precision: Precision,
+}
+
+/// `adaptive` of `[time]`.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct AdaptiveTable {
+    /// Largest estimated error of a displacement that one time step `dt` adds, as a part of the body's length.
+    pub tolerance: f64,
 }
 
 impl TimeTable {
@@ -126,4 +136,22 @@ pub struct StaticTable {
     /// Whether the load factor is an unknown, so that the equilibrium path is followed through its limit points.
     #[serde(default)]
     pub arc_length: bool,
+}
+
+/// `[newmark]`: parameters of the integrator `newmark`.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct NewmarkTable {
+    /// β, part of the acceleration at the end of a step in its displacement; ¼ by default.
+    pub beta: Option<f64>,
+    /// γ, the same in its velocity; ½ by default.
+    pub gamma: Option<f64>,
+}
+
+/// `[generalized_alpha]`: the parameter of the integrator `generalized_alpha`.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct GeneralizedAlphaTable {
+    /// ρ∞, the factor by which a step changes the amplitude of infinitely fast vibrations; 0.8 by default.
+    pub rho_inf: Option<f64>,
 }

@@ -19,7 +19,8 @@ pub use loads::{BodyForceTable, DragTable, DragVertex, GravityTable, SpringTable
 pub(crate) use material::IN_PLANE_STRESS;
 pub use material::{MODELS, Material, MaterialsTable, PlaneState};
 pub use method::{
-    DampingTable, NewtonTable, Precision, Preconditioner, Projection, SolverKind, SolverTable, StaticTable, TimeTable,
+    AdaptiveTable, DampingTable, GeneralizedAlphaTable, NewmarkTable, NewtonTable, Precision, Preconditioner,
+    Projection, SolverKind, SolverTable, StaticTable, TimeTable,
 };
 pub use plasticity::{PlasticModel, PlasticityTable};
 pub use selector::{BoxTable, On, Plane, Region, Selector, SidePlane, SphereTable};
@@ -94,6 +95,10 @@ pub struct Scene {
     /// `[static]`
     #[serde(rename = "static")]
     pub statics: Option<StaticTable>,
+    /// `[newmark]`
+    pub newmark: Option<NewmarkTable>,
+    /// `[generalized_alpha]`
+    pub generalized_alpha: Option<GeneralizedAlphaTable>,
     /// `[newton]`
     pub newton: Option<NewtonTable>,
     /// `[solver]`

@@ -3,7 +3,7 @@
 use crate::tables::{NewtonTable, SolverTable};
 use crate::{Integrator, Precision, Preconditioner, Projection, Scene, SolverKind};
 
-/// Settings of `[time]`, `[static]`, `[newton]` and `[solver]`.
+/// Settings of `[time]`, `[static]`, `[newmark]`, `[generalized_alpha]`, `[newton]` and `[solver]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Method {
     /// Time integration method.
@@ -12,16 +12,32 @@ pub struct Method {
     pub dt: f64,
     /// Equal substeps in which each step is computed.
     pub substeps: usize,
+    /// Tolerance of adaptive steps: the largest estimated error of a displacement that one time step adds, as a part of the body's
+    /// length; `None` for steps of one size.
+    pub adaptive: Option<f64>,
     /// Number type.
     pub precision: Precision,
     /// Equal parts in which `static` applies loads and prescribed motions.
     pub load_steps: usize,
     /// Whether `static` follows the equilibrium path by arc length.
     pub arc_length: bool,
+    /// β and γ of `newmark`.
+    pub newmark: NewmarkParameters,
+    /// Spectral radius ρ∞ of `generalized_alpha`.
+    pub rho_inf: f64,
     /// Newton's method.
     pub newton: NewtonSettings,
     /// Linear solver; `None` if the scene leaves the choice to the pipeline.
     pub solver: Option<SolverSettings>,
+}
+
+/// Parameters of Newmark's method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NewmarkParameters {
+    /// Part of the acceleration at the end of a step in its displacement.
+    pub beta: f64,
+    /// The same in its velocity.
+    pub gamma: f64,
 }
 
 /// Settings of Newton's method; those that are `None` have a default that depends on the integrator.
@@ -75,9 +91,15 @@ impl Scene {
             integrator: self.time.integrator,
             dt: self.time.dt(),
             substeps: self.time.substeps.unwrap_or(1),
+            adaptive: self.time.adaptive.map(|table| table.tolerance),
             precision: self.time.precision,
             load_steps: self.statics.as_ref().map_or(1, |statics| statics.load_steps),
             arc_length: self.statics.as_ref().is_some_and(|statics| statics.arc_length),
+            newmark: NewmarkParameters {
+                beta: self.newmark.as_ref().and_then(|table| table.beta).unwrap_or(0.25),
+                gamma: self.newmark.as_ref().and_then(|table| table.gamma).unwrap_or(0.5),
+            },
+            rho_inf: self.generalized_alpha.as_ref().and_then(|table| table.rho_inf).unwrap_or(0.8),
             newton: self.newton.as_ref().map(newton).unwrap_or_default(),
             solver: self.solver.as_ref().map(solver),
         }

@@ -102,6 +102,10 @@ fn every_name_of_the_format_is_known() {
         "verlet",
         "linearly_implicit_euler",
         "implicit_euler",
+        "implicit_midpoint",
+        "newmark",
+        "generalized_alpha",
+        "bdf2",
         "static",
     ];
     for name in names {

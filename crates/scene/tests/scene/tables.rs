@@ -61,6 +61,33 @@ fn load_steps_are_read_for_equilibrium() {
 }
 
 #[test]
+fn parameters_of_newmark_and_generalized_alpha_are_read_and_have_ranges() {
+    let newmark = format!("{}[newmark]\nbeta = 0.3025\ngamma = 0.6\n", edit(LEAST, "implicit_euler", "newmark"));
+    let parameters = read(&newmark).method().newmark;
+    assert_eq!((parameters.beta, parameters.gamma), (0.3025, 0.6));
+    let method = read(LEAST).method();
+    assert_eq!((method.newmark.beta, method.newmark.gamma, method.rho_inf), (0.25, 0.5, 0.8));
+    assert_refused(
+        &edit(&newmark, "0.3025", "0.29"),
+        13,
+        "newmark.beta is 0.29 with newmark.gamma = 0.6; give a number from 0.3",
+    );
+    assert_refused(&edit(&newmark, "0.6", "0.4"), 14, "newmark.gamma is 0.4; give a number from 0.5 to 1");
+    assert_refused(&edit(&newmark, "0.6", "nan"), 14, "newmark.gamma");
+    let alpha = edit(LEAST, "implicit_euler", "generalized_alpha") + "[generalized_alpha]\nrho_inf = 0.5\n";
+    assert_eq!(read(&alpha).method().rho_inf, 0.5);
+    for wrong in ["-0.1", "1.5", "inf"] {
+        assert_refused(
+            &edit(&alpha, "rho_inf = 0.5", &format!("rho_inf = {wrong}")),
+            13,
+            "generalized_alpha.rho_inf is",
+        );
+    }
+    let other = edit(&edit(&alpha, "\"generalized_alpha\"", "\"bdf2\""), "\"course\"", "\"engine\"");
+    assert_refused(&other, 12, "generalized_alpha has no effect with");
+}
+
+#[test]
 fn tables_of_the_engine_have_defaults() {
     let scene = read(&format!("{LEAST}[newton]\n[damping]\nbeta = 2\n"));
     assert_eq!((scene.time.precision, scene.mesh.refine), (Precision::F64, 0));

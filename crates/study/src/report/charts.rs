@@ -1,6 +1,6 @@
 //! The charts of a report.
 
-use super::{Report, space_charts};
+use super::{Report, adaptive, space_charts};
 use crate::report::text::{number, seconds, step};
 use crate::runs::convergence_order::asymptotic;
 use crate::runs::costs::{self, KINDS};
@@ -18,6 +18,7 @@ pub fn files(report: &Report) -> Vec<(String, Picture)> {
         }
         files.push((format!("error-vs-time-{}.svg", study.name), picture));
         files.push((format!("convergence-in-dt-{}.svg", study.name), convergence(study)));
+        files.extend(adaptive::chart(study).map(|chart| (format!("adaptive-{}.svg", study.name), chart)));
     }
     files.push(("orders-in-dt.svg".to_owned(), convergence(&report.orders)));
     files.push(("orders-in-h.svg".to_owned(), space_charts::in_space(&report.space)));
@@ -61,6 +62,10 @@ fn look(method: &str) -> (usize, usize) {
         "semi-implicit Euler" => (4, 4),
         "RK2" => (5, 0),
         "explicit Euler" => (6, 1),
+        "implicit midpoint" => (1, 3),
+        "Newmark" => (2, 4),
+        "generalized-α" => (3, 0),
+        "BDF2" => (4, 1),
         "course: implicit Euler" => (7, 2),
         "course: linearly implicit Euler" => (7, 3),
         _ => (8, 4),

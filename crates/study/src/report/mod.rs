@@ -1,5 +1,6 @@
 //! The report "error against run time": studies of scenes as tables, charts and a page.
 
+mod adaptive;
 mod answer;
 mod charts;
 mod notes;
@@ -115,7 +116,7 @@ fn orders_in_time(study: &SceneStudy) -> Vec<Observed> {
         let pairs: Vec<_> = rows.filter_map(|row| Some((row.config.dt, row.errors.time_l2?))).collect();
         let expected = match study.rows.iter().find(|row| row.config.method == method)?.config.integrator {
             "rk4" => 4.0,
-            "rk2" | "verlet" => 2.0,
+            "rk2" | "verlet" | "implicit_midpoint" | "newmark" | "generalized_alpha" | "bdf2" => 2.0,
             "static" => return None,
             _ => 1.0,
         };

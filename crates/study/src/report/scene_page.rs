@@ -4,7 +4,7 @@ use fem_chart::page::{details, figure, table};
 use maud::{Markup, html};
 
 use super::text::{number, percent, seconds, step, trimmed};
-use super::{charts, orders_in_time};
+use super::{adaptive, charts, orders_in_time};
 use crate::runs::row::Row;
 use crate::studies::scene::{SceneStudy, competing_error};
 
@@ -19,6 +19,7 @@ pub(super) fn html(study: &SceneStudy) -> Markup {
         h3 { "Pareto front" }
         (front(study))
         @if study.horizon > 0.0 { (motion(study)) }
+        (adaptive::html(study))
         (mesh(study))
         h3 { "One choice at a time" }
         (variants(study))

@@ -31,6 +31,8 @@ pub struct RunResult {
     pub min_j: f64,
     /// Counters of the run.
     pub counters: Counters,
+    /// Sum of the estimated errors of adaptive steps, m; `None` without them.
+    pub estimated: Option<f64>,
     /// The failure that ended the run early.
     pub failure: Option<String>,
     /// Distance from the scene's closed form; `None` without one.
@@ -81,7 +83,11 @@ pub fn first(factory: &Factory, run: &PlannedRun, most_seconds: f64) -> Result<R
     let mut timing = Timing { setup: start.elapsed().as_secs_f64(), ..Timing::default() };
     let every = run.steps.div_ceil(SAMPLES);
     let (mut history, mut min_j) = (vec![(0.0, simulation.energies().total())], simulation.min_J().0);
+    let mut estimated: Option<f64> = None;
     let failure = steps(&mut *simulation, run.steps, &mut timing, |simulation, step| {
+        if let Some(error) = simulation.estimated_error() {
+            estimated = Some(estimated.unwrap_or_default() + error);
+        }
         if step % every == 0 || step == run.steps {
             history.push((simulation.time(), simulation.energies().total()));
             min_j = min_j.min(simulation.min_J().0);
@@ -104,6 +110,7 @@ pub fn first(factory: &Factory, run: &PlannedRun, most_seconds: f64) -> Result<R
         history,
         min_j,
         counters: simulation.counters(),
+        estimated,
         analytic: crate::space::closed_forms::error(&run.scene, &*simulation).filter(|_| failure.is_none()),
         failure,
         peak_mb: machine::peak_mb(),

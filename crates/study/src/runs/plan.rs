@@ -3,7 +3,7 @@
 //! Every integrator runs with a ladder of halved time steps. Explicit integrators start above their stability limit, so that the
 //! failure is shown. Tolerance, solver, projection, precision and mesh vary around one point of the ladder of implicit Euler.
 
-use fem_scene::tables::{NewtonTable, SolverTable, TimeTable};
+use fem_scene::tables::{AdaptiveTable, NewtonTable, SolverTable, TimeTable};
 use fem_scene::{Integrator, Pipeline, Precision, Preconditioner, Projection, Scene, SolverKind};
 
 /// A run to be made.
@@ -48,7 +48,8 @@ pub fn dynamic(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     };
     let halvings = if extent.is_quick { -1..=3 } else { -2..=5 };
     let implicit: Vec<usize> = halvings.map(|k: i32| scaled(extent.steps, k)).collect();
-    for integrator in [Integrator::ImplicitEuler, Integrator::LinearlyImplicitEuler] {
+    let of_first_order = [Integrator::ImplicitEuler, Integrator::LinearlyImplicitEuler];
+    for integrator in of_first_order.into_iter().chain(Integrator::SECOND_ORDER_IMPLICIT) {
         ladders.push(ladder("method", name(integrator), &with(integrator), &implicit, extent));
     }
     let first = (extent.horizon * extent.fastest / ABOVE_THE_LIMIT).ceil().max(1.0) as usize;
@@ -61,8 +62,24 @@ pub fn dynamic(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     let sparse: Vec<usize> = explicit.iter().copied().step_by(2).collect();
     ladders.push(ladder("method", name(Integrator::ExplicitEuler), &with(Integrator::ExplicitEuler), &sparse, extent));
     ladders.extend(course(scene, extent));
+    ladders.extend(adaptive(scene, extent));
     ladders.extend(variants(scene, extent));
     ladders
+}
+
+/// Adaptive steps within the scene's own, to several tolerances.
+fn adaptive(scene: &Scene, extent: Extent) -> Vec<Ladder> {
+    let run = |(integrator, tolerance): (Integrator, f64)| {
+        let mut scene = scene.clone();
+        scene.time.integrator = integrator;
+        scene.time.adaptive = Some(AdaptiveTable { tolerance });
+        ladder("adaptive", &format!("{}, adaptive to {tolerance:e}", name(integrator)), &scene, &[extent.steps], extent)
+    };
+    let tolerances = [1e-3, 1e-4, 1e-5];
+    Integrator::SECOND_ORDER_IMPLICIT
+        .into_iter()
+        .flat_map(|of| tolerances.map(|tolerance| run((of, tolerance))))
+        .collect()
 }
 
 /// The same body in the course's pipeline.
@@ -160,7 +177,7 @@ const SOLVERS: [(SolverKind, Option<Preconditioner>); 7] = [
 ];
 
 /// Numbers of steps in the horizon at which each integrator is in its asymptotic range.
-const FIRST: [(Integrator, usize); 7] = [
+const FIRST: [(Integrator, usize); 11] = [
     (Integrator::ExplicitEuler, 400),
     (Integrator::SemiImplicitEuler, 400),
     (Integrator::LinearlyImplicitEuler, 400),
@@ -168,6 +185,10 @@ const FIRST: [(Integrator, usize); 7] = [
     (Integrator::Rk2, 100),
     (Integrator::Verlet, 100),
     (Integrator::Rk4, 50),
+    (Integrator::ImplicitMidpoint, 100),
+    (Integrator::Newmark, 100),
+    (Integrator::GeneralizedAlpha, 100),
+    (Integrator::Bdf2, 100),
 ];
 
 /// Ladders in the asymptotic range of each integrator.
@@ -256,6 +277,10 @@ pub fn name(integrator: Integrator) -> &'static str {
         Integrator::Verlet => "Verlet",
         Integrator::LinearlyImplicitEuler => "linearly implicit Euler",
         Integrator::ImplicitEuler => "implicit Euler",
+        Integrator::ImplicitMidpoint => "implicit midpoint",
+        Integrator::Newmark => "Newmark",
+        Integrator::GeneralizedAlpha => "generalized-α",
+        Integrator::Bdf2 => "BDF2",
         Integrator::Static => "static",
     }
 }

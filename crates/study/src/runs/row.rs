@@ -55,6 +55,8 @@ pub struct Errors {
     pub energy: Option<f64>,
     pub momentum: Option<f64>,
     pub angular: Option<f64>,
+    /// Sum of the estimated errors of adaptive steps, relative to the body's length.
+    pub estimated: Option<f64>,
 }
 
 /// The row of a run.
@@ -160,6 +162,7 @@ impl Row {
             ("dE", number(errors.energy)),
             ("dp", number(errors.momentum)),
             ("dL", number(errors.angular)),
+            ("err_estimated", number(errors.estimated)),
             ("newton_it", count(counters.newton_iterations)),
             ("factorizations", count(counters.factorizations)),
             ("lin_solves", count(self.linear_solves())),

@@ -11,8 +11,27 @@ use fem_mesh::TetrahedralMesh;
 use fem_scene::{Scene, SceneError, body, body_of, parse};
 
 /// The integrators in time.
-pub const DYNAMIC: [&str; 7] =
-    ["explicit_euler", "semi_implicit_euler", "rk2", "rk4", "verlet", "linearly_implicit_euler", "implicit_euler"];
+pub const DYNAMIC: [&str; 11] = [
+    "explicit_euler",
+    "semi_implicit_euler",
+    "rk2",
+    "rk4",
+    "verlet",
+    "linearly_implicit_euler",
+    "implicit_euler",
+    "implicit_midpoint",
+    "newmark",
+    "generalized_alpha",
+    "bdf2",
+];
+
+/// The implicit integrators of second order.
+pub const SECOND_ORDER: [&str; 4] = ["implicit_midpoint", "newmark", "generalized_alpha", "bdf2"];
+
+/// Whether an integrator minimizes an energy in each step.
+pub fn has_newton(integrator: &str) -> bool {
+    ["implicit_euler", "static"].contains(&integrator) || SECOND_ORDER.contains(&integrator)
+}
 
 /// The materials.
 pub const LAWS: [&str; 5] = ["linear", "corotated", "st_venant_kirchhoff", "neo_hookean", "stable_neo_hookean"];

@@ -31,7 +31,9 @@ pub fn growth(integrator: &str, z: f64) -> f64 {
         // trace 2 − z², determinant 1
         "semi_implicit_euler" | "verlet" if z > 2.0 => (0.5 * z2 - 1.0).acosh(),
         "semi_implicit_euler" | "verlet" => 0.0,
-        // 1 / |1 − iz|
+        // Roots on the unit circle.
+        "implicit_midpoint" | "newmark" => 0.0,
+        // 1 / |1 − iz|; generalized-α and BDF2 damp too.
         _ => -0.5 * z2.ln_1p(),
     }
 }

@@ -133,6 +133,10 @@ impl<T: Real> Potential<T> for Friction<T> {
         true
     }
 
+    fn is_obstacle(&self) -> bool {
+        true
+    }
+
     fn begin_step(&mut self, u: &[[T; 3]], start: Moment, dt: f64) {
         self.start.copy_from_slice(u);
         self.times = [start.time, start.time + dt];

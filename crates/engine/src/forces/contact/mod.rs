@@ -74,6 +74,10 @@ impl<T: Real> Potential<T> for Contact {
         self.planes.planes.iter().all(|plane| plane.is_at_rest())
     }
 
+    fn is_obstacle(&self) -> bool {
+        true
+    }
+
     fn begin_step(&mut self, _: &[[T; 3]], start: Moment, dt: f64) {
         self.end = start.time + dt;
     }

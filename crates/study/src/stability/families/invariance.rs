@@ -7,13 +7,17 @@ use nalgebra::Vector3;
 use crate::stability::case::{Case, Deadline, Finding};
 use crate::stability::initial_state::{Random, place_moving};
 use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, DYNAMIC, LUMPED, SceneText, gravity, moved_box};
+use crate::stability::scene_text::{CLAMPED, DYNAMIC, LUMPED, SceneText, gravity, has_newton, moved_box};
 
 const FAMILY: &str = "invariance";
 
 /// Integrators with time steps below all limits, s, and numbers of steps.
-const METHODS: [(&str, f64, usize); 5] = [
+const METHODS: [(&str, f64, usize); 9] = [
     ("implicit_euler", 0.02, 20),
+    ("implicit_midpoint", 0.02, 20),
+    ("newmark", 0.02, 20),
+    ("generalized_alpha", 0.02, 20),
+    ("bdf2", 0.02, 20),
     ("linearly_implicit_euler", 0.005, 40),
     ("verlet", 0.002, 100),
     ("rk4", 0.002, 100),
@@ -31,8 +35,7 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
     for &(integrator, dt, steps) in methods {
         for model in ["neo_hookean", "stable_neo_hookean"] {
             let text = SceneText { dt, ..SceneText::finer(integrator, model) }.with(CLAMPED);
-            let has_newton = ["implicit_euler", "static"].contains(&integrator);
-            let text = text.with(if has_newton { "[newton]\ntolerance = 1e-12\n" } else { "" });
+            let text = text.with(if has_newton(integrator) { "[newton]\ntolerance = 1e-12\n" } else { "" });
             cases.push(shifted(text.clone(), steps));
             for scale in [1e-6, 1e6] {
                 cases.push(scaled(text.clone(), scale, steps));

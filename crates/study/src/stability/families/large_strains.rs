@@ -7,7 +7,7 @@ use super::recovery::{MARGIN_IS, back_at_rest};
 use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::initial_state::place;
 use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, DAMPED, SceneText, prescribed_end};
+use crate::stability::scene_text::{CLAMPED, DAMPED, SECOND_ORDER, SceneText, prescribed_end};
 
 const FAMILY: &str = "large strains";
 
@@ -56,7 +56,10 @@ const MOTIONS: [EndMotion; 3] = [
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
     for motion in if quick { &MOTIONS[1..] } else { &MOTIONS } {
         for model in ["neo_hookean", "stable_neo_hookean"] {
-            for integrator in ["implicit_euler", "static"] {
+            // Waves in the twisted rod take generalized-α beyond any deadline: it damps them by a fifth in each step.
+            let is_usable = |integrator: &&str| !(is_twist(motion) && *integrator == "generalized_alpha");
+            for integrator in ["implicit_euler", "static"].into_iter().chain(SECOND_ORDER.into_iter().filter(is_usable))
+            {
                 cases.push(prescribed(motion, model, integrator));
             }
             cases.push(prescribed_and_released(motion, model));
@@ -88,11 +91,29 @@ fn prescribed(motion: &EndMotion, model: &'static str, integrator: &'static str)
     let parameters = format!("nu = 0.4, E = 1e5 Pa, dt = {} s, {steps} steps", motion.dt);
     let inverts = model == "stable_neo_hookean" && motion.inverts;
     Case {
-        expected: if inverts { Outcome::Inverts } else { Outcome::Survives },
+        expected: match inverts {
+            true => Outcome::Inverts,
+            false if keeps_shocks(motion, model, integrator) => Outcome::Explodes,
+            false => Outcome::Survives,
+        },
         ..text.clone().case(FAMILY, motion.name, parameters, move |deadline| {
             Ok(march(&mut text.build()?, steps, deadline).survival())
         })
     }
+}
+
+/// Whether a method keeps the waves of the motion that steps do not resolve, until they invert elements of a material with a barrier, or
+/// their energy grows: the end of the run names the element or the energy.
+fn keeps_shocks(motion: &EndMotion, model: &str, integrator: &str) -> bool {
+    match integrator {
+        "implicit_midpoint" | "newmark" => is_twist(motion) || model == "neo_hookean",
+        "generalized_alpha" => motion.inverts && model == "neo_hookean",
+        _ => false,
+    }
+}
+
+fn is_twist(motion: &EndMotion) -> bool {
+    motion.motion.starts_with("rotation")
 }
 
 /// The motion, and then a free end.

@@ -21,6 +21,10 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
         for dt in [0.01, 1.0] {
             cases.push(lasting(text("implicit_euler", dt), steps, true));
         }
+        for integrator in ["implicit_midpoint", "newmark"] {
+            cases.push(lasting(text(integrator, 0.01), steps, false));
+        }
+        cases.push(lasting(text("bdf2", 0.01), steps, true));
         for (integrator, dts) in CHANGING {
             cases.push(changing(text(integrator, dts[0]), dts));
         }
@@ -64,9 +68,11 @@ fn watched(text: &SceneText, steps: usize, decays: bool, deadline: Deadline) -> 
 }
 
 /// Time steps in turn, s; all below the stability limit.
-const CHANGING: [(&str, [f64; 3]); 4] = [
+const CHANGING: [(&str, [f64; 3]); 6] = [
     ("implicit_euler", [0.01, 1e-4, 0.1]),
     ("linearly_implicit_euler", [0.01, 1e-4, 0.002]),
+    ("newmark", [0.01, 1e-4, 0.02]),
+    ("bdf2", [0.01, 1e-4, 0.1]),
     ("verlet", [1e-3, 1e-5, 3e-3]),
     ("rk4", [1e-3, 1e-5, 3e-3]),
 ];

@@ -25,6 +25,7 @@ pub(super) fn errors(run: &PlannedRun, outcome: &RunResult, body: &StudyMesh, st
     let length = norms::length(&body.mesh);
     let (q, exact) = (outcome.q.as_slice(), reference.q.as_slice());
     errors.time_l2 = Some(norms::l2(&body.weights, q, exact) / length);
+    errors.estimated = outcome.estimated.map(|error| error / norms::length(&body.mesh));
     errors.time_linf = Some(norms::largest(q, exact) / length);
     let momenta = |q: &DVector<f64>, v: &DVector<f64>| {
         norms::momenta(&body.mesh, &body.weights, run.scene.material.density, q.as_slice(), v.as_slice())
@@ -48,7 +49,7 @@ pub(super) fn errors(run: &PlannedRun, outcome: &RunResult, body: &StudyMesh, st
 pub(super) fn configuration(id: String, run: &PlannedRun, body: &StudyMesh) -> Configuration {
     let PlannedRun { scene, .. } = run;
     let moduli = moduli(&scene.material);
-    let is_newton = matches!(scene.time.integrator, Integrator::ImplicitEuler | Integrator::Static);
+    let is_newton = scene.time.integrator.has_newton();
     let is_course = scene.pipeline == Pipeline::Course;
     let newton = scene.newton.as_ref();
     let projection = match newton.and_then(|newton| newton.projection).unwrap_or_default() {

@@ -1,0 +1,150 @@
+//! A step from its coefficients: the equation of its stage, its solution, and its end.
+
+use fem_scene::simulation::{Cause, Counters};
+
+use super::SecondOrder;
+use super::coefficients::Coefficients;
+use crate::forces::Moment;
+use crate::integrators::initial_guess::InitialGuess;
+use crate::integrators::{Convergence, momentum};
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::newton::incremental_potential::{Increment, Inertia, StepEnd};
+use crate::number::Real;
+use crate::vector::{axpy, max_norm};
+
+/// Part of the minimum of det F at the start that displacements must keep where damping takes its stiffness.
+const KEPT: f64 = 0.5;
+
+/// Part of the body's length that an acceleration may add to an extrapolated increment.
+const LONG: f64 = 0.2;
+
+impl<T: Real> SecondOrder<T> {
+    /// Moves the state by `dt` seconds. Obstacles are those at the moment `end`.
+    pub(super) fn advance(
+        &mut self,
+        system: &System<T>,
+        state: &mut State<T>,
+        (dt, end): (f64, Moment),
+        of: &Coefficients,
+        counters: &mut Counters,
+    ) -> Result<Convergence, Cause> {
+        self.predict(system, state, dt, of);
+        let Self { newton, followers, inertial, still, stiffness_at, step, acceleration, .. } = self;
+        let stage = Moment::at(state.time + of.stage * dt);
+        let is_damped = system.damping.is_some();
+        let inertia = Inertia {
+            still: is_damped.then_some(&still[..]),
+            stiffness_at: is_damped.then_some(&stiffness_at[..]),
+            step_end: Some(StepEnd { moment: end, ratio: 1.0 / of.stage, weight: of.obstacles })
+                .filter(|_| stage != end || of.obstacles != 1.0),
+            ..Inertia::of_stage(system, inertial, of.tau, of.stage_velocity())
+        };
+        let increment = Increment { start: &state.u, end: stage, inertia: Some(inertia) };
+        extrapolate(step, inertial, acceleration, of.tau * of.tau, system.length);
+        followers.evaluate(system, &increment, step);
+        InitialGuess { newton, followers, system, increment, inertia }.find(step, counters)?;
+        let convergence = followers.minimize(newton, system, increment, step, counters)?;
+        momentum::restore(&followers.potential(system, increment), of.tau, of.stage_velocity(), step);
+        self.finish(system, state, dt, of)?;
+        Ok(convergence)
+    }
+
+    /// Writes what the step's equation takes from the start: ẑ, ž, and where damping takes its stiffness.
+    fn predict(&mut self, system: &System<T>, state: &State<T>, dt: f64, of: &Coefficients) {
+        let Self { start, known, inertial, still, stiffness_at, velocity, step, .. } = self;
+        let is_moving = system.dirichlet.has_motion();
+        known.combine(&of.inertial, &state.v, inertial);
+        known.combine(&of.velocity, &state.v, velocity);
+        if is_moving {
+            start.prescribe(system, state, dt, of.stage);
+            prescribe(system, state, dt, of, step);
+            let square = T::of(of.tau * of.tau);
+            set_constrained(system, step, &start.acceleration, square, inertial);
+        } else {
+            system.dirichlet.clear_constrained(inertial);
+        }
+        if system.damping.is_none() {
+            return;
+        }
+        known.combine(&of.known_stage_velocity(), &state.v, still);
+        let over = T::of(of.tau / of.stage_velocity());
+        for (still, inertial) in still.iter_mut().zip(&*inertial) {
+            *still = std::array::from_fn(|i| inertial[i] - over * still[i]);
+        }
+        if is_moving {
+            set_constrained(system, step, &start.velocity, over, still);
+        } else {
+            system.dirichlet.clear_constrained(still);
+        }
+        stiffness_at.copy_from_slice(&state.u);
+        axpy(of.stage * dt, &state.v, stiffness_at);
+        let [before, after] = [&state.u, &*stiffness_at].map(|u| system.elements.min_det_F_of_barriers(u).0);
+        // NaN fails the comparison.
+        if !(after > T::of(KEPT) * before) {
+            stiffness_at.copy_from_slice(&state.u);
+        }
+    }
+
+    /// Moves the state to the end of the step, and keeps what the next one needs.
+    fn finish(&mut self, system: &System<T>, state: &mut State<T>, dt: f64, of: &Coefficients) -> Result<(), Cause> {
+        let Self { start, known, next, inertial, step, velocity, acceleration, .. } = self;
+        let over_square = T::of(1.0 / (of.tau * of.tau));
+        for (a, (step, inertial)) in acceleration.iter_mut().zip(step.iter().zip(&*inertial)) {
+            *a = std::array::from_fn(|i| (step[i] - inertial[i]) * over_square);
+        }
+        if !next.increment.is_empty() {
+            next.increment.copy_from_slice(step);
+            next.earlier_velocity.copy_from_slice(&state.v);
+        }
+        axpy(1.0 / of.stage, step, &mut state.u);
+        state.v.copy_from_slice(velocity);
+        axpy(of.of_velocity, acceleration, &mut state.v);
+        self.stage = Some(of.stage);
+        next.dt = Some(dt);
+        next.has_acceleration = !next.acceleration.is_empty();
+        if next.has_acceleration {
+            let [of_known, of_stage] = of.acceleration;
+            next.acceleration.copy_from_slice(acceleration);
+            if let Some(by_obstacles) = start.by_obstacles(system, &state.u, Moment::at(state.time + dt))? {
+                axpy(-of.obstacles, by_obstacles, &mut next.acceleration);
+            }
+            for (next, known) in next.acceleration.iter_mut().zip(&known.acceleration) {
+                *next = std::array::from_fn(|i| T::of(of_known) * known[i] + T::of(of_stage) * next[i]);
+            }
+        }
+        if system.dirichlet.has_motion() {
+            start.prescribe(system, state, dt, 1.0);
+            system.dirichlet.copy_constrained(&start.velocity, &mut state.v);
+        } else {
+            system.dirichlet.clear_constrained(&mut state.v);
+        }
+        Ok(())
+    }
+}
+
+/// The increment with this acceleration, or none where it would be long: vibrations much faster than the step change their accelerations
+/// within it, and would be thrown far away.
+fn extrapolate<T: Real>(step: &mut [[T; 3]], inertial: &[[T; 3]], acceleration: &[[T; 3]], square: f64, length: f64) {
+    step.copy_from_slice(inertial);
+    axpy(square, acceleration, step);
+    // NaN fails the comparison.
+    if !(square * max_norm(acceleration) <= LONG * length) {
+        step.fill([T::default(); 3]);
+    }
+}
+
+/// Overwrites the constrained entries of a stage's increment.
+fn prescribe<T: Real>(system: &System<T>, state: &State<T>, dt: f64, of: &Coefficients, step: &mut [[T; 3]]) {
+    system.prescribe(&state.u, Moment::at(state.time + dt), step);
+    if of.stage != 1.0 {
+        system.dirichlet.scale_constrained(of.stage, step);
+    }
+}
+
+/// x = z − factor y at the constrained degrees of freedom.
+fn set_constrained<T: Real>(system: &System<T>, z: &[[T; 3]], y: &[[T; 3]], factor: T, x: &mut [[T; 3]]) {
+    system.dirichlet.copy_constrained(z, x);
+    // Free entries of y are zero.
+    axpy(-factor.as_f64(), y, x);
+}

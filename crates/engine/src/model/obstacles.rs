@@ -1,0 +1,68 @@
+//! Forces of obstacles apart from all others: methods that take forces at a stage within the step take those of obstacles at its end.
+
+use super::system::System;
+use crate::forces::{Energy, HessianKind, Moment, Potential};
+use crate::number::Real;
+use crate::sparse::Block;
+
+impl<T: Real> System<T> {
+    /// Potential energy without that of obstacles, and its gradient (N).
+    pub fn own_potential_and_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) -> Energy {
+        gradient.fill([T::default(); 3]);
+        let mut energy = Energy::of(self.profile.energies.time(|| self.elements.add_energy_and_gradient(u, gradient)));
+        let is_own = |potential: &dyn Potential<T>| potential.is_conservative() && !potential.is_obstacle();
+        for (potential, timer) in self.forces.active().filter(|(potential, _)| is_own(*potential)) {
+            timer.time(|| potential.add_gradient(u, moment, gradient));
+            energy = energy + potential.energy(u, moment);
+        }
+        energy
+    }
+
+    /// Energy of the obstacles, and its gradient (N).
+    pub fn obstacle_energy_and_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) -> Energy {
+        gradient.fill([T::default(); 3]);
+        let mut energy = Energy::default();
+        for (potential, timer) in self.forces.active().filter(|(potential, _)| potential.is_obstacle()) {
+            timer.time(|| potential.add_gradient(u, moment, gradient));
+            energy = energy + potential.energy(u, moment);
+        }
+        energy
+    }
+
+    /// Adds the Hessian of the external forces without that of obstacles, N/m.
+    pub fn add_own_external_hessian(&self, u: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>]) {
+        let is_own = |potential: &dyn Potential<T>| {
+            potential.is_conservative() && !potential.is_internal() && !potential.is_obstacle()
+        };
+        for (potential, timer) in self.forces.active().filter(|(potential, _)| is_own(*potential)) {
+            timer.time(|| potential.add_hessian(T::one(), u, kind, &self.pattern, values));
+        }
+    }
+
+    /// Adds `factor` times the Hessian of the obstacles, N/m.
+    pub fn add_obstacle_hessian(&self, factor: T, u: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>]) {
+        for (potential, timer) in self.forces.active().filter(|(potential, _)| potential.is_obstacle()) {
+            timer.time(|| potential.add_hessian(factor, u, kind, &self.pattern, values));
+        }
+    }
+
+    /// The largest multiple of `direction` up to which no force but those of obstacles becomes infeasible.
+    pub fn own_largest_step(&self, u: &[[T; 3]], direction: &[[T; 3]]) -> f64 {
+        self.largest_step_where(u, direction, |potential| !potential.is_obstacle())
+    }
+
+    /// The largest multiple of `direction` up to which the body stays outside the obstacles.
+    pub fn largest_step_to_obstacles(&self, u: &[[T; 3]], direction: &[[T; 3]]) -> f64 {
+        self.largest_step_where(u, direction, |potential| potential.is_obstacle())
+    }
+
+    fn largest_step_where(
+        &self,
+        u: &[[T; 3]],
+        direction: &[[T; 3]],
+        is_chosen: impl Fn(&dyn Potential<T>) -> bool,
+    ) -> f64 {
+        let chosen = self.forces.active().filter(|(potential, _)| is_chosen(*potential));
+        chosen.map(|(potential, _)| potential.largest_step(u, direction)).fold(f64::INFINITY, f64::min)
+    }
+}

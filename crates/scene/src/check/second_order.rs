@@ -1,0 +1,69 @@
+//! Checks of `[newmark]`, `[generalized_alpha]` and the adaptive steps of `[time]`.
+
+use super::check_tolerance;
+use super::numbers::{Problem, check_finite, problem};
+use crate::tables::{GeneralizedAlphaTable, NewmarkTable};
+use crate::{Integrator, Scene};
+
+/// Returns the first parameter of an implicit method of second order that is out of range.
+pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+    scene.newmark.as_ref().map_or(Ok(()), |table| check_newmark(table, &scene.method().newmark))?;
+    scene.generalized_alpha.as_ref().map_or(Ok(()), check_generalized_alpha)?;
+    check_adaptive(scene)
+}
+
+fn check_adaptive(scene: &Scene) -> Result<(), Problem> {
+    let Some(adaptive) = scene.time.adaptive else { return Ok(()) };
+    let method = scene.time.integrator;
+    if !Integrator::SECOND_ORDER_IMPLICIT.contains(&method) {
+        let names = Integrator::SECOND_ORDER_IMPLICIT.map(Integrator::name).join(", ");
+        let text =
+            format!("needs a method with an estimate of its error, and {} has none; use one of {names}", method.name());
+        return problem("time.adaptive", text);
+    }
+    if scene.time.substeps.is_some() {
+        return problem(
+            "time.substeps",
+            "stands beside time.adaptive, which chooses the parts of a step; remove one of the two",
+        );
+    }
+    if method == Integrator::Newmark && scene.method().newmark.gamma != 0.5 {
+        let text = "estimates an error of second order, and newmark.gamma is not 0.5; remove one of the two, or use generalized_alpha";
+        return problem("time.adaptive", text);
+    }
+    check_tolerance("time.adaptive.tolerance", adaptive.tolerance)
+}
+
+/// Newmark's method is stable at any time step for 2β ≥ γ ≥ ½: Hughes, The Finite Element Method (1987), 9.1.
+fn check_newmark(table: &NewmarkTable, values: &crate::NewmarkParameters) -> Result<(), Problem> {
+    for (field, value) in [("newmark.beta", table.beta), ("newmark.gamma", table.gamma)] {
+        value.map_or(Ok(()), |value| check_finite(field, &[value]))?;
+    }
+    let crate::NewmarkParameters { beta, gamma } = *values;
+    if !(0.5..=1.0).contains(&gamma) {
+        let text = format!(
+            "is {gamma}; give a number from 0.5 to 1: 0.5 is of second order, more damps and is of first order, and less is unstable"
+        );
+        return problem("newmark.gamma", text);
+    }
+    if !(0.5 * gamma..=1.0).contains(&beta) {
+        let least = 0.5 * gamma;
+        let text = format!(
+            "is {beta} with newmark.gamma = {gamma}; give a number from {least}, half of it, to 1: with less the method is not stable at \
+             every time step"
+        );
+        return problem("newmark.beta", text);
+    }
+    Ok(())
+}
+
+fn check_generalized_alpha(table: &GeneralizedAlphaTable) -> Result<(), Problem> {
+    let Some(rho_inf) = table.rho_inf else { return Ok(()) };
+    if (0.0..=1.0).contains(&rho_inf) {
+        return Ok(());
+    }
+    let text = format!(
+        "is {rho_inf}; give a number from 0, which ends the fastest vibrations in a step, to 1, which keeps them"
+    );
+    problem("generalized_alpha.rho_inf", text)
+}

@@ -1,0 +1,78 @@
+//! Adaptive steps: estimated errors beside true ones.
+
+use fem_chart::page::{figure, table};
+use fem_chart::{Axis, Chart, Dot, Guide, Picture, Series};
+use maud::{Markup, html};
+
+use super::text::{number, seconds};
+use crate::runs::row::Row;
+use crate::studies::scene::SceneStudy;
+
+/// The completed runs of adaptive steps.
+fn rows(study: &SceneStudy) -> impl Iterator<Item = &Row> {
+    study.rows.iter().filter(|row| row.config.group == "adaptive" && row.is_done() && row.errors.estimated.is_some())
+}
+
+/// True over estimated errors; `None` without such runs.
+pub(super) fn chart(study: &SceneStudy) -> Option<Picture> {
+    let label = format!("{}: estimated and true error of adaptive steps", study.name);
+    let (x, y) = ("sum of estimated errors / body length", "largest true error / body length");
+    let mut chart = Chart::new(label, Axis::log(x), Axis::log(y));
+    for (number, method) in methods(study).into_iter().enumerate() {
+        let dot = |row: &Row| {
+            Some(Dot {
+                x: row.errors.estimated?,
+                y: row.errors.time_linf?,
+                title: row.config.method.clone(),
+                ..Dot::default()
+            })
+        };
+        let dots = rows(study).filter(|row| row.config.integrator == method).filter_map(dot).collect();
+        let name = method.replace('_', " ");
+        let series = Series {
+            name,
+            colour: number,
+            shape: number % 5,
+            is_joined: true,
+            has_dots: true,
+            dots,
+            ..Series::default()
+        };
+        chart.series.push(series);
+    }
+    let through = chart.series.first()?.dots.first().map(|dot| (dot.x, dot.x))?;
+    chart.guides.push(Guide::Slope { through, slope: 1.0, name: "equal".to_owned() });
+    Some(chart.draw())
+}
+
+/// Names of the integrators with such runs.
+fn methods(study: &SceneStudy) -> Vec<&'static str> {
+    let mut methods: Vec<&'static str> = rows(study).map(|row| row.config.integrator).collect();
+    methods.dedup();
+    methods
+}
+
+/// The table and the chart.
+pub(super) fn html(study: &SceneStudy) -> Markup {
+    let Some(picture) = chart(study) else { return html! {} };
+    let row = |row: &Row| {
+        let ratio = row.errors.time_linf.zip(row.errors.estimated).map(|(error, estimated)| error / estimated);
+        vec![
+            row.config.method.clone(),
+            row.counters.accepted_steps.to_string(),
+            row.counters.rejected_steps.to_string(),
+            number(row.errors.estimated),
+            number(row.errors.time_linf),
+            number(ratio),
+            seconds(row.seconds()),
+        ]
+    };
+    let head = ["run", ">steps", ">rejected", ">estimated error", ">true error", ">true / estimated", ">total"];
+    let caption = "Estimates are those of the displacements of each step, added up; true errors are the largest distance from the reference at the \
+        end, in which errors of earlier steps have grown or swung back.";
+    html! {
+        h3 { "Adaptive steps" }
+        (figure(&picture, caption))
+        (table(&head, &rows(study).map(row).collect::<Vec<_>>()))
+    }
+}
