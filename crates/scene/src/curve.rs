@@ -89,6 +89,19 @@ impl LoadCurve {
         }
     }
 
+    /// The factor and its first and second derivative (1/s, 1/s²) within a time step, at a part of it (0 at `begin`, 1 at `end`, s). A
+    /// curve that is piecewise linear counts as linear during the step, so that a kink inside it changes the rate and never the ends.
+    pub fn in_step(&self, [begin, end]: [f64; 2], part: f64) -> [f64; 3] {
+        let time = begin + part * (end - begin);
+        if let Self::Sine { .. } = self {
+            let [rate, change] = self.derivatives(time);
+            return [self.factor(time), rate, change];
+        }
+        let (first, last) = (self.factor(begin), self.factor(end));
+        let factor = if part == 1.0 { last } else { first + part * (last - first) };
+        [factor, (last - first) / (end - begin), 0.0]
+    }
+
     /// Times at which the factor has a kink or a jump, s.
     pub fn kinks(&self) -> Vec<f64> {
         match self {

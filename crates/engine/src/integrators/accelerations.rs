@@ -3,92 +3,148 @@
 use fem_scene::simulation::{Cause, Counters};
 
 use super::mass_inverse::MassInverse;
+use super::prescribed_motion::PrescribedMotion;
 use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
-use crate::vector::dot;
+use crate::vector::{axpy, dot};
 
 /// Accelerations, with the vectors that they need.
 ///
-/// A prescribed motion has one velocity during a step, the one that reaches its place at the end. [`begin`](Self::begin) writes it
-/// into the state; through a consistent mass, its change also accelerates the neighbours of constrained nodes.
+/// A step is [`begin`](Self::begin), evaluations [`at`](Self::at) its stages, and [`end`](Self::end). In each stage constrained degrees
+/// of freedom have the place, velocity and acceleration of their prescribed motion, and with a consistent mass their acceleration acts on
+/// their neighbours: so methods keep their order.
 #[derive(Clone, Debug)]
 pub struct Accelerations<T: Real> {
     mass: MassInverse<T>,
     force: Vec<[T; 3]>,
-    /// Accelerations of the constrained degrees of freedom, m/s², and their velocities, m/s; empty without a prescribed motion.
-    prescribed: Vec<[T; 3]>,
-    velocity: Vec<[T; 3]>,
-    /// Time step, s, and power of the prescribed motions at the last evaluation, W.
+    motion: PrescribedMotion<T>,
+    /// Start of the step and its duration, s.
+    time: f64,
     dt: f64,
-    power: f64,
+    /// Work of the prescribed motions on the body in the step, J.
+    work: f64,
+}
+
+/// A stage of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stage {
+    /// Part of the step after which the stage is evaluated: 0 is its start, 1 its end.
+    pub after: f64,
+    /// Weight of the stage in the sums over the step.
+    pub weight: f64,
 }
 
 impl<T: Real> Accelerations<T> {
     /// Allocates its vectors for a body.
     pub fn new(system: &System<T>) -> Self {
-        let zero = |nodes: usize| vec![[T::default(); 3]; nodes];
-        let moving = if system.dirichlet.has_motion() { system.nodes() } else { 0 };
-        Self {
-            mass: MassInverse::new(&system.mass),
-            force: zero(system.nodes()),
-            prescribed: zero(moving),
-            velocity: zero(moving),
-            dt: 0.0,
-            power: 0.0,
-        }
+        let force = vec![[T::default(); 3]; system.nodes()];
+        let (mass, motion) = (MassInverse::new(&system.mass), PrescribedMotion::new(system));
+        Self { mass, force, motion, time: 0.0, dt: 0.0, work: 0.0 }
     }
 
-    /// Starts a step: gives constrained degrees of freedom the velocity of their prescribed motion.
-    pub fn begin(&mut self, system: &System<T>, state: &mut State<T>, dt: f64) {
+    /// Starts a step. Where a prescribed velocity jumps, through a consistent mass an impulse changes the velocities of the neighbours:
+    /// M_ff Δv_f = −M_fp Δv_p. `a` is overwritten then. Returns whether one jumps.
+    pub fn begin(
+        &mut self,
+        system: &System<T>,
+        state: &mut State<T>,
+        dt: f64,
+        a: &mut [[T; 3]],
+    ) -> Result<bool, Cause> {
+        (self.time, self.dt, self.work) = (state.time, dt, 0.0);
         if !system.dirichlet.has_motion() {
-            return;
+            return Ok(false);
         }
-        // A reset can bring back a motion that had ended when the vectors were allocated.
-        self.prescribed.resize(system.nodes(), [T::default(); 3]);
-        self.velocity.resize(system.nodes(), [T::default(); 3]);
-        self.dt = dt;
-        let over_dt = T::of(1.0 / dt);
-        system.prescribe(&state.u, Moment::at(state.time + dt), &mut self.velocity);
-        for node in 0..self.prescribed.len() {
-            for i in 0..3 {
-                self.velocity[node][i] *= over_dt;
-                self.prescribed[node][i] = (self.velocity[node][i] - state.v[node][i]) * over_dt;
-            }
+        let Self { mass, force, motion, work, .. } = self;
+        let has_jump = system.profile.prescribed.time(|| {
+            motion.begin(system, state, dt);
+            motion.start(system, state, force)
+        });
+        if has_jump {
+            *work = system.profile.mass.time(|| impulse(system, mass, motion, (force, a), state))?;
         }
-        system.dirichlet.clear_free(&mut self.prescribed);
-        system.dirichlet.copy_constrained(&self.velocity, &mut state.v);
+        Ok(has_jump)
     }
 
-    /// Accelerations at displacements `u`, velocities `v` and a time (s); zero at constrained degrees of freedom, m/s².
+    /// Accelerations at a stage with displacements `u` and velocities `v`; zero at constrained degrees of freedom, m/s². Sets the
+    /// constrained entries of `u` and `v`.
     pub fn at(
         &mut self,
         system: &System<T>,
-        (u, v): (&[[T; 3]], &[[T; 3]]),
-        time: f64,
+        (u, v): (&mut [[T; 3]], &mut [[T; 3]]),
+        Stage { after, weight }: Stage,
         a: &mut [[T; 3]],
         counters: &mut Counters,
     ) -> Result<(), Cause> {
-        let Self { mass, force, prescribed, velocity, power, .. } = self;
+        let Self { mass, force, motion, time, dt, work } = self;
+        let has_motion = system.dirichlet.has_motion();
+        if has_motion {
+            system.profile.prescribed.time(|| motion.place(system, after, u, v));
+        }
         counters.force_assemblies += 1;
-        system.force(u, v, u, Moment::at(time), force);
-        if system.dirichlet.has_motion() {
-            system.profile.prescribed.time(|| system.mass.add_times(T::of(-1.0), prescribed, force));
+        system.force(u, v, u, Moment::at(*time + after * *dt), force);
+        if has_motion {
+            system.profile.prescribed.time(|| system.mass.add_times(T::of(-1.0), &motion.acceleration, force));
             // The reactions are minus the force, and free entries of the velocity are zero.
-            *power = -dot(force, velocity);
+            *work -= weight * *dt * dot(force, &motion.velocity);
         }
         system.profile.mass.time(|| {
             mass.solve(system, force, a)?;
             flush_to_zero(a);
             Ok(())
-        })
+        })?;
+        if has_motion && !system.mass.is_lumped() {
+            *work += weight * *dt * product(system, a, &motion.velocity, force);
+        }
+        Ok(())
     }
 
-    /// Work of the prescribed motions on the body in the last step, with the power at its last evaluation, J.
-    pub fn work_of_motions(&self) -> f64 {
-        self.dt * self.power
+    /// Ends a step: constrained degrees of freedom have the place and the velocity that are prescribed there.
+    pub fn end(&mut self, system: &System<T>, state: &mut State<T>) {
+        if system.dirichlet.has_motion() {
+            system.profile.prescribed.time(|| self.motion.place(system, 1.0, &mut state.u, &mut state.v));
+        }
     }
+
+    /// Work of the prescribed motions on the body in the last step, J.
+    pub fn work_of_motions(&self) -> f64 {
+        self.work
+    }
+}
+
+/// Gives free nodes the velocities that the jump of the prescribed ones, m/s, leaves them with. Returns the work of the impulses on the
+/// constrained nodes: each times the mean of the velocities before and after, J.
+fn impulse<T: Real>(
+    system: &System<T>,
+    mass: &mut MassInverse<T>,
+    motion: &mut PrescribedMotion<T>,
+    (jump, change): (&mut [[T; 3]], &mut [[T; 3]]),
+    state: &mut State<T>,
+) -> Result<f64, Cause> {
+    // Free entries of the mean velocity are zero. Each stage writes the accelerations anew.
+    let mean = &mut motion.acceleration;
+    mean.copy_from_slice(&motion.velocity);
+    axpy(-0.5, jump, mean);
+    change.fill([T::default(); 3]);
+    system.mass.add_times(T::one(), jump, change);
+    let mut work = dot(change, mean);
+    if system.mass.is_lumped() {
+        return Ok(work);
+    }
+    jump.copy_from_slice(change);
+    mass.solve(system, jump, change)?;
+    work -= product(system, change, mean, jump);
+    axpy(-1.0, change, &mut state.v);
+    Ok(work)
+}
+
+/// xᵀ M y; overwrites `product`.
+fn product<T: Real>(system: &System<T>, x: &[[T; 3]], y: &[[T; 3]], product: &mut [[T; 3]]) -> f64 {
+    product.fill([T::default(); 3]);
+    system.mass.add_times(T::one(), x, product);
+    dot(product, y)
 }
 
 /// Sets accelerations to zero that are smaller than the largest by more than the arithmetic resolves. An elastic wave travels one

@@ -25,7 +25,9 @@ pub fn critical_time_step<T: Real>(kind: IntegratorKind, system: &System<T>) -> 
     let limit = match kind {
         // Central differences with the damping force of the step before: Belytschko, Liu, Moran, Nonlinear Finite Elements for
         // Continua and Structures (2000), §6.2.
-        IntegratorKind::SemiImplicitEuler | IntegratorKind::Verlet => 2.0 * ((1.0 + ratio * ratio).sqrt() - ratio),
+        IntegratorKind::SemiImplicitEuler => 2.0 * ((1.0 + ratio * ratio).sqrt() - ratio),
+        // With the damping force of a predicted velocity, the amplification factor −1 is at z² + 8 ξ z = 4, z = ω dt.
+        IntegratorKind::Verlet => 2.0 * ((1.0 + 4.0 * ratio * ratio).sqrt() - 2.0 * ratio),
         IntegratorKind::ExplicitEuler => limit_of_taylor_method(1, ratio),
         IntegratorKind::Rk2 => limit_of_taylor_method(2, ratio),
         IntegratorKind::Rk4 => limit_of_taylor_method(4, ratio),

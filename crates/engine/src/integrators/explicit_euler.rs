@@ -2,7 +2,7 @@
 
 use fem_scene::simulation::{Cause, Counters};
 
-use super::{Accelerations, Convergence, Integrator};
+use super::{Accelerations, Convergence, Integrator, Stage};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
@@ -29,10 +29,12 @@ impl<T: Real> Integrator<T> for ExplicitEuler<T> {
         dt: f64,
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
-        self.accelerations.begin(system, state, dt);
-        self.accelerations.at(system, (&state.u, &state.v), state.time, &mut self.a, counters)?;
+        let Self { accelerations, a } = self;
+        accelerations.begin(system, state, dt, a)?;
+        accelerations.at(system, (&mut state.u, &mut state.v), Stage { after: 0.0, weight: 1.0 }, a, counters)?;
         axpy(dt, &state.v, &mut state.u);
-        axpy(dt, &self.a, &mut state.v);
+        axpy(dt, a, &mut state.v);
+        accelerations.end(system, state);
         Ok(Convergence::Converged)
     }
 

@@ -11,6 +11,7 @@ mod initial_guess;
 mod linearly_implicit_euler;
 mod mass_inverse;
 mod momentum;
+mod prescribed_motion;
 mod rk2;
 mod rk4;
 mod second_order;
@@ -18,7 +19,7 @@ mod semi_implicit_euler;
 mod statics;
 mod verlet;
 
-pub use accelerations::Accelerations;
+pub use accelerations::{Accelerations, Stage};
 pub use critical_time_step::critical_time_step;
 pub use explicit_euler::ExplicitEuler;
 pub use implicit_euler::ImplicitEuler;

@@ -3,7 +3,7 @@
 
 use fem_scene::simulation::{Cause, Counters};
 
-use super::{Accelerations, Convergence, Integrator};
+use super::{Accelerations, Convergence, Integrator, Stage};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
@@ -35,15 +35,17 @@ impl<T: Real> Integrator<T> for Rk2<T> {
     ) -> Result<Convergence, Cause> {
         let Self { accelerations, a, u, v } = self;
         let half = 0.5 * dt;
-        accelerations.begin(system, state, dt);
-        accelerations.at(system, (&state.u, &state.v), state.time, a, counters)?;
+        accelerations.begin(system, state, dt, a)?;
+        let start = Stage { after: 0.0, weight: 0.0 };
+        accelerations.at(system, (&mut state.u, &mut state.v), start, a, counters)?;
         u.copy_from_slice(&state.u);
         v.copy_from_slice(&state.v);
         axpy(half, &state.v, u);
         axpy(half, a, v);
-        accelerations.at(system, (u, v), state.time + 0.5 * dt, a, counters)?;
+        accelerations.at(system, (u, v), Stage { after: 0.5, weight: 1.0 }, a, counters)?;
         axpy(dt, v, &mut state.u);
         axpy(dt, a, &mut state.v);
+        accelerations.end(system, state);
         Ok(Convergence::Converged)
     }
 

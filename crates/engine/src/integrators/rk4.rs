@@ -2,7 +2,7 @@
 
 use fem_scene::simulation::{Cause, Counters};
 
-use super::{Accelerations, Convergence, Integrator};
+use super::{Accelerations, Convergence, Integrator, Stage};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
@@ -18,8 +18,12 @@ pub struct Rk4<T: Real> {
     start: [Vec<[T; 3]>; 2],
 }
 
-/// Part of the step after which a stage is evaluated, and its weight.
-const STAGES: [(f64, f64); 4] = [(0.0, 1.0 / 6.0), (0.5, 1.0 / 3.0), (0.5, 1.0 / 3.0), (1.0, 1.0 / 6.0)];
+const STAGES: [Stage; 4] = [
+    Stage { after: 0.0, weight: 1.0 / 6.0 },
+    Stage { after: 0.5, weight: 1.0 / 3.0 },
+    Stage { after: 0.5, weight: 1.0 / 3.0 },
+    Stage { after: 1.0, weight: 1.0 / 6.0 },
+];
 
 impl<T: Real> Rk4<T> {
     /// Allocates its vectors for a body.
@@ -38,21 +42,22 @@ impl<T: Real> Integrator<T> for Rk4<T> {
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
         let Self { accelerations, a, u, v, start: [u0, v0] } = self;
-        accelerations.begin(system, state, dt);
+        accelerations.begin(system, state, dt, a)?;
         for (copy, of) in [(&mut *u, &state.u), (&mut *v, &state.v), (&mut *u0, &state.u), (&mut *v0, &state.v)] {
             copy.copy_from_slice(of);
         }
-        for (stage, (after, weight)) in STAGES.into_iter().enumerate() {
-            accelerations.at(system, (u, v), state.time + after * dt, a, counters)?;
-            axpy(weight * dt, v, &mut state.u);
-            axpy(weight * dt, a, &mut state.v);
+        for (number, stage) in STAGES.into_iter().enumerate() {
+            accelerations.at(system, (u, v), stage, a, counters)?;
+            axpy(stage.weight * dt, v, &mut state.u);
+            axpy(stage.weight * dt, a, &mut state.v);
             // Where the next stage is.
-            let Some((after, _)) = STAGES.get(stage + 1) else { break };
+            let Some(Stage { after, .. }) = STAGES.get(number + 1) else { break };
             u.copy_from_slice(u0);
             axpy(after * dt, v, u);
             v.copy_from_slice(v0);
             axpy(after * dt, a, v);
         }
+        accelerations.end(system, state);
         Ok(Convergence::Converged)
     }
 

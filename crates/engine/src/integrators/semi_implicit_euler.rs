@@ -4,7 +4,7 @@
 
 use fem_scene::simulation::{Cause, Counters};
 
-use super::{Accelerations, Convergence, Integrator};
+use super::{Accelerations, Convergence, Integrator, Stage};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
@@ -31,10 +31,12 @@ impl<T: Real> Integrator<T> for SemiImplicitEuler<T> {
         dt: f64,
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
-        self.accelerations.begin(system, state, dt);
-        self.accelerations.at(system, (&state.u, &state.v), state.time, &mut self.a, counters)?;
-        axpy(dt, &self.a, &mut state.v);
+        let Self { accelerations, a } = self;
+        accelerations.begin(system, state, dt, a)?;
+        accelerations.at(system, (&mut state.u, &mut state.v), Stage { after: 0.0, weight: 1.0 }, a, counters)?;
+        axpy(dt, a, &mut state.v);
         axpy(dt, &state.v, &mut state.u);
+        accelerations.end(system, state);
         Ok(Convergence::Converged)
     }
 

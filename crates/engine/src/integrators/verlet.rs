@@ -3,7 +3,7 @@
 
 use fem_scene::simulation::{Cause, Counters, History};
 
-use super::{Accelerations, Convergence, Integrator};
+use super::{Accelerations, Convergence, Integrator, Stage};
 use crate::history::{put, take};
 use crate::model::state::State;
 use crate::model::system::System;
@@ -38,19 +38,21 @@ impl<T: Real> Integrator<T> for Verlet<T> {
     ) -> Result<Convergence, Cause> {
         let Self { accelerations, a, v, is_known } = self;
         let half = 0.5 * dt;
-        accelerations.begin(system, state, dt);
-        if !*is_known {
-            accelerations.at(system, (&state.u, &state.v), state.time, a, counters)?;
+        let has_jump = accelerations.begin(system, state, dt, a)?;
+        if has_jump || !*is_known {
+            let start = Stage { after: 0.0, weight: 0.0 };
+            accelerations.at(system, (&mut state.u, &mut state.v), start, a, counters)?;
         }
-        // Damping at the end takes the velocity predicted there: with that after half a kick the method would be of first order.
+        // Damping at the end takes the velocity predicted there: with that after half a kick the method would be of first order. The
+        // corrected velocity differs from it by O(dt²), so this acceleration also serves at the start of the next step.
         v.copy_from_slice(&state.v);
         axpy(dt, a, v);
         axpy(half, a, &mut state.v);
         axpy(dt, &state.v, &mut state.u);
-        accelerations.at(system, (&state.u, v), state.time + dt, a, counters)?;
+        accelerations.at(system, (&mut state.u, v), Stage { after: 1.0, weight: 1.0 }, a, counters)?;
         axpy(half, a, &mut state.v);
-        // With damping it depends on the velocities, with a prescribed motion on their change.
-        *is_known = system.damping.is_none() && !system.dirichlet.has_motion();
+        *is_known = true;
+        accelerations.end(system, state);
         Ok(Convergence::Converged)
     }
 

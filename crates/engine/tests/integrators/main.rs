@@ -13,6 +13,7 @@ mod closed_scenes;
 mod conserved;
 mod curves;
 mod divergence;
+mod driven;
 mod extreme;
 mod flat;
 mod initial_velocity;

@@ -52,6 +52,12 @@ impl Motion {
         self.curve.as_ref().map_or(1.0, |curve| curve.factor(time))
     }
 
+    /// That fraction and its first and second derivative (1/s, 1/s²) at a part of the time step from `begin` to `end`, s; see
+    /// [`LoadCurve::in_step`].
+    pub fn fraction_in_step(&self, step: [f64; 2], part: f64) -> [f64; 3] {
+        self.curve.as_ref().map_or([1.0, 0.0, 0.0], |curve| curve.in_step(step, part))
+    }
+
     /// Position of a node at a fraction of the motion, m. `X` is its undeformed position, m.
     ///
     /// x = c + R(2π · turns · fraction) (X − c) + fraction · displacement
@@ -61,6 +67,16 @@ impl Motion {
             rotation.center + Rotation3::from_axis_angle(&rotation.axis, angle) * (X - rotation.center)
         });
         rotated + fraction * self.displacement
+    }
+
+    /// First and second derivative of [`position`](Self::position) by the fraction s, m:
+    /// dx/ds = ω × (R (X − c)) + displacement and d²x/ds² = ω × (ω × (R (X − c))), ω = 2π · turns · axis.
+    pub fn derivatives(&self, X: &Vector3<f64>, fraction: f64) -> [Vector3<f64>; 2] {
+        let Some(rotation) = &self.rotation else { return [self.displacement, Vector3::zeros()] };
+        let omega = TAU * rotation.turns * rotation.axis.into_inner();
+        let arm = Rotation3::from_axis_angle(&rotation.axis, TAU * rotation.turns * fraction) * (X - rotation.center);
+        let first = omega.cross(&arm);
+        [first + self.displacement, omega.cross(&first)]
     }
 
     fn new(table: &PrescribedTable) -> Self {

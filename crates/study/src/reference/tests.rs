@@ -155,3 +155,29 @@ fn displacements_that_jump_have_no_reference() {
     let equations = soft_box("[[prescribed]]\nnodes = [4]\ndisplacement = [0.2, 0, 0]\n");
     assert!(reference(&equations, 1.0, 60.0).unwrap_err().contains("over"));
 }
+
+#[test]
+fn explicit_methods_follow_a_turning_clamp_to_the_reference_with_their_order() {
+    let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 1 }\n[material]\n\
+        model = \"neo_hookean\"\nC = 1e4\nD = 4e4\ndensity = 1000.0\n[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n\
+        [[prescribed]]\non = { axis = \"x\", side = \"max\", within = 1e-9 }\n\
+        rotation = { axis = \"x\", center = [0, 0.5, 0.5], turns = 0.2 }\ndisplacement = [0.1, 0, 0.2]\n\
+        curve = { sine = { frequency = 2.5 } }\n[time]\ndt = DT\nintegrator = \"METHOD\"\n";
+    let of = |method: &str, steps: usize| {
+        let text = text.replace("DT", &format!("{:e}", 0.2 / steps as f64)).replace("METHOD", method);
+        parse(&text, Path::new("folder/name.toml")).unwrap()
+    };
+    let scene = of("rk4", 100);
+    let exact = reference(&Equations::new(&scene, body(&scene, Path::new("")).unwrap()).unwrap(), 0.2, 60.0).unwrap();
+    for (method, order, steps) in [("verlet", 2.0, 200), ("rk2", 2.0, 400), ("rk4", 4.0, 200)] {
+        let error = |steps: usize| {
+            let scene = of(method, steps);
+            let mut simulation = fem_engine::simulator::build(&scene, body(&scene, Path::new("")).unwrap()).unwrap();
+            (0..steps).for_each(|_| simulation.step().unwrap());
+            f64::max((simulation.positions() - &exact.q).amax(), 0.1 * (simulation.velocities() - &exact.qdot).amax())
+        };
+        let [coarse, fine] = [steps, 2 * steps].map(error);
+        let measured = (coarse / fine).log2();
+        assert!((measured - order).abs() < 0.1, "{method}: order {measured}, errors {coarse:e} and {fine:e}");
+    }
+}
