@@ -138,7 +138,10 @@ impl<T: Real> Simulator<T> {
         let mut plan = Plan::new(&body);
         let gravity = body.gravity;
         let with_obstacles = body.contact.is_some().then(|| body.clone());
-        let mut system = System::with_forces(body, law, solver, own);
+        let mut system = match method.integrator.is_explicit() {
+            true => System::without_matrix(&body, law, own),
+            false => System::with_forces(body, law, solver, own),
+        };
         range_check::check(&method, &system).map_err(|(field, problem)| scene.refuse(field, &problem))?;
         let is_conservative = !system.forces.has_followers();
         path_check::check_force(&method, is_conservative).map_err(|(field, problem)| scene.refuse(field, &problem))?;

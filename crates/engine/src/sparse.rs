@@ -54,6 +54,11 @@ impl Pattern {
         Self { stored, starts, columns: pairs.into_iter().map(|(_, column)| column).collect() }
     }
 
+    /// The pattern of a matrix that is never assembled: no rows.
+    pub fn none() -> Self {
+        Self { stored: Stored::Lower, starts: vec![0], columns: Vec::new() }
+    }
+
     /// Number of block rows.
     pub fn rows(&self) -> usize {
         self.starts.len() - 1

@@ -23,7 +23,7 @@ type Shape<const D: usize, const E: usize> = ([[f64; D]; E], f64);
 
 impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, N> {
     /// Simplices with corners and positions in the order of the rows of `pattern`; nodes beyond its rows have forces but no
-    /// stiffness.
+    /// stiffness. Without rows the elements have forces alone, until [`set_pattern`](Self::set_pattern).
     pub fn new(positions: &[Vector3<f64>], elements: &[[u32; N]], pattern: &Pattern) -> Self {
         Self::stiffened(positions, elements, &[], pattern)
     }
@@ -36,6 +36,13 @@ impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, 
             (std::array::from_fn(|e| std::array::from_fn(|j| inverse[(e, j)])), volume)
         };
         Self::of_shapes(positions.len(), elements, pattern, &shape)
+    }
+
+    /// Prepares the assembly of matrices with another pattern: finds the block of each pair of nodes.
+    pub fn set_pattern(&mut self, pattern: &Pattern) {
+        for chunk in &mut self.chunks {
+            chunk.set_pattern(pattern);
+        }
     }
 
     /// Elements with the shapes that `shape` gives for the number of an element and its nodes in ascending order.
@@ -81,8 +88,6 @@ fn chunk<T: Real, const D: usize, const E: usize, const N: usize>(
     pattern: &Pattern,
     shape: &dyn Fn(usize, &[u32; N]) -> Shape<D, E>,
 ) -> Chunk<T, D, E, N> {
-    let rows = nodes.start.min(pattern.rows())..nodes.end.min(pattern.rows());
-    let blocks = pattern.starts[rows.start]..pattern.starts[rows.end];
     let touches = |element: &[u32; N]| element.iter().any(|&node| nodes.contains(&(node as usize)));
     let all = 0..elements.len() as u32;
     let mut chosen: Vec<u32> = all.filter(|&element| touches(&elements[element as usize])).collect();
@@ -90,7 +95,6 @@ fn chunk<T: Real, const D: usize, const E: usize, const N: usize>(
     chosen.sort_by_key(|&element| elements[element as usize].iter().min().copied());
 
     let mut corners: Vec<[u32; N]> = chosen.iter().map(|&element| ascending(elements[element as usize])).collect();
-    let mut targets: Vec<_> = corners.iter().map(|corners| target(corners, &rows, blocks.start, pattern)).collect();
     let of_element = |(corners, &element): (&[u32; N], &u32)| shape(element as usize, corners);
     let shapes: Vec<_> = corners.iter().zip(&chosen).map(of_element).collect();
     let owned: Vec<bool> = corners
@@ -103,8 +107,22 @@ fn chunk<T: Real, const D: usize, const E: usize, const N: usize>(
 
     let filling = batches.len() * T::WIDTH - chosen.len();
     corners.extend(std::iter::repeat_n([nodes.start as u32; N], filling));
-    targets.extend(std::iter::repeat_n([[NONE; N]; N], filling));
-    Chunk { nodes, blocks, corners, targets, batches, elements: chosen }
+    let mut chunk = Chunk { nodes, blocks: 0..0, corners, targets: Vec::new(), batches, elements: chosen };
+    if pattern.rows() > 0 {
+        chunk.set_pattern(pattern);
+    }
+    chunk
+}
+
+impl<T: Real, const D: usize, const E: usize, const N: usize> Chunk<T, D, E, N> {
+    fn set_pattern(&mut self, pattern: &Pattern) {
+        let rows = self.nodes.start.min(pattern.rows())..self.nodes.end.min(pattern.rows());
+        self.blocks = pattern.starts[rows.start]..pattern.starts[rows.end];
+        let corners = self.corners[..self.elements.len()].iter();
+        self.targets = corners.map(|corners| target(corners, &rows, self.blocks.start, pattern)).collect();
+        // Elements of no volume fill the last batch.
+        self.targets.resize(self.corners.len(), [[NONE; N]; N]);
+    }
 }
 
 fn target<const N: usize>(

@@ -44,7 +44,7 @@ struct Chunk<T: Real, const D: usize, const E: usize, const N: usize> {
     /// Nodes of each element in ascending order, lane after lane; the last batch is filled up with elements of no volume.
     corners: Vec<[u32; N]>,
     /// Block that each pair of nodes is added to, counted from the first of `blocks`; pairs without a block have a target
-    /// beyond the last.
+    /// beyond the last. Empty where no matrix is assembled.
     targets: Vec<[[u32; N]; N]>,
     batches: Vec<Batch<T::Lanes, D, E>>,
     /// Number of each element in the list that the elements were made from.

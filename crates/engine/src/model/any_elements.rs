@@ -28,15 +28,15 @@ macro_rules! with_elements {
 pub(super) use with_elements;
 
 impl<T: Real> AnyElements<T> {
-    /// The elements of these numbers; `factors` on their energies is empty where all are 1.
+    /// The elements of these numbers, with forces alone; `factors` on their energies is empty where all are 1.
     pub(super) fn new(
         mesh: &BodyMesh,
         factors: &[f64],
         numbers: &[usize],
         rest: &[Vector3<f64>],
         numbering: &Numbering,
-        pattern: &Pattern,
     ) -> Self {
+        let pattern = &Pattern::none();
         let factor = |&element: &usize| factors.get(element).copied().unwrap_or(1.0);
         match mesh {
             BodyMesh::Solid(mesh) => {

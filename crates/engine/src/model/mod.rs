@@ -6,4 +6,5 @@ pub mod numbering;
 mod obstacles;
 pub mod solids;
 pub mod state;
+mod stiffness_pattern;
 pub mod system;

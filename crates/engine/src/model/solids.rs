@@ -123,20 +123,14 @@ impl<T: Real> Solid<T> {
 impl<T: Real> Solids<T> {
     /// Groups the elements of a body, with positions and numbers of nodes as the engine has them. `law` is that of the body's own
     /// material.
-    pub fn new(
-        body: &Body,
-        law: AnyLaw<T::Lanes>,
-        rest: &[Vector3<f64>],
-        numbering: &Numbering,
-        pattern: &Pattern,
-    ) -> Self {
+    pub fn new(body: &Body, law: AnyLaw<T::Lanes>, rest: &[Vector3<f64>], numbering: &Numbering) -> Self {
         let factors = &body.stiffness_factors;
         let (count, points_per_element) = (body.shape.mesh.elements(), body.shape.mesh.points_per_element());
         let is_flat = body.shape.mesh.is_flat();
         let group = |(law, material): (AnyLaw<T::Lanes>, &Material), elements: Vec<usize>| {
             let of_element = |&element: &usize| element * points_per_element..(element + 1) * points_per_element;
             let numbers = elements.iter().flat_map(of_element).collect();
-            let elements = AnyElements::new(&body.shape.mesh, factors, &elements, rest, numbering, pattern);
+            let elements = AnyElements::new(&body.shape.mesh, factors, &elements, rest, numbering);
             let fast = if T::has_fast() { AnyLaw::<T::Fast>::new(material) } else { None };
             if let Some(fast) = &fast {
                 assert_eq!(fast.moduli(), law.moduli(), "the law is that of the body's material");
@@ -162,6 +156,13 @@ impl<T: Real> Solids<T> {
         let plasticity = body.plasticity.map(|model| Plasticity::new(model, count, body.shape.mesh.is_flat()));
         let is_in_plane_stress = body.material.plane == Some(PlaneState::Stress);
         Self { groups, count, points_per_element, factors: factors.clone(), plasticity, is_in_plane_stress }
+    }
+
+    /// Prepares the assembly of matrices with a pattern.
+    pub fn set_pattern(&mut self, pattern: &Pattern) {
+        for group in &mut self.groups {
+            with_elements!(&mut group.elements, elements => elements.set_pattern(pattern));
+        }
     }
 
     /// Plastic flow of the elements, where the scene has some.

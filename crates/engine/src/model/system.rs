@@ -8,7 +8,7 @@ use fem_scene::{Body, BodyMesh, Interaction, RayleighDamping};
 use nalgebra::{Matrix3, Vector3};
 
 use super::mass::{ElementMass, Mass, element_masses};
-use super::numbering::Numbering;
+use super::numbering::{Numbering, Ordering};
 use super::solids::Solids;
 use crate::boundary::dirichlet::{DirichletConditions, fully_constrained_nodes};
 use crate::forces::anchors::{self, Anchors};
@@ -16,7 +16,6 @@ use crate::forces::{Energy, Forces, HessianKind, Moment, Potential};
 use crate::materials::AnyLaw;
 use crate::number::Real;
 use crate::profile::Profile;
-use crate::solvers::SolverChoice;
 use crate::sparse::{Block, Pattern};
 
 /// A body in the engine's numbering: free nodes first, fully constrained ones last.
@@ -31,7 +30,8 @@ pub struct System<T: Real> {
     pub rest: Vec<Vector3<f64>>,
     /// Undeformed elements and their materials.
     pub elements: Solids<T>,
-    /// Sparsity of the stiffness matrix; its rows are the nodes that are not fully constrained.
+    /// Sparsity of the stiffness matrix, whose rows are the nodes that are not fully constrained; without rows if the method needs no
+    /// matrix, until [`prepare_matrix`](Self::prepare_matrix).
     pub pattern: Arc<Pattern>,
     /// Mass of all nodes.
     pub mass: Mass<T>,
@@ -57,20 +57,17 @@ pub struct System<T: Real> {
 pub type OwnForces<'a, T> = &'a dyn Fn(&Numbering) -> Vec<Box<dyn Potential<T>>>;
 
 impl<T: Real> System<T> {
-    /// Builds what the scene names, and nothing else; rows and blocks as the solver wants them.
-    pub fn new(body: Body, law: AnyLaw<T::Lanes>, choice: SolverChoice) -> Self {
-        Self::with_forces(body, law, choice, &|_| Vec::new())
-    }
-
-    /// The same with forces of one's own beside those that the scene names.
-    pub fn with_forces(body: Body, law: AnyLaw<T::Lanes>, choice: SolverChoice, own: OwnForces<T>) -> Self {
+    /// Builds what the scene names, and nothing else, without a matrix.
+    pub(super) fn of_body(body: &Body, law: AnyLaw<T::Lanes>, ordering: Ordering, own: OwnForces<T>) -> Self {
         match &body.shape.mesh {
-            BodyMesh::Solid(mesh) => Self::of_elements(&mesh.elements, ElementMass::simplex(), &body, law, choice, own),
+            BodyMesh::Solid(mesh) => {
+                Self::of_elements(&mesh.elements, ElementMass::simplex(), body, law, ordering, own)
+            }
             BodyMesh::Flat { triangles, .. } => {
-                Self::of_elements(&triangles.elements, ElementMass::simplex(), &body, law, choice, own)
+                Self::of_elements(&triangles.elements, ElementMass::simplex(), body, law, ordering, own)
             }
             BodyMesh::Quadratic { triangles, .. } => {
-                Self::of_elements(&triangles.elements, ElementMass::quadratic_triangle(), &body, law, choice, own)
+                Self::of_elements(&triangles.elements, ElementMass::quadratic_triangle(), body, law, ordering, own)
             }
         }
     }
@@ -80,12 +77,12 @@ impl<T: Real> System<T> {
         shares: ElementMass<N>,
         body: &Body,
         law: AnyLaw<T::Lanes>,
-        choice: SolverChoice,
+        ordering: Ordering,
         own: OwnForces<T>,
     ) -> Self {
         let mesh = &body.shape.mesh;
         let fully_constrained = fully_constrained_nodes(body);
-        let numbering = Numbering::new(choice.ordering(), mesh.vertices(), elements, &fully_constrained);
+        let numbering = Numbering::new(ordering, mesh.vertices(), elements, &fully_constrained);
         let corners = numbering.elements(elements);
         let rest: Vec<_> = numbering.mesh_node.iter().map(|&node| mesh.vertices()[node as usize]).collect();
         let own = own(&numbering);
@@ -93,8 +90,6 @@ impl<T: Real> System<T> {
         let anchors =
             Anchors::new(Interaction::new(body.drag, anchors::pull_modulus(body) * mesh.length()), &shape, &numbering);
         let forces = Forces::new(body, anchors, &numbering, own);
-        let couplings: Vec<[u32; 2]> = forces.all().flat_map(|(potential, _)| potential.couplings()).collect();
-        let pattern = Pattern::joined(numbering.free, &corners, &couplings, choice.stored());
         let masses = element_masses(body);
         let mass = match body.lumped_mass {
             true => Mass::lumped(rest.len(), &corners, &masses, mesh.lumped_mass_shares()),
@@ -102,14 +97,14 @@ impl<T: Real> System<T> {
         };
         let dirichlet = DirichletConditions::new(body, &numbering);
         Self {
-            elements: Solids::new(body, law, &rest, &numbering, &pattern),
+            elements: Solids::new(body, law, &rest, &numbering),
             length: mesh.length(),
             total_mass: masses.iter().sum(),
             node_masses: if dirichlet.is_empty() { mass.row_sums() } else { Vec::new() },
             name,
             damping: body.damping,
             shape,
-            pattern: Arc::new(pattern),
+            pattern: Arc::new(Pattern::none()),
             dirichlet,
             numbering,
             rest,

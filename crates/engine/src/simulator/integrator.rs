@@ -81,6 +81,19 @@ pub(super) fn solver_choice(method: &Method, nodes: usize) -> SolverChoice {
     }
 }
 
+/// Builds the integrator that a running simulation is switched to. An explicit scene has no pattern until an implicit method needs one.
+pub(super) fn switched<T: Real>(
+    kind: IntegratorKind,
+    method: &Method,
+    system: &mut System<T>,
+) -> Box<dyn Integrator<T>> {
+    let choice = solver_choice(method, system.nodes());
+    if !kind.is_explicit() && !system.has_pattern() {
+        system.prepare_matrix(choice);
+    }
+    build(kind, method, system, choice)
+}
+
 /// Builds an integrator with what it needs, and nothing else.
 pub(super) fn build<T: Real>(
     kind: IntegratorKind,

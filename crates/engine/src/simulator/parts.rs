@@ -31,8 +31,7 @@ fn cost<T: Real>(simulator: &Simulator<T>, name: &str) -> Cost {
     let profile = &system.profile;
     let once = |bytes: usize| (bytes, (0, 0.0));
     match name {
-        // The pattern is found with the mesh, whether or not a matrix is assembled.
-        "mesh" => once(system.elements.bytes() + system.pattern.bytes()),
+        "mesh" => once(system.elements.bytes()),
         "state" => once(state.bytes() + last_good.bytes()),
         "mass" => (system.mass.bytes(), profile.mass.read()),
         "forces" => (0, profile.forces.read()),
@@ -41,7 +40,9 @@ fn cost<T: Real>(simulator: &Simulator<T>, name: &str) -> Cost {
         "damping" => (0, profile.damping.read()),
         "plasticity" => (system.elements.plasticity().map_or(0, |flow| flow.bytes()), profile.plasticity.read()),
         "drag" => (0, system.forces.anchors_timer.read()),
-        "stiffness" => (9 * size_of::<T>() * system.pattern.blocks(), profile.stiffness.read()),
+        "stiffness" => {
+            (system.pattern.bytes() + 9 * size_of::<T>() * system.pattern.blocks(), profile.stiffness.read())
+        }
         "solver" | "preconditioner" => of_solver(simulator, name),
         "projection" => (0, (counters.projections, profile.projection.read().1)),
         "line_search" => (0, (counters.energy_evaluations, profile.energies.read().1)),

@@ -10,7 +10,7 @@ use fem_scene::simulation::{
 };
 use nalgebra::{DVector, Matrix3, Vector3};
 
-use super::integrator::{build, integrators, solver_choice};
+use super::integrator::{integrators, switched};
 use super::{Simulator, checkpoint, parts};
 use crate::boundary::reactions::{reactions, reactions_at};
 use crate::integrators::{LastStage, critical_time_step};
@@ -138,8 +138,7 @@ impl<T: Real> Simulation for Simulator<T> {
         };
         let methods: Vec<_> = integrators(method).iter().copied().filter(|kind| is_usable(*kind)).collect();
         self.kind = self.kind.next_in(&methods);
-        let choice = solver_choice(&self.method, self.system.nodes());
-        self.integrator = build(self.kind, &self.method, &self.system, choice);
+        self.integrator = switched(self.kind, &self.method, &mut self.system);
         self.kind.name()
     }
 

@@ -129,3 +129,17 @@ fn a_method_chosen_after_the_release_follows_the_motion_after_a_reset() {
         assert!((moved + 0.2).abs() < 1e-12, "{}: {moved}", simulation.integrator());
     }
 }
+
+#[test]
+fn an_explicit_scene_that_is_switched_to_an_implicit_method_moves_as_the_implicit_scene() {
+    let table = format!(
+        "{GRAVITY}[fixed]\nplane = {{ axis = \"x\", below = 1e-9 }}\n[[springs]]\nnodes = [2, 9]\nstiffness = 1e4\n"
+    );
+    let mut explicit = simulator("verlet", &table);
+    while explicit.next_integrator() != "implicit_euler" {}
+    let mut implicit = simulator("implicit_euler", &table);
+    run(&mut explicit, 20);
+    run(&mut implicit, 20);
+    let difference = (explicit.positions() - implicit.positions()).amax();
+    assert!(difference < 1e-9, "{difference:e}");
+}

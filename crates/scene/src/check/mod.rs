@@ -86,7 +86,8 @@ fn check_time(time: &TimeTable) -> Result<(), Problem> {
     match time.substeps {
         Some(0) => return problem("time.substeps", "is 0; give at least one substep"),
         Some(count) if count > MOST_SUBSTEPS => {
-            let text = format!("is {count}; give at most {MOST_SUBSTEPS}, and a shorter time.dt where these are too long");
+            let text =
+                format!("is {count}; give at most {MOST_SUBSTEPS}, and a shorter time.dt where these are too long");
             return problem("time.substeps", text);
         }
         Some(_) if time.integrator == Integrator::Static => {

@@ -1,0 +1,59 @@
+//! Bodies with and without a stiffness matrix: its sparsity pattern is found only for methods that solve with it.
+
+use std::sync::Arc;
+
+use fem_scene::{Body, BodyMesh};
+
+use super::numbering::{Numbering, Ordering};
+use super::system::{OwnForces, System};
+use crate::materials::AnyLaw;
+use crate::number::Real;
+use crate::solvers::SolverChoice;
+use crate::sparse::{Pattern, Stored};
+
+impl<T: Real> System<T> {
+    /// Builds what the scene names, and nothing else; rows and blocks as the solver wants them.
+    pub fn new(body: Body, law: AnyLaw<T::Lanes>, choice: SolverChoice) -> Self {
+        Self::with_forces(body, law, choice, &|_| Vec::new())
+    }
+
+    /// The same with forces of one's own beside those that the scene names.
+    pub fn with_forces(body: Body, law: AnyLaw<T::Lanes>, choice: SolverChoice, own: OwnForces<T>) -> Self {
+        let mut system = Self::of_body(&body, law, choice.ordering(), own);
+        system.prepare_matrix(choice);
+        system
+    }
+
+    /// The same for a method that needs no matrix: neighbours in the body have near numbers, and no pattern is found.
+    pub fn without_matrix(body: &Body, law: AnyLaw<T::Lanes>, own: OwnForces<T>) -> Self {
+        Self::of_body(body, law, Ordering::Parts, own)
+    }
+
+    /// Finds the pattern of the stiffness matrix, with the blocks that a solver wants, and where each element adds to it. The numbering
+    /// stays: that of a body without matrix suits sweeps, and a factor of it has more fill-in.
+    pub fn prepare_matrix(&mut self, choice: SolverChoice) {
+        let couplings: Vec<[u32; 2]> = self.forces.all().flat_map(|(potential, _)| potential.couplings()).collect();
+        let (numbering, stored) = (&self.numbering, choice.stored());
+        let pattern = match &self.shape.mesh {
+            BodyMesh::Solid(mesh) => pattern(numbering, &mesh.elements, &couplings, stored),
+            BodyMesh::Flat { triangles, .. } => pattern(numbering, &triangles.elements, &couplings, stored),
+            BodyMesh::Quadratic { triangles, .. } => pattern(numbering, &triangles.elements, &couplings, stored),
+        };
+        self.elements.set_pattern(&pattern);
+        self.pattern = Arc::new(pattern);
+    }
+
+    /// Whether the pattern of the stiffness matrix is known, or no node has a row in it.
+    pub fn has_pattern(&self) -> bool {
+        self.pattern.rows() == self.free()
+    }
+}
+
+fn pattern<const N: usize>(
+    numbering: &Numbering,
+    elements: &[[usize; N]],
+    couplings: &[[u32; 2]],
+    stored: Stored,
+) -> Pattern {
+    Pattern::joined(numbering.free, &numbering.elements(elements), couplings, stored)
+}
