@@ -43,22 +43,32 @@ def call(command):
 
 
 class Ours:
-    """An integrator of the engine."""
+    """An integrator of the engine, with further keys of the scene such as tolerances."""
 
-    def __init__(self, integrator, precision):
+    def __init__(self, integrator, precision, **keys):
         self.integrator, self.precision = integrator, precision
-        self.name = f"`{integrator}`, {precision}"
+        self.keys = [f"{name.replace('__', '.')}={value}" for name, value in keys.items()]
+        self.name = ", ".join([f"`{integrator}`", precision, *(f"`{key}`" for key in self.keys)])
 
-    def run(self, case, steps):
+    def is_known(self, case):
+        """Whether the program has the integrator and the keys."""
+        done, _ = call(self.command(case, 100))
+        return done.returncode != 2
+
+    def command(self, case, steps):
         keys = [
             f"material.model={case.law}",
             f"material.young={case.material['young']!r}",
             f"time.integrator={self.integrator}",
             f"time.precision={self.precision}",
             f"time.dt={case.duration / steps!r}",
+            *self.keys,
         ]
         command = [PROGRAMS["ours"], "run", case.scene, "--steps", steps, "--data", ROOT / "data"]
-        done, seconds = call(command + [part for key in keys for part in ("--set", key)])
+        return command + [part for key in keys for part in ("--set", key)]
+
+    def run(self, case, steps):
+        done, seconds = call(self.command(case, steps))
         if done.returncode == 2:
             sys.exit(f"error: {done.stderr.strip()}")
         if done.returncode:
