@@ -39,6 +39,7 @@ impl AssignmentSetup {
             density: scene.material.density,
             gravity: body.gravity.map(|g| (g.try_normalize(0.0).unwrap_or_default(), g.norm())),
             M: mass_matrix_mesh(0, &[], 0.0, &[]),
+            M_nonzero: mass_matrix_mesh(0, &[], 0.0, &[]),
             weight: DVector::zeros(0),
             constraints,
             skinning,
@@ -68,6 +69,7 @@ impl AssignmentSetup {
             None => DVector::zeros(0),
         };
         self.M = self.constraints.free_block(M);
+        self.M_nonzero = self.M.filter(|_, _, entry| *entry != 0.0);
     }
 }
 

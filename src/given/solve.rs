@@ -36,7 +36,10 @@ impl Solver {
     /// Solves `A x = b`; see [`solve`](fn@solve).
     pub fn solve(&mut self, A: &CsrMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
         assert_eq!(A.nrows(), b.len(), "a matrix of {} rows, but a right-hand side of {}", A.nrows(), b.len());
-        if A.values().iter().chain(b).any(|value| !value.is_finite()) {
+        let is_factored = self.factored.as_deref() == Some(A.values());
+        // What has been factorised is finite.
+        let is_finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
+        if !is_finite(b.as_slice()) || !(is_factored || is_finite(A.values())) {
             return DVector::from_element(b.len(), f64::NAN);
         }
         let mut cholesky = match self.cholesky.take() {
@@ -47,7 +50,7 @@ impl Solver {
                 Cholesky::analyze(A.pattern())
             }
         };
-        if self.factored.as_deref() != Some(A.values()) {
+        if self.factored.is_none() || !is_factored {
             self.factor(&mut cholesky, A);
         }
         let cholesky = self.cholesky.insert(cholesky);
