@@ -39,13 +39,14 @@ pub fn plus_identity<T: Number>(G: &Tensor<T>) -> Tensor<T> {
 /// Σ a_ij b_ij
 #[inline(always)]
 pub fn dot<T: Number>(a: &Tensor<T>, b: &Tensor<T>) -> T {
-    let mut sum = T::zero();
+    // Three sums, so that not every product waits for the one before.
+    let mut sums = [a[0][0] * b[0][0], a[1][0] * b[1][0], a[2][0] * b[2][0]];
     for i in 0..3 {
-        for j in 0..3 {
-            sum += a[i][j] * b[i][j];
+        for j in 1..3 {
+            sums[i] = a[i][j].times_plus(b[i][j], sums[i]);
         }
     }
-    sum
+    sums[0] + sums[1] + sums[2]
 }
 
 /// a_00 + a_11 + a_22
@@ -61,7 +62,7 @@ pub fn cofactor<T: Number>(a: &Tensor<T>) -> Tensor<T> {
         #[inline(always)]
         |i, j| {
             let (i1, i2, j1, j2) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-            a[i1][j1] * a[i2][j2] - a[i1][j2] * a[i2][j1]
+            a[i1][j1].times_plus(a[i2][j2], -(a[i1][j2] * a[i2][j1]))
         },
     )
 }
@@ -71,7 +72,7 @@ pub fn cofactor<T: Number>(a: &Tensor<T>) -> Tensor<T> {
 pub fn product<T: Number>(a: &Tensor<T>, b: &Tensor<T>) -> Tensor<T> {
     from_fn(
         #[inline(always)]
-        |i, j| a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j],
+        |i, j| a[i][2].times_plus(b[2][j], a[i][1].times_plus(b[1][j], a[i][0] * b[0][j])),
     )
 }
 

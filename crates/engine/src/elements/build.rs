@@ -12,7 +12,7 @@ use crate::sparse::Pattern;
 
 /// Smallest and largest number of nodes of a chunk: with the smallest, few elements lie between chunks. Beyond eight chunks their
 /// size grows before their number, because the cuts across a body would lie closer and closer together.
-const CHUNK: (usize, usize) = (4096, 16_384);
+const CHUNK: (usize, usize) = (2048, 16_384);
 
 /// A target beyond every block.
 pub(super) const NONE: u32 = u32::MAX;

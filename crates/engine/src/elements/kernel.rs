@@ -32,7 +32,7 @@ pub(super) fn displacement_gradient<L: Lanes, const D: usize, const E: usize, co
         for j in 0..D {
             G[i][j] = differences[0][i] * batch.gradients[0][j];
             for e in 1..E {
-                G[i][j] += differences[e][i] * batch.gradients[e][j];
+                G[i][j] = differences[e][i].times_plus(batch.gradients[e][j], G[i][j]);
             }
         }
     }
@@ -50,7 +50,7 @@ pub(super) fn corner_gradients<L: Lanes, const D: usize, const E: usize>(
         for i in 0..D {
             let mut sum = P[i][0] * batch.gradients[e][0];
             for j in 1..D {
-                sum += P[i][j] * batch.gradients[e][j];
+                sum = P[i][j].times_plus(batch.gradients[e][j], sum);
             }
             gradients[e][i] = sum * batch.volume;
         }
@@ -76,7 +76,7 @@ pub(super) fn corner_blocks<L: Lanes, const D: usize, const E: usize>(
             for k in 0..D {
                 let mut sum = H[row][3 * k] * batch.gradients[b][0];
                 for l in 1..D {
-                    sum += H[row][3 * k + l] * batch.gradients[b][l];
+                    sum = H[row][3 * k + l].times_plus(batch.gradients[b][l], sum);
                 }
                 right[k] = sum * batch.volume;
             }
@@ -86,7 +86,7 @@ pub(super) fn corner_blocks<L: Lanes, const D: usize, const E: usize>(
                 for k in 0..D {
                     let mut sum = right[3 * i][k] * batch.gradients[a][0];
                     for j in 1..D {
-                        sum += right[3 * i + j][k] * batch.gradients[a][j];
+                        sum = right[3 * i + j][k].times_plus(batch.gradients[a][j], sum);
                     }
                     blocks[a][b][i][k] = sum;
                 }
@@ -94,6 +94,12 @@ pub(super) fn corner_blocks<L: Lanes, const D: usize, const E: usize>(
         }
     }
     blocks
+}
+
+/// a · b
+#[inline(always)]
+fn inner<L: Lanes>(a: &[L; 3], b: &[L; 3]) -> L {
+    a[2].times_plus(b[2], a[1].times_plus(b[1], a[0] * b[0]))
 }
 
 /// The same blocks for a law of invariants, without the 81 entries of H. With f_a = F ∇φ_a and c_a = cof ∇φ_a they are
@@ -111,8 +117,8 @@ pub(super) fn invariant_blocks<L: Lanes, const D: usize, const E: usize>(
     for e in 0..E {
         g[e][..D].copy_from_slice(&batch.gradients[e]);
         for i in 0..D {
-            f[e][i] = F[i][0] * g[e][0] + F[i][1] * g[e][1] + F[i][2] * g[e][2];
-            c[e][i] = cof[i][0] * g[e][0] + cof[i][1] * g[e][1] + cof[i][2] * g[e][2];
+            f[e][i] = inner(&F[i], &g[e]);
+            c[e][i] = inner(&cof[i], &g[e]);
         }
     }
     for column in 0..E {
@@ -123,11 +129,11 @@ pub(super) fn invariant_blocks<L: Lanes, const D: usize, const E: usize>(
         }
         for row in column..E {
             let (x, y) = (&g[row], &g[column]);
-            let along = a * (x[0] * y[0] + x[1] * y[1] + x[2] * y[2]);
+            let along = a * inner(x, y);
             let block = &mut blocks[row][column];
             for i in 0..D {
                 for k in 0..D {
-                    block[i][k] = f[row][i] * of_f[k] + c[row][i] * of_c[k];
+                    block[i][k] = f[row][i].times_plus(of_f[k], c[row][i] * of_c[k]);
                 }
                 block[i][i] += along;
             }
@@ -139,7 +145,7 @@ pub(super) fn invariant_blocks<L: Lanes, const D: usize, const E: usize>(
                 let k = (i + 1) % 3;
                 if k < D {
                     let m = 3 - i - k;
-                    let w = b * (F[m][0] * cross[0] + F[m][1] * cross[1] + F[m][2] * cross[2]);
+                    let w = b * inner(&F[m], &cross);
                     block[i][k] += w;
                     block[k][i] -= w;
                 }
@@ -163,7 +169,7 @@ pub(super) fn rotation_blocks<L: Lanes, const D: usize, const E: usize>(
     for e in 0..E {
         g[e][..D].copy_from_slice(&batch.gradients[e]);
         for i in 0..D {
-            r[e][i] = R[i][0] * g[e][0] + R[i][1] * g[e][1] + R[i][2] * g[e][2];
+            r[e][i] = inner(&R[i], &g[e]);
             for k in 0..3 {
                 let (next, last) = ((k + 1) % 3, (k + 2) % 3);
                 W[e][i][k] = R[i][next] * g[e][last] - R[i][last] * g[e][next];
@@ -175,17 +181,17 @@ pub(super) fn rotation_blocks<L: Lanes, const D: usize, const E: usize>(
         for k in 0..D {
             for m in 0..3 {
                 let w = &W[column][k];
-                right[k][m] = (spin[m][0] * w[0] + spin[m][1] * w[1] + spin[m][2] * w[2]) * batch.volume;
+                right[k][m] = inner(&spin[m], w) * batch.volume;
             }
         }
         for row in column..E {
             let (x, y) = (&g[row], &g[column]);
-            let along = identity * (x[0] * y[0] + x[1] * y[1] + x[2] * y[2]);
+            let along = identity * inner(x, y);
             let block = &mut blocks[row][column];
             for i in 0..D {
                 let (w, of_r) = (&W[row][i], rotation * r[row][i]);
                 for k in 0..D {
-                    block[i][k] = of_r * r[column][k] + (w[0] * right[k][0] + w[1] * right[k][1] + w[2] * right[k][2]);
+                    block[i][k] = of_r * r[column][k] + inner(w, &right[k]);
                 }
                 block[i][i] += along;
             }

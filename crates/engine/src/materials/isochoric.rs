@@ -74,7 +74,7 @@ impl<T: Number> Isochoric<T> {
         let (cof, cof_G) = (cofactor(&F), cofactor(G));
         let mut P = from_fn(
             #[inline(always)]
-            |r, c| of_F * F[r][c] + of_cof * cof[r][c] + two_a * (G[r][c] + G[c][r] - cof_G[r][c]),
+            |r, c| of_F.times_plus(F[r][c], of_cof.times_plus(cof[r][c], two_a * (G[r][c] + G[c][r] - cof_G[r][c]))),
         );
         for r in 0..3 {
             P[r][r] -= two_a * self.trace;

@@ -70,7 +70,7 @@ impl<T: Number> Law<T> for StableNeoHookean<T> {
         let cof = cofactor(&F);
         let mut P = from_fn(
             #[inline(always)]
-            |r, c| of_F * F[r][c] + of_cof * cof[r][c] + self.mu * (G[r][c] + G[c][r] - cof_G[r][c]),
+            |r, c| of_F.times_plus(F[r][c], of_cof.times_plus(cof[r][c], self.mu * (G[r][c] + G[c][r] - cof_G[r][c]))),
         );
         for r in 0..3 {
             P[r][r] -= self.mu * trace_G;

@@ -72,6 +72,12 @@ pub trait Number:
     /// This number in lanes where the mask is true, else the other.
     fn select(self, mask: Self::Mask, other: Self) -> Self;
 
+    /// x y + z, in one instruction where the processor has it.
+    #[inline(always)]
+    fn times_plus(self, y: Self, z: Self) -> Self {
+        self * y + z
+    }
+
     /// √x
     fn sqrt(self) -> Self;
 

@@ -33,7 +33,7 @@ pub(super) fn is_available() -> bool {
 macro_rules! avx2_lanes {
     ($(#[$doc:meta])* $Lanes:ident, $Mask:ident, $float:ident, $Stored:ident, $Register:ident, $width:literal, $all:literal;
      $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident, $max:ident, $min:ident, $and:ident, $andnot:ident, $or:ident, $xor:ident,
-     $compare:ident, $blend:ident, $movemask:ident) => {
+     $compare:ident, $fma:ident, $blend:ident, $movemask:ident) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         pub struct $Lanes {
@@ -120,6 +120,11 @@ macro_rules! avx2_lanes {
             #[inline(always)]
             fn select(self, mask: $Mask, other: Self) -> Self {
                 self.with(self.simd.avx.$blend(other.register, self.register, mask.0.register))
+            }
+
+            #[inline(always)]
+            fn times_plus(self, y: Self, z: Self) -> Self {
+                self.with(self.simd.fma.$fma(self.register, y.register, z.register))
             }
 
             #[inline(always)]
@@ -251,11 +256,11 @@ avx2_lanes!(
     /// Four double-precision lanes.
     Avx2F64x4, MaskF64x4, f64, F64x4, __m256d, 4, 0b1111;
     _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_sqrt_pd, _mm256_max_pd, _mm256_min_pd, _mm256_and_pd,
-    _mm256_andnot_pd, _mm256_or_pd, _mm256_xor_pd, _mm256_cmp_pd, _mm256_blendv_pd, _mm256_movemask_pd
+    _mm256_andnot_pd, _mm256_or_pd, _mm256_xor_pd, _mm256_cmp_pd, _mm256_fmadd_pd, _mm256_blendv_pd, _mm256_movemask_pd
 );
 avx2_lanes!(
     /// Eight single-precision lanes.
     Avx2F32x8, MaskF32x8, f32, F32x8, __m256, 8, 0b1111_1111;
     _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps, _mm256_div_ps, _mm256_sqrt_ps, _mm256_max_ps, _mm256_min_ps, _mm256_and_ps,
-    _mm256_andnot_ps, _mm256_or_ps, _mm256_xor_ps, _mm256_cmp_ps, _mm256_blendv_ps, _mm256_movemask_ps
+    _mm256_andnot_ps, _mm256_or_ps, _mm256_xor_ps, _mm256_cmp_ps, _mm256_fmadd_ps, _mm256_blendv_ps, _mm256_movemask_ps
 );

@@ -43,7 +43,7 @@ pub fn minus_ln_1p<T: Number>(x: T) -> T {
     // |s| < 0.172: eleven terms are enough for f64.
     let mut series = T::zero();
     for n in (1..=11).rev() {
-        series = series * squared + constant(1.0 / f64::from(2 * n + 1));
+        series = series.times_plus(squared, constant(1.0 / f64::from(2 * n + 1)));
     }
     s * (y - constant::<T>(2.0) * squared * series) + ((x - y) - k * constant(std::f64::consts::LN_2))
 }
