@@ -6,7 +6,7 @@ use std::error::Error;
 use std::path::Path;
 
 use fem_engine::forces::Moment;
-use fem_engine::integrators::Accelerations;
+use fem_engine::integrators::{Accelerations, Stage};
 use fem_engine::model::state::State;
 use fem_engine::model::system::System;
 use fem_engine::simulator::Simulator;
@@ -35,13 +35,18 @@ fn largest_energy_error(system: &System<f64>, end: f64, steps: usize) -> Result<
     let (mut accelerations, mut a) = (Accelerations::new(system), vec![[0.0; 3]; system.nodes()]);
     let mut largest: f64 = 0.0;
     for _ in 0..steps {
+        accelerations.begin(system, &mut state, dt, &mut a)?;
+        let mut after = 0.0;
         for (drift, kick) in drifts.into_iter().zip(kicks) {
             add(drift * dt, &state.v, &mut state.u);
+            after += drift;
             if kick != 0.0 {
-                accelerations.at(system, (&state.u, &state.v), state.time, &mut a, &mut counters)?;
+                let stage = Stage { after, weight: kick };
+                accelerations.at(system, (&mut state.u, &mut state.v), stage, &mut a, &mut counters)?;
                 add(kick * dt, &a, &mut state.v);
             }
         }
+        accelerations.end(system, &mut state);
         state.time += dt;
         // A body at rest has no energy.
         let energy = system.potential(&state.u, Moment::at(state.time)).value + system.mass.kinetic_energy(&state.v);

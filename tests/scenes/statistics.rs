@@ -6,7 +6,7 @@ use serde_json::Value;
 use crate::program::{Desk, course_scenes};
 use crate::scene_text::{CUBE, build, edit, shipped, without};
 
-const KEYS: [&str; 22] = [
+const KEYS: [&str; 24] = [
     "scene",
     "status",
     "nodes",

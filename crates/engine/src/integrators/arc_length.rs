@@ -58,7 +58,7 @@ struct Vectors<T> {
     tangent: Vec<[T; 3]>,
 }
 
-/// What the correction of a step keeps fixed.
+/// The quantities that the correction of a step keeps fixed.
 #[derive(Clone, Copy, PartialEq)]
 enum Constraint {
     ArcLength,

@@ -4,6 +4,7 @@ mod any_elements;
 pub mod mass;
 pub mod numbering;
 mod obstacles;
+mod solid;
 pub mod solids;
 pub mod state;
 mod stiffness_pattern;

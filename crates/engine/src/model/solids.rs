@@ -5,13 +5,13 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::elements::BatchLaws;
 use crate::materials::{
-    AnyLaw, Law, PlaneCorotated, Projected, Vectorized, cauchy_stress, match_law, plane_cauchy_stress, pushed_forward,
-    with_law,
+    AnyLaw, Law, Projected, Vectorized, cauchy_stress, match_law, plane_cauchy_stress, pushed_forward, with_law,
 };
 use crate::model::any_elements::{AnyElements, with_elements};
 use crate::model::numbering::Numbering;
-use crate::number::{Lanes, Real};
-use crate::plasticity::{Internal, PlasticLaws, Plasticity};
+use crate::model::solid::{Solid, SolidLaws, with_law_and_elements, with_law_by_reference};
+use crate::number::Real;
+use crate::plasticity::{Internal, Plasticity};
 use crate::sparse::{Block, Pattern};
 
 /// All elements of a body. A body of one material is one group.
@@ -25,99 +25,6 @@ pub struct Solids<T: Real> {
     plasticity: Option<Plasticity<T>>,
     /// No stress acts across a flat body.
     is_in_plane_stress: bool,
-}
-
-/// The elements of one material.
-struct Solid<T: Real> {
-    laws: SolidLaws<T::Lanes>,
-    /// The same in wide registers, on processors that have them.
-    fast: Option<SolidLaws<T::Fast>>,
-    elements: AnyElements<T>,
-    /// Number of each quadrature point in the mesh, those of the first element first; empty where the group is the whole mesh in its order.
-    numbers: Vec<usize>,
-}
-
-/// The law of a material, in one kind of lanes.
-struct SolidLaws<L> {
-    law: AnyLaw<L>,
-    /// The law of triangles where it has a form of its own.
-    in_plane: Option<Vectorized<PlaneCorotated<L>>>,
-}
-
-impl<L: Lanes> SolidLaws<L> {
-    fn new(law: AnyLaw<L>, is_flat: bool) -> Self {
-        Self { law, in_plane: if is_flat { law.in_plane().map(Vectorized) } else { None } }
-    }
-
-    /// The law of elements that do not flow.
-    fn as_law(&self) -> &dyn Law<L> {
-        self.in_plane.as_ref().map_or(self.law.as_law(), |law| law)
-    }
-}
-
-/// Evaluates an expression for the elements of a group with its law, in the widest lanes of this processor. For these `with_law!` compiles
-/// the value for each law of tetrahedra that do not flow; old processors without them call laws by reference, to keep the program small.
-macro_rules! with_law_and_elements {
-    ($solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
-        match &$group.fast {
-            Some(laws) => with_law_and_elements!(in laws, $solids, $group, $law, $elements => $value),
-            None => with_law_by_reference!(in &$group.laws, $solids, $group, $law, $elements => $value),
-        }
-    };
-    (in $laws:expr, $solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
-        match (&$group.elements, $group.plastic_laws(&$solids.plasticity, $laws)) {
-            (AnyElements::Tetrahedra($elements), None) => with_law!(&$laws.law, $law => $value),
-            (AnyElements::Triangles($elements), None) => match &$laws.in_plane {
-                Some(Vectorized($law)) => $value,
-                None => {
-                    let $law = $laws.law.as_law();
-                    $value
-                }
-            },
-            (AnyElements::QuadraticTriangles($elements), None) => {
-                let $law = $laws.as_law();
-                $value
-            }
-            (AnyElements::Tetrahedra($elements), Some($law)) => $value,
-            (AnyElements::Triangles($elements), Some($law)) => $value,
-            (AnyElements::QuadraticTriangles($elements), Some($law)) => $value,
-        }
-    };
-}
-
-/// The same with the law by reference.
-macro_rules! with_law_by_reference {
-    ($solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
-        match &$group.fast {
-            Some(laws) => with_law_by_reference!(in laws, $solids, $group, $law, $elements => $value),
-            None => with_law_by_reference!(in &$group.laws, $solids, $group, $law, $elements => $value),
-        }
-    };
-    (in $laws:expr, $solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
-        with_elements!(&$group.elements, $elements => match $group.plastic_laws(&$solids.plasticity, $laws) {
-            None => {
-                let $law = $laws.as_law();
-                $value
-            }
-            Some($law) => $value,
-        })
-    };
-}
-
-impl<T: Real> Solid<T> {
-    /// The number in the mesh of a quadrature point of the group.
-    fn number(&self, point: usize) -> usize {
-        self.numbers.get(point).copied().unwrap_or(point)
-    }
-
-    /// The laws of its quadrature points where they flow.
-    fn plastic_laws<'a, L: Lanes<Element = T>>(
-        &'a self,
-        plasticity: &'a Option<Plasticity<T>>,
-        laws: &SolidLaws<L>,
-    ) -> Option<PlasticLaws<'a, T, L>> {
-        plasticity.as_ref().map(|plasticity| PlasticLaws::new(plasticity, &laws.law, &self.numbers))
-    }
 }
 
 impl<T: Real> Solids<T> {

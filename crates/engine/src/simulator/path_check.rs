@@ -1,4 +1,4 @@
-//! What `static.arc_length` cannot follow.
+//! Loads and solvers that `static.arc_length` refuses.
 
 use fem_scene::{Body, Method, SolverKind};
 use nalgebra::Vector3;

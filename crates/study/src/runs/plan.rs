@@ -6,6 +6,8 @@
 use fem_scene::tables::{AdaptiveTable, NewtonTable, SolverTable, TimeTable};
 use fem_scene::{Integrator, Pipeline, Precision, Preconditioner, Projection, Scene, SolverKind};
 
+use super::names::{name, solver_name};
+
 /// A run to be made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedRun {
@@ -265,41 +267,4 @@ fn ladder(group: &'static str, method: &str, scene: &Scene, steps: &[usize], ext
 
 fn newton(scene: &Scene) -> NewtonTable {
     scene.newton.clone().unwrap_or_default()
-}
-
-/// Name of an integrator in prose.
-pub fn name(integrator: Integrator) -> &'static str {
-    match integrator {
-        Integrator::ExplicitEuler => "explicit Euler",
-        Integrator::SemiImplicitEuler => "semi-implicit Euler",
-        Integrator::Rk2 => "RK2",
-        Integrator::Rk4 => "RK4",
-        Integrator::Verlet => "Verlet",
-        Integrator::LinearlyImplicitEuler => "linearly implicit Euler",
-        Integrator::ImplicitEuler => "implicit Euler",
-        Integrator::ImplicitMidpoint => "implicit midpoint",
-        Integrator::Newmark => "Newmark",
-        Integrator::GeneralizedAlpha => "generalized-α",
-        Integrator::Bdf2 => "BDF2",
-        Integrator::Static => "static",
-    }
-}
-
-/// The solver of a scene, or `automatic`.
-pub fn solver_name(scene: &Scene) -> String {
-    let Some(solver) = &scene.solver else { return "automatic".to_owned() };
-    let kind = match solver.kind {
-        SolverKind::Cholesky => "cholesky",
-        SolverKind::Lu => "lu",
-        SolverKind::Cg => "cg",
-        SolverKind::Pcg => "pcg",
-    };
-    let preconditioner = match solver.preconditioner {
-        Some(Preconditioner::BlockJacobi) => " block_jacobi",
-        Some(Preconditioner::IncompleteCholesky) => " incomplete_cholesky",
-        Some(Preconditioner::Multigrid) => " multigrid",
-        Some(Preconditioner::Ssor) => " ssor",
-        None => "",
-    };
-    format!("{kind}{preconditioner}")
 }

@@ -2,7 +2,7 @@
 
 use super::Settings;
 use crate::runs::convergence_order::{ConvergenceOrder, asymptotic};
-use crate::runs::plan;
+use crate::runs::names;
 use crate::runs::row::{Configuration, Errors, Row, Times};
 use crate::runs::states::{Snapshot, write_reference, write_state};
 use crate::space::locking::{self, TipDeflection};
@@ -115,7 +115,7 @@ fn solved(settings: &Settings, model: &str, family: Family, cells: usize, number
             poisson: moduli.map(|moduli| moduli.1),
             integrator: "static",
             projection: "when_needed",
-            solver: plan::solver_name(scene).replace("automatic", "cholesky"),
+            solver: names::solver_name(scene).replace("automatic", "cholesky"),
             dt: 1.0,
             steps: 1,
             tolerance: Some(1e-13),

@@ -1,4 +1,4 @@
-//! What a step takes from the steps before it.
+//! State of earlier steps that a step needs.
 
 use fem_scene::simulation::History;
 

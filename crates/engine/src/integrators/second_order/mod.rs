@@ -36,7 +36,7 @@ pub struct SecondOrder<T: Real> {
     newton: Newton<T>,
     followers: Followers<T>,
     start: Start<T>,
-    /// What the next step takes from the steps before it, and what it will leave.
+    /// State of earlier steps that the next step needs, and that which it will leave.
     known: Known<T>,
     next: Known<T>,
     inertial: Vec<[T; 3]>,

@@ -5,7 +5,8 @@ use nalgebra::DVector;
 use super::SceneStudy;
 use super::mesh::{StudyMesh, cells};
 use crate::runs::measure::RunResult;
-use crate::runs::plan::{self, PlannedRun};
+use crate::runs::names;
+use crate::runs::plan::PlannedRun;
 use crate::runs::row::{Configuration, Errors};
 use crate::space::norms;
 use fem_engine::cantilever::moduli;
@@ -59,7 +60,7 @@ pub(super) fn configuration(id: String, run: &PlannedRun, body: &StudyMesh) -> C
         Projection::Never => "never",
     };
     let has_matrix = is_newton || scene.time.integrator == Integrator::LinearlyImplicitEuler;
-    let solver = if is_course { "course cholesky".to_owned() } else { plan::solver_name(scene) };
+    let solver = if is_course { "course cholesky".to_owned() } else { names::solver_name(scene) };
     let engine = |value: f64| if is_course { None } else { Some(value) };
     Configuration {
         id,

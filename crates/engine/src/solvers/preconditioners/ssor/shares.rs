@@ -78,7 +78,7 @@ impl Shares {
     }
 }
 
-/// Where each row adds to the sums of its part.
+/// The place to which each row adds in the sums of its part.
 #[derive(Clone, Copy)]
 pub struct Places<'a> {
     cell_of_row: &'a [u32],

@@ -1,0 +1,40 @@
+//! Names of methods and solvers in tables.
+
+use fem_scene::{Integrator, Preconditioner, Scene, SolverKind};
+
+/// Name of an integrator in prose.
+pub fn name(integrator: Integrator) -> &'static str {
+    match integrator {
+        Integrator::ExplicitEuler => "explicit Euler",
+        Integrator::SemiImplicitEuler => "semi-implicit Euler",
+        Integrator::Rk2 => "RK2",
+        Integrator::Rk4 => "RK4",
+        Integrator::Verlet => "Verlet",
+        Integrator::LinearlyImplicitEuler => "linearly implicit Euler",
+        Integrator::ImplicitEuler => "implicit Euler",
+        Integrator::ImplicitMidpoint => "implicit midpoint",
+        Integrator::Newmark => "Newmark",
+        Integrator::GeneralizedAlpha => "generalized-α",
+        Integrator::Bdf2 => "BDF2",
+        Integrator::Static => "static",
+    }
+}
+
+/// The solver of a scene, or `automatic`.
+pub fn solver_name(scene: &Scene) -> String {
+    let Some(solver) = &scene.solver else { return "automatic".to_owned() };
+    let kind = match solver.kind {
+        SolverKind::Cholesky => "cholesky",
+        SolverKind::Lu => "lu",
+        SolverKind::Cg => "cg",
+        SolverKind::Pcg => "pcg",
+    };
+    let preconditioner = match solver.preconditioner {
+        Some(Preconditioner::BlockJacobi) => " block_jacobi",
+        Some(Preconditioner::IncompleteCholesky) => " incomplete_cholesky",
+        Some(Preconditioner::Multigrid) => " multigrid",
+        Some(Preconditioner::Ssor) => " ssor",
+        None => "",
+    };
+    format!("{kind}{preconditioner}")
+}
