@@ -1,11 +1,13 @@
-//! The numbers that kernels compute with: [`Number`], and [`Lanes`] of them.
+//! The numbers that kernels compute with, [`Number`] and [`Lanes`] of them, and the floats of a simulation, [`Real`].
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use faer::traits::RealField as FaerReal;
+use nalgebra::RealField;
 use pulp::WithSimd;
 
-use super::Real;
+use super::Packed;
 
 /// The type that a kernel computes with: one [`Real`], or lanes of them. A branch is written as a [`select`](Self::select) between two
 /// values, so that lanes never part.
@@ -152,81 +154,47 @@ pub trait Lanes: Number {
     fn add_by_lane(lanes: &[[Self; 3]; 3], blocks: &mut [[[Self::Element; 3]; 3]], target: impl Fn(usize) -> u32);
 }
 
-/// Implements [`Number`] for a float.
-macro_rules! number {
-    ($float:ident) => {
-        impl Number for $float {
-            type Element = Self;
-            type Mask = bool;
-            const LANES: usize = 1;
+/// The float that a whole simulation runs in.
+pub trait Real: RealField + FaerReal + Packed + Default + std::iter::Sum {
+    /// As many of them as a register of 256 bits holds, on any processor: the form in which lanes are stored.
+    type Lanes: Lanes<Element = Self>;
+    /// The same for processors that [have](Self::has_fast) wide registers.
+    type Fast: Lanes<Element = Self>;
+    /// Number of lanes in [`Lanes`](Self::Lanes).
+    const WIDTH: usize;
+    /// Number of lanes in the widest register of any processor, to which dense columns are padded.
+    const MAX_WIDTH: usize;
+    /// Relative distance from 1 to the next number.
+    const EPSILON: Self;
 
-            #[inline(always)]
-            fn splat(x: Self) -> Self {
-                x
-            }
+    /// Lanes with the value of each lane number.
+    fn lanes(value: impl FnMut(usize) -> Self) -> Self::Lanes;
 
-            #[inline(always)]
-            fn rough_inverse_cube_root(self) -> Self {
-                Real::rough_inverse_cube_root(self)
-            }
+    /// The numbers of all lanes.
+    fn each(lanes: &Self::Lanes) -> &[Self];
 
-            #[inline(always)]
-            fn lane(&self, _lane: usize) -> Self {
-                *self
-            }
+    /// The numbers of all lanes, mutable.
+    fn each_mut(lanes: &mut Self::Lanes) -> &mut [Self];
 
-            #[inline(always)]
-            fn set_lane(&mut self, _lane: usize, x: Self) {
-                *self = x;
-            }
+    /// Whether this processor has the instructions of [`Fast`](Self::Fast).
+    fn has_fast() -> bool;
 
-            #[inline(always)]
-            fn map_lanes(self, value: impl Fn(Self) -> Self) -> Self {
-                value(self)
-            }
+    /// The nearest number of this type.
+    fn of(x: f64) -> Self;
 
-            #[inline(always)]
-            fn select(self, mask: bool, other: Self) -> Self {
-                if mask { self } else { other }
-            }
+    /// The same number, exactly.
+    fn as_f64(self) -> f64;
 
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                $float::sqrt(self)
-            }
+    /// x^(−1/3) to a few percent, for normal x > 0: divides the exponent by three in the binary representation.
+    fn rough_inverse_cube_root(self) -> Self;
 
-            #[inline(always)]
-            fn abs(self) -> Self {
-                $float::abs(self)
-            }
+    /// The integer k for which x/2^k lies in [√½, √2), for normal x > 0.
+    fn binary_exponent(self) -> Self;
 
-            #[inline(always)]
-            fn copysign(self, sign: Self) -> Self {
-                $float::copysign(self, sign)
-            }
-
-            #[inline(always)]
-            fn gt(self, other: Self) -> bool {
-                self > other
-            }
-
-            #[inline(always)]
-            fn ge(self, other: Self) -> bool {
-                self >= other
-            }
-
-            #[inline(always)]
-            fn eq(self, other: Self) -> bool {
-                self == other
-            }
-
-            #[inline(always)]
-            fn all(mask: bool) -> bool {
-                mask
-            }
-        }
-    };
+    /// x/2^k in [√½, √2), with k the [`binary_exponent`](Self::binary_exponent).
+    fn significand(self) -> Self;
 }
 
-number!(f64);
-number!(f32);
+/// The bits of x^(−1/3) are about these minus a third of those of x, which shifts and additions find: (¼ + 1/16) (1 + 1/16) (1 + 1/256) …
+pub(super) const CUBE_ROOT_F64: u64 = 0x553e_f0ff_289d_d796;
+pub(super) const CUBE_ROOT_F32: u32 = 0x54a2_fa8c;

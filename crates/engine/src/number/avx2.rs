@@ -12,8 +12,8 @@ use pulp::bytemuck::{cast, cast_mut, cast_ref};
 use pulp::x86::{V3, V4};
 use pulp::{Simd, WithSimd};
 
+use super::arithmetic::{Lanes, Number};
 use super::lanes::{F32x8, F64x4};
-use super::{Lanes, Number};
 
 /// The proof of AVX2; the program ends on a processor without.
 #[inline(always)]

@@ -10,7 +10,7 @@ use std::ops::{Add, AddAssign, BitAnd, Div, DivAssign, Mul, MulAssign, Neg, Sub,
 
 use pulp::bytemuck::{cast, cast_mut, cast_ref};
 
-use super::{Lanes, Number, Real};
+use super::arithmetic::{Lanes, Number, Real};
 
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64::{__m256 as RegisterF32, __m256d as RegisterF64};

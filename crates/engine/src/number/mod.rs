@@ -6,15 +6,14 @@
 mod arithmetic;
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+mod floats;
 mod functions;
 mod lanes;
 mod packed;
-mod real;
 
-pub use arithmetic::{Lanes, Number};
+pub use arithmetic::{Lanes, Number, Real};
 pub use functions::{constant, inverse_cube_root, is_positive, minus_ln_1p};
 pub(crate) use packed::Packed;
-pub use real::Real;
 
 /// Runs `work` with the widest instructions that this processor has. Functions that it calls must be inlined into it.
 ///

@@ -59,10 +59,11 @@ fn of_all_laws<T: Real + Number<Element = T>, L: Lanes<Element = T>>() -> impl I
 
 fn lanes_agree<D: Lanes<Element = f64>, S: Lanes<Element = f32>>() {
     for (name, of_lanes, of_precision) in of_all_laws::<f64, D>() {
-        assert!(of_lanes < 1e-14 && of_precision == 0.0, "{name}: {of_lanes:e}");
+        assert!(of_lanes < 1e-13 && of_precision == 0.0, "{name}: {of_lanes:e}");
     }
     for (name, of_lanes, of_precision) in of_all_laws::<f32, S>() {
-        assert!(of_lanes < 1e-6, "{name}, f32: {of_lanes:e}");
+        // Fused operations round once where others round twice.
+        assert!(of_lanes < 1e-5, "{name}, f32: {of_lanes:e}");
         assert!(of_precision < 1e-4, "{name}, f32 against f64: {of_precision:e}");
     }
 }

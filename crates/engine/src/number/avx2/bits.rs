@@ -4,7 +4,7 @@ use std::arch::x86_64::{__m256, __m256d, __m256i};
 
 use pulp::bytemuck::cast;
 
-use super::super::real::{CUBE_ROOT_F32, CUBE_ROOT_F64};
+use super::super::arithmetic::{CUBE_ROOT_F32, CUBE_ROOT_F64};
 use super::{Avx2F32x8, Avx2F64x4};
 
 impl Avx2F64x4 {

@@ -22,7 +22,7 @@ const STEPS: usize = 50;
 const SAME: f64 = 1e-4;
 
 const MARGIN_IS: &str =
-    "largest difference from double precision / 1e-4 of the largest displacement; must be at most 1";
+    "largest difference from double precision / 1e-4 of the largest displacement, round-off; must be at most 1";
 
 /// Integrators and time steps, s; all below the stability limits of E = 1e5 Pa.
 const METHODS: [(&str, f64); 10] = [

@@ -1,14 +1,11 @@
-//! The floats that a simulation runs in, and their SIMD lanes.
+//! `f64` and `f32` as numbers of kernels and of simulations.
 
-use faer::traits::RealField as FaerReal;
-use nalgebra::RealField;
-
+use super::arithmetic::{CUBE_ROOT_F32, CUBE_ROOT_F64, Number, Real};
 #[cfg(target_arch = "x86_64")]
 use super::avx2::{Avx2F32x8 as FastF32, Avx2F64x4 as FastF64, is_available as has_fast};
 use super::lanes::{F32x8, F64x4};
 #[cfg(not(target_arch = "x86_64"))]
 use super::lanes::{F32x8 as FastF32, F64x4 as FastF64};
-use super::{Lanes, Packed};
 
 /// Other processors have one kind of lanes.
 #[cfg(not(target_arch = "x86_64"))]
@@ -16,50 +13,84 @@ fn has_fast() -> bool {
     true
 }
 
-/// The float that a whole simulation runs in.
-pub trait Real: RealField + FaerReal + Packed + Default + std::iter::Sum {
-    /// As many of them as a register of 256 bits holds, on any processor: the form in which lanes are stored.
-    type Lanes: Lanes<Element = Self>;
-    /// The same for processors that [have](Self::has_fast) wide registers.
-    type Fast: Lanes<Element = Self>;
-    /// Number of lanes in [`Lanes`](Self::Lanes).
-    const WIDTH: usize;
-    /// Number of lanes in the widest register of any processor, to which dense columns are padded.
-    const MAX_WIDTH: usize;
-    /// Relative distance from 1 to the next number.
-    const EPSILON: Self;
+/// Implements [`Number`] for a float.
+macro_rules! number {
+    ($float:ident) => {
+        impl Number for $float {
+            type Element = Self;
+            type Mask = bool;
+            const LANES: usize = 1;
 
-    /// Lanes with the value of each lane number.
-    fn lanes(value: impl FnMut(usize) -> Self) -> Self::Lanes;
+            #[inline(always)]
+            fn splat(x: Self) -> Self {
+                x
+            }
 
-    /// The numbers of all lanes.
-    fn each(lanes: &Self::Lanes) -> &[Self];
+            #[inline(always)]
+            fn rough_inverse_cube_root(self) -> Self {
+                Real::rough_inverse_cube_root(self)
+            }
 
-    /// The numbers of all lanes, mutable.
-    fn each_mut(lanes: &mut Self::Lanes) -> &mut [Self];
+            #[inline(always)]
+            fn lane(&self, _lane: usize) -> Self {
+                *self
+            }
 
-    /// Whether this processor has the instructions of [`Fast`](Self::Fast).
-    fn has_fast() -> bool;
+            #[inline(always)]
+            fn set_lane(&mut self, _lane: usize, x: Self) {
+                *self = x;
+            }
 
-    /// The nearest number of this type.
-    fn of(x: f64) -> Self;
+            #[inline(always)]
+            fn map_lanes(self, value: impl Fn(Self) -> Self) -> Self {
+                value(self)
+            }
 
-    /// The same number, exactly.
-    fn as_f64(self) -> f64;
+            #[inline(always)]
+            fn select(self, mask: bool, other: Self) -> Self {
+                if mask { self } else { other }
+            }
 
-    /// x^(−1/3) to a few percent, for normal x > 0: divides the exponent by three in the binary representation.
-    fn rough_inverse_cube_root(self) -> Self;
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $float::sqrt(self)
+            }
 
-    /// The integer k for which x/2^k lies in [√½, √2), for normal x > 0.
-    fn binary_exponent(self) -> Self;
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
 
-    /// x/2^k in [√½, √2), with k the [`binary_exponent`](Self::binary_exponent).
-    fn significand(self) -> Self;
+            #[inline(always)]
+            fn copysign(self, sign: Self) -> Self {
+                $float::copysign(self, sign)
+            }
+
+            #[inline(always)]
+            fn gt(self, other: Self) -> bool {
+                self > other
+            }
+
+            #[inline(always)]
+            fn ge(self, other: Self) -> bool {
+                self >= other
+            }
+
+            #[inline(always)]
+            fn eq(self, other: Self) -> bool {
+                self == other
+            }
+
+            #[inline(always)]
+            fn all(mask: bool) -> bool {
+                mask
+            }
+        }
+    };
 }
 
-/// The bits of x^(−1/3) are about these minus a third of those of x, which shifts and additions find: (¼ + 1/16) (1 + 1/16) (1 + 1/256) …
-pub(super) const CUBE_ROOT_F64: u64 = 0x553e_f0ff_289d_d796;
-pub(super) const CUBE_ROOT_F32: u32 = 0x54a2_fa8c;
+number!(f64);
+number!(f32);
 
 /// Implements [`Real`] for a float with its lanes, their number and [`Real::MAX_WIDTH`]; the conversions and the functions that
 /// work on binary representations are given by the last argument.
