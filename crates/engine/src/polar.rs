@@ -109,7 +109,7 @@ impl<T: Number> SpaceRotation<T> {
         plus_identity(&self.change)
     }
 
-    /// (tr S 1 − S)⁻¹, S = RᵀF, whose eigenvalues are 1/(σ_i + σ_j): with t_k = R [e_k]×, ∂R/∂F = Σ B_kl t_k ⊗ t_l.
+    /// (tr S 1 − S)⁻¹, S = RᵀF, whose eigenvalues are 1/(σ_i + σ_j): with t_k = R \[e_k\]×, ∂R/∂F = Σ B_kl t_k ⊗ t_l.
     #[inline(always)]
     pub fn spin(&self, G: &Tensor<T>) -> Tensor<T> {
         let (R, F) = (self.rotation(), plus_identity(G));

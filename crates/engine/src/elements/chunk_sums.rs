@@ -106,7 +106,7 @@ impl<L: Lanes, B: BatchLaws<L>, const D: usize, const E: usize, const N: usize> 
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _simd: S) -> () {
+    fn with_simd<S: Simd>(self, _simd: S) {
         let Self { chunk, laws, u, sums, .. } = self;
         for (i, (batch, corners)) in batches(chunk, L::one()).enumerate() {
             let law = laws.of_batch(&chunk.elements, i);
@@ -161,7 +161,7 @@ impl<L: Lanes, B: BatchLaws<L>, const D: usize, const E: usize, const N: usize> 
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _simd: S) -> () {
+    fn with_simd<S: Simd>(self, _simd: S) {
         let Self { chunk, laws, factor, u, values, .. } = self;
         let factor = L::splat(factor);
         for (i, (batch, corners)) in batches(chunk, L::one()).enumerate() {
@@ -198,7 +198,7 @@ impl<L: Lanes, B: BatchLaws<L>, const D: usize, const E: usize, const N: usize> 
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _simd: S) -> () {
+    fn with_simd<S: Simd>(self, _simd: S) {
         let Self { chunk, laws, factor, u, d, sums, .. } = self;
         let factor = L::splat(factor);
         for (i, (batch, corners)) in batches(chunk, L::one()).enumerate() {

@@ -160,7 +160,7 @@ impl<T: Number> Corotated<T> {
     }
 }
 
-/// ∂P/∂F = a 1 + b R⊗R + Σ c_kl t_k⊗t_l, where t_k = R [e_k]× are the changes of R.
+/// ∂P/∂F = a 1 + b R⊗R + Σ c_kl t_k⊗t_l, where t_k = R \[e_k\]× are the changes of R.
 #[derive(Clone, Copy, Debug)]
 pub struct OfRotation<T> {
     /// The rotation nearest to F.
