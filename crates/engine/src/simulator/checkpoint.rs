@@ -15,6 +15,7 @@ pub(super) fn of<T: Real>(simulator: &Simulator<T>) -> Checkpoint {
     put(&mut history, "before.time", &[simulator.last_good.time]);
     put(&mut history, "before.u", simulator.last_good.u.as_flattened());
     put(&mut history, "before.v", simulator.last_good.v.as_flattened());
+    history.put("numbering", [fingerprint(&simulator.system.numbering.mesh_node)]);
     history.put("unconverged_steps", [simulator.counters.unconverged_steps as f64]);
     if let Some(plasticity) = simulator.system.elements.plasticity() {
         plasticity.save(&mut history);
@@ -48,6 +49,11 @@ pub(super) fn restore<T: Real>(simulator: &mut Simulator<T>, checkpoint: &Checkp
     }
     let (u, _) = displacements.as_chunks::<3>();
     let (v, _) = velocities.as_chunks::<3>();
+    let mut numbering = [0.0];
+    take(&checkpoint.history, "numbering", &mut numbering)?;
+    if numbering != [fingerprint(&simulator.system.numbering.mesh_node)] {
+        return Err("its history has another numbering of the nodes: another version has written it".to_owned());
+    }
     simulator.set_state(u, v);
     (simulator.state.time, simulator.state.steps) = (checkpoint.time, checkpoint.steps);
     let (history, before) = (&checkpoint.history, &mut simulator.last_good);
@@ -77,4 +83,10 @@ pub(super) fn restore<T: Real>(simulator: &mut Simulator<T>, checkpoint: &Checkp
     forces.begin_step(&before.u, Moment::at(before.time), simulator.substep_dt);
     forces.update_lag(&simulator.state.u, 1.0);
     simulator.integrator.restore(history)
+}
+
+/// A number that another order of the nodes changes: Fowler, Noll and Vo's hash, of which a float has 53 bits.
+fn fingerprint(nodes: &[u32]) -> f64 {
+    let step = |hash: u64, &node: &u32| (hash ^ u64::from(node)).wrapping_mul(0x0000_0100_0000_01b3);
+    (nodes.iter().fold(0xcbf2_9ce4_8422_2325, step) >> 11) as f64
 }
