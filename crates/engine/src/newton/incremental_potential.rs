@@ -12,8 +12,8 @@ use crate::vector::axpy;
 /// increment w: its minimum solves M (w − ŵ)/τ² + c C (w − w̌) = f(u₀ + w) + κ f_o(u₀ + s w). With τ = dt, c = 1/dt, w̌ = 0 and s = κ = 1
 /// it is a step of implicit Euler; without the first two terms it is equilibrium.
 ///
-/// V is the energy of the body and of its loads, W that of the obstacles. Second-order methods have w lead to a stage within the step,
-/// and s w to its end.
+/// V is the energy of the body and of its loads, W that of the obstacles. In a method of second order w is the increment up to a stage
+/// within the step, and s w the one up to its end.
 ///
 /// The unknown is the increment instead of the new displacement, so that velocities w/dt keep their digits in single precision.
 #[derive(Clone, Copy)]
