@@ -45,9 +45,18 @@ pub(crate) fn dot3<T: Real>(a: &[T; 3], b: &[T; 3]) -> f64 {
     a.iter().zip(b).map(|(&a, &b)| a.as_f64() * b.as_f64()).sum()
 }
 
-/// Maximum norm ‖x‖∞, the largest absolute value of an entry.
+/// Maximum norm ‖x‖∞, the largest absolute value of an entry that is not NaN.
 pub(crate) fn max_norm<T: Real>(x: &[[T; 3]]) -> f64 {
-    x.as_flattened().iter().map(|x| x.as_f64().abs()).fold(0.0, f64::max)
+    // NaN fails the comparison.
+    let larger = |max: f64, x: &T| if x.as_f64().abs() > max { x.as_f64().abs() } else { max };
+    let (chunks, rest) = x.as_flattened().as_chunks::<PARTIAL_SUMS>();
+    let mut maxima = [0.0; PARTIAL_SUMS];
+    for x in chunks {
+        for lane in 0..PARTIAL_SUMS {
+            maxima[lane] = larger(maxima[lane], &x[lane]);
+        }
+    }
+    rest.iter().fold(maxima.into_iter().fold(0.0, f64::max), larger)
 }
 
 /// y += a x

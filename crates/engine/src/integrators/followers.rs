@@ -4,8 +4,8 @@ use fem_scene::simulation::{Cause, Counters};
 
 use super::Convergence;
 use crate::model::system::System;
-use crate::newton::Newton;
 use crate::newton::incremental_potential::{Increment, IncrementalPotential};
+use crate::newton::{Newton, Start};
 use crate::number::Real;
 use crate::vector::max_norm;
 
@@ -47,18 +47,20 @@ impl<T: Real> Followers<T> {
         system.add_follower_gradient(&self.u, increment.end, &mut self.gradient);
     }
 
-    /// Moves w to the minimum of the incremental potential, as often as the follower loads change with it.
+    /// Moves w, which `start` was evaluated at, to the minimum of the incremental potential, as often as the follower loads change
+    /// with it.
     pub fn minimize(
         &mut self,
         newton: &mut Newton<T>,
         system: &System<T>,
         increment: Increment<T>,
+        mut start: Start,
         w: &mut [[T; 3]],
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
         let mut before = f64::INFINITY;
         for _ in 0..MOST {
-            let outcome = newton.minimize(&self.potential(system, increment), w, counters)?;
+            let outcome = newton.minimize(&self.potential(system, increment), start, w, counters)?;
             if self.gradient.is_empty() || outcome == Convergence::NotConverged {
                 return Ok(outcome);
             }
@@ -68,6 +70,7 @@ impl<T: Real> Followers<T> {
                 return Ok(Convergence::Converged);
             }
             before = change;
+            start = newton.start(&self.potential(system, increment), w, counters).ok_or(Cause::Overflow)?;
         }
         Ok(Convergence::NotConverged)
     }

@@ -48,8 +48,8 @@ impl<T: Real> Integrator<T> for ImplicitEuler<T> {
         let increment = Increment { start: &state.u, end: Moment::at(state.time + dt), inertia: Some(inertia) };
         followers.evaluate(system, &increment, inertial);
         extrapolate(step, inertial, last_change, T::of(dt));
-        InitialGuess { newton, followers, system, increment, inertia }.find(step, counters)?;
-        let convergence = followers.minimize(newton, system, increment, step, counters)?;
+        let start = InitialGuess { newton, followers, system, increment, inertia }.find(step, counters)?;
+        let convergence = followers.minimize(newton, system, increment, start, step, counters)?;
         momentum::restore(&followers.potential(system, increment), dt, 1.0, step);
         finish(step, dt, state, last_change);
         Ok(convergence)

@@ -4,8 +4,8 @@ use fem_scene::simulation::{Cause, Counters};
 
 use super::followers::Followers;
 use crate::model::system::System;
-use crate::newton::Newton;
 use crate::newton::incremental_potential::{Increment, Inertia};
+use crate::newton::{Newton, Start};
 use crate::number::Real;
 
 /// A step in need of an initial guess.
@@ -28,16 +28,16 @@ const SMALLEST_PART: f64 = 1.0 / 1024.0;
 impl<T: Real> InitialGuess<'_, T> {
     /// Replaces `step`, an extrapolation, by a feasible increment. Candidates in this order: the extrapolation; the increment without
     /// forces; that of a linear body; the prescribed increments alone. Where a prescribed motion inverts elements in all of them,
-    /// it is applied in parts, with the body in equilibrium after each.
-    pub fn find(&mut self, step: &mut [[T; 3]], counters: &mut Counters) -> Result<(), Cause> {
+    /// it is applied in parts, with the body in equilibrium after each. Returns the energy at the increment.
+    pub fn find(&mut self, step: &mut [[T; 3]], counters: &mut Counters) -> Result<Start, Cause> {
         self.prescribe(step);
-        if self.is_feasible(step, counters) {
-            return Ok(());
+        if let Some(start) = self.start(step, counters) {
+            return Ok(start);
         }
         step.copy_from_slice(self.inertia.inertial);
         self.prescribe(step);
-        if self.is_feasible(step, counters) {
-            return Ok(());
+        if let Some(start) = self.start(step, counters) {
+            return Ok(start);
         }
         // The rest is rare, and allocates only then.
         let mut prescribed = vec![[T::default(); 3]; self.system.nodes()];
@@ -45,41 +45,48 @@ impl<T: Real> InitialGuess<'_, T> {
         // Where the linear body has no stiffness, the other candidates remain.
         if self.system.dirichlet.has_motion()
             && self.predict(self.increment, &prescribed, step, counters)
-            && self.is_feasible(step, counters)
+            && let Some(start) = self.start(step, counters)
         {
-            return Ok(());
+            return Ok(start);
         }
         step.copy_from_slice(&prescribed);
-        if self.is_feasible(step, counters) {
-            return Ok(());
+        if let Some(start) = self.start(step, counters) {
+            return Ok(start);
         }
         self.in_parts(&prescribed, step, counters)
     }
 
     /// Applies the prescribed motion in parts, as large as the elements allow.
-    fn in_parts(&mut self, prescribed: &[[T; 3]], step: &mut [[T; 3]], counters: &mut Counters) -> Result<(), Cause> {
+    fn in_parts(
+        &mut self,
+        prescribed: &[[T; 3]],
+        step: &mut [[T; 3]],
+        counters: &mut Counters,
+    ) -> Result<Start, Cause> {
         let system = self.system;
         let mut found = vec![[T::default(); 3]; system.nodes()];
         let (mut done, mut part) = (0.0, 0.5);
         while system.dirichlet.has_motion() && part >= SMALLEST_PART {
             let next = f64::min(done + part, 1.0);
-            let is_start = self.continue_from(&found, prescribed, (done, next), step, counters);
+            let start = self.continue_from(&found, prescribed, (done, next), step, counters);
             let Self { newton, followers, increment, .. } = self;
-            if is_start && followers.minimize(newton, system, *increment, step, counters).is_ok() {
+            if let Some(start) = start
+                && followers.minimize(newton, system, *increment, start, step, counters).is_ok()
+            {
                 found.copy_from_slice(step);
                 (done, part) = (next, 2.0 * part);
             } else {
                 part *= 0.5;
             }
             if done == 1.0 {
-                return Ok(());
+                return self.start(step, counters).ok_or(Cause::Overflow);
             }
         }
         Err(infeasible(system, self.increment.start, prescribed))
     }
 
     /// From equilibrium at one part of the motion to a feasible increment at the next: the body follows as a linear one, or else only
-    /// the constrained degrees of freedom move. Returns false if neither is feasible.
+    /// the constrained degrees of freedom move. Returns `None` if neither is feasible.
     fn continue_from(
         &mut self,
         found: &[[T; 3]],
@@ -87,7 +94,7 @@ impl<T: Real> InitialGuess<'_, T> {
         (done, next): (f64, f64),
         step: &mut [[T; 3]],
         counters: &mut Counters,
-    ) -> bool {
+    ) -> Option<Start> {
         let sum = |a: &[[T; 3]], factor: f64, b: &[[T; 3]]| -> Vec<[T; 3]> {
             let add = |(a, b): (&[T; 3], &[T; 3])| std::array::from_fn(|i| a[i] + T::of(factor) * b[i]);
             a.iter().zip(b).map(add).collect()
@@ -107,11 +114,12 @@ impl<T: Real> InitialGuess<'_, T> {
             if next == 1.0 {
                 self.system.dirichlet.copy_constrained(prescribed, step);
             }
-            if self.is_feasible(step, counters) {
-                return true;
+            let start = self.start(step, counters);
+            if start.is_some() {
+                return start;
             }
         }
-        false
+        None
     }
 
     /// Writes the increment of a linear body into `step`; returns false if its matrix cannot be factored.
@@ -131,11 +139,11 @@ impl<T: Real> InitialGuess<'_, T> {
         self.increment.prescribe(self.system, step);
     }
 
-    /// Whether Newton's method can start at an increment, which is moved out of obstacles first.
-    fn is_feasible(&mut self, step: &mut [[T; 3]], counters: &mut Counters) -> bool {
+    /// Evaluates an increment, which is moved out of obstacles first; `None` if Newton's method cannot start there.
+    fn start(&mut self, step: &mut [[T; 3]], counters: &mut Counters) -> Option<Start> {
         let Self { newton, followers, system, increment, .. } = self;
         increment.make_feasible(system, step);
-        newton.is_feasible(&followers.potential(system, *increment), step, counters)
+        newton.start(&followers.potential(system, *increment), step, counters)
     }
 }
 

@@ -266,13 +266,15 @@ impl<T: Real> LoadStep<'_, T> {
         system.prescribe(u, end, prescribed);
         newton.predict(&followers.potential(system, increment), prescribed, step, counters)?;
         system.make_feasible(u, end, step);
-        if !newton.is_feasible(&followers.potential(system, increment), step, counters) {
-            step.copy_from_slice(prescribed);
-            system.make_feasible(u, end, step);
-            if !newton.is_feasible(&followers.potential(system, increment), step, counters) {
-                return Err(infeasible(system, u, prescribed));
+        let start = match newton.start(&followers.potential(system, increment), step, counters) {
+            Some(start) => start,
+            None => {
+                step.copy_from_slice(prescribed);
+                system.make_feasible(u, end, step);
+                let start = newton.start(&followers.potential(system, increment), step, counters);
+                start.ok_or_else(|| infeasible(system, u, prescribed))?
             }
-        }
-        followers.minimize(newton, system, increment, step, counters)
+        };
+        followers.minimize(newton, system, increment, start, step, counters)
     }
 }

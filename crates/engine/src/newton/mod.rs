@@ -72,6 +72,9 @@ enum Factor {
     FreshProjected,
 }
 
+/// The energy at the start of an iteration, evaluated; the gradient there is kept by [`Newton`].
+pub struct Start(Energy);
+
 /// Progress of the iteration.
 struct Iterate {
     energy: Energy,
@@ -167,24 +170,30 @@ impl<T: Real> Newton<T> {
         self.solver
     }
 
-    /// Whether the energy at w is finite, so that the iteration can start there.
-    pub fn is_feasible(&mut self, potential: &IncrementalPotential<T>, w: &[[T; 3]], counters: &mut Counters) -> bool {
+    /// Evaluates the energy and its gradient at w. Returns `None` if the energy is not finite: the iteration cannot start there.
+    pub fn start(
+        &mut self,
+        potential: &IncrementalPotential<T>,
+        w: &[[T; 3]],
+        counters: &mut Counters,
+    ) -> Option<Start> {
         counters.energy_evaluations += 1;
         counters.force_assemblies += 1;
-        potential.energy_and_gradient(w, &mut self.gradient, &mut self.workspace).value.is_finite()
+        let energy = potential.energy_and_gradient(w, &mut self.gradient, &mut self.workspace);
+        energy.value.is_finite().then_some(Start(energy))
     }
 
-    /// Moves w, which must be [feasible](Self::is_feasible), to the minimum.
+    /// Moves w to the minimum of the potential, from the [`start`](Self::start) that was evaluated last.
     pub fn minimize(
         &mut self,
         potential: &IncrementalPotential<T>,
+        Start(energy): Start,
         w: &mut [[T; 3]],
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
         self.factor =
             if self.factor == Factor::Stale || !self.serves(potential) { Factor::Stale } else { Factor::Kept };
         self.is_matrix_outdated = false;
-        let energy = potential.energy_and_gradient(w, &mut self.gradient, &mut self.workspace);
         let norm = norm(&self.gradient);
         let mut at =
             Iterate { energy, size: f64::INFINITY, left_out: 0.0, rate: None, norms: (norm, norm), forcing: 0.0 };

@@ -1,7 +1,5 @@
 //! The integrator that a scene names, with its limits and its linear solver.
 
-use std::sync::Arc;
-
 use fem_scene::{Integrator as IntegratorKind, Method};
 
 use crate::integrators::{
@@ -26,7 +24,7 @@ pub(super) const SMALLEST_TOLERANCE: f64 = 8.0;
 const LARGEST_RESIDUAL: f64 = 0.05;
 
 /// Largest number of Newton iterations in a time step, and in a load step: a body that buckles moves far.
-const MOST_ITERATIONS: (usize, usize) = (50, 2000);
+const MOST_ITERATIONS: (usize, usize) = (200, 2000);
 
 /// Number of nodes up to which a factor is cheaper than iterations where the scene names no solver: in motion, where inertia keeps
 /// iterations few, and in equilibrium, where one factor is enough.
@@ -101,14 +99,19 @@ pub(super) fn build<T: Real>(
     system: &System<T>,
     choice: SolverChoice,
 ) -> Box<dyn Integrator<T>> {
-    let solver = || {
-        let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
-        Solver::new(choice, &Arc::clone(&system.pattern), &rest)
-    };
+    let rest = || -> Vec<[f64; 3]> { system.rest[..system.free()].iter().map(|x| (*x).into()).collect() };
+    let solver = || Solver::new(choice, &system.pattern, &rest());
     let tolerance = method.solver.as_ref().and_then(|solver| solver.tolerance).unwrap_or(1e-12);
     let tolerance = tolerance.max(SMALLEST_RESIDUAL * T::EPSILON.as_f64());
-    let newton =
-        || Newton::new(limits::<T>(kind, method, tolerance), solver(), system.nodes(), system.pattern.blocks());
+    let newton = || {
+        // Inertia bounds the condition number, and a linear body needs one direction alone.
+        let solver = if kind == IntegratorKind::Static || system.is_linear() {
+            solver()
+        } else {
+            Solver::for_directions(choice, &system.pattern, &rest())
+        };
+        Newton::new(limits::<T>(kind, method, tolerance), solver, system.nodes(), system.pattern.blocks())
+    };
     match kind {
         IntegratorKind::ExplicitEuler => Box::new(ExplicitEuler::new(system)),
         IntegratorKind::SemiImplicitEuler => Box::new(SemiImplicitEuler::new(system)),

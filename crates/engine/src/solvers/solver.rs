@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::ApproximateInverse;
 use super::choice::{Preconditioner, SolverChoice};
-use super::direct::{Lu, cholesky};
+use super::direct::{Lu, cholesky, cholesky_for_directions};
 use super::krylov::{Workspace, conjugate_gradients, parts, product, refine};
 use super::parts::Part;
 use super::preconditioners::{BlockJacobi, Identity, IncompleteCholesky, Multigrid, Ssor};
@@ -53,6 +53,19 @@ impl<T: Real> Solver<T> {
             SolverChoice::Pcg(Preconditioner::Multigrid) => Box::new(Multigrid::new(pattern, rest)),
             SolverChoice::Pcg(Preconditioner::Ssor) => Box::new(Ssor::new(pattern, rest)),
         };
+        Self::with_inverse(choice, pattern, inverse)
+    }
+
+    /// The same for directions of Newton's method, where [`apply`](Self::apply) needs a few digits only: a Cholesky factor in single
+    /// precision where the matrix allows it. [`solve`](Self::solve) reaches its tolerance all the same.
+    pub fn for_directions(choice: SolverChoice, pattern: &Arc<Pattern>, rest: &[[f64; 3]]) -> Self {
+        match choice {
+            SolverChoice::Cholesky => Self::with_inverse(choice, pattern, cholesky_for_directions(pattern)),
+            SolverChoice::Lu | SolverChoice::Cg | SolverChoice::Pcg(_) => Self::new(choice, pattern, rest),
+        }
+    }
+
+    fn with_inverse(choice: SolverChoice, pattern: &Arc<Pattern>, inverse: Box<dyn ApproximateInverse<T>>) -> Self {
         Self {
             choice,
             parts: parts(pattern),

@@ -3,6 +3,7 @@
 mod csc;
 mod faer_cholesky;
 mod lu;
+mod single;
 mod supernodal;
 
 #[cfg(test)]
@@ -11,10 +12,13 @@ mod tests;
 pub(crate) use lu::Lu;
 pub(crate) use supernodal::SupernodalCholesky;
 
+use std::sync::Arc;
+
 use super::ApproximateInverse;
 use crate::number::Real;
 use crate::sparse::Pattern;
 use faer_cholesky::FaerCholesky;
+use single::SingleCholesky;
 
 /// Up to this many rows [`SupernodalCholesky`] is faster. On beams of 8 000 rows faer with two threads takes the same time.
 const ROWS_FOR_ONE_THREAD: usize = 5_000;
@@ -26,4 +30,9 @@ pub(super) fn cholesky<T: Real>(pattern: &Pattern) -> Box<dyn ApproximateInverse
     } else {
         Box::new(FaerCholesky::new(pattern))
     }
+}
+
+/// The same for directions of an iteration, which need a few digits only: in single precision where the matrix allows it.
+pub(super) fn cholesky_for_directions<T: Real>(pattern: &Arc<Pattern>) -> Box<dyn ApproximateInverse<T>> {
+    if size_of::<T>() > size_of::<f32>() { Box::new(SingleCholesky::new(pattern)) } else { cholesky(pattern) }
 }
