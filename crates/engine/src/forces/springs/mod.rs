@@ -146,7 +146,7 @@ impl<T: Real> Potential<T> for Springs<T> {
         if !self.springs.iter().all(|spring| is_positive(spring.stiffness)) {
             return Some((table, "a stiffness"));
         }
-        // A damping of zero is none, and one that underflows damps nothing.
+        // A damping that underflows to zero is no damping.
         let fits = self.springs.iter().all(|spring| spring.damping.as_f64().is_finite());
         (!fits).then_some((table, "a damping"))
     }
