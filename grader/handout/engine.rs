@@ -17,6 +17,11 @@ pub fn planned_parts(scene: &Scene, _: &Body) -> Result<Vec<Part>, End> {
     Err(refused(scene))
 }
 
+/// Returns `None`: no scene of the course is a mass-spring body.
+pub fn line_of_moduli(_: &Body) -> Result<Option<String>, End> {
+    Ok(None)
+}
+
 fn refused(scene: &Scene) -> End {
     End::unusable(scene.refuse("pipeline", "is \"engine\", which this repository does not have; write \"course\""))
 }

@@ -1,5 +1,6 @@
 //! Scenes that the engine runs.
 
+use fem_engine::apparent_moduli::apparent_moduli;
 use fem_engine::cantilever;
 use fem_mesh::TetrahedralMesh;
 use fem_scene::simulation::{Part, Simulation};
@@ -17,6 +18,31 @@ pub fn build(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, End> {
 /// The parts of the engine's simulation of a scene, without building it.
 pub fn planned_parts(scene: &Scene, body: &Body) -> Result<Vec<Part>, End> {
     fem_engine::simulator::planned_parts(scene, body).map_err(End::unusable)
+}
+
+/// Largest number of nodes for which moduli are measured: that needs the whole body.
+const MOST_NODES: usize = 50_000;
+
+/// A line with the apparent moduli of a mass-spring body; `None` for a body of elastic elements.
+pub fn line_of_moduli(body: &Body) -> Result<Option<String>, End> {
+    let nodes = body.shape.mesh.vertices().len();
+    if nodes > MOST_NODES {
+        let line = format!("apparent moduli: not measured for more than {MOST_NODES} nodes");
+        return Ok(body.material.is_mass_spring().then_some(line));
+    }
+    let Some(found) = apparent_moduli(body).map_err(End::Stopped)? else { return Ok(None) };
+    let [least, most] = found.young_of_directions;
+    let (place, ratio) = if body.shape.mesh.is_flat() { (" in the plane", "1/3") } else { ("", "1/4") };
+    Ok(Some(format!(
+        "apparent moduli{place} at small strain: E = {:.4e} Pa, ν = {:.4} (mean over all directions; E is {least:.4e} to {most:.4e} Pa \
+         along single ones), measured with the {} nodes of the boundary in a uniform strain and the {} inside in equilibrium; if these \
+         followed it too, E = {:.4e} Pa, ν = {ratio}",
+        found.young,
+        found.poisson,
+        nodes - found.inside,
+        found.inside,
+        found.affine_young
+    )))
 }
 
 /// Timoshenko's displacement of the tip, m, if the scene is a cantilever.

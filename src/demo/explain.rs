@@ -12,13 +12,15 @@ const MOST_NODES: usize = 50_000;
 
 /// Prints a line for every part.
 pub fn print(scene: &Scene) -> Result<(), End> {
-    let (parts, stability) = match scene.pipeline {
-        Pipeline::Course => (parts(scene)?, None),
+    let (parts, lines) = match scene.pipeline {
+        Pipeline::Course => (parts(scene)?, Vec::new()),
         Pipeline::Engine => {
             let body = build::body(scene)?;
             let parts = engine::planned_parts(scene, &body)?;
+            let moduli = engine::line_of_moduli(&body)?;
             let is_explicit = scene.time.integrator.is_explicit();
-            (parts, is_explicit.then(|| stability(scene, body)).transpose()?)
+            let stability = is_explicit.then(|| stability(scene, body)).transpose()?;
+            (parts, [stability, moduli].into_iter().flatten().collect())
         }
     };
     say!("{}: {}", scene.name, scene.about);
@@ -37,7 +39,7 @@ pub fn print(scene: &Scene) -> Result<(), End> {
         },
     };
     say!("pipeline {pipeline}, {}, {step}", scene.time.integrator.name());
-    if let Some(line) = stability {
+    for line in lines {
         say!("{line}");
     }
     for part in parts {

@@ -41,8 +41,12 @@ fn check_color(color: Option<ElementField>, simulation: &dyn Simulation) -> Resu
     let fields = ElementField::of(simulation);
     let Some(missing) = color.filter(|field| !fields.contains(field)) else { return Ok(()) };
     let others = fields.iter().map(|field| field.name()).collect::<Vec<_>>().join(" or ");
+    let remedy = match missing {
+        ElementField::Stress => "a law as material.model",
+        ElementField::PlasticStrain | ElementField::Quality => "a table [plasticity]",
+    };
     Err(End::unusable(format!(
-        "--color {missing}: the body has no {}; give the scene a table [plasticity], or the option {others}",
+        "--color {missing}: the body has no {}; give the scene {remedy}, or the option {others}",
         missing.label()
     )))
 }

@@ -129,7 +129,7 @@ fn explain_lists_the_parts_that_a_scene_leaves_out() {
 fn explain_lists_every_part_of_every_engine_scene_with_its_reason() {
     let all = [
         "mesh material state mass forces dead_load fixed prescribed springs pressure damping drag stiffness projection",
-        "solver preconditioner line_search skinning reactions contact friction plasticity",
+        "solver preconditioner line_search skinning reactions contact friction plasticity mass_spring",
     ];
     let mut all: Vec<_> = all.iter().flat_map(|line| line.split(' ')).collect();
     all.sort_unstable();
@@ -144,6 +144,17 @@ fn explain_lists_every_part_of_every_engine_scene_with_its_reason() {
         assert_eq!(words.iter().map(|words| words[0]).collect::<Vec<_>>(), all, "{name}");
         assert!(words.iter().all(|words| words.len() > 2), "a part without a reason:\n{text}");
     }
+}
+
+#[test]
+fn explain_measures_the_moduli_of_springs() {
+    let text = Desk::new().run_well("net --explain").stdout;
+    let line = text.lines().find(|line| line.starts_with("apparent moduli in the plane at small strain: E = "));
+    let line = line.unwrap_or_else(|| panic!("no line of moduli:\n{text}"));
+    assert!(line.contains("the 48 nodes of the boundary") && line.contains("105 inside"), "{line}");
+    assert!(line.ends_with("if these followed it too, E = 5.0000e4 Pa, ν = 1/3"), "{line}");
+    assert!(text.contains("432 edges of ") && text.contains("damping 5.0000e0 N s/m along each"), "{text}");
+    assert!(!Desk::new().run_well("beam --explain").stdout.contains("apparent"));
 }
 
 #[test]

@@ -44,6 +44,7 @@
 #![allow(clippy::needless_range_loop)] // indices of tensors are the notation of the field
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
+pub mod apparent_moduli;
 pub mod boundary;
 pub mod cantilever;
 pub mod elements;

@@ -102,12 +102,13 @@ pub fn planned_parts(scene: &Scene, body: &Body) -> Result<Vec<Part>, SceneError
     Ok(plan.parts(method.integrator, &method, integrator::solver_choice(&method, nodes), is_linear))
 }
 
-/// The law of a body that the engine can simulate with numbers of this machine epsilon.
-fn check<T: Real>(scene: &Scene, body: &Body, epsilon: f64) -> Result<AnyLaw<T::Lanes>, SceneError> {
+/// The law of a body that the engine can simulate with numbers of this machine epsilon; `None` for a mass-spring body.
+fn check<T: Real>(scene: &Scene, body: &Body, epsilon: f64) -> Result<Option<AnyLaw<T::Lanes>>, SceneError> {
     let refuse = |(field, problem): Refusal| scene.refuse(field, &problem);
-    let Some(law) = AnyLaw::<T::Lanes>::new(&body.material) else {
+    let law = AnyLaw::<T::Lanes>::new(&body.material);
+    if law.is_none() && !body.material.is_mass_spring() {
         return Err(refuse(("material", "lacks the parameters of its model; see README.md for them".to_owned())));
-    };
+    }
     let materials = body.regions.iter().map(|region| (&region.name[..], &region.material));
     for (table, material) in std::iter::once(("material", &body.material)).chain(materials) {
         range_check::check_shear_modulus(material).map_err(|problem| scene.refuse(table, &problem))?;
@@ -115,6 +116,7 @@ fn check<T: Real>(scene: &Scene, body: &Body, epsilon: f64) -> Result<AnyLaw<T::
     let method = scene.method();
     range_check::check_tolerance(&method, epsilon).map_err(refuse)?;
     path_check::check(&method, body).map_err(refuse)?;
+    integrator::check_solver(&method, body.shape.mesh.vertices().len()).map_err(refuse)?;
     if method.integrator == IntegratorKind::Static {
         rigid_modes::check(body).map_err(refuse)?;
     }

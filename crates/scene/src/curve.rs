@@ -54,6 +54,8 @@ pub enum LoadCurve {
         /// s
         off: f64,
     },
+    /// The integral from 0 of another curve, of 1 without one, s: the part of a velocity that has become a displacement.
+    Integral(Option<Box<LoadCurve>>),
 }
 
 impl LoadCurve {
@@ -64,6 +66,25 @@ impl LoadCurve {
             Self::Table(points) => interpolated(points, time),
             Self::Sine { frequency, phase } => (TAU * frequency * time + phase).sin(),
             Self::Switch { on, off } => f64::from(u8::from(!is_before(time, *on) && is_before(time, *off))),
+            Self::Integral(curve) => curve.as_ref().map_or(time, |curve| curve.integral(time)),
+        }
+    }
+
+    /// Integral of the factor from 0 to a time, s, exactly.
+    fn integral(&self, time: f64) -> f64 {
+        match self {
+            Self::Ramp(duration) => {
+                let grown = time.clamp(0.0, *duration);
+                0.5 * grown * grown / duration + f64::max(time - duration, 0.0)
+            }
+            Self::Table(points) => integrated(points, time) - integrated(points, 0.0),
+            Self::Sine { frequency, phase } => {
+                let rate = TAU * frequency;
+                (phase.cos() - (rate * time + phase).cos()) / rate
+            }
+            Self::Switch { on, off } => f64::max(time.min(*off) - on.max(0.0), 0.0),
+            // Accelerations have no key.
+            Self::Integral(_) => unreachable!("a scene integrates a curve once"),
         }
     }
 
@@ -86,6 +107,8 @@ impl LoadCurve {
                 let (sine, cosine) = (rate * time + phase).sin_cos();
                 [rate * cosine, -rate * rate * sine]
             }
+            Self::Integral(None) => [1.0, 0.0],
+            Self::Integral(Some(curve)) => [curve.factor(time), curve.derivatives(time)[0]],
         }
     }
 
@@ -93,7 +116,12 @@ impl LoadCurve {
     /// curve that is piecewise linear counts as linear during the step, so that a kink inside it changes the rate and never the ends.
     pub fn in_step(&self, [begin, end]: [f64; 2], part: f64) -> [f64; 3] {
         let time = begin + part * (end - begin);
-        if let Self::Sine { .. } = self {
+        let is_smooth = match self {
+            Self::Sine { .. } => true,
+            Self::Integral(Some(curve)) => !curve.has_jumps(),
+            Self::Ramp(_) | Self::Table(_) | Self::Switch { .. } | Self::Integral(None) => false,
+        };
+        if is_smooth {
             let [rate, change] = self.derivatives(time);
             return [self.factor(time), rate, change];
         }
@@ -109,6 +137,7 @@ impl LoadCurve {
             Self::Table(points) => points.iter().map(|[time, _]| *time).collect(),
             Self::Sine { .. } => Vec::new(),
             Self::Switch { on, off } => vec![*on, *off],
+            Self::Integral(curve) => curve.as_ref().map_or(Vec::new(), |curve| curve.kinks()),
         }
     }
 
@@ -132,6 +161,18 @@ fn interpolated(points: &[[f64; 2]], time: f64) -> f64 {
         (Some([_, factor]), None) | (None, Some([_, factor])) => factor,
         (None, None) => 1.0,
     }
+}
+
+/// Integral of the interpolated factor from the first point to a time, s.
+fn integrated(points: &[[f64; 2]], time: f64) -> f64 {
+    let Some([first, factor]) = points.first().copied() else { return time };
+    if time <= first {
+        return (time - first) * factor;
+    }
+    let area = |[[t0, f0], [t1, f1]]: [[f64; 2]; 2]| 0.5 * (f0 + f1) * (t1 - t0);
+    let passed = points.partition_point(|[t, _]| *t <= time);
+    let whole: f64 = points[..passed].windows(2).map(|pair| area([pair[0], pair[1]])).sum();
+    whole + area([points[passed - 1], [time, interpolated(points, time)]])
 }
 
 impl CurveTable {

@@ -95,7 +95,12 @@ pub trait Simulation: Send {
         None
     }
 
-    /// Cauchy stress of each element now, Pa.
+    /// Whether elements have a stress: those of a mass-spring body have none.
+    fn has_stress(&self) -> bool {
+        true
+    }
+
+    /// Cauchy stress of each element now, Pa; empty where elements have none.
     fn stresses(&self) -> Vec<Matrix3<f64>>;
 
     /// Plastic flow of the body; `None` for a body without plasticity.

@@ -19,6 +19,7 @@
 
 mod csv_table;
 pub mod experiments;
+pub mod linear;
 pub mod machine;
 pub mod reference;
 pub mod report;

@@ -5,6 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use fem_scene::Scene;
 use fem_scene::simulation::Simulation;
+use fem_study::experiments::write;
+use fem_study::linear;
+use fem_study::machine::Machine;
 use fem_study::report::{Report, first_files, report};
 use fem_study::studies::Settings;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -27,6 +30,9 @@ pub struct Arguments {
     /// Instead of the report, run each scene as it is for every value of a key, and write sweep.csv and sweep.html; repeatable
     #[arg(long, value_name = "KEY=VALUE,VALUE", conflicts_with = "quick")]
     pub sweep: Vec<Sweep>,
+    /// Instead of the report, compare the convergence of the linear solvers, iteration by iteration, and write linear.html
+    #[arg(long, conflicts_with = "sweep")]
+    pub linear: bool,
 }
 
 /// Studies the scenes, writes the report, and prints the fastest method for each error.
@@ -40,6 +46,9 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
     }
     let scenes = arguments.scenes.iter().map(|name| fem_scene::load(name, &data).map_err(End::unusable));
     let scenes: Vec<Scene> = scenes.collect::<Result<_, _>>()?;
+    if arguments.linear {
+        return linear(&scenes, arguments);
+    }
     let bar = progress_bar();
     let tell = |done: usize, all: usize, what: &str| show(&bar, done, all, what);
     let factory = |scene: &Scene| -> Result<Box<dyn Simulation>, String> {
@@ -53,6 +62,24 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
         say!("{}", file.display());
     }
     Ok(())
+}
+
+/// Compares the linear solvers on the systems of the scenes. A bound that does not hold is an error.
+fn linear(scenes: &[Scene], arguments: &Arguments) -> Result<(), End> {
+    let body = |scene: &Scene| build::body(scene).map_err(|end| end.message());
+    let machine = Machine::this(&data::folder());
+    let found = linear::study(scenes, arguments.quick, body, machine).map_err(End::unusable)?;
+    let unwritable = |error| End::unusable(format!("--out {}: cannot be written: {error}", arguments.out.display()));
+    write(&found, &arguments.out).map_err(unwritable)?;
+    for mark in found.parts.iter().flat_map(|part| &part.marks) {
+        let holds = if mark.holds == Some(true) { "holds" } else { "DOES NOT HOLD" };
+        say!("{holds}: {}: {}", mark.statement, mark.ours);
+    }
+    say!("{}", arguments.out.join("linear.html").display());
+    match found.parts.iter().all(fem_study::experiments::Part::passes) {
+        true => Ok(()),
+        false => Err(End::Stopped("a bound does not hold".to_owned())),
+    }
 }
 
 /// Runs each scene for every combination of values.

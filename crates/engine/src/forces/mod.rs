@@ -3,6 +3,7 @@
 pub mod anchors;
 pub mod contact;
 pub mod dead_load;
+pub mod mass_spring;
 pub mod pressure;
 pub mod springs;
 
@@ -51,6 +52,9 @@ pub trait Potential<T: Real>: Send + Sync {
     fn couplings(&self) -> Vec<[u32; 2]> {
         Vec::new()
     }
+
+    /// Finds where its Hessian adds to matrices with a pattern, before any of them is assembled.
+    fn set_pattern(&mut self, _pattern: &Pattern) {}
 
     /// Whether its energy is at most quadratic in the displacements, so that one linear solve finds equilibrium.
     fn is_quadratic(&self) -> bool {
@@ -107,6 +111,18 @@ pub trait Potential<T: Real>: Send + Sync {
 
     /// Adds `factor` times the exact Hessian times `d`, N.
     fn add_hessian_times(&self, _factor: T, _u: &[[T; 3]], _d: &[[T; 3]], _product: &mut [[T; 3]]) {}
+
+    /// Whether it damps motions by −D(u) v, with a damping matrix D that is positive semi-definite. Implicit methods take D at the
+    /// displacements at which Rayleigh damping takes its stiffness, fixed within a step, so that ½ ẋᵀ D ẋ is a dissipation potential.
+    fn has_damping(&self) -> bool {
+        false
+    }
+
+    /// Adds `factor` D(u) v, N.
+    fn add_damping_times(&self, _factor: T, _u: &[[T; 3]], _v: &[[T; 3]], _product: &mut [[T; 3]]) {}
+
+    /// Adds `factor` D(u) to a matrix, N s/m.
+    fn add_damping_matrix(&self, _factor: T, _u: &[[T; 3]], _values: &mut [Block<T, 3>]) {}
 
     /// The largest multiple of `direction` up to which `u` plus it is certain to stay feasible.
     fn largest_step(&self, _u: &[[T; 3]], _direction: &[[T; 3]]) -> f64 {
@@ -199,8 +215,9 @@ pub struct Kind<T: Real> {
 pub type Builder<T> = fn(&Body, &Numbering) -> Option<Box<dyn Potential<T>>>;
 
 /// Every force that a scene can ask for; `[drag]` and the pull of a user are [`Anchors`].
-pub fn kinds<T: Real>() -> [Kind<T>; 5] {
+pub fn kinds<T: Real>() -> [Kind<T>; 6] {
     [
+        Kind { name: mass_spring::NAME, tables: "[material] with model \"mass_spring\"", build: mass_spring::build },
         Kind { name: springs::NAME, tables: "[[springs]]", build: springs::build },
         Kind { name: dead_load::NAME, tables: "dead load", build: dead_load::build },
         Kind { name: pressure::NAME, tables: "[[traction]] with pressure", build: pressure::build },
@@ -235,6 +252,11 @@ impl<T: Real> Forces<T> {
     /// The active ones.
     pub fn active(&self) -> impl Iterator<Item = (&dyn Potential<T>, &Timer)> {
         self.all().filter(|(potential, _)| potential.is_active())
+    }
+
+    /// Prepares the assembly of matrices with a pattern.
+    pub fn set_pattern(&mut self, pattern: &Pattern) {
+        self.potentials.iter_mut().for_each(|(potential, _)| potential.set_pattern(pattern));
     }
 
     /// Whether the body has obstacles.

@@ -8,20 +8,22 @@ use crate::model::system::System;
 use crate::number::Real;
 use crate::vector::{axpy, dot};
 
-/// Relative change of ω² within [`BLOCK`] iterations at which Lanczos's method ends, and its largest number of iterations.
+/// Relative change of an eigenvalue within [`BLOCK`] iterations at which Lanczos's method ends, and its largest number of iterations.
 const ACCURACY: (f64, usize) = (1e-5, 96);
 
 /// Iterations between two looks at the eigenvalues.
 const BLOCK: usize = 8;
 
-/// The longest stable time step of an explicit method for small vibrations about the undeformed body, s: zero for a method that is
+/// The longest stable time step of an explicit method for small vibrations about the undeformed body, s; a lower bound of it where dampers
+/// of springs are not in proportion to the stiffness. Zero for a method that is
 /// unstable at any time step, `None` for implicit methods and for bodies without stiffness.
 pub fn critical_time_step<T: Real>(kind: IntegratorKind, system: &System<T>) -> Option<f64> {
     if !kind.is_explicit() {
         return None;
     }
     let omega = largest_frequency(system)?;
-    let ratio = system.damping.as_ref().map_or(0.0, |damping| damping_ratio(damping, omega));
+    let ratio = system.damping.as_ref().map_or(0.0, |damping| damping_ratio(damping, omega))
+        + 0.5 * fastest_damper(system) / omega;
     let limit = match kind {
         // Central differences with the damping force of the step before: Belytschko, Liu, Moran, Nonlinear Finite Elements for
         // Continua and Structures (2000), §6.2.
@@ -65,9 +67,29 @@ fn damping_ratio(damping: &RayleighDamping, omega: f64) -> f64 {
     0.5 * (damping.alpha / omega + damping.beta * omega)
 }
 
-/// The largest angular frequency of the undeformed body, 1/s, by Lanczos's method for M⁻¹ K, Golub and Van Loan, Matrix Computations
-/// (2013), §10.1; `None` where it has no stiffness. It approaches the frequency from below.
+/// The largest angular frequency of the undeformed body, 1/s; `None` where it has no stiffness.
 fn largest_frequency<T: Real>(system: &System<T>) -> Option<f64> {
+    let square = largest_ratio(system, |undeformed, x, product| {
+        system.add_stiffness_times(T::one(), undeformed, x, product);
+        system.add_external_hessian_times(undeformed, x, product);
+    });
+    square.map(f64::sqrt)
+}
+
+/// The largest xᵀ D x / xᵀ M x of the undeformed body's dampers, 1/s: twice the product ξ ω of a vibration is at most that.
+fn fastest_damper<T: Real>(system: &System<T>) -> f64 {
+    if !system.has_dampers() {
+        return 0.0;
+    }
+    let rate = largest_ratio(system, |undeformed, x, product| {
+        system.add_dampers_times(T::one(), undeformed, x, product);
+    });
+    rate.unwrap_or(0.0)
+}
+
+/// The largest eigenvalue of M⁻¹ A, for a symmetric A whose product with a vector `add_times` adds at the undeformed body, by Lanczos's
+/// method: Golub and Van Loan, Matrix Computations (2013), §10.1. It approaches the eigenvalue from below. `None` where A is zero.
+fn largest_ratio<T: Real>(system: &System<T>, add_times: impl Fn(&[[T; 3]], &[[T; 3]], &mut [[T; 3]])) -> Option<f64> {
     let zero = || vec![[T::default(); 3]; system.nodes()];
     let (undeformed, mut force, mut mass_times, mut before, mut next) = (zero(), zero(), zero(), zero(), zero());
     let mut inverse = MassInverse::new(&system.mass);
@@ -83,8 +105,7 @@ fn largest_frequency<T: Real>(system: &System<T>) -> Option<f64> {
     let (mut square, mut last) = (0.0, 0.0);
     while diagonal.len() < ACCURACY.1 {
         force.fill([T::default(); 3]);
-        system.add_stiffness_times(T::one(), &undeformed, &x, &mut force);
-        system.add_external_hessian_times(&undeformed, &x, &mut force);
+        add_times(&undeformed, &x, &mut force);
         let alpha = dot(&x, &force);
         inverse.solve(system, &mut force, &mut next).ok()?;
         axpy(-alpha, &x, &mut next);
@@ -107,7 +128,7 @@ fn largest_frequency<T: Real>(system: &System<T>) -> Option<f64> {
         std::mem::swap(&mut x, &mut next);
     }
     // NaN and zero fail the comparison: all nodes are constrained, or nothing is stiff.
-    (square > 0.0 && square.is_finite()).then(|| square.sqrt())
+    (square > 0.0 && square.is_finite()).then_some(square)
 }
 
 /// The largest eigenvalue of a symmetric tridiagonal matrix; NaN where an entry is.

@@ -29,8 +29,9 @@ pub struct Solids<T: Real> {
 
 impl<T: Real> Solids<T> {
     /// Groups the elements of a body, with positions and numbers of nodes as the engine has them. `law` is that of the body's own
-    /// material.
-    pub fn new(body: &Body, law: AnyLaw<T::Lanes>, rest: &[Vector3<f64>], numbering: &Numbering) -> Self {
+    /// material; without one, as in a mass-spring body, no element is built.
+    pub fn new(body: &Body, law: Option<AnyLaw<T::Lanes>>, rest: &[Vector3<f64>], numbering: &Numbering) -> Self {
+        let Some(law) = law else { return Self::none() };
         let factors = &body.stiffness_factors;
         let (count, points_per_element) = (body.shape.mesh.elements(), body.shape.mesh.points_per_element());
         let is_flat = body.shape.mesh.is_flat();
@@ -63,6 +64,18 @@ impl<T: Real> Solids<T> {
         let plasticity = body.plasticity.map(|model| Plasticity::new(model, count, body.shape.mesh.is_flat()));
         let is_in_plane_stress = body.material.plane == Some(PlaneState::Stress);
         Self { groups, count, points_per_element, factors: factors.clone(), plasticity, is_in_plane_stress }
+    }
+
+    /// No elements: a mass-spring body has its elasticity in its springs.
+    fn none() -> Self {
+        Self {
+            groups: Vec::new(),
+            count: 0,
+            points_per_element: 1,
+            factors: Vec::new(),
+            plasticity: None,
+            is_in_plane_stress: false,
+        }
     }
 
     /// Prepares the assembly of matrices with a pattern.

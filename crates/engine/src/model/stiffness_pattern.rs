@@ -13,20 +13,26 @@ use crate::sparse::{Pattern, Stored};
 
 impl<T: Real> System<T> {
     /// Builds what the scene names, and nothing else; rows and blocks as the solver wants them.
-    pub fn new(body: Body, law: AnyLaw<T::Lanes>, choice: SolverChoice) -> Self {
+    /// `law` is that of the body's material, `None` for a mass-spring body.
+    pub fn new(body: Body, law: impl Into<Option<AnyLaw<T::Lanes>>>, choice: SolverChoice) -> Self {
         Self::with_forces(body, law, choice, &|_| Vec::new())
     }
 
     /// The same with forces of one's own beside those that the scene names.
-    pub fn with_forces(body: Body, law: AnyLaw<T::Lanes>, choice: SolverChoice, own: OwnForces<T>) -> Self {
-        let mut system = Self::of_body(&body, law, choice.ordering(), own);
+    pub fn with_forces(
+        body: Body,
+        law: impl Into<Option<AnyLaw<T::Lanes>>>,
+        choice: SolverChoice,
+        own: OwnForces<T>,
+    ) -> Self {
+        let mut system = Self::of_body(&body, law.into(), choice.ordering(), own);
         system.prepare_matrix(choice);
         system
     }
 
     /// The same for a method that needs no matrix: neighbours in the body have near numbers, and no pattern is found.
-    pub fn without_matrix(body: &Body, law: AnyLaw<T::Lanes>, own: OwnForces<T>) -> Self {
-        Self::of_body(body, law, Ordering::Parts, own)
+    pub fn without_matrix(body: &Body, law: impl Into<Option<AnyLaw<T::Lanes>>>, own: OwnForces<T>) -> Self {
+        Self::of_body(body, law.into(), Ordering::Parts, own)
     }
 
     /// Finds the pattern of the stiffness matrix, with the blocks that a solver wants, and where each element adds to it. The numbering
@@ -40,6 +46,7 @@ impl<T: Real> System<T> {
             BodyMesh::Quadratic { triangles, .. } => pattern(numbering, &triangles.elements, &couplings, stored),
         };
         self.elements.set_pattern(&pattern);
+        self.forces.set_pattern(&pattern);
         self.pattern = Arc::new(pattern);
     }
 

@@ -12,7 +12,7 @@ use super::numbering::{Numbering, Ordering};
 use super::solids::Solids;
 use crate::boundary::dirichlet::{DirichletConditions, fully_constrained_nodes};
 use crate::forces::anchors::{self, Anchors};
-use crate::forces::{Energy, Forces, HessianKind, Moment, Potential};
+use crate::forces::{Energy, Forces, HessianKind, Moment, Potential, mass_spring};
 use crate::materials::AnyLaw;
 use crate::number::Real;
 use crate::profile::Profile;
@@ -28,7 +28,7 @@ pub struct System<T: Real> {
     pub numbering: Numbering,
     /// Undeformed positions in the engine's numbering, m.
     pub rest: Vec<Vector3<f64>>,
-    /// Undeformed elements and their materials.
+    /// Undeformed elastic elements and their materials; none in a mass-spring body.
     pub elements: Solids<T>,
     /// Sparsity of the stiffness matrix, whose rows are the nodes that are not fully constrained; without rows if the method needs no
     /// matrix, until [`prepare_matrix`](Self::prepare_matrix).
@@ -45,6 +45,8 @@ pub struct System<T: Real> {
     pub forces: Forces<T>,
     /// Mean force of the obstacles on each node in the last step of an explicit method, N; empty without.
     pub contact_force: Vec<[T; 3]>,
+    /// Shear modulus that the springs of a mass-spring body amount to, Pa; zero for a body of elastic elements.
+    pub spring_modulus: f64,
     /// Rayleigh damping, where the scene asks for some.
     pub damping: Option<RayleighDamping>,
     /// Longest edge of the undeformed body's bounding box, m.
@@ -58,7 +60,7 @@ pub type OwnForces<'a, T> = &'a dyn Fn(&Numbering) -> Vec<Box<dyn Potential<T>>>
 
 impl<T: Real> System<T> {
     /// Builds what the scene names, and nothing else, without a matrix.
-    pub(super) fn of_body(body: &Body, law: AnyLaw<T::Lanes>, ordering: Ordering, own: OwnForces<T>) -> Self {
+    pub(super) fn of_body(body: &Body, law: Option<AnyLaw<T::Lanes>>, ordering: Ordering, own: OwnForces<T>) -> Self {
         match &body.shape.mesh {
             BodyMesh::Solid(mesh) => {
                 Self::of_elements(&mesh.elements, ElementMass::simplex(), body, law, ordering, own)
@@ -76,7 +78,7 @@ impl<T: Real> System<T> {
         elements: &[[usize; N]],
         shares: ElementMass<N>,
         body: &Body,
-        law: AnyLaw<T::Lanes>,
+        law: Option<AnyLaw<T::Lanes>>,
         ordering: Ordering,
         own: OwnForces<T>,
     ) -> Self {
@@ -102,6 +104,7 @@ impl<T: Real> System<T> {
             total_mass: masses.iter().sum(),
             node_masses: if dirichlet.is_empty() { mass.row_sums() } else { Vec::new() },
             name,
+            spring_modulus: mass_spring::shear_modulus(body),
             damping: body.damping,
             shape,
             pattern: Arc::new(Pattern::none()),
@@ -175,14 +178,7 @@ impl<T: Real> System<T> {
         for (force, contact) in force.iter_mut().zip(&self.contact_force) {
             *force = std::array::from_fn(|i| force[i] + contact[i]);
         }
-        if let Some(damping) = &self.damping {
-            self.profile.damping.time(|| {
-                self.mass.add_times(T::of(-damping.alpha), v, force);
-                if damping.beta > 0.0 {
-                    self.add_stiffness_times(T::of(-damping.beta), u_damping, v, force);
-                }
-            });
-        }
+        self.add_damping_force(u_damping, v, force);
     }
 
     /// Adds minus the forces of follower loads on the deformed surface, N.

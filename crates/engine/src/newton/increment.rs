@@ -1,6 +1,7 @@
 //! The increment of a step, with its inertia, its damping and its end.
 
 use crate::forces::Moment;
+use crate::model::damping::DampingRates;
 use crate::model::system::System;
 use crate::number::Real;
 use crate::vector::{axpy, scale};
@@ -23,11 +24,11 @@ pub struct Inertia<'a, T> {
     pub inertial: &'a [[T; 3]],
     /// 1/τ², 1/s².
     pub over_dt2: T,
-    /// c α, 1/s², and c β; `None` without damping.
-    pub damping: Option<(T, T)>,
+    /// c α, 1/s², c β, and c of the damping matrices of forces, 1/s; `None` without damping.
+    pub damping: Option<DampingRates<T>>,
     /// w̌, the increment without a velocity at its end, m; `None` for zero.
     pub still: Option<&'a [[T; 3]]>,
-    /// Displacements at which damping takes its stiffness, m; `None` for those at the start.
+    /// Displacements at which damping takes its matrices, m; `None` for those at the start.
     pub stiffness_at: Option<&'a [[T; 3]]>,
     /// The end of the step where the increment leads to a stage within it.
     pub step_end: Option<StepEnd>,
@@ -52,13 +53,11 @@ impl<'a, T: Real> Inertia<'a, T> {
 
     /// Inertia of a stage with this τ (s) and this c τ.
     pub fn of_stage(system: &System<T>, inertial: &'a [[T; 3]], tau: f64, velocity: f64) -> Self {
-        let rates = |damping: &fem_scene::RayleighDamping| {
-            (T::of(velocity * damping.alpha / tau), T::of(velocity * damping.beta / tau))
-        };
+        let rates = || DampingRates::new(system.damping.as_ref(), velocity / tau);
         Self {
             inertial,
             over_dt2: T::of(1.0 / (tau * tau)),
-            damping: system.damping.as_ref().map(rates),
+            damping: system.is_damped().then(rates),
             still: None,
             stiffness_at: None,
             step_end: None,

@@ -3,12 +3,13 @@
 pub use super::increment::{Increment, Inertia, StepEnd};
 
 use crate::forces::{Energy, HessianKind};
+use crate::model::damping::DampingRates;
 use crate::model::system::System;
 use crate::number::Real;
 use crate::sparse::Block;
 use crate::vector::axpy;
 
-/// E(w) = ‖w − ŵ‖²_M / (2 τ²) + c (w − w̌)ᵀ C (w − w̌) / 2 + V(u₀ + w) + W(u₀ + s w) κ/s, C = α M + β K(u_d), for the displacement
+/// E(w) = ‖w − ŵ‖²_M / (2 τ²) + c (w − w̌)ᵀ C (w − w̌) / 2 + V(u₀ + w) + W(u₀ + s w) κ/s, C = α M + β K(u_d) + D(u_d), for the displacement
 /// increment w: its minimum solves M (w − ŵ)/τ² + c C (w − w̌) = f(u₀ + w) + κ f_o(u₀ + s w). With τ = dt, c = 1/dt, w̌ = 0 and s = κ = 1
 /// it is a step of implicit Euler; without the first two terms it is equilibrium.
 ///
@@ -149,16 +150,12 @@ impl<T: Real> IncrementalPotential<'_, T> {
         product.fill([T::default(); 3]);
         self.system.add_mass_times(inertia.over_dt2, difference, product);
         let mut energy = Energy::of(add_and_multiply(difference, product, gradient));
-        if let Some((alpha, beta)) = inertia.damping {
-            let damp = || {
-                let moved = inertia.moved(w, difference);
-                product.fill([T::default(); 3]);
-                self.system.mass.add_times(alpha, moved, product);
-                let stiffness_at = inertia.stiffness_at.unwrap_or(self.increment.start);
-                self.system.add_stiffness_times(beta, stiffness_at, moved, product);
-                Energy::of(add_and_multiply(moved, product, gradient))
-            };
-            energy = energy + self.system.profile.damping.time(damp);
+        if let Some(rates) = inertia.damping {
+            let moved = inertia.moved(w, difference);
+            product.fill([T::default(); 3]);
+            let stiffness_at = inertia.stiffness_at.unwrap_or(self.increment.start);
+            self.system.add_damping_times(rates, stiffness_at, moved, product);
+            energy = energy + Energy::of(add_and_multiply(moved, product, gradient));
         }
         energy
     }
@@ -183,9 +180,12 @@ impl<T: Real> IncrementalPotential<'_, T> {
                 *difference = std::array::from_fn(|i| prescribed[i] - inertial[i]);
             }
             system.add_mass_times(inertia.over_dt2, &workspace.difference, gradient);
-            if let Some((alpha, beta)) = inertia.damping {
-                stiffness += beta;
-                system.profile.damping.time(|| system.mass.add_times(alpha, prescribed, gradient));
+            if let Some(rates) = inertia.damping {
+                stiffness += rates.stiffness;
+                if system.dirichlet.has_motion() {
+                    let rates = DampingRates { stiffness: T::default(), ..rates };
+                    system.add_damping_times(rates, start, prescribed, gradient);
+                }
             }
         }
         if system.dirichlet.has_motion() {
@@ -201,10 +201,8 @@ impl<T: Real> IncrementalPotential<'_, T> {
         workspace.set_u(start, w);
         values.fill([[T::default(); 3]; 3]);
         system.add_stiffness(T::of(1.0), &workspace.u, kind, values);
-        if let Some(Inertia { damping: Some((_, beta)), stiffness_at, .. }) = inertia
-            && beta > T::default()
-        {
-            system.add_stiffness(beta, stiffness_at.unwrap_or(start), kind, values);
+        if let Some(Inertia { damping: Some(rates), stiffness_at, .. }) = inertia {
+            system.add_damping_matrix(rates, stiffness_at.unwrap_or(start), kind, values);
         }
         match self.end_with_obstacles() {
             None => system.add_external_hessian(&workspace.u, kind, values),
@@ -215,7 +213,7 @@ impl<T: Real> IncrementalPotential<'_, T> {
             }
         }
         if let Some(inertia) = inertia {
-            let mass = inertia.over_dt2 + inertia.damping.map_or(T::default(), |(alpha, _)| alpha);
+            let mass = inertia.over_dt2 + inertia.damping.map_or(T::default(), |rates| rates.mass);
             system.profile.mass.time(|| system.mass.add_to(mass, &system.pattern, values));
         }
         system.dirichlet.eliminate(&system.pattern, values);

@@ -104,7 +104,7 @@ impl<T: Real> SuppliedEnergy<T> {
         } else {
             system.mass.kinetic_energy(&state.v)
         };
-        let shear = system.elements.moduli().map(|[shear, _]| shear).fold(0.0, f64::max);
+        let shear = system.elements.moduli().map(|[shear, _]| shear).fold(system.spring_modulus, f64::max);
         let round_off = T::EPSILON.as_f64() * shear * system.length.powi(3);
         if kinetic <= LIMIT * self.largest + round_off {
             return Ok(());

@@ -1,6 +1,6 @@
 //! The integrator that a scene names, with its limits and its linear solver.
 
-use fem_scene::{Integrator as IntegratorKind, Method};
+use fem_scene::{Integrator as IntegratorKind, Method, SolverKind};
 
 use crate::integrators::{
     ExplicitEuler, ImplicitEuler, Integrator, LinearlyImplicitEuler, Rk2, Rk4, Scheme, SecondOrder, SemiImplicitEuler,
@@ -9,6 +9,7 @@ use crate::integrators::{
 use crate::model::system::System;
 use crate::newton::{Newton, NewtonLimits};
 use crate::number::Real;
+use crate::refusal::Refusal;
 use crate::solvers::{Preconditioner, Solver, SolverChoice};
 
 /// Smallest relative residual that a linear solver can be asked for, in units of the machine epsilon.
@@ -77,6 +78,22 @@ pub(super) fn solver_choice(method: &Method, nodes: usize) -> SolverChoice {
         None if is_static => SolverChoice::Pcg(Preconditioner::Multigrid),
         None => SolverChoice::Pcg(Preconditioner::Ssor),
     }
+}
+
+/// Largest number of nodes whose directions conjugate directions may keep: 2 (3n)² numbers, 144 MB.
+const MOST_DIRECTIONS: usize = 1000;
+
+/// Refuses a solver for teaching that would keep too many vectors.
+pub(super) fn check_solver(method: &Method, nodes: usize) -> Result<(), Refusal> {
+    let is_kept = method.solver.as_ref().is_some_and(|solver| solver.kind == SolverKind::ConjugateDirections);
+    if !is_kept || nodes <= MOST_DIRECTIONS {
+        return Ok(());
+    }
+    let problem = format!(
+        "is \"conjugate_directions\", which keeps every direction, and this body has {nodes} nodes, more than {MOST_DIRECTIONS}; write \
+         \"cg\", which has the same iterates, or take a coarser mesh"
+    );
+    Err(("solver.kind", problem))
 }
 
 /// Builds the integrator that a running simulation is switched to. An explicit scene has no pattern until an implicit method needs one.

@@ -20,6 +20,7 @@ pub(super) struct Plan {
     kind: &'static str,
     materials: String,
     has_lumped_mass: bool,
+    is_mass_spring: bool,
     /// Description of the plastic flow.
     plasticity: Option<String>,
     /// Number of nodes of `[fixed]`, and the time until which they are, s.
@@ -43,6 +44,7 @@ impl Plan {
             kind: body.shape.mesh.kind(),
             materials: materials(body),
             has_lumped_mass: body.lumped_mass,
+            is_mass_spring: body.material.is_mass_spring(),
             plasticity: body.plasticity.as_ref().map(plasticity::description),
             fixed: fixed.map(|condition| (condition.nodes.len(), condition.until)),
             has_motion: body.dirichlet.iter().any(|condition| condition.motion.is_some()),
@@ -97,7 +99,11 @@ impl Plan {
             },
             built("state", format!("displacements and velocities in {number}")),
             built("mass", mass(self.has_lumped_mass, kind.is_explicit())),
-            built("forces", "elastic forces, where no energy is needed"),
+            if self.is_mass_spring {
+                Part::left_out("forces", "no element is elastic: material.model is \"mass_spring\"")
+            } else {
+                built("forces", "elastic forces, where no energy is needed")
+            },
         ]
     }
 
@@ -166,6 +172,8 @@ fn material(material: &Material) -> String {
     let parameter = |(name, value)| match name {
         "young" => format!(", E = {value:.4e} Pa"),
         "poisson" => format!(", ν = {value}"),
+        "stiffness" => format!(", {name} = {value:.4e} N/m"),
+        "damping" => format!(", {name} = {value:.4e} N s/m"),
         _ => format!(", {name} = {value:.4e} Pa"),
     };
     let parameters: String = material.parameters().map(parameter).collect();

@@ -53,6 +53,10 @@ pub(super) fn check<T: Real>(method: &Method, system: &System<T>) -> Result<(), 
 /// Refuses parameters whose signs make the material unstable at rest. In double precision none that a scene may give is rounded to
 /// zero.
 pub(super) fn check_shear_modulus(table: &Material) -> Result<(), String> {
+    // Springs are stiff along themselves alone.
+    if table.is_mass_spring() {
+        return Ok(());
+    }
     let shear = AnyLaw::<f64>::new(table).map_or(0.0, |law| law.moduli()[0]);
     if shear > 0.0 {
         return Ok(());

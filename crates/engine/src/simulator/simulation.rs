@@ -106,16 +106,27 @@ impl<T: Real> Simulation for Simulator<T> {
     }
 
     fn min_J(&self) -> (f64, usize) {
+        if !self.has_stress() {
+            let of_elements = self.det_F_of_mesh().enumerate().map(|(element, J)| (J, element));
+            return of_elements.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0));
+        }
         let (J, element) = self.system.elements.min_det_F(&self.state.u);
         (J.as_f64(), element)
     }
 
     fn inverted_elements(&self) -> usize {
+        if !self.has_stress() {
+            return self.det_F_of_mesh().filter(|J| *J <= 0.0).count();
+        }
         self.system.elements.inverted(&self.state.u)
     }
 
     fn critical_time_step(&self) -> Option<f64> {
         critical_time_step(self.kind, &self.system)
+    }
+
+    fn has_stress(&self) -> bool {
+        self.system.elements.count > 0
     }
 
     fn stresses(&self) -> Vec<Matrix3<f64>> {
@@ -230,6 +241,14 @@ impl<T: Real> Simulation for Simulator<T> {
 
 impl<T: Real> Simulator<T> {
     /// Positions of the mesh's nodes, m.
+    /// det F of each element of the mesh, elastic or not.
+    fn det_F_of_mesh(&self) -> impl Iterator<Item = f64> {
+        let u = self.system.numbering.to_mesh(&self.state.u);
+        let mesh = &self.system.shape.mesh;
+        let G = move |element| mesh.displacement_gradient(element, |node| Vector3::from(u[node].map(T::as_f64)));
+        (0..mesh.elements()).map(move |element| (Matrix3::identity() + G(element)).determinant())
+    }
+
     fn nodes_now(&self) -> Vec<Vector3<f64>> {
         let u = self.system.numbering.to_mesh(&self.state.u);
         let V = self.system.shape.mesh.vertices();

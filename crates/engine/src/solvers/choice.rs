@@ -19,6 +19,10 @@ pub enum SolverChoice {
     Cg,
     /// Preconditioned conjugate gradients.
     Pcg(Preconditioner),
+    /// Steepest descent, for teaching.
+    SteepestDescent,
+    /// Conjugate directions by Gram–Schmidt's method, for teaching.
+    ConjugateDirections,
 }
 
 impl SolverChoice {
@@ -26,7 +30,7 @@ impl SolverChoice {
     pub fn stored(self) -> Stored {
         match self {
             Self::Cholesky | Self::Pcg(Preconditioner::Ssor) => Stored::Lower,
-            Self::Lu | Self::Cg | Self::Pcg(_) => Stored::Full,
+            Self::Lu | Self::Cg | Self::Pcg(_) | Self::SteepestDescent | Self::ConjugateDirections => Stored::Full,
         }
     }
 
@@ -34,13 +38,13 @@ impl SolverChoice {
     pub fn ordering(self) -> Ordering {
         match self {
             Self::Cholesky | Self::Lu => Ordering::FillReducing,
-            Self::Cg | Self::Pcg(_) => Ordering::Parts,
+            Self::Cg | Self::Pcg(_) | Self::SteepestDescent | Self::ConjugateDirections => Ordering::Parts,
         }
     }
 
     /// Whether a solve iterates with the matrix that it is given.
     pub fn is_iterative(self) -> bool {
-        matches!(self, Self::Cg | Self::Pcg(_))
+        !matches!(self, Self::Cholesky | Self::Lu)
     }
 
     /// Whether it prepares a preconditioner.
@@ -61,6 +65,8 @@ impl From<&SolverSettings> for SolverChoice {
             SolverKind::Lu => Self::Lu,
             SolverKind::Cg => Self::Cg,
             SolverKind::Pcg => Self::Pcg(settings.preconditioner),
+            SolverKind::SteepestDescent => Self::SteepestDescent,
+            SolverKind::ConjugateDirections => Self::ConjugateDirections,
         }
     }
 }
@@ -71,6 +77,8 @@ impl fmt::Display for SolverChoice {
             Self::Cholesky => "Cholesky factorisation, the symbolic part once",
             Self::Lu => "LU factorisation with partial pivoting",
             Self::Cg => "conjugate gradients",
+            Self::SteepestDescent => "steepest descent, for teaching",
+            Self::ConjugateDirections => "conjugate directions by Gram–Schmidt's method, for teaching",
             Self::Pcg(Preconditioner::BlockJacobi) => "conjugate gradients with a block Jacobi preconditioner",
             Self::Pcg(Preconditioner::IncompleteCholesky) => "conjugate gradients with an incomplete Cholesky factor",
             Self::Pcg(Preconditioner::Multigrid) => "conjugate gradients with a multigrid cycle",

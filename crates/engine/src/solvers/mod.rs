@@ -15,6 +15,8 @@ mod solver;
 #[cfg(test)]
 pub(crate) mod beam;
 #[cfg(test)]
+mod teaching_tests;
+#[cfg(test)]
 mod tests;
 
 pub use choice::{Preconditioner, SolverChoice};

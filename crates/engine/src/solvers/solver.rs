@@ -5,7 +5,9 @@ use std::sync::Arc;
 use super::ApproximateInverse;
 use super::choice::{Preconditioner, SolverChoice};
 use super::direct::{Lu, cholesky, cholesky_for_directions};
-use super::krylov::{Workspace, conjugate_gradients, parts, product, refine};
+use super::krylov::{
+    LinearSystem, Workspace, conjugate_directions, conjugate_gradients, parts, product, refine, steepest_descent,
+};
 use super::parts::Part;
 use super::preconditioners::{BlockJacobi, Identity, IncompleteCholesky, Multigrid, Ssor};
 use crate::number::Real;
@@ -27,7 +29,7 @@ pub struct SolverCounters {
 }
 
 /// A solver for matrices of one sparsity pattern. It allocates nothing after the first [`prepare`](Self::prepare) and
-/// [`solve`](Self::solve).
+/// [`solve`](Self::solve), but for the directions that conjugate directions keep.
 pub struct Solver<T: Real> {
     choice: SolverChoice,
     pattern: Arc<Pattern>,
@@ -47,7 +49,7 @@ impl<T: Real> Solver<T> {
         let inverse: Box<dyn ApproximateInverse<T>> = match choice {
             SolverChoice::Cholesky => cholesky(pattern),
             SolverChoice::Lu => Box::new(Lu::new(pattern)),
-            SolverChoice::Cg => Box::new(Identity),
+            SolverChoice::Cg | SolverChoice::SteepestDescent | SolverChoice::ConjugateDirections => Box::new(Identity),
             SolverChoice::Pcg(Preconditioner::BlockJacobi) => Box::new(BlockJacobi::new(pattern)),
             SolverChoice::Pcg(Preconditioner::IncompleteCholesky) => Box::new(IncompleteCholesky::new(pattern)),
             SolverChoice::Pcg(Preconditioner::Multigrid) => Box::new(Multigrid::new(pattern, rest)),
@@ -98,6 +100,19 @@ impl<T: Real> Solver<T> {
         x: &mut [[T; 3]],
         tolerance: f64,
     ) -> Result<usize, Breakdown> {
+        self.solve_observed(values, b, x, tolerance, &mut |_| {})
+    }
+
+    /// The same, and shows each iterate to `observe`, the first one included: those of the methods that iterate with the matrix itself, not
+    /// those of an iteration on a copy of it.
+    pub fn solve_observed(
+        &mut self,
+        values: &[Block<T, 3>],
+        b: &[[T; 3]],
+        x: &mut [[T; 3]],
+        tolerance: f64,
+        observe: &mut dyn FnMut(&[[T; 3]]),
+    ) -> Result<usize, Breakdown> {
         self.counters.solves += 1;
         let Self { choice, pattern, parts, inverse, workspace, solving, .. } = self;
         let (b, x) = (&b[..pattern.rows()], &mut x[..pattern.rows()]);
@@ -116,7 +131,15 @@ impl<T: Real> Solver<T> {
             }
             let P = |r: &[[T; 3]], z: &mut [[T; 3]]| inverse.apply(r, z);
             let largest_entry = || largest_entry(pattern, values);
-            Ok(corrections + conjugate_gradients(A, P, largest_entry, b, x, tolerance, workspace)?)
+            let system = LinearSystem { A, largest_entry, b, tolerance };
+            let iterations = match choice {
+                SolverChoice::SteepestDescent => steepest_descent(system, x, workspace, observe),
+                SolverChoice::ConjugateDirections => conjugate_directions(system, x, workspace, observe),
+                SolverChoice::Cholesky | SolverChoice::Lu | SolverChoice::Cg | SolverChoice::Pcg(_) => {
+                    conjugate_gradients(system, P, x, workspace, observe)
+                }
+            };
+            Ok(corrections + iterations?)
         })?;
         self.counters.iterations += iterations;
         Ok(iterations)

@@ -49,7 +49,7 @@ fn methods_converge_with_their_order_from_a_start_with_acceleration() {
 #[test]
 fn damping_springs_and_pressure_keep_the_orders() {
     let rest = format!(
-        "{EXTERNAL}[damping]\nalpha = 2.0\nbeta = 0.004\n[[springs]]\nnodes = [1, 8]\nstiffness = 3e3\nrest_length = 1\n\
+        "{EXTERNAL}[damping]\nalpha = 2.0\nbeta = 0.004\n[[springs]]\nnodes = [1, 8]\nstiffness = 3e3\nrest_length = 1\ndamping = 50\n\
         [[traction]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\npressure = 4e3\n"
     );
     for (integrator, order, steps) in [

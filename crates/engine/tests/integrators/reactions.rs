@@ -86,3 +86,48 @@ fn in_equilibrium_nodal_forces_are_zero_at_free_nodes_and_minus_the_reactions_at
     let largest = free.map(|i| forces[i].abs()).fold(0.0, f64::max);
     assert!(largest < 1e-9 * 6000.0, "{largest:e}");
 }
+
+/// The box with all nodes of its end of smallest x moving at a velocity.
+fn pushed(integrator: &str, dt: f64, motion: &str) -> String {
+    let end = "[[prescribed]]\non = { axis = \"x\", side = \"min\", within = 1e-9 }\n";
+    soft(integrator, dt, &format!("{end}{motion}\n"))
+}
+
+#[test]
+fn a_body_whose_nodes_all_have_one_velocity_moves_rigidly_without_force() {
+    for integrator in DYNAMIC {
+        let all = "[[prescribed]]\non = \"all\"\nvelocity = [0.5, -1, 0.25]\n";
+        let mut simulation = build(&soft(integrator, 1e-2, all));
+        let start = simulation.positions();
+        run(&mut *simulation, 30);
+        let moved = simulation.positions() - start;
+        let expected = [0.15, -0.3, 0.075];
+        assert!((0..moved.len()).all(|i| (moved[i] - expected[i % 3]).abs() < 1e-13), "{integrator}");
+        assert!(simulation.velocities().iter().enumerate().all(|(i, v)| (v - expected[i % 3] / 0.3).abs() < 1e-12));
+        let force = simulation.reactions()[0].force;
+        assert!(force.iter().all(|force| force.abs() < 1e-6), "{integrator}: {force:?}");
+    }
+}
+
+#[test]
+fn the_reaction_at_a_prescribed_velocity_is_the_rate_of_the_momentum() {
+    let curve = "velocity = [1, 0, 0.5]\ncurve = { table = [[0, 0], [0.1, 1], [0.15, -0.5]] }";
+    for integrator in ["implicit_euler", "linearly_implicit_euler", "verlet"] {
+        let mut simulation = build(&pushed(integrator, 1e-4, curve));
+        let (masses, start) = (node_masses(&*simulation, 1000.0), simulation.positions());
+        let steps = 1200;
+        let momentum = |v: &nalgebra::DVector<f64>, i: usize| -> f64 {
+            masses.iter().enumerate().map(|(node, m)| m * v[3 * node + i]).sum()
+        };
+        let mut impulse = 0.0;
+        for _ in 0..steps {
+            run(&mut *simulation, 1);
+            impulse += 1e-4 * simulation.reactions()[0].force[0];
+        }
+        let gained = momentum(&simulation.velocities(), 0);
+        assert!((impulse - gained).abs() < 5e-3 * gained.abs(), "{integrator}: {impulse} N s for {gained} N s");
+        // ∫ of the curve to 0.12 s: 0.05 + (1 + 0.4)/2 · 0.02.
+        let moved = simulation.positions()[0] - start[0];
+        assert!((moved - 0.064).abs() < 1e-12, "{integrator}: {moved} m");
+    }
+}

@@ -17,6 +17,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     tables.into_iter().try_for_each(|(number, motion)| {
         let table = format!("prescribed[{number}]");
         check_until(scene, &table, motion.until)?;
+        check_velocity(scene, &table, motion)?;
         check_prescribed(&table, motion)
     })
 }
@@ -37,8 +38,8 @@ fn check_fixed(fixed: &FixedTable) -> Result<(), Problem> {
 
 fn check_prescribed(table: &str, motion: &PrescribedTable) -> Result<(), Problem> {
     check_one(table, &motion.selectors(), "on, box, sphere, set and nodes")?;
-    if motion.displacement.is_none() && motion.rotation.is_none() {
-        return problem(table, "has no motion; give displacement or rotation, or use [fixed]");
+    if motion.displacement.is_none() && motion.rotation.is_none() && motion.velocity.is_none() {
+        return problem(table, "has no motion; give displacement, rotation or velocity, or use [fixed]");
     }
     motion.displacement.map_or(Ok(()), |vector| check_vector(&format!("{table}.displacement"), &vector))?;
     motion.over.map_or(Ok(()), |over| check_positive(&format!("{table}.over"), over, " of seconds"))?;
@@ -48,6 +49,32 @@ fn check_prescribed(table: &str, motion: &PrescribedTable) -> Result<(), Problem
     }
     motion.rotation.as_ref().map_or(Ok(()), |rotation| check_rotation(table, rotation))?;
     motion.components.as_ref().map_or(Ok(()), |components| check_components(table, motion, components))
+}
+
+/// Checks a velocity, which is a motion of its own and needs a time.
+fn check_velocity(scene: &Scene, table: &str, motion: &PrescribedTable) -> Result<(), Problem> {
+    let Some(velocity) = &motion.velocity else { return Ok(()) };
+    let field = format!("{table}.velocity");
+    check_vector(&field, velocity)?;
+    if scene.time.integrator == Integrator::Static {
+        let text = "is a motion in time, and time.integrator = \"static\" has none; give displacement, or an integrator that moves";
+        return problem(&field, text);
+    }
+    let others = [
+        ("displacement", motion.displacement.is_some()),
+        ("rotation", motion.rotation.is_some()),
+        ("over", motion.over.is_some()),
+    ];
+    match others.iter().find(|(_, is_given)| *is_given) {
+        Some(("over", _)) => problem(
+            &format!("{table}.over"),
+            "is the duration of a displacement, and stands beside velocity; give curve = { on = 0, off = … } for its end",
+        ),
+        Some((other, _)) => {
+            problem(&field, format!("stands beside {other}, which is a motion too; remove one of the two"))
+        }
+        None => Ok(()),
+    }
 }
 
 fn check_rotation(table: &str, rotation: &RotationTable) -> Result<(), Problem> {
@@ -68,12 +95,16 @@ fn check_components(table: &str, motion: &PrescribedTable, components: &[Axis]) 
     if motion.rotation.is_some() {
         return problem(&field, "stands beside rotation, which moves all three; remove one of the two");
     }
-    let along = |axis: &Axis| motion.displacement.is_none_or(|vector| vector[*axis as usize] == 0.0);
+    let (key, vector) = match motion.velocity {
+        Some(_) => ("velocity", motion.velocity),
+        None => ("displacement", motion.displacement),
+    };
+    let along = |axis: &Axis| vector.is_none_or(|vector| vector[*axis as usize] == 0.0);
     let free = [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|axis| !components.contains(axis));
     match free.into_iter().find(|axis| !along(axis)) {
         Some(axis) => {
             let name = ["x", "y", "z"][axis as usize];
-            problem(&field, format!("leaves {name} free, and displacement moves it; name {name} or write 0 there"))
+            problem(&field, format!("leaves {name} free, and {key} moves it; name {name} or write 0 there"))
         }
         None => Ok(()),
     }

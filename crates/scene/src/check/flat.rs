@@ -83,6 +83,12 @@ fn vectors(scene: &Scene) -> impl Iterator<Item = (String, [f64; 3])> {
         .iter()
         .enumerate()
         .filter_map(|(number, table)| Some((format!("prescribed[{number}].displacement"), table.displacement?)));
+    let speeds = scene
+        .prescribed
+        .iter()
+        .enumerate()
+        .filter_map(|(number, table)| Some((format!("prescribed[{number}].velocity"), table.velocity?)));
+    let prescribed = prescribed.chain(speeds);
     let velocity = scene.initial_velocity.iter().enumerate().flat_map(|(number, table)| {
         table.velocity.map(|velocity| (format!("initial_velocity[{number}].velocity"), velocity))
     });

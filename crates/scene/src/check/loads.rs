@@ -32,6 +32,7 @@ fn check_traction(table: &str, traction: &TractionTable) -> Result<(), Problem> 
 
 fn check_spring(table: &str, spring: &SpringTable) -> Result<(), Problem> {
     check_positive(&format!("{table}.stiffness"), spring.stiffness, " of N/m")?;
+    check_not_negative(&format!("{table}.damping"), spring.damping, "N s/m")?;
     if spring.nodes[0] == spring.nodes[1] {
         let text = format!("names node {} twice; a spring joins two nodes", spring.nodes[0]);
         return problem(&format!("{table}.nodes"), text);

@@ -6,6 +6,7 @@ mod curves;
 pub(crate) mod flat;
 mod initial;
 mod loads;
+mod mass_spring;
 mod materials;
 pub(crate) mod numbers;
 mod plasticity;
@@ -25,6 +26,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     check_mesh(&scene.mesh)?;
     scene.material.check("material")?;
     materials::check(scene)?;
+    mass_spring::check(scene)?;
     plasticity::check(scene)?;
     flat::check_plane(scene)?;
     check_time(&scene.time)?;

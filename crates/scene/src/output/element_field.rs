@@ -55,7 +55,8 @@ impl ElementField {
     /// The fields that a body has.
     pub fn of(simulation: &dyn Simulation) -> Vec<Self> {
         let exists = |field: &Self| match field {
-            Self::Stress | Self::Quality => true,
+            Self::Stress => simulation.has_stress(),
+            Self::Quality => true,
             Self::PlasticStrain => simulation.plastic_flow().is_some(),
         };
         Self::ALL.into_iter().filter(exists).collect()

@@ -11,7 +11,7 @@ use fem_mesh::write::{Field, write_vtu};
 
 /// Writes the undeformed mesh with the fields of the state. Names have neither blanks nor units, so that programs can use them:
 /// point data `displacement` (m), `velocity` (m/s), `nodal_force` (N), `contact_force` (N) and `stress_averaged` (Pa), cell data `stress`,
-/// `von_mises` (Pa), `strain`, `J` and, of a plastic body, `plastic_strain`. Matrices have nine components, row by row.
+/// `von_mises` (Pa), `strain`, `J` and, of a plastic body, `plastic_strain`. A mass-spring body has no fields of stress. Matrices have nine components, row by row.
 pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<(), MeshError> {
     let shape = simulation.shape();
     let (q, qdot) = (simulation.positions(), simulation.velocities());
@@ -29,8 +29,10 @@ pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<
     let mut point = vec![
         Field { name: "displacement", components: 3, values: &displacement },
         Field { name: "velocity", components: 3, values: qdot.as_slice() },
-        Field { name: "stress_averaged", components: 9, values: &averaged },
     ];
+    if simulation.has_stress() {
+        point.push(Field { name: "stress_averaged", components: 9, values: &averaged });
+    }
     if let Some(force) = &force {
         point.push(Field { name: "nodal_force", components: 3, values: force.as_slice() });
     }
@@ -38,12 +40,15 @@ pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<
         point.push(Field { name: "contact_force", components: 3, values: contact.as_slice() });
     }
     let flow = simulation.plastic_flow();
-    let mut cell = vec![
-        Field { name: "stress", components: 9, values: &stress },
-        Field { name: "von_mises", components: 1, values: &von_mises },
+    let mut cell = Vec::new();
+    if simulation.has_stress() {
+        cell.push(Field { name: "stress", components: 9, values: &stress });
+        cell.push(Field { name: "von_mises", components: 1, values: &von_mises });
+    }
+    cell.extend([
         Field { name: "strain", components: 9, values: &strain },
         Field { name: "J", components: 1, values: &J },
-    ];
+    ]);
     if let Some(flow) = &flow {
         cell.push(Field { name: "plastic_strain", components: 1, values: &flow.strains });
     }

@@ -26,7 +26,7 @@ pub struct FixedTable {
     pub until: Option<f64>,
 }
 
-/// `[[prescribed]]`: nodes with a prescribed motion. One selector, and a displacement, a rotation, or both.
+/// `[[prescribed]]`: nodes with a prescribed motion. One selector, and a displacement, a rotation, or both; or a velocity.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct PrescribedTable {
@@ -48,10 +48,13 @@ pub struct PrescribedTable {
     pub components: Option<Vec<Axis>>,
     /// A rotation about an axis, before the displacement.
     pub rotation: Option<RotationTable>,
+    /// Velocity, m/s, times the factor of `curve`; in place of a displacement and a rotation.
+    #[serde(default, deserialize_with = "three_numbers_if_any")]
+    pub velocity: Option<[f64; 3]>,
     /// Time in which the motion grows linearly from zero to its full size, s; the nodes keep their place afterwards. Without it,
     /// the full motion applies from the first step on. A static scene applies the motion in its load steps instead.
     pub over: Option<f64>,
-    /// Part of the full motion as a function of time, in place of `over`.
+    /// Part of the full motion, or factor of the velocity, as a function of time, in place of `over`.
     pub curve: Option<CurveTable>,
     /// Time from which the nodes are free, s.
     pub until: Option<f64>,

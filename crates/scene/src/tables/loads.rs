@@ -73,6 +73,9 @@ pub struct SpringTable {
     pub stiffness: f64,
     /// l, m; by default the undeformed distance of the nodes.
     pub rest_length: Option<f64>,
+    /// c of the force c (v_b − v_a)·n along the spring, N s/m.
+    #[serde(default)]
+    pub damping: f64,
 }
 
 /// `[drag]`: a spring of zero rest length from a vertex to a target that oscillates about the vertex's undeformed position.

@@ -1,11 +1,11 @@
 //! `[material]`: the constitutive law by its name, its parameters, and the density.
 
-use crate::check::numbers::{Problem, check_finite, check_positive, problem};
+use crate::check::numbers::{Problem, check_finite, check_not_negative, check_positive, problem};
 
 use super::{BoxTable, On, Selector, SphereTable};
 
 /// The laws: the name of each, and the sets of parameters of which a scene gives one.
-pub const MODELS: &[(&str, &[&[&str]])] = &[
+pub const MODELS: &[Model] = &[
     ("linear", &[ELASTIC]),
     ("corotated", &[ELASTIC]),
     ("st_venant_kirchhoff", &[ELASTIC]),
@@ -15,6 +15,18 @@ pub const MODELS: &[(&str, &[&[&str]])] = &[
     ("mooney_rivlin", &[&["C10", "C01", "D"]]),
     ("yeoh", &[&["C1", "C2", "C3", "D"]]),
 ];
+
+/// The model without a constitutive law, in which every edge of the mesh is a spring.
+const MASS_SPRING: Model =
+    ("mass_spring", &[&["stiffness"], &["young"], &["stiffness", "damping"], &["young", "damping"]]);
+
+/// A name, and the sets of parameters of which a scene gives one.
+type Model = (&'static str, &'static [&'static [&'static str]]);
+
+/// The laws, and the model without one.
+fn models() -> impl Iterator<Item = &'static Model> {
+    MODELS.iter().chain(std::iter::once(&MASS_SPRING))
+}
 
 /// Poisson's ratio above which linear tetrahedra lock visibly.
 const LOCKS_ABOVE: f64 = 0.45;
@@ -52,7 +64,7 @@ macro_rules! material {
             pub sphere: Option<SphereTable>,
             /// The elements of a named set.
             pub set: Option<String>,
-            /// Name of the law, one of [`MODELS`].
+            /// Name of the law, one of [`MODELS`], or `mass_spring`.
             pub model: String,
             /// Density, kg/m³.
             pub density: f64,
@@ -70,7 +82,7 @@ macro_rules! material {
         #[derive(Clone, Debug, serde::Deserialize, PartialEq)]
         #[serde(deny_unknown_fields)]
         pub struct Material {
-            /// Name of the law, one of [`MODELS`].
+            /// Name of the law, one of [`MODELS`], or `mass_spring`.
             pub model: String,
             /// Density, kg/m³.
             pub density: f64,
@@ -117,6 +129,10 @@ material! {
     C3: finite,
     /// Half the bulk modulus at small strain, Pa.
     D: positive,
+    /// Mass-spring: stiffness of every edge, N/m.
+    stiffness: spring_stiffness,
+    /// Mass-spring: damping along every edge, N s/m.
+    damping: spring_damping,
 }
 
 impl MaterialsTable {
@@ -145,6 +161,11 @@ impl Material {
         self.poisson.or_else(|| half_shear.zip(self.D).map(of_moduli))
     }
 
+    /// Whether every edge of the mesh is a spring, and no element is elastic.
+    pub fn is_mass_spring(&self) -> bool {
+        self.model == MASS_SPRING.0
+    }
+
     /// Whether linear tetrahedra lock: Poisson's ratio is above 0.45.
     pub fn locks(&self) -> bool {
         self.poissons_ratio().is_some_and(|poisson| poisson > LOCKS_ABOVE)
@@ -164,8 +185,8 @@ impl Material {
     pub(crate) fn check(&self, table: &str) -> Result<(), Problem> {
         check_positive(&format!("{table}.density"), self.density, " of kg/m³")?;
         self.thickness.map_or(Ok(()), |thickness| check_positive(&format!("{table}.thickness"), thickness, " of m"))?;
-        let Some((_, sets)) = MODELS.iter().find(|(name, _)| *name == self.model) else {
-            let known: Vec<_> = MODELS.iter().map(|(name, _)| *name).collect();
+        let Some((_, sets)) = models().find(|(name, _)| *name == self.model) else {
+            let known: Vec<_> = models().map(|(name, _)| *name).collect();
             let text = format!("is `{}`, which is no law; write one of {}", self.model, known.join(", "));
             return problem(&format!("{table}.model"), text);
         };
@@ -182,7 +203,10 @@ impl Material {
             let own = alternatives(sets);
             return match sets {
                 [_] => problem(table, format!("needs {own}; give these and no others")),
-                _ => problem(table, format!("needs either {own}; give one pair and only one")),
+                _ => {
+                    let kind = if sets.iter().all(|set| set.len() == 2) { "pair" } else { "set" };
+                    problem(table, format!("needs either {own}; give one {kind} and only one"))
+                }
             };
         }
         self.check_ranges(table)
@@ -202,7 +226,7 @@ fn alternatives(sets: &[&[&str]]) -> String {
 fn models_with(names: &[&str]) -> String {
     let with = |names: &[&str]| -> Vec<&str> {
         let takes = |sets: &[&[&str]]| sets.iter().any(|set| is_subset(names, set));
-        MODELS.iter().filter(|(_, sets)| takes(sets)).map(|(name, _)| *name).collect()
+        models().filter(|(_, sets)| takes(sets)).map(|(name, _)| *name).collect()
     };
     let all = with(names);
     if all.is_empty() { with(&names[..1]).join(", ") } else { all.join(", ") }
@@ -210,6 +234,14 @@ fn models_with(names: &[&str]) -> String {
 
 fn positive(field: &str, value: f64) -> Result<(), Problem> {
     check_positive(field, value, " of Pa")
+}
+
+fn spring_stiffness(field: &str, value: f64) -> Result<(), Problem> {
+    check_positive(field, value, " of N/m")
+}
+
+fn spring_damping(field: &str, value: f64) -> Result<(), Problem> {
+    check_not_negative(field, value, "N s/m")
 }
 
 fn finite(field: &str, value: f64) -> Result<(), Problem> {

@@ -98,6 +98,8 @@ pub enum SolverKind {
     Lu,
     Cg,
     Pcg,
+    SteepestDescent,
+    ConjugateDirections,
 }
 
 /// Preconditioners of the conjugate gradients.

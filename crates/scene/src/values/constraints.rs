@@ -27,7 +27,7 @@ pub struct DirichletCondition {
 /// A rotation followed by a displacement, a part of which is reached at each time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
-    /// Displacement of the full motion, m.
+    /// Displacement of the full motion, m; a velocity, m/s, where the curve is an integral over time.
     pub displacement: Vector3<f64>,
     /// Rotation before the displacement.
     pub rotation: Option<Rotation>,
@@ -85,10 +85,12 @@ impl Motion {
             center: rotation.center.into(),
             turns: rotation.turns,
         };
+        let curve = table.over.map(LoadCurve::Ramp).or_else(|| table.curve.as_ref().map(CurveTable::curve));
         Self {
-            displacement: table.displacement.unwrap_or_default().into(),
+            displacement: table.velocity.or(table.displacement).unwrap_or_default().into(),
             rotation: table.rotation.as_ref().map(rotation),
-            curve: table.over.map(LoadCurve::Ramp).or_else(|| table.curve.as_ref().map(CurveTable::curve)),
+            // A velocity times the integral of its factor is the displacement.
+            curve: if table.velocity.is_some() { Some(LoadCurve::Integral(curve.map(Box::new))) } else { curve },
         }
     }
 }

@@ -31,7 +31,7 @@ pub struct Pressure {
     pub curve: Option<LoadCurve>,
 }
 
-/// A spring between two nodes, ½ k (|x_b − x_a| − l)².
+/// A spring between two nodes, ½ k (|x_b − x_a| − l)², with a damper beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring {
     /// The nodes a and b at its ends.
@@ -42,6 +42,8 @@ pub struct Spring {
     pub rest_length: f64,
     /// Whether l is by definition the undeformed distance of the nodes: any difference is round-off and no strain.
     pub is_initially_relaxed: bool,
+    /// c, N s/m.
+    pub damping: f64,
 }
 
 /// A spring of zero rest length from a node to a target that oscillates about the node's undeformed position.
@@ -102,11 +104,12 @@ pub(crate) fn curve(table: &Option<CurveTable>) -> Option<LoadCurve> {
 /// The spring of every `[[springs]]`.
 pub(crate) fn springs(scene: &Scene, mesh: &BodyMesh) -> Result<Vec<Spring>, SceneError> {
     let spring = |(number, table): (usize, &SpringTable)| {
-        let SpringTable { nodes, stiffness, rest_length } = *table;
+        let SpringTable { nodes, stiffness, rest_length, damping } = *table;
         listed(scene, &format!("springs[{number}].nodes"), &nodes, mesh)?;
         let [a, b] = nodes.map(|node| mesh.vertices()[node]);
         let is_initially_relaxed = rest_length.is_none();
-        Ok(Spring { nodes, stiffness, rest_length: rest_length.unwrap_or((b - a).norm()), is_initially_relaxed })
+        let rest_length = rest_length.unwrap_or((b - a).norm());
+        Ok(Spring { nodes, stiffness, rest_length, is_initially_relaxed, damping })
     };
     scene.springs.iter().enumerate().map(spring).collect()
 }

@@ -95,3 +95,74 @@ fn plane_stress_is_refused_for_laws_without_a_form_for_it_and_for_solid_bodies()
     let message = body(&stress(&linear)).unwrap_err().to_string();
     assert!(message.contains("material.plane belongs to flat bodies"), "{message}");
 }
+
+/// The smallest scene of the engine with another material.
+fn with_springs(parameters: &str) -> String {
+    let text = edit(LEAST, "model = \"neo_hookean\"\nC = 1e5\nD = 4e5", "model = \"mass_spring\"\nPARAMETERS");
+    text.replace("PARAMETERS", parameters).replace("\"course\"", "\"engine\"")
+}
+
+#[test]
+fn springs_have_a_stiffness_or_a_modulus_and_a_damping() {
+    for parameters in ["stiffness = 5", "young = 5", "stiffness = 5\ndamping = 0", "young = 5\ndamping = 1"] {
+        let material = crate::read(&with_springs(parameters)).material;
+        assert!(material.is_mass_spring() && !material.locks(), "{parameters}");
+    }
+    assert!(!crate::read(LEAST).material.is_mass_spring());
+    assert_refused(
+        &with_springs("damping = 1"),
+        4,
+        "material needs either stiffness or young or stiffness and damping or",
+    );
+    assert_refused(&with_springs("stiffness = 1\nyoung = 1"), 4, "material needs either stiffness or young or");
+    assert_refused(&with_springs("stiffness = -1"), 6, "material.stiffness is -1; give a positive number of N/m");
+    assert_refused(&with_springs("stiffness = 1\ndamping = -1"), 7, "material.damping is -1; give 0 N s/m or more");
+    assert_refused(&with_springs("young = 1\npoisson = 0.3"), 7, "material.poisson belongs to linear, ");
+    let foreign = edit(LEAST, "C = 1e5\nD = 4e5", "stiffness = 1");
+    assert_refused(
+        &foreign,
+        6,
+        "material.stiffness belongs to mass_spring; give this model C and D or young and poisson",
+    );
+}
+
+#[test]
+fn what_needs_elastic_elements_is_refused_beside_springs() {
+    let springs = with_springs("young = 1e5");
+    assert_refused(
+        &format!("{springs}{LEFT}"),
+        11,
+        "materials[0] gives elements a law, and material.model = \"mass_spring\"",
+    );
+    let part = edit(
+        &format!("{LEAST}{LEFT}"),
+        "model = \"linear\"\nyoung = 1e3\npoisson = 0.3",
+        "model = \"mass_spring\"\nyoung = 1",
+    );
+    assert_refused(
+        &part.replace("\"course\"", "\"engine\""),
+        14,
+        "materials[0].model is \"mass_spring\", which is a model of whole",
+    );
+    let flow = "[plasticity]\nmodel = \"j2\"\nyield_stress = 1\n";
+    assert_refused(
+        &format!("{springs}{flow}"),
+        5,
+        "material.model is \"mass_spring\", and plasticity.model = \"j2\" is a flow",
+    );
+    for plane in ["strain", "stress"] {
+        let text = with_springs(&format!("young = 1e5\nplane = \"{plane}\""));
+        assert_refused(
+            &text,
+            7,
+            "material.plane is a state of elastic elements, and material.model = \"mass_spring\" has none",
+        );
+    }
+    let quadratic =
+        edit(&springs, "[mesh]\nbox = { size = [2, 1, 1],", "[mesh]\norder = 2\nrectangle = { size = [2, 1],");
+    assert_refused(
+        &quadratic,
+        3,
+        "mesh.order is 2, and the springs of material.model = \"mass_spring\" are the edges of linear",
+    );
+}

@@ -147,8 +147,56 @@ fn a_prescribed_table_is_checked_at_its_line() {
     refused("over = 1", "speed = 1", 15, "unknown field `speed`");
 
     let shift = |lines: &str| format!("{LEAST}[[prescribed]]\n{ON}\n{lines}\n");
-    assert_refused(&shift("over = 1"), 12, "prescribed[0] has no motion; give displacement or rotation");
+    assert_refused(&shift("over = 1"), 12, "prescribed[0] has no motion; give displacement, rotation or velocity");
     let free = "displacement = [0, 1, 0]\ncomponents = [\"x\"]";
     assert_refused(&shift(free), 15, "prescribed[0].components leaves y free, and displacement moves it; name y");
     assert_refused(&shift("displacement = [0, 0, 0]\ncomponents = []"), 15, "prescribed[0].components is empty");
+    let fast = |lines: &str| shift(&format!("velocity = [0, 1, 0]\n{lines}"));
+    read(&fast(""));
+    read(&fast("curve = { ramp = 2 }"));
+    assert_refused(&shift("velocity = [0, nan, 0]"), 14, "prescribed[0].velocity is NaN");
+    assert_refused(&fast("displacement = [0, 1, 0]"), 14, "prescribed[0].velocity stands beside displacement");
+    assert_refused(
+        &fast("over = 1"),
+        15,
+        "prescribed[0].over is the duration of a displacement, and stands beside velocity",
+    );
+    assert_refused(
+        &fast("components = [\"x\"]"),
+        15,
+        "prescribed[0].components leaves y free, and velocity moves it; name y",
+    );
+    let still = edit(&fast(""), "\"implicit_euler\"", "\"static\"").replace("\"course\"", "\"engine\"");
+    assert_refused(&still, 14, "prescribed[0].velocity is a motion in time, and time.integrator = \"static\" has none");
+}
+
+#[test]
+fn a_velocity_is_integrated_exactly_whatever_its_curve() {
+    use fem_scene::LoadCurve;
+    let curves = [
+        None,
+        Some(LoadCurve::Ramp(0.7)),
+        Some(LoadCurve::Table(vec![[0.1, 2.0], [0.5, -1.0], [1.3, 4.0]])),
+        Some(LoadCurve::Table(vec![[-1.0, 3.0], [-0.5, 1.0]])),
+        Some(LoadCurve::Sine { frequency: 1.5, phase: 0.4 }),
+        Some(LoadCurve::Switch { on: 0.25, off: 1.5 }),
+        Some(LoadCurve::Switch { on: f64::NEG_INFINITY, off: f64::INFINITY }),
+    ];
+    for curve in curves {
+        let integral = LoadCurve::Integral(curve.clone().map(Box::new));
+        let (n, end) = (200_000, 2.0);
+        let mut sum = 0.0;
+        for k in 0..n {
+            let (from, to) = (end * f64::from(k) / f64::from(n), end * f64::from(k + 1) / f64::from(n));
+            let middle = 0.5 * (from + to);
+            let factor = |time: f64| curve.as_ref().map_or(1.0, |curve| curve.factor(time));
+            sum += (to - from) * factor(middle);
+            if k % 5000 == 0 {
+                assert!((integral.factor(to) - sum).abs() < 2e-5, "{curve:?} at {to} s");
+                assert_eq!(integral.derivatives(middle)[0], factor(middle), "{curve:?} at {middle} s");
+            }
+        }
+        assert_eq!(integral.factor(0.0), 0.0, "{curve:?}");
+        assert!(!integral.has_jumps());
+    }
 }

@@ -50,7 +50,7 @@ fn the_tables_of_the_engine_are_read() {
     let faces = Some(vec![[4, 0, 1]]);
     let follower = TractionTable { faces, pressure: Some(-5.0), ..TractionTable::default() };
     assert_eq!(scene.traction, [dead, follower]);
-    assert_eq!(scene.springs, [SpringTable { nodes: [0, 11], stiffness: 100.0, rest_length: Some(0.0) }]);
+    assert_eq!(scene.springs, [SpringTable { nodes: [0, 11], stiffness: 100.0, rest_length: Some(0.0), damping: 0.0 }]);
 }
 
 #[test]

@@ -39,7 +39,10 @@ pub struct Scratch {
 impl Equations {
     /// Builds the equations of a scene. The error says why the scene has none.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, String> {
-        let law = AnyLaw::new(&scene.material).ok_or("the material lacks its parameters")?;
+        let law = AnyLaw::new(&scene.material);
+        if law.is_none() && !scene.material.is_mass_spring() {
+            return Err("the material lacks its parameters".to_owned());
+        }
         if body.dirichlet.iter().any(|condition| condition.until.is_some()) {
             return Err("nodes become free at a time, which the reference in time does not compute".to_owned());
         }

@@ -28,6 +28,8 @@ pub fn solver_name(scene: &Scene) -> String {
         SolverKind::Lu => "lu",
         SolverKind::Cg => "cg",
         SolverKind::Pcg => "pcg",
+        SolverKind::SteepestDescent => "steepest_descent",
+        SolverKind::ConjugateDirections => "conjugate_directions",
     };
     let preconditioner = match solver.preconditioner {
         Some(Preconditioner::BlockJacobi) => " block_jacobi",

@@ -88,7 +88,7 @@ fn scene(axis: &str, below: f64) -> String {
 
 /// The largest eigenvalue of a positive definite operator on the free nodes, which `apply` adds to zero, by Lanczos's method: Golub and Van Loan,
 /// Matrix Computations (2013), §10.1. It approaches the eigenvalue from below.
-fn largest_eigenvalue(system: &System<f64>, mut apply: impl FnMut(&[[f64; 3]], &mut [[f64; 3]])) -> f64 {
+pub(crate) fn largest_eigenvalue(system: &System<f64>, mut apply: impl FnMut(&[[f64; 3]], &mut [[f64; 3]])) -> f64 {
     let zero = || vec![[0.0; 3]; system.nodes()];
     let (mut before, mut x, mut next) = (zero(), irregular(system.nodes()), zero());
     system.dirichlet.clear_constrained(&mut x);
@@ -134,7 +134,7 @@ fn of_tridiagonal(diagonal: &[f64], beside: &[f64]) -> f64 {
 }
 
 /// A vector in which every vibration takes part: multiples of the golden ratio, modulo 1.
-fn irregular(nodes: usize) -> Vec<[f64; 3]> {
+pub(crate) fn irregular(nodes: usize) -> Vec<[f64; 3]> {
     let entry = |k: usize| (k as f64 * 0.618_033_988_749_894_9).fract() - 0.5;
     (0..nodes).map(|node| std::array::from_fn(|i| entry(3 * node + i + 1))).collect()
 }

@@ -59,9 +59,9 @@ pub fn clamped(integrator: &'static str, model: &'static str, young: f64, dt: f6
     SceneText { young, dt, ..SceneText::small(integrator, model).with(CLAMPED) }
 }
 
-/// The highest natural frequency of that body at E = 1 Pa, 1/s. It is proportional to √E.
-pub fn unit_omega() -> f64 {
-    let simulation = clamped("verlet", "linear", 1.0, 1.0).build();
+/// The highest natural frequency of that body with this material and E = 1 Pa, 1/s. It is proportional to √E.
+pub fn unit_omega(model: &'static str) -> f64 {
+    let simulation = clamped("verlet", model, 1.0, 1.0).build();
     let mode = simulation.ok().and_then(|simulation| highest_mode(&simulation).ok());
     mode.map_or(f64::NAN, |mode| mode.omega)
 }

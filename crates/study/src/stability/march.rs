@@ -89,10 +89,23 @@ impl March {
         if self.min_J <= 0.0 {
             return Some(Finding::new(Outcome::Inverts, self.min_J, self.note()));
         }
-        if (self.unconverged as f64) > (1.0 - CONVERGED) * self.steps as f64 {
+        if self.is_unconverged() {
             return Some(Finding::new(Outcome::Unconverged, self.min_J, self.note()));
         }
         None
+    }
+
+    fn is_unconverged(&self) -> bool {
+        (self.unconverged as f64) > (1.0 - CONVERGED) * self.steps as f64
+    }
+
+    /// Survival of a body whose elements may invert, with the smallest J as margin.
+    pub fn endurance(&self) -> Finding {
+        match self.trouble() {
+            Some(trouble) if trouble.outcome != Outcome::Inverts => trouble,
+            _ if self.is_unconverged() => Finding::new(Outcome::Unconverged, self.min_J, self.note()),
+            _ => Finding::new(Outcome::Survives, self.min_J, self.note()),
+        }
     }
 
     /// Survival, with the smallest J as margin.

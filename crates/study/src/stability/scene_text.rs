@@ -93,8 +93,10 @@ impl SceneText {
     /// The text of the file.
     pub fn text(&self) -> String {
         let Self { mesh, model, young, poisson, density, integrator, dt, rest } = self;
+        // Springs have the ratio of their directions.
+        let poisson = if *model == "mass_spring" { String::new() } else { format!("poisson = {poisson}\n") };
         format!(
-            "pipeline = \"engine\"\n[mesh]\n{mesh}\n[material]\nmodel = \"{model}\"\nyoung = {young:e}\npoisson = {poisson}\n\
+            "pipeline = \"engine\"\n[mesh]\n{mesh}\n[material]\nmodel = \"{model}\"\nyoung = {young:e}\n{poisson}\
              density = {density:e}\n[time]\ndt = {dt:e}\nintegrator = \"{integrator}\"\n{rest}"
         )
     }

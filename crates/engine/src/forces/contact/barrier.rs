@@ -5,6 +5,7 @@
 
 use fem_scene::Body;
 
+use crate::forces::mass_spring;
 use crate::materials::AnyLaw;
 use crate::model::numbering::Numbering;
 
@@ -97,14 +98,15 @@ fn curvature(s: f64) -> f64 {
     -2.0 * t.ln_1p() - 4.0 * t / s + (t / s).powi(2)
 }
 
-/// Largest shear modulus of the body's materials, plus ρ g L; Pa.
+/// Largest shear modulus of the body's materials, or that of its springs, plus ρ g L; Pa.
 fn stiffness(body: &Body) -> f64 {
     let materials = body.regions.iter().map(|region| &region.material).chain([&body.material]);
     let modulus = |material| AnyLaw::<f64>::new(material).map_or(0.0, |law| law.moduli()[0]);
     let largest = materials.clone().map(modulus).fold(0.0, f64::max);
     let factor = body.stiffness_factors.iter().copied().reduce(f64::max).unwrap_or(1.0);
     let density = materials.map(|material| material.density).fold(0.0, f64::max);
-    largest * factor + density * body.gravity.map_or(0.0, |g| g.norm()) * body.shape.mesh.length()
+    f64::max(largest * factor, mass_spring::shear_modulus(body))
+        + density * body.gravity.map_or(0.0, |g| g.norm()) * body.shape.mesh.length()
 }
 
 /// Area of each node of the mesh, m².

@@ -32,7 +32,7 @@ impl<T: Real> SecondOrder<T> {
         self.predict(system, state, dt, of);
         let Self { newton, followers, inertial, still, stiffness_at, step, acceleration, .. } = self;
         let stage = Moment::at(state.time + of.stage * dt);
-        let is_damped = system.damping.is_some();
+        let is_damped = system.is_damped();
         let inertia = Inertia {
             still: is_damped.then_some(&still[..]),
             stiffness_at: is_damped.then_some(&stiffness_at[..]),
@@ -64,7 +64,7 @@ impl<T: Real> SecondOrder<T> {
         } else {
             system.dirichlet.clear_constrained(inertial);
         }
-        if system.damping.is_none() {
+        if !system.is_damped() {
             return;
         }
         known.combine(&of.known_stage_velocity(), &state.v, still);
@@ -80,8 +80,8 @@ impl<T: Real> SecondOrder<T> {
         stiffness_at.copy_from_slice(&state.u);
         axpy(of.stage * dt, &state.v, stiffness_at);
         let [before, after] = [&state.u, &*stiffness_at].map(|u| system.elements.min_det_F_of_barriers(u).0);
-        // NaN fails the comparison.
-        if !(after > T::of(KEPT) * before) {
+        // NaN fails the comparison; without such elements both are infinite.
+        if !(after >= T::of(KEPT) * before) {
             stiffness_at.copy_from_slice(&state.u);
         }
     }

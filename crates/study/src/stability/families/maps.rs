@@ -57,7 +57,7 @@ pub type Found = Arc<Mutex<Vec<Map>>>;
 
 /// Adds a case for the map of each integrator. The case adds its map to `found`.
 pub fn add(cases: &mut Vec<Case>, quick: bool, found: &Found) {
-    let omega = unit_omega();
+    let omega = unit_omega("linear");
     let count = EXPONENTS_OF_YOUNG.count() * TIME_STEPS;
     for integrator in DYNAMIC {
         let found = Arc::clone(found);

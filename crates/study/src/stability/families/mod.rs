@@ -9,6 +9,7 @@ mod invariance;
 mod large_strains;
 mod long_runs;
 pub mod maps;
+mod mass_spring;
 mod material_contrast;
 mod plastic_flow;
 mod recovery;
@@ -38,6 +39,7 @@ pub fn cases(quick: bool, maps: &maps::Found) -> Vec<Case> {
     long_runs::add(&mut cases, quick);
     flat_bodies::add(&mut cases, quick);
     plastic_flow::add(&mut cases, quick);
+    mass_spring::add(&mut cases, quick);
     contact::add(&mut cases, quick);
     refusals::add(&mut cases);
     cases

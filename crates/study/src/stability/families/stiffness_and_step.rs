@@ -25,7 +25,7 @@ fn margin_is(integrator: &str) -> &'static str {
 
 /// Adds the family.
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
-    let omega = unit_omega();
+    let omega = unit_omega("linear");
     let laws: &[&str] = if quick { &LAWS[3..] } else { &LAWS };
     for integrator in DYNAMIC {
         for &model in laws {

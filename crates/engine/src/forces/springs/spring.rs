@@ -1,117 +1,62 @@
-//! Springs between two nodes: ½ k (|x_b − x_a| − l)².
+//! A spring between two nodes, ½ k (|x_b − x_a| − l)², and the damper beside it, whose force is c (v_b − v_a)·n along its direction n.
 
 use fem_scene::Body;
 
-use super::{Energy, HessianKind, Moment, Potential};
+use crate::forces::{Energy, HessianKind};
 use crate::model::numbering::Numbering;
 use crate::number::Real;
-use crate::sparse::{Block, Pattern};
-
-/// Key in the statistics.
-pub const NAME: &str = "springs";
-
-/// All springs of a body.
-struct Springs<T>(Vec<Spring<T>>);
-
-/// The springs of a body; `None` where it has none.
-pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Potential<T>>> {
-    let springs: Vec<_> = body.springs.iter().map(|spring| Spring::new(body, spring, numbering)).collect();
-    (!springs.is_empty()).then(|| Box::new(Springs(springs)) as Box<dyn Potential<T>>)
-}
-
-impl<T: Real> Potential<T> for Springs<T> {
-    fn name(&self) -> &'static str {
-        NAME
-    }
-
-    fn description(&self) -> String {
-        format!("[[springs]]: {} of them", self.0.len())
-    }
-
-    fn bytes(&self) -> usize {
-        size_of_val(&self.0[..])
-    }
-
-    fn is_internal(&self) -> bool {
-        true
-    }
-
-    fn couplings(&self) -> Vec<[u32; 2]> {
-        self.0.iter().map(|spring| spring.nodes.map(|node| node as u32)).collect()
-    }
-
-    fn energy(&self, u: &[[T; 3]], _: Moment) -> Energy {
-        Energy::of(self.0.iter().map(|spring| spring.energy(u)).sum())
-    }
-
-    fn add_gradient(&self, u: &[[T; 3]], _: Moment, gradient: &mut [[T; 3]]) {
-        self.0.iter().for_each(|spring| spring.add_gradient(u, gradient));
-    }
-
-    fn add_hessian(&self, factor: T, u: &[[T; 3]], kind: HessianKind, pattern: &Pattern, values: &mut [Block<T, 3>]) {
-        self.0.iter().for_each(|spring| spring.add_hessian(factor, u, kind, pattern, values));
-    }
-
-    fn add_hessian_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
-        self.0.iter().for_each(|spring| spring.add_hessian_times(factor, u, d, product));
-    }
-
-    /// The two forces of a spring are equal and opposite.
-    fn resultant(&self, _: Moment) -> Option<[f64; 3]> {
-        Some([0.0; 3])
-    }
-
-    fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
-        let is_representable = self.0.iter().all(|spring| crate::number::is_positive(spring.stiffness));
-        (!is_representable).then_some(("springs", "a stiffness"))
-    }
-}
+use crate::sparse::Block;
 
 /// A spring between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Spring<T> {
+pub(super) struct Spring<T> {
     /// The engine's numbers of its ends a and b.
-    nodes: [usize; 2],
+    pub(super) nodes: [u32; 2],
     /// X_b − X_a at rest, m.
     edge: [T; 3],
     /// k, N/m
-    stiffness: T,
+    pub(super) stiffness: T,
     /// l, m
     length: T,
     /// |X_b − X_a|² − l², m²: zero where the spring is at rest with the body.
     excess: T,
+    /// c, N s/m
+    pub(super) damping: T,
 }
 
 impl<T: Real> Spring<T> {
-    fn new(body: &Body, spring: &fem_scene::Spring, numbering: &Numbering) -> Self {
+    pub(super) fn new(body: &Body, spring: &fem_scene::Spring, numbering: &Numbering) -> Self {
         let [a, b] = spring.nodes.map(|node| body.shape.mesh.vertices()[node]);
         let edge = b - a;
         let length = spring.rest_length;
         // Rounding of a length that is the undeformed distance must not stretch the spring.
         let excess = if spring.is_initially_relaxed { 0.0 } else { edge.norm_squared() - length * length };
         Self {
-            nodes: spring.nodes.map(|node| numbering.engine_node[node] as usize),
+            nodes: spring.nodes.map(|node| numbering.engine_node[node]),
             edge: [T::of(edge.x), T::of(edge.y), T::of(edge.z)],
             stiffness: T::of(spring.stiffness),
             length: T::of(length),
             excess: T::of(excess),
+            damping: T::of(spring.damping),
         }
     }
 
-    /// Energy, J.
-    fn energy(&self, u: &[[T; 3]]) -> f64 {
-        let stretch = self.now(u).stretch.as_f64();
-        0.5 * self.stiffness.as_f64() * stretch * stretch
+    /// Energy, J. Its terms include what rounding leaves of a stretch whose terms cancel, as those of a turned spring do.
+    pub(super) fn energy(&self, u: &[[T; 3]]) -> Energy {
+        let Now { stretch, cancelled, .. } = self.now(u);
+        let (stretch, k) = (stretch.as_f64(), self.stiffness.as_f64());
+        let value = 0.5 * k * stretch * stretch;
+        Energy { value, terms: value + k * stretch.abs() * cancelled.as_f64() }
     }
 
     /// Adds the gradient of its energy, k (1 − l/|d|) d at b and the opposite at a, N; zero where both ends meet.
-    fn add_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
-        let Now { d, length, stretch } = self.now(u);
+    pub(super) fn add_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
+        let Now { d, length, stretch, .. } = self.now(u);
         if length == T::zero() {
             return;
         }
         let factor = self.stiffness * stretch / length;
-        let [a, b] = self.nodes;
+        let [a, b] = self.ends();
         for i in 0..3 {
             gradient[a][i] -= factor * d[i];
             gradient[b][i] += factor * d[i];
@@ -120,8 +65,8 @@ impl<T: Real> Spring<T> {
 
     /// H of the Hessian (H, −H; −H, H): k (n nᵀ + (1 − l/|d|)(1 − n nᵀ)), N/m. A compressed spring pushes sideways, and its
     /// second part is negative; the projection leaves that out.
-    fn hessian(&self, u: &[[T; 3]], kind: HessianKind) -> Block<T, 3> {
-        let Now { d, length, stretch } = self.now(u);
+    pub(super) fn hessian(&self, u: &[[T; 3]], kind: HessianKind) -> Block<T, 3> {
+        let Now { d, length, stretch, .. } = self.now(u);
         let (n, mut across) = if length == T::zero() {
             // Without a direction to be stiff along, the spring is equally stiff in all of them.
             ([T::zero(); 3], T::one())
@@ -139,51 +84,62 @@ impl<T: Real> Spring<T> {
         })
     }
 
-    /// Adds `factor` times its Hessian to a matrix.
-    fn add_hessian(&self, factor: T, u: &[[T; 3]], kind: HessianKind, pattern: &Pattern, values: &mut [Block<T, 3>]) {
-        let H = self.hessian(u, kind);
-        for (row, column, sign) in self.pairs() {
-            if let Some(block) = pattern.find(row, column) {
-                for i in 0..3 {
-                    for j in 0..3 {
-                        values[block][i][j] += sign * factor * H[i][j];
-                    }
-                }
-            }
-        }
-    }
-
     /// Adds `factor` times its Hessian times d.
-    fn add_hessian_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
+    pub(super) fn add_hessian_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
         let H = self.hessian(u, HessianKind::Exact);
-        for (row, column, sign) in self.pairs() {
-            for i in 0..3 {
-                for j in 0..3 {
-                    product[row][i] += sign * factor * H[i][j] * d[column][j];
-                }
-            }
+        let [a, b] = self.ends();
+        let apart: [T; 3] = std::array::from_fn(|i| d[b][i] - d[a][i]);
+        for i in 0..3 {
+            let force = factor * (H[i][0] * apart[0] + H[i][1] * apart[1] + H[i][2] * apart[2]);
+            product[a][i] -= force;
+            product[b][i] += force;
         }
     }
 
-    fn pairs(&self) -> [(usize, usize, T); 4] {
-        let ([a, b], one) = (self.nodes, T::one());
-        [(a, a, one), (b, b, one), (a, b, -one), (b, a, -one)]
+    /// Adds `factor` D(u) v, N: c (v_b − v_a)·n n at b and the opposite at a. A spring whose ends meet has no direction n to damp.
+    pub(super) fn add_damping_times(&self, factor: T, u: &[[T; 3]], v: &[[T; 3]], product: &mut [[T; 3]]) {
+        let Some(n) = self.direction(u) else { return };
+        let [a, b] = self.ends();
+        let rate = (0..3).fold(T::zero(), |rate, i| rate + (v[b][i] - v[a][i]) * n[i]);
+        for i in 0..3 {
+            let force = factor * self.damping * rate * n[i];
+            product[a][i] -= force;
+            product[b][i] += force;
+        }
+    }
+
+    /// c n nᵀ, N s/m: the block D of its damping matrix (D, −D; −D, D), which is positive semi-definite.
+    pub(super) fn damping_matrix(&self, u: &[[T; 3]]) -> Block<T, 3> {
+        let n = self.direction(u).unwrap_or([T::zero(); 3]);
+        std::array::from_fn(|i| std::array::from_fn(|j| self.damping * n[i] * n[j]))
+    }
+
+    /// (x_b − x_a)/|x_b − x_a|; `None` where both ends meet.
+    fn direction(&self, u: &[[T; 3]]) -> Option<[T; 3]> {
+        let Now { d, length, .. } = self.now(u);
+        (length > T::zero()).then(|| d.map(|d| d / length))
+    }
+
+    fn ends(&self) -> [usize; 2] {
+        self.nodes.map(|node| node as usize)
     }
 
     /// With E = X_b − X_a and δ = u_b − u_a, |d| − l = (2 E·δ + δ·δ + |E|² − l²)/(|d| + l): it keeps its digits where the
     /// difference of the lengths cancels.
     fn now(&self, u: &[[T; 3]]) -> Now<T> {
-        let [a, b] = self.nodes;
+        let [a, b] = self.ends();
         let moved: [T; 3] = std::array::from_fn(|i| u[b][i] - u[a][i]);
         let d: [T; 3] = std::array::from_fn(|i| self.edge[i] + moved[i]);
         let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
-        let mut difference = self.excess;
+        let (mut difference, mut size) = (self.excess, self.excess.abs());
         for i in 0..3 {
-            difference += (self.edge[i] + d[i]) * moved[i];
+            let term = (self.edge[i] + d[i]) * moved[i];
+            difference += term;
+            size += term.abs();
         }
         let sum = length + self.length;
-        let stretch = if sum > T::zero() { difference / sum } else { T::zero() };
-        Now { d, length, stretch }
+        let over = if sum > T::zero() { T::one() / sum } else { T::zero() };
+        Now { d, length, stretch: difference * over, cancelled: size * over }
     }
 }
 
@@ -195,6 +151,8 @@ struct Now<T> {
     length: T,
     /// |d| − l, m.
     stretch: T,
+    /// Magnitude of the terms whose sum the stretch is, m.
+    cancelled: T,
 }
 
 #[cfg(test)]
@@ -203,7 +161,7 @@ mod tests {
 
     fn spring(length: f64) -> Spring<f64> {
         let edge = [1.0, 2.0, 2.0];
-        Spring { nodes: [0, 1], edge, stiffness: 50.0, length, excess: 9.0 - length * length }
+        Spring { nodes: [0, 1], edge, stiffness: 50.0, length, excess: 9.0 - length * length, damping: 3.0 }
     }
 
     const U: [[f64; 3]; 2] = [[0.1, -0.2, 0.3], [-0.4, 0.2, 0.1]];
@@ -227,7 +185,7 @@ mod tests {
             let spring = spring(length);
             for c in 0..6 {
                 let (ahead, behind) = (moved(c, 1e-6), moved(c, -1e-6));
-                let slope = (spring.energy(&ahead) - spring.energy(&behind)) / 2e-6;
+                let slope = (spring.energy(&ahead).value - spring.energy(&behind).value) / 2e-6;
                 assert!((slope - gradient(&spring, &U)[c / 3][c % 3]).abs() < 1e-6, "l = {length}, {c}");
                 let (ahead, behind) = (gradient(&spring, &ahead), gradient(&spring, &behind));
                 let mut direction = [[0.0; 3]; 2];
@@ -261,7 +219,25 @@ mod tests {
     #[test]
     fn a_small_stretch_keeps_its_digits() {
         let u = [[0.0; 3], [1e-12, 2e-12, 2e-12]];
-        let energy = spring(3.0).energy(&u);
+        let energy = spring(3.0).energy(&u).value;
         assert!((energy / (0.5 * 50.0 * 9e-24) - 1.0).abs() < 1e-11, "{energy:e}");
+    }
+
+    #[test]
+    fn the_damping_matrix_is_the_derivative_of_the_damping_force_along_the_spring() {
+        let spring = Spring { edge: [3.0, 0.0, 0.0], ..spring(3.0) };
+        let v = [[1.0, 5.0, -2.0], [3.0, -4.0, 7.0]];
+        let mut force = [[0.0; 3]; 2];
+        spring.add_damping_times(2.0, &[[0.0; 3]; 2], &v, &mut force);
+        // The ends go apart by 2 m/s, the damper has 3 N s/m.
+        assert_eq!(force, [[-12.0, 0.0, 0.0], [12.0, 0.0, 0.0]]);
+        let D = spring.damping_matrix(&U);
+        let mut product = [[0.0; 3]; 2];
+        spring.add_damping_times(1.0, &U, &v, &mut product);
+        for i in 0..3 {
+            let expected: f64 = (0..3).map(|j| D[i][j] * (v[1][j] - v[0][j])).sum();
+            assert!((product[1][i] - expected).abs() < 1e-14 && product[0][i] == -product[1][i]);
+        }
+        assert_eq!(spring.damping_matrix(&[[3.0, 0.0, 0.0], [0.0; 3]]), [[0.0; 3]; 3]);
     }
 }

@@ -1,0 +1,268 @@
+//! Convergence of the linear solvers, iteration by iteration, beside the bounds of Shewchuk, An Introduction to the Conjugate Gradient Method
+//! Without the Agonizing Pain (1994), equations 28 and 52: on the matrix of a scene's first step, and on its stiffness.
+
+use fem_chart::{Axis, Chart, Dot, Series};
+use fem_engine::forces::{HessianKind, Moment};
+use fem_engine::materials::AnyLaw;
+use fem_engine::model::system::System;
+use fem_engine::solvers::{Preconditioner, Solver, SolverChoice};
+use fem_engine::vector::{dot, norm};
+use fem_scene::simulation::Breakdown;
+use fem_scene::{Body, Integrator, Scene};
+
+use crate::experiments::{Experiment, Figure, Mark, Part, Table};
+use crate::machine::Machine;
+use crate::space::conditioning::{irregular, largest_eigenvalue};
+
+/// Relative residual at which solvers end, in a whole study and in a short one.
+const TOLERANCE: [f64; 2] = [1e-8, 1e-4];
+
+/// Number of nodes beyond which conjugate directions keep too many vectors, and beyond which no system is studied.
+const MOST_NODES: [usize; 2] = [1000, 20_000];
+
+/// Part of the first error below which rounding decides.
+const ROUND_OFF: f64 = 1e-9;
+
+/// Margin for a condition number that Lanczos's method approaches from below.
+const MARGIN: f64 = 1.001;
+
+/// Studies the systems of scenes. `body` makes the body of a scene.
+///
+/// # Errors
+/// A scene whose systems cannot be built, as a sentence.
+pub fn study(
+    scenes: &[Scene],
+    quick: bool,
+    body: impl Fn(&Scene) -> Result<Body, String>,
+    machine: Machine,
+) -> Result<Experiment, String> {
+    let mut parts = Vec::new();
+    for scene in scenes {
+        let body = body(scene)?;
+        let nodes = body.shape.mesh.vertices().len();
+        if nodes > MOST_NODES[1] {
+            let most = MOST_NODES[1];
+            return Err(format!("{}: has {nodes} nodes; solvers are compared on at most {most}", scene.name));
+        }
+        let dt = (scene.time.integrator != Integrator::Static).then(|| scene.time.dt());
+        if let Some(dt) = dt {
+            parts.push(part(scene, body.clone(), Some(dt), quick)?);
+        }
+        // A free body has a singular stiffness.
+        if !body.dirichlet.is_empty() {
+            parts.push(part(scene, body, None, quick)?);
+        }
+    }
+    Ok(Experiment {
+        name: "linear",
+        title: "Convergence of linear solvers",
+        text: "Each solver starts from zero. The error is that of the solution in the energy norm, √(eᵀ A e), against a direct solve. With the condition \
+               number κ of the matrix, steepest descent multiplies it by at most (κ − 1)/(κ + 1) an iteration, and conjugate gradients have \
+               at most 2 ((√κ − 1)/(√κ + 1))ⁱ of it after i (Shewchuk 1994).",
+        machine,
+        quick,
+        parts,
+    })
+}
+
+/// A linear system with its condition number and its solution.
+struct LinearSystem {
+    system: System<f64>,
+    values: Vec<[[f64; 3]; 3]>,
+    b: Vec<[f64; 3]>,
+    exact: Vec<[f64; 3]>,
+    condition: f64,
+}
+
+/// The residual over the first one and the error in the energy norm of an iterate.
+type Iterate = [f64; 2];
+
+impl LinearSystem {
+    /// M/dt² + K of the first step, or K without a time step; the right-hand side is the force at the start.
+    fn new(scene: &Scene, body: Body, dt: Option<f64>) -> Result<Self, String> {
+        let system = System::new(body, AnyLaw::new(&scene.material), SolverChoice::Lu);
+        let undeformed = vec![[0.0; 3]; system.nodes()];
+        let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
+        system.add_stiffness(1.0, &undeformed, HessianKind::Exact, &mut values);
+        system.add_external_hessian(&undeformed, HessianKind::Exact, &mut values);
+        if let Some(dt) = dt {
+            system.mass.add_to(1.0 / (dt * dt), &system.pattern, &mut values);
+        }
+        system.dirichlet.eliminate(&system.pattern, &mut values);
+        let mut b = undeformed.clone();
+        system.force(&undeformed, &undeformed, &undeformed, Moment::at(dt.unwrap_or(0.0)), &mut b);
+        system.dirichlet.clear_constrained(&mut b);
+        // Without loads every vibration takes part.
+        if norm(&b) == 0.0 {
+            b = irregular(system.nodes());
+            system.dirichlet.clear_constrained(&mut b);
+        }
+        let failed =
+            |cause: fem_scene::simulation::Breakdown| format!("{}: its matrix has no factor: {cause}", scene.name);
+        let mut direct = Solver::new(SolverChoice::Lu, &system.pattern, &rest(&system));
+        direct.prepare(&values).map_err(failed)?;
+        let mut exact = undeformed;
+        direct.solve(&values, &b, &mut exact, 1e-13).map_err(failed)?;
+        let largest = largest_eigenvalue(&system, |x, y| times(&system, &values, x, y));
+        let smallest = 1.0 / largest_eigenvalue(&system, |x, y| direct.apply(x, y));
+        Ok(Self { condition: MARGIN * largest / smallest, system, values, b, exact })
+    }
+
+    /// The iterates of a solver, from zero to a relative residual, or to the breakdown that ends it early.
+    fn iterates(&self, choice: SolverChoice, tolerance: f64) -> (Vec<Iterate>, Option<Breakdown>) {
+        let Self { system, values, b, exact, .. } = self;
+        let mut solver = Solver::new(choice, &system.pattern, &rest(system));
+        let (mut x, mut e, mut product) = (vec![[0.0; 3]; b.len()], exact.clone(), exact.clone());
+        let mut found = Vec::new();
+        let size = norm(b);
+        let mut observe = |x: &[[f64; 3]]| {
+            for (e, (x, exact)) in e.iter_mut().zip(x.iter().zip(exact)) {
+                *e = [0, 1, 2].map(|i| exact[i] - x[i]);
+            }
+            // b − A x = A e
+            times(system, values, &e, &mut product);
+            let rows = system.pattern.rows();
+            found.push([norm(&product[..rows]) / size, dot(&product[..rows], &e[..rows]).max(0.0).sqrt()]);
+        };
+        let solved =
+            solver.prepare(values).and_then(|()| solver.solve_observed(values, b, &mut x, tolerance, &mut observe));
+        (found, solved.err())
+    }
+}
+
+fn rest(system: &System<f64>) -> Vec<[f64; 3]> {
+    system.rest[..system.free()].iter().map(|x| (*x).into()).collect()
+}
+
+/// y = A x for the rows of the matrix.
+fn times(system: &System<f64>, values: &[[[f64; 3]; 3]], x: &[[f64; 3]], y: &mut [[f64; 3]]) {
+    let pattern = &system.pattern;
+    for row in 0..pattern.rows() {
+        y[row] = [0.0; 3];
+        for block in pattern.row(row) {
+            let x = x[pattern.columns[block] as usize];
+            for i in 0..3 {
+                y[row][i] += values[block][i][0] * x[0] + values[block][i][1] * x[1] + values[block][i][2] * x[2];
+            }
+        }
+    }
+}
+
+/// The solvers with their names, and the bound of each: a factor, and the factor of an iteration for the condition number.
+type Method = (&'static str, SolverChoice, Option<(f64, fn(f64) -> f64)>);
+
+const METHODS: [Method; 6] = [
+    ("steepest_descent", SolverChoice::SteepestDescent, Some((1.0, |kappa| (kappa - 1.0) / (kappa + 1.0)))),
+    ("conjugate_directions", SolverChoice::ConjugateDirections, Some((2.0, of_root))),
+    ("cg", SolverChoice::Cg, Some((2.0, of_root))),
+    ("pcg, block_jacobi", SolverChoice::Pcg(Preconditioner::BlockJacobi), None),
+    ("pcg, incomplete_cholesky", SolverChoice::Pcg(Preconditioner::IncompleteCholesky), None),
+    ("pcg, multigrid", SolverChoice::Pcg(Preconditioner::Multigrid), None),
+];
+
+fn of_root(kappa: f64) -> f64 {
+    (kappa.sqrt() - 1.0) / (kappa.sqrt() + 1.0)
+}
+
+fn part(scene: &Scene, body: Body, dt: Option<f64>, quick: bool) -> Result<Part, String> {
+    let of = LinearSystem::new(scene, body, dt)?;
+    let tolerance = TOLERANCE[usize::from(quick)];
+    let (what, file) = match dt {
+        Some(dt) => (format!("M/dt² + K of the first step of {dt} s of `{}`", scene.name), "step"),
+        None => (format!("the stiffness K of `{}`", scene.name), "stiffness"),
+    };
+    let name = format!("linear-{}-{file}", scene.name);
+    let (mut marks, mut rows, mut series) = (Vec::new(), Vec::new(), Vec::new());
+    for (colour, (method, choice, bound)) in METHODS.into_iter().enumerate() {
+        if choice == SolverChoice::ConjugateDirections && of.system.nodes() > MOST_NODES[0] {
+            continue;
+        }
+        let (found, breakdown) = of.iterates(choice, tolerance);
+        let Some(first) = found.first().map(|iterate| iterate[1]) else { continue };
+        let mut curve = Series { name: method.to_owned(), colour, is_joined: true, ..Series::default() };
+        let mut limit = Series { colour, is_joined: true, ..Series::default() };
+        let mut worst: f64 = 0.0;
+        for (i, [residual, error]) in found.iter().enumerate() {
+            let part = error / first;
+            let bound = bound.map(|(factor, rate)| factor * rate(of.condition).powf(i as f64));
+            if let Some(bound) = bound.filter(|_| part > ROUND_OFF) {
+                worst = worst.max(part / bound);
+            }
+            if is_shown(i) || i + 1 == found.len() {
+                curve.dots.push(Dot { x: i as f64 + 1.0, y: part, ..Dot::default() });
+                limit.dots.extend(bound.map(|y| Dot { x: i as f64 + 1.0, y, ..Dot::default() }));
+                let told = bound.map_or(String::new(), |bound| format!("{bound:.6e}"));
+                rows.push(vec![
+                    method.to_owned(),
+                    i.to_string(),
+                    format!("{residual:.6e}"),
+                    format!("{part:.6e}"),
+                    told,
+                ]);
+            }
+        }
+        if bound.is_some() {
+            let end = breakdown.map_or(String::new(), |breakdown| format!(", ended early: {breakdown}"));
+            let figure = format!("{} iterations, at most {worst:.3} of the bound{end}", found.len() - 1);
+            marks.push(Mark::new(format!("{method} stays below its bound at every iteration"), figure, worst <= 1.0));
+            series.push(limit);
+        }
+        series.push(curve);
+    }
+    let chart = Chart {
+        series,
+        ..Chart::new(&what, Axis::log("iteration + 1"), Axis::log("error over the first one, energy norm"))
+    };
+    Ok(Part {
+        name: file,
+        title: if dt.is_some() { "The first step" } else { "The stiffness" },
+        text: format!("The matrix is {what}: {} unknowns, κ = {:.4e}.", 3 * of.system.free(), of.condition / MARGIN),
+        marks,
+        tables: vec![Table {
+            name: name.clone(),
+            head: vec!["solver", ">iteration", ">residual", ">error", ">bound"],
+            rows,
+        }],
+        figures: vec![Figure {
+            name,
+            picture: chart.draw(),
+            caption: format!("Solvers on {what}; lines without a name are bounds."),
+        }],
+    })
+}
+
+/// Whether an iteration is in the table and in the picture: the first fifty, and then twenty in each decade.
+fn is_shown(i: usize) -> bool {
+    let place = |i: usize| (20.0 * (i as f64).log10()).floor();
+    i < 50 || place(i) > place(i - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::study;
+    use crate::machine::Machine;
+    use std::path::Path;
+
+    #[test]
+    fn every_bound_holds_on_a_step_and_on_a_stiffness_and_descent_takes_the_most_iterations() {
+        let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 3 }\n[material]\nmodel = \"neo_hookean\"\n\
+                    young = 1e5\npoisson = 0.3\ndensity = 1000\n[gravity]\nacceleration = [0, 0, -9.81]\n[fixed]\n\
+                    plane = { axis = \"x\", below = 1e-9 }\n[time]\ndt = 0.01\nintegrator = \"implicit_euler\"\n";
+        let scene = fem_scene::parse(text, Path::new("beam.toml")).unwrap();
+        let body = |scene: &fem_scene::Scene| fem_scene::body(scene, Path::new("")).map_err(|error| error.to_string());
+        let found = study(&[scene], true, body, Machine::this(Path::new("."))).unwrap();
+        assert_eq!(found.parts.len(), 2);
+        for part in &found.parts {
+            assert_eq!(part.marks.len(), 3);
+            assert!(part.passes(), "{}: {:#?}", part.title, part.marks);
+            let iterations = |name: &str| {
+                let mut rows = part.tables[0].rows.iter().filter(|row| row[0] == name);
+                rows.next_back().unwrap()[1].parse::<usize>().unwrap()
+            };
+            assert!(iterations("steepest_descent") > 2 * iterations("cg"), "{}", part.title);
+            assert!(iterations("cg") > iterations("pcg, multigrid"), "{}", part.title);
+            // Rounding errors cost conjugate gradients some conjugacy, which all kept directions keep.
+            assert!(iterations("cg") >= iterations("conjugate_directions"), "{}", part.title);
+        }
+    }
+}

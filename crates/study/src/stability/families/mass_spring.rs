@@ -1,0 +1,165 @@
+//! Mass-spring bodies: soft to stiff springs and short to long time steps, tangled and squashed starts. Springs do not know which side of an
+//! element is its inside, so that elements may stay inverted: asked for are finite states, steps that converge, and rest in the end.
+
+use fem_engine::simulator::Simulator;
+use nalgebra::Vector3;
+
+use super::stiffness_and_step::{DT, YOUNG};
+use crate::stability::case::{Case, Deadline, Finding, Outcome};
+use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
+use crate::stability::initial_state::{Random, place, place_moving};
+use crate::stability::march::march;
+use crate::stability::scene_text::{CLAMPED, DAMPED, DYNAMIC, SceneText, gravity, prescribed_end};
+
+const FAMILY: &str = "mass-spring bodies";
+const MODEL: &str = "mass_spring";
+
+/// The margin of bodies whose elements may invert.
+const MARGIN_IS: &str = "smallest J at the end of a step, round-off decides which; springs do not keep it above 0";
+
+/// Largest speed of a node of a body at rest, body lengths per second.
+const STILL: f64 = 1e-2;
+
+/// Adds the family.
+pub fn add(cases: &mut Vec<Case>, quick: bool) {
+    let omega = unit_omega(MODEL);
+    for integrator in DYNAMIC {
+        for young in YOUNG {
+            for dt in DT {
+                cases.push(vibrating(integrator, young, dt, omega, quick));
+            }
+        }
+        cases.push(rigid(integrator, if quick { 100 } else { 1000 }));
+    }
+    for young in if quick { &YOUNG[1..2] } else { &YOUNG } {
+        for (integrator, dt) in [("implicit_euler", DT[1]), ("implicit_euler", DT[2]), ("bdf2", DT[1])] {
+            cases.push(weighed(integrator, *young, dt));
+        }
+    }
+    for (name, tangle) in TANGLES {
+        for seed in 0..if quick { 2 } else { 10 } {
+            cases.push(tangled(name, tangle, seed));
+        }
+    }
+    for (name, motion) in ENDS {
+        for integrator in ["implicit_euler", "static"] {
+            cases.push(moved(name, motion, integrator));
+        }
+    }
+}
+
+fn vibrating(integrator: &'static str, young: f64, dt: f64, unit_omega: f64, quick: bool) -> Case {
+    let z = unit_omega * young.sqrt() * dt;
+    let forecast = forecast(integrator, z, if quick { 1000 } else { 20_000 });
+    let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, dt omega_max = {z:.3e}, {} steps", forecast.steps);
+    let text = clamped(integrator, MODEL, young, dt);
+    Case {
+        expected: forecast.expected,
+        margin_is: if forecast.margin.is_some() { "growth or dt over their limit; stable below 1" } else { MARGIN_IS },
+        ..text.clone().case(FAMILY, "clamped body, vibrating", parameters, move |deadline| {
+            let found = try_forecast(&text, forecast, deadline)?;
+            Ok(if found.outcome == Outcome::Inverts { Finding { outcome: Outcome::Survives, ..found } } else { found })
+        })
+    }
+}
+
+/// A clamped body under a weight of a fifth of E times its cross-section, in the end at rest.
+fn weighed(integrator: &'static str, young: f64, dt: f64) -> Case {
+    let text = clamped(integrator, MODEL, young, dt).with(&gravity([0.0, 0.0, -0.1 * young / 1e3]));
+    let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, 50 steps");
+    of_springs(&text, "clamped body, sagging under a fifth of E times its cross-section", parameters, {
+        let text = text.clone();
+        move |deadline| Ok(march(&mut text.build()?, 50, deadline).endurance())
+    })
+}
+
+/// Position of a node from its undeformed one.
+type Tangle = fn(&mut Random, &Vector3<f64>) -> Vector3<f64>;
+
+/// Initial positions about the centre of the body.
+const TANGLES: [(&str, Tangle); 5] = [
+    ("random positions", |random, _| CENTRE + Vector3::new(1.0, 0.5, 0.5).component_mul(&random.vector())),
+    ("reflected", |_, X| Vector3::new(X.x, 1.0 - X.y, X.z)),
+    ("flattened to a plane", |random, X| Vector3::new(X.x, X.y, 0.5) + 1e-3 * random.vector()),
+    ("squashed to 2 % of its height", |random, X| Vector3::new(X.x, X.y, 0.02 * X.z) + 1e-3 * random.vector()),
+    ("collapsed to a point", |random, _| CENTRE + 1e-3 * random.vector()),
+];
+
+const CENTRE: Vector3<f64> = Vector3::new(1.0, 0.5, 0.5);
+
+/// Steps within which a tangled body must come to rest.
+const STEPS: usize = 600;
+
+fn tangled(name: &str, tangle: Tangle, seed: u64) -> Case {
+    let text = SceneText { dt: 0.05, ..SceneText::finer("implicit_euler", MODEL) }.with(CLAMPED).with(DAMPED);
+    let parameters = format!("E = 1e5 Pa, dt = {} s, {STEPS} steps", text.dt);
+    let case = of_springs(&text, name, parameters, {
+        let text = text.clone();
+        move |deadline| {
+            let (mut simulation, mut random) = (text.build()?, Random::new(seed));
+            place(&mut simulation, |X| tangle(&mut random, X));
+            Ok(at_rest(&mut simulation, deadline))
+        }
+    });
+    Case { seed: Some(seed), ..case }
+}
+
+/// Marches until the body must be at rest.
+fn at_rest(simulation: &mut Simulator<f64>, deadline: Deadline) -> Finding {
+    let found = march(simulation, STEPS, deadline).endurance();
+    let speeds = simulation.state().v.iter().map(|v| Vector3::from(*v).norm());
+    let speed = speeds.fold(0.0, f64::max) / simulation.system().length;
+    let note = format!("{}, {speed:.1e} lengths/s in the end", found.note);
+    // NaN fails the comparison.
+    let outcome =
+        if found.outcome == Outcome::Survives && !(speed <= STILL) { Outcome::Deviates } else { found.outcome };
+    Finding { outcome, note, ..found }
+}
+
+/// Motions of the end of largest x.
+const ENDS: [(&str, &str); 3] = [
+    ("stretched to ten times its length", "displacement = [18, 0, 0]"),
+    ("compressed to a tenth of its length", "displacement = [-1.8, 0, 0]"),
+    ("turned twice", "rotation = { axis = \"x\", center = [0, 0.5, 0.5], turns = 2 }"),
+];
+
+fn moved(name: &str, motion: &str, integrator: &'static str) -> Case {
+    let load_steps = if integrator == "static" { "[static]\nload_steps = 50\n" } else { "" };
+    let text = SceneText { dt: 0.05, ..SceneText::finer(integrator, MODEL) };
+    let text = text.with(CLAMPED).with(load_steps).with(&prescribed_end(motion, 2.5));
+    of_springs(&text, name, "E = 1e5 Pa, dt = 0.05 s, 50 steps".to_owned(), {
+        let text = text.clone();
+        move |deadline| Ok(march(&mut text.build()?, 50, deadline).endurance())
+    })
+}
+
+/// A free flat body in rigid motion without loads, which conserves its momentum.
+fn rigid(integrator: &'static str, steps: usize) -> Case {
+    let mesh = "rectangle = { size = [2, 1], cells_per_unit = 2 }".to_owned();
+    let text = SceneText { dt: 1e-3, mesh, ..SceneText::small(integrator, MODEL) };
+    let case = text.clone().case(FAMILY, "translating and rotating", format!("dt = 1e-3 s, {steps} steps"), {
+        move |deadline| {
+            let mut simulation = text.build()?;
+            let (spin, speed) = (Vector3::new(0.0, 0.0, 0.5), Vector3::new(3.0, 2.0, 0.0));
+            place_moving(&mut simulation, |X| (*X, speed + spin.cross(&(X - Vector3::new(1.0, 0.5, 0.0)))));
+            let before = super::invariance::momentum(&simulation);
+            let end = march(&mut simulation, steps, deadline);
+            if let Some(trouble) = end.trouble() {
+                return Err(trouble);
+            }
+            let change = (super::invariance::momentum(&simulation) - before).norm() / (1e-12 * before.norm());
+            Ok(Finding::within(change, end.note()))
+        }
+    });
+    Case { margin_is: "relative change of momentum / 1e-12, round-off; must be at most 1", ..case }
+}
+
+/// A case whose elements may invert.
+fn of_springs(
+    text: &SceneText,
+    case: &str,
+    parameters: String,
+    work: impl FnOnce(Deadline) -> Result<Finding, Finding> + Send + 'static,
+) -> Case {
+    Case { margin_is: MARGIN_IS, ..text.case(FAMILY, case, parameters, work) }
+}
