@@ -13,7 +13,7 @@ pub fn computed(setting: &Setting, load: f64) -> Result<[f64; 2], String> {
     let mut text = Setting { integrator: "static", ..setting.clone() }.text();
     for axis in ["x", "y", "z"] {
         text += &format!(
-            "[[prescribed]]\non = {{ axis = \"{axis}\", side = \"min\", within = 1e-9 }}\ncomponents = [\"{axis}\"]\n"
+            "[[prescribed]]\non = {{ axis = \"{axis}\", side = \"min\", within = 1e-9 }}\ndisplacement = [0, 0, 0]\ncomponents = [\"{axis}\"]\n"
         );
     }
     text += &format!(

@@ -66,8 +66,9 @@ fn sheared_cube() -> Result<Mistake, String> {
 /// Approach of the loaded sides of the smallest torus.
 fn torus() -> Result<Mistake, String> {
     let mesh = Torus::of_size(182)?.mesh;
-    let constrained: Vec<usize> =
-        supports(&mesh).iter().flat_map(|(node, axes)| axes.iter().map(move |axis| 3 * node + axis)).collect();
+    let supports = supports(&mesh);
+    let of_axis = |(axis, nodes): (usize, &Vec<usize>)| nodes.iter().map(|node| 3 * node + axis).collect::<Vec<_>>();
+    let constrained: Vec<usize> = supports.iter().enumerate().flat_map(of_axis).collect();
     let dense = |shear: f64| -> Result<f64, String> {
         let K = stiffness(&mesh, &elasticity(YOUNG, POISSON, shear));
         Ok(squash(&mesh, &solve(&K, &loads(&mesh), &constrained)?).0)

