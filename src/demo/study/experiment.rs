@@ -1,10 +1,10 @@
 //! The subcommand `experiment`: the experiments of theses, beside their figures.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Subcommand};
-use fem_study::experiments::{flat, write};
+use fem_study::experiments::{self, flat, rtfem, write};
 
 use crate::demo::data;
 use crate::demo::end::End;
@@ -20,6 +20,8 @@ pub struct Arguments {
 enum Experiment {
     /// Two-dimensional deformation: substeps, time, stiffness, triangles, plastic flow and contact of bodies from pictures
     Flat(Flat),
+    /// Finite elements in real time: a squashed torus, its speed, precision, equilibrium, materials and other bodies
+    Rtfem(Rtfem),
 }
 
 #[derive(Debug, Args)]
@@ -27,9 +29,24 @@ struct Flat {
     /// One part; all of them without it
     #[arg(value_parser = PossibleValuesParser::new(flat::names()))]
     part: Option<String>,
-    /// Folder for flat.html, a .csv of each table and an .svg of each picture
-    #[arg(long, value_name = "DIR", default_value = "experiment-flat")]
-    out: PathBuf,
+    #[command(flatten)]
+    options: Options,
+}
+
+#[derive(Debug, Args)]
+struct Rtfem {
+    /// One part; all of them without it
+    #[arg(value_parser = PossibleValuesParser::new(rtfem::names()))]
+    part: Option<String>,
+    #[command(flatten)]
+    options: Options,
+}
+
+#[derive(Debug, Args)]
+struct Options {
+    /// Folder for the page, a .csv of each table and an .svg of each picture [default: experiment-NAME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     /// Fewer and coarser bodies; times are not judged
     #[arg(long)]
     quick: bool,
@@ -37,15 +54,29 @@ struct Flat {
 
 /// Runs the experiment and writes its files. A mark that does not hold is an error.
 pub fn run(arguments: &Arguments) -> Result<(), End> {
-    let Experiment::Flat(Flat { part, out, quick }) = &arguments.experiment;
+    match &arguments.experiment {
+        Experiment::Flat(Flat { part, options }) => {
+            carry_out("flat", options, |data| flat::run(part.as_deref(), data, options.quick))
+        }
+        Experiment::Rtfem(Rtfem { part, options }) => {
+            carry_out("rtfem", options, |data| rtfem::run(part.as_deref(), data, options.quick))
+        }
+    }
+}
+
+fn carry_out(
+    name: &str,
+    options: &Options,
+    experiment: impl Fn(&Path) -> Result<experiments::Experiment, String> + Sync,
+) -> Result<(), End> {
+    let out = &options.out.clone().unwrap_or_else(|| PathBuf::from(format!("experiment-{name}")));
     if out.exists() && !out.is_dir() {
         return Err(End::unusable(format!("--out {}: is a file; give the name of a folder", out.display())));
     }
     let unwritable = |error| End::unusable(format!("--out {}: cannot be written: {error}", out.display()));
     // Before the experiment, which takes a minute.
     std::fs::create_dir_all(out).map_err(unwritable)?;
-    let part = part.as_deref();
-    let found = progress::during("running the experiment", || flat::run(part, &data::folder(), *quick));
+    let found = progress::during("running the experiment", || experiment(&data::folder()));
     let experiment = found.map_err(End::unusable)?;
     write(&experiment, out).map_err(unwritable)?;
     for part in &experiment.parts {
@@ -60,7 +91,7 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
             say!("{:9} {holds}: {}{separator}{}{theirs}", part.name, mark.statement, mark.ours);
         }
     }
-    say!("{}", out.join("flat.html").display());
+    say!("{}", out.join(format!("{name}.html")).display());
     match experiment.parts.iter().flat_map(|part| &part.marks).filter(|mark| mark.holds == Some(false)).count() {
         0 => Ok(()),
         failed => Err(End::Stopped(format!("{failed} marks do not hold"))),

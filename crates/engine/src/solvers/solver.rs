@@ -63,7 +63,11 @@ impl<T: Real> Solver<T> {
     pub fn for_directions(choice: SolverChoice, pattern: &Arc<Pattern>, rest: &[[f64; 3]]) -> Self {
         match choice {
             SolverChoice::Cholesky => Self::with_inverse(choice, pattern, cholesky_for_directions(pattern)),
-            SolverChoice::Lu | SolverChoice::Cg | SolverChoice::Pcg(_) => Self::new(choice, pattern, rest),
+            SolverChoice::Lu
+            | SolverChoice::Cg
+            | SolverChoice::SteepestDescent
+            | SolverChoice::ConjugateDirections
+            | SolverChoice::Pcg(_) => Self::new(choice, pattern, rest),
         }
     }
 

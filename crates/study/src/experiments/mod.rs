@@ -1,7 +1,9 @@
 //! Experiments of the theses from which this software descends, repeated beside the figures that they print.
 
 pub mod flat;
+mod mistake;
 mod output;
+pub mod rtfem;
 
 use fem_chart::Picture;
 

@@ -2,9 +2,9 @@
 
 use fem_scene::simulation::Simulation;
 
-use super::Mistake;
 use crate::experiments::flat::contact::incline;
 use crate::experiments::flat::simulation::{simulation, step};
+use crate::experiments::mistake::Mistake;
 
 /// Frames in a second.
 const FRAMES: f64 = 60.0;

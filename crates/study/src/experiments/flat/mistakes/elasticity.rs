@@ -5,8 +5,8 @@ use fem_engine::tensor::Tensor;
 use fem_mesh::rectangle_mesh;
 use nalgebra::{Matrix2, Vector2};
 
-use super::Mistake;
 use crate::experiments::flat::modulus::{STRAIN, YOUNG, modulus};
+use crate::experiments::mistake::Mistake;
 
 /// Nodal forces of a stretched strip with ν = 0, divided by 3 in place of 2.
 pub fn thirds() -> Result<Mistake, String> {

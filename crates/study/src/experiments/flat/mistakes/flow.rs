@@ -3,8 +3,8 @@
 use fem_engine::plasticity::Additive;
 use fem_engine::tensor::{Tensor, dot, zero};
 
-use super::Mistake;
 use crate::experiments::flat::plasticity::relaxation::relaxation;
+use crate::experiments::mistake::Mistake;
 
 /// The elastic strain at constant strain after half a second.
 pub fn creep() -> Result<Mistake, String> {

@@ -2,8 +2,8 @@
 
 use fem_scene::simulation::Simulation;
 
-use super::Mistake;
 use crate::experiments::flat::simulation::{simulation, steps};
+use crate::experiments::mistake::Mistake;
 
 /// The observed order of Verlet's method on a vibrating strip, and on an oscillator.
 pub fn verlet() -> Result<Mistake, String> {

@@ -8,8 +8,8 @@ use nalgebra::Vector2;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-use super::Mistake;
 use crate::experiments::flat::object::{meshed, picture};
+use crate::experiments::mistake::Mistake;
 
 /// Circumradius over shortest edge of the best triangle.
 pub fn best() -> Mistake {
