@@ -148,7 +148,10 @@ fn by_poisson(torus: &Torus, finer: f64) -> Result<(Vec<[f64; 5]>, Vec<Mark>), S
     }
     let (least, most) = (rows[0][4], rows[rows.len() - 1][4]);
     let statement = "linear tetrahedra lock: the flexibility lacks more at ν = 0.49 than at 0";
-    Ok((rows, vec![Mark::new(statement, format!("{least:+.1} % → {most:+.1} %"), most < least && least < 0.0)]))
+    let mut mark = Mark::new(statement, format!("{least:+.1} % → {most:+.1} %"), most < least && least < 0.0);
+    // A mesh that is only twice as fine has another surface, whose effect is larger than that of locking.
+    mark.holds = mark.holds.filter(|_| finer >= 4.0);
+    Ok((rows, vec![mark]))
 }
 
 fn approaches(torus: &Torus, young: f64, poisson: f64) -> Result<[f64; 3], String> {

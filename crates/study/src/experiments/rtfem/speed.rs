@@ -11,8 +11,11 @@ use super::torus::{ACCEPTED, Torus, sizes};
 use crate::experiments::{Figure, Mark, Part, Table};
 use crate::machine::threads;
 
-/// Times that the thesis prints, ms a step: elements, on its processor (LU), on its graphics card.
-const THEIRS: [(usize, Option<f64>, f64); 8] = [
+/// Elements, and the times of the thesis on its processor (LU) and on its graphics card, ms a step.
+type Theirs = (usize, Option<f64>, f64);
+
+/// Times that the thesis prints.
+const THEIRS: [Theirs; 8] = [
     (182, Some(271.0), 3.0),
     (245, Some(640.0), 4.0),
     (572, Some(3000.0), 5.0),
@@ -212,7 +215,7 @@ impl Found {
                 .collect(),
             ..Series::default()
         };
-        let of_thesis = |time: &dyn Fn(&(usize, Option<f64>, f64)) -> Option<f64>| {
+        let of_thesis = |time: &dyn Fn(&Theirs) -> Option<f64>| {
             THEIRS.iter().filter_map(|row| Some((row.0 as f64, time(row)?))).collect::<Vec<_>>()
         };
         chart.series.push(series("thesis, processor", 0, of_thesis(&|row| row.1)));
