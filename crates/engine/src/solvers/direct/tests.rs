@@ -53,7 +53,7 @@ fn error_of_single(beam: &Beam, values: &[[[f64; 3]; 3]]) -> f64 {
 #[test]
 fn a_factor_in_single_precision_has_a_few_digits_at_any_scale() {
     let beam = Beam::new(4, Stored::Lower);
-    for scale in [1.0, 1e-200, 1e200] {
+    for scale in [1.0, 1e-100, 1e100] {
         let values: Vec<_> = beam.values::<f64>().iter().map(|block| block.map(|row| row.map(|x| scale * x))).collect();
         let error = error_of_single(&beam, &values);
         assert!(error < 1e-4 && error > 1e-12, "{scale:e}: {error:e}");
