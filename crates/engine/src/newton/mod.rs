@@ -5,6 +5,7 @@
 //! positive definite, else the one projected element by element, else that one with a growing shift of its diagonal. Every step
 //! decreases the energy; where its change is within rounding error, the directional derivative.
 
+mod direction;
 mod forcing;
 mod hessian;
 mod increment;
@@ -22,7 +23,7 @@ use crate::history::{put, put_flag, put_option, take, take_flag, take_option};
 use crate::number::Real;
 use crate::solvers::Solver;
 use crate::sparse::Block;
-use crate::vector::{dot, max_norm, norm};
+use crate::vector::{max_norm, norm};
 use incremental_potential::{IncrementalPotential, Workspace};
 use lbfgs::Lbfgs;
 
@@ -242,27 +243,6 @@ impl<T: Real> Newton<T> {
                 Factor::FreshProjected => return self.check_stationary(potential, at),
             }
         }
-    }
-
-    /// Solves for the direction, and returns the directional derivative; it is negative in a descent direction and NaN where the solve
-    /// fails.
-    fn find_direction(&mut self, at: &mut Iterate, tolerance: f64) -> f64 {
-        for (right, g) in self.right.iter_mut().zip(&self.gradient) {
-            *right = g.map(|g| -g);
-        }
-        let solved = if self.solver.is_iterative() {
-            at.forcing = at.next_forcing(tolerance).max(self.limits.solver_tolerance);
-            self.solve_inexactly(at.forcing)
-        } else {
-            let Self { solver, lbfgs, direction, right, .. } = self;
-            direction.copy_from_slice(right);
-            lbfgs.apply(direction, |x| {
-                right.copy_from_slice(x);
-                solver.apply(right, x);
-            });
-            true
-        };
-        if solved { dot(&self.gradient, &self.direction) } else { f64::NAN }
     }
 
     fn accept(&mut self, w: &mut [[T; 3]], at: &mut Iterate, length: f64) {

@@ -11,10 +11,9 @@ use super::torus::{ACCEPTED, Torus, sizes};
 use crate::experiments::{Figure, Mark, Part, Table};
 use crate::machine::threads;
 
-/// Elements, and the times of the thesis on its processor (LU) and on its graphics card, ms a step.
+/// Elements, and the times that the thesis prints on its processor (LU) and on its graphics card, ms a step.
 type Theirs = (usize, Option<f64>, f64);
 
-/// Times that the thesis prints.
 const THEIRS: [Theirs; 8] = [
     (182, Some(271.0), 3.0),
     (245, Some(640.0), 4.0),

@@ -1,0 +1,28 @@
+//! The direction of an iteration: a solve with the Hessian, or with a kept factor and the pairs of limited-memory BFGS.
+
+use super::{Iterate, Newton};
+use crate::number::Real;
+use crate::vector::dot;
+
+impl<T: Real> Newton<T> {
+    /// Solves for the direction, and returns the directional derivative; it is negative in a descent direction and NaN where the solve
+    /// fails.
+    pub(super) fn find_direction(&mut self, at: &mut Iterate, tolerance: f64) -> f64 {
+        for (right, g) in self.right.iter_mut().zip(&self.gradient) {
+            *right = g.map(|g| -g);
+        }
+        let solved = if self.solver.is_iterative() {
+            at.forcing = at.next_forcing(tolerance).max(self.limits.solver_tolerance);
+            self.solve_inexactly(at.forcing)
+        } else {
+            let Self { solver, lbfgs, direction, right, .. } = self;
+            direction.copy_from_slice(right);
+            lbfgs.apply(direction, |x| {
+                right.copy_from_slice(x);
+                solver.apply(right, x);
+            });
+            true
+        };
+        if solved { dot(&self.gradient, &self.direction) } else { f64::NAN }
+    }
+}
