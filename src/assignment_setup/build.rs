@@ -120,6 +120,7 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         ("damping", scene.damping.is_some()),
         ("static", scene.statics.is_some()),
         ("newmark", scene.newmark.is_some()),
+        ("iterations", scene.iterations.is_some()),
         ("generalized_alpha", scene.generalized_alpha.is_some()),
         ("body_force", scene.body_force.is_some()),
         ("traction", !scene.traction.is_empty()),

@@ -5,6 +5,7 @@ mod checkpoint;
 mod contact;
 mod divergence;
 mod integrator;
+mod iterated_check;
 mod parts;
 mod path_check;
 mod plan;
@@ -116,6 +117,7 @@ fn check<T: Real>(scene: &Scene, body: &Body, epsilon: f64) -> Result<Option<Any
     let method = scene.method();
     range_check::check_tolerance(&method, epsilon).map_err(refuse)?;
     path_check::check(&method, body).map_err(refuse)?;
+    iterated_check::check(&method).map_err(refuse)?;
     integrator::check_solver(&method, body.shape.mesh.vertices().len()).map_err(refuse)?;
     if method.integrator == IntegratorKind::Static {
         rigid_modes::check(body).map_err(refuse)?;
@@ -140,19 +142,27 @@ impl<T: Real> Simulator<T> {
         let mut plan = Plan::new(&body);
         let gravity = body.gravity;
         let with_obstacles = body.contact.is_some().then(|| body.clone());
-        let mut system = match method.integrator.is_explicit() {
-            true => System::without_matrix(&body, law, own),
-            false => System::with_forces(body, law, solver, own),
+        let mut system = match method.integrator.has_matrix() {
+            true => System::with_forces(body, law, solver, own),
+            false => System::without_matrix(&body, law, own),
         };
         range_check::check(&method, &system).map_err(|(field, problem)| scene.refuse(field, &problem))?;
         let is_conservative = !system.forces.has_followers();
         path_check::check_force(&method, is_conservative).map_err(|(field, problem)| scene.refuse(field, &problem))?;
+        iterated_check::check_forces(&method, &system.forces)
+            .map_err(|(field, problem)| scene.refuse(field, &problem))?;
         plan.add_forces(system.forces.all().map(|(force, _)| force).filter(|force| force.name() != anchors::NAME));
         let contact = Contacts::new(with_obstacles.as_ref(), &mut system);
         let initial_velocity = initial_velocity(&velocities, &system);
         let state = State::at_start(system.nodes(), &initial_velocity);
         Ok(Self {
-            integrator: integrator::build(method.integrator, &method, &system, solver),
+            integrator: integrator::build(
+                method.integrator,
+                &method,
+                &system,
+                solver,
+                contact.as_ref().map(|contact| contact.planes()),
+            ),
             supplied: SuppliedEnergy::default(),
             contact,
             weight: gravity.map(|gravity| gravity.norm() * system.total_mass),

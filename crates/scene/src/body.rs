@@ -131,7 +131,8 @@ pub fn body_of_shape(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, S
 }
 
 fn lumps_by_default(scene: &Scene, nodes: usize) -> bool {
-    scene.time.integrator.is_explicit() && (nodes > CONSISTENT_MASS || !scene.planes.is_empty())
+    let method = scene.time.integrator;
+    method.needs_node_masses() || method.is_explicit() && (nodes > CONSISTENT_MASS || !scene.planes.is_empty())
 }
 
 /// Scales, checks and refines the mesh.

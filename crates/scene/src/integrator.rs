@@ -18,12 +18,16 @@ pub enum Integrator {
     Newmark,
     GeneralizedAlpha,
     Bdf2,
+    Pbd,
+    Xpbd,
+    Vbd,
+    ProjectiveDynamics,
     Static,
 }
 
 impl Integrator {
     /// All methods.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 16] = [
         Self::ExplicitEuler,
         Self::SemiImplicitEuler,
         Self::Rk2,
@@ -35,12 +39,19 @@ impl Integrator {
         Self::Newmark,
         Self::GeneralizedAlpha,
         Self::Bdf2,
+        Self::Pbd,
+        Self::Xpbd,
+        Self::Vbd,
+        Self::ProjectiveDynamics,
         Self::Static,
     ];
 
     /// The implicit methods of second order in time.
     pub const SECOND_ORDER_IMPLICIT: [Self; 4] =
         [Self::ImplicitMidpoint, Self::Newmark, Self::GeneralizedAlpha, Self::Bdf2];
+
+    /// The methods that iterate over constraints, nodes or elements, and not over solutions of a linearized system: `[iterations]`.
+    pub const ITERATED: [Self; 4] = [Self::Pbd, Self::Xpbd, Self::Vbd, Self::ProjectiveDynamics];
 
     /// The name as scene files spell it.
     pub fn name(self) -> &'static str {
@@ -56,22 +67,47 @@ impl Integrator {
             Self::Newmark => "newmark",
             Self::GeneralizedAlpha => "generalized_alpha",
             Self::Bdf2 => "bdf2",
+            Self::Pbd => "pbd",
+            Self::Xpbd => "xpbd",
+            Self::Vbd => "vbd",
+            Self::ProjectiveDynamics => "projective_dynamics",
             Self::Static => "static",
         }
     }
 
-    /// Whether a step needs forces alone, and no matrix beside the mass.
+    /// Whether a step computes accelerations from forces alone, and is stable for short steps only.
     pub fn is_explicit(self) -> bool {
         match self {
             Self::ExplicitEuler | Self::SemiImplicitEuler | Self::Rk2 | Self::Rk4 | Self::Verlet => true,
             Self::LinearlyImplicitEuler | Self::ImplicitEuler | Self::Static => false,
             Self::ImplicitMidpoint | Self::Newmark | Self::GeneralizedAlpha | Self::Bdf2 => false,
+            Self::Pbd | Self::Xpbd | Self::Vbd | Self::ProjectiveDynamics => false,
         }
+    }
+
+    /// Whether it is one of [`ITERATED`](Self::ITERATED).
+    pub fn is_iterated(self) -> bool {
+        Self::ITERATED.contains(&self)
+    }
+
+    /// Whether a step needs the matrix of a linear system, beside the mass.
+    pub fn has_matrix(self) -> bool {
+        !self.is_explicit() && !self.needs_node_masses()
+    }
+
+    /// Whether a step needs a mass for each node, and so a lumped one.
+    pub fn needs_node_masses(self) -> bool {
+        matches!(self, Self::Pbd | Self::Xpbd | Self::Vbd)
     }
 
     /// Whether a step needs Newton's method.
     pub fn has_newton(self) -> bool {
-        !self.is_explicit() && self != Self::LinearlyImplicitEuler
+        !self.is_explicit() && self != Self::LinearlyImplicitEuler && !self.is_iterated()
+    }
+
+    /// Whether obstacles stop nodes one by one as its iterations go on, without a barrier.
+    pub fn projects_contact(self) -> bool {
+        self.needs_node_masses()
     }
 
     /// Whether a step can keep a body outside an obstacle.
@@ -80,7 +116,8 @@ impl Integrator {
             Self::ExplicitEuler | Self::SemiImplicitEuler | Self::Rk2 | Self::Rk4 | Self::Verlet => true,
             Self::ImplicitEuler | Self::Static => true,
             Self::ImplicitMidpoint | Self::Newmark | Self::GeneralizedAlpha | Self::Bdf2 => true,
-            Self::LinearlyImplicitEuler => false,
+            Self::Pbd | Self::Xpbd | Self::Vbd => true,
+            Self::LinearlyImplicitEuler | Self::ProjectiveDynamics => false,
         }
     }
 

@@ -29,7 +29,7 @@ impl Anchors {
     }
 
     /// The engine's number of each spring's node, and the displacement at which the spring is at rest, m.
-    fn springs<T: Real>(&self, time: f64) -> impl Iterator<Item = (usize, [T; 3])> {
+    pub fn springs<T: Real>(&self, time: f64) -> impl Iterator<Item = (usize, [T; 3])> {
         let anchors = self.interaction.anchors(self.shape.mesh.vertices(), time);
         anchors.map(|Anchor { node, displacement: d }| {
             (self.engine_node[node] as usize, [T::of(d.x), T::of(d.y), T::of(d.z)])

@@ -92,6 +92,11 @@ pub trait Potential<T: Real>: Send + Sync {
         false
     }
 
+    /// The springs of which it consists, for methods that treat them one by one.
+    fn springs(&self) -> &[springs::Spring<T>] {
+        &[]
+    }
+
     /// Energy, J: infinite where `u` is infeasible. A follower load without a potential returns zero.
     fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy;
 

@@ -11,13 +11,17 @@ mod initial_guess;
 mod linearly_implicit_euler;
 mod mass_inverse;
 mod momentum;
+mod pbd;
 mod prescribed_motion;
+mod projection;
+mod projective_dynamics;
 mod rk2;
 mod rk4;
 mod second_order;
 mod semi_implicit_euler;
 mod statics;
 mod verlet;
+mod xpbd;
 
 pub use accelerations::{Accelerations, Stage};
 pub use critical_time_step::critical_time_step;
@@ -26,12 +30,16 @@ pub use implicit_euler::ImplicitEuler;
 pub use impulses::{Impulse, Impulses};
 pub use linearly_implicit_euler::LinearlyImplicitEuler;
 pub use mass_inverse::MassInverse;
+pub use pbd::Pbd;
+pub use projection::PlaneContacts;
+pub use projective_dynamics::ProjectiveDynamics;
 pub use rk2::Rk2;
 pub use rk4::Rk4;
 pub use second_order::{Scheme, SecondOrder};
 pub use semi_implicit_euler::SemiImplicitEuler;
 pub use statics::Statics;
 pub use verlet::Verlet;
+pub use xpbd::Xpbd;
 
 pub use crate::newton::Convergence;
 
@@ -105,6 +113,16 @@ pub trait Integrator<T: Real>: Send {
     /// Work of the prescribed motions on the body in the last step, J; `None` where the method does not know the reactions.
     fn work_of_motions(&self) -> Option<f64> {
         None
+    }
+
+    /// Contacts with planes of a method that puts nodes onto them as its iterations go on.
+    fn plane_contacts(&self) -> Option<&PlaneContacts> {
+        None
+    }
+
+    /// Memory of the constraints of a method that iterates over them, bytes.
+    fn constraint_bytes(&self) -> usize {
+        0
     }
 
     /// Whether it searches along directions, and so evaluates energies.

@@ -16,6 +16,7 @@ mod logarithmic;
 mod mooney_rivlin;
 mod neo_hookean;
 mod plane_corotated;
+mod quadratic_form;
 mod st_venant_kirchhoff;
 mod stable_neo_hookean;
 #[cfg(test)]
@@ -26,6 +27,7 @@ mod yeoh;
 pub use cauchy::{cauchy_stress, plane_cauchy_stress, pushed_forward};
 pub use invariants::OfInvariants;
 pub use plane_corotated::PlaneCorotated;
+pub use quadratic_form::QuadraticForm;
 pub use vectorized::Vectorized;
 
 use crate::number::Number;

@@ -1,5 +1,7 @@
 //! The elements of a body, grouped by material: the loops over a group are compiled for its law.
 
+mod metric;
+
 use fem_scene::{Body, Material, PlaneState};
 use nalgebra::{Matrix3, Vector3};
 
@@ -10,7 +12,7 @@ use crate::materials::{
 use crate::model::any_elements::{AnyElements, with_elements};
 use crate::model::numbering::Numbering;
 use crate::model::solid::{Solid, SolidLaws, with_law_and_elements, with_law_by_reference};
-use crate::number::Real;
+use crate::number::{Lanes, Real};
 use crate::plasticity::{Internal, Plasticity};
 use crate::sparse::{Block, Pattern};
 
@@ -20,11 +22,21 @@ pub struct Solids<T: Real> {
     /// Number of quadrature points: one in every linear element, three in a quadratic triangle.
     pub count: usize,
     points_per_element: usize,
+    nodes: usize,
     /// Factor of the moduli of each of the mesh's elements; empty where all are 1.
     factors: Vec<f64>,
     plasticity: Option<Plasticity<T>>,
     /// No stress acts across a flat body.
     is_in_plane_stress: bool,
+}
+
+/// Work with the law of a material, written for any lanes.
+pub trait LawWork<T: Real> {
+    /// The result.
+    type Output;
+
+    /// Does the work.
+    fn run<L: Lanes<Element = T>>(self, law: &dyn Law<L>, allows_inversion: bool) -> Self::Output;
 }
 
 impl<T: Real> Solids<T> {
@@ -63,13 +75,48 @@ impl<T: Real> Solids<T> {
         let count = count * points_per_element;
         let plasticity = body.plasticity.map(|model| Plasticity::new(model, count, body.shape.mesh.is_flat()));
         let is_in_plane_stress = body.material.plane == Some(PlaneState::Stress);
-        Self { groups, count, points_per_element, factors: factors.clone(), plasticity, is_in_plane_stress }
+        Self {
+            groups,
+            count,
+            points_per_element,
+            nodes: rest.len(),
+            factors: factors.clone(),
+            plasticity,
+            is_in_plane_stress,
+        }
+    }
+
+    /// Number of materials.
+    pub fn materials(&self) -> usize {
+        self.groups.len()
+    }
+
+    /// Numbers in the mesh of the elements of a material. The body has linear elements.
+    pub fn numbers(&self, material: usize) -> Vec<usize> {
+        let of_group = &self.groups[material].numbers;
+        if of_group.is_empty() { (0..self.count).collect() } else { of_group.clone() }
+    }
+
+    /// Factor of the moduli of an element of the mesh.
+    pub fn factor(&self, element: usize) -> f64 {
+        self.factors.get(element).copied().unwrap_or(1.0)
+    }
+
+    /// Runs work with the law of a material, in the widest lanes of this processor.
+    pub fn with_law<W: LawWork<T>>(&self, material: usize, work: W) -> W::Output {
+        let group = &self.groups[material];
+        let allows_inversion = group.laws.law.allows_inversion();
+        match &group.fast {
+            Some(laws) => work.run(laws.as_law(), allows_inversion),
+            None => work.run(group.laws.as_law(), allows_inversion),
+        }
     }
 
     /// No elements: a mass-spring body has its elasticity in its springs.
     fn none() -> Self {
         Self {
             groups: Vec::new(),
+            nodes: 0,
             count: 0,
             points_per_element: 1,
             factors: Vec::new(),

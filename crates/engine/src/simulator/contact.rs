@@ -1,7 +1,7 @@
 //! Contact in a simulation: steps that keep the body outside its obstacles, and the forces of the obstacles.
 
 use fem_scene::simulation::{Cause, History, Plane, PlaneContact};
-use fem_scene::{Body, ContactPlane, Timer};
+use fem_scene::{Body, ContactPlane, ContactTreatment, Timer};
 use nalgebra::Vector3;
 
 use super::Simulator;
@@ -9,7 +9,7 @@ use crate::forces::contact::barrier::Barrier;
 use crate::forces::contact::friction::{norm, slope_over_y, tangential};
 use crate::forces::contact::planes::Planes;
 use crate::history::{put, take};
-use crate::integrators::{Convergence, Impulses};
+use crate::integrators::{Convergence, Impulses, PlaneContacts};
 use crate::model::system::System;
 use crate::number::Real;
 
@@ -55,6 +55,9 @@ impl<T: Real> Contacts<T> {
     pub(super) fn new(body: Option<&Body>, system: &mut System<T>) -> Option<Self> {
         let contact = body?.contact.as_ref()?;
         let planes = Planes::new(body?, &system.numbering)?;
+        if contact.treatment == ContactTreatment::Projection {
+            system.contact_force = vec![[T::default(); 3]; system.nodes()];
+        }
         Some(Self {
             impulses: Impulses::new(planes.clone(), contact.treatment, system),
             barrier: Barrier::new(body?, &system.numbering)?,
@@ -63,6 +66,11 @@ impl<T: Real> Contacts<T> {
             residual: 0.0,
             timer: Timer::default(),
         })
+    }
+
+    /// The planes.
+    pub(super) fn planes(&self) -> &Planes {
+        &self.planes
     }
 
     /// Memory, bytes.
@@ -113,6 +121,9 @@ impl<T: Real> Simulator<T> {
         }
         let Self { integrator, system, state, substep_dt: dt, counters, last_good, contact, supplied, kind, .. } = self;
         let convergence = integrator.step(system, state, *dt, counters)?;
+        if let Some(contacts) = integrator.plane_contacts() {
+            write_contact_forces(contacts, &mut system.contact_force);
+        }
         let Some(Contacts { impulses: Some(impulses), timer, .. }) = contact else { return Ok(convergence) };
         if timer.time(|| impulses.apply(system, last_good, state, (*kind, *dt))) {
             supplied.add(impulses.work());
@@ -158,6 +169,9 @@ impl<T: Real> Simulator<T> {
                 force: impulse.total(contact.planes.planes[impulse.plane].normal) / *dt,
             };
             return impulses.impulses().iter().map(of_impulse).collect();
+        }
+        if let Some(contacts) = self.integrator.plane_contacts() {
+            return contacts.forces().map(|(plane, node, force)| NodeForce { plane, node, force }).collect();
         }
         let transition = contact.transition_speed * dt;
         let near = contact.planes.near(&state.u, state.time, contact.barrier.distance);
@@ -225,6 +239,16 @@ impl<T: Real> Simulator<T> {
                 Err(Cause::Penetrated { plane, node, depth })
             }
             None => Ok(()),
+        }
+    }
+}
+
+/// Makes the forces of planes on nodes those of the last step, for reports.
+fn write_contact_forces<T: Real>(contacts: &PlaneContacts, forces: &mut [[T; 3]]) {
+    forces.fill([T::default(); 3]);
+    for (_, node, force) in contacts.forces() {
+        for i in 0..3 {
+            forces[node][i] += T::of(force[i]);
         }
     }
 }

@@ -2,9 +2,10 @@
 
 use fem_scene::{Integrator as IntegratorKind, Method, SolverKind};
 
+use crate::forces::contact::planes::Planes;
 use crate::integrators::{
-    ExplicitEuler, ImplicitEuler, Integrator, LinearlyImplicitEuler, Rk2, Rk4, Scheme, SecondOrder, SemiImplicitEuler,
-    Statics, Verlet,
+    ExplicitEuler, ImplicitEuler, Integrator, LinearlyImplicitEuler, Pbd, ProjectiveDynamics, Rk2, Rk4, Scheme,
+    SecondOrder, SemiImplicitEuler, Statics, Verlet, Xpbd,
 };
 use crate::model::system::System;
 use crate::newton::{Newton, NewtonLimits};
@@ -49,6 +50,26 @@ pub fn integrators(kind: IntegratorKind) -> &'static [IntegratorKind] {
             Kind::GeneralizedAlpha,
             Kind::Bdf2,
         ],
+        Kind::ProjectiveDynamics => &[
+            Kind::ProjectiveDynamics,
+            Kind::LinearlyImplicitEuler,
+            Kind::ImplicitEuler,
+            Kind::ImplicitMidpoint,
+            Kind::Newmark,
+            Kind::GeneralizedAlpha,
+            Kind::Bdf2,
+        ],
+        Kind::Pbd | Kind::Xpbd | Kind::Vbd => &[
+            Kind::Pbd,
+            Kind::Xpbd,
+            Kind::ProjectiveDynamics,
+            Kind::LinearlyImplicitEuler,
+            Kind::ImplicitEuler,
+            Kind::ImplicitMidpoint,
+            Kind::Newmark,
+            Kind::GeneralizedAlpha,
+            Kind::Bdf2,
+        ],
         // Where one explicit method is meant to be stable, all are.
         Kind::ExplicitEuler | Kind::SemiImplicitEuler | Kind::Rk2 | Kind::Rk4 | Kind::Verlet => &[
             Kind::ExplicitEuler,
@@ -70,6 +91,8 @@ pub fn integrators(kind: IntegratorKind) -> &'static [IntegratorKind] {
 pub(super) fn solver_choice(method: &Method, nodes: usize) -> SolverChoice {
     let is_static = method.integrator == IntegratorKind::Static;
     match &method.solver {
+        // Its one matrix serves every round of every step.
+        _ if method.integrator == IntegratorKind::ProjectiveDynamics => SolverChoice::Cholesky,
         Some(settings) => settings.into(),
         // Beyond a limit point the matrix is not positive definite.
         None if is_static && method.arc_length => SolverChoice::Lu,
@@ -101,12 +124,13 @@ pub(super) fn switched<T: Real>(
     kind: IntegratorKind,
     method: &Method,
     system: &mut System<T>,
+    planes: Option<&Planes>,
 ) -> Box<dyn Integrator<T>> {
     let choice = solver_choice(method, system.nodes());
-    if !kind.is_explicit() && !system.has_pattern() {
+    if kind.has_matrix() && !system.has_pattern() {
         system.prepare_matrix(choice);
     }
-    build(kind, method, system, choice)
+    build(kind, method, system, choice, planes)
 }
 
 /// Builds an integrator with what it needs, and nothing else.
@@ -115,6 +139,7 @@ pub(super) fn build<T: Real>(
     method: &Method,
     system: &System<T>,
     choice: SolverChoice,
+    planes: Option<&Planes>,
 ) -> Box<dyn Integrator<T>> {
     let rest = || -> Vec<[f64; 3]> { system.rest[..system.free()].iter().map(|x| (*x).into()).collect() };
     let solver = || Solver::new(choice, &system.pattern, &rest());
@@ -147,6 +172,10 @@ pub(super) fn build<T: Real>(
             let scheme = Scheme::new(kind, method).expect("an implicit method of second order");
             Box::new(SecondOrder::new(scheme, newton(), system, method.adaptive.is_some()))
         }
+        IntegratorKind::Xpbd => Box::new(Xpbd::new(&method.iterations, system, planes)),
+        IntegratorKind::Pbd => Box::new(Pbd::new(&method.iterations, system, planes)),
+        IntegratorKind::ProjectiveDynamics => Box::new(ProjectiveDynamics::new(method.iterations, solver(), system)),
+        IntegratorKind::Vbd => unreachable!("vbd is refused when the simulation is built"),
         IntegratorKind::Static => Box::new(Statics::new(newton(), system, method.load_steps)),
     }
 }

@@ -98,7 +98,7 @@ impl Plan {
                 None => left_out_without("plasticity", "[plasticity]"),
             },
             built("state", format!("displacements and velocities in {number}")),
-            built("mass", mass(self.has_lumped_mass, kind.is_explicit())),
+            built("mass", mass(self.has_lumped_mass, kind)),
             if self.is_mass_spring {
                 Part::left_out("forces", "no element is elastic: material.model is \"mass_spring\"")
             } else {
@@ -180,20 +180,24 @@ fn material(material: &Material) -> String {
     format!("{}{parameters}{note}", material.model)
 }
 
-fn mass(is_lumped: bool, is_explicit: bool) -> String {
+fn mass(is_lumped: bool, kind: IntegratorKind) -> String {
+    if is_lumped && kind.needs_node_masses() {
+        return format!("lumped at the nodes: {} moves them one by one", kind.name());
+    }
     if is_lumped {
         return format!(
             "lumped at the nodes: [mass], or an explicit method and more than {CONSISTENT_MASS} nodes or [[planes]]"
         );
     }
-    let cost = if is_explicit { "; each evaluation solves with it, where mass.lumped = true divides" } else { "" };
+    let cost =
+        if kind.is_explicit() { "; each evaluation solves with it, where mass.lumped = true divides" } else { "" };
     format!("consistent: couples the nodes of each element{cost}")
 }
 
 /// Parts of the time integration method.
 fn of_method(kind: IntegratorKind, projection: Projection, choice: SolverChoice, is_minimized: bool) -> Vec<Part> {
     let name = kind.name();
-    let has_matrix = !kind.is_explicit();
+    let has_matrix = kind.has_matrix();
     let has_line_search = kind.has_newton() && is_minimized;
     let mut parts: Vec<Part> = if has_matrix {
         solver(name, choice).into()

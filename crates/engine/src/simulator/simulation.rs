@@ -145,11 +145,15 @@ impl<T: Real> Simulation for Simulator<T> {
     fn next_integrator(&mut self) -> &'static str {
         let method = self.method.integrator;
         let is_usable = |kind: IntegratorKind| {
-            self.contact.is_none() || (kind.supports_contact() && kind.is_explicit() == method.is_explicit())
+            self.contact.is_none()
+                || (kind.supports_contact()
+                    && kind.is_explicit() == method.is_explicit()
+                    && kind.projects_contact() == method.projects_contact())
         };
         let methods: Vec<_> = integrators(method).iter().copied().filter(|kind| is_usable(*kind)).collect();
         self.kind = self.kind.next_in(&methods);
-        self.integrator = switched(self.kind, &self.method, &mut self.system);
+        let planes = self.contact.as_ref().map(|contact| contact.planes());
+        self.integrator = switched(self.kind, &self.method, &mut self.system, planes);
         self.kind.name()
     }
 

@@ -23,6 +23,7 @@ mod mass_spring;
 mod orders;
 mod parts;
 mod plasticity;
+mod position_based;
 mod precision;
 mod pressures;
 mod quadratic;

@@ -5,6 +5,7 @@ pub(crate) mod contact;
 mod curves;
 pub(crate) mod flat;
 mod initial;
+mod iterations;
 mod loads;
 mod mass_spring;
 mod materials;
@@ -32,6 +33,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     check_time(&scene.time)?;
     unused::check(scene)?;
     second_order::check(scene)?;
+    iterations::check(scene)?;
     loads::check(scene)?;
     constraints::check(scene)?;
     curves::check(scene)?;

@@ -6,7 +6,7 @@ use crate::{Integrator, Pipeline, Scene};
 /// A table, whether the scene has it, whether its integrator uses it, and which integrators do.
 type Use = (&'static str, bool, bool, &'static str);
 
-fn uses(scene: &Scene) -> [Use; 7] {
+fn uses(scene: &Scene) -> [Use; 8] {
     let method = scene.time.integrator;
     let is_static = method == Integrator::Static;
     [
@@ -24,11 +24,17 @@ fn uses(scene: &Scene) -> [Use; 7] {
             method.has_newton(),
             "implicit_euler, an implicit method of second order, or static",
         ),
-        ("solver", scene.solver.is_some(), !method.is_explicit(), "an implicit method or static"),
+        (
+            "solver",
+            scene.solver.is_some(),
+            method.has_matrix() && !method.is_iterated(),
+            "an implicit method with a linear solver, or static",
+        ),
+        ("iterations", scene.iterations.is_some(), method.is_iterated(), "pbd, xpbd, vbd or projective_dynamics"),
         (
             "contact",
             scene.contact.is_some(),
-            !method.is_explicit(),
+            !method.is_explicit() && !method.is_iterated(),
             "implicit_euler, an implicit method of second order, or static",
         ),
         ("damping", scene.damping.is_some(), !is_static, "a method that moves: equilibrium has no velocities"),
@@ -64,6 +70,7 @@ impl Scene {
                 "newmark" => self.newmark = None,
                 "generalized_alpha" => self.generalized_alpha = None,
                 "newton" => self.newton = None,
+                "iterations" => self.iterations = None,
                 "solver" => self.solver = None,
                 "contact" => self.contact = None,
                 "damping" => self.damping = None,

@@ -106,6 +106,9 @@ impl Failure {
             Integrator::ImplicitEuler => {
                 format!("use a time step of {half} s or less, smaller loads, or a gentler pull")
             }
+            _ if integrator.is_iterated() => {
+                format!("use a time step of {half} s or less, more iterations.count, or implicit_euler")
+            }
             _ if integrator.has_newton() => {
                 format!("use a time step of {half} s or less, a gentler pull, or implicit_euler")
             }

@@ -77,6 +77,22 @@ pub enum Projection {
     Never,
 }
 
+/// `[iterations]`: the integrators `pbd`, `xpbd`, `vbd` and `projective_dynamics`.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct IterationsTable {
+    /// Sweeps, or local–global rounds, in a step; 20 by default.
+    pub count: Option<usize>,
+    /// Relative change of the velocity in an iteration below which a step ends before `count` of them.
+    pub tolerance: Option<f64>,
+    /// Spectral radius of Chebyshev acceleration; none by default.
+    pub acceleration: Option<f64>,
+    /// Stiffness of the constraints of `pbd`, 0 to 1; 1 by default.
+    pub stiffness: Option<f64>,
+    /// Whether `xpbd` keeps the residual of the equation of motion, so that its iterations converge to implicit Euler; `true` by default.
+    pub residual: Option<bool>,
+}
+
 /// `[solver]`
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]

@@ -19,8 +19,8 @@ pub use loads::{BodyForceTable, DragTable, DragVertex, GravityTable, SpringTable
 pub(crate) use material::IN_PLANE_STRESS;
 pub use material::{MODELS, Material, MaterialsTable, PlaneState};
 pub use method::{
-    AdaptiveTable, DampingTable, GeneralizedAlphaTable, NewmarkTable, NewtonTable, Precision, Preconditioner,
-    Projection, SolverKind, SolverTable, StaticTable, TimeTable,
+    AdaptiveTable, DampingTable, GeneralizedAlphaTable, IterationsTable, NewmarkTable, NewtonTable, Precision,
+    Preconditioner, Projection, SolverKind, SolverTable, StaticTable, TimeTable,
 };
 pub use plasticity::{PlasticModel, PlasticityTable};
 pub use selector::{BoxTable, On, Plane, Region, Selector, SidePlane, SphereTable};
@@ -99,6 +99,8 @@ pub struct Scene {
     pub newmark: Option<NewmarkTable>,
     /// `[generalized_alpha]`
     pub generalized_alpha: Option<GeneralizedAlphaTable>,
+    /// `[iterations]`
+    pub iterations: Option<IterationsTable>,
     /// `[newton]`
     pub newton: Option<NewtonTable>,
     /// `[solver]`

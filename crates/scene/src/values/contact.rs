@@ -26,6 +26,8 @@ pub enum ContactTreatment {
     Barrier,
     /// Impulses at the end of a step, in explicit methods.
     Impulses,
+    /// Nodes put onto the planes as the iterations of a step go on, with Coulomb's bound on the way along them.
+    Projection,
 }
 
 /// A half-space that the body does not enter.
@@ -141,9 +143,10 @@ pub(crate) fn contact(scene: &Scene, mesh: &BodyMesh) -> Result<Option<Contact>,
         }
     }
     let table = scene.contact.clone().unwrap_or_default();
-    let treatment = match scene.time.integrator.is_explicit() {
-        true => ContactTreatment::Impulses,
-        false => ContactTreatment::Barrier,
+    let treatment = match scene.time.integrator {
+        method if method.is_explicit() => ContactTreatment::Impulses,
+        method if method.projects_contact() => ContactTreatment::Projection,
+        _ => ContactTreatment::Barrier,
     };
     Ok(Some(Contact {
         planes,

@@ -1,9 +1,9 @@
 //! The numerical method of a scene, and the damping of a body.
 
-use crate::tables::{NewtonTable, SolverTable};
+use crate::tables::{IterationsTable, NewtonTable, SolverTable};
 use crate::{Integrator, Precision, Preconditioner, Projection, Scene, SolverKind};
 
-/// Settings of `[time]`, `[static]`, `[newmark]`, `[generalized_alpha]`, `[newton]` and `[solver]`.
+/// Settings of `[time]`, `[static]`, `[newmark]`, `[generalized_alpha]`, `[iterations]`, `[newton]` and `[solver]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Method {
     /// Time integration method.
@@ -25,6 +25,8 @@ pub struct Method {
     pub newmark: NewmarkParameters,
     /// Spectral radius ρ∞ of `generalized_alpha`.
     pub rho_inf: f64,
+    /// Iterations of `pbd`, `xpbd`, `vbd` and `projective_dynamics`.
+    pub iterations: IterationSettings,
     /// Newton's method.
     pub newton: NewtonSettings,
     /// Linear solver; `None` if the scene leaves the choice to the pipeline.
@@ -38,6 +40,33 @@ pub struct NewmarkParameters {
     pub beta: f64,
     /// The same in its velocity.
     pub gamma: f64,
+}
+
+/// Settings of the iterated methods.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IterationSettings {
+    /// Largest number of sweeps, or of local–global rounds, in a step.
+    pub count: usize,
+    /// Relative change of the velocity in an iteration at which a step ends; `None` for steps of `count` iterations.
+    pub tolerance: Option<f64>,
+    /// Spectral radius of Chebyshev acceleration.
+    pub acceleration: Option<f64>,
+    /// Stiffness of the constraints of `pbd`, 0 to 1.
+    pub stiffness: f64,
+    /// Whether `xpbd` keeps the residual of the equation of motion.
+    pub residual: bool,
+}
+
+impl IterationSettings {
+    fn new(table: &IterationsTable) -> Self {
+        Self {
+            count: table.count.unwrap_or(20),
+            tolerance: table.tolerance,
+            acceleration: table.acceleration,
+            stiffness: table.stiffness.unwrap_or(1.0),
+            residual: table.residual.unwrap_or(true),
+        }
+    }
 }
 
 /// Settings of Newton's method; those that are `None` have a default that depends on the integrator.
@@ -100,6 +129,7 @@ impl Scene {
                 gamma: self.newmark.as_ref().and_then(|table| table.gamma).unwrap_or(0.5),
             },
             rho_inf: self.generalized_alpha.as_ref().and_then(|table| table.rho_inf).unwrap_or(0.8),
+            iterations: IterationSettings::new(self.iterations.as_ref().unwrap_or(&IterationsTable::default())),
             newton: self.newton.as_ref().map(newton).unwrap_or_default(),
             solver: self.solver.as_ref().map(solver),
         }

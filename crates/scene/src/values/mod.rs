@@ -13,7 +13,7 @@ pub use constraints::{DirichletCondition, Motion, Rotation};
 pub use contact::{Contact, ContactPlane, ContactTreatment, PlaneMotion};
 pub use loads::{Drag, Pressure, Spring, Traction, highest_node};
 pub use materials::MaterialRegion;
-pub use method::{Method, NewmarkParameters, NewtonSettings, RayleighDamping, SolverSettings};
+pub use method::{IterationSettings, Method, NewmarkParameters, NewtonSettings, RayleighDamping, SolverSettings};
 pub use plasticity::Plasticity;
 
 pub(crate) use constraints::dirichlet_conditions;

@@ -106,6 +106,10 @@ fn every_name_of_the_format_is_known() {
         "newmark",
         "generalized_alpha",
         "bdf2",
+        "pbd",
+        "xpbd",
+        "vbd",
+        "projective_dynamics",
         "static",
     ];
     for name in names {

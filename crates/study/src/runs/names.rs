@@ -16,6 +16,10 @@ pub fn name(integrator: Integrator) -> &'static str {
         Integrator::Newmark => "Newmark",
         Integrator::GeneralizedAlpha => "generalized-α",
         Integrator::Bdf2 => "BDF2",
+        Integrator::Pbd => "PBD",
+        Integrator::Xpbd => "XPBD",
+        Integrator::Vbd => "VBD",
+        Integrator::ProjectiveDynamics => "projective dynamics",
         Integrator::Static => "static",
     }
 }

@@ -9,7 +9,7 @@ use super::{Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
 use crate::number::{Real, is_positive};
 use crate::sparse::{Block, Pattern};
-use spring::Spring;
+pub use spring::Spring;
 
 /// Key in the statistics.
 pub const NAME: &str = "springs";
@@ -90,6 +90,10 @@ impl<T: Real> Potential<T> for Springs<T> {
 
     fn is_internal(&self) -> bool {
         true
+    }
+
+    fn springs(&self) -> &[Spring<T>] {
+        &self.springs
     }
 
     fn couplings(&self) -> Vec<[u32; 2]> {

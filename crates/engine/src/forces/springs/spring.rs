@@ -5,17 +5,17 @@ use fem_scene::Body;
 use crate::forces::{Energy, HessianKind};
 use crate::model::numbering::Numbering;
 use crate::number::Real;
-use crate::sparse::Block;
+use crate::sparse::{Block, Pattern};
 
 /// A spring between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Spring<T> {
+pub struct Spring<T> {
     /// The engine's numbers of its ends a and b.
-    pub(super) nodes: [u32; 2],
+    pub nodes: [u32; 2],
     /// X_b − X_a at rest, m.
     edge: [T; 3],
     /// k, N/m
-    pub(super) stiffness: T,
+    pub stiffness: T,
     /// l, m
     length: T,
     /// |X_b − X_a|² − l², m²: zero where the spring is at rest with the body.
@@ -25,6 +25,31 @@ pub(super) struct Spring<T> {
 }
 
 impl<T: Real> Spring<T> {
+    /// A spring of 1 N/m between two nodes, at rest where they are.
+    pub fn at_rest(nodes: [u32; 2], [a, b]: [nalgebra::Vector3<f64>; 2]) -> Self {
+        let edge = b - a;
+        Self {
+            nodes,
+            edge: [T::of(edge.x), T::of(edge.y), T::of(edge.z)],
+            stiffness: T::one(),
+            length: T::of(edge.norm()),
+            excess: T::default(),
+            damping: T::default(),
+        }
+    }
+
+    /// Adds (k 1, −k 1; −k 1, k 1) to a matrix, N/m: Liu, Bargteil, O'Brien and Kavan, Fast simulation of mass-spring systems (2013), eq. 12.
+    pub fn add_metric(&self, pattern: &Pattern, values: &mut [Block<T, 3>]) {
+        let ([a, b], one) = (self.ends(), T::one());
+        for (row, column, sign) in [(a, a, one), (b, b, one), (a, b, -one), (b, a, -one)] {
+            if let Some(block) = pattern.find(row, column) {
+                for i in 0..3 {
+                    values[block][i][i] += sign * self.stiffness;
+                }
+            }
+        }
+    }
+
     pub(super) fn new(body: &Body, spring: &fem_scene::Spring, numbering: &Numbering) -> Self {
         let [a, b] = spring.nodes.map(|node| body.shape.mesh.vertices()[node]);
         let edge = b - a;
@@ -65,7 +90,7 @@ impl<T: Real> Spring<T> {
 
     /// H of the Hessian (H, −H; −H, H): k (n nᵀ + (1 − l/|d|)(1 − n nᵀ)), N/m. A compressed spring pushes sideways, and its
     /// second part is negative; the projection leaves that out.
-    pub(super) fn hessian(&self, u: &[[T; 3]], kind: HessianKind) -> Block<T, 3> {
+    pub fn hessian(&self, u: &[[T; 3]], kind: HessianKind) -> Block<T, 3> {
         let Now { d, length, stretch, .. } = self.now(u);
         let (n, mut across) = if length == T::zero() {
             // Without a direction to be stiff along, the spring is equally stiff in all of them.
@@ -120,13 +145,14 @@ impl<T: Real> Spring<T> {
         (length > T::zero()).then(|| d.map(|d| d / length))
     }
 
-    fn ends(&self) -> [usize; 2] {
+    /// The engine's numbers of its ends.
+    pub fn ends(&self) -> [usize; 2] {
         self.nodes.map(|node| node as usize)
     }
 
     /// With E = X_b − X_a and δ = u_b − u_a, |d| − l = (2 E·δ + δ·δ + |E|² − l²)/(|d| + l): it keeps its digits where the
     /// difference of the lengths cancels.
-    fn now(&self, u: &[[T; 3]]) -> Now<T> {
+    pub fn now(&self, u: &[[T; 3]]) -> Now<T> {
         let [a, b] = self.ends();
         let moved: [T; 3] = std::array::from_fn(|i| u[b][i] - u[a][i]);
         let d: [T; 3] = std::array::from_fn(|i| self.edge[i] + moved[i]);
@@ -144,13 +170,13 @@ impl<T: Real> Spring<T> {
 }
 
 /// A deformed spring.
-struct Now<T> {
+pub struct Now<T> {
     /// x_b − x_a, m.
-    d: [T; 3],
+    pub d: [T; 3],
     /// Its length, m.
-    length: T,
+    pub length: T,
     /// |d| − l, m.
-    stretch: T,
+    pub stretch: T,
     /// Magnitude of the terms whose sum the stretch is, m.
     cancelled: T,
 }

@@ -1,0 +1,129 @@
+//! Constraints of elements, coloured, side by side in SIMD lanes.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::batch::{Batch, batch, factor, shape};
+use super::coloring::color;
+use super::kernel::CorrectionsOf;
+use super::rule::Sweep;
+use crate::materials::Law;
+use crate::model::solids::LawWork;
+use crate::model::system::System;
+use crate::number::{Lanes, Number, Real};
+use crate::tensor::zero;
+
+/// Batches that a thread corrects at a time.
+const CHUNK: usize = 16;
+
+/// From this many batches of a colour on several threads share them.
+const BATCHES_FOR_THREADS: usize = 4 * CHUNK;
+
+/// The elements of one material, colour after colour.
+pub(super) struct Elements<T: Real, const N: usize> {
+    material: usize,
+    /// Nodes of each element, lane after lane.
+    corners: Vec<[u32; N]>,
+    batches: Vec<Batch<T, N>>,
+    /// Batches of each colour.
+    colors: Vec<Range<usize>>,
+    /// Corrections of the nodes of one colour, m.
+    moves: Vec<[[T::Lanes; 3]; N]>,
+}
+
+impl<T: Real, const N: usize> Elements<T, N> {
+    /// The constraints of the elements of a material, which have these nodes, in the engine's numbering, and numbers in the mesh.
+    pub fn new(system: &System<T>, material: usize, corners: &[[u32; N]], numbers: &[usize]) -> Self {
+        let coloring = color(system.nodes(), corners);
+        let mut new =
+            Self { material, corners: Vec::new(), batches: Vec::new(), colors: Vec::new(), moves: Vec::new() };
+        for range in coloring.colors {
+            let first = new.batches.len();
+            for chosen in coloring.order[range].chunks(T::WIDTH) {
+                let of_lane = |lane: usize| chosen.get(lane).map(|&element| element as usize);
+                let shape = |lane: usize| {
+                    let element = of_lane(lane)?;
+                    let factor = system.elements.factor(numbers[element]);
+                    Some(shape(system, &corners[element], factor))
+                };
+                let shapes: Vec<_> = (0..T::WIDTH).map(shape).collect();
+                new.batches.push(batch::<T, N>(&shapes));
+                // Lanes without an element repeat the first and move nothing.
+                new.corners.extend((0..T::WIDTH).map(|lane| corners[of_lane(lane).unwrap_or(chosen[0] as usize)]));
+            }
+            new.colors.push(first..new.batches.len());
+        }
+        let most = new.colors.iter().map(|color| color.len()).max().unwrap_or(0);
+        new.moves = vec![[[T::Lanes::zero(); 3]; N]; most];
+        new
+    }
+
+    /// Takes the inverse masses of the nodes.
+    pub fn set_masses(&mut self, inverse_masses: &[[T; 3]]) {
+        for (batch, corners) in self.batches.iter_mut().zip(self.corners.chunks_exact(T::WIDTH)) {
+            for a in 0..N {
+                for i in 0..3 {
+                    batch.inverse_masses[a][i] = T::lanes(|lane| inverse_masses[corners[lane][a] as usize][i]);
+                }
+            }
+            for i in 0..3 {
+                batch.factors[i] = factor(batch, i);
+            }
+        }
+    }
+
+    /// Sets the multipliers to zero: a step starts.
+    pub fn begin_step(&mut self) {
+        self.batches.iter_mut().for_each(|batch| batch.multiplier = zero());
+    }
+
+    /// Corrects the nodes of all elements, colour after colour.
+    pub fn sweep(&mut self, system: &System<T>, sweep: Sweep, u: &mut [[T; 3]]) {
+        let solids = &system.elements;
+        solids.with_law(self.material, ColorsOf { elements: self, sweep, u });
+    }
+
+    /// Memory, bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.corners[..]) + size_of_val(&self.batches[..]) + size_of_val(&self.moves[..])
+    }
+}
+
+/// A sweep over the elements of one material, with its law.
+struct ColorsOf<'a, T: Real, const N: usize> {
+    elements: &'a mut Elements<T, N>,
+    sweep: Sweep,
+    u: &'a mut [[T; 3]],
+}
+
+impl<T: Real, const N: usize> LawWork<T> for ColorsOf<'_, T, N> {
+    type Output = ();
+
+    fn run<L: Lanes<Element = T>>(self, law: &dyn Law<L>, allows_inversion: bool) {
+        let Self { elements: Elements { corners, batches, colors, moves, .. }, sweep, u } = self;
+        for color in colors.iter() {
+            let corners = &corners[color.start * T::WIDTH..color.end * T::WIDTH];
+            let (batches, moves) = (&mut batches[color.clone()], &mut moves[..color.len()]);
+            let places = &*u;
+            let correct = |((batches, moves), corners): ((&mut [_], &mut [_]), &[_])| {
+                L::vectorize(CorrectionsOf { law, allows_inversion, sweep, batches, moves, corners, u: places });
+            };
+            if batches.len() < BATCHES_FOR_THREADS {
+                correct(((batches, moves), corners));
+            } else {
+                let parts = batches.par_chunks_mut(CHUNK).zip(moves.par_chunks_mut(CHUNK));
+                parts.zip(corners.par_chunks(CHUNK * T::WIDTH)).for_each(correct);
+            }
+            for (moves, corners) in moves.iter().zip(corners.chunks_exact(T::WIDTH)) {
+                for (lane, corners) in corners.iter().enumerate() {
+                    for (a, &node) in corners.iter().enumerate() {
+                        for i in 0..3 {
+                            u[node as usize][i] += T::each(&moves[a][i])[lane];
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
