@@ -19,12 +19,17 @@ pub(super) struct Batch<T: Real, const N: usize> {
     pub multiplier: Tensor<T::Lanes>,
 }
 
-/// Gradients of the shape functions of all nodes of a simplex, 1/m, and its volume times a factor of its moduli, m³.
-pub(super) fn shape<T: Real, const N: usize>(
-    system: &System<T>,
-    corners: &[u32; N],
-    factor: f64,
-) -> ([[f64; 3]; N], f64) {
+/// The shape of a simplex at rest.
+#[derive(Clone, Copy)]
+pub(super) struct Shape<const N: usize> {
+    /// Gradients of the shape functions of all nodes, 1/m.
+    gradients: [[f64; 3]; N],
+    /// Volume times a factor of the element's moduli, m³.
+    volume: f64,
+}
+
+/// The shape of a simplex at rest, its volume scaled by `factor`.
+pub(super) fn shape<T: Real, const N: usize>(system: &System<T>, corners: &[u32; N], factor: f64) -> Shape<N> {
     let x = |corner: usize| system.rest[corners[corner] as usize];
     let mut edges = nalgebra::Matrix3::identity();
     for e in 1..N {
@@ -40,16 +45,16 @@ pub(super) fn shape<T: Real, const N: usize>(
         }
     }
     let thickness = system.shape.mesh.thickness().unwrap_or(1.0);
-    (gradients, factor * thickness * determinant.abs() / if N == 4 { 6.0 } else { 2.0 })
+    Shape { gradients, volume: factor * thickness * determinant.abs() / if N == 4 { 6.0 } else { 2.0 } }
 }
 
 /// A batch of elements of these shapes, still without masses.
-pub(super) fn batch<T: Real, const N: usize>(shapes: &[Option<([[f64; 3]; N], f64)>]) -> Batch<T, N> {
+pub(super) fn batch<T: Real, const N: usize>(shapes: &[Option<Shape<N>>]) -> Batch<T, N> {
     let nothing = T::Lanes::zero();
-    let gradient = |lane: usize, a: usize, j: usize| shapes[lane].map_or(0.0, |(gradients, _)| gradients[a][j]);
+    let gradient = |lane: usize, a: usize, j: usize| shapes[lane].map_or(0.0, |shape| shape.gradients[a][j]);
     let mut batch = Batch {
         gradients: [[nothing; 3]; N],
-        volume: T::lanes(|lane| T::of(shapes[lane].map_or(0.0, |(_, volume)| volume))),
+        volume: T::lanes(|lane| T::of(shapes[lane].map_or(0.0, |shape| shape.volume))),
         inverse_masses: [[nothing; 3]; N],
         factors: [zero(); 3],
         multiplier: zero(),
