@@ -4,12 +4,16 @@ use fem_engine::simulator::Simulator;
 use nalgebra::Vector3;
 
 use super::recovery::{MARGIN_IS, back_at_rest};
-use crate::stability::case::{Case, Finding, Outcome};
+use crate::stability::case::{Case, Finding, Outcome, SMALLEST_J};
 use crate::stability::initial_state::place;
 use crate::stability::march::march;
 use crate::stability::scene_text::{CLAMPED, DAMPED, SECOND_ORDER, SceneText, prescribed_end};
 
 const FAMILY: &str = "large strains";
+
+/// The margin of a method of second order, which keeps the waves of such a motion: they are chaotic, so that another order of summation,
+/// as other processors have it, changes it (0.30 to 0.38 in generalized-α).
+const IN_WAVES: &str = "smallest J at the end of a step, in waves that amplify round-off; must be above 0";
 
 /// A prescribed motion of the face of largest x.
 struct EndMotion {
@@ -96,6 +100,7 @@ fn prescribed(motion: &EndMotion, model: &'static str, integrator: &'static str)
             false if keeps_shocks(motion, model, integrator) => Outcome::Explodes,
             false => Outcome::Survives,
         },
+        margin_is: if SECOND_ORDER.contains(&integrator) { IN_WAVES } else { SMALLEST_J },
         ..text.clone().case(FAMILY, motion.name, parameters, move |deadline| {
             Ok(march(&mut text.build()?, steps, deadline).survival())
         })
