@@ -48,6 +48,7 @@ impl Grading {
         let subject = Sandboxed::new(start(&self.sandbox, Some(program.to_owned()), folder), LIMIT)
             .within(budget.clone(), Places::default());
         let reference = Sandboxed::new(self.programs.start_reference(&self.sandbox), LIMIT);
+        budget.next_function();
         let mut answers = true;
         for (number, integrator) in INTEGRATORS.into_iter().enumerate() {
             for dt in TIME_STEPS {

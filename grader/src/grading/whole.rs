@@ -21,7 +21,10 @@ use super::programs::start;
 use super::{Grading, GradingError};
 use crate::grade::FunctionGrade;
 
-/// Longest time for the simulation, s; the reference needs a fraction of a second.
+/// The methods whose motions are compared, as a [`Scene`] numbers them.
+const INTEGRATORS: [usize; 2] = [0, 1];
+
+/// Longest time for the motion of one method; the reference needs a fraction of a second.
 pub(super) const LIMIT: Duration = Duration::from_secs(30);
 
 /// The time step whose answers are compared, s.
@@ -129,10 +132,14 @@ impl Grading {
                 return Ok(grade);
             }
         };
+        // Right code may be a hundred times slower than the reference, so a motion has more time than a check.
+        let left = budget.left_in_all();
+        let own = Rc::new(Budget::new(LIMIT, LIMIT * INTEGRATORS.len() as u32, left));
         let subject = Sandboxed::new(start(&self.sandbox, Some(program.clone()), folder.path()), LIMIT)
-            .within(budget.clone(), places.clone());
-        budget.next_function();
-        self.compare_simulations(grade, &subject, budget)
+            .within(own.clone(), places.clone());
+        let outcome = self.compare_simulations(grade, &subject, &own);
+        budget.spend_apart(left.saturating_sub(own.left_in_all()));
+        outcome
     }
 
     fn compare_simulations(
@@ -143,11 +150,10 @@ impl Grading {
     ) -> Result<FunctionGrade, GradingError> {
         let reference = Sandboxed::new(self.programs.start_reference(&self.sandbox), LIMIT);
         let mut worst = 0.0_f64;
-        for integrator in [0, 1] {
+        for integrator in INTEGRATORS {
             let scene = scene(integrator, TIME_STEP);
             let failed = |trouble: Trouble| GradingError::Reference(trouble.to_string());
             let (expected, reference_seconds) = reference.simulate(&scene, LIMIT).map_err(failed)?;
-            // Each motion has the time of a check of its own: right code may be a hundred times slower than the reference.
             budget.next_check();
             match subject.simulate(&scene, LIMIT) {
                 Ok((positions, seconds)) => {
