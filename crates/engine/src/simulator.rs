@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod checkpoint;
+mod compiled;
 mod contact;
 mod divergence;
 mod integrator;
@@ -37,6 +38,7 @@ use contact::Contacts;
 use divergence::SuppliedEnergy;
 use plan::Plan;
 
+pub use compiled::Compiled;
 pub use integrator::integrators;
 
 /// A body that the engine moves, in one number type.
@@ -125,7 +127,7 @@ fn check<T: Real>(scene: &Scene, body: &Body, epsilon: f64) -> Result<Option<Any
     Ok(law)
 }
 
-impl<T: Real> Simulator<T> {
+impl<T: Compiled> Simulator<T> {
     /// Builds what the scene names, and nothing else, in the scene's initial state.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
         Self::with_forces(scene, body, &|_| Vec::new())
@@ -133,6 +135,12 @@ impl<T: Real> Simulator<T> {
 
     /// The same with forces of one's own beside those that the scene names.
     pub fn with_forces(scene: &Scene, body: Body, own: OwnForces<T>) -> Result<Self, SceneError> {
+        T::with_forces(scene, body, own)
+    }
+}
+
+impl<T: Real> Simulator<T> {
+    fn assembled(scene: &Scene, body: Body, own: OwnForces<T>) -> Result<Self, SceneError> {
         let law = check::<T>(scene, &body, T::EPSILON.as_f64())?;
         let method = scene.method();
         let skinned = body.shape.mesh.solid().zip(body.shape.display.as_ref());

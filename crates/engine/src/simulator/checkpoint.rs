@@ -2,13 +2,12 @@
 
 use fem_scene::simulation::{Checkpoint, History, Simulation};
 
-use super::Simulator;
+use super::{Compiled, Simulator};
 use crate::forces::Moment;
 use crate::history::{put, take};
-use crate::number::Real;
 
 /// The checkpoint of a simulator, in the mesh's numbering; the history is in the engine's.
-pub(super) fn of<T: Real>(simulator: &Simulator<T>) -> Checkpoint {
+pub(super) fn of<T: Compiled>(simulator: &Simulator<T>) -> Checkpoint {
     let u = simulator.system.numbering.to_mesh(&simulator.state.u);
     let mut history = History::default();
     // Reactions take their accelerations from the state before the last step, and a release shows by its time.
@@ -39,7 +38,7 @@ pub(super) fn of<T: Real>(simulator: &Simulator<T>) -> Checkpoint {
 }
 
 /// Takes over a checkpoint of the same scene. After an error the simulator must be reset.
-pub(super) fn restore<T: Real>(simulator: &mut Simulator<T>, checkpoint: &Checkpoint) -> Result<(), String> {
+pub(super) fn restore<T: Compiled>(simulator: &mut Simulator<T>, checkpoint: &Checkpoint) -> Result<(), String> {
     let Checkpoint { displacements, velocities, .. } = checkpoint;
     let coordinates = 3 * simulator.system.nodes();
     for (name, list) in [("displacements", displacements), ("qdot", velocities)] {

@@ -11,14 +11,14 @@ use fem_scene::simulation::{
 use nalgebra::{DVector, Matrix3, Vector3};
 
 use super::integrator::{integrators, switched};
-use super::{Simulator, checkpoint, parts};
+use super::{Compiled, Simulator, checkpoint, parts};
 use crate::boundary::reactions::{reactions, reactions_at};
-use crate::integrators::{LastStage, critical_time_step};
+use crate::integrators::LastStage;
 use crate::model::state::State;
 use crate::number::Real;
 use crate::pick;
 
-impl<T: Real> Simulation for Simulator<T> {
+impl<T: Compiled> Simulation for Simulator<T> {
     fn name(&self) -> &str {
         &self.system.name
     }
@@ -66,7 +66,7 @@ impl<T: Real> Simulation for Simulator<T> {
     }
 
     fn step(&mut self) -> Result<(), Failure> {
-        self.advance_step()
+        T::step(self)
     }
 
     fn reset(&mut self) {
@@ -92,9 +92,7 @@ impl<T: Real> Simulation for Simulator<T> {
     }
 
     fn energies(&self) -> Energies {
-        let Self { system, state, integrator, .. } = self;
-        let potential = system.reported_potential(&state.u, integrator.moment(state));
-        Energies { kinetic: system.mass.kinetic_energy(&state.v), potential }
+        T::energies(self)
     }
 
     fn estimated_error(&self) -> Option<f64> {
@@ -122,7 +120,7 @@ impl<T: Real> Simulation for Simulator<T> {
     }
 
     fn critical_time_step(&self) -> Option<f64> {
-        critical_time_step(self.kind, &self.system)
+        T::critical_time_step(self)
     }
 
     fn has_stress(&self) -> bool {
@@ -130,7 +128,7 @@ impl<T: Real> Simulation for Simulator<T> {
     }
 
     fn stresses(&self) -> Vec<Matrix3<f64>> {
-        self.system.stresses(&self.state.u)
+        T::stresses(self)
     }
 
     fn plastic_flow(&self) -> Option<PlasticFlow> {
@@ -143,17 +141,7 @@ impl<T: Real> Simulation for Simulator<T> {
     }
 
     fn next_integrator(&mut self) -> &'static str {
-        let method = self.method.integrator;
-        let is_usable = |kind: IntegratorKind| {
-            self.contact.is_none()
-                || (kind.supports_contact()
-                    && kind.is_explicit() == method.is_explicit()
-                    && kind.projects_contact() == method.projects_contact())
-        };
-        let methods: Vec<_> = integrators(method).iter().copied().filter(|kind| is_usable(*kind)).collect();
-        self.kind = self.kind.next_in(&methods);
-        let planes = self.contact.as_ref().map(|contact| contact.planes());
-        self.integrator = switched(self.kind, &self.method, &mut self.system, planes);
+        T::next_integrator(self);
         self.kind.name()
     }
 
@@ -190,22 +178,11 @@ impl<T: Real> Simulation for Simulator<T> {
     }
 
     fn reactions(&self) -> Vec<Reaction> {
-        let Self { system, state, last_good, integrator, .. } = self;
-        if system.is_unconstrained() {
-            return Vec::new();
-        }
-        self.reactions_timer.time(|| match integrator.last_stage() {
-            Some(LastStage { part, acceleration }) => reactions_at(system, last_good, state, (part, acceleration)),
-            None => reactions(system, last_good, state, integrator.moment(state)),
-        })
+        T::reactions(self)
     }
 
     fn nodal_forces(&self) -> Option<DVector<f64>> {
-        let Self { system, state, last_good, integrator, .. } = self;
-        let mut force = vec![[T::default(); 3]; system.nodes()];
-        system.force(&state.u, &state.v, &last_good.u, integrator.moment(state), &mut force);
-        let force = system.numbering.to_mesh(&force);
-        Some(DVector::from_iterator(3 * force.len(), force.as_flattened().iter().map(|force| force.as_f64())))
+        Some(stacked(&T::nodal_forces(self)))
     }
 
     fn contacts(&self) -> Vec<PlaneContact> {
@@ -244,7 +221,44 @@ impl<T: Real> Simulation for Simulator<T> {
 }
 
 impl<T: Real> Simulator<T> {
-    /// Positions of the mesh's nodes, m.
+    pub(super) fn energies_now(&self) -> Energies {
+        let Self { system, state, integrator, .. } = self;
+        let potential = system.reported_potential(&state.u, integrator.moment(state));
+        Energies { kinetic: system.mass.kinetic_energy(&state.v), potential }
+    }
+
+    pub(super) fn switch_integrator(&mut self) {
+        let method = self.method.integrator;
+        let is_usable = |kind: IntegratorKind| {
+            self.contact.is_none()
+                || (kind.supports_contact()
+                    && kind.is_explicit() == method.is_explicit()
+                    && kind.projects_contact() == method.projects_contact())
+        };
+        let methods: Vec<_> = integrators(method).iter().copied().filter(|kind| is_usable(*kind)).collect();
+        self.kind = self.kind.next_in(&methods);
+        let planes = self.contact.as_ref().map(|contact| contact.planes());
+        self.integrator = switched(self.kind, &self.method, &mut self.system, planes);
+    }
+
+    pub(super) fn reactions_now(&self) -> Vec<Reaction> {
+        let Self { system, state, last_good, integrator, .. } = self;
+        if system.is_unconstrained() {
+            return Vec::new();
+        }
+        self.reactions_timer.time(|| match integrator.last_stage() {
+            Some(LastStage { part, acceleration }) => reactions_at(system, last_good, state, (part, acceleration)),
+            None => reactions(system, last_good, state, integrator.moment(state)),
+        })
+    }
+
+    pub(super) fn nodal_forces_now(&self) -> Vec<[f64; 3]> {
+        let Self { system, state, last_good, integrator, .. } = self;
+        let mut force = vec![[T::default(); 3]; system.nodes()];
+        system.force(&state.u, &state.v, &last_good.u, integrator.moment(state), &mut force);
+        system.numbering.to_mesh(&force).iter().map(|force| force.map(T::as_f64)).collect()
+    }
+
     /// det F of each element of the mesh, elastic or not.
     fn det_F_of_mesh(&self) -> impl Iterator<Item = f64> {
         let u = self.system.numbering.to_mesh(&self.state.u);
@@ -253,6 +267,7 @@ impl<T: Real> Simulator<T> {
         (0..mesh.elements()).map(move |element| (Matrix3::identity() + G(element)).determinant())
     }
 
+    /// Positions of the mesh's nodes, m.
     fn nodes_now(&self) -> Vec<Vector3<f64>> {
         let u = self.system.numbering.to_mesh(&self.state.u);
         let V = self.system.shape.mesh.vertices();

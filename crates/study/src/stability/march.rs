@@ -1,8 +1,8 @@
 //! Time marching of a case, with the quantities that decide its outcome.
 
 use super::case::{Deadline, Finding, Outcome};
-use fem_engine::number::Real;
-use fem_engine::simulator::Simulator;
+
+use fem_engine::simulator::{Compiled, Simulator};
 use fem_scene::simulation::{Failure, Simulation};
 
 /// Share of the steps that must converge.
@@ -28,12 +28,12 @@ pub struct March {
 }
 
 /// Takes up to `steps` steps.
-pub fn march<T: Real>(simulation: &mut Simulator<T>, steps: usize, deadline: Deadline) -> March {
+pub fn march<T: Compiled>(simulation: &mut Simulator<T>, steps: usize, deadline: Deadline) -> March {
     march_with(simulation, steps, deadline, |_| {})
 }
 
 /// Takes up to `steps` steps and calls `after` at the end of each.
-pub fn march_with<T: Real>(
+pub fn march_with<T: Compiled>(
     simulation: &mut Simulator<T>,
     steps: usize,
     deadline: Deadline,

@@ -5,8 +5,8 @@ use std::path::Path;
 use nalgebra::Vector3;
 
 use super::case::{Case, Deadline, Finding, Outcome, SMALLEST_J};
-use fem_engine::number::Real;
-use fem_engine::simulator::Simulator;
+
+use fem_engine::simulator::{Compiled, Simulator};
 use fem_mesh::TetrahedralMesh;
 use fem_scene::{Scene, SceneError, body, body_of, parse};
 
@@ -140,7 +140,7 @@ impl SceneText {
     }
 
     /// The simulation on another mesh in a precision, which the scene must name too.
-    pub fn build_on_as<T: Real>(&self, mesh: TetrahedralMesh) -> Result<Simulator<T>, Finding> {
+    pub fn build_on_as<T: Compiled>(&self, mesh: TetrahedralMesh) -> Result<Simulator<T>, Finding> {
         let scene = self.scene().map_err(refused)?;
         let body = body_of(&scene, mesh, Path::new("")).map_err(refused)?;
         Simulator::new(&scene, body).map_err(refused)

@@ -1,6 +1,6 @@
 //! Single precision compared with double precision.
 
-use fem_engine::number::Real;
+use fem_engine::simulator::Compiled;
 use fem_scene::simulation::Simulation;
 use nalgebra::{DVector, Vector3};
 
@@ -86,7 +86,7 @@ fn difference(text: &SceneText, place: Place, deadline: Deadline) -> Result<Find
 }
 
 /// Displacements at the end, m.
-fn end<T: Real>(text: &SceneText, place: Place, deadline: Deadline) -> Result<DVector<f64>, Finding> {
+fn end<T: Compiled>(text: &SceneText, place: Place, deadline: Deadline) -> Result<DVector<f64>, Finding> {
     let mut simulation = text.build_on_as::<T>(moved_box([2.0, 1.0, 1.0], 1, place)?)?;
     let start = simulation.positions();
     let march = march(&mut simulation, if text.integrator == "static" { 1 } else { STEPS }, deadline);

@@ -1,0 +1,73 @@
+//! The number types in which simulations are compiled.
+//!
+//! A generic function is compiled anew in each crate that calls it, and a simulation holds all elements, laws and solvers. So what
+//! is large is reached through a trait with an implementation for each type, which is compiled here, once.
+
+use fem_scene::simulation::{Energies, Failure, Reaction};
+use fem_scene::{Body, Scene, SceneError};
+use nalgebra::Matrix3;
+
+use super::Simulator;
+use crate::integrators::critical_time_step;
+use crate::model::system::OwnForces;
+use crate::number::Real;
+
+/// A number type that the engine simulates in: `f32` or `f64`. Its functions are the bodies of [`Simulator`]'s of the same names.
+pub trait Compiled: Real {
+    #[doc(hidden)]
+    fn with_forces(scene: &Scene, body: Body, own: OwnForces<Self>) -> Result<Simulator<Self>, SceneError>;
+    #[doc(hidden)]
+    fn step(simulator: &mut Simulator<Self>) -> Result<(), Failure>;
+    #[doc(hidden)]
+    fn next_integrator(simulator: &mut Simulator<Self>);
+    #[doc(hidden)]
+    fn energies(simulator: &Simulator<Self>) -> Energies;
+    #[doc(hidden)]
+    fn reactions(simulator: &Simulator<Self>) -> Vec<Reaction>;
+    #[doc(hidden)]
+    fn nodal_forces(simulator: &Simulator<Self>) -> Vec<[f64; 3]>;
+    #[doc(hidden)]
+    fn stresses(simulator: &Simulator<Self>) -> Vec<Matrix3<f64>>;
+    #[doc(hidden)]
+    fn critical_time_step(simulator: &Simulator<Self>) -> Option<f64>;
+}
+
+macro_rules! compiled {
+    ($($number:ty),*) => { $(
+        impl Compiled for $number {
+            fn with_forces(scene: &Scene, body: Body, own: OwnForces<Self>) -> Result<Simulator<Self>, SceneError> {
+                Simulator::assembled(scene, body, own)
+            }
+
+            fn step(simulator: &mut Simulator<Self>) -> Result<(), Failure> {
+                simulator.advance_step()
+            }
+
+            fn next_integrator(simulator: &mut Simulator<Self>) {
+                simulator.switch_integrator();
+            }
+
+            fn energies(simulator: &Simulator<Self>) -> Energies {
+                simulator.energies_now()
+            }
+
+            fn reactions(simulator: &Simulator<Self>) -> Vec<Reaction> {
+                simulator.reactions_now()
+            }
+
+            fn nodal_forces(simulator: &Simulator<Self>) -> Vec<[f64; 3]> {
+                simulator.nodal_forces_now()
+            }
+
+            fn stresses(simulator: &Simulator<Self>) -> Vec<Matrix3<f64>> {
+                simulator.system.stresses(&simulator.state.u)
+            }
+
+            fn critical_time_step(simulator: &Simulator<Self>) -> Option<f64> {
+                critical_time_step(simulator.kind, &simulator.system)
+            }
+        }
+    )* };
+}
+
+compiled!(f32, f64);
