@@ -119,7 +119,6 @@ fn check<T: Real>(scene: &Scene, body: &Body, epsilon: f64) -> Result<Option<Any
     let method = scene.method();
     range_check::check_tolerance(&method, epsilon).map_err(refuse)?;
     path_check::check(&method, body).map_err(refuse)?;
-    iterated_check::check(&method).map_err(refuse)?;
     integrator::check_solver(&method, body.shape.mesh.vertices().len()).map_err(refuse)?;
     if method.integrator == IntegratorKind::Static {
         rigid_modes::check(body).map_err(refuse)?;

@@ -3,6 +3,7 @@
 mod accelerations;
 mod arc_length;
 mod critical_time_step;
+mod descent;
 mod explicit_euler;
 mod followers;
 mod implicit_euler;
@@ -20,6 +21,7 @@ mod rk4;
 mod second_order;
 mod semi_implicit_euler;
 mod statics;
+mod vbd;
 mod verlet;
 mod xpbd;
 
@@ -38,6 +40,7 @@ pub use rk4::Rk4;
 pub use second_order::{Scheme, SecondOrder};
 pub use semi_implicit_euler::SemiImplicitEuler;
 pub use statics::Statics;
+pub use vbd::Vbd;
 pub use verlet::Verlet;
 pub use xpbd::Xpbd;
 

@@ -5,7 +5,7 @@ use fem_scene::{Integrator as IntegratorKind, Method, SolverKind};
 use crate::forces::contact::planes::Planes;
 use crate::integrators::{
     ExplicitEuler, ImplicitEuler, Integrator, LinearlyImplicitEuler, Pbd, ProjectiveDynamics, Rk2, Rk4, Scheme,
-    SecondOrder, SemiImplicitEuler, Statics, Verlet, Xpbd,
+    SecondOrder, SemiImplicitEuler, Statics, Vbd, Verlet, Xpbd,
 };
 use crate::model::system::System;
 use crate::newton::{Newton, NewtonLimits};
@@ -62,6 +62,7 @@ pub fn integrators(kind: IntegratorKind) -> &'static [IntegratorKind] {
         Kind::Pbd | Kind::Xpbd | Kind::Vbd => &[
             Kind::Pbd,
             Kind::Xpbd,
+            Kind::Vbd,
             Kind::ProjectiveDynamics,
             Kind::LinearlyImplicitEuler,
             Kind::ImplicitEuler,
@@ -175,7 +176,7 @@ pub(super) fn build<T: Real>(
         IntegratorKind::Xpbd => Box::new(Xpbd::new(&method.iterations, system, planes)),
         IntegratorKind::Pbd => Box::new(Pbd::new(&method.iterations, system, planes)),
         IntegratorKind::ProjectiveDynamics => Box::new(ProjectiveDynamics::new(method.iterations, solver(), system)),
-        IntegratorKind::Vbd => unreachable!("vbd is refused when the simulation is built"),
+        IntegratorKind::Vbd => Box::new(Vbd::new(&method.iterations, system, planes)),
         IntegratorKind::Static => Box::new(Statics::new(newton(), system, method.load_steps)),
     }
 }

@@ -1,21 +1,10 @@
-//! Methods and forces that the iterated methods refuse.
+//! Forces that the iterated methods refuse.
 
-use fem_scene::{Integrator, Method};
+use fem_scene::Method;
 
 use crate::forces::{Forces, anchors, dead_load, springs};
 use crate::number::Real;
 use crate::refusal::Refusal;
-
-/// Refuses methods that this build lacks.
-pub(super) fn check(method: &Method) -> Result<(), Refusal> {
-    match method.integrator {
-        Integrator::Vbd => {
-            let name = method.integrator.name();
-            Err(("time.integrator", format!("is \"{name}\", which this version does not have yet; use implicit_euler")))
-        }
-        _ => Ok(()),
-    }
-}
 
 /// Refuses forces that a method which moves nodes one by one does not know: those of a program's own.
 pub(super) fn check_forces<T: Real>(method: &Method, forces: &Forces<T>) -> Result<(), Refusal> {

@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use crate::{build, distance, run};
 
 /// A cantilever of 4 × 1 × 1 m and 208 nodes that falls into its bend, in a law with E = 1e5 Pa and ν = 0.3.
-fn beam(model: &str, integrator: &str, rest: &str) -> String {
+pub fn beam(model: &str, integrator: &str, rest: &str) -> String {
     format!(
         "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [4, 1, 1], cells_per_unit = 3 }}\n[material]\nmodel = \"{model}\"\nyoung = 1e5\n\
          poisson = 0.3\ndensity = 1000\n[mass]\nlumped = true\n[gravity]\nacceleration = [0, 0, -9.81]\n[fixed]\n\
@@ -16,20 +16,20 @@ fn beam(model: &str, integrator: &str, rest: &str) -> String {
 }
 
 /// The beam without constraints, pull and spring.
-fn free(text: &str) -> String {
+pub fn free(text: &str) -> String {
     let [first, last] = ["[fixed]", "[time]"].map(|table| text.find(table).unwrap());
     format!("{}{}", &text[..first], &text[last..])
 }
 
 /// Positions after a few steps.
-fn end(text: &str, steps: usize) -> DVector<f64> {
+pub fn end(text: &str, steps: usize) -> DVector<f64> {
     let mut simulation = build(text);
     run(&mut *simulation, steps);
     simulation.positions()
 }
 
 /// Distance of a method from the converged steps of implicit Euler, as a part of the largest displacement.
-fn error(model: &str, integrator: &str, iterations: &str) -> f64 {
+pub fn error(model: &str, integrator: &str, iterations: &str) -> f64 {
     let newton = "[newton]\ntolerance = 1e-14\n";
     let exact = end(&beam(model, "implicit_euler", newton), 6);
     let start = build(&beam(model, "implicit_euler", newton)).positions();

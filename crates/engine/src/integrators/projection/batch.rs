@@ -21,15 +21,15 @@ pub(super) struct Batch<T: Real, const N: usize> {
 
 /// The shape of a simplex at rest.
 #[derive(Clone, Copy)]
-pub(super) struct Shape<const N: usize> {
+pub struct Shape<const N: usize> {
     /// Gradients of the shape functions of all nodes, 1/m.
-    gradients: [[f64; 3]; N],
+    pub gradients: [[f64; 3]; N],
     /// Volume times a factor of the element's moduli, m³.
-    volume: f64,
+    pub volume: f64,
 }
 
 /// The shape of a simplex at rest, its volume scaled by `factor`.
-pub(super) fn shape<T: Real, const N: usize>(system: &System<T>, corners: &[u32; N], factor: f64) -> Shape<N> {
+pub fn shape<T: Real, const N: usize>(system: &System<T>, corners: &[u32; N], factor: f64) -> Shape<N> {
     let x = |corner: usize| system.rest[corners[corner] as usize];
     let mut edges = nalgebra::Matrix3::identity();
     for e in 1..N {

@@ -7,7 +7,7 @@
 
 use fem_scene::ContactPlane;
 use fem_scene::simulation::History;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::forces::contact::planes::Planes;
 use crate::history::{put, take};
@@ -34,9 +34,10 @@ pub struct PlaneContacts {
 
 /// A step for its contacts.
 #[derive(Clone, Copy)]
-pub(super) struct ContactStep<'a, T> {
+pub struct ContactStep<'a, T> {
     /// Displacements at the start, m.
     pub start: &'a [[T; 3]],
+    /// 1/kg, zero in constrained directions.
     pub inverse_masses: &'a [[T; 3]],
     /// Start and end, s.
     pub times: [f64; 2],
@@ -66,7 +67,7 @@ impl PlaneContacts {
     }
 
     /// Sets the multipliers to zero: a step starts.
-    pub(super) fn begin_step(&mut self, dt2: f64) {
+    pub fn begin_step(&mut self, dt2: f64) {
         self.multipliers.fill([0.0; 4]);
         self.dt2 = dt2;
     }
@@ -77,7 +78,7 @@ impl PlaneContacts {
     }
 
     /// Corrects nodes until none is behind a plane: the step ends.
-    pub(super) fn end_step<T: Real>(&mut self, step: ContactStep<T>, u: &mut [[T; 3]]) {
+    pub fn end_step<T: Real>(&mut self, step: ContactStep<T>, u: &mut [[T; 3]]) {
         for _ in 0..PASSES {
             if !self.pass(step, u) {
                 return;
@@ -88,7 +89,7 @@ impl PlaneContacts {
     /// Returns whether a node was behind a plane.
     fn pass<T: Real>(&mut self, step: ContactStep<T>, u: &mut [[T; 3]]) -> bool {
         let Self { planes, multipliers, length, .. } = self;
-        let skin = SKIN * *length + ROUNDING * T::EPSILON.as_f64() * max_norm(u);
+        let skin = skin(*length, u);
         let (mut was_behind, nodes) = (false, planes.nodes());
         for (plane, of_plane) in multipliers.chunks_exact_mut(nodes.max(1)).enumerate() {
             let travel =
@@ -99,10 +100,69 @@ impl PlaneContacts {
                     continue;
                 }
                 was_behind |= gap < -0.5 * skin;
-                correct(&planes.planes[plane], travel, gap, multiplier, (node, step), &mut u[node]);
+                let inverse = Matrix3::from_diagonal(&step.inverse_masses[node].map(|w| w.as_f64()).into());
+                correct(&planes.planes[plane], travel, gap, multiplier, &inverse, &step.start[node], &mut u[node]);
             }
         }
         was_behind
+    }
+
+    /// Distance from a plane at which a node rests, m.
+    pub fn skin<T: Real>(&self, u: &[[T; 3]]) -> f64 {
+        skin(self.length, u)
+    }
+
+    /// Whether a plane has a force on a node.
+    pub fn touches(&self, node: usize) -> bool {
+        self.multipliers.iter().skip(node).step_by(self.planes.nodes().max(1)).any(|multiplier| multiplier[0] > 0.0)
+    }
+
+    /// The force of all planes on a node, N.
+    pub fn force_on(&self, node: usize) -> Vector3<f64> {
+        let force = |plane: usize| {
+            let [normal, x, y, z] = self.multipliers[plane * self.planes.nodes() + node];
+            (self.planes.planes[plane].normal * normal + Vector3::new(x, y, z)) / self.dt2
+        };
+        (0..self.planes.planes.len()).map(force).sum()
+    }
+
+    /// Whether a node may go to `free`: it is in front of all planes there, and none has a force on it.
+    pub fn is_free<T: Real>(&self, node: usize, step: ContactStep<T>, skin: f64, free: &[T; 3]) -> bool {
+        let count = self.planes.nodes();
+        (0..self.planes.planes.len()).all(|plane| {
+            self.multipliers[plane * count + node] == [0.0; 4]
+                && self.planes.gap(plane, node, free, step.times[1]) >= skin
+        })
+    }
+
+    /// Where a node goes that Newton's method for it alone would move to `free`: with the inverse `inverse` of its block, m/N, its
+    /// contact forces are those of Signorini's and Coulomb's conditions.
+    pub fn settle<T: Real>(
+        &mut self,
+        node: usize,
+        inverse: &Matrix3<f64>,
+        step: ContactStep<T>,
+        skin: f64,
+        free: [T; 3],
+    ) -> [T; 3] {
+        // The forces of the sweep before are the start, so that passes too few for this sweep do not change where sweeps lead.
+        let moved = inverse * self.force_on(node);
+        let mut u = [0, 1, 2].map(|i| T::of(free[i].as_f64() + moved[i]));
+        let Self { planes, multipliers, dt2, .. } = self;
+        let (count, inverse) = (planes.nodes(), inverse / *dt2);
+        for _ in 0..PASSES {
+            let before = u;
+            for (plane, obstacle) in planes.planes.iter().enumerate() {
+                let travel = obstacle.displacement(step.times[1]) - obstacle.displacement(step.times[0]);
+                let gap = planes.gap(plane, node, &u, step.times[1]) - skin;
+                let multiplier = &mut multipliers[plane * count + node];
+                correct(obstacle, travel, gap, multiplier, &inverse, &step.start[node], &mut u);
+            }
+            if max_norm(&[[0, 1, 2].map(|i| u[i] - before[i])]) <= 1e-3 * skin {
+                break;
+            }
+        }
+        u
     }
 
     /// Adds the multipliers of the last step that are not zero to a history.
@@ -128,35 +188,43 @@ impl PlaneContacts {
     }
 }
 
-/// Corrects one node that is `gap` from a plane which moves by `travel` in the step.
+/// Distance from a plane at which a node of a body of a length (m) rests, m.
+fn skin<T: Real>(length: f64, u: &[[T; 3]]) -> f64 {
+    SKIN * length + ROUNDING * T::EPSILON.as_f64() * max_norm(u)
+}
+
+/// Corrects one node that is `gap` from a plane which moves by `travel` in the step. A unit of a multiplier moves the node by `inverse`.
 fn correct<T: Real>(
     &ContactPlane { normal, friction, .. }: &ContactPlane,
     travel: Vector3<f64>,
     gap: f64,
     multiplier: &mut [f64; 4],
-    (node, step): (usize, ContactStep<T>),
+    inverse: &Matrix3<f64>,
+    start: &[T; 3],
     u: &mut [T; 3],
 ) {
-    let w = Vector3::from(step.inverse_masses[node].map(|w| w.as_f64()));
-    let of_normal = w.component_mul(&normal);
-    let inverse_mass = of_normal.dot(&normal);
+    let of_normal = inverse * normal;
+    let along_normal = of_normal.dot(&normal);
+    let largest = inverse.diagonal().amax();
     // A node that cannot give way takes no part; the check of the state tells if it is behind the plane.
-    if inverse_mass <= 1e-12 * w.amax() {
+    if along_normal <= 1e-12 * largest {
         return;
     }
     let mut place = Vector3::from(u.map(|u| u.as_f64()));
-    let total = f64::max(0.0, multiplier[0] - gap / inverse_mass);
+    let total = f64::max(0.0, multiplier[0] - gap / along_normal);
     place += of_normal * (total - multiplier[0]);
     multiplier[0] = total;
     if friction > 0.0 {
-        let free = w.map(|w| if w > 0.0 { 1.0 } else { 0.0 });
-        let moved = place - Vector3::from(step.start[node].map(|u| u.as_f64())) - travel;
+        let free = inverse.diagonal().map(|w| if w > 0.0 { 1.0 } else { 0.0 });
+        let moved = place - Vector3::from(start.map(|u| u.as_f64())) - travel;
         let slide = free.component_mul(&(moved - normal * normal.dot(&moved)));
         let before = Vector3::new(multiplier[1], multiplier[2], multiplier[3]);
-        let trial = before - slide / w.amax();
+        // The largest eigenvalue is at most the norm.
+        let is_diagonal = inverse[(0, 1)] == 0.0 && inverse[(0, 2)] == 0.0 && inverse[(1, 2)] == 0.0;
+        let trial = before - slide / if is_diagonal { largest } else { inverse.norm() };
         let (bound, size) = (friction * total, trial.norm());
         let along = if size > bound { trial * (bound / size) } else { trial };
-        place += w.component_mul(&(along - before));
+        place += inverse * (along - before);
         [multiplier[1], multiplier[2], multiplier[3]] = along.into();
     }
     *u = [0, 1, 2].map(|i| T::of(place[i]));

@@ -17,6 +17,8 @@ mod scalar;
 mod stress;
 mod sweeps;
 
-pub use contact::PlaneContacts;
+pub use batch::shape;
+pub use contact::{ContactStep, PlaneContacts};
+pub use particles::{Particles, largest_difference};
 pub use rule::Rule;
 pub use sweeps::Sweeps;

@@ -1,0 +1,67 @@
+//! Colours of nodes: those of one colour share no element and no spring.
+
+/// Groups the nodes by colour: each node has the first colour that none of its neighbours has. Nodes of a colour ascend.
+pub(super) fn color_nodes(nodes: usize, cliques: &[&[u32]]) -> Vec<Vec<u32>> {
+    let (starts, around) = cliques_of_nodes(nodes, cliques);
+    let mut colors: Vec<Vec<u32>> = Vec::new();
+    let mut of_node = vec![u32::MAX; nodes];
+    // The node that has last excluded each colour.
+    let mut excluded_by: Vec<usize> = Vec::new();
+    for node in 0..nodes {
+        for &clique in &around[starts[node]..starts[node + 1]] {
+            for &neighbor in cliques[clique as usize] {
+                if let Some(by) = excluded_by.get_mut(of_node[neighbor as usize] as usize) {
+                    *by = node;
+                }
+            }
+        }
+        let color = (0..colors.len()).find(|&color| excluded_by[color] != node).unwrap_or(colors.len());
+        if color == colors.len() {
+            colors.push(Vec::new());
+            excluded_by.push(usize::MAX);
+        }
+        colors[color].push(node as u32);
+        of_node[node] = color as u32;
+    }
+    colors
+}
+
+/// For each node the cliques that it belongs to: those of node i are `numbers[starts[i]..starts[i + 1]]`, in ascending order.
+pub(super) fn cliques_of_nodes<C: AsRef<[u32]>>(nodes: usize, cliques: &[C]) -> (Vec<usize>, Vec<u32>) {
+    let mut starts = vec![0; nodes + 1];
+    let members = || cliques.iter().enumerate().flat_map(|(i, clique)| clique.as_ref().iter().map(move |&n| (i, n)));
+    members().for_each(|(_, node)| starts[node as usize + 1] += 1);
+    for node in 0..nodes {
+        starts[node + 1] += starts[node];
+    }
+    let (mut next, mut numbers) = (starts.clone(), vec![0; starts[nodes]]);
+    for (clique, node) in members() {
+        numbers[next[node as usize]] = clique as u32;
+        next[node as usize] += 1;
+    }
+    (starts, numbers)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::color_nodes;
+
+    #[test]
+    fn nodes_of_one_colour_are_no_neighbours_and_each_node_has_one_colour() {
+        let tetrahedra: Vec<[u32; 4]> = (0..30).map(|i| [i, i + 1, i + 2, (i * 7 + 5) % 34]).collect();
+        let tetrahedra: Vec<_> =
+            tetrahedra.into_iter().filter(|t| !t[..3].contains(&t[3])).chain([[0, 10, 20, 33]]).collect();
+        let springs = [[0, 33], [2, 31]];
+        let cliques: Vec<&[u32]> = tetrahedra.iter().map(|t| &t[..]).chain(springs.iter().map(|s| &s[..])).collect();
+        let colors = color_nodes(36, &cliques);
+        let mut seen = colors.concat();
+        seen.sort_unstable();
+        assert!(seen.iter().copied().eq(0..36), "{colors:?}");
+        let color = |node: u32| colors.iter().position(|color| color.contains(&node)).unwrap();
+        for clique in cliques {
+            for (i, &a) in clique.iter().enumerate() {
+                assert!(clique[..i].iter().all(|&b| color(a) != color(b)), "{clique:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The elements of a body around its nodes, grouped by material.
+
+use std::ops::Range;
+
+use fem_scene::BodyMesh;
+
+use super::nodes::NodeBatches;
+use super::search::Change;
+use super::stars::Stars;
+use super::sums::Sums;
+use crate::model::system::System;
+use crate::number::Real;
+
+/// The elements of one material around the nodes.
+pub(super) enum Group<T: Real> {
+    Tetrahedra(Stars<T, 3>),
+    Triangles(Stars<T, 2>),
+}
+
+/// Evaluates an expression for the elements of a group.
+macro_rules! with_group {
+    ($group:expr, $name:ident => $value:expr) => {
+        match $group {
+            Group::Tetrahedra($name) => $value,
+            Group::Triangles($name) => $value,
+        }
+    };
+}
+
+impl<T: Real> Group<T> {
+    /// The elements of a material.
+    pub fn new(system: &System<T>, material: usize, nodes: &NodeBatches<T>) -> Self {
+        let numbers = system.elements.numbers(material);
+        match &system.shape.mesh {
+            BodyMesh::Solid(mesh) => {
+                let corners = system.numbering.elements(numbers.iter().map(|&number| &mesh.elements[number]));
+                Self::Tetrahedra(Stars::new(system, material, &corners, &numbers, nodes))
+            }
+            BodyMesh::Flat { triangles, .. } => {
+                let corners = system.numbering.elements(numbers.iter().map(|&number| &triangles.elements[number]));
+                Self::Triangles(Stars::new(system, material, &corners, &numbers, nodes))
+            }
+            BodyMesh::Quadratic { .. } => unreachable!("quadratic elements are refused when the scene is loaded"),
+        }
+    }
+
+    /// Adds gradient and block of the elements' energy to the sums of the batches of a colour.
+    pub fn add_sums(
+        &self,
+        system: &System<T>,
+        nodes: &NodeBatches<T>,
+        color: &Range<usize>,
+        u: &[[T; 3]],
+        sums: &mut [Sums<T::Lanes>],
+    ) {
+        with_group!(self, stars => stars.add_sums(system, nodes, color, u, sums));
+    }
+
+    /// Adds the changes of the elements' energy at these batches as their nodes move.
+    pub fn add_changes(
+        &self,
+        system: &System<T>,
+        nodes: &NodeBatches<T>,
+        batches: &[usize],
+        u: &[[T; 3]],
+        changes: &mut [Change<T>],
+    ) {
+        with_group!(self, stars => stars.add_changes(system, nodes, batches, u, changes));
+    }
+
+    /// Memory, bytes.
+    pub fn bytes(&self) -> usize {
+        with_group!(self, stars => stars.bytes())
+    }
+}
+
+/// Nodes of each element of a body, in the engine's numbering.
+pub(super) fn corners<T: Real>(system: &System<T>) -> Vec<Vec<u32>> {
+    let of_element = |corners: &[usize]| corners.iter().map(|&node| system.numbering.engine_node[node]).collect();
+    system.shape.mesh.corners().map(of_element).collect()
+}

@@ -1,0 +1,109 @@
+//! Lengths of steps that Newton's method for one node does not vouch for: the energy around the node must not rise.
+
+use super::solve::Inertia;
+use crate::number::{Number, Real};
+
+/// Most halvings of a step; a node that needs more stays in this sweep.
+pub(super) const HALVINGS: usize = 16;
+
+/// Rounding errors of an energy, in units of the machine epsilon.
+const ROUNDING: f64 = 16.0;
+
+/// A step of the nodes of a batch, and the change of the energy around each node that it makes.
+#[derive(Clone, Copy)]
+pub(super) struct Change<T: Real> {
+    /// m
+    pub step: [T::Lanes; 3],
+    /// J
+    pub energy: T::Lanes,
+    /// Magnitude of the terms whose sum the change is, J.
+    pub size: T::Lanes,
+}
+
+impl<T: Real> Change<T> {
+    /// A step whose change of energy is not known yet.
+    pub fn of(step: [T::Lanes; 3]) -> Self {
+        Self { step, energy: T::Lanes::zero(), size: T::Lanes::zero() }
+    }
+
+    /// The step in a lane, m.
+    pub fn in_lane(&self, lane: usize) -> [T; 3] {
+        self.step.map(|step| step.lane(lane))
+    }
+
+    /// Adds a change of the energy in a lane, J.
+    pub fn add(&mut self, lane: usize, energy: T, size: T) {
+        self.energy.set_lane(lane, self.energy.lane(lane) + energy);
+        self.size.set_lane(lane, self.size.lane(lane) + size);
+    }
+
+    /// Adds the change of the inertial term, m/Δt² (u − y + Δu/2)·Δu.
+    pub fn add_inertia(&mut self, inertia: Inertia<T>, batch: usize, nodes: &[u32], u: &[[T; 3]]) {
+        for (lane, &node) in nodes.iter().enumerate() {
+            let step = self.in_lane(lane);
+            for i in 0..3 {
+                let weight = T::of(inertia.over_dt2) * inertia.masses[batch][i].lane(lane);
+                let moved = u[node as usize][i] - inertia.inertial[node as usize][i];
+                let change = weight * (moved + T::of(0.5) * step[i]) * step[i];
+                self.add(lane, change, magnitude(change));
+            }
+        }
+    }
+
+    /// Subtracts the work of the forces of planes on the nodes.
+    pub fn add_work(&mut self, nodes: &[u32], force_on: impl Fn(usize) -> nalgebra::Vector3<f64>) {
+        for (lane, &node) in nodes.iter().enumerate() {
+            let (force, step) = (force_on(node as usize), self.in_lane(lane));
+            for i in 0..3 {
+                let work = T::of(force[i]) * step[i];
+                self.add(lane, -work, magnitude(work));
+            }
+        }
+    }
+
+    /// Halves the steps with which the energy rises beyond rounding, or takes them back. Returns whether it has changed one.
+    pub fn shorten(&mut self, is_last: bool) -> bool {
+        let mut has_changed = false;
+        for lane in 0..T::WIDTH {
+            let allowed = T::of(ROUNDING) * T::EPSILON * self.size.lane(lane);
+            // Not a number fails the comparison.
+            if self.energy.lane(lane) <= allowed || self.in_lane(lane) == [T::default(); 3] {
+                continue;
+            }
+            has_changed = true;
+            let factor = T::of(if is_last { 0.0 } else { 0.5 });
+            for i in 0..3 {
+                self.step[i].set_lane(lane, factor * self.step[i].lane(lane));
+            }
+        }
+        (self.energy, self.size) = (T::Lanes::zero(), T::Lanes::zero());
+        has_changed
+    }
+}
+
+/// |x|
+pub(super) fn magnitude<T: Real>(x: T) -> T {
+    if x < T::default() { -x } else { x }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Change;
+    use crate::number::{Number, Real};
+
+    #[test]
+    fn steps_that_raise_the_energy_are_halved_and_at_last_taken_back() {
+        let mut change = Change::<f64>::of([<f64 as Real>::Lanes::one(); 3]);
+        change.add(0, 1.0, 1.0);
+        change.add(1, -1.0, 1.0);
+        change.add(2, f64::INFINITY, 1.0);
+        change.add(3, f64::NAN, 1.0);
+        assert!(change.shorten(false));
+        assert_eq!([0, 1, 2, 3].map(|lane| change.in_lane(lane)[1]), [0.5, 1.0, 0.5, 0.5]);
+        change.add(0, 1e-17, 1.0);
+        change.add(3, 1.0, 1.0);
+        assert!(change.shorten(true));
+        assert_eq!([0, 1, 2, 3].map(|lane| change.in_lane(lane)[2]), [0.5, 1.0, 0.5, 0.0]);
+        assert!(!change.shorten(false));
+    }
+}

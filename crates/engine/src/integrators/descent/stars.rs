@@ -1,0 +1,163 @@
+//! Stars of nodes: the elements of a material around each node of a batch, side by side in SIMD lanes.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::coloring::cliques_of_nodes;
+use super::kernel::{ChangesOf, SumsOf};
+use super::nodes::NodeBatches;
+use super::search::Change;
+use super::sums::Sums;
+use super::sweep::{BATCHES_FOR_THREADS, CHUNK};
+use crate::integrators::projection::shape;
+use crate::materials::Law;
+use crate::model::solids::LawWork;
+use crate::model::system::System;
+use crate::number::{Lanes, Number, Real};
+
+/// One element around the node in each lane, E = N − 1 of whose nodes are others. A copy of the element's shape for each of its nodes makes
+/// a sweep read memory in order.
+#[derive(Clone)]
+pub(super) struct Slot<T: Real, const E: usize> {
+    /// Gradients of the shape functions of the other nodes, 1/m; the third direction of triangles is zero.
+    pub gradients: [[T::Lanes; 3]; E],
+    /// Volume times a factor of the element's moduli, m³; zero in lanes without an element.
+    pub volume: T::Lanes,
+}
+
+/// The elements of one material around all nodes.
+pub(super) struct Stars<T: Real, const E: usize> {
+    material: usize,
+    slots: Vec<Slot<T, E>>,
+    /// The other nodes of each element, lane after lane.
+    others: Vec<[u32; E]>,
+    /// First slot of each batch of nodes, and the number of all slots.
+    starts: Vec<usize>,
+}
+
+impl<T: Real, const E: usize> Stars<T, E> {
+    /// Stars of the elements of a material, which have these nodes, in the engine's numbering, and numbers in the mesh.
+    pub fn new<const N: usize>(
+        system: &System<T>,
+        material: usize,
+        corners: &[[u32; N]],
+        numbers: &[usize],
+        nodes: &NodeBatches<T>,
+    ) -> Self {
+        assert_eq!(N, E + 1, "an element around a node has {E} other nodes");
+        let shapes: Vec<_> =
+            corners.iter().zip(numbers).map(|(c, &number)| shape(system, c, system.elements.factor(number))).collect();
+        let (first, around) = cliques_of_nodes(system.nodes(), corners);
+        let mut new = Self { material, slots: Vec::new(), others: Vec::new(), starts: vec![0] };
+        for batch in 0..nodes.filled.len() {
+            let of_batch = nodes.of_batch(batch);
+            let elements_of = |lane: usize| match of_batch.get(lane) {
+                Some(&node) => &around[first[node as usize]..first[node as usize + 1]],
+                None => &[],
+            };
+            let most = (0..T::WIDTH).map(|lane| elements_of(lane).len()).max().unwrap_or(0);
+            for slot in 0..most {
+                let mut stored: Slot<T, E> = Slot { gradients: [[T::Lanes::zero(); 3]; E], volume: T::Lanes::zero() };
+                for lane in 0..T::WIDTH {
+                    let node = nodes.lanes[batch * T::WIDTH + lane];
+                    let Some(&element) = elements_of(lane).get(slot) else {
+                        new.others.push([node; E]);
+                        continue;
+                    };
+                    let (corners, shape) = (&corners[element as usize], &shapes[element as usize]);
+                    let mut others = [0; E];
+                    for (e, a) in (0..N).filter(|&a| corners[a] != node).enumerate() {
+                        others[e] = corners[a];
+                        for j in 0..3 {
+                            stored.gradients[e][j].set_lane(lane, T::of(shape.gradients[a][j]));
+                        }
+                    }
+                    stored.volume.set_lane(lane, T::of(shape.volume));
+                    new.others.push(others);
+                }
+                new.slots.push(stored);
+            }
+            new.starts.push(new.slots.len());
+        }
+        new
+    }
+
+    /// Adds gradient and block of the elements' energy to the sums of the batches of a colour.
+    pub fn add_sums(
+        &self,
+        system: &System<T>,
+        nodes: &NodeBatches<T>,
+        color: &Range<usize>,
+        u: &[[T; 3]],
+        sums: &mut [Sums<T::Lanes>],
+    ) {
+        system.elements.with_law(self.material, SumsOfColor { stars: self, nodes, color, u, sums });
+    }
+
+    /// Adds the changes of the elements' energy at these batches as their nodes move.
+    pub fn add_changes(
+        &self,
+        system: &System<T>,
+        nodes: &NodeBatches<T>,
+        batches: &[usize],
+        u: &[[T; 3]],
+        changes: &mut [Change<T>],
+    ) {
+        system.elements.with_law(self.material, ChangesOfBatches { stars: self, nodes, batches, u, changes });
+    }
+
+    /// Memory, bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.slots[..]) + size_of_val(&self.others[..]) + size_of_val(&self.starts[..])
+    }
+}
+
+/// The sums of a colour, with the law of a material.
+struct SumsOfColor<'a, T: Real, const E: usize> {
+    stars: &'a Stars<T, E>,
+    nodes: &'a NodeBatches<T>,
+    color: &'a Range<usize>,
+    u: &'a [[T; 3]],
+    sums: &'a mut [Sums<T::Lanes>],
+}
+
+impl<T: Real, const E: usize> LawWork<T> for SumsOfColor<'_, T, E> {
+    type Output = ();
+
+    fn run<L: Lanes<Element = T>>(self, law: &dyn Law<L>, allows_inversion: bool) {
+        let Self { stars: Stars { slots, others, starts, .. }, nodes, color, u, sums } = self;
+        let add = |(first, sums): (usize, &mut [Sums<T::Lanes>])| {
+            let starts = &starts[first..=first + sums.len()];
+            let lanes = &nodes.lanes[first * T::WIDTH..][..sums.len() * T::WIDTH];
+            L::vectorize(SumsOf { law, allows_inversion, slots, others, starts, lanes, u, sums });
+        };
+        if sums.len() < BATCHES_FOR_THREADS {
+            add((color.start, sums));
+        } else {
+            sums.par_chunks_mut(CHUNK).enumerate().for_each(|(i, sums)| add((color.start + i * CHUNK, sums)));
+        }
+    }
+}
+
+/// Changes of the energy at some batches, with the law of a material.
+struct ChangesOfBatches<'a, T: Real, const E: usize> {
+    stars: &'a Stars<T, E>,
+    nodes: &'a NodeBatches<T>,
+    batches: &'a [usize],
+    u: &'a [[T; 3]],
+    changes: &'a mut [Change<T>],
+}
+
+impl<T: Real, const E: usize> LawWork<T> for ChangesOfBatches<'_, T, E> {
+    type Output = ();
+
+    fn run<L: Lanes<Element = T>>(self, law: &dyn Law<L>, allows_inversion: bool) {
+        let Self { stars: Stars { slots, others, starts, .. }, nodes, batches, u, changes } = self;
+        for (&batch, change) in batches.iter().zip(changes) {
+            let (slots, lanes) = (&slots[starts[batch]..starts[batch + 1]], &nodes.lanes[batch * T::WIDTH..]);
+            let others = &others[starts[batch] * T::WIDTH..];
+            L::vectorize(ChangesOf { law, allows_inversion, slots, others, lanes, u, change });
+        }
+    }
+}
