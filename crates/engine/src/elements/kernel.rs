@@ -16,15 +16,12 @@ pub(super) fn displacement_gradient<L: Lanes, const D: usize, const E: usize, co
     corners: &[[u32; N]],
     u: &[[L::Element; 3]],
 ) -> Tensor<L> {
+    let first = corner_vectors(batch.volume, corners, 0, u);
     let mut differences = batch.gradients;
-    for lane in 0..L::LANES {
-        let corners = &corners[lane];
-        let first = u[corners[0] as usize];
-        for e in 0..E {
-            let x = u[corners[e + 1] as usize];
-            for i in 0..D {
-                differences[e][i].as_mut_slice()[lane] = x[i] - first[i];
-            }
+    for e in 0..E {
+        let x = corner_vectors(batch.volume, corners, e + 1, u);
+        for i in 0..D {
+            differences[e][i] = x[i] - first[i];
         }
     }
     let mut G = zero::<L>();
@@ -37,6 +34,23 @@ pub(super) fn displacement_gradient<L: Lanes, const D: usize, const E: usize, co
         }
     }
     G
+}
+
+/// The vectors of one corner of each element, in lanes like `like`.
+#[inline(always)]
+fn corner_vectors<L: Lanes, const N: usize>(
+    like: L,
+    corners: &[[u32; N]],
+    corner: usize,
+    vectors: &[[L::Element; 3]],
+) -> [L; 3] {
+    // Bounded by a constant, so that no lane needs to be checked.
+    let corners = &corners[..L::LANES];
+    like.gather(
+        vectors,
+        #[inline(always)]
+        |lane| corners[lane][corner],
+    )
 }
 
 /// Gradient of the element's energy by the positions of its corners but the first: V P ∇φ.

@@ -16,31 +16,36 @@ pub(super) fn scatter<L: Lanes, const D: usize, const E: usize, const N: usize>(
     sums: &mut [[L::Element; 3]],
 ) {
     let first = chunk.nodes.start as u32;
-    // Bounded by a constant, so that no lane needs to be checked.
-    for lane in 0..L::LANES {
-        let corners = &corners[lane];
-        let mut of_first = [L::Element::default(); D];
-        for e in 0..E {
-            let mut value = [L::Element::default(); D];
-            for i in 0..D {
-                value[i] = gradients[e][i].as_slice()[lane];
-            }
-            for i in 0..D {
-                of_first[i] -= value[i];
-            }
-            // A node of another chunk is out of range.
-            if let Some(sum) = sums.get_mut(corners[e + 1].wrapping_sub(first) as usize) {
-                for i in 0..D {
-                    sum[i] += value[i];
-                }
-            }
+    let mut of_first = [L::zero(); 3];
+    for e in 0..E {
+        let mut vectors = [L::zero(); 3];
+        for i in 0..D {
+            vectors[i] = gradients[e][i];
+            of_first[i] -= vectors[i];
         }
-        if let Some(sum) = sums.get_mut(corners[0].wrapping_sub(first) as usize) {
-            for i in 0..D {
-                sum[i] += of_first[i];
-            }
-        }
+        add_corner(&vectors, corners, e + 1, first, sums);
     }
+    add_corner(&of_first, corners, 0, first, sums);
+}
+
+/// Adds the vectors of one corner of each element to the rows of a chunk whose first node is `first`.
+#[inline(always)]
+fn add_corner<L: Lanes, const N: usize>(
+    vectors: &[L; 3],
+    corners: &[[u32; N]],
+    corner: usize,
+    first: u32,
+    sums: &mut [[L::Element; 3]],
+) {
+    // Bounded by a constant, so that no lane needs to be checked.
+    let corners = &corners[..L::LANES];
+    // A node of another chunk is out of range.
+    L::add_vectors_by_lane(
+        vectors,
+        sums,
+        #[inline(always)]
+        |lane| corners[lane][corner].wrapping_sub(first),
+    );
 }
 
 /// Adds the Hessian of a batch, of which the blocks of all corners but the first are given, to the rows of its chunk.

@@ -17,8 +17,12 @@ pub(super) struct Isochoric<T> {
     pub j: T,
     /// tr cof G + det G
     second_order: T,
-    /// J^(−1/3)
+    /// y = J^(−1/3)
     pub y: T,
+    /// y² + y + 1
+    sum: T,
+    /// 1/(J (y² + y + 1))
+    inverse: T,
     /// tr G
     trace: T,
     /// G:G
@@ -30,7 +34,10 @@ impl<T: Number> Isochoric<T> {
     pub fn new(G: &Tensor<T>) -> Self {
         let (j, second_order) = volume_change(G);
         let J = T::one() + j;
-        Self { J, j, second_order, y: inverse_cube_root(J), trace: trace(G), squares: dot(G, G) }
+        let y = inverse_cube_root(J);
+        let sum = y.times_plus(y, y + T::one());
+        let inverse = T::one() / (J * sum);
+        Self { J, j, second_order, y, sum, inverse, trace: trace(G), squares: dot(G, G) }
     }
 
     /// The energy density if J > 0, else infinity. Without this check an inverted element would have a finite energy.
@@ -47,17 +54,17 @@ impl<T: Number> Isochoric<T> {
 
     #[inline(always)]
     fn w(&self) -> T {
-        (self.y + T::one()) / (self.J * (self.y * self.y + self.y + T::one()))
+        (self.y + T::one()) * self.inverse
     }
 
     /// Ī − 3 = G:G − 2 (tr cof G + det G) − 3j (w − 2/3) − j w i
     #[inline(always)]
     pub fn excess(&self) -> T {
         let (two, three) = (constant::<T>(2.0), constant::<T>(3.0));
-        let Self { J, j, y, .. } = *self;
-        let denominator = J * (y * y + y + T::one());
-        let e = -j / denominator;
-        let w_change = (three * e - constant::<T>(6.0) * (j + J * e) - two * J * e * e) / (three * denominator);
+        let Self { J, j, inverse, .. } = *self;
+        let e = -j * inverse;
+        let third = constant::<T>(1.0 / 3.0);
+        let w_change = (three * e - constant::<T>(6.0) * (j + J * e) - two * J * e * e) * (third * inverse);
         self.squares - two * self.second_order - three * j * w_change - j * self.w() * self.i()
     }
 
@@ -66,10 +73,11 @@ impl<T: Number> Isochoric<T> {
     #[inline(always)]
     pub fn stress(&self, G: &Tensor<T>, a: T, p: T) -> Tensor<T> {
         let (two, three) = (constant::<T>(2.0), constant::<T>(3.0));
-        let Self { J, j, .. } = *self;
+        let j = self.j;
+        let over_3J = constant::<T>(1.0 / 3.0) * self.sum * self.inverse;
         let (i, w, two_a) = (self.i(), self.w(), two * a);
         let of_F = -two_a * j * w;
-        let of_cof = two_a * (three * j - i + (three + i) * j * w) / (three * J) + p;
+        let of_cof = two_a * (three * j - i + (three + i) * j * w) * over_3J + p;
         let F = plus_identity(G);
         let (cof, cof_G) = (cofactor(&F), cofactor(G));
         let mut P = from_fn(
@@ -85,7 +93,7 @@ impl<T: Number> Isochoric<T> {
     /// Terms of the derivative of a ∂Ī/∂F + 2D j cof for constant a.
     #[inline(always)]
     pub fn terms(&self, G: &Tensor<T>, a: T, D: T) -> OfInvariants<T> {
-        let (g, over_J) = (self.y * self.y, T::one() / self.J);
+        let (g, over_J) = (self.y * self.y, self.sum * self.inverse);
         let F = plus_identity(G);
         let aI = a * dot(&F, &F);
         let g1 = constant::<T>(-2.0 / 3.0) * g * over_J;

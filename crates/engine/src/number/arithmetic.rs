@@ -149,6 +149,12 @@ pub trait Lanes: Number {
     /// The numbers of all lanes, mutable.
     fn as_mut_slice(&mut self) -> &mut [Self::Element];
 
+    /// The vector of the node `node(lane)` in each lane: its three components.
+    fn gather(self, vectors: &[[Self::Element; 3]], node: impl Fn(usize) -> u32) -> [Self; 3];
+
+    /// Adds the vector in each lane to that of the node `target(lane)`, unless it is out of range.
+    fn add_vectors_by_lane(lanes: &[Self; 3], sums: &mut [[Self::Element; 3]], target: impl Fn(usize) -> u32);
+
     /// Adds each lane of a block to the block `target(lane)`, unless that is out of range. Lanes are transposed in registers,
     /// not number by number: extracting numbers from lanes takes much of the time of an assembly.
     fn add_by_lane(lanes: &[[Self; 3]; 3], blocks: &mut [[[Self::Element; 3]; 3]], target: impl Fn(usize) -> u32);
@@ -195,6 +201,10 @@ pub trait Real: RealField + FaerReal + Packed + Default + std::iter::Sum {
     fn significand(self) -> Self;
 }
 
-/// The bits of x^(−1/3) are about these minus a third of those of x, which shifts and additions find: (¼ + 1/16) (1 + 1/16) (1 + 1/256) …
+/// The bits of x^(−1/3) are about these minus a third of those of x. In single precision shifts and additions find the third:
+/// (¼ + 1/16) (1 + 1/16) (1 + 1/256) …; in double precision the upper half of the bits times [`THIRD`].
 pub(super) const CUBE_ROOT_F64: u64 = 0x553e_f0ff_289d_d796;
 pub(super) const CUBE_ROOT_F32: u32 = 0x54a2_fa8c;
+
+/// 2³²/3
+pub(super) const THIRD: u64 = 0x5555_5555;

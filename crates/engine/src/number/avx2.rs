@@ -7,6 +7,7 @@ mod bits;
 
 use std::arch::x86_64::{__m256, __m256d};
 use std::ops::{Add, AddAssign, BitAnd, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use std::sync::OnceLock;
 
 use pulp::bytemuck::{cast, cast_mut, cast_ref};
 use pulp::x86::{V3, V4};
@@ -15,18 +16,31 @@ use pulp::{Simd, WithSimd};
 use super::arithmetic::{Lanes, Number};
 use super::lanes::{F32x8, F64x4};
 
-/// The proof of AVX2; the program ends on a processor without.
+/// The proof of AVX2, once [`is_available`] has found it.
+static PROOF: OnceLock<V3> = OnceLock::new();
+
+/// The proof of AVX2. Detection has no place here: a call that returns would force the registers of the kernel around it into memory.
 #[inline(always)]
 fn proof() -> V3 {
-    V3::try_new().unwrap_or_else(
-        #[cold]
-        || panic!("these lanes are for processors with AVX2"),
-    )
+    match PROOF.get() {
+        Some(simd) => *simd,
+        None => unproven(),
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn unproven() -> ! {
+    panic!("these lanes are for processors with AVX2: ask `Real::has_fast` first")
 }
 
 /// Whether this processor has AVX2.
 pub(super) fn is_available() -> bool {
-    V3::try_new().is_some()
+    let simd = V3::try_new();
+    if let Some(simd) = simd {
+        PROOF.get_or_init(|| simd);
+    }
+    simd.is_some()
 }
 
 /// Defines lanes of a float in a register, with the instructions that work on them.
@@ -188,6 +202,16 @@ macro_rules! avx2_lanes {
             #[inline(always)]
             fn as_mut_slice(&mut self) -> &mut [$float] {
                 cast_mut::<$Register, [$float; $width]>(&mut self.register)
+            }
+
+            #[inline(always)]
+            fn gather(self, vectors: &[[$float; 3]], node: impl Fn(usize) -> u32) -> [Self; 3] {
+                self.gather_rows(vectors, node)
+            }
+
+            #[inline(always)]
+            fn add_vectors_by_lane(lanes: &[Self; 3], sums: &mut [[$float; 3]], target: impl Fn(usize) -> u32) {
+                Self::add_rows(lanes, sums, target);
             }
 
             #[inline(always)]

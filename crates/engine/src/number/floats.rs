@@ -1,6 +1,6 @@
 //! `f64` and `f32` as numbers of kernels and of simulations.
 
-use super::arithmetic::{CUBE_ROOT_F32, CUBE_ROOT_F64, Number, Real};
+use super::arithmetic::{CUBE_ROOT_F32, CUBE_ROOT_F64, Number, Real, THIRD};
 #[cfg(target_arch = "x86_64")]
 use super::avx2::{Avx2F32x8 as FastF32, Avx2F64x4 as FastF64, is_available as has_fast};
 use super::lanes::{F32x8, F64x4};
@@ -141,12 +141,7 @@ real!(f64, F64x4, FastF64, 4, 8, {
 
     #[inline(always)]
     fn rough_inverse_cube_root(self) -> f64 {
-        let bits = self.to_bits();
-        let third = (bits >> 2) + (bits >> 4);
-        let third = third + (third >> 4);
-        let third = third + (third >> 8);
-        let third = third + (third >> 16);
-        f64::from_bits(CUBE_ROOT_F64.wrapping_sub(third))
+        f64::from_bits(CUBE_ROOT_F64.wrapping_sub((self.to_bits() >> 32) * THIRD))
     }
 
     #[inline(always)]

@@ -191,6 +191,28 @@ macro_rules! lanes {
             }
 
             #[inline(always)]
+            fn gather(self, vectors: &[[$float; 3]], node: impl Fn(usize) -> u32) -> [Self; 3] {
+                let mut lanes = [[0.0; $width]; 3];
+                for lane in 0..$width {
+                    let vector = vectors[node(lane) as usize];
+                    for i in 0..3 {
+                        lanes[i][lane] = vector[i];
+                    }
+                }
+                lanes.map(Self::new)
+            }
+
+            #[inline(always)]
+            fn add_vectors_by_lane(lanes: &[Self; 3], sums: &mut [[$float; 3]], target: impl Fn(usize) -> u32) {
+                for lane in 0..$width {
+                    let Some(sum) = sums.get_mut(target(lane) as usize) else { continue };
+                    for i in 0..3 {
+                        sum[i] += lanes[i].as_array()[lane];
+                    }
+                }
+            }
+
+            #[inline(always)]
             fn add_by_lane(
                 lanes: &[[Self; 3]; 3],
                 blocks: &mut [[[$float; 3]; 3]],

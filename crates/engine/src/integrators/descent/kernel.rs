@@ -33,7 +33,7 @@ impl<L: Lanes, W: Law<L> + ?Sized, const E: usize> WithSimd for SumsOf<'_, L, W,
     fn with_simd<S: Simd>(self, _simd: S) {
         let Self { law, allows_inversion, slots, others, starts, lanes, u, sums } = self;
         for (batch, stored) in sums.iter_mut().enumerate() {
-            let own = places_of(&lanes[batch * L::LANES..], u);
+            let own = places_of(&lanes[batch * L::LANES..][..L::LANES], u);
             let mut sums = Sums::<L>::load(stored);
             for slot in starts[batch]..starts[batch + 1] {
                 let others = &others[slot * L::LANES..(slot + 1) * L::LANES];
@@ -64,7 +64,7 @@ impl<L: Lanes, W: Law<L> + ?Sized, const E: usize> WithSimd for ChangesOf<'_, L,
     fn with_simd<S: Simd>(self, _simd: S) {
         let Self { law, allows_inversion, slots, others, lanes, u, change } = self;
         let one = L::one();
-        let own = places_of(lanes, u);
+        let own = places_of(&lanes[..L::LANES], u);
         let (mut total, mut size) = (one.load(&change.energy), one.load(&change.size));
         let mut step = [one; 3];
         for i in 0..3 {
@@ -92,14 +92,11 @@ impl<L: Lanes, W: Law<L> + ?Sized, const E: usize> WithSimd for ChangesOf<'_, L,
 /// Displacements of the nodes of a batch, m.
 #[inline(always)]
 fn places_of<L: Lanes>(lanes: &[u32], u: &[[L::Element; 3]]) -> [L; 3] {
-    let mut own = [L::zero(); 3];
-    for (lane, &node) in lanes.iter().enumerate().take(L::LANES) {
-        let x = u[node as usize];
-        for i in 0..3 {
-            own[i].as_mut_slice()[lane] = x[i];
-        }
-    }
-    own
+    L::one().gather(
+        u,
+        #[inline(always)]
+        |lane| lanes[lane],
+    )
 }
 
 /// G, the gradient of the node's own shape function (1/m), and the volume (m³) of one element around each node.
@@ -110,16 +107,14 @@ fn deformation<L: Lanes, const E: usize>(
     own: &[L; 3],
     u: &[[L::Element; 3]],
 ) -> (Tensor<L>, [L; 3], L) {
-    let one = L::one();
+    let (one, others) = (L::one(), &others[..L::LANES]);
     let (mut G, mut gradient) = (zero::<L>(), [L::zero(); 3]);
     for a in 0..E {
-        let mut x = [L::zero(); 3];
-        for lane in 0..L::LANES {
-            let other = u[others[lane][a] as usize];
-            for i in 0..3 {
-                x[i].as_mut_slice()[lane] = other[i];
-            }
-        }
+        let x = one.gather(
+            u,
+            #[inline(always)]
+            |lane| others[lane][a],
+        );
         let mut of_other = [one; 3];
         for j in 0..3 {
             of_other[j] = one.load(&slot.gradients[a][j]);

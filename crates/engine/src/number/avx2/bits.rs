@@ -4,7 +4,7 @@ use std::arch::x86_64::{__m256, __m256d, __m256i};
 
 use pulp::bytemuck::cast;
 
-use super::super::arithmetic::{CUBE_ROOT_F32, CUBE_ROOT_F64};
+use super::super::arithmetic::{CUBE_ROOT_F32, CUBE_ROOT_F64, THIRD};
 use super::{Avx2F32x8, Avx2F64x4};
 
 impl Avx2F64x4 {
@@ -12,11 +12,8 @@ impl Avx2F64x4 {
     #[inline(always)]
     pub(super) fn rough_bits(self) -> __m256d {
         let avx2 = self.simd.avx2;
-        let bits: __m256i = cast(self.register);
-        let third = avx2._mm256_add_epi64(avx2._mm256_srli_epi64::<2>(bits), avx2._mm256_srli_epi64::<4>(bits));
-        let third = avx2._mm256_add_epi64(third, avx2._mm256_srli_epi64::<4>(third));
-        let third = avx2._mm256_add_epi64(third, avx2._mm256_srli_epi64::<8>(third));
-        let third = avx2._mm256_add_epi64(third, avx2._mm256_srli_epi64::<16>(third));
+        let high = avx2._mm256_srli_epi64::<32>(cast(self.register));
+        let third = avx2._mm256_mul_epu32(high, cast([THIRD; 4]));
         cast(avx2._mm256_sub_epi64(cast([CUBE_ROOT_F64; 4]), third))
     }
 
@@ -31,6 +28,40 @@ impl Avx2F64x4 {
             avx2._mm256_permutevar8x32_epi32(avx2._mm256_srai_epi32::<20>(beyond), cast([1i32, 3, 5, 7, 1, 3, 5, 7]));
         let exponent = avx._mm256_cvtepi32_pd(avx._mm256_castsi256_si128(high));
         (exponent, cast(avx2._mm256_sub_epi64(bits, whole)))
+    }
+
+    /// The vector of a node in each lane. Vectors are loaded with the number behind them and transposed in registers.
+    #[inline(always)]
+    pub(super) fn gather_rows(self, vectors: &[[f64; 3]], node: impl Fn(usize) -> u32) -> [Self; 3] {
+        let numbers = vectors.as_flattened();
+        let mut rows = [self; 4];
+        for lane in 0..4 {
+            let node = node(lane) as usize;
+            rows[lane].register = match numbers.get(3 * node..3 * node + 4) {
+                Some(&[x, y, z, behind]) => cast([x, y, z, behind]),
+                _ => {
+                    let [x, y, z] = vectors[node];
+                    cast([x, y, z, 0.0])
+                }
+            };
+        }
+        let [x, y, z, _] = Self::transpose(rows);
+        [x, y, z]
+    }
+
+    /// Adds the vector in each lane to that of a node, unless it is out of range.
+    #[inline(always)]
+    pub(super) fn add_rows(lanes: &[Self; 3], sums: &mut [[f64; 3]], target: impl Fn(usize) -> u32) {
+        let [x, y, z] = *lanes;
+        let simd = x.simd;
+        let rows = Self::transpose([x, y, z, z]);
+        for lane in 0..4 {
+            let Some([x, y, z]) = sums.get_mut(target(lane) as usize) else { continue };
+            let row = rows[lane].register;
+            let plane = simd.sse2._mm_add_pd(cast([*x, *y]), simd.avx._mm256_castpd256_pd128(row));
+            [*x, *y] = cast(plane);
+            *z += cast::<__m256d, [f64; 4]>(row)[2];
+        }
     }
 
     /// The transpose of four rows.
@@ -69,6 +100,37 @@ impl Avx2F32x8 {
         let beyond = avx2._mm256_sub_epi32(bits, cast([std::f32::consts::FRAC_1_SQRT_2.to_bits(); 8]));
         let whole = avx2._mm256_and_si256(beyond, cast([0xff80_0000u32; 8]));
         (avx._mm256_cvtepi32_ps(avx2._mm256_srai_epi32::<23>(beyond)), cast(avx2._mm256_sub_epi32(bits, whole)))
+    }
+
+    /// The vector of a node in each lane.
+    #[inline(always)]
+    pub(super) fn gather_rows(self, vectors: &[[f32; 3]], node: impl Fn(usize) -> u32) -> [Self; 3] {
+        let mut lanes = [[0.0; 8]; 3];
+        for lane in 0..8 {
+            let vector = vectors[node(lane) as usize];
+            for i in 0..3 {
+                lanes[i][lane] = vector[i];
+            }
+        }
+        lanes.map(
+            #[inline(always)]
+            |numbers| self.with(cast(numbers)),
+        )
+    }
+
+    /// Adds the vector in each lane to that of a node, unless it is out of range.
+    #[inline(always)]
+    pub(super) fn add_rows(lanes: &[Self; 3], sums: &mut [[f32; 3]], target: impl Fn(usize) -> u32) {
+        let [x, y, z] = lanes.map(
+            #[inline(always)]
+            |lanes| cast::<__m256, [f32; 8]>(lanes.register),
+        );
+        for lane in 0..8 {
+            let Some(sum) = sums.get_mut(target(lane) as usize) else { continue };
+            sum[0] += x[lane];
+            sum[1] += y[lane];
+            sum[2] += z[lane];
+        }
     }
 
     /// The transpose of eight rows: pairs within each half of a register, then fours, then the halves.
