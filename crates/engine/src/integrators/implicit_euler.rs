@@ -4,6 +4,7 @@ use fem_scene::simulation::{Cause, Counters, History};
 
 use super::followers::Followers;
 use super::initial_guess::InitialGuess;
+use super::last_change::{extrapolate, finish};
 use super::{Convergence, Integrator, momentum};
 use crate::forces::Moment;
 use crate::history::{put, take};
@@ -47,9 +48,8 @@ impl<T: Real> Integrator<T> for ImplicitEuler<T> {
         let inertia = Inertia::new(system, inertial, dt);
         let increment = Increment { start: &state.u, end: Moment::at(state.time + dt), inertia: Some(inertia) };
         followers.evaluate(system, &increment, inertial);
-        extrapolate(step, inertial, last_change, T::of(dt));
-        let start = InitialGuess { newton, followers, system, increment, inertia }.find(step, counters)?;
-        let convergence = followers.minimize(newton, system, increment, start, step, counters)?;
+        extrapolate(step, inertial, last_change, dt);
+        let convergence = InitialGuess { newton, followers, system, increment, inertia }.minimize(step, counters)?;
         momentum::restore(&followers.potential(system, increment), dt, 1.0, step);
         finish(step, dt, state, last_change);
         Ok(convergence)
@@ -80,25 +80,5 @@ impl<T: Real> Integrator<T> for ImplicitEuler<T> {
 
     fn has_line_search(&self) -> bool {
         true
-    }
-}
-
-/// Adds the increment to the state.
-fn finish<T: Real>(step: &[[T; 3]], dt: f64, state: &mut State<T>, last_change: &mut [[T; 3]]) {
-    let over_dt = T::of(1.0 / dt);
-    for node in 0..step.len() {
-        for i in 0..3 {
-            let v = step[node][i] * over_dt;
-            last_change[node][i] = v - state.v[node][i];
-            state.v[node][i] = v;
-            state.u[node][i] += step[node][i];
-        }
-    }
-}
-
-/// The increment if velocities change as in the last step.
-fn extrapolate<T: Real>(step: &mut [[T; 3]], inertial: &[[T; 3]], last_change: &[[T; 3]], dt: T) {
-    for ((step, inertial), change) in step.iter_mut().zip(inertial).zip(last_change) {
-        *step = std::array::from_fn(|i| inertial[i] + dt * change[i]);
     }
 }

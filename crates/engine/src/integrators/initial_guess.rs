@@ -5,7 +5,7 @@ use fem_scene::simulation::{Cause, Counters};
 use super::followers::Followers;
 use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, Inertia};
-use crate::newton::{Newton, Start};
+use crate::newton::{Convergence, Newton, Start};
 use crate::number::Real;
 
 /// A step in need of an initial guess.
@@ -26,10 +26,33 @@ pub struct InitialGuess<'a, T: Real> {
 const SMALLEST_PART: f64 = 1.0 / 1024.0;
 
 impl<T: Real> InitialGuess<'_, T> {
+    /// Replaces `step`, an extrapolation, by the minimum of the incremental potential. Where Newton's method finds no way on from the first
+    /// feasible candidate, which may be far from the state, it starts again from the state itself with the prescribed increments.
+    pub fn minimize(&mut self, step: &mut [[T; 3]], counters: &mut Counters) -> Result<Convergence, Cause> {
+        let start = self.find(step, counters)?;
+        let outcome = self.descend(start, step, counters);
+        if !matches!(outcome, Err(Cause::Stuck { .. })) {
+            return outcome;
+        }
+        self.newton.forget();
+        step.fill([T::default(); 3]);
+        self.prescribe(step);
+        self.followers.evaluate(self.system, &self.increment, step);
+        match self.start(step, counters) {
+            Some(start) => self.descend(start, step, counters),
+            None => outcome,
+        }
+    }
+
+    fn descend(&mut self, start: Start, step: &mut [[T; 3]], counters: &mut Counters) -> Result<Convergence, Cause> {
+        let Self { newton, followers, system, increment, .. } = self;
+        followers.minimize(newton, system, *increment, start, step, counters)
+    }
+
     /// Replaces `step`, an extrapolation, by a feasible increment. Candidates in this order: the extrapolation; the increment without
     /// forces; that of a linear body; the prescribed increments alone. Where a prescribed motion inverts elements in all of them,
     /// it is applied in parts, with the body in equilibrium after each. Returns the energy at the increment.
-    pub fn find(&mut self, step: &mut [[T; 3]], counters: &mut Counters) -> Result<Start, Cause> {
+    fn find(&mut self, step: &mut [[T; 3]], counters: &mut Counters) -> Result<Start, Cause> {
         self.prescribe(step);
         if let Some(start) = self.start(step, counters) {
             return Ok(start);

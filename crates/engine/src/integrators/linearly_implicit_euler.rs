@@ -5,8 +5,10 @@
 use fem_scene::simulation::{Cause, Counters, History};
 
 use super::followers::Followers;
+use super::last_change::{extrapolate, finish};
 use super::{Convergence, Integrator, momentum};
 use crate::forces::{HessianKind, Moment};
+use crate::history::{put, take};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, IncrementalPotential, Inertia, Workspace};
@@ -26,6 +28,8 @@ pub struct LinearlyImplicitEuler<T: Real> {
     inertial: Vec<[T; 3]>,
     right: Vec<[T; 3]>,
     step: Vec<[T; 3]>,
+    /// Change of velocity in the last step, m/s: an iterative solver starts from the same one.
+    last_change: Vec<[T; 3]>,
     /// Increments of the constrained degrees of freedom, zero elsewhere.
     prescribed: Vec<[T; 3]>,
 }
@@ -43,6 +47,7 @@ impl<T: Real> LinearlyImplicitEuler<T> {
             inertial: zero(),
             right: zero(),
             step: zero(),
+            last_change: zero(),
             prescribed: zero(),
         }
     }
@@ -56,7 +61,7 @@ impl<T: Real> Integrator<T> for LinearlyImplicitEuler<T> {
         dt: f64,
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
-        let Self { solver, values, followers, workspace, inertial, right, step, prescribed, .. } = self;
+        let Self { solver, values, followers, workspace, inertial, right, step, last_change, prescribed, .. } = self;
         for (inertial, v) in inertial.iter_mut().zip(&state.v) {
             *inertial = v.map(|v| T::of(dt) * v);
         }
@@ -73,27 +78,31 @@ impl<T: Real> Integrator<T> for LinearlyImplicitEuler<T> {
         }
         step.fill([T::default(); 3]);
         prepare(&potential, step, solver, values, workspace, counters)?;
-        step.copy_from_slice(inertial);
+        extrapolate(step, inertial, last_change, dt);
         solver.solve(values, right, step, self.tolerance).map_err(Cause::Solver)?;
         system.dirichlet.clear_constrained(step);
         axpy(1.0, prescribed, step);
         momentum::restore(&potential, dt, 1.0, step);
-        let over_dt = T::of(1.0 / dt);
-        for (node, step) in step.iter().enumerate() {
-            for i in 0..3 {
-                state.v[node][i] = step[i] * over_dt;
-                state.u[node][i] += step[i];
-            }
-        }
+        finish(step, dt, state, last_change);
         Ok(Convergence::Converged)
     }
 
+    fn forget(&mut self) {
+        self.last_change.fill([T::default(); 3]);
+    }
+
     fn save(&self, history: &mut History) {
+        if self.solver.is_iterative() {
+            put(history, "linearly_implicit_euler.last_change", self.last_change.as_flattened());
+        }
         // Every step has a matrix of its own.
         self.solver.save(false, history);
     }
 
     fn restore(&mut self, history: &History) -> Result<(), String> {
+        if self.solver.is_iterative() {
+            take(history, "linearly_implicit_euler.last_change", self.last_change.as_flattened_mut())?;
+        }
         self.solver.restore(false, history)
     }
 

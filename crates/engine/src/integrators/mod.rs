@@ -9,6 +9,7 @@ mod followers;
 mod implicit_euler;
 mod impulses;
 mod initial_guess;
+mod last_change;
 mod linearly_implicit_euler;
 mod mass_inverse;
 mod momentum;

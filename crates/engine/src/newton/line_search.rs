@@ -3,12 +3,15 @@
 use fem_scene::simulation::Counters;
 
 use super::{Iterate, Newton};
-use crate::newton::incremental_potential::IncrementalPotential;
+use crate::newton::incremental_potential::{IncrementalPotential, Workspace};
 use crate::number::Real;
 use crate::vector::{axpy, dot, max_norm};
 
 /// Part of the energy's terms that is rounding error, in units of the machine epsilon.
 const ROUND_OFF: f64 = 32.0;
+
+/// Minimum of det F below which its rounding error, relative to itself, dominates that of the energy.
+const NEARLY_FLAT: f64 = 1e-2;
 
 /// Sufficient decrease, Armijo (1966).
 const DECREASE: f64 = 1e-4;
@@ -48,8 +51,11 @@ impl<T: Real> Newton<T> {
             // Where the change is within rounding error, the directional derivative has to decrease instead. An infinite energy is no
             // rounding error, and NaN fails both tests.
             let mut is_flatter = || {
-                let cancelled = *cancelled.get_or_insert_with(|| potential.cancelled(w, &mut self.workspace));
-                let round_off = ROUND_OFF * T::EPSILON.as_f64() * (at.energy.terms + energy.terms + cancelled);
+                let (cancelled, amplified) = *cancelled.get_or_insert_with(|| {
+                    (potential.cancelled(w, &mut self.workspace), amplification(potential, w, &mut self.workspace))
+                });
+                let terms = at.energy.terms + energy.terms + cancelled;
+                let round_off = ROUND_OFF * T::EPSILON.as_f64() * amplified * terms;
                 let is_rounding = change.is_finite() && change.abs() <= round_off;
                 is_rounding && dot(&self.next_gradient, &self.direction).abs() <= 0.9 * derivative.abs()
             };
@@ -74,4 +80,10 @@ impl<T: Real> Newton<T> {
         let is_long = !system.elements.allow_inversion() && max_norm(&self.direction) > LONG * system.length;
         is_long.then(|| KEPT * potential.min_det_F(w, &mut self.workspace))
     }
+}
+
+/// Factor by which nearly flat elements amplify the rounding error of the energy, where it has a barrier at det F = 0.
+fn amplification<T: Real>(potential: &IncrementalPotential<T>, w: &[[T; 3]], workspace: &mut Workspace<T>) -> f64 {
+    let has_barrier = !potential.system.elements.allow_inversion();
+    if has_barrier { (NEARLY_FLAT / potential.min_det_F(w, workspace)).max(1.0) } else { 1.0 }
 }

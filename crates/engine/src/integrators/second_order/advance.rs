@@ -43,8 +43,7 @@ impl<T: Real> SecondOrder<T> {
         let increment = Increment { start: &state.u, end: stage, inertia: Some(inertia) };
         extrapolate(step, inertial, acceleration, of.tau * of.tau, system.length);
         followers.evaluate(system, &increment, step);
-        let start = InitialGuess { newton, followers, system, increment, inertia }.find(step, counters)?;
-        let convergence = followers.minimize(newton, system, increment, start, step, counters)?;
+        let convergence = InitialGuess { newton, followers, system, increment, inertia }.minimize(step, counters)?;
         momentum::restore(&followers.potential(system, increment), of.tau, of.stage_velocity(), step);
         self.finish(system, state, dt, of)?;
         Ok(convergence)

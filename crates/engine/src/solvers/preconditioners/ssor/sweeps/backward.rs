@@ -52,17 +52,15 @@ impl Kernel for Backward<'_> {
             let t = registers.multiply_add(four(st[own][1]), beta, registers.multiply_add(c_row, ones, w));
             st[own][1] = registers.numbers(t);
             let w = registers.numbers(w);
-            let both: [[R::Four; 2]; 3] = [0, 1, 2].map(|k| [registers.splat(w[k]), registers.splat(c[k])]);
+            let both = [0, 1, 2].map(|k| registers.pair([[w[k]; 4], [c[k]; 4]]));
             // From the last block to the first, so that memory is read in one direction.
             for block in pattern.row(row).rev() {
                 let above = &mut sums[pattern.columns[block] as usize - first];
-                let [mut of_w, mut of_c] = above.map(four);
-                for (L, [w, c]) in rows(L, block).into_iter().zip(both) {
-                    let L = registers.four(L);
-                    of_w = registers.multiply_add(L, w, of_w);
-                    of_c = registers.multiply_add(L, c, of_c);
+                let mut sum = registers.pair(*above);
+                for (L, both) in rows(L, block).into_iter().zip(both) {
+                    sum = registers.multiply_add_pair(registers.pair([L, L]), both, sum);
                 }
-                *above = [of_w, of_c].map(|sum| registers.numbers(sum));
+                *above = registers.numbers_of_pair(sum);
             }
         }
     }

@@ -32,19 +32,17 @@ impl Kernel for Forward<'_> {
         let (mut total, mut sum) = (0.0, 0.0);
         for row in self.rows {
             // Each entry of a block has sums of its own, so that no addition waits for another.
-            let mut sums = [[registers.splat(0.0); 2]; 3];
+            let mut sums = [registers.pair([[0.0; 4]; 2]); 3];
             for block in pattern.row(row) {
-                let [s, t] = st[pattern.columns[block] as usize - first].map(|x| registers.four(x));
-                for ([of_s, of_t], L) in sums.iter_mut().zip(rows(L, block)) {
-                    let L = registers.four(L);
-                    *of_s = registers.multiply_add(L, s, *of_s);
-                    *of_t = registers.multiply_add(L, t, *of_t);
+                let st = registers.pair(st[pattern.columns[block] as usize - first]);
+                for (sum, L) in sums.iter_mut().zip(rows(L, block)) {
+                    *sum = registers.multiply_add_pair(registers.pair([L, L]), st, *sum);
                 }
             }
             let ([s, t], mut y) = (&mut st[row - first], [0.0; 3]);
             let Kt = symmetric_times(&K[row], t);
             for i in 0..3 {
-                let [Ls, Lt] = sums[i].map(|sums| sum_of(registers.numbers(sums)));
+                let [Ls, Lt] = registers.numbers_of_pair(sums[i]).map(sum_of);
                 s[i] = p[row - first][i] + Kt[i] - Ls;
                 y[i] = t[i] + p[row - first][i] + Kt[i] + Lt;
                 sum += p[row - first][i] * (t[i] + s[i]);

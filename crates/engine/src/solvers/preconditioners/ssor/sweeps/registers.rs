@@ -1,13 +1,15 @@
-//! Registers of four numbers, for kernels in which the compiler does not find them: a row of three numbers leaves one out.
+//! Registers of four numbers, and of the eight of a pair, for kernels in which the compiler does not find them: a row of three numbers
+//! leaves one out.
 
 use pulp::NullaryFnOnce;
 use wide::f32x4;
 
-use super::super::Row;
+use super::super::{Pair, Row};
 
-/// Instructions on four numbers in single precision.
+/// Instructions on four numbers in single precision, and on the eight of a pair of rows.
 pub trait Registers: Copy {
     type Four: Copy;
+    type Eight: Copy;
 
     fn four(self, x: Row) -> Self::Four;
 
@@ -17,6 +19,13 @@ pub trait Registers: Copy {
 
     /// a b + c
     fn multiply_add(self, a: Self::Four, b: Self::Four, c: Self::Four) -> Self::Four;
+
+    fn pair(self, x: Pair) -> Self::Eight;
+
+    fn numbers_of_pair(self, x: Self::Eight) -> Pair;
+
+    /// a b + c
+    fn multiply_add_pair(self, a: Self::Eight, b: Self::Eight, c: Self::Eight) -> Self::Eight;
 }
 
 /// A function that is compiled once for each kind of registers. Functions that it calls must be inlined into it.
@@ -41,6 +50,7 @@ pub struct Portable;
 
 impl Registers for Portable {
     type Four = f32x4;
+    type Eight = [f32x4; 2];
 
     #[inline(always)]
     fn four(self, x: Row) -> f32x4 {
@@ -61,11 +71,27 @@ impl Registers for Portable {
     fn multiply_add(self, a: f32x4, b: f32x4, c: f32x4) -> f32x4 {
         a * b + c
     }
+
+    #[inline(always)]
+    fn pair(self, x: Pair) -> [f32x4; 2] {
+        x.map(f32x4::new)
+    }
+
+    #[inline(always)]
+    fn numbers_of_pair(self, x: [f32x4; 2]) -> Pair {
+        x.map(f32x4::to_array)
+    }
+
+    #[inline(always)]
+    fn multiply_add_pair(self, a: [f32x4; 2], b: [f32x4; 2], c: [f32x4; 2]) -> [f32x4; 2] {
+        [a[0] * b[0] + c[0], a[1] * b[1] + c[1]]
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
 impl Registers for pulp::x86::V3 {
     type Four = pulp::f32x4;
+    type Eight = pulp::f32x8;
 
     #[inline(always)]
     fn four(self, x: Row) -> pulp::f32x4 {
@@ -85,6 +111,21 @@ impl Registers for pulp::x86::V3 {
     #[inline(always)]
     fn multiply_add(self, a: pulp::f32x4, b: pulp::f32x4, c: pulp::f32x4) -> pulp::f32x4 {
         self.mul_add_f32x4(a, b, c)
+    }
+
+    #[inline(always)]
+    fn pair(self, x: Pair) -> pulp::f32x8 {
+        pulp::cast(x)
+    }
+
+    #[inline(always)]
+    fn numbers_of_pair(self, x: pulp::f32x8) -> Pair {
+        pulp::cast(x)
+    }
+
+    #[inline(always)]
+    fn multiply_add_pair(self, a: pulp::f32x8, b: pulp::f32x8, c: pulp::f32x8) -> pulp::f32x8 {
+        self.mul_add_f32x8(a, b, c)
     }
 }
 
