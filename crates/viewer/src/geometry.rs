@@ -100,10 +100,11 @@ pub fn smooth_normals(points: &[Vec3], faces: &[[u32; 3]]) -> Vec<Vec3> {
     normals.into_iter().map(|n| n.normalize_or(Vec3::Y)).collect()
 }
 
-/// Distance along the ray to the first triangle that it meets, m.
-pub fn first_hit(origin: Vec3, ray: Vec3, points: &[Vec3], triangles: &[[usize; 3]]) -> Option<f32> {
-    let hit = |t: &[usize; 3]| distance_to_triangle(origin, ray, t.map(|i| points[i]));
-    triangles.iter().filter_map(hit).min_by(f32::total_cmp)
+/// The number of the first triangle that a ray meets, and the distance along the ray, m.
+pub fn first_hit(origin: Vec3, ray: Vec3, points: &[Vec3], triangles: &[[usize; 3]]) -> Option<(usize, f32)> {
+    let hit =
+        |(number, t): (usize, &[usize; 3])| Some((number, distance_to_triangle(origin, ray, t.map(|i| points[i]))?));
+    triangles.iter().enumerate().filter_map(hit).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// Möller and Trumbore's intersection test, from either side of the triangle.
@@ -130,7 +131,7 @@ mod tests {
     fn a_ray_meets_the_nearer_of_two_triangles() {
         let points: Vec<Vec3> = TRIANGLE.into_iter().chain(TRIANGLE.map(|p| p + Vec3::Z)).collect();
         let hit = first_hit(Vec3::new(0.2, 0.2, 5.0), -Vec3::Z, &points, &[[0, 1, 2], [3, 4, 5]]);
-        assert_eq!(hit, Some(4.0));
+        assert_eq!(hit, Some((1, 4.0)));
     }
 
     #[test]

@@ -24,8 +24,10 @@
 #![deny(missing_docs)]
 
 mod camera;
+mod change;
 mod color_scale;
 mod display;
+mod facets;
 mod frame;
 mod geometry;
 mod history;
@@ -43,9 +45,11 @@ mod pictures;
 mod plot;
 mod request;
 mod scene_changes;
+mod scene_edits;
 mod scene_parameters;
 mod scene_view;
 mod session;
+mod setup;
 mod shader;
 mod surface;
 mod texture;

@@ -41,7 +41,7 @@ fn start(seconds: f64) -> (Worker, Calls) {
         Ok(Box::new(Fake { density, ..fake() }))
     });
     let scene = fem_scene::parse(SCENE, "fake.toml".as_ref()).unwrap();
-    let editor = SceneEditor::new(Editing { scene, objects: Vec::new(), builder }, Vector3::y());
+    let editor = SceneEditor::new(Editing { scene, objects: Vec::new(), data: "data".into(), builder }, Vector3::y());
     (Worker::start(Box::new(fake()), REAL_TIME, Some(editor)), calls)
 }
 
