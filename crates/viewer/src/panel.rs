@@ -32,9 +32,9 @@ const HELP: [&str; 4] = [
     "drag the body: pull  ·  drag beside it, or right button: move  ·  wheel: zoom  ·  \
      C colours  ·  T picture  ·  F forces  ·  N integrator  ·  Space pause  ·  R reset  ·  Esc quit",
     "drag over the body: paint nodes  ·  Ctrl: erase  ·  drag beside it, or right button: look around  ·  wheel: zoom  ·  \
-     1 pull  ·  3 load faces  ·  Space pause  ·  R reset  ·  Esc quit",
-    "click: pick faces  ·  Ctrl: add, remove  ·  drag a picked face: traction  ·  drag beside it, or right button: look around  ·  \
-     wheel: zoom  ·  1 pull  ·  2 fix nodes  ·  Space pause  ·  Esc quit",
+     Space pause  ·  R reset  ·  Esc quit",
+    "click: pick faces  ·  Ctrl: add, remove  ·  drag a picked face: pull or push  ·  right button: look around  ·  wheel: zoom  ·  \
+     Space pause  ·  Esc quit",
 ];
 
 /// Values that the panel shows beside those of the snapshot.

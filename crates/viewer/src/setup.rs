@@ -3,6 +3,8 @@
 pub mod brush;
 pub mod loads;
 pub mod marks;
+#[cfg(test)]
+mod tests;
 
 use std::cell::OnceCell;
 use std::collections::BTreeSet;

@@ -8,7 +8,7 @@ use super::tests::{Fake, REAL_TIME, fake, wait_for};
 use super::*;
 use crate::options::{Builder, Editing};
 
-const SCENE: &str = r#"
+pub const SCENE: &str = r#"
 pipeline = "engine"
 [mesh]
 box = { size = [1, 1, 1], cells_per_unit = 1 }
@@ -23,11 +23,11 @@ integrator = "implicit_euler"
 "#;
 
 /// The thread on which a builder was called, and whether the mesh was there.
-type Calls = Arc<Mutex<Vec<(ThreadId, bool)>>>;
+pub type Calls = Arc<Mutex<Vec<(ThreadId, bool)>>>;
 
 /// A worker whose scene can be changed. The density of a scene that is built becomes that of the fake; it takes `seconds`, is refused above
 /// 1000 kg/m³ and panics above 2000 kg/m³.
-fn start(seconds: f64) -> (Worker, Calls) {
+pub fn start(seconds: f64) -> (Worker, Calls) {
     let calls = Calls::default();
     let seen = Arc::clone(&calls);
     let builder = Builder::new(move |scene, shape| {
