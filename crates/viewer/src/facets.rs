@@ -8,6 +8,9 @@ use nalgebra::Vector3;
 
 use crate::geometry::first_hit;
 
+/// Rounding error of the cosine of an angle between normals.
+const ROUNDING: f64 = 1e-9;
+
 /// Faces, their undeformed normals and their neighbours.
 pub struct Facets {
     /// The nodes of each face.
@@ -57,15 +60,15 @@ impl Facets {
         self.nodes.iter().filter_map(|face| face[..].try_into().ok()).collect()
     }
 
-    /// The smooth part of the surface around a face: the connected faces whose undeformed normals differ from its own by less than an
+    /// The smooth part of the surface around a face: the connected faces whose undeformed normals differ from its own by at most an
     /// angle, rad.
     pub fn smooth_part(&self, start: usize, angle: f64) -> BTreeSet<usize> {
         let normal = |face: usize| self.area_vectors[face].normalize();
-        let own = normal(start);
+        let (own, least) = (normal(start), angle.min(std::f64::consts::PI).cos() - ROUNDING);
         let (mut part, mut open) = (BTreeSet::from([start]), vec![start]);
         while let Some(face) = open.pop() {
             for &next in &self.neighbours[face] {
-                if normal(next).dot(&own) > angle.cos() && part.insert(next) {
+                if normal(next).dot(&own) >= least && part.insert(next) {
                     open.push(next);
                 }
             }
@@ -161,7 +164,7 @@ mod tests {
         let end = facets.smooth_part(face, 0.3);
         assert_eq!(end.len(), 8);
         assert_eq!(facets.mean_normal(&end), Some(Vector3::x()));
-        assert_eq!(facets.smooth_part(face, 3.2).len(), facets.nodes.len(), "an angle above 180° gives all");
+        assert_eq!(facets.smooth_part(face, 3.2).len(), facets.nodes.len(), "an angle of 180° gives all");
         assert_eq!(facets.mean_normal(&(0..facets.nodes.len()).collect()), None, "a closed surface has no direction");
         assert_eq!(facets.centre_and_normal(face, &now).1, Vec3::X);
     }

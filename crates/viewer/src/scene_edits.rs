@@ -240,7 +240,11 @@ integrator = "implicit_euler"
         for kind in Integrator::ALL {
             let mut free = scene();
             free.prescribed.clear();
-            let overrides = [integrator(&free, kind).overrides, vec![Override::without("fixed.until")]].concat();
+            let overrides = [
+                integrator(&free, kind).overrides,
+                ["fixed.until", "traction.0.curve"].map(Override::without).to_vec(),
+            ]
+            .concat();
             assert_eq!(scene().changed(&overrides).unwrap().time.integrator, kind);
         }
     }
