@@ -28,9 +28,9 @@ pub fn show(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, state: &ViewStat
     if setup.loads.is_used() {
         traction(ui, scene, setup, requests);
     }
-    let kind = if state.shape.mesh.is_flat() { "edge of the outline" } else { "face" };
+    let kind = if state.shape.mesh.is_flat() { "an edge of the outline" } else { "a face" };
     let hint = format!(
-        "Click on a {kind}; Ctrl adds and removes. Drag a picked one along its normal to pull or push it. Smooth parts and the normal of \
+        "Click on {kind}; Ctrl adds and removes. Drag a picked one along its normal to pull or push it. Smooth parts and the normal of \
          a load that keeps its direction are those of the undeformed body."
     );
     ui.label(RichText::new(setup.message.clone().unwrap_or(hint)).size(12.0).color(match setup.message {
