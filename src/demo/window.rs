@@ -86,6 +86,7 @@ fn editing(scene: &Scene) -> Option<fem_viewer::Editing> {
     is_engine.then(|| Editing {
         scene: scene.clone(),
         objects: super::data::pictures(),
+        data: super::data::folder(),
         builder: Builder::new(super::build::rebuild),
     })
 }

@@ -28,6 +28,8 @@ mod pulling;
 mod reference;
 mod resumed;
 mod scene_text;
+#[cfg(feature = "viewer")]
+mod set_up;
 mod shipped;
 #[cfg(unix)]
 mod signals;

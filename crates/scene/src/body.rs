@@ -6,6 +6,8 @@ use nalgebra::Vector3;
 
 use crate::check::{check, flat};
 use crate::load::{line_of, refused};
+use crate::mass::lumps_mass;
+use crate::paths::find;
 use crate::picture;
 use crate::simulation::Shape;
 use crate::tables::{MeshTable, SurfaceTable};
@@ -18,10 +20,6 @@ use crate::{BodyMesh, LoadCurve, Material, Scene, SceneError};
 use fem_mesh::generate::odt::improve_inside;
 use fem_mesh::generate::{Solid, stuff_graded};
 use fem_mesh::{AnyMesh, MeshError, Problem, SurfaceMesh, TetrahedralMesh};
-
-/// Largest number of nodes for which an explicit method takes the consistent mass by default. Its linear systems need some thirty
-/// products for each evaluation of the forces, a lumped mass one division.
-pub const CONSISTENT_MASS: usize = 2000;
 
 /// A body as a pipeline simulates it: checked meshes, material, constraints and external forces, in the mesh's node numbers and
 /// SI units.
@@ -38,7 +36,7 @@ pub struct Body {
     /// Plastic flow of all elements.
     pub plasticity: Option<Plasticity>,
     /// Whether the mass matrix is lumped instead of consistent: as the scene says, else for an explicit method and a mesh of more than
-    /// [`CONSISTENT_MASS`] nodes or with obstacles.
+    /// [`CONSISTENT_MASS`](crate::CONSISTENT_MASS) nodes or with obstacles.
     pub lumped_mass: bool,
     /// Factor on the moduli of each element; empty for a uniform body. Scene files have no key for it.
     pub stiffness_factors: Vec<f64>,
@@ -111,7 +109,7 @@ pub fn body_of_shape(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, S
         material: scene.material.clone(),
         regions,
         plasticity: plasticity(scene),
-        lumped_mass: scene.mass.lumped.unwrap_or(lumps_by_default(scene, mesh.vertices().len())),
+        lumped_mass: lumps_mass(scene, mesh.vertices().len()),
         stiffness_factors: Vec::new(),
         density_factors,
         gravity: scene.gravity.as_ref().map(|gravity| gravity.acceleration.into()),
@@ -128,11 +126,6 @@ pub fn body_of_shape(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, S
         damping: damping(scene),
         shape: Shape { mesh, boundary, display, picture },
     })
-}
-
-fn lumps_by_default(scene: &Scene, nodes: usize) -> bool {
-    let method = scene.time.integrator;
-    method.needs_node_masses() || method.is_explicit() && (nodes > CONSISTENT_MASS || !scene.planes.is_empty())
 }
 
 /// Scales, checks and refines the mesh.
@@ -264,12 +257,6 @@ fn scale<const N: usize>(mut mesh: fem_mesh::Mesh<3, N>, factor: f64) -> fem_mes
         *vertex *= factor;
     }
     mesh
-}
-
-/// The path of a mesh file: beside the scene, else in `data`. An absolute path is used as it is.
-fn find(scene: &Scene, data: &Path, file: &Path) -> PathBuf {
-    let beside = scene.path.parent().unwrap_or(Path::new("")).join(file);
-    if beside.exists() { beside } else { data.join(file) }
 }
 
 fn mesh_error(scene: &Scene, field: &'static str, error: MeshError) -> SceneError {

@@ -41,15 +41,19 @@
 mod body;
 mod body_mesh;
 mod check;
+mod conditions;
 mod curve;
 mod error;
 mod identity;
 mod integrator;
 mod interaction;
 mod load;
+mod mass;
 pub mod output;
 mod overrides;
+mod paths;
 mod picture;
+mod save;
 pub mod simulate;
 pub mod simulation;
 pub mod tables;
@@ -57,14 +61,17 @@ mod timer;
 mod values;
 mod warnings;
 
-pub use body::{Body, CONSISTENT_MASS, body, body_of, body_of_shape};
+pub use body::{Body, body, body_of, body_of_shape};
 pub use body_mesh::BodyMesh;
+pub use conditions::Conditions;
 pub use curve::{LoadCurve, is_before};
 pub use error::SceneError;
 pub use integrator::Integrator;
 pub use interaction::{Anchor, Interaction};
 pub use load::{load, load_with, names, parse};
+pub use mass::{CONSISTENT_MASS, lumps_mass};
 pub use overrides::Override;
+pub use save::{SaveError, save};
 pub use tables::{
     Axis, MODELS, Material, Pipeline, PlaneState, Precision, Preconditioner, Projection, Scene, SolverKind,
 };

@@ -12,7 +12,7 @@ use crate::overrides::Override;
 use crate::{Scene, SceneError};
 
 /// Largest scene file, bytes: the tree of a text takes up to a hundred times its memory, so at most 128 MiB.
-const MOST_BYTES: u64 = 1 << 20;
+pub(crate) const MOST_BYTES: u64 = 1 << 20;
 
 /// Reads and checks a scene.
 ///
@@ -98,11 +98,14 @@ impl Scene {
             scene.time.integrator = self.time.integrator;
             scene.remove_unused_tables();
         }
-        scene.time.steps = self.time.steps;
+        if !is_changed("time.steps") {
+            scene.time.steps = self.time.steps;
+        }
         scene.name.clone_from(&self.name);
         scene.path.clone_from(&self.path);
         scene.source = source;
-        scene.overrides = self.overrides.iter().chain(changes).cloned().collect();
+        let lasts = |earlier: &&Override| !changes.iter().any(|change| change.replaces(earlier));
+        scene.overrides = self.overrides.iter().filter(lasts).chain(changes).cloned().collect();
         check(&scene).map_err(|(field, problem)| refused(&text, &scene, &field, &format!("{field} {problem}")))?;
         Ok(scene)
     }

@@ -10,7 +10,8 @@ use toml::{Table, Value};
 pub struct Override {
     /// The keys from the root to the value; entries of arrays by their number, counted from 0.
     path: Vec<String>,
-    value: Value,
+    /// `None` removes the key.
+    value: Option<Value>,
     text: String,
 }
 
@@ -25,7 +26,7 @@ impl FromStr for Override {
         if path.iter().any(String::is_empty) {
             return Err(remedy());
         }
-        Ok(Self { path, value: value_of(value.trim()), text: text.to_owned() })
+        Ok(Self { path, value: Some(value_of(value.trim())), text: text.to_owned() })
     }
 }
 
@@ -36,6 +37,11 @@ impl fmt::Display for Override {
 }
 
 impl Override {
+    /// An override that removes a key, such as `fixed` or `traction.0`; one that is not there stays away.
+    pub fn without(path: &str) -> Self {
+        Self { path: path.split('.').map(str::to_owned).collect(), value: None, text: format!("{path} removed") }
+    }
+
     /// Sets the value in the tables of a scene; tables that are missing are added, and so is the entry after the last of an array.
     pub(crate) fn apply(&self, tables: &mut Table) -> Result<(), String> {
         let mut root = Value::Table(std::mem::take(tables));
@@ -49,14 +55,26 @@ impl Override {
     /// Sets the value below `place`, at which the first `depth` keys end.
     fn set(&self, place: &mut Value, depth: usize) -> Result<(), String> {
         let Some(key) = self.path.get(depth) else {
-            *place = self.value.clone();
+            if let Some(value) = &self.value {
+                *place = value.clone();
+            }
             return Ok(());
         };
+        if self.value.is_none() && depth + 1 == self.path.len() {
+            remove(place, key);
+            return Ok(());
+        }
         let here = || self.path[..depth].join(".");
         match place {
+            Value::Table(table) if self.value.is_none() && !table.contains_key(key) => Ok(()),
             Value::Table(table) => {
                 let entry = table.entry(key.as_str()).or_insert_with(|| self.missing(depth + 1));
                 self.set(entry, depth + 1)
+            }
+            Value::Array(entries)
+                if self.value.is_none() && key.parse().is_ok_and(|number: usize| number >= entries.len()) =>
+            {
+                Ok(())
             }
             Value::Array(entries) => {
                 let Ok(number) = key.parse::<usize>() else {
@@ -80,14 +98,33 @@ impl Override {
         match self.path.get(depth) {
             Some(key) if key.parse::<usize>().is_ok() => Value::Array(Vec::new()),
             Some(_) => Value::Table(Table::new()),
-            None => self.value.clone(),
+            None => self.value.clone().unwrap_or(Value::Array(Vec::new())),
         }
+    }
+
+    /// Whether it makes an earlier override without effect: it sets the same key, or a table that contains it. The places of an array
+    /// move when an entry is removed, so that earlier overrides of entries keep their effect.
+    pub(crate) fn replaces(&self, earlier: &Self) -> bool {
+        self.value.is_some() && earlier.path.starts_with(&self.path)
     }
 
     /// Whether it sets a field such as `time.dt` or `traction[0].on`, a part of it, or a table that contains it.
     pub(crate) fn concerns(&self, field: &str) -> bool {
         let field = field.replace('[', ".").replace(']', "");
         self.path.iter().zip(field.split('.')).all(|(key, of_field)| key == of_field)
+    }
+}
+
+/// Removes a key of a table or an entry of an array, if it is there.
+fn remove(place: &mut Value, key: &str) {
+    match place {
+        Value::Table(table) => drop(table.remove(key)),
+        Value::Array(entries) => {
+            if let Some(number) = key.parse().ok().filter(|number| *number < entries.len()) {
+                entries.remove(number);
+            }
+        }
+        _ => {}
     }
 }
 

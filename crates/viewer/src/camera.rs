@@ -117,7 +117,7 @@ impl Camera {
 
     /// Moves parallel to the picture so that the target follows a mouse motion of `pixels` (right, down).
     pub fn pan(&mut self, pixels: Vec2) {
-        let metres_per_pixel = 2.0 * self.distance * (FIELD_OF_VIEW / 2.0).tan() / self.size.y;
+        let metres_per_pixel = self.metres_per_pixel();
         let right = self.right();
         let above = self.direction().cross(right);
         self.target += (above * pixels.y - right * pixels.x) * metres_per_pixel;
@@ -156,6 +156,16 @@ impl Camera {
             View::Orbit => point + (self.eye() - point) * part,
             View::Front => point + Vec3::Z * (self.distance * part),
         }
+    }
+
+    /// Size of a pixel in the plane of the target, m.
+    pub fn metres_per_pixel(&self) -> f32 {
+        2.0 * self.distance * (FIELD_OF_VIEW / 2.0).tan() / self.size.y
+    }
+
+    /// Unit vector that points upwards in the picture.
+    pub fn above(&self) -> Vec3 {
+        self.direction().cross(self.right())
     }
 
     /// Unit vector to the right of the picture.

@@ -100,11 +100,15 @@ pub fn smooth_normals(points: &[Vec3], faces: &[[u32; 3]]) -> Vec<Vec3> {
     normals.into_iter().map(|n| n.normalize_or(Vec3::Y)).collect()
 }
 
-/// Distance along the ray to the first triangle that it meets, m.
-pub fn first_hit(origin: Vec3, ray: Vec3, points: &[Vec3], triangles: &[[usize; 3]]) -> Option<f32> {
-    let hit = |t: &[usize; 3]| distance_to_triangle(origin, ray, t.map(|i| points[i]));
-    triangles.iter().filter_map(hit).min_by(f32::total_cmp)
+/// The number of the first triangle that a ray meets, and the distance along the ray, m.
+pub fn first_hit(origin: Vec3, ray: Vec3, points: &[Vec3], triangles: &[[usize; 3]]) -> Option<(usize, f32)> {
+    let hit =
+        |(number, t): (usize, &[usize; 3])| Some((number, distance_to_triangle(origin, ray, t.map(|i| points[i]))?));
+    triangles.iter().enumerate().filter_map(hit).min_by(|a, b| a.1.total_cmp(&b.1))
 }
+
+/// Part of a triangle by which it is larger for rays, so that none slips through between two triangles by rounding.
+const SLACK: f32 = 1e-5;
 
 /// Möller and Trumbore's intersection test, from either side of the triangle.
 fn distance_to_triangle(origin: Vec3, ray: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f32> {
@@ -117,7 +121,7 @@ fn distance_to_triangle(origin: Vec3, ray: Vec3, [a, b, c]: [Vec3; 3]) -> Option
     let v = ray.dot(q) / determinant;
     let distance = ac.dot(q) / determinant;
     // A ray in the triangle's plane gives NaN or infinity, which fail these comparisons.
-    (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0).then_some(distance)
+    (u >= -SLACK && v >= -SLACK && u + v <= 1.0 + SLACK && distance > 0.0).then_some(distance)
 }
 
 #[cfg(test)]
@@ -130,7 +134,18 @@ mod tests {
     fn a_ray_meets_the_nearer_of_two_triangles() {
         let points: Vec<Vec3> = TRIANGLE.into_iter().chain(TRIANGLE.map(|p| p + Vec3::Z)).collect();
         let hit = first_hit(Vec3::new(0.2, 0.2, 5.0), -Vec3::Z, &points, &[[0, 1, 2], [3, 4, 5]]);
-        assert_eq!(hit, Some(4.0));
+        assert_eq!(hit, Some((1, 4.0)));
+    }
+
+    #[test]
+    fn a_ray_through_a_corner_of_many_triangles_meets_one_of_them() {
+        let fan: Vec<Vec3> =
+            (0..7).map(|i| Vec3::new((i as f32).cos(), (i as f32).sin(), 0.0)).chain([Vec3::ZERO]).collect();
+        let triangles: Vec<[usize; 3]> = (0..6).map(|i| [7, i, i + 1]).collect();
+        for i in 0..100 {
+            let origin = Vec3::new(0.37 * i as f32, 5.0 - 0.11 * i as f32, 3.0);
+            assert!(first_hit(origin, (-origin).normalize(), &fan, &triangles).is_some(), "{origin}");
+        }
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! An interactive window and offscreen pictures of a [`Simulation`](fem_scene::simulation::Simulation).
 //!
 //! - [`open`] shows a simulation in a window until it is closed; the simulation runs on a thread of its own.
-//! - [`Editing`] lets the window's panel change the scene; the simulation is built anew on its own thread.
+//! - [`Editing`] lets the window's panel change the scene; the simulation is built anew on its own thread. [`SceneEditor`] makes and saves
+//!   such changes, also without a window; [`scene_edits`] has those that are set up by hand.
 //! - [`OffscreenRenderer`] draws the same pictures without a window or a display server.
 //! - [`display_available`] tells in advance whether a window can be opened, and if not, why.
 //!
@@ -24,8 +25,10 @@
 #![deny(missing_docs)]
 
 mod camera;
+mod change;
 mod color_scale;
 mod display;
+mod facets;
 mod frame;
 mod geometry;
 mod history;
@@ -43,9 +46,11 @@ mod pictures;
 mod plot;
 mod request;
 mod scene_changes;
+pub mod scene_edits;
 mod scene_parameters;
 mod scene_view;
 mod session;
+mod setup;
 mod shader;
 mod surface;
 mod texture;
@@ -53,6 +58,7 @@ mod theme;
 mod window;
 mod worker;
 
+pub use change::{Change, Edit, Effect};
 pub use display::display_available;
 pub use offscreen::{NoAdapter, OffscreenRenderer};
 pub use options::{Builder, Editing, WindowOptions};
@@ -60,3 +66,4 @@ pub use pictures::{FRAMES_PER_SECOND, NotWritten, Picture, Recorder};
 pub use scene_view::DisplayedSurface;
 pub use window::{NoWindow, Outcome, WindowError, open};
 pub use worker::Stop;
+pub use worker::scene_editor::{Motion, SceneEditor, SceneSetup};

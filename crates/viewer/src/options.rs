@@ -43,6 +43,8 @@ pub struct Editing {
     pub scene: Scene,
     /// Pictures that the body can be made from in place of its own; they lie in one folder.
     pub objects: Vec<PathBuf>,
+    /// The folder of scenes and meshes, in which a saved scene finds files.
+    pub data: PathBuf,
     /// Builds the changed scene.
     pub builder: Builder,
 }

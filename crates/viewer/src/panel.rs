@@ -1,28 +1,42 @@
 //! The panel at the left, the help line at the bottom, and the banner of a failure.
 
+mod boundary;
+mod load;
+mod save;
+mod sections;
+mod solver;
+mod timers;
+
 use std::path::PathBuf;
 
+use fem_scene::simulation::Shape;
 use kiss3d::egui::{
     Align2, Area, Button, Color32, Context, CornerRadius, Frame, Grid, Id, Margin, Pos2, Rect, RichText, ScrollArea,
     Ui, vec2,
 };
 
-use crate::parameter_rows::ParameterRows;
 use crate::request::UserRequest;
 use crate::scene_view::DisplayedSurface;
+use crate::setup::{Mode, Setup};
 use crate::worker::Snapshot;
 use crate::{pacing, plot, theme};
+use sections::Sections;
 
 /// Width of the panel including its margins, logical pixels.
 pub const WIDTH: f32 = 356.0;
 const CONTENT_WIDTH: f32 = 312.0;
 const HELP_WIDTH: f32 = 990.0; // of the text in one line
-const HELP: [&str; 2] = [
+const HELP: [&str; 4] = [
     "drag the body: pull  ·  drag beside it: turn  ·  middle button: move  ·  wheel: zoom  ·  \
      S surface  ·  C colours  ·  F forces  ·  N integrator  ·  Space pause  ·  R reset  ·  Esc quit",
     "drag the body: pull  ·  drag beside it, or right button: move  ·  wheel: zoom  ·  \
      C colours  ·  T picture  ·  F forces  ·  N integrator  ·  Space pause  ·  R reset  ·  Esc quit",
+    "drag over the body: paint nodes  ·  Ctrl: erase  ·  drag beside it, or right button: look around  ·  wheel: zoom  ·  \
+     Space pause  ·  R reset  ·  Esc quit",
+    "click: pick faces  ·  Ctrl: add, remove  ·  drag a picked face: pull or push  ·  right button: look around  ·  wheel: zoom  ·  \
+     Space pause  ·  Esc quit",
 ];
+
 /// Values that the panel shows beside those of the snapshot.
 pub struct ViewState<'a> {
     /// The scene's name.
@@ -37,13 +51,15 @@ pub struct ViewState<'a> {
     pub turns: bool,
     /// Running mean of the time per frame, s.
     pub frame_seconds: f64,
+    /// The undeformed body.
+    pub shape: &'a Shape,
 }
 
 /// State of the panel between frames.
 #[derive(Default)]
 pub struct Panel {
     places: Vec<Rect>,
-    parameters: ParameterRows,
+    sections: Sections,
 }
 
 impl Panel {
@@ -53,7 +69,13 @@ impl Panel {
     }
 
     /// Lays out panel, help and banner, and returns the user's requests.
-    pub fn show(&mut self, context: &Context, snapshot: &Snapshot, state: &ViewState) -> Vec<UserRequest> {
+    pub fn show(
+        &mut self,
+        context: &Context,
+        snapshot: &Snapshot,
+        state: &ViewState,
+        setup: &mut Setup,
+    ) -> Vec<UserRequest> {
         let mut requests = Vec::new();
         self.places.clear();
         let height = context.content_rect().height();
@@ -63,28 +85,32 @@ impl Panel {
                 panel_frame().show(ui, |ui| {
                     ui.set_width(CONTENT_WIDTH);
                     let scroll = ScrollArea::vertical().max_height(height - 76.0).min_scrolled_height(height - 76.0);
-                    scroll.show(ui, |ui| self.contents(ui, snapshot, state, &mut requests));
+                    scroll.show(ui, |ui| self.contents(ui, snapshot, state, setup, &mut requests));
                 });
             },
         );
         self.places.push(area.response.rect);
-        help(context, if state.turns { HELP[0] } else { HELP[1] });
+        help(context, help_text(setup.mode, state.turns));
         if let Some(stop) = &snapshot.stop {
             self.banner(context, &stop.to_string(), &mut requests);
         }
         requests
     }
 
-    fn contents(&mut self, ui: &mut Ui, snapshot: &Snapshot, state: &ViewState, requests: &mut Vec<UserRequest>) {
+    fn contents(
+        &mut self,
+        ui: &mut Ui,
+        snapshot: &Snapshot,
+        state: &ViewState,
+        setup: &mut Setup,
+        requests: &mut Vec<UserRequest>,
+    ) {
         ui.label(RichText::new(state.name).size(20.0).strong());
         ui.add_space(2.0);
         buttons(ui, snapshot, state, requests);
-        ui.add_space(6.0);
-        numbers(ui, snapshot, state, requests);
-        ui.add_space(6.0);
-        plot::show(ui, &snapshot.history);
-        ui.separator();
-        self.parameters.show(ui, snapshot, state.objects, requests);
+        if snapshot.setup.is_some() {
+            tools(ui, setup.mode, requests);
+        }
         if snapshot.is_building {
             ui.horizontal(|ui| {
                 ui.spinner();
@@ -94,6 +120,10 @@ impl Panel {
         if let Some(refusal) = &snapshot.refusal {
             ui.label(RichText::new(refusal).color(theme::FAILURE));
         }
+        ui.add_space(6.0);
+        numbers(ui, snapshot, state, requests);
+        ui.add_space(6.0);
+        self.sections.show(ui, snapshot, state, setup, requests);
     }
 
     fn banner(&mut self, context: &Context, text: &str, requests: &mut Vec<UserRequest>) {
@@ -128,6 +158,26 @@ fn buttons(ui: &mut Ui, snapshot: &Snapshot, state: &ViewState, requests: &mut V
             button(other, UserRequest::NextSurface);
         }
     });
+}
+
+/// The choice of what the left mouse button does on the body.
+fn tools(ui: &mut Ui, mode: Mode, requests: &mut Vec<UserRequest>) {
+    ui.horizontal(|ui| {
+        for (tool, text) in [(Mode::Pull, "1 Pull"), (Mode::Fix, "2 Fix nodes"), (Mode::Load, "3 Load faces")] {
+            if ui.selectable_label(mode == tool, text).clicked() {
+                requests.push(UserRequest::Choose(tool));
+            }
+        }
+    });
+}
+
+fn help_text(mode: Mode, turns: bool) -> &'static str {
+    match mode {
+        Mode::Pull if turns => HELP[0],
+        Mode::Pull => HELP[1],
+        Mode::Fix => HELP[2],
+        Mode::Load => HELP[3],
+    }
 }
 
 fn numbers(ui: &mut Ui, snapshot: &Snapshot, state: &ViewState, requests: &mut Vec<UserRequest>) {

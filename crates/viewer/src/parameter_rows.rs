@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use fem_scene::simulation::{Parameter, least_stable_substeps};
 use kiss3d::egui::{Align2, ComboBox, FontId, Sense, Slider, SliderClamping, Ui, vec2};
 
+use crate::change::Change;
 use crate::request::UserRequest;
-use crate::scene_parameters::Change;
 use crate::worker::Snapshot;
 use crate::{plot, theme};
 
@@ -44,6 +44,34 @@ const ORDER: [&str; 19] = [
 /// Parameters that are counts.
 const WHOLE: [&str; 3] = ["improve", "cells", "substeps"];
 
+/// A section of the panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Section {
+    /// The mesh.
+    Meshing,
+    /// The material.
+    Material,
+    /// Dirichlet conditions and obstacles.
+    Boundary,
+    /// External forces.
+    Load,
+    /// Time steps, solvers and damping.
+    Solver,
+}
+
+impl Section {
+    /// The section of a parameter.
+    pub fn of(key: &str) -> Self {
+        match key {
+            "improve" | "edge" | "cells" | "scale" => Self::Meshing,
+            "friction" => Self::Boundary,
+            "gravity" | "drag" => Self::Load,
+            "substeps" | "dt" | "alpha" | "beta" => Self::Solver,
+            _ => Self::Material,
+        }
+    }
+}
+
 /// State of the rows between frames.
 #[derive(Default)]
 pub struct ParameterRows {
@@ -51,14 +79,28 @@ pub struct ParameterRows {
 }
 
 impl ParameterRows {
-    /// A row for the picture and each parameter, in the order of [`ORDER`].
-    pub fn show(&mut self, ui: &mut Ui, snapshot: &Snapshot, objects: &[PathBuf], requests: &mut Vec<UserRequest>) {
-        if let Some(object) = &snapshot.object {
+    /// Whether a section has rows.
+    pub fn has(section: Section, snapshot: &Snapshot) -> bool {
+        let mut keys = snapshot.scene_parameters.iter().chain(&snapshot.parameters).map(|parameter| parameter.key);
+        keys.any(|key| Section::of(key) == section) || section == Section::Meshing && snapshot.object.is_some()
+    }
+
+    /// A row for the picture and each parameter of a section, in the order of [`ORDER`].
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        section: Section,
+        snapshot: &Snapshot,
+        objects: &[PathBuf],
+        requests: &mut Vec<UserRequest>,
+    ) {
+        if let Some(object) = snapshot.object.as_ref().filter(|_| section == Section::Meshing) {
             choice(ui, object, objects, requests);
         }
         let of_scene = snapshot.scene_parameters.iter().map(|parameter| (parameter, true));
         let of_simulation = snapshot.parameters.iter().map(|parameter| (parameter, false));
-        let mut rows: Vec<_> = of_scene.chain(of_simulation).collect();
+        let all = of_scene.chain(of_simulation);
+        let mut rows: Vec<_> = all.filter(|(parameter, _)| Section::of(parameter.key) == section).collect();
         rows.sort_by_key(|(parameter, _)| ORDER.iter().position(|key| *key == parameter.key).unwrap_or(ORDER.len()));
         for (parameter, is_of_scene) in rows {
             let name = name(parameter, snapshot.dt, snapshot.critical_time_step);
@@ -110,7 +152,7 @@ fn name(parameter: &Parameter, dt: f64, critical: Option<f64>) -> String {
 }
 
 /// The name of a row, as wide in all rows.
-fn label(ui: &mut Ui, text: &str) {
+pub fn label(ui: &mut Ui, text: &str) {
     let (place, _) = ui.allocate_exact_size(vec2(LABEL_WIDTH, 18.0), Sense::hover());
     let font = FontId::proportional(12.5);
     ui.painter().text(place.left_center(), Align2::LEFT_CENTER, text, font, theme::TEXT);
@@ -133,7 +175,7 @@ fn choice(ui: &mut Ui, object: &Path, objects: &[PathBuf], requests: &mut Vec<Us
 }
 
 /// Parses a number in the panel's format: k is a thousand, M a million.
-fn parse(text: &str) -> Option<f64> {
+pub fn parse(text: &str) -> Option<f64> {
     let text = text.trim();
     let scaled = |letter: char, factor: f64| text.strip_suffix(letter)?.trim().parse::<f64>().ok().map(|v| v * factor);
     text.parse().ok().or_else(|| scaled('k', 1e3)).or_else(|| scaled('M', 1e6))

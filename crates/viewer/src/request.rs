@@ -1,6 +1,9 @@
 //! Requests of the user.
 
-use crate::scene_parameters::Change;
+use std::path::PathBuf;
+
+use crate::change::Change;
+use crate::setup::Mode;
 
 /// A request that the user makes through the panel or a key.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,4 +26,14 @@ pub enum UserRequest {
     Set(&'static str, f64),
     /// Change the scene.
     Change(Change),
+    /// Use another tool.
+    Choose(Mode),
+    /// Give the picked faces the traction of the panel.
+    Load,
+    /// Pick the faces of a load.
+    ChooseLoad(usize),
+    /// Remove the load of the picked faces.
+    RemoveLoad,
+    /// Write the scene to a new file.
+    Save(PathBuf),
 }

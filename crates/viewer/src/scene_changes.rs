@@ -1,6 +1,6 @@
 //! Changes of the scene on their way to the simulation's thread.
 
-use crate::scene_parameters::Change;
+use crate::change::Change;
 
 /// Changes that wait until those before are done: a slider gives more values than scenes can be built.
 #[derive(Default)]
@@ -13,12 +13,7 @@ pub struct SceneChanges {
 impl SceneChanges {
     /// Adds a change, in place of an earlier one of the same parameter.
     pub fn add(&mut self, change: Change) {
-        let is_other = |other: &Change| match (other, &change) {
-            (Change::Number(a, _), Change::Number(b, _)) => a != b,
-            (Change::Object(_), Change::Object(_)) => false,
-            (Change::Number(..), Change::Object(_)) | (Change::Object(_), Change::Number(..)) => true,
-        };
-        self.waiting.retain(is_other);
+        self.waiting.retain(|earlier| !earlier.is_replaced_by(&change));
         self.waiting.push(change);
     }
 
@@ -29,6 +24,11 @@ impl SceneChanges {
         }
         self.sent += 1;
         Some(std::mem::take(&mut self.waiting))
+    }
+
+    /// Whether no change waits or is under way.
+    pub fn is_done(&self, done: usize) -> bool {
+        self.waiting.is_empty() && !self.is_under_way(done)
     }
 
     /// Whether changes that were sent are not done.

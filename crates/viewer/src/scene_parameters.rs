@@ -7,14 +7,7 @@ use fem_scene::tables::MeshTable;
 use fem_scene::{Override, Scene};
 use nalgebra::Vector3;
 
-/// A change of a scene that the panel asks for.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Change {
-    /// Another value of a parameter, by its key.
-    Number(&'static str, f64),
-    /// Another picture, in the folder of the present one.
-    Object(PathBuf),
-}
+use crate::change::Change;
 
 /// Factor between the value of the scene and the ends of the range of a logarithmic slider.
 const DECADES: f64 = 100.0;
@@ -102,6 +95,11 @@ fn range(key: &str, value: f64) -> ((f64, f64), bool) {
     }
 }
 
+/// Young's modulus at small strain, Pa; `None` where the scene gives other parameters.
+pub fn young(scene: &Scene) -> Option<f64> {
+    lame(scene).map(|(lambda, mu)| mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu)).or(scene.material.young)
+}
+
 /// Lamé's constants λ and μ of the law at small strain, Pa: of `young` and `poisson`, or of `C` and `D`.
 fn lame(scene: &Scene) -> Option<(f64, f64)> {
     let material = &scene.material;
@@ -117,6 +115,7 @@ pub fn overrides(scene: &Scene, change: &Change, up: &Vector3<f64>) -> Result<Ve
     let texts = match change {
         Change::Object(file) => vec![format!("mesh.picture.file={:?}", beside(object(scene), file))],
         Change::Number(key, value) => texts(scene, key, *value, up)?,
+        Change::Edit(edit) => return Ok(edit.overrides.clone()),
     };
     texts.iter().map(|text| text.parse()).collect()
 }

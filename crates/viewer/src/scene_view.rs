@@ -18,7 +18,7 @@ use crate::frame::Frame;
 use crate::geometry::{Bounds, edges, first_hit, level_axes, single};
 use crate::obstacles::{self, Faces};
 use crate::paint::Paint;
-use crate::shader::{Environment, Kind, Shared, shader};
+use crate::shader::{Environment, Kind, Painting, Shared, shader};
 use crate::surface::{Shading, Surface};
 use crate::theme;
 
@@ -47,6 +47,8 @@ pub struct SceneView {
     environment: Rc<RefCell<Environment>>,
     paint: Paint,
     shape: Arc<Shape>,
+    /// Faces in another colour, as their nodes.
+    highlight: Option<(Vec<[usize; 3]>, Surface)>,
 }
 
 impl SceneView {
@@ -76,8 +78,20 @@ impl SceneView {
         let edges = edges(&shape.boundary);
         let shape = Arc::clone(shape);
         let shown = DisplayedSurface::Skinned;
-        let mut view =
-            SceneView { root, skin, mesh, edges, shown, bounds, floor, obstacles, environment, paint, shape };
+        let mut view = SceneView {
+            root,
+            skin,
+            mesh,
+            edges,
+            shown,
+            bounds,
+            floor,
+            obstacles,
+            environment,
+            paint,
+            shape,
+            highlight: None,
+        };
         view.show(DisplayedSurface::Skinned);
         if let (Some(floor), Some(_)) = (&mut view.floor, &view.obstacles) {
             floor.set_visible(false); // it would cut through the obstacles
@@ -159,12 +173,32 @@ impl SceneView {
         }
     }
 
+    /// Shows faces of the simulation mesh in another colour, where they are now.
+    pub fn highlight(&mut self, faces: Vec<[usize; 3]>, positions: &[Vec3], camera: &Camera) {
+        if self.highlight.as_ref().is_some_and(|(shown, _)| *shown != faces) {
+            self.highlight.take().into_iter().for_each(|(_, surface)| surface.remove());
+        }
+        if faces.is_empty() {
+            return;
+        }
+        let nearer: Vec<Vec3> = positions.iter().map(|point| camera.nearer(*point, 1e-3)).collect();
+        let (root, environment) = (&mut self.root, &self.environment);
+        let (_, surface) = self.highlight.get_or_insert_with(|| {
+            let material = shader(Kind::Body, environment, &Painting::default());
+            let mut surface = Surface::new(root, &nearer, &faces, Shading::Flat, (&material, None));
+            surface.set_color(theme::PICKED);
+            (faces, surface)
+        });
+        surface.update(&nearer);
+    }
+
     /// Distance along a ray to the displayed surface, m.
     pub fn hit(&self, (origin, ray): (Vec3, Vec3), frame: &Frame) -> Option<f32> {
-        match &self.skin {
+        let hit = match &self.skin {
             Some(skin) if self.shows_skin() => first_hit(origin, ray, &frame.display, &skin.triangles),
             _ => first_hit(origin, ray, &frame.positions, &self.mesh.triangles),
-        }
+        };
+        hit.map(|(_, distance)| distance)
     }
 
     /// Draws the lines of a frame into the next picture: edges of the simulation mesh if it is displayed, obstacles, and arrows.

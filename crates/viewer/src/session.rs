@@ -1,6 +1,7 @@
 //! The window's loop: input, latest snapshot, panel, frame.
 
 mod input;
+mod tools;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -19,7 +20,8 @@ use crate::options::WindowOptions;
 use crate::panel::{self, Panel, ViewState};
 use crate::pictures::{NotWritten, Picture, Recorder};
 use crate::scene_changes::SceneChanges;
-use crate::scene_view::{SceneView, prepare};
+use crate::scene_view::{DisplayedSurface, SceneView, prepare};
+use crate::setup::Setup;
 use crate::worker::{Command, Snapshot, Worker};
 use crate::{legend, obstacles};
 
@@ -49,6 +51,9 @@ pub struct Session {
     changes: SceneChanges,
     name: String,
     interaction: Interaction,
+    setup: Setup,
+    /// The surface that is shown again when the body is pulled.
+    shown_before: DisplayedSurface,
     panel: Panel,
     cursor: Vec2,
     frame_seconds: f64,
@@ -111,6 +116,8 @@ impl Session {
             shape,
             name,
             interaction: Interaction::default(),
+            setup: Setup::default(),
+            shown_before: DisplayedSurface::default(),
             panel: Panel::default(),
             cursor: Vec2::ZERO,
             frame_seconds: 0.0,
@@ -157,6 +164,9 @@ impl Session {
         let Some(snapshot) = self.worker.latest() else { return false };
         self.snapshot = snapshot;
         self.show_shape();
+        if let Some(scene) = self.snapshot.setup.as_ref().filter(|_| self.changes.is_done(self.snapshot.changes)) {
+            self.setup.settle(&self.shape, scene);
+        }
         let body = self.view.update(&self.snapshot.frame);
         self.keep_in_view(&body);
         true
@@ -178,6 +188,7 @@ impl Session {
         self.view.show(shown);
         self.view.show_picture(self.shows_picture);
         self.interaction.release(&self.worker);
+        self.setup.forget_body();
         let framed = obstacles::arena(self.view.bounds(), planes);
         self.framed = Some(framed);
         self.camera = Camera::framing(self.view_kind, &framed, self.up, size(&self.window), covered(&self.window));
@@ -205,6 +216,7 @@ impl Session {
         let begun = Instant::now();
         self.camera.resize(size(&self.window), covered(&self.window));
         self.draw_panel();
+        self.draw_setup();
         self.view.draw_lines(&mut self.window, &self.snapshot.frame, &self.camera);
         self.interaction.draw(&mut self.window, &self.snapshot.frame.positions, &self.camera);
         let open = pollster::block_on(self.window.render_3d(&mut self.view.root, &mut self.camera));
@@ -215,8 +227,17 @@ impl Session {
         open
     }
 
+    /// Draws what is set up by hand: painted nodes, picked faces, loads.
+    fn draw_setup(&mut self) {
+        let Session { window, setup, snapshot, shape, camera, view, .. } = self;
+        let Some(scene) = &snapshot.setup else { return };
+        let positions = &snapshot.frame.positions;
+        view.highlight(setup.picked_triangles(shape), positions, camera);
+        setup.draw(window, shape, scene, positions, camera);
+    }
+
     fn draw_panel(&mut self) {
-        let Session { window, panel, snapshot, view, name, objects, .. } = self;
+        let Session { window, panel, setup, snapshot, view, name, objects, shape, .. } = self;
         let state = ViewState {
             name,
             objects,
@@ -224,11 +245,12 @@ impl Session {
             has_skin: view.has_skin(),
             turns: self.camera.turns(),
             frame_seconds: self.frame_seconds,
+            shape,
         };
         let scale = view.scale().copied();
         let mut requests = Vec::new();
         window.draw_ui(|context| {
-            requests = panel.show(context, snapshot, &state);
+            requests = panel.show(context, snapshot, &state, setup);
             scale.iter().for_each(|scale| legend::show(context, scale));
         });
         for request in requests {

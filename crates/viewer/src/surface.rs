@@ -63,6 +63,19 @@ impl Surface {
         Surface { node, shadow, mesh, triangles, faces, shading }
     }
 
+    /// Gives the surface another colour.
+    pub fn set_color(&mut self, color: Color) {
+        self.node.set_color(color);
+    }
+
+    /// Takes the surface out of the scene graph.
+    pub fn remove(mut self) {
+        self.node.detach();
+        if let Some(mut shadow) = self.shadow {
+            shadow.detach();
+        }
+    }
+
     /// Shows or hides the surface, and its shadow.
     pub fn set_visible(&mut self, visible: bool, shadow: bool) {
         self.node.set_visible(visible);

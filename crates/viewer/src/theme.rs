@@ -48,6 +48,15 @@ pub const FACE: Color = Color::new(0.62, 0.66, 0.72, 0.45);
 /// Arrows of contact forces.
 pub const FORCE: Color = Color::new(0.62, 0.02, 0.02, 1.0);
 
+/// Nodes that do not move, and the brush that paints them.
+pub const FIXED: Color = Color::new(0.0, 0.22, 0.05, 1.0);
+/// Nodes with a prescribed motion.
+pub const PRESCRIBED: Color = Color::new(0.25, 0.02, 0.42, 1.0);
+/// Picked faces and their load.
+pub const PICKED: Color = Color::new(0.95, 0.42, 0.02, 1.0);
+/// Loads on faces that are not picked.
+pub const LOAD: Color = Color::new(0.55, 0.16, 0.02, 1.0);
+
 /// Dark text on a light background.
 pub fn set_style(context: &egui::Context) {
     context.set_theme(Theme::Light);

@@ -3,7 +3,10 @@
 #[cfg(test)]
 mod editing_tests;
 pub mod scene_editor;
+#[cfg(test)]
+mod setup_tests;
 pub mod simulation_loop;
+pub mod step_timers;
 #[cfg(test)]
 mod tests;
 
@@ -19,11 +22,12 @@ use fem_scene::output::ElementField;
 use fem_scene::simulation::{Click, Energies, Failure, Parameter, Pull, Shape, Simulation};
 use nalgebra::Vector3;
 
+use crate::change::Change;
 use crate::frame::{Frame, Wanted};
 use crate::history::Sample;
 use crate::panics::panic_message;
-use crate::scene_parameters::Change;
-use scene_editor::SceneEditor;
+use scene_editor::{SceneEditor, SceneSetup};
+use step_timers::StepTimer;
 
 /// The reason why a simulation has stopped until it is reset.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,6 +69,8 @@ pub enum Command {
     Pick(Click, Sender<Anchors>),
     /// Step on to the next frame, in [`Stepping::Frames`].
     NextFrame,
+    /// Write the scene as it is set up to a new file.
+    Save(PathBuf),
     /// End the thread.
     Quit,
 }
@@ -121,6 +127,12 @@ pub struct Snapshot {
     pub scene_parameters: Vec<Parameter>,
     /// The picture of the body, if it is made from one that the user may change.
     pub object: Option<PathBuf>,
+    /// The scene with the user's changes and the parts of the body that it names, if it may be changed.
+    pub setup: Option<Arc<SceneSetup>>,
+    /// The last command [`Command::Save`]: the path of the file, or why it was not written.
+    pub saved: Option<Result<PathBuf, String>>,
+    /// The parts of a step and their times.
+    pub timers: Vec<StepTimer>,
     /// Whether a changed scene is being built.
     pub is_building: bool,
     /// Number of commands [`Command::Change`] that were executed or refused.

@@ -22,7 +22,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
 }
 
 fn check_traction(table: &str, traction: &TractionTable) -> Result<(), Problem> {
-    check_one(table, &traction.selectors(), "on, box, sphere, set and faces")?;
+    check_one(table, &traction.selectors(), "on, box, sphere, set, faces and edges")?;
     match (&traction.force_per_area, traction.pressure) {
         (Some(force), None) => check_vector(&format!("{table}.force_per_area"), force),
         (None, Some(pressure)) => check_finite(&format!("{table}.pressure"), &[pressure]),

@@ -26,7 +26,10 @@ fn check_selector(table: &str, selector: &Selector) -> Result<(), Problem> {
         Selector::Faces(faces) if faces.is_empty() => {
             problem(&field, "is empty; name a triangle of the boundary, or remove the table")
         }
-        Selector::Nodes(_) | Selector::Faces(_) => Ok(()),
+        Selector::Edges(edges) if edges.is_empty() => {
+            problem(&field, "is empty; name an edge of the outline, or remove the table")
+        }
+        Selector::Nodes(_) | Selector::Faces(_) | Selector::Edges(_) => Ok(()),
     }
 }
 

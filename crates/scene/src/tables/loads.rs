@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use serde::de::{Error, Visitor};
 
-use super::vectors::{three_numbers, three_numbers_if_any, triangles_if_any, two_nodes};
+use super::vectors::{edges_if_any, three_numbers, three_numbers_if_any, triangles_if_any, two_nodes};
 use super::{BoxTable, CurveTable, On, Selector, SphereTable};
 
 /// `[gravity]`
@@ -44,6 +44,9 @@ pub struct TractionTable {
     /// These boundary triangles, each by its three nodes in any order.
     #[serde(default, deserialize_with = "triangles_if_any")]
     pub faces: Option<Vec<[usize; 3]>>,
+    /// These edges of a flat body's outline, each by its two ends in any order.
+    #[serde(default, deserialize_with = "edges_if_any")]
+    pub edges: Option<Vec<[usize; 2]>>,
     /// Dead load: force per undeformed area, Pa. It keeps its direction and its sum.
     #[serde(default, deserialize_with = "three_numbers_if_any")]
     pub force_per_area: Option<[f64; 3]>,
@@ -58,6 +61,7 @@ impl TractionTable {
     pub fn selectors(&self) -> Vec<Selector> {
         let mut selectors = Selector::of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
         selectors.extend(self.faces.clone().map(Selector::Faces));
+        selectors.extend(self.edges.clone().map(Selector::Edges));
         selectors
     }
 }

@@ -18,6 +18,8 @@ pub enum Selector {
     Nodes(Vec<usize>),
     /// `faces`: these triangles of the boundary.
     Faces(Vec<[usize; 3]>),
+    /// `edges`: these edges of a flat body's outline.
+    Edges(Vec<[usize; 2]>),
 }
 
 /// A region of space.
@@ -46,6 +48,7 @@ impl Selector {
             Self::Set(_) => "set",
             Self::Nodes(_) => "nodes",
             Self::Faces(_) => "faces",
+            Self::Edges(_) => "edges",
         }
     }
 

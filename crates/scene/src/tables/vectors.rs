@@ -25,6 +25,12 @@ pub(super) fn triangles_if_any<'de, D: Deserializer<'de>>(
     faces.into_iter().map(|nodes| exactly(nodes, "three nodes")).collect::<Result<_, _>>().map(Some)
 }
 
+/// Reads edges that a table may leave out.
+pub(super) fn edges_if_any<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<[usize; 2]>>, D::Error> {
+    let edges = Vec::<Vec<usize>>::deserialize(deserializer)?;
+    edges.into_iter().map(|nodes| exactly(nodes, "two nodes")).collect::<Result<_, _>>().map(Some)
+}
+
 fn exactly<T, const N: usize, E: Error>(list: Vec<T>, expected: &str) -> Result<[T; N], E> {
     <[T; N]>::try_from(list).map_err(|list| E::invalid_length(list.len(), &expected))
 }

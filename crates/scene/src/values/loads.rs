@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::Vector3;
 
 use super::selection::{self, chosen, listed};
-use crate::tables::{CurveTable, DragTable, DragVertex, SpringTable};
+use crate::tables::{CurveTable, DragTable, DragVertex, SpringTable, TractionTable};
 use crate::{BodyMesh, LoadCurve, Scene, SceneError};
 
 /// Dead load on a part of the surface: it keeps its direction and its sum.
@@ -78,22 +78,32 @@ pub(crate) fn surface_loads(
     boundary: &[[usize; 3]],
 ) -> Result<SurfaceLoads, SceneError> {
     let (mut tractions, mut pressures) = (Vec::new(), Vec::new());
-    for (number, table) in scene.traction.iter().enumerate() {
-        let (name, selector, curve) = (format!("traction[{number}]"), chosen(table.selectors()), curve(&table.curve));
-        let faces = || match mesh.is_flat() {
-            true => selection::edges(scene, &name, &selector, mesh),
-            false => {
-                let triangles = selection::faces(scene, &name, &selector, mesh, boundary)?;
-                Ok(triangles.into_iter().map(Vec::from).collect())
-            }
-        };
+    for (table, faces) in scene.traction.iter().zip(loaded_faces(scene, mesh, boundary)?) {
+        let curve = curve(&table.curve);
         match (table.force_per_area, table.pressure) {
-            (Some(force), _) => tractions.push(Traction { faces: faces()?, force_per_area: force.into(), curve }),
-            (None, Some(pressure)) => pressures.push(Pressure { faces: faces()?, pressure, curve }),
+            (Some(force), _) => tractions.push(Traction { faces, force_per_area: force.into(), curve }),
+            (None, Some(pressure)) => pressures.push(Pressure { faces, pressure, curve }),
             (None, None) => unreachable!("a traction without a force is refused when the scene is read"),
         }
     }
     Ok((tractions, pressures))
+}
+
+/// The nodes of the loaded faces of every `[[traction]]`, in order: triangles of a solid body, edges of a flat one.
+pub(crate) fn loaded_faces(
+    scene: &Scene,
+    mesh: &BodyMesh,
+    boundary: &[[usize; 3]],
+) -> Result<Vec<Vec<Vec<usize>>>, SceneError> {
+    let faces = |(number, table): (usize, &TractionTable)| {
+        let (name, selector) = (format!("traction[{number}]"), chosen(table.selectors()));
+        if mesh.is_flat() {
+            return selection::edges(scene, &name, &selector, mesh);
+        }
+        let triangles = selection::faces(scene, &name, &selector, mesh, boundary)?;
+        Ok(triangles.into_iter().map(Vec::from).collect())
+    };
+    scene.traction.iter().enumerate().map(faces).collect()
 }
 
 /// The factor of time of a load.

@@ -19,7 +19,7 @@ pub use plasticity::Plasticity;
 pub(crate) use constraints::dirichlet_conditions;
 pub(crate) use contact::contact;
 pub(crate) use initial::initial_velocity;
-pub(crate) use loads::{curve, drag, springs, surface_loads};
+pub(crate) use loads::{curve, drag, loaded_faces, springs, surface_loads};
 pub(crate) use materials::{density_factors, regions};
 pub(crate) use method::damping;
 pub(crate) use plasticity::plasticity;

@@ -28,6 +28,7 @@ pub(crate) fn nodes(
         Selector::Set(name) => mesh.nodes_of_set(set(scene, table, name, mesh)?),
         Selector::Nodes(nodes) => listed(scene, &format!("{table}.nodes"), nodes, mesh)?,
         Selector::Faces(faces) => listed(scene, &format!("{table}.faces"), faces.as_flattened(), mesh)?,
+        Selector::Edges(edges) => listed(scene, &format!("{table}.edges"), edges.as_flattened(), mesh)?,
         Selector::Region(region) => {
             let is_inside = inside(region, mesh);
             (0..mesh.vertices().len()).filter(|&node| is_inside(&mesh.vertices()[node])).collect()
@@ -55,6 +56,10 @@ pub(crate) fn faces(
             of_boundary(scene, &format!("{table}.set"), &set.faces, boundary)?
         }
         Selector::Faces(faces) => of_boundary(scene, &format!("{table}.faces"), faces, boundary)?,
+        Selector::Edges(_) => {
+            let text = "names edges of an outline, and a solid body has triangles; name them by faces";
+            return Err(scene.refuse(&format!("{table}.edges"), text));
+        }
         Selector::Region(_) | Selector::Nodes(_) => {
             let mut is_selected = vec![false; mesh.vertices().len()];
             nodes(scene, table, selector, mesh)?.into_iter().for_each(|node| is_selected[node] = true);
@@ -83,9 +88,11 @@ pub(crate) fn edges(
             outline.retain(|edge| set.edges.contains(&[edge[0].min(edge[1]), edge[0].max(edge[1])]));
         }
         Selector::Faces(_) => {
-            let text =
-                "names triangles of the boundary, and a flat body has edges; name them by on, box, sphere or set";
+            let text = "names triangles of the boundary, and a flat body has edges; name them by edges";
             return Err(scene.refuse(&format!("{table}.faces"), text));
+        }
+        Selector::Edges(wanted) => {
+            outline = of_outline(scene, &format!("{table}.edges"), wanted, outline)?;
         }
         Selector::Region(_) | Selector::Nodes(_) => {
             let selected: HashSet<usize> = nodes(scene, table, selector, mesh)?.into_iter().collect();
@@ -116,7 +123,7 @@ pub(crate) fn elements(
             }
             set.elements.clone()
         }
-        Selector::Nodes(_) | Selector::Faces(_) => {
+        Selector::Nodes(_) | Selector::Faces(_) | Selector::Edges(_) => {
             let nodes: HashSet<usize> = nodes(scene, table, selector, mesh)?.into_iter().collect();
             matching(&|element| element.iter().all(|node| nodes.contains(node)))
         }
@@ -185,6 +192,22 @@ fn of_boundary(
     }
 }
 
+/// The edges of an outline with these ends, in the order of the outline. Refuses an edge that is not on it.
+fn of_outline(
+    scene: &Scene,
+    field: &str,
+    wanted: &[[usize; 2]],
+    outline: Vec<Vec<usize>>,
+) -> Result<Vec<Vec<usize>>, SceneError> {
+    let ends = |a: usize, b: usize| [a.min(b), a.max(b)];
+    let keys: HashSet<_> = wanted.iter().map(|&[a, b]| ends(a, b)).collect();
+    let known: HashSet<_> = outline.iter().map(|edge| ends(edge[0], edge[1])).collect();
+    if let Some(edge) = wanted.iter().find(|&&[a, b]| !known.contains(&ends(a, b))) {
+        return Err(scene.refuse(field, &format!("names {edge:?}, which is no edge of the outline; correct it")));
+    }
+    Ok(outline.into_iter().filter(|edge| keys.contains(&ends(edge[0], edge[1]))).collect())
+}
+
 fn sorted(face: &[usize; 3]) -> [usize; 3] {
     let mut key = *face;
     key.sort_unstable();
@@ -225,6 +248,7 @@ fn description(selector: &Selector) -> String {
         Selector::Set(name) => format!("({name:?})"),
         Selector::Nodes(nodes) => format!("({} nodes)", nodes.len()),
         Selector::Faces(faces) => format!("({} triangles)", faces.len()),
+        Selector::Edges(edges) => format!("({} edges)", edges.len()),
     }
 }
 

@@ -13,6 +13,7 @@ mod moduli;
 mod motions;
 mod overrides;
 mod plasticity;
+mod saved;
 mod selectors;
 mod tables;
 

@@ -204,3 +204,25 @@ fn sorted(mut face: [usize; 3]) -> [usize; 3] {
     face.sort_unstable();
     face
 }
+
+#[test]
+fn edges_of_the_outline_are_named_by_their_ends_in_any_order() {
+    let flat = edit(LEAST, "box = { size = [2, 1, 1]", "rectangle = { size = [2, 1]");
+    let flat = edit(&edit(&flat, "\"course\"", "\"engine\""), "C = 1e5\nD = 4e5\n", "young = 1e5\npoisson = 0.3\n");
+    let load = |keys: &str| body(&format!("{flat}[[traction]]\n{keys}\npressure = 1.0\n"));
+    assert_eq!(load("edges = [[1, 0], [2, 5]]").unwrap().pressures[0].faces, [[0, 1], [2, 5]]);
+    let quadratic = edit(&flat, "[mesh]\n", "[mesh]\norder = 2\n");
+    let text = format!("{quadratic}[[traction]]\nedges = [[1, 0]]\npressure = 1.0\n");
+    assert_eq!(body(&text).unwrap().pressures[0].faces[0].len(), 3, "with the node in its middle");
+    for (keys, remedy) in [
+        ("edges = [[0, 4]]", "names [0, 4], which is no edge of the outline; correct it"),
+        ("edges = []", "traction[0].edges is empty; name an edge of the outline"),
+        ("faces = [[0, 1, 4]]", "name them by edges"),
+    ] {
+        let text = format!("{flat}[[traction]]\n{keys}\npressure = 1.0\n");
+        let parsed = fem_scene::parse(&text, "name.toml".as_ref());
+        let message = parsed.and_then(|scene| fem_scene::body(&scene, "no data".as_ref())).unwrap_err().to_string();
+        assert!(message.contains(remedy), "{message}");
+    }
+    assert!(refusal("[[traction]]\nedges = [[0, 1]]\npressure = 1.0").contains("name them by faces"));
+}

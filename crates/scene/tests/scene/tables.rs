@@ -150,7 +150,7 @@ fn an_empty_list_of_nodes_or_faces_is_refused() {
 
 #[test]
 fn a_traction_names_one_place_and_one_force() {
-    let place = "traction[1] needs one of on, box, sphere, set and faces; give one and only one";
+    let place = "traction[1] needs one of on, box, sphere, set, faces and edges; give one and only one";
     let force = "needs either force_per_area or pressure; give one and only one";
     assert_refused(&edit(&with_tables(), "faces = [[4, 0, 1]]\n", ""), 28, place);
     assert_refused(&edit(&with_tables(), "pressure = -5.0\n", ""), 28, &format!("traction[1] {force}"));

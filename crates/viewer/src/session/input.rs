@@ -8,9 +8,11 @@ use kiss3d::event::{Action, Key, Modifiers, MouseButton, WindowEvent};
 use kiss3d::glamx::Vec2;
 
 use super::Session;
+use super::tools::ToolEvent;
 use crate::frame::Wanted;
 use crate::request::UserRequest;
 use crate::scene_view::DisplayedSurface;
+use crate::setup::Mode;
 use crate::worker::Command;
 
 impl Session {
@@ -23,8 +25,14 @@ impl Session {
             match event {
                 WindowEvent::Key(key, Action::Press, _) => self.key(key),
                 WindowEvent::MouseButton(button, Action::Press, modifiers) => self.press(button, modifiers),
-                WindowEvent::MouseButton(_, Action::Release, _) => self.interaction.release(&self.worker),
-                WindowEvent::CursorPos(x, y, _) => self.move_cursor(Vec2::new(x as f32, y as f32)),
+                WindowEvent::MouseButton(_, Action::Release, _) => {
+                    self.interaction.release(&self.worker);
+                    self.end_of_tool();
+                }
+                WindowEvent::CursorPos(x, y, modifiers) => {
+                    self.move_cursor(Vec2::new(x as f32, y as f32));
+                    self.use_tool(ToolEvent::Move, modifiers);
+                }
                 WindowEvent::Scroll(_, amount, _) if !self.is_on_panel() => {
                     self.framed = None;
                     self.camera.zoom(notches(amount), self.cursor);
@@ -46,6 +54,9 @@ impl Session {
             Key::C => self.apply(UserRequest::NextColor),
             Key::T => self.apply(UserRequest::TogglePicture),
             Key::F => self.apply(UserRequest::ToggleForces),
+            Key::Key1 => self.apply(UserRequest::Choose(Mode::Pull)),
+            Key::Key2 => self.apply(UserRequest::Choose(Mode::Fix)),
+            Key::Key3 => self.apply(UserRequest::Choose(Mode::Load)),
             Key::Space => self.apply(UserRequest::TogglePause),
             Key::Escape => self.closing = true,
             _ => {}
@@ -58,6 +69,10 @@ impl Session {
         }
         self.framed = None;
         // A mouse without a middle button moves the camera with shift.
+        let is_left = button == MouseButton::Button1 && !modifiers.contains(Modifiers::Shift);
+        if is_left && self.use_tool(ToolEvent::Press, modifiers) {
+            return;
+        }
         let button = if modifiers.contains(Modifiers::Shift) { MouseButton::Button3 } else { button };
         let (origin, ray) = self.camera.ray(self.cursor);
         let hit = self.view.hit((origin, ray), &self.snapshot.frame);
@@ -83,6 +98,9 @@ impl Session {
             UserRequest::Reset => self.worker.send(Command::Reset),
             UserRequest::NextIntegrator => self.worker.send(Command::NextIntegrator),
             UserRequest::Change(change) => self.changes.add(change),
+            UserRequest::Choose(mode) => self.choose(mode),
+            UserRequest::Load | UserRequest::ChooseLoad(_) | UserRequest::RemoveLoad => self.apply_to_loads(&request),
+            UserRequest::Save(path) => self.worker.send(Command::Save(path)),
             UserRequest::Set(key, value) => self.worker.send(Command::Set(key, value)),
             UserRequest::NextSurface => {
                 let other = match self.view.shown() {

@@ -8,7 +8,7 @@ use super::tests::{Fake, REAL_TIME, fake, wait_for};
 use super::*;
 use crate::options::{Builder, Editing};
 
-const SCENE: &str = r#"
+pub const SCENE: &str = r#"
 pipeline = "engine"
 [mesh]
 box = { size = [1, 1, 1], cells_per_unit = 1 }
@@ -23,12 +23,13 @@ integrator = "implicit_euler"
 "#;
 
 /// The thread on which a builder was called, and whether the mesh was there.
-type Calls = Arc<Mutex<Vec<(ThreadId, bool)>>>;
+pub type Calls = Arc<Mutex<Vec<(ThreadId, bool)>>>;
 
 /// A worker whose scene can be changed. The density of a scene that is built becomes that of the fake; it takes `seconds`, is refused above
 /// 1000 kg/m³ and panics above 2000 kg/m³.
-fn start(seconds: f64) -> (Worker, Calls) {
+pub fn start(seconds: f64) -> (Worker, Calls) {
     let calls = Calls::default();
+    let mesh = || fem_mesh::box_mesh([1.0; 3], 1).unwrap().into();
     let seen = Arc::clone(&calls);
     let builder = Builder::new(move |scene, shape| {
         seen.lock().unwrap().push((std::thread::current().id(), shape.is_some()));
@@ -38,11 +39,11 @@ fn start(seconds: f64) -> (Worker, Calls) {
         if density > 1000.0 {
             return Err("the body is too heavy".to_owned());
         }
-        Ok(Box::new(Fake { density, ..fake() }))
+        Ok(Box::new(Fake { density, mesh: mesh(), ..fake() }))
     });
     let scene = fem_scene::parse(SCENE, "fake.toml".as_ref()).unwrap();
-    let editor = SceneEditor::new(Editing { scene, objects: Vec::new(), builder }, Vector3::y());
-    (Worker::start(Box::new(fake()), REAL_TIME, Some(editor)), calls)
+    let editor = SceneEditor::new(Editing { scene, objects: Vec::new(), data: "data".into(), builder }, Vector3::y());
+    (Worker::start(Box::new(Fake { mesh: mesh(), ..fake() }), REAL_TIME, Some(editor)), calls)
 }
 
 fn change(worker: &Worker, key: &'static str, value: f64) {

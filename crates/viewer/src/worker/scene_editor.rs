@@ -1,15 +1,17 @@
 //! Changes of a scene while its simulation runs.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use fem_scene::Scene;
 use fem_scene::simulation::{Parameter, Simulation};
+use fem_scene::{Conditions, Integrator, Override, Scene, lumps_mass};
 use nalgebra::Vector3;
 
+use crate::change::{Change, Effect};
 use crate::options::{Builder, Editing};
 use crate::panics::panic_message;
-use crate::scene_parameters::{self, Change};
+use crate::{scene_edits, scene_parameters};
 
 /// A scene, and what builds its simulation anew.
 pub struct SceneEditor {
@@ -17,7 +19,18 @@ pub struct SceneEditor {
     /// The scene before all changes.
     initial: Scene,
     builder: Builder,
+    data: PathBuf,
     up: Vector3<f64>,
+    setup: Option<Arc<SceneSetup>>,
+}
+
+/// A scene, and the parts of the body that its conditions and loads name.
+#[derive(Clone, Debug)]
+pub struct SceneSetup {
+    /// The scene with the changes of its user.
+    pub scene: Scene,
+    /// The nodes and faces that it names.
+    pub conditions: Conditions,
 }
 
 /// The fate of the state of a simulation that was built anew.
@@ -32,8 +45,55 @@ pub enum Motion {
 impl SceneEditor {
     /// An editor that has changed nothing; `up` is against the direction that gravity has if the scene gives it none.
     pub fn new(editing: Editing, up: Vector3<f64>) -> Self {
-        let Editing { scene, builder, .. } = editing;
-        SceneEditor { initial: scene.clone(), scene, builder, up }
+        let Editing { scene, builder, data, .. } = editing;
+        SceneEditor { initial: scene.clone(), scene, builder, data, up, setup: None }
+    }
+
+    /// Finds the nodes and faces that the scene names on the body of its simulation.
+    pub fn find_conditions(&mut self, simulation: &dyn Simulation) {
+        let conditions = Conditions::of(&self.scene, &simulation.shape());
+        self.setup = conditions.ok().map(|conditions| Arc::new(SceneSetup { scene: self.scene.clone(), conditions }));
+    }
+
+    /// The scene and the parts of the body that it names.
+    pub fn setup(&self) -> Option<Arc<SceneSetup>> {
+        self.setup.clone()
+    }
+
+    /// Writes the scene, with the method and the parameters that the simulation has now, to a new file.
+    pub fn save(&self, path: &Path, simulation: &dyn Simulation) -> Result<(), String> {
+        let scene = self.scene_of(simulation)?;
+        fem_scene::save(&scene, path, &self.data).map_err(|error| error.to_string())
+    }
+
+    /// The scene with the integrator and the parameters of its simulation.
+    pub fn scene_of(&self, simulation: &dyn Simulation) -> Result<Scene, String> {
+        let mut scene = self.scene.clone();
+        let nodes = simulation.shape().mesh.vertices().len();
+        let was_lumped = lumps_mass(&scene, nodes);
+        if let Some(kind) = Integrator::from_name(simulation.integrator()).filter(|kind| *kind != scene.time.integrator)
+        {
+            scene = changed(&scene, &scene_edits::integrator(&scene, kind).overrides)?;
+        }
+        let mut texts = Vec::new();
+        // The mass stays as it was built when a running simulation goes on with another integrator.
+        if lumps_mass(&scene, nodes) != was_lumped {
+            texts.push(format!("mass.lumped={was_lumped}"));
+        }
+        if simulation.dt() != scene.time.dt() {
+            texts.push(format!("time.dt={:?}", simulation.dt()));
+        }
+        if simulation.substeps() != scene.method().substeps {
+            texts.push(format!("time.substeps={}", simulation.substeps()));
+        }
+        let stiffness = simulation.parameters().into_iter().find(|parameter| parameter.key == "drag");
+        if let (Some(drag), Some(now)) = (&scene.drag, stiffness)
+            && drag.stiffness != now.value
+        {
+            texts.push(format!("drag.stiffness={:?}", now.value));
+        }
+        let overrides: Result<Vec<Override>, String> = texts.iter().map(|text| text.parse()).collect();
+        changed(&scene, &overrides?)
     }
 
     /// The scene with all changes.
@@ -51,31 +111,62 @@ impl SceneEditor {
         scene_parameters::object(&self.scene)
     }
 
-    /// Changes the scene and replaces its simulation. Integrator and parameters of the former one stay, and so does its state if the
-    /// mesh stays. After an error scene and simulation are as they were.
+    /// Changes the scene and replaces its simulation. Integrator and parameters of the former one stay unless they are changed, and so does
+    /// its state if mesh and Dirichlet conditions stay. After an error scene and simulation are as they were.
     pub fn apply(&mut self, changes: &[Change], simulation: &mut Box<dyn Simulation>) -> Result<Motion, String> {
         let mut scene = self.scene.clone();
         for change in changes {
-            let overrides = scene_parameters::overrides(&scene, change, &self.up)?;
-            scene = scene.changed(&overrides).map_err(|error| error.problem())?;
+            scene = changed(&scene, &scene_parameters::overrides(&scene, change, &self.up)?)?;
         }
         let keeps_mesh = scene.mesh == self.scene.mesh;
+        check_lists(&self.scene, &scene)?;
         let shape = keeps_mesh.then(|| simulation.shape());
         let built = catch_unwind(AssertUnwindSafe(|| self.builder.build(&scene, shape.as_deref())));
         let mut next =
             built.unwrap_or_else(|panic| Err(format!("the program has a fault: {}", panic_message(&*panic))))?;
-        take_over_method(&**simulation, &mut *next);
-        let motion = match keeps_mesh {
+        let has = |effect| changes.iter().any(|change| matches!(change, Change::Edit(edit) if edit.effect == effect));
+        if !has(Effect::Method) {
+            take_over_method(&**simulation, &mut *next);
+        }
+        let motion = match keeps_mesh && !has(Effect::Supports) {
             true => next.restore(&simulation.checkpoint()).map(|()| Motion::GoesOn).unwrap_or(Motion::StartsAgain),
             false => Motion::StartsAgain,
         };
-        // After the state, because a parameter that is set drops what was derived from earlier states and other numbers.
-        for parameter in simulation.parameters() {
-            let _ = next.set_parameter(parameter.key, parameter.value); // one that the new simulation refuses keeps its own value
-        }
+        take_over_parameters(&**simulation, &mut *next);
         *simulation = next;
         self.scene = scene;
         Ok(motion)
+    }
+}
+
+fn changed(scene: &Scene, overrides: &[Override]) -> Result<Scene, String> {
+    scene.changed(overrides).map_err(|error| error.problem())
+}
+
+/// Refuses another mesh for a scene that lists nodes or faces by their numbers, which have no meaning there.
+fn check_lists(before: &Scene, scene: &Scene) -> Result<(), String> {
+    let mut mesh = before.mesh.clone();
+    mesh.scale = scene.mesh.scale; // keeps the numbers
+    let has_nodes = scene.fixed.iter().any(|table| table.nodes.is_some())
+        || scene.prescribed.iter().any(|table| table.nodes.is_some());
+    let has_faces = scene.traction.iter().any(|table| table.faces.is_some() || table.edges.is_some());
+    if mesh == scene.mesh || !(has_nodes || has_faces) {
+        return Ok(());
+    }
+    let (what, remedy) =
+        if has_nodes { ("nodes", "erase the painted nodes") } else { ("faces", "remove the loads on picked faces") };
+    Err(format!(
+        "the scene lists {what} by their numbers in this mesh, which another mesh does not have; {remedy} first"
+    ))
+}
+
+/// Gives a new simulation the parameters of the former one. The state comes before, because a parameter that is set drops what was derived
+/// from earlier states and other numbers.
+fn take_over_parameters(from: &dyn Simulation, to: &mut dyn Simulation) {
+    let is_static = |simulation: &dyn Simulation| simulation.integrator() == Integrator::Static.name();
+    let has_other_time = is_static(from) != is_static(to); // that of a static scene counts load steps
+    for parameter in from.parameters().into_iter().filter(|parameter| parameter.key != "dt" || !has_other_time) {
+        let _ = to.set_parameter(parameter.key, parameter.value); // one that the new simulation refuses keeps its own value
     }
 }
 

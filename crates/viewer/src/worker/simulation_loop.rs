@@ -4,6 +4,7 @@ mod changes;
 
 use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
@@ -14,6 +15,7 @@ use fem_scene::simulation::{Energies, Simulation};
 use nalgebra::Vector3;
 
 use super::scene_editor::SceneEditor;
+use super::step_timers::StepTimers;
 use super::{Command, Finished, LoopOptions, Slot, Snapshot, Stepping, Stop};
 use crate::frame::{Frame, Wanted};
 use crate::history::{History, Sample};
@@ -49,6 +51,8 @@ pub struct SimulationLoop {
     wanted: Wanted,
     /// The fields that the body has.
     fields: Vec<ElementField>,
+    timers: StepTimers,
+    saved: Option<Result<PathBuf, String>>,
     last: Snapshot,
 }
 
@@ -83,6 +87,8 @@ impl SimulationLoop {
             refusal: None,
             wanted: Wanted::default(),
             fields: Vec::new(),
+            timers: StepTimers::default(),
+            saved: None,
             last: Snapshot::default(),
         }
     }
@@ -154,6 +160,7 @@ impl SimulationLoop {
             }
             Command::Change(changes) => self.change(&changes),
             Command::Set(key, value) => self.refusal = self.simulation.set_parameter(key, value).err(),
+            Command::Save(path) => self.save(path),
             Command::Want(wanted) => self.wanted = wanted,
             Command::Pull(pull) => return self.pull(pull),
             Command::Pick(click, reply) => {
@@ -237,6 +244,7 @@ impl SimulationLoop {
     }
 
     fn publish(&mut self) {
+        self.timers.update(&*self.simulation);
         let simulation = &self.simulation;
         self.last = Snapshot {
             frame: Frame::of(&**simulation, self.wanted),
@@ -252,6 +260,9 @@ impl SimulationLoop {
             parameters: simulation.parameters(),
             scene_parameters: self.editor.as_ref().map_or_else(Vec::new, |editor| editor.parameters()),
             object: self.editor.as_ref().and_then(|editor| editor.object()),
+            setup: self.editor.as_ref().and_then(SceneEditor::setup),
+            saved: self.saved.clone(),
+            timers: self.timers.rows().to_vec(),
             is_building: false,
             changes: self.changes,
             dt: simulation.dt(),

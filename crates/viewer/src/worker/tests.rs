@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicUsize;
 use std::time::{Duration, Instant};
 
-use fem_mesh::TetrahedralMesh;
+use fem_scene::BodyMesh;
 use fem_scene::simulation::{Cause, Checkpoint, Counters, Part, Shape};
 use kiss3d::glamx::Vec3;
 use nalgebra::{DVector, Matrix3, Matrix4, Vector4};
@@ -26,6 +26,8 @@ pub struct Fake {
     /// Number of times that stresses or contact forces were computed.
     pub fields: Arc<AtomicUsize>,
     pub pulled: Option<Pull>,
+    /// Nodes that scenes may name; the simulation moves one.
+    pub mesh: BodyMesh,
 }
 
 pub fn fake() -> Fake {
@@ -40,6 +42,7 @@ pub fn fake() -> Fake {
         calls: Arc::default(),
         fields: Arc::default(),
         pulled: None,
+        mesh: fem_mesh::TetrahedralMesh::default().into(),
     }
 }
 
@@ -48,8 +51,8 @@ impl Simulation for Fake {
         "fake"
     }
     fn shape(&self) -> Arc<Shape> {
-        let mesh = TetrahedralMesh::default().into();
-        Arc::new(Shape { mesh, boundary: Vec::new(), display: None, picture: None })
+        let mesh = self.mesh.clone();
+        Arc::new(Shape { boundary: mesh.surface(), mesh, display: None, picture: None })
     }
     fn positions(&self) -> DVector<f64> {
         DVector::from_vec(vec![self.offset, self.time, 0.0])

@@ -1,10 +1,12 @@
 //! Commands that change the scene or pull at the body.
 
+use std::path::PathBuf;
+
 use fem_scene::output::ElementField;
 use fem_scene::simulation::Pull;
 
 use super::SimulationLoop;
-use crate::scene_parameters::Change;
+use crate::change::Change;
 use crate::worker::scene_editor::Motion;
 
 /// Largest number of nodes for which the longest stable time step is computed.
@@ -15,6 +17,9 @@ impl SimulationLoop {
     pub(super) fn inspect(&mut self) {
         self.fields = ElementField::of(&*self.simulation);
         let is_small = self.simulation.shape().mesh.vertices().len() <= MOST_NODES;
+        if let Some(editor) = &mut self.editor {
+            editor.find_conditions(&*self.simulation);
+        }
         self.critical_time_step = match &self.editor {
             Some(_) if is_small => self.simulation.critical_time_step(),
             _ => None,
@@ -49,5 +54,11 @@ impl SimulationLoop {
             }
             Err(message) => self.refusal = Some(message),
         }
+    }
+
+    /// Writes the scene as it is set up to a new file.
+    pub(super) fn save(&mut self, path: PathBuf) {
+        let Some(editor) = &self.editor else { return };
+        self.saved = Some(editor.save(&path, &*self.simulation).map(|()| path));
     }
 }

@@ -1,0 +1,34 @@
+//! The parts of a body on which the Dirichlet conditions and surface loads of a scene act.
+
+use crate::simulation::Shape;
+use crate::values::{DirichletCondition, dirichlet_conditions, loaded_faces};
+use crate::{Scene, SceneError};
+
+/// Constrained nodes and loaded faces of a body.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Conditions {
+    /// `[fixed]` first if there is one, then each `[[prescribed]]` in order.
+    pub dirichlet: Vec<DirichletCondition>,
+    /// Of each `[[traction]]` in order, the nodes of its faces: triangles of a solid body, edges of a flat one, as in
+    /// [`BodyMesh::outline`](crate::BodyMesh::outline).
+    pub loaded: Vec<Vec<Vec<usize>>>,
+}
+
+impl Conditions {
+    /// The conditions of a scene on the body that was made of it. Returns the first problem.
+    pub fn of(scene: &Scene, shape: &Shape) -> Result<Self, SceneError> {
+        let loaded = loaded_faces(scene, &shape.mesh, &shape.boundary)?;
+        Ok(Self { dirichlet: dirichlet_conditions(scene, &shape.mesh)?, loaded })
+    }
+
+    /// The nodes of `[fixed]`, ascending; empty without the table.
+    pub fn fixed(&self) -> &[usize] {
+        self.dirichlet.iter().find(|condition| condition.motion.is_none()).map_or(&[], |condition| &condition.nodes)
+    }
+
+    /// The nodes of a `[[prescribed]]`, ascending; empty if there is no such table.
+    pub fn prescribed(&self, number: usize) -> &[usize] {
+        let prescribed = self.dirichlet.iter().filter(|condition| condition.motion.is_some());
+        prescribed.into_iter().nth(number).map_or(&[], |condition| &condition.nodes)
+    }
+}

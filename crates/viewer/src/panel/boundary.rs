@@ -1,0 +1,112 @@
+//! The section of the panel for Dirichlet conditions: the brush and what it paints.
+
+use kiss3d::egui::{DragValue, RichText, Slider, Ui};
+
+use super::ViewState;
+use crate::change::Change;
+use crate::parameter_rows::label;
+use crate::request::UserRequest;
+use crate::scene_edits::{self, Motion};
+use crate::setup::brush::Target;
+use crate::setup::{Mode, Setup};
+use crate::worker::scene_editor::SceneSetup;
+use crate::{plot, theme};
+
+/// Ends of the range of the brush's radius, in radii of the body.
+const RADII: (f32, f32) = (0.005, 1.0);
+
+/// Lays out the section below the sliders of the scene.
+pub fn show(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, state: &ViewState, requests: &mut Vec<UserRequest>) {
+    if setup.mode != Mode::Fix {
+        ui.horizontal(|ui| {
+            ui.label(format!("fixed: {} nodes", scene.conditions.fixed().len()));
+            if ui.button("Paint nodes").clicked() {
+                requests.push(UserRequest::Choose(Mode::Fix));
+            }
+        });
+        return;
+    }
+    let body = setup.body(state.shape);
+    let (mut radius, size) = (setup.brush.radius_on(body), body.radius);
+    ui.horizontal(|ui| {
+        label(ui, "brush radius (m)");
+        let range = RADII.0 * size..=RADII.1 * size;
+        let slider = Slider::new(&mut radius, range).logarithmic(true).custom_formatter(|r, _| plot::short(r));
+        if ui.add(slider).changed() {
+            setup.brush.radius = Some(radius);
+        }
+    });
+    ui.checkbox(&mut setup.brush.erases, "erase (Ctrl does the other thing)");
+    targets(ui, scene, setup);
+    if let Target::Prescribed(number) = setup.brush.target {
+        vector(ui, scene, setup, (number, state.shape.mesh.is_flat()), requests);
+    }
+    let hint = "Drag over the body: nodes of the surface in a ball of this radius. The motion starts again.";
+    ui.label(RichText::new(setup.message.as_deref().unwrap_or(hint)).size(12.0).color(match setup.message {
+        Some(_) => theme::FAILURE,
+        None => theme::SECONDARY_TEXT,
+    }));
+}
+
+/// The choice of the condition that is painted.
+fn targets(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup) {
+    let count = scene.scene.prescribed.len();
+    let before = setup.brush.target;
+    ui.radio_value(&mut setup.brush.target, Target::Fixed, format!("fixed: {} nodes", scene.conditions.fixed().len()));
+    for number in 0..count {
+        let nodes = scene.conditions.prescribed(number).len();
+        ui.radio_value(&mut setup.brush.target, Target::Prescribed(number), format!("motion {number}: {nodes} nodes"));
+    }
+    ui.horizontal(|ui| {
+        for (text, motion) in [("New displacement", Motion::Displacement), ("New velocity", Motion::Velocity)] {
+            let is_chosen = setup.brush.new.is_some_and(|(chosen, _)| chosen == motion);
+            if ui.selectable_label(is_chosen, text).clicked() {
+                setup.brush.new = Some((motion, [0.0; 3]));
+                setup.brush.target = Target::Prescribed(count);
+            }
+        }
+    });
+    if before != setup.brush.target && setup.brush.target != Target::Prescribed(count) {
+        setup.brush.new = None;
+    }
+}
+
+/// The three numbers of a prescribed motion.
+fn vector(
+    ui: &mut Ui,
+    scene: &SceneSetup,
+    setup: &mut Setup,
+    (number, is_flat): (usize, bool),
+    requests: &mut Vec<UserRequest>,
+) {
+    let table = scene.scene.prescribed.get(number);
+    let own = table.and_then(|table| {
+        let displacement = table.displacement.filter(|_| table.rotation.is_none());
+        let velocity = table.velocity.map(|vector| (Motion::Velocity, vector));
+        velocity.or(displacement.map(|vector| (Motion::Displacement, vector)))
+    });
+    let Some((motion, mut vector)) = own.or(setup.brush.new.filter(|_| table.is_none())) else {
+        ui.label("a rotation, which the scene file changes");
+        return;
+    };
+    let (unit, name) = match motion {
+        Motion::Displacement => ("m", "displacement"),
+        Motion::Velocity => ("m/s", "velocity"),
+    };
+    let mut is_changed = false;
+    ui.horizontal(|ui| {
+        label(ui, &format!("{name} ({unit})"));
+        let numbers = if is_flat { 2 } else { 3 };
+        for number in &mut vector[..numbers] {
+            is_changed |= ui.add(DragValue::new(number).speed(0.01)).changed();
+        }
+    });
+    match table {
+        Some(_) if is_changed => {
+            let edit = scene_edits::prescribed_vector(number, motion, vector);
+            requests.push(UserRequest::Change(Change::Edit(edit)));
+        }
+        None => setup.brush.new = Some((motion, vector)),
+        Some(_) => {}
+    }
+}

@@ -1,0 +1,272 @@
+//! The keys of a scene that are set when nodes are painted, faces loaded, or a method is chosen.
+
+use fem_scene::tables::{FixedTable, IterationsTable, NewtonTable, SolverTable, TractionTable};
+use fem_scene::{Integrator, Override, Preconditioner, Scene, SolverKind};
+
+use crate::change::{Edit, Effect};
+
+/// Time step of a scene that had none, s.
+const DT: f64 = 0.01;
+
+/// The kind of a prescribed motion that is set by hand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// From the first step on, m.
+    Displacement,
+    /// m/s
+    Velocity,
+}
+
+impl Motion {
+    /// The key in scene files.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Displacement => "displacement",
+            Self::Velocity => "velocity",
+        }
+    }
+}
+
+/// `[fixed]` with these nodes; without nodes the table is removed.
+pub fn fixed(scene: &Scene, nodes: &[usize]) -> Edit {
+    let until = scene.fixed.as_ref().and_then(|FixedTable { until, .. }| *until);
+    let until = until.map_or(String::new(), |until| format!(", until = {until:?}"));
+    let overrides = match nodes {
+        [] => vec![Override::without("fixed")],
+        nodes => vec![set(format!("fixed={{nodes = {nodes:?}{until}}}"))],
+    };
+    Edit { table: "fixed".to_owned(), overrides, effect: Effect::Supports }
+}
+
+/// A `[[prescribed]]` with these nodes, the motion of a new one beside them; without nodes the table is removed.
+pub fn prescribed(number: usize, nodes: &[usize], new: Option<(Motion, [f64; 3])>) -> Edit {
+    let table = format!("prescribed.{number}");
+    let overrides = match (nodes, new) {
+        ([], _) => vec![Override::without(&table)],
+        (nodes, Some((motion, vector))) => {
+            vec![set(format!("{table}={{nodes = {nodes:?}, {} = {vector:?}}}", motion.key()))]
+        }
+        (nodes, None) => {
+            let others = ["on", "box", "sphere", "set"].map(|key| Override::without(&format!("{table}.{key}")));
+            others.into_iter().chain([set(format!("{table}.nodes={nodes:?}"))]).collect()
+        }
+    };
+    Edit { table, overrides, effect: Effect::Supports }
+}
+
+/// Another displacement (m) or velocity (m/s) of a `[[prescribed]]`.
+pub fn prescribed_vector(number: usize, motion: Motion, vector: [f64; 3]) -> Edit {
+    let overrides = vec![set(format!("prescribed.{number}.{}={vector:?}", motion.key()))];
+    Edit { table: format!("prescribed.{number}.{}", motion.key()), overrides, effect: Effect::Supports }
+}
+
+/// A force on faces of the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Force {
+    /// Follower load: pressure against the deformed surface, Pa.
+    Pressure(f64),
+    /// Dead load, Pa.
+    PerArea([f64; 3]),
+}
+
+/// A `[[traction]]` on these faces, triangles or edges by their nodes; without faces the table is removed. A curve stays.
+pub fn load(scene: &Scene, number: usize, faces: &[&[usize]], force: Force) -> Edit {
+    let table = format!("traction.{number}");
+    let Some(first) = faces.first() else { return without_load(number) };
+    let (key, ends) = if first.len() == 3 { ("faces", 3) } else { ("edges", 2) };
+    let faces: Vec<&[usize]> = faces.iter().map(|face| &face[..ends]).collect();
+    let (force, other) = match force {
+        Force::Pressure(pressure) => (format!("{table}.pressure={pressure:?}"), "force_per_area"),
+        Force::PerArea(force) => (format!("{table}.force_per_area={force:?}"), "pressure"),
+    };
+    let selectors = scene.traction.get(number).map_or(Vec::new(), TractionTable::selectors);
+    let others = selectors.iter().map(|selector| selector.key()).filter(|other| *other != key).chain([other]);
+    let mut overrides = vec![set(format!("{table}.{key}={faces:?}")), set(force)];
+    overrides.extend(others.map(|key| Override::without(&format!("{table}.{key}"))));
+    Edit { table, overrides, effect: Effect::Loads }
+}
+
+/// The scene without a `[[traction]]`.
+pub fn without_load(number: usize) -> Edit {
+    let table = format!("traction.{number}");
+    Edit { overrides: vec![Override::without(&table)], table, effect: Effect::Loads }
+}
+
+/// Another time integration method; tables without effect on it are removed, and it is given a time step if it needs one.
+pub fn integrator(scene: &Scene, integrator: Integrator) -> Edit {
+    let mut next = scene.clone();
+    next.time.integrator = integrator;
+    let unused = next.remove_unused_tables();
+    let mut overrides = vec![set(format!("time.integrator={:?}", integrator.name()))];
+    overrides.extend(unused.into_iter().map(Override::without));
+    match integrator {
+        Integrator::Static => overrides.push(Override::without("time.substeps")),
+        _ if scene.time.dt.is_none() => overrides.push(set(format!("time.dt={DT:?}"))),
+        _ => {}
+    }
+    Edit { table: "time.integrator".to_owned(), overrides, effect: Effect::Method }
+}
+
+/// Another linear solver; `None` leaves the choice to the engine.
+pub fn solver(table: Option<&SolverTable>) -> Edit {
+    let overrides = match table {
+        None => vec![Override::without("solver")],
+        Some(SolverTable { kind, tolerance, preconditioner }) => {
+            let tolerance = tolerance.map_or(String::new(), |tolerance| format!(", tolerance = {tolerance:?}"));
+            let preconditioner = preconditioner.filter(|_| *kind == SolverKind::Pcg);
+            let preconditioner = preconditioner
+                .map_or(String::new(), |kind| format!(", preconditioner = {:?}", preconditioner_name(kind)));
+            vec![set(format!("solver={{kind = {:?}{tolerance}{preconditioner}}}", solver_name(*kind)))]
+        }
+    };
+    Edit { table: "solver".to_owned(), overrides, effect: Effect::Method }
+}
+
+/// Other limits of Newton's method; a number that is `None` has its default.
+pub fn newton(table: &NewtonTable) -> Edit {
+    let keys = [
+        ("newton.max_iterations", table.max_iterations.map(|count| count.to_string())),
+        ("newton.tolerance", table.tolerance.map(|tolerance| format!("{tolerance:?}"))),
+    ];
+    Edit { table: "newton".to_owned(), overrides: keys.map(optional).to_vec(), effect: Effect::Method }
+}
+
+/// Other iterations of `pbd`, `xpbd`, `vbd` and `projective_dynamics`; a number that is `None` has its default.
+pub fn iterations(table: &IterationsTable) -> Edit {
+    let number = |value: Option<f64>| value.map(|value| format!("{value:?}"));
+    let keys = [
+        ("iterations.count", table.count.map(|count| count.to_string())),
+        ("iterations.tolerance", number(table.tolerance)),
+        ("iterations.acceleration", number(table.acceleration)),
+        ("iterations.stiffness", number(table.stiffness)),
+    ];
+    Edit { table: "iterations".to_owned(), overrides: keys.map(optional).to_vec(), effect: Effect::Method }
+}
+
+/// The name of a solver in scene files.
+pub fn solver_name(kind: SolverKind) -> &'static str {
+    match kind {
+        SolverKind::Cholesky => "cholesky",
+        SolverKind::Lu => "lu",
+        SolverKind::Cg => "cg",
+        SolverKind::Pcg => "pcg",
+        SolverKind::SteepestDescent => "steepest_descent",
+        SolverKind::ConjugateDirections => "conjugate_directions",
+    }
+}
+
+/// The name of a preconditioner in scene files.
+pub fn preconditioner_name(kind: Preconditioner) -> &'static str {
+    match kind {
+        Preconditioner::BlockJacobi => "block_jacobi",
+        Preconditioner::IncompleteCholesky => "incomplete_cholesky",
+        Preconditioner::Multigrid => "multigrid",
+        Preconditioner::Ssor => "ssor",
+    }
+}
+
+fn optional((key, value): (&str, Option<String>)) -> Override {
+    value.map_or_else(|| Override::without(key), |value| set(format!("{key}={value}")))
+}
+
+fn set(text: String) -> Override {
+    text.parse().expect("the text has the form TABLE.KEY=VALUE")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = r#"
+pipeline = "engine"
+[mesh]
+box = { size = [2, 1, 1], cells_per_unit = 1 }
+[material]
+model = "neo_hookean"
+young = 1e5
+poisson = 0.3
+density = 1000
+[fixed]
+plane = { axis = "x", below = 1e-9 }
+until = 2.0
+[[prescribed]]
+on = { axis = "x", side = "max", within = 1e-9 }
+displacement = [1, 0, 0]
+[[traction]]
+on = "all"
+force_per_area = [1, 0, 0]
+curve = { ramp = 1.0 }
+[newton]
+tolerance = 1e-8
+[time]
+dt = 0.01
+integrator = "implicit_euler"
+"#;
+
+    fn scene() -> Scene {
+        fem_scene::parse(SCENE, "setup.toml".as_ref()).unwrap()
+    }
+
+    fn after(edit: &Edit) -> Scene {
+        scene().changed(&edit.overrides).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    #[test]
+    fn painted_nodes_take_the_place_of_a_selector_and_no_nodes_remove_the_table() {
+        let table = after(&fixed(&scene(), &[3, 1])).fixed.unwrap();
+        assert_eq!((table.nodes, table.plane, table.until), (Some(vec![3, 1]), None, Some(2.0)));
+        assert_eq!(after(&fixed(&scene(), &[])).fixed, None);
+        let table = &after(&prescribed(0, &[2], None)).prescribed[0];
+        assert_eq!((&table.nodes, &table.on, table.displacement), (&Some(vec![2]), &None, Some([1.0, 0.0, 0.0])));
+        let new = &after(&prescribed(1, &[4], Some((Motion::Velocity, [0.0, 0.5, 0.0])))).prescribed[1];
+        assert_eq!((&new.nodes, new.velocity), (&Some(vec![4]), Some([0.0, 0.5, 0.0])));
+        assert!(after(&prescribed(0, &[], None)).prescribed.is_empty());
+    }
+
+    #[test]
+    fn a_load_keeps_its_curve_and_has_one_force() {
+        let faces: [&[usize]; 1] = [&[0, 1, 2]];
+        let table = after(&load(&scene(), 0, &faces, Force::Pressure(-5.0))).traction.remove(0);
+        assert_eq!((table.faces, table.on, table.force_per_area), (Some(vec![[0, 1, 2]]), None, None));
+        assert!(table.pressure == Some(-5.0) && table.curve.is_some());
+        let edges: [&[usize]; 1] = [&[0, 1]];
+        let table = after(&load(&scene(), 1, &edges, Force::PerArea([1.0, 0.0, 0.0]))).traction.remove(1);
+        assert_eq!((table.edges, table.force_per_area), (Some(vec![[0, 1]]), Some([1.0, 0.0, 0.0])));
+        assert!(after(&load(&scene(), 0, &[], Force::Pressure(1.0))).traction.is_empty());
+    }
+
+    #[test]
+    fn every_integrator_can_be_chosen_without_a_table_in_its_way() {
+        for kind in Integrator::ALL {
+            let mut free = scene();
+            free.prescribed.clear();
+            let overrides = [
+                integrator(&free, kind).overrides,
+                ["fixed.until", "traction.0.curve"].map(Override::without).to_vec(),
+            ]
+            .concat();
+            assert_eq!(scene().changed(&overrides).unwrap().time.integrator, kind);
+        }
+    }
+
+    #[test]
+    fn every_solver_and_preconditioner_has_its_name() {
+        use Preconditioner::{BlockJacobi, IncompleteCholesky, Multigrid, Ssor};
+        for kind in [BlockJacobi, IncompleteCholesky, Multigrid, Ssor] {
+            let table = SolverTable { kind: SolverKind::Pcg, tolerance: Some(1e-9), preconditioner: Some(kind) };
+            assert_eq!(after(&solver(Some(&table))).solver, Some(table));
+        }
+        use SolverKind::{Cg, Cholesky, ConjugateDirections, Lu, SteepestDescent};
+        for kind in [Cholesky, Lu, Cg, SteepestDescent, ConjugateDirections] {
+            let table = SolverTable { kind, tolerance: None, preconditioner: None };
+            assert_eq!(after(&solver(Some(&table))).solver, Some(table));
+        }
+        assert_eq!(after(&solver(None)).solver, None);
+    }
+
+    #[test]
+    fn numbers_of_newtons_method_are_set_and_taken_back() {
+        let table = NewtonTable { max_iterations: Some(7), ..NewtonTable::default() };
+        assert_eq!(after(&newton(&table)).newton, Some(table));
+    }
+}
