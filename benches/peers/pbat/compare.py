@@ -87,10 +87,10 @@ class Beam:
         self.colors = self.color()
 
     def color(self):
-        """The first colour that no neighbour has, in the order of the nodes: that of fem-engine."""
+        """The first colour that no neighbour has, in the order in which fem-engine numbers a small body: free nodes along the beam, then fixed ones."""
         colors = np.full(len(self.rest), -1)
-        for node, around in enumerate(self.around):
-            taken = {colors[neighbor] for element, _ in around for neighbor in self.elements[element]}
+        for node in np.lexsort((*self.rest.T[::-1], self.fixed)):
+            taken = {colors[neighbor] for element, _ in self.around[node] for neighbor in self.elements[element]}
             colors[node] = next(color for color in itertools.count() if color not in taken)
         return [[node for node in np.flatnonzero(colors == color) if not self.fixed[node]] for color in range(colors.max() + 1)]
 
