@@ -114,8 +114,7 @@ fn every_run_is_counted(found: &[Compared]) -> Mark {
     Mark::new("every run has a row with its outcome", format!("{} runs, {failed} failed", runs().count()), is_told)
 }
 
-/// The claim about times, one mark for each method, which a short run does not judge. Projective dynamics is beside the claim: the table
-/// says where it is the first.
+/// The claim about times, one mark for each method, which a short run does not judge.
 fn newton_first(found: &[Compared], quick: bool) -> Vec<Mark> {
     let stiff: Vec<&Compared> = found.iter().filter(|of| of.case.young >= STIFF).collect();
     let iterated = ALL.iter().filter(|contender| contender.is_iterated() && contender.has_solver_error());
@@ -134,10 +133,8 @@ fn newton_first(found: &[Compared], quick: bool) -> Vec<Mark> {
             false => format!("not in {} of {} cases: {}", exceptions.len(), stiff.len(), exceptions.join("; ")),
         };
         let holds = exceptions.is_empty() && stiff.iter().all(|of| of.newton_arrives());
-        // A finding, which the page tells: a method that keeps its factor is faster where bodies are soft.
-        let is_finding = contender.integrator == "projective_dynamics" && !holds;
         let mark = Mark::new(statement, ours, holds);
-        Mark { holds: mark.holds.filter(|_| !quick && !is_finding), ..mark }
+        Mark { holds: mark.holds.filter(|_| !quick), ..mark }
     };
     iterated.map(mark).collect()
 }

@@ -9,7 +9,7 @@ use super::case::{Case, Measures};
 use super::contenders::{Contender, Sweep};
 
 /// Digits of Newton's tolerance, and iterations of a step, one run for each.
-const NEWTON: [usize; 6] = [1, 2, 3, 5, 8, 12];
+const NEWTON: [usize; 5] = [1, 3, 5, 8, 12];
 const ITERATED: [usize; 12] = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
 
 /// Iterations with which the tuned key is tried.
