@@ -38,18 +38,45 @@ fn the_short_experiment_on_the_torus_holds_its_marks_and_writes_a_page_tables_an
     let desk = Desk::new();
     let said = desk.run_well("experiment rtfem --quick --out found").stdout;
     assert!(!said.contains("DOES NOT HOLD"), "{said}");
-    let parts = ["speed", "precision", "equilibrium", "materials", "structures", "picture", "mistakes"];
+    let parts = [
+        "speed",
+        "precision",
+        "equilibrium",
+        "materials",
+        "structures",
+        "picture",
+        "methods",
+        "modulus",
+        "momentum",
+        "mistakes",
+    ];
     for part in parts {
         assert!(said.lines().any(|line| line.starts_with(part)), "{part}: {said}");
     }
-    for table in
-        ["speed", "solvers", "parts", "precision", "equilibrium", "block", "young", "poisson", "structures", "mistakes"]
-    {
+    for table in [
+        "speed",
+        "solvers",
+        "parts",
+        "precision",
+        "equilibrium",
+        "block",
+        "young",
+        "poisson",
+        "structures",
+        "mistakes",
+        "methods",
+        "methods-times",
+        "methods-errors",
+        "modulus",
+        "momentum",
+    ] {
         let text = fs::read_to_string(desk.path(&format!("found/rtfem-{table}.csv"))).unwrap();
         assert!(text.lines().count() > 1, "{table}: {text}");
     }
     let solvers = fs::read_to_string(desk.path("found/rtfem-solvers.csv")).unwrap();
     assert!(solvers.lines().skip(1).all(|line| line.ends_with("converged") && !line.contains("not")), "{solvers}");
+    let runs = fs::read_to_string(desk.path("found/rtfem-methods.csv")).unwrap();
+    assert!(runs.lines().skip(1).all(|line| line.ends_with(",done")), "{runs}");
     let page = fs::read_to_string(desk.path("found/rtfem.html")).unwrap();
     assert!(page.contains("marks hold") && !page.contains("does not hold") && page.contains("<svg"), "{page}");
     assert!(fs::read_to_string(desk.path("found/rtfem-squashed.svg")).unwrap().starts_with("<svg"));

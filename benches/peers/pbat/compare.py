@@ -1,8 +1,8 @@
-"""Vertex block descent beside that of pbatoolkit: the same iterates, and the time of a sweep on one thread.
+"""Vertex block descent and XPBD beside those of pbatoolkit: where sweeps lead to, and the time of a sweep on one thread.
 
     cargo build --release -p fem-bench
-    pip install pbatoolkit==0.0.11 numpy
-    python benches/peers/pbat/compare.py           # about a minute
+    pip install -r benches/peers/pbat/requirements.txt
+    python benches/peers/pbat/compare.py > docs/reference/pbatoolkit.md      # about a minute
 
 Options: `--ours PROGRAM` (fem-bench), `--rounds N` (7), `--cells N` (12): cells along the shorter sides of the timed beam.
 
@@ -10,6 +10,9 @@ Both programs bend a beam under its weight with lumped masses, from the same sta
 differ: pbatoolkit's stable neo-Hookean law has no logarithm. So the iterates of each program are compared with those of a plain
 implementation in this file, which takes either law; a beam of few cells and a few sweeps show a difference in any term. The times
 are those of a beam of many cells: the median over rounds, in which the programs take turns, of a step of many sweeps over their number.
+
+XPBD has no common iterates: pbatoolkit has two constraints in each element (Macklin, Müller 2021), ours one, or six with the residual of the equation of
+motion. Its table shows how far sweeps stay from the converged step of implicit Euler of the same law, and the time of a sweep.
 """
 
 import argparse
@@ -22,6 +25,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from importlib.metadata import version
 
 # One thread: pbatoolkit takes as many as the process may run on.
 os.sched_setaffinity(0, [max(os.sched_getaffinity(0))])
@@ -49,10 +53,10 @@ acceleration = [0, 0, {gravity!r}]
 plane = {{ axis = "x", below = 1e-9 }}
 [time]
 dt = {dt!r}
-integrator = "vbd"
+integrator = "{integrator}"
 [iterations]
 count = {sweeps}
-"""
+{keys}"""
 
 
 class Beam:
@@ -87,20 +91,20 @@ class Beam:
         self.colors = self.color()
 
     def color(self):
-        """The first colour that no neighbour has, in the order of the nodes: that of fem-engine."""
+        """The first colour that no neighbour has, in the order in which fem-engine numbers a small body: free nodes along the beam, then fixed ones."""
         colors = np.full(len(self.rest), -1)
-        for node, around in enumerate(self.around):
-            taken = {colors[neighbor] for element, _ in around for neighbor in self.elements[element]}
+        for node in np.lexsort((*self.rest.T[::-1], self.fixed)):
+            taken = {colors[neighbor] for element, _ in self.around[node] for neighbor in self.elements[element]}
             colors[node] = next(color for color in itertools.count() if color not in taken)
         return [[node for node in np.flatnonzero(colors == color) if not self.fixed[node]] for color in range(colors.max() + 1)]
 
-    def write(self, folder, dt, sweeps):
+    def write(self, folder, dt, sweeps, method):
         """The mesh and the scene, as fem-bench reads them."""
         rows = lambda table: "".join(f"{i} {' '.join(map(repr, row))}\n" for i, row in enumerate(table.tolist()))
         (folder / "beam.node").write_text(f"{len(self.rest)} 3 0 0\n{rows(self.rest)}")
         (folder / "beam.ele").write_text(f"{len(self.elements)} 4 0\n{rows(self.elements)}")
         numbers = {"young": YOUNG, "poisson": POISSON, "density": DENSITY, "gravity": -GRAVITY}
-        (folder / "beam.toml").write_text(SCENE.format(dt=dt, sweeps=sweeps, **numbers))
+        (folder / "beam.toml").write_text(SCENE.format(dt=dt, sweeps=sweeps, integrator=method[0], keys=method[1], **numbers))
 
 
 def our_law(I, J):
@@ -140,12 +144,16 @@ def descend(beam, law, volumes, masses, dt, steps, sweeps):
     return x
 
 
+def columns(table, kind):
+    """A table as pbatoolkit takes it."""
+    return np.asfortranarray(np.asarray(table, dtype=kind).T)
+
+
 class Theirs:
-    """pbatoolkit's integrator of a beam, with the colours of the beam."""
+    """pbatoolkit's vertex block descent of a beam, with the colours of the beam."""
 
     def __init__(self, beam):
         vbd, count = pbat.sim.vbd, len(beam.elements)
-        columns = lambda table, kind: np.asfortranarray(np.asarray(table, dtype=kind).T)
         data = vbd.Data().with_volume_mesh(columns(beam.rest, float), columns(beam.elements, np.int64))
         data = data.with_surface_mesh(np.zeros(0, dtype=np.int64), np.zeros((3, 0), dtype=np.int64, order="F"))
         data = data.with_material(np.full(count, DENSITY), np.full(count, MU), np.full(count, LAMBDA + MU))
@@ -169,11 +177,34 @@ class Theirs:
         return np.array(self.integrator.x).T
 
 
-def ours(program, beam, dt, steps, sweeps):
+class TheirXpbd(Theirs):
+    """pbatoolkit's XPBD of a beam, its elements in colours."""
+
+    def __init__(self, beam):
+        colors = np.full(len(beam.elements), -1)
+        for element, corners in enumerate(beam.elements):
+            taken = {colors[other] for node in corners for other, _ in beam.around[node]}
+            colors[element] = next(color for color in itertools.count() if color not in taken)
+        parts = [np.flatnonzero(colors == color) for color in range(colors.max() + 1)]
+        data = pbat.sim.xpbd.Data().with_volume_mesh(columns(beam.rest, float), columns(beam.elements, np.int64))
+        # It has contacts between the triangles of a surface and refuses none of them: one triangle, with nothing to meet.
+        data = data.with_surface_mesh(np.arange(4, dtype=np.int64), columns([[0, 1, 2]], np.int64))
+        data = data.with_acceleration(columns(np.tile([0, 0, -GRAVITY], (len(beam.rest), 1)), float))
+        data = data.with_mass_inverse(1 / beam.masses)
+        data = data.with_elastic_material(columns(np.tile([MU, LAMBDA + MU], (len(beam.elements), 1)), float))
+        data = data.with_dirichlet_vertices(np.flatnonzero(beam.fixed).astype(np.int64))
+        data = data.with_partitions(np.cumsum([0, *map(len, parts)]).tolist(), np.concatenate(parts).tolist())
+        self.integrator = pbat.sim.xpbd.Integrator(data.construct(), 1, 1)
+
+
+VBD, XPBD, PLAIN = ("vbd", ""), ("xpbd", ""), ("xpbd", "residual = false\n")
+
+
+def ours(program, beam, dt, steps, sweeps, method=VBD):
     """Positions  (n × 3)  m, and the median of the seconds of a step."""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        beam.write(folder, dt, sweeps)
+        beam.write(folder, dt, sweeps, method)
         command = [program, "run", folder / "beam.toml", "--steps", str(steps), "--data", folder]
         done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode:
@@ -202,17 +233,66 @@ def check(program):
             sys.exit("error: the iterates differ from those of the plain implementation")
 
 
+def converged(program):
+    """Prints how far the sweeps of XPBD stay from the converged step, which vertex block descent gives for each law."""
+    beam, dt, steps = Beam(2), 0.02, 4
+    descent = Theirs(beam)
+    exact = [
+        ours(program, beam, dt, steps, 1000)[0],
+        descend(beam, their_law, descent.volumes, descent.masses, dt, steps, 200),
+    ]
+    size = np.abs(exact[0] - beam.rest).max()
+    print("\n## XPBD\n\nLargest distance of a node from the converged steps of the same law, over the largest displacement, after 4 steps.\n")
+    print("| sweeps of a step | ours | ours, `residual = false` | pbatoolkit |\n|---:|---:|---:|---:|")
+    for sweeps in (1, 5, 20, 100):
+        theirs = TheirXpbd(beam)
+        for _ in range(steps):
+            theirs.step(dt, sweeps)
+        found = [ours(program, beam, dt, steps, sweeps, method)[0] - exact[0] for method in (XPBD, PLAIN)]
+        errors = [np.abs(apart).max() / size for apart in [*found, theirs.positions() - exact[1]]]
+        print(f"| {sweeps} | {errors[0]:.1e} | {errors[1]:.1e} | {errors[2]:.1e} |", flush=True)
+
+
 def race(program, cells, rounds):
     """Prints the median time of a sweep of each program."""
     beam, dt, sweeps = Beam(cells), 0.01, 40
-    theirs, times = Theirs(beam), ([], [])
+    methods = {"VBD": (VBD, Theirs(beam)), "XPBD": (XPBD, None), "XPBD, one constraint": (PLAIN, TheirXpbd(beam))}
+    times = {name: ([], []) for name in methods}
     for _ in range(rounds):
-        times[0].append(ours(program, beam, dt, 3, sweeps)[1] / sweeps)
-        times[1].append(theirs.step(dt, sweeps) / sweeps)
-    medians = [statistics.median(of) for of in times]
-    print(f"\n{len(beam.rest)} nodes, {len(beam.elements)} tetrahedra, {len(beam.colors)} colours, {rounds} rounds\n")
-    print("| program | time of a sweep, ms | ratio |\n|---|---:|---:|")
-    print(f"| ours | {1e3 * medians[0]:.2f} | |\n| pbatoolkit | {1e3 * medians[1]:.2f} | {medians[1] / medians[0]:.1f} |")
+        for name, (method, theirs) in methods.items():
+            times[name][0].append(ours(program, beam, dt, 3, sweeps, method)[1] / sweeps)
+            if theirs:
+                times[name][1].append(theirs.step(dt, sweeps) / sweeps)
+    print("\n## Time of a sweep\n")
+    print(f"A beam of {len(beam.rest)} nodes and {len(beam.elements)} tetrahedra, {len(beam.colors)} colours of nodes; medians of {rounds} rounds in turn.")
+    print("pbatoolkit's XPBD, with two constraints in each element, is beside ours with one.\n")
+    print("| sweep | ours, ms | pbatoolkit, ms | ratio |\n|---|---:|---:|---:|")
+    for name, (mine, theirs) in times.items():
+        mine = 1e3 * statistics.median(mine)
+        other = f"{1e3 * statistics.median(theirs):.2f} | {1e3 * statistics.median(theirs) / mine:.1f}" if theirs else "– | –"
+        print(f"| {name} | {mine:.2f} | {other} |")
+
+
+def machine():
+    """The first line of the page."""
+    text_of = lambda command: subprocess.run(command, capture_output=True, text=True, cwd=ROOT).stdout.strip()
+    cpu = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), "unknown")
+    commit, rustc = text_of(["git", "rev-parse", "--short", "HEAD"]), text_of(["rustc", "--version"])
+    return f"Measured on {time.strftime('%Y-%m-%d')}: pbatoolkit {version('pbatoolkit')} from PyPI, finite-elements-3d at {commit}, {rustc}, RUSTFLAGS=\"{os.environ.get('RUSTFLAGS', '')}\", {cpu}, one thread, double precision."
+
+
+PAGE = """# Beside pbatoolkit
+
+{machine}
+`python benches/peers/pbat/compare.py > docs/reference/pbatoolkit.md` prints this page.
+
+A beam of 4 × 1 × 1 m, clamped at one end, bends under its weight: E = {young:g} Pa, ν = {poisson}, stable neo-Hookean, lumped mass. pbatoolkit's law has no logarithm, so each
+program is compared with the same method in its own law.
+
+## Vertex block descent
+
+Both programs sweep over the nodes in the same colours. Iterates are compared with those of a plain implementation in NumPy; the program ends with an error if they differ by more than 1e-10 m.
+"""
 
 
 def main():
@@ -224,7 +304,9 @@ def main():
     arguments = parser.parse_args()
     if not arguments.ours.is_file():
         parser.error(f"{arguments.ours}: no such program; build it as the first lines of --help say, or give its path")
+    print(PAGE.format(machine=machine(), young=YOUNG, poisson=POISSON))
     check(arguments.ours)
+    converged(arguments.ours)
     race(arguments.ours, arguments.cells, arguments.rounds)
 
 

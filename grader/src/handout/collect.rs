@@ -32,7 +32,7 @@ const WHOLE: [&str; 16] = [
 ];
 
 /// Parts of these folders that show what the engine computes.
-const ENGINES_OWN: [&str; 2] = ["src/demo/study", "docs/reference"];
+const ENGINES_OWN: [&str; 3] = ["src/demo/study", "docs/reference", "include-docs/methods.md"];
 
 const ENGINE: &str = include_str!("../../handout/engine.rs");
 const STUDY: &str = include_str!("../../handout/study.rs");

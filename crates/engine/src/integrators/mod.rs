@@ -1,4 +1,5 @@
-//! Time integration methods, one file each, behind the trait [`Integrator`].
+//! Time integration methods, one file each, behind the trait [`Integrator`]. Which to take for what, with figures:
+//! `include-docs/methods.md` in the repository.
 
 mod accelerations;
 mod arc_length;

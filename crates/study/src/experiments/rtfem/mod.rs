@@ -4,7 +4,10 @@ mod block;
 mod dense;
 mod equilibrium;
 mod materials;
+mod methods;
 mod mistakes;
+mod modulus;
+mod momentum;
 mod picture;
 mod precision;
 mod setting;
@@ -28,6 +31,9 @@ const PARTS: &[Entry] = &[
     ("materials", materials::run),
     ("structures", structures::run),
     ("picture", picture::run),
+    ("methods", methods::run),
+    ("modulus", modulus::run),
+    ("momentum", momentum::run),
     ("mistakes", mistakes::run),
 ];
 

@@ -22,15 +22,20 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
     }
 }
 
-struct Body {
-    name: &'static str,
-    tables: &'static str,
-    mesh: fn() -> Result<TetrahedralMesh, Finding>,
+/// A body with too many or too few constraints.
+pub struct Body {
+    /// Its name in tables.
+    pub name: &'static str,
+    /// Tables of its scene.
+    pub tables: &'static str,
+    /// Its mesh.
+    pub mesh: fn() -> Result<TetrahedralMesh, Finding>,
     /// Without enough constraints the body has no static equilibrium.
     is_free: bool,
 }
 
-const BODIES: [Body; 6] = [
+/// The bodies.
+pub const BODIES: [Body; 6] = [
     Body { name: "a single tetrahedron, free", tables: "", mesh: single, is_free: true },
     Body {
         name: "a single tetrahedron, three corners fixed",

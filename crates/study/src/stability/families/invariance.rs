@@ -139,7 +139,7 @@ fn shuffled(mesh: &TetrahedralMesh, seed: u64) -> (TetrahedralMesh, Vec<usize>) 
 }
 
 /// A free body in rigid motion without loads, which conserves its momentum.
-fn rigid(integrator: &'static str, mass: &'static str, steps: usize) -> Case {
+pub fn rigid(integrator: &'static str, mass: &'static str, steps: usize) -> Case {
     let text = SceneText { dt: 1e-3, ..SceneText::small(integrator, "neo_hookean") }.with(mass);
     let name = if mass.is_empty() { "consistent" } else { "lumped" };
     let parameters = format!("{name} mass, dt = 1e-3 s, {steps} steps");

@@ -6,6 +6,7 @@ mod explosions;
 mod flat_bodies;
 pub mod incompressibility;
 mod invariance;
+mod iterated_methods;
 mod large_strains;
 mod long_runs;
 pub mod maps;
@@ -40,6 +41,7 @@ pub fn cases(quick: bool, maps: &maps::Found) -> Vec<Case> {
     flat_bodies::add(&mut cases, quick);
     plastic_flow::add(&mut cases, quick);
     mass_spring::add(&mut cases, quick);
+    iterated_methods::add(&mut cases, quick);
     contact::add(&mut cases, quick);
     refusals::add(&mut cases);
     cases

@@ -63,9 +63,9 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
 }
 
 /// Position of a node of a box of 2 × 1 × 1 m.
-type Place = fn(&Vector3<f64>) -> Vector3<f64>;
+pub type Place = fn(&Vector3<f64>) -> Vector3<f64>;
 
-fn compared(name: &str, text: SceneText, place: Place) -> Case {
+pub fn compared(name: &str, text: SceneText, place: Place) -> Case {
     let case = format!("{name} under a weight of a quarter of E times its cross-section");
     let parameters = format!("E = {:e} Pa, dt = {:e} s", text.young, text.dt);
     Case {

@@ -1,0 +1,84 @@
+//! The methods that are compared, with what of each is swept and tuned.
+
+use super::case::{LAW, SPRINGS};
+
+/// A method.
+#[derive(Clone, Copy, Debug)]
+pub struct Contender {
+    /// The name in tables.
+    pub name: &'static str,
+    /// The model of the material.
+    pub model: &'static str,
+    /// The name in scenes.
+    pub integrator: &'static str,
+    /// What its iterations are.
+    pub sweep: Sweep,
+    /// A key of `[iterations]`, and the values from which the best is taken for each case.
+    pub tuned: Option<(&'static str, &'static [f64])>,
+    /// Further keys of `[iterations]`.
+    pub keys: &'static str,
+}
+
+/// The iterations of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sweep {
+    /// Newton iterations until the update is below a tolerance.
+    Newton,
+    /// Sweeps or rounds, a fixed number of them.
+    Iterations,
+    /// The method has no iterations, or all of them until it converges.
+    Whole,
+}
+
+const NEWTON: Contender =
+    Contender { name: "Newton", model: LAW, integrator: "implicit_euler", sweep: Sweep::Newton, tuned: None, keys: "" };
+const ITERATED: Contender = Contender { sweep: Sweep::Iterations, ..NEWTON };
+
+/// Values that the two parameters without a rule for their choice are tuned over: as many for each.
+const RADII: &[f64] = &[0.5, 0.8, 0.9, 0.95, 0.98];
+const STIFFNESSES: &[f64] = &[0.01, 0.1, 0.5, 0.9, 1.0];
+
+/// All methods. Newton's is the first.
+pub const ALL: [Contender; 11] = [
+    NEWTON,
+    Contender { name: "linearly implicit", integrator: "linearly_implicit_euler", sweep: Sweep::Whole, ..NEWTON },
+    Contender { name: "BDF2", integrator: "bdf2", sweep: Sweep::Whole, ..NEWTON },
+    Contender { name: "XPBD", integrator: "xpbd", ..ITERATED },
+    Contender { name: "XPBD, no residual", integrator: "xpbd", keys: "residual = false\n", ..ITERATED },
+    Contender { name: "VBD", integrator: "vbd", ..ITERATED },
+    Contender { name: "VBD, Chebyshev", integrator: "vbd", tuned: Some(("acceleration", RADII)), ..ITERATED },
+    Contender { name: "PD", integrator: "projective_dynamics", ..ITERATED },
+    Contender { name: "PBD", integrator: "pbd", tuned: Some(("stiffness", STIFFNESSES)), ..ITERATED },
+    Contender { name: "springs, Newton", model: SPRINGS, sweep: Sweep::Whole, ..NEWTON },
+    Contender {
+        name: "springs, linearly implicit",
+        model: SPRINGS,
+        integrator: "linearly_implicit_euler",
+        sweep: Sweep::Whole,
+        ..NEWTON
+    },
+];
+
+impl Contender {
+    /// The tables of a scene with this many iterations, or, of Newton's method, digits of its tolerance; and a value of the tuned key.
+    pub fn tables(&self, iterations: usize, value: Option<f64>) -> String {
+        match self.sweep {
+            Sweep::Newton => format!("[newton]\ntolerance = 1e-{iterations}\n"),
+            Sweep::Iterations => {
+                let tuned = self.tuned.zip(value).map(|((key, _), value)| format!("{key} = {value}\n"));
+                format!("[iterations]\ncount = {iterations}\n{}{}", self.keys, tuned.unwrap_or_default())
+            }
+            Sweep::Whole => String::new(),
+        }
+    }
+
+    /// Whether its steps converge to those of implicit Euler for the elements, so that it has a solver error.
+    pub fn has_solver_error(&self) -> bool {
+        self.model == LAW && !["bdf2", "pbd"].contains(&self.integrator)
+    }
+
+    /// Whether it takes as many iterations as it is told.
+    pub fn is_iterated(&self) -> bool {
+        self.sweep == Sweep::Iterations
+    }
+}

@@ -1,0 +1,238 @@
+//! The stiffness that a bar has with iterated methods: its apparent modulus against iterations and time step.
+
+use std::path::Path;
+
+use fem_chart::{Axis, Chart, Dot, Guide, Series};
+use fem_scene::simulation::Simulation;
+
+use super::methods::block;
+use super::setting::{one_thread, simulation, step};
+use crate::experiments::{Figure, Mark, Part, Table};
+
+/// Length of the bar, m; its cross-section is 1 m².
+const LENGTH: f64 = 2.0;
+const CELLS: [usize; 3] = [4, 2, 2];
+const DENSITY: f64 = 1000.0;
+
+/// The modulus at which the marks are judged, Pa.
+const SOFT: f64 = 1e5;
+
+/// Mean strain of the bar under its weight.
+const STRAIN: f64 = 0.01;
+
+/// Speed (lengths times the slowest frequency) below which the bar is at rest, and the time (s) within which it must be.
+const STILL: f64 = 1e-7;
+const LONGEST: f64 = 30.0;
+
+/// Deviation of the modulus of a converged method.
+const CONVERGED: f64 = 1e-3;
+
+/// Methods: name, integrator, keys of `[iterations]`.
+const METHODS: [(&str, &str, &str); 5] = [
+    ("PBD", "pbd", ""),
+    ("XPBD", "xpbd", ""),
+    ("XPBD, no residual", "xpbd", "residual = false\n"),
+    ("VBD", "vbd", ""),
+    ("PD", "projective_dynamics", ""),
+];
+
+/// A bar at rest with some iterations a step.
+struct Hung {
+    method: usize,
+    young: f64,
+    rate: usize,
+    iterations: usize,
+    /// Apparent modulus over E, and whether the bar came to rest.
+    modulus: f64,
+    is_still: bool,
+}
+
+/// Hangs a bar with every method, number of iterations and time step.
+pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
+    let Ranges { youngs, rates } = ranges(quick);
+    let (mut found, mut springs) = (Vec::new(), Vec::new());
+    for (young, counts) in &youngs {
+        let exact = equilibrium(*young, "corotated")?;
+        springs.push((*young, exact / equilibrium(*young, "mass_spring")?));
+        for method in 0..METHODS.len() {
+            for &rate in rates {
+                for &iterations in *counts {
+                    let hung = || hung(method, *young, (rate, iterations), exact);
+                    found.push(one_thread()?.install(hung)?);
+                }
+            }
+        }
+    }
+    let text = format!(
+        "A bar of {LENGTH} × 1 × 1 m hangs at one end, stretched by {} % under its weight (corotated law, ν = 1/4), until it is at rest. Its apparent modulus is E times the \
+         extension of the same mesh in equilibrium over the one found: 1 is right, less is too soft, more is too stiff. The weight grows with E, so that PBD, which knows no modulus, \
+         bears each. Springs in place of the elements, in their own equilibrium, have {}. After {LONGEST} s {} of {} bars are still moving, as their cells say.",
+        100.0 * STRAIN,
+        springs.iter().map(|(young, part)| format!("{part:.3} at E = {young:e} Pa")).collect::<Vec<_>>().join(" and "),
+        found.iter().filter(|hung| !hung.is_still).count(),
+        found.len()
+    );
+    let marks = marks(&found);
+    Ok(Part {
+        name: "modulus",
+        title: "Stiffness by iterations",
+        text,
+        marks,
+        tables: vec![table(&found)],
+        figures: youngs.iter().map(|(young, _)| figure(&found, *young)).collect(),
+    })
+}
+
+/// What is swept.
+struct Ranges {
+    /// Young's moduli, Pa, each with numbers of iterations.
+    youngs: Vec<(f64, &'static [usize])>,
+    /// Steps of a second.
+    rates: &'static [usize],
+}
+
+fn ranges(quick: bool) -> Ranges {
+    match quick {
+        true => Ranges { youngs: vec![(SOFT, &[1, 5, 20])], rates: &[60] },
+        false => Ranges {
+            youngs: vec![(SOFT, &[1, 2, 5, 10, 20, 50]), (1e7, &[1, 2, 5, 10, 20, 50, 100, 200])],
+            rates: &[30, 60, 240],
+        },
+    }
+}
+
+/// The bar in words; its weight strains it by [`STRAIN`] in the mean.
+fn bar(young: f64, model: &str, (integrator, time): (&str, &str), tables: &str) -> Result<Box<dyn Simulation>, String> {
+    let gravity = 2.0 * STRAIN * young / (DENSITY * LENGTH);
+    let poisson = if model == "mass_spring" { "" } else { "poisson = 0.25\n" };
+    let text = format!(
+        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 1 }}\n[material]\nmodel = \"{model}\"\nyoung = {young:e}\n\
+         {poisson}density = {DENSITY}\n[mass]\nlumped = true\n[gravity]\nacceleration = [{gravity:e}, 0, 0]\n[fixed]\nplane = {{ axis = \"x\", below = 1e-9 }}\n\
+         {tables}[time]\nintegrator = \"{integrator}\"\n{time}"
+    );
+    simulation(&text, block(CELLS, LENGTH / CELLS[0] as f64))
+}
+
+/// Mean displacement of the free end along the bar, m.
+fn extension(simulation: &dyn Simulation) -> f64 {
+    let (shape, q) = (simulation.shape(), simulation.positions());
+    let end = shape.mesh.vertices().iter().enumerate().filter(|(_, x)| x.x > LENGTH - 1e-9);
+    let moved: Vec<f64> = end.map(|(node, x)| q[3 * node] - x.x).collect();
+    moved.iter().sum::<f64>() / moved.len() as f64
+}
+
+/// Extension in equilibrium, m.
+fn equilibrium(young: f64, model: &str) -> Result<f64, String> {
+    let mut simulation = bar(young, model, ("static", ""), "")?;
+    step(&mut *simulation)?;
+    Ok(extension(&*simulation))
+}
+
+/// Steps a bar until it is at rest. Its damping is critical for the slowest vibration, a bending one: the frequency of a clamped beam of
+/// square cross-section, whose first root is 1.875.
+fn hung(method: usize, young: f64, (rate, iterations): (usize, usize), exact: f64) -> Result<Hung, String> {
+    let (name, integrator, keys) = METHODS[method];
+    let slowest = 1.875f64.powi(2) / LENGTH.powi(2) * (young / DENSITY / 12.0).sqrt();
+    let tables = format!("[iterations]\ncount = {iterations}\n{keys}[damping]\nalpha = {:e}\n", 2.0 * slowest);
+    let time = format!("dt = {:e}\n", 1.0 / rate as f64);
+    let mut simulation = bar(young, "corotated", (integrator, &time), &tables)?;
+    let mut is_still = false;
+    for _ in 0..(LONGEST * rate as f64) as usize {
+        simulation.step().map_err(|failure| format!("{name}: {failure}"))?;
+        is_still = simulation.velocities().amax() <= STILL * LENGTH * slowest;
+        if is_still {
+            break;
+        }
+    }
+    Ok(Hung { method, young, rate, iterations, modulus: exact / extension(&*simulation), is_still })
+}
+
+fn marks(found: &[Hung]) -> Vec<Mark> {
+    let of = |name: &'static str| found.iter().filter(move |hung| METHODS[hung.method].0 == name);
+    let soft = |name| of(name).filter(|hung| hung.young == SOFT);
+    let mut marks: Vec<Mark> = ["XPBD", "VBD", "PD"]
+        .map(|name| {
+            let most = soft(name).map(|hung| hung.iterations).max().unwrap_or_default();
+            let last = soft(name).filter(|hung| hung.iterations == most);
+            let apart = last.map(|hung| (hung.modulus - 1.0).abs()).fold(0.0, f64::max);
+            let statement = format!(
+                "{name}: with {most} iterations the bar of E = {SOFT:e} Pa has its modulus within {CONVERGED:e}"
+            );
+            Mark::new(statement, format!("{apart:.1e}"), apart <= CONVERGED)
+        })
+        .into();
+    let ends = |(a, b): (f64, f64), x: f64| (a.min(x), b.max(x));
+    let (least, largest) = soft("PBD").map(|hung| hung.modulus).fold((f64::INFINITY, 0.0), ends);
+    marks.push(Mark::new(
+        "PBD: the modulus comes from iterations and time step, and differs by more than ten times",
+        format!("{least:.2} to {largest:.2e} E"),
+        largest > 10.0 * least,
+    ));
+    marks
+}
+
+fn cell(hung: &Hung) -> String {
+    let moving = if hung.is_still { "" } else { " (moving)" };
+    match hung.modulus.abs() {
+        0.01..1e4 => format!("{:.4}{moving}", hung.modulus),
+        _ => format!("{:.2e}{moving}", hung.modulus),
+    }
+}
+
+fn table(found: &[Hung]) -> Table {
+    let row = |first: &Hung| {
+        let is_same =
+            |hung: &&Hung| (hung.young, hung.rate, hung.iterations) == (first.young, first.rate, first.iterations);
+        let name = [format!("{:e}", first.young), format!("1/{}", first.rate), first.iterations.to_string()];
+        name.into_iter().chain(found.iter().filter(is_same).map(cell)).collect()
+    };
+    Table {
+        name: "rtfem-modulus".to_owned(),
+        head: vec![
+            ">E (Pa)",
+            ">dt (s)",
+            ">iterations a step",
+            ">PBD, over E",
+            ">XPBD, over E",
+            ">XPBD without residual, over E",
+            ">VBD, over E",
+            ">PD, over E",
+        ],
+        rows: found.iter().filter(|hung| hung.method == 0).map(row).collect(),
+    }
+}
+
+/// Every method at the usual time step, PBD at all of them.
+fn figure(found: &[Hung], young: f64) -> Figure {
+    let mut chart = Chart::new(
+        format!("apparent modulus at E = {young:e} Pa"),
+        Axis::log("iterations of a step"),
+        Axis::log("apparent modulus over E"),
+    );
+    let mut rates: Vec<usize> = found.iter().map(|hung| hung.rate).collect();
+    rates.sort_unstable();
+    rates.dedup();
+    let shown = |method: usize, rate: usize| METHODS[method].0 == "PBD" || rate == 60;
+    for (method, (name, ..)) in METHODS.iter().enumerate() {
+        for (number, &rate) in rates.iter().enumerate().filter(|(_, rate)| shown(method, **rate)) {
+            let of_line = found.iter().filter(|hung| (hung.method, hung.young, hung.rate) == (method, young, rate));
+            let dot =
+                |hung: &Hung| Dot { x: hung.iterations as f64, y: hung.modulus, title: cell(hung), ..Dot::default() };
+            chart.series.push(Series {
+                name: format!("{name}, 1/{rate} s"),
+                colour: method + 1,
+                shape: number,
+                is_joined: true,
+                has_dots: true,
+                dots: of_line.map(dot).collect(),
+                ..Series::default()
+            });
+        }
+    }
+    chart.guides.push(Guide::Horizontal(1.0, "the modulus of the material".to_owned()));
+    Figure {
+        name: format!("rtfem-modulus-{young:e}"),
+        picture: chart.draw(),
+        caption: format!("A hanging bar at rest, E = {young:e} Pa: its apparent modulus over E."),
+    }
+}

@@ -1,0 +1,206 @@
+//! Methods of a fixed number of iterations: position-based dynamics, its extended form, vertex block descent, projective dynamics. They step
+//! with whatever error is left, so that every time step is stable, but elements of a law without a barrier may end inverted.
+
+use fem_scene::parse;
+use nalgebra::Vector3;
+
+use super::contact::{BODIES as OBSTRUCTED, hit};
+use super::degenerate_bodies::{BODIES, Body};
+use super::invariance::rigid;
+use super::recovery::{MARGIN_IS as RECOVERED, back_at_rest};
+use super::single_precision::compared;
+use super::stiffness_and_step::{DT, YOUNG};
+use crate::stability::case::{Case, Finding, Outcome};
+use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
+use crate::stability::initial_state::{Random, place};
+use crate::stability::march::march;
+use crate::stability::scene_text::{CLAMPED, DAMPED, LUMPED, SceneText, gravity, prescribed_end};
+
+const FAMILY: &str = "iterated methods";
+
+/// The methods.
+pub const ITERATED: [&str; 4] = ["pbd", "xpbd", "vbd", "projective_dynamics"];
+
+/// Laws with and without an energy barrier at J = 0.
+const LAWS: [&str; 2] = ["stable_neo_hookean", "neo_hookean"];
+
+/// The margin of bodies whose elements may invert.
+const MARGIN_IS: &str =
+    "smallest J at the end of a step, round-off decides which; a few iterations do not keep it above 0";
+
+/// Adds the family.
+pub fn add(cases: &mut Vec<Case>, quick: bool) {
+    let omega = unit_omega("linear");
+    for integrator in ITERATED {
+        for count in if quick { &[20][..] } else { &[1, 20] } {
+            for young in YOUNG {
+                for dt in DT {
+                    cases.push(vibrating(integrator, young, (dt, *count), omega));
+                }
+            }
+        }
+        for young in if quick { &YOUNG[1..2] } else { &YOUNG } {
+            for dt in DT {
+                cases.push(weighed(integrator, *young, dt));
+            }
+        }
+        for (name, motion) in ENDS {
+            for law in LAWS {
+                cases.push(moved(name, motion, law, integrator));
+            }
+        }
+        for (name, tangle) in TANGLES {
+            for seed in 0..if quick { 1 } else { 10 } {
+                cases.push(tangled(name, tangle, integrator, seed));
+            }
+        }
+        for body in &BODIES {
+            cases.push(degenerate(body, integrator, if quick { 20 } else { 200 }));
+        }
+        cases.push(compared("clamped body, sagging", clamped(integrator, "stable_neo_hookean", 1e5, 0.005), |x| *x));
+        for (name, mesh) in if quick { &OBSTRUCTED[1..] } else { &OBSTRUCTED[..] } {
+            for speed in [1e-3, 0.2] {
+                let mesh = (*mesh).to_owned();
+                let text = SceneText { mesh, ..SceneText::small(integrator, "stable_neo_hookean") };
+                cases.push(hit(text, name, 0.5, speed));
+            }
+        }
+        // A step of few sweeps of vertex block descent does not keep the momentum. Round-off of all sweeps adds up.
+        if integrator != "vbd" {
+            cases.push(rigid(integrator, LUMPED, 100));
+        }
+        add_refusals(cases, integrator);
+    }
+}
+
+/// The end of a large motion. PBD has no energy, and does not see the barrier of a law that has one: the step that passes it is refused. The
+/// sweeps of XPBD diverge where elements are stiff beside their masses, E dt² of the order of ρ h² and more, and strains are large.
+fn expected(integrator: &str, law: &str) -> Outcome {
+    match (integrator, law) {
+        ("pbd", "neo_hookean") | ("xpbd", _) => Outcome::Explodes,
+        _ => Outcome::Survives,
+    }
+}
+
+fn iterations(count: usize) -> String {
+    format!("[iterations]\ncount = {count}\n")
+}
+
+/// The highest mode of a clamped body, which implicit Euler damps however stiff the body and long the step.
+fn vibrating(integrator: &'static str, young: f64, (dt, count): (f64, usize), unit_omega: f64) -> Case {
+    let forecast = forecast(integrator, unit_omega * young.sqrt() * dt, 60);
+    let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, {count} iterations, {} steps", forecast.steps);
+    let text = clamped(integrator, "stable_neo_hookean", young, dt).with(&iterations(count));
+    text.clone()
+        .case(FAMILY, "clamped body, vibrating", parameters, move |deadline| try_forecast(&text, forecast, deadline))
+}
+
+/// A clamped body under a weight of a fifth of E times its cross-section.
+fn weighed(integrator: &'static str, young: f64, dt: f64) -> Case {
+    let text = clamped(integrator, "stable_neo_hookean", young, dt).with(&gravity([0.0, 0.0, -0.1 * young / 1e3]));
+    let parameters = format!("E = {young:e} Pa, dt = {dt:e} s, 50 steps");
+    let name = "clamped body, sagging under a fifth of E times its cross-section";
+    // E dt² over ρ h², of elements with edges of h = 1 m. Twenty sweeps of vertex block descent carry a load that far alone.
+    let stiffness = young * dt * dt / text.density;
+    Case {
+        expected: match integrator {
+            "xpbd" if stiffness > 5.0 => Outcome::Explodes,
+            "vbd" if stiffness > 1e4 => Outcome::Inverts,
+            _ => Outcome::Survives,
+        },
+        ..text
+            .clone()
+            .case(FAMILY, name, parameters, move |deadline| Ok(march(&mut text.build()?, 50, deadline).survival()))
+    }
+}
+
+/// Motions of the end of largest x.
+const ENDS: [(&str, &str); 3] = [
+    ("stretched to ten times its length", "displacement = [18, 0, 0]"),
+    ("compressed to a tenth of its length", "displacement = [-1.8, 0, 0]"),
+    ("turned once", "rotation = { axis = \"x\", center = [0, 0.5, 0.5], turns = 1 }"),
+];
+
+fn moved(name: &str, motion: &str, law: &'static str, integrator: &'static str) -> Case {
+    let text = SceneText { dt: 0.05, ..SceneText::finer(integrator, law) };
+    let text = text.with(CLAMPED).with(&prescribed_end(motion, 2.5));
+    let case = text.clone().case(FAMILY, name, "E = 1e5 Pa, dt = 0.05 s, 50 steps".to_owned(), {
+        move |deadline| Ok(march(&mut text.build()?, 50, deadline).endurance())
+    });
+    Case { expected: expected(integrator, law), margin_is: MARGIN_IS, ..case }
+}
+
+/// Position of a node from its undeformed one.
+type Tangle = fn(&mut Random, &Vector3<f64>) -> Vector3<f64>;
+
+/// Initial positions about the centre of the body.
+const TANGLES: [(&str, Tangle); 4] = [
+    ("random positions", |random, _| CENTRE + Vector3::new(1.0, 0.5, 0.5).component_mul(&random.vector())),
+    ("flattened to a plane", |random, X| Vector3::new(X.x, X.y, 0.5) + 1e-3 * random.vector()),
+    ("squashed to 2 % of its height", |random, X| Vector3::new(X.x, X.y, 0.02 * X.z) + 1e-3 * random.vector()),
+    ("collapsed to a point", |random, _| CENTRE + 1e-3 * random.vector()),
+];
+
+const CENTRE: Vector3<f64> = Vector3::new(1.0, 0.5, 0.5);
+
+/// Steps within which a body must come to rest.
+const STEPS: usize = 600;
+
+/// Seeds with which the sweeps of XPBD diverge from a plane.
+const FLAT_AND_DIVERGING: [u64; 4] = [1, 4, 7, 9];
+
+fn tangled(name: &str, tangle: Tangle, integrator: &'static str, seed: u64) -> Case {
+    let text = SceneText { dt: 0.05, ..SceneText::finer(integrator, "stable_neo_hookean") }.with(CLAMPED).with(DAMPED);
+    let parameters = format!("E = 1e5 Pa, dt = {} s, up to {STEPS} steps", text.dt);
+    let case = text.clone().case(FAMILY, name, parameters, move |deadline| {
+        let (mut simulation, mut random) = (text.build()?, Random::new(seed));
+        place(&mut simulation, |X| tangle(&mut random, X));
+        Ok(back_at_rest(&mut simulation, STEPS, true, deadline))
+    });
+    let diverges = integrator == "xpbd"
+        && match name {
+            "random positions" | "collapsed to a point" => true,
+            "flattened to a plane" => FLAT_AND_DIVERGING.contains(&seed),
+            _ => false,
+        };
+    let expected = if diverges { Outcome::Explodes } else { Outcome::Untangles };
+    Case { expected, margin_is: RECOVERED, seed: Some(seed), ..case }
+}
+
+fn degenerate(body: &Body, integrator: &'static str, steps: usize) -> Case {
+    let text = SceneText { dt: 1e-3, ..SceneText::small(integrator, "stable_neo_hookean") };
+    let text = text.with(body.tables).with(&gravity([0.0, 0.0, -9.81]));
+    let (mesh, parameters) = (body.mesh, format!("E = 1e5 Pa, dt = 1e-3 s, under its weight, {steps} steps"));
+    text.clone().case(FAMILY, body.name, parameters, move |deadline| {
+        Ok(march(&mut text.build_on(mesh()?)?, steps, deadline).survival())
+    })
+}
+
+/// What no step of these methods knows: text to replace, its replacement, and the words that the error must contain.
+const UNKNOWN: [(&str, &str, &str, &str); 4] = [
+    (
+        "a mass-spring body",
+        "\"neo_hookean\"\nyoung = 1e5\npoisson = 0.3",
+        "\"mass_spring\"\nyoung = 1e5",
+        "material.model",
+    ),
+    ("damping of a stiffness matrix", "[fixed]", "[damping]\nbeta = 0.1\n[fixed]", "damping.beta"),
+    ("no iterations", "[fixed]", "[iterations]\ncount = 0\n[fixed]", "iterations.count"),
+    ("Newton's tolerance", "[fixed]", "[newton]\ntolerance = 1e-6\n[fixed]", "newton"),
+];
+
+fn add_refusals(cases: &mut Vec<Case>, integrator: &'static str) {
+    for (name, from, to, names) in UNKNOWN {
+        let text = SceneText::small(integrator, "neo_hookean").with(CLAMPED);
+        let case = text.clone().case(FAMILY, name, format!("`{}`", to.replace('\n', "; ")), move |_| {
+            let refused = parse(&text.text().replace(from, to), std::path::Path::new("case.toml"));
+            Ok(match refused.map_err(|error| error.to_string()) {
+                Ok(_) => Finding::new(Outcome::Accepted, 0.0, ""),
+                Err(message) if message.contains(names) => Finding::new(Outcome::Refused, 1.0, message),
+                Err(message) => Finding::new(Outcome::Deviates, 0.0, format!("does not name {names}: {message}")),
+            })
+        });
+        let margin_is = "1 if the message names the element or key, else 0";
+        cases.push(Case { expected: Outcome::Refused, margin_is, ..case });
+    }
+}
