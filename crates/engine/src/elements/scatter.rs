@@ -19,8 +19,8 @@ pub(super) fn scatter<L: Lanes, const D: usize, const E: usize, const N: usize>(
     let mut of_first = [L::zero(); 3];
     for e in 0..E {
         let mut vectors = [L::zero(); 3];
+        vectors[..D].copy_from_slice(&gradients[e]);
         for i in 0..D {
-            vectors[i] = gradients[e][i];
             of_first[i] -= vectors[i];
         }
         add_corner(&vectors, corners, e + 1, first, sums);

@@ -5,16 +5,16 @@ use std::ops::Range;
 use fem_scene::BodyMesh;
 
 use super::nodes::NodeBatches;
+use super::patches::Patches;
 use super::search::Change;
-use super::stars::Stars;
 use super::sums::Sums;
 use crate::model::system::System;
 use crate::number::Real;
 
 /// The elements of one material around the nodes.
 pub(super) enum Group<T: Real> {
-    Tetrahedra(Stars<T, 3>),
-    Triangles(Stars<T, 2>),
+    Tetrahedra(Patches<T, 3>),
+    Triangles(Patches<T, 2>),
 }
 
 /// Evaluates an expression for the elements of a group.
@@ -34,11 +34,11 @@ impl<T: Real> Group<T> {
         match &system.shape.mesh {
             BodyMesh::Solid(mesh) => {
                 let corners = system.numbering.elements(numbers.iter().map(|&number| &mesh.elements[number]));
-                Self::Tetrahedra(Stars::new(system, material, &corners, &numbers, nodes))
+                Self::Tetrahedra(Patches::new(system, material, &corners, &numbers, nodes))
             }
             BodyMesh::Flat { triangles, .. } => {
                 let corners = system.numbering.elements(numbers.iter().map(|&number| &triangles.elements[number]));
-                Self::Triangles(Stars::new(system, material, &corners, &numbers, nodes))
+                Self::Triangles(Patches::new(system, material, &corners, &numbers, nodes))
             }
             BodyMesh::Quadratic { .. } => unreachable!("quadratic elements are refused when the scene is loaded"),
         }
@@ -53,7 +53,7 @@ impl<T: Real> Group<T> {
         u: &[[T; 3]],
         sums: &mut [Sums<T::Lanes>],
     ) {
-        with_group!(self, stars => stars.add_sums(system, nodes, color, u, sums));
+        with_group!(self, patches => patches.add_sums(system, nodes, color, u, sums));
     }
 
     /// Adds the changes of the elements' energy at these batches as their nodes move.
@@ -65,12 +65,12 @@ impl<T: Real> Group<T> {
         u: &[[T; 3]],
         changes: &mut [Change<T>],
     ) {
-        with_group!(self, stars => stars.add_changes(system, nodes, batches, u, changes));
+        with_group!(self, patches => patches.add_changes(system, nodes, batches, u, changes));
     }
 
     /// Memory, bytes.
     pub fn bytes(&self) -> usize {
-        with_group!(self, stars => stars.bytes())
+        with_group!(self, patches => patches.bytes())
     }
 }
 

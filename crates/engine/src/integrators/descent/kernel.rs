@@ -6,7 +6,7 @@
 use pulp::{Simd, WithSimd};
 
 use super::search::Change;
-use super::stars::Slot;
+use super::slot::Slot;
 use super::sums::{Sums, UPPER, store};
 use crate::materials::{Law, OfInvariants, OfRotation};
 use crate::number::{Lanes, Real};

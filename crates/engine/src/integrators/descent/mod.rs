@@ -14,9 +14,10 @@ mod groups;
 mod kernel;
 mod links;
 mod nodes;
+mod patches;
 mod search;
+mod slot;
 mod solve;
-mod stars;
 mod sums;
 mod sweep;
 

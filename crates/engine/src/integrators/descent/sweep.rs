@@ -8,7 +8,7 @@ use super::chebyshev::Chebyshev;
 use super::coloring::color_nodes;
 use super::groups::{Group, corners};
 use super::links::Links;
-use super::nodes::NodeBatches;
+use super::nodes::{BATCHES_FOR_THREADS, CHUNK, NodeBatches};
 use super::search::{Change, HALVINGS};
 use super::solve::{Inertia, Steps, StepsOf, inverse_block};
 use super::sums::Sums;
@@ -17,12 +17,6 @@ use crate::integrators::projection::{ContactStep, Particles, PlaneContacts, larg
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::{Number, Real};
-
-/// Batches of nodes that a thread takes at a time.
-pub(super) const CHUNK: usize = 16;
-
-/// From this many batches of a colour on several threads share them.
-pub(super) const BATCHES_FOR_THREADS: usize = 4 * CHUNK;
 
 /// A body whose nodes descend one after the other.
 pub struct Descent<T: Real> {

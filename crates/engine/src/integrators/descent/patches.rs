@@ -1,4 +1,4 @@
-//! Stars of nodes: the elements of a material around each node of a batch, side by side in SIMD lanes.
+//! Patches: the elements of a material around each node of a batch, side by side in SIMD lanes.
 
 use std::ops::Range;
 
@@ -6,28 +6,19 @@ use rayon::prelude::*;
 
 use super::coloring::cliques_of_nodes;
 use super::kernel::{ChangesOf, SumsOf};
-use super::nodes::NodeBatches;
+use super::nodes::{BATCHES_FOR_THREADS, CHUNK, NodeBatches};
 use super::search::Change;
+use super::slot::Slot;
 use super::sums::Sums;
-use super::sweep::{BATCHES_FOR_THREADS, CHUNK};
+
 use crate::integrators::projection::shape;
 use crate::materials::Law;
 use crate::model::solids::LawWork;
 use crate::model::system::System;
 use crate::number::{Lanes, Number, Real};
 
-/// One element around the node in each lane, E = N − 1 of whose nodes are others. A copy of the element's shape for each of its nodes makes
-/// a sweep read memory in order.
-#[derive(Clone)]
-pub(super) struct Slot<T: Real, const E: usize> {
-    /// Gradients of the shape functions of the other nodes, 1/m; the third direction of triangles is zero.
-    pub gradients: [[T::Lanes; 3]; E],
-    /// Volume times a factor of the element's moduli, m³; zero in lanes without an element.
-    pub volume: T::Lanes,
-}
-
 /// The elements of one material around all nodes.
-pub(super) struct Stars<T: Real, const E: usize> {
+pub(super) struct Patches<T: Real, const E: usize> {
     material: usize,
     slots: Vec<Slot<T, E>>,
     /// The other nodes of each element, lane after lane.
@@ -36,8 +27,8 @@ pub(super) struct Stars<T: Real, const E: usize> {
     starts: Vec<usize>,
 }
 
-impl<T: Real, const E: usize> Stars<T, E> {
-    /// Stars of the elements of a material, which have these nodes, in the engine's numbering, and numbers in the mesh.
+impl<T: Real, const E: usize> Patches<T, E> {
+    /// Patches of the elements of a material, which have these nodes, in the engine's numbering, and numbers in the mesh.
     pub fn new<const N: usize>(
         system: &System<T>,
         material: usize,
@@ -92,7 +83,7 @@ impl<T: Real, const E: usize> Stars<T, E> {
         u: &[[T; 3]],
         sums: &mut [Sums<T::Lanes>],
     ) {
-        system.elements.with_law(self.material, SumsOfColor { stars: self, nodes, color, u, sums });
+        system.elements.with_law(self.material, SumsOfColor { patches: self, nodes, color, u, sums });
     }
 
     /// Adds the changes of the elements' energy at these batches as their nodes move.
@@ -104,7 +95,7 @@ impl<T: Real, const E: usize> Stars<T, E> {
         u: &[[T; 3]],
         changes: &mut [Change<T>],
     ) {
-        system.elements.with_law(self.material, ChangesOfBatches { stars: self, nodes, batches, u, changes });
+        system.elements.with_law(self.material, ChangesOfBatches { patches: self, nodes, batches, u, changes });
     }
 
     /// Memory, bytes.
@@ -115,7 +106,7 @@ impl<T: Real, const E: usize> Stars<T, E> {
 
 /// The sums of a colour, with the law of a material.
 struct SumsOfColor<'a, T: Real, const E: usize> {
-    stars: &'a Stars<T, E>,
+    patches: &'a Patches<T, E>,
     nodes: &'a NodeBatches<T>,
     color: &'a Range<usize>,
     u: &'a [[T; 3]],
@@ -126,7 +117,7 @@ impl<T: Real, const E: usize> LawWork<T> for SumsOfColor<'_, T, E> {
     type Output = ();
 
     fn run<L: Lanes<Element = T>>(self, law: &dyn Law<L>, allows_inversion: bool) {
-        let Self { stars: Stars { slots, others, starts, .. }, nodes, color, u, sums } = self;
+        let Self { patches: Patches { slots, others, starts, .. }, nodes, color, u, sums } = self;
         let add = |(first, sums): (usize, &mut [Sums<T::Lanes>])| {
             let starts = &starts[first..=first + sums.len()];
             let lanes = &nodes.lanes[first * T::WIDTH..][..sums.len() * T::WIDTH];
@@ -142,7 +133,7 @@ impl<T: Real, const E: usize> LawWork<T> for SumsOfColor<'_, T, E> {
 
 /// Changes of the energy at some batches, with the law of a material.
 struct ChangesOfBatches<'a, T: Real, const E: usize> {
-    stars: &'a Stars<T, E>,
+    patches: &'a Patches<T, E>,
     nodes: &'a NodeBatches<T>,
     batches: &'a [usize],
     u: &'a [[T; 3]],
@@ -153,7 +144,7 @@ impl<T: Real, const E: usize> LawWork<T> for ChangesOfBatches<'_, T, E> {
     type Output = ();
 
     fn run<L: Lanes<Element = T>>(self, law: &dyn Law<L>, allows_inversion: bool) {
-        let Self { stars: Stars { slots, others, starts, .. }, nodes, batches, u, changes } = self;
+        let Self { patches: Patches { slots, others, starts, .. }, nodes, batches, u, changes } = self;
         for (&batch, change) in batches.iter().zip(changes) {
             let (slots, lanes) = (&slots[starts[batch]..starts[batch + 1]], &nodes.lanes[batch * T::WIDTH..]);
             let others = &others[starts[batch] * T::WIDTH..];
