@@ -107,8 +107,8 @@ pub fn first_hit(origin: Vec3, ray: Vec3, points: &[Vec3], triangles: &[[usize; 
     triangles.iter().enumerate().filter_map(hit).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Part of a triangle by which it is larger for rays, so that none slips through between two triangles by rounding.
-const SLACK: f32 = 1e-5;
+/// Barycentric coordinate beyond an edge up to which a ray still meets a triangle, so that rounding lets none pass between two triangles.
+const BEYOND_EDGE: f32 = -1e-5;
 
 /// Möller and Trumbore's intersection test, from either side of the triangle.
 fn distance_to_triangle(origin: Vec3, ray: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f32> {
@@ -121,7 +121,8 @@ fn distance_to_triangle(origin: Vec3, ray: Vec3, [a, b, c]: [Vec3; 3]) -> Option
     let v = ray.dot(q) / determinant;
     let distance = ac.dot(q) / determinant;
     // A ray in the triangle's plane gives NaN or infinity, which fail these comparisons.
-    (u >= -SLACK && v >= -SLACK && u + v <= 1.0 + SLACK && distance > 0.0).then_some(distance)
+    let meets = [1.0 - u - v, u, v].iter().all(|coordinate| *coordinate >= BEYOND_EDGE);
+    Some(distance).filter(|distance| meets && *distance > 0.0)
 }
 
 #[cfg(test)]

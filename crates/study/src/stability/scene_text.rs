@@ -28,6 +28,9 @@ pub const DYNAMIC: [&str; 11] = [
 /// The implicit integrators of second order.
 pub const SECOND_ORDER: [&str; 4] = ["implicit_midpoint", "newmark", "generalized_alpha", "bdf2"];
 
+/// The iterated methods.
+pub const ITERATED: [&str; 4] = ["pbd", "xpbd", "vbd", "projective_dynamics"];
+
 /// Whether an integrator minimizes an energy in each step.
 pub fn has_newton(integrator: &str) -> bool {
     ["implicit_euler", "static"].contains(&integrator) || SECOND_ORDER.contains(&integrator)

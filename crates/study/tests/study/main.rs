@@ -19,7 +19,7 @@ use fem_study::studies::Settings;
 const CHANGE: f64 = 0.01;
 
 /// The same of adaptive runs: round-off decides whether a step whose estimate is close to its bound is accepted.
-const CHANGE_OF_ADAPTIVE: f64 = 0.05;
+const CHANGE_OF_ADAPTIVE: f64 = 0.2;
 
 /// Errors below this are round-off, and differ from machine to machine.
 const ROUND_OFF: f64 = 1e-10;

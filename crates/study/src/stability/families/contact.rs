@@ -2,10 +2,9 @@
 
 use fem_scene::simulation::Simulation;
 
-use super::iterated_methods::ITERATED;
 use crate::stability::case::{Case, Deadline, Finding, Outcome};
 use crate::stability::march::march_with;
-use crate::stability::scene_text::{LUMPED, SECOND_ORDER, SceneText, has_newton};
+use crate::stability::scene_text::{ITERATED, LUMPED, SECOND_ORDER, SceneText, has_newton};
 
 const FAMILY: &str = "contact";
 

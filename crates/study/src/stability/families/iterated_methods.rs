@@ -14,12 +14,9 @@ use crate::stability::case::{Case, Finding, Outcome};
 use crate::stability::forecast::{clamped, forecast, try_forecast, unit_omega};
 use crate::stability::initial_state::{Random, place};
 use crate::stability::march::march;
-use crate::stability::scene_text::{CLAMPED, DAMPED, LUMPED, SceneText, gravity, prescribed_end};
+use crate::stability::scene_text::{CLAMPED, DAMPED, ITERATED, LUMPED, SceneText, gravity, prescribed_end};
 
 const FAMILY: &str = "iterated methods";
-
-/// The methods.
-pub const ITERATED: [&str; 4] = ["pbd", "xpbd", "vbd", "projective_dynamics"];
 
 /// Laws with and without an energy barrier at J = 0.
 const LAWS: [&str; 2] = ["stable_neo_hookean", "neo_hookean"];
