@@ -30,8 +30,8 @@ impl<T: Real> Chebyshev<T> {
         self.previous.copy_from_slice(u);
     }
 
-    /// Carries displacements, which a sweep has led to, further, except at the nodes that stay as they are. Where the result is not
-    /// feasible, it is dropped and acceleration starts again.
+    /// Extrapolates the displacements after a sweep, except at nodes for which `stays` is true. An infeasible result is dropped, and the
+    /// acceleration restarts.
     pub fn accelerate(
         &mut self,
         u: &mut [[T; 3]],

@@ -26,7 +26,7 @@ pub(super) fn color_nodes(nodes: usize, cliques: &[&[u32]]) -> Vec<Vec<u32>> {
     colors
 }
 
-/// For each node the cliques that it belongs to: those of node i are `numbers[starts[i]..starts[i + 1]]`, in ascending order.
+/// The cliques (elements and springs, as sets of coupled nodes) of each node: those of node i are `numbers[starts[i]..starts[i + 1]]`, in ascending order.
 pub(super) fn cliques_of_nodes<C: AsRef<[u32]>>(nodes: usize, cliques: &[C]) -> (Vec<usize>, Vec<u32>) {
     let mut starts = vec![0; nodes + 1];
     let members = || cliques.iter().enumerate().flat_map(|(i, clique)| clique.as_ref().iter().map(move |&n| (i, n)));

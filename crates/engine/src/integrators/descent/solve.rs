@@ -28,7 +28,7 @@ pub(super) struct Inertia<'a, T: Real> {
     pub masses: &'a [[T::Lanes; 3]],
     /// 1/Δt², 1/s².
     pub over_dt2: f64,
-    /// Places that inertia and dead loads alone lead to, m.
+    /// Displacements that inertia and dead loads alone would give, m.
     pub inertial: &'a [[T; 3]],
 }
 

@@ -23,7 +23,7 @@ pub struct Descent<T: Real> {
     count: usize,
     tolerance: Option<f64>,
     particles: Particles<T>,
-    /// Places that inertia and dead loads alone lead to, m.
+    /// Displacements that inertia and dead loads alone would give, m.
     inertial: Vec<[T; 3]>,
     nodes: NodeBatches<T>,
     groups: Vec<Group<T>>,

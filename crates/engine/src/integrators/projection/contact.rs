@@ -135,8 +135,8 @@ impl PlaneContacts {
         })
     }
 
-    /// Where a node goes that Newton's method for it alone would move to `free`: with the inverse `inverse` of its block, m/N, its
-    /// contact forces are those of Signorini's and Coulomb's conditions.
+    /// Returns the displacement of a node whose Newton step would end at `free`, so that its contact forces satisfy Signorini's and
+    /// Coulomb's conditions. `inverse` is the inverse of its block of the Hessian, m/N.
     pub fn settle<T: Real>(
         &mut self,
         node: usize,
@@ -145,7 +145,7 @@ impl PlaneContacts {
         skin: f64,
         free: [T; 3],
     ) -> [T; 3] {
-        // The forces of the sweep before are the start, so that passes too few for this sweep do not change where sweeps lead.
+        // The iteration starts from the forces of the previous sweep, so that the limit of the sweeps does not depend on the number of passes.
         let moved = inverse * self.force_on(node);
         let mut u = [0, 1, 2].map(|i| T::of(free[i].as_f64() + moved[i]));
         let Self { planes, multipliers, dt2, .. } = self;
