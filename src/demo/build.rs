@@ -59,10 +59,12 @@ pub fn body(scene: &Scene) -> Result<Body, End> {
     for warning in fem_scene::warnings(scene, &body) {
         eprintln!("warning: {warning}");
     }
-    if body.lumped_mass && scene.mass.lumped.is_none() {
+    let integrator = scene.time.integrator;
+    // Methods that move nodes one by one know no other mass.
+    if body.lumped_mass && scene.mass.lumped.is_none() && !integrator.needs_node_masses() {
         eprintln!(
             "note: {} lumps the mass of so large a body at its nodes; mass.lumped = false keeps it consistent",
-            scene.time.integrator.name()
+            integrator.name()
         );
     }
     Ok(body)
