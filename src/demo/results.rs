@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use fem_mesh::write::Frame;
-use fem_scene::Scene;
 use fem_scene::output::{self, EXPORTS, Stats};
 use fem_scene::simulate::{Run, quantile};
 use fem_scene::simulation::{Energies, PlaneContact, Reaction, Simulation};
-
+use fem_scene::{IterationSettings, Method, Scene};
 use nalgebra::Vector3;
 
 use super::cli::RunArguments;
@@ -117,13 +116,32 @@ fn end(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
         return Err(End::Interrupted { code: *code, message: how_to_go_on(*simulation, arguments) });
     }
     let (unconverged_steps, steps) = (simulation.counters().unconverged_steps, simulation.steps());
-    if unconverged_steps == 0 || scene.method().newton.accept_unconverged {
+    let method = scene.method();
+    if unconverged_steps == 0 || method.accepts_unconverged() {
         return Ok(());
+    }
+    if method.integrator.is_iterated() {
+        return Err(End::Stopped(not_settled(&method, unconverged_steps, steps)));
     }
     Err(End::Stopped(format!(
         "{unconverged_steps} of {steps} steps ended before Newton's method had converged, so the result is not to be trusted; \
          use a shorter time step or more load steps, a larger newton.max_iterations, or newton.accept_unconverged = true"
     )))
+}
+
+/// What is told of a run in which the iterations of some steps have not settled.
+fn not_settled(method: &Method, unconverged_steps: usize, steps: usize) -> String {
+    let IterationSettings { count, tolerance, .. } = method.iterations;
+    let how = match tolerance {
+        Some(tolerance) => format!("before the iterations had reached iterations.tolerance = {tolerance}"),
+        None => {
+            "far from the solution: the body has more than ten times the energy that it was supplied with".to_owned()
+        }
+    };
+    format!(
+        "{unconverged_steps} of {steps} steps ended {how}, so the result is not to be trusted; use more than {count} \
+         iterations.count, a shorter time step, implicit_euler, or iterations.accept_unconverged = true"
+    )
 }
 
 /// Warns of a result that is not what it seems: inverted elements, or loads that are not fully on.

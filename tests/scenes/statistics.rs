@@ -176,3 +176,26 @@ fn steps_that_have_not_converged_end_in_exit_code_1_unless_the_scene_accepts_the
     assert_eq!(count(&desk.json("s.json"), "unconverged_steps"), 3);
     assert_eq!(desk.json("s.json")["status"], "done");
 }
+
+#[test]
+fn sweeps_that_leave_a_stiff_body_far_from_balance_end_in_exit_code_1_unless_the_scene_accepts_that() {
+    let scene = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 2 }\n[material]\n\
+                 model = \"stable_neo_hookean\"\nyoung = 1e12\npoisson = 0.3\ndensity = 1000\n[mass]\nlumped = true\n[gravity]\n\
+                 acceleration = [0, 0, -9.81]\n[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n[time]\ndt = 0.01\n\
+                 integrator = \"vbd\"\n[iterations]\ncount = 1\n";
+    let desk = Desk::with("stiff.toml", scene.to_owned());
+    let outcome = desk.run("stiff.toml --headless --steps 3 --stats s.json");
+    assert_eq!(outcome.code, Some(1), "{outcome:?}");
+    let told = "3 of 3 steps ended far from the solution: the body has more than ten times the energy that it was supplied with";
+    assert!(outcome.stderr.contains(told) && outcome.stderr.contains("iterations.count"), "{outcome:?}");
+
+    let missed = "stiff.toml --headless --steps 3 --set iterations.tolerance=1e-9 --set iterations.count=3";
+    let outcome = desk.run(missed);
+    assert_eq!(outcome.code, Some(1), "{outcome:?}");
+    assert!(
+        outcome.stderr.contains("before the iterations had reached iterations.tolerance = 0.000000001"),
+        "{outcome:?}"
+    );
+
+    desk.run_well("stiff.toml --headless --steps 3 --set iterations.accept_unconverged=true");
+}

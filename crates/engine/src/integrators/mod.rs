@@ -18,6 +18,7 @@ mod pbd;
 mod prescribed_motion;
 mod projection;
 mod projective_dynamics;
+mod relaxation;
 mod rk2;
 mod rk4;
 mod second_order;
@@ -34,17 +35,17 @@ pub use implicit_euler::ImplicitEuler;
 pub use impulses::{Impulse, Impulses};
 pub use linearly_implicit_euler::LinearlyImplicitEuler;
 pub use mass_inverse::MassInverse;
-pub use pbd::Pbd;
-pub use projection::PlaneContacts;
+pub use pbd::pbd;
 pub use projective_dynamics::ProjectiveDynamics;
+pub use relaxation::PlaneContacts;
 pub use rk2::Rk2;
 pub use rk4::Rk4;
 pub use second_order::{Scheme, SecondOrder};
 pub use semi_implicit_euler::SemiImplicitEuler;
 pub use statics::Statics;
-pub use vbd::Vbd;
+pub use vbd::vbd;
 pub use verlet::Verlet;
-pub use xpbd::Xpbd;
+pub use xpbd::xpbd;
 
 pub use crate::newton::Convergence;
 
@@ -107,6 +108,12 @@ pub trait Integrator<T: Real>: Send {
 
     /// Whether no time step lets its motion grow without bound.
     fn is_unconditionally_stable(&self) -> bool {
+        false
+    }
+
+    /// Whether a step may end far from the solution of its equation without a word, because it takes a number of iterations that
+    /// the scene has set.
+    fn may_stop_early(&self) -> bool {
         false
     }
 

@@ -1,27 +1,23 @@
 //! PBD, position-based dynamics: Müller, Heidelberger, Hennix and Ratcliff, Position based dynamics (2007), algorithm 1.
 
 use fem_scene::IterationSettings;
-use fem_scene::simulation::{Cause, Counters, History};
 
-use super::projection::{PlaneContacts, Rule, Sweeps};
-use super::{Convergence, Integrator};
+use super::projection::{Constraints, Rule};
+use super::relaxation::Relaxed;
 use crate::forces::contact::planes::Planes;
 use crate::forces::springs::Spring;
-use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
 
 /// PBD: each sweep brings the volume of every element (the area of a triangle) and the length of every edge nearer to that at rest. The
 /// moduli of the material play no part: the stiffness comes from the time step and the number of sweeps.
-pub struct Pbd<T: Real>(Sweeps<T>);
+pub type Pbd<T> = Relaxed<T, Constraints<T>>;
 
-impl<T: Real> Pbd<T> {
-    /// The constraints of a body. A stiffness k in \[0, 1\] becomes 1 − (1 − k)^(1/n) in each of n sweeps: section 3.3.
-    pub fn new(settings: &IterationSettings, system: &System<T>, planes: Option<&Planes>) -> Self {
-        let stiffness = 1.0 - (1.0 - settings.stiffness).powf(1.0 / settings.count as f64);
-        let edges = edges(system);
-        Self(Sweeps::new(system, &edges, planes, (settings.count, settings.tolerance), Rule::Volume { stiffness }))
-    }
+/// PBD for the elements and edges of a body. A stiffness k in \[0, 1\] becomes 1 − (1 − k)^(1/n) in each of n sweeps: section 3.3.
+pub fn pbd<T: Real>(settings: &IterationSettings, system: &System<T>, planes: Option<&Planes>) -> Pbd<T> {
+    let stiffness = 1.0 - (1.0 - settings.stiffness).powf(1.0 / settings.count as f64);
+    let constraints = Constraints::new(system, &edges(system), Rule::Volume { stiffness });
+    Relaxed::new(constraints, settings, system, planes)
 }
 
 /// A spring at rest for each edge of the mesh.
@@ -35,41 +31,4 @@ fn edges<T: Real>(system: &System<T>) -> Vec<Spring<T>> {
     pairs.sort_unstable();
     pairs.dedup();
     pairs.into_iter().map(|nodes| Spring::at_rest(nodes, nodes.map(|node| system.rest[node as usize]))).collect()
-}
-
-impl<T: Real> Integrator<T> for Pbd<T> {
-    fn step(
-        &mut self,
-        system: &System<T>,
-        state: &mut State<T>,
-        dt: f64,
-        counters: &mut Counters,
-    ) -> Result<Convergence, Cause> {
-        self.0.step(system, state, dt, counters);
-        Ok(Convergence::Converged)
-    }
-
-    fn forget(&mut self) {
-        self.0.forget();
-    }
-
-    fn save(&self, history: &mut History) {
-        self.0.save(history);
-    }
-
-    fn restore(&mut self, history: &History) -> Result<(), String> {
-        self.0.restore(history)
-    }
-
-    fn is_unconditionally_stable(&self) -> bool {
-        true
-    }
-
-    fn plane_contacts(&self) -> Option<&PlaneContacts> {
-        self.0.contacts()
-    }
-
-    fn constraint_bytes(&self) -> usize {
-        self.0.bytes()
-    }
 }

@@ -125,28 +125,36 @@ impl<T: Real> ProjectiveDynamics<T> {
         change.is_finite() && change.abs() <= round_off && is_flatter
     }
 
-    /// The rounds of a step.
-    fn rounds(&mut self, potential: &IncrementalPotential<T>, dt: f64, counters: &mut Counters) -> Result<(), Cause> {
+    /// The rounds of a step. Returns whether they have reached the tolerance, if there is one.
+    fn rounds(
+        &mut self,
+        potential: &IncrementalPotential<T>,
+        dt: f64,
+        counters: &mut Counters,
+    ) -> Result<Convergence, Cause> {
         let IncrementalPotential { system, increment: Increment { start, end, inertia }, .. } = *potential;
-        let Some(inertia) = inertia else { return Ok(()) };
+        let Some(inertia) = inertia else { return Ok(Convergence::Converged) };
         if self.factored_for != Some(dt) {
             counters.stiffness_assemblies += 1;
             counters.factorizations += 1;
             self.factor(system, &inertia, start, dt).map_err(Cause::Solver)?;
         }
         let mut energy = self.start(potential, (inertia.inertial, end), counters)?;
+        let tolerance = self.settings.tolerance.unwrap_or(0.0);
+        let mut has_settled = self.settings.tolerance.is_none();
         for _ in 0..self.settings.count {
             let change = self.round(potential, &mut energy, counters);
-            let tolerance = self.settings.tolerance.unwrap_or(0.0);
             if change <= tolerance * max_norm(&self.increment) {
+                has_settled = true;
                 break;
             }
         }
         momentum::restore(potential, dt, 1.0, &mut self.increment);
-        Ok(())
+        Ok(if has_settled { Convergence::Converged } else { Convergence::NotConverged })
     }
 
-    /// Starts the rounds where inertia leads, or else from the prescribed motion alone.
+    /// Starts the rounds where inertia leads, or from the prescribed motion alone where the incremental potential is lower there: otherwise
+    /// few rounds could give a stiff body more energy in each step.
     fn start(
         &mut self,
         potential: &IncrementalPotential<T>,
@@ -154,20 +162,20 @@ impl<T: Real> ProjectiveDynamics<T> {
         counters: &mut Counters,
     ) -> Result<Energy, Cause> {
         let IncrementalPotential { system, increment: Increment { start, .. }, .. } = *potential;
+        counters.energy_evaluations += 2;
+        counters.force_assemblies += 2;
+        self.next.fill([T::default(); 3]);
+        system.prescribe(start, end, &mut self.next);
+        let still = potential.energy_and_gradient(&self.next, &mut self.next_gradient, &mut self.workspace);
         self.increment.copy_from_slice(inertial);
-        for is_last in [false, true] {
-            system.prescribe(start, end, &mut self.increment);
-            counters.energy_evaluations += 1;
-            counters.force_assemblies += 1;
-            let energy = potential.energy_and_gradient(&self.increment, &mut self.gradient, &mut self.workspace);
-            if energy.value.is_finite() {
-                return Ok(energy);
-            }
-            if !is_last {
-                self.increment.fill([T::default(); 3]);
-            }
+        system.prescribe(start, end, &mut self.increment);
+        let moving = potential.energy_and_gradient(&self.increment, &mut self.gradient, &mut self.workspace);
+        if moving.value.is_finite() && !(still.value < moving.value) {
+            return Ok(moving);
         }
-        Err(infeasible(system, start, &self.increment))
+        std::mem::swap(&mut self.increment, &mut self.next);
+        std::mem::swap(&mut self.gradient, &mut self.next_gradient);
+        if still.value.is_finite() { Ok(still) } else { Err(infeasible(system, start, &self.increment)) }
     }
 }
 
@@ -188,14 +196,14 @@ impl<T: Real> Integrator<T> for ProjectiveDynamics<T> {
         let potential = IncrementalPotential { system, increment, followers: &[] };
         let outcome = self.rounds(&potential, dt, counters);
         self.inertial = inertial;
-        outcome?;
+        let convergence = outcome?;
         for ((u, v), w) in state.u.iter_mut().zip(&mut state.v).zip(&self.increment) {
             for i in 0..3 {
                 u[i] += w[i];
                 v[i] = w[i] * T::of(1.0 / dt);
             }
         }
-        Ok(Convergence::Converged)
+        Ok(convergence)
     }
 
     fn forget(&mut self) {
@@ -212,6 +220,10 @@ impl<T: Real> Integrator<T> for ProjectiveDynamics<T> {
 
     fn is_unconditionally_stable(&self) -> bool {
         true
+    }
+
+    fn may_stop_early(&self) -> bool {
+        self.settings.tolerance.is_none()
     }
 
     fn has_line_search(&self) -> bool {

@@ -123,6 +123,7 @@ impl<T: Real> Simulator<T> {
         let convergence = integrator.step(system, state, *dt, counters)?;
         if let Some(contacts) = integrator.plane_contacts() {
             write_contact_forces(contacts, &mut system.contact_force);
+            supplied.add(contacts.work(state.time, *dt));
         }
         let Some(Contacts { impulses: Some(impulses), timer, .. }) = contact else { return Ok(convergence) };
         if timer.time(|| impulses.apply(system, last_good, state, (*kind, *dt))) {

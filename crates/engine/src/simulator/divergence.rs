@@ -1,5 +1,8 @@
-//! Detects a motion that grows without bound: an explicit method beyond its critical time step, or a linearized one on a body that
-//! is too stiff for it. Its kinetic energy exceeds all that loads, prescribed motions and the initial state have supplied.
+//! Compares the energy of a body with all that loads, prescribed motions and the initial state have supplied.
+//!
+//! Where its kinetic energy exceeds that, its motion grows without bound: an explicit method beyond its critical time step, or a linearized
+//! one on a body that is too stiff for it. Where kinetic and elastic energy exceed it after a number of iterations that the scene has set,
+//! these ended far from the solution of the step: few sweeps over a stiff body leave strains that its loads could never have caused.
 
 use fem_scene::simulation::{Cause, History};
 
@@ -11,7 +14,7 @@ use crate::model::system::System;
 use crate::number::Real;
 use crate::vector::dot;
 
-/// Kinetic energy over supplied energy beyond which a motion has diverged. The margin is for the work of loads, which is summed by
+/// Energy over supplied energy beyond which a motion has diverged, or a step has not converged. The margin is for the work of loads, which is summed by
 /// a rule of first order.
 const LIMIT: f64 = 10.0;
 
@@ -82,21 +85,12 @@ impl<T: Real> SuppliedEnergy<T> {
         dt: f64,
     ) -> Result<(), Cause> {
         let moment = Moment::at(before.time + dt);
-        let (start, potential) = *self.start.get_or_insert_with(|| energies_at_start(system, before, moment));
-        self.work += self.work_of_loads(system, before, state, dt);
-        if system.dirichlet.has_motion() {
-            self.work += self.work_of_motions(system, integrator, before, state, dt);
-        }
+        self.add_work(system, integrator, before, state, dt);
         let speed = f64::max(before.largest_squared_speed(), state.largest_squared_speed());
         if 0.5 * system.total_mass * speed <= LIMIT * self.largest {
             return Ok(());
         }
-        self.make_room(system.nodes());
-        // In the first step of explicit Euler velocities change and displacements do not: look one step ahead.
-        add_scaled(&state.u, dt, &state.v, &mut self.change);
-        let work = |u: &[[T; 3]]| potential - steady_potential(system, u, moment);
-        let steady = f64::max(work(&state.u), work(&self.change));
-        self.largest = self.largest.max(start + self.work + steady);
+        self.raise_largest(system, state, dt, moment);
         let kinetic = if integrator.has_staggered_velocities() {
             // Its own kinetic energy exceeds the true one a hundred times just below the critical time step.
             add_scaled(&before.v, 1.0, &state.v, &mut self.change);
@@ -104,12 +98,55 @@ impl<T: Real> SuppliedEnergy<T> {
         } else {
             system.mass.kinetic_energy(&state.v)
         };
-        let shear = system.elements.moduli().map(|[shear, _]| shear).fold(system.spring_modulus, f64::max);
-        let round_off = T::EPSILON.as_f64() * shear * system.length.powi(3);
-        if kinetic <= LIMIT * self.largest + round_off {
+        if kinetic <= LIMIT * self.largest + round_off(system) {
             return Ok(());
         }
         Err(Cause::Diverged { kinetic, supplied: self.largest })
+    }
+
+    /// Adds what the step from `before` to `state` has supplied, and returns whether the body has far more energy than that.
+    pub(super) fn is_exceeded(
+        &mut self,
+        system: &System<T>,
+        integrator: &dyn Integrator<T>,
+        before: &State<T>,
+        state: &State<T>,
+        dt: f64,
+    ) -> bool {
+        let moment = Moment::at(before.time + dt);
+        self.add_work(system, integrator, before, state, dt);
+        self.raise_largest(system, state, dt, moment);
+        energy(system, state, moment) > LIMIT * self.largest + round_off(system)
+    }
+
+    /// Adds the work of a step that is not known from the displacements alone.
+    fn add_work(
+        &mut self,
+        system: &System<T>,
+        integrator: &dyn Integrator<T>,
+        before: &State<T>,
+        state: &State<T>,
+        dt: f64,
+    ) {
+        if self.start.is_none() {
+            let moment = Moment::at(before.time + dt);
+            self.start = Some((energy(system, before, moment), steady_potential(system, &before.u, moment)));
+        }
+        self.work += self.work_of_loads(system, before, state, dt);
+        if system.dirichlet.has_motion() {
+            self.work += self.work_of_motions(system, integrator, before, state, dt);
+        }
+    }
+
+    /// Takes the energy supplied so far into the largest.
+    fn raise_largest(&mut self, system: &System<T>, state: &State<T>, dt: f64, moment: Moment) {
+        let (start, potential) = self.start.expect("the energies at the start were taken");
+        self.make_room(system.nodes());
+        // In the first step of explicit Euler velocities change and displacements do not: look one step ahead.
+        add_scaled(&state.u, dt, &state.v, &mut self.change);
+        let work = |u: &[[T; 3]]| potential - steady_potential(system, u, moment);
+        let steady = f64::max(work(&state.u), work(&self.change));
+        self.largest = self.largest.max(start + self.work + steady);
     }
 
     /// Work in a step of follower loads and of loads that change with the time, J. Their forces take the displacements at the start of
@@ -126,7 +163,7 @@ impl<T: Real> SuppliedEnergy<T> {
         -dt * dot(&self.force, &state.v)
     }
 
-    /// Work of the reactions in a step, J.
+    /// Work of the reactions in a step, J. Forces are those of the end of an implicit step, and of the start of an explicit one.
     fn work_of_motions(
         &mut self,
         system: &System<T>,
@@ -140,7 +177,11 @@ impl<T: Real> SuppliedEnergy<T> {
         }
         self.make_room(system.nodes());
         let Self { force, change, .. } = self;
-        system.force(&before.u, &before.v, &before.u, integrator.moment(before), force);
+        if integrator.is_unconditionally_stable() {
+            system.force(&state.u, &state.v, &before.u, Moment::at(before.time + dt), force);
+        } else {
+            system.force(&before.u, &before.v, &before.u, integrator.moment(before), force);
+        }
         add_scaled(&state.v, -1.0, &before.v, change);
         system.add_mass_times(T::of(-1.0 / dt), change, force);
         add_scaled(&state.u, -1.0, &before.u, change);
@@ -165,11 +206,17 @@ fn steady_potential<T: Real>(system: &System<T>, u: &[[T; 3]], moment: Moment) -
     steady.map(|(potential, _)| potential.energy(u, moment).value).sum()
 }
 
-fn energies_at_start<T: Real>(system: &System<T>, state: &State<T>, moment: Moment) -> (f64, f64) {
+/// Kinetic energy, and that of elements and internal forces, J.
+fn energy<T: Real>(system: &System<T>, state: &State<T>, moment: Moment) -> f64 {
     let internal = system.forces.active().filter(|(potential, _)| potential.is_internal());
     let springs: f64 = internal.map(|(potential, _)| potential.energy(&state.u, moment).value).sum();
-    let elastic = system.elements.energy(&state.u) + springs;
-    (system.mass.kinetic_energy(&state.v) + elastic, steady_potential(system, &state.u, moment))
+    system.mass.kinetic_energy(&state.v) + system.elements.energy(&state.u) + springs
+}
+
+/// Rounding error of an energy, J.
+fn round_off<T: Real>(system: &System<T>) -> f64 {
+    let shear = system.elements.moduli().map(|[shear, _]| shear).fold(system.spring_modulus, f64::max);
+    T::EPSILON.as_f64() * shear * system.length.powi(3)
 }
 
 /// sum = x + a y

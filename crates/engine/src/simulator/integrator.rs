@@ -4,8 +4,8 @@ use fem_scene::{Integrator as IntegratorKind, Method, SolverKind};
 
 use crate::forces::contact::planes::Planes;
 use crate::integrators::{
-    ExplicitEuler, ImplicitEuler, Integrator, LinearlyImplicitEuler, Pbd, ProjectiveDynamics, Rk2, Rk4, Scheme,
-    SecondOrder, SemiImplicitEuler, Statics, Vbd, Verlet, Xpbd,
+    ExplicitEuler, ImplicitEuler, Integrator, LinearlyImplicitEuler, ProjectiveDynamics, Rk2, Rk4, Scheme, SecondOrder,
+    SemiImplicitEuler, Statics, Verlet, pbd, vbd, xpbd,
 };
 use crate::model::system::System;
 use crate::newton::{Newton, NewtonLimits};
@@ -173,10 +173,10 @@ pub(super) fn build<T: Real>(
             let scheme = Scheme::new(kind, method).expect("an implicit method of second order");
             Box::new(SecondOrder::new(scheme, newton(), system, method.adaptive.is_some()))
         }
-        IntegratorKind::Xpbd => Box::new(Xpbd::new(&method.iterations, system, planes)),
-        IntegratorKind::Pbd => Box::new(Pbd::new(&method.iterations, system, planes)),
+        IntegratorKind::Xpbd => Box::new(xpbd(&method.iterations, system, planes)),
+        IntegratorKind::Pbd => Box::new(pbd(&method.iterations, system, planes)),
         IntegratorKind::ProjectiveDynamics => Box::new(ProjectiveDynamics::new(method.iterations, solver(), system)),
-        IntegratorKind::Vbd => Box::new(Vbd::new(&method.iterations, system, planes)),
+        IntegratorKind::Vbd => Box::new(vbd(&method.iterations, system, planes)),
         IntegratorKind::Static => Box::new(Statics::new(newton(), system, method.load_steps)),
     }
 }

@@ -77,7 +77,10 @@ impl<T: Real> Simulator<T> {
         system.forces.begin_step(&state.u, moment, *dt);
         let convergence = self.advance()?;
         self.check_state()?;
-        Ok(convergence)
+        let Self { integrator, supplied, system, state, last_good, substep_dt: dt, .. } = self;
+        let ended_far_off =
+            integrator.may_stop_early() && supplied.is_exceeded(system, &**integrator, last_good, state, *dt);
+        Ok(if ended_far_off { Convergence::NotConverged } else { convergence })
     }
 
     /// Accepts the substep that was computed: the material flows, and time goes on.

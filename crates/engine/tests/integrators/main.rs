@@ -37,6 +37,7 @@ mod statics;
 mod substeps;
 mod surface_loads;
 mod twists;
+mod unsettled;
 mod vertex_block_descent;
 mod vibrations;
 mod work;

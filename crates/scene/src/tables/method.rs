@@ -91,6 +91,9 @@ pub struct IterationsTable {
     pub stiffness: Option<f64>,
     /// Whether `xpbd` keeps the residual of the equation of motion, so that its iterations converge to implicit Euler; `true` by default.
     pub residual: Option<bool>,
+    /// Whether steps that end before the iterations have settled are good enough.
+    #[serde(default)]
+    pub accept_unconverged: bool,
 }
 
 /// `[solver]`

@@ -55,6 +55,8 @@ pub struct IterationSettings {
     pub stiffness: f64,
     /// Whether `xpbd` keeps the residual of the equation of motion.
     pub residual: bool,
+    /// Whether steps that end before the iterations have settled are good enough.
+    pub accept_unconverged: bool,
 }
 
 impl IterationSettings {
@@ -65,6 +67,7 @@ impl IterationSettings {
             acceleration: table.acceleration,
             stiffness: table.stiffness.unwrap_or(1.0),
             residual: table.residual.unwrap_or(true),
+            accept_unconverged: table.accept_unconverged,
         }
     }
 }
@@ -100,6 +103,13 @@ pub struct RayleighDamping {
     pub alpha: f64,
     /// β of the stiffness, s.
     pub beta: f64,
+}
+
+impl Method {
+    /// Whether a run is good enough some steps of which have not converged.
+    pub fn accepts_unconverged(&self) -> bool {
+        if self.integrator.is_iterated() { self.iterations.accept_unconverged } else { self.newton.accept_unconverged }
+    }
 }
 
 impl Scene {

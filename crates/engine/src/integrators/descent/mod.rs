@@ -13,12 +13,12 @@ mod coloring;
 mod groups;
 mod kernel;
 mod links;
+mod method;
 mod nodes;
 mod patches;
 mod search;
 mod slot;
 mod solve;
 mod sums;
-mod sweep;
 
-pub use sweep::Descent;
+pub use method::Descent;

@@ -66,6 +66,16 @@ impl PlaneContacts {
         })
     }
 
+    /// Work on the body in the last step, of `dt` seconds from `time` on, of planes that move, J.
+    pub fn work(&self, time: f64, dt: f64) -> f64 {
+        let travel = |plane: &ContactPlane| plane.displacement(time + dt) - plane.displacement(time);
+        let travels: Vec<_> = self.planes.planes.iter().map(travel).collect();
+        if travels.iter().all(|travel| *travel == Vector3::zeros()) {
+            return 0.0;
+        }
+        self.forces().map(|(plane, _, force)| force.dot(&travels[plane])).sum()
+    }
+
     /// Sets the multipliers to zero: a step starts.
     pub fn begin_step(&mut self, dt2: f64) {
         self.multipliers.fill([0.0; 4]);
@@ -73,7 +83,7 @@ impl PlaneContacts {
     }
 
     /// Corrects the nodes that are behind a plane, or have been.
-    pub(super) fn sweep<T: Real>(&mut self, step: ContactStep<T>, u: &mut [[T; 3]]) {
+    pub fn sweep<T: Real>(&mut self, step: ContactStep<T>, u: &mut [[T; 3]]) {
         self.pass(step, u);
     }
 
