@@ -24,6 +24,8 @@ pub enum Command {
     Scaling(ScalingArguments),
     /// The beam with each linear solver
     Solvers(SizesArguments),
+    /// Bodies of increasing size on the graphics device and on the processor, and the size from which the device is faster
+    Gpu(SizesArguments),
     /// The largest flat body that each method advances by 1/60 s within a frame, on one thread
     Frame(FrameArguments),
     /// Runs a scene once and prints its times as JSON
@@ -142,7 +144,7 @@ impl SolverName {
             Self::Multigrid => (SolverKind::Pcg, Some(Preconditioner::Multigrid)),
             Self::Ssor => (SolverKind::Pcg, Some(Preconditioner::Ssor)),
         };
-        SolverTable { kind, tolerance: None, preconditioner }
+        SolverTable { kind, tolerance: None, preconditioner, precision: None }
     }
 
     /// The name on the command line.

@@ -7,6 +7,7 @@
 mod cli;
 mod end;
 mod frame;
+mod gpu;
 mod parts;
 mod peers;
 mod race;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
         Command::Parts(arguments) => parts::run(&arguments),
         Command::Scaling(arguments) => scaling::run(&arguments),
         Command::Solvers(arguments) => solvers::run(&arguments),
+        Command::Gpu(arguments) => gpu::run(&arguments),
         Command::Frame(arguments) => frame::run(&arguments),
         Command::Run(arguments) => run::print(&arguments),
     };

@@ -108,7 +108,12 @@ impl Window {
 }
 
 fn solver(kind: SolverKind, preconditioner: Option<Preconditioner>) -> Change {
-    Change::Edit(scene_edits::solver(Some(&SolverTable { kind, tolerance: Some(1e-10), preconditioner })))
+    Change::Edit(scene_edits::solver(Some(&SolverTable {
+        kind,
+        tolerance: Some(1e-10),
+        preconditioner,
+        precision: None,
+    })))
 }
 
 #[test]

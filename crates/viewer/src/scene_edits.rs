@@ -111,12 +111,16 @@ pub fn integrator(scene: &Scene, integrator: Integrator) -> Edit {
 pub fn solver(table: Option<&SolverTable>) -> Edit {
     let overrides = match table {
         None => vec![Override::without("solver")],
-        Some(SolverTable { kind, tolerance, preconditioner }) => {
+        Some(SolverTable { kind, tolerance, preconditioner, precision }) => {
             let tolerance = tolerance.map_or(String::new(), |tolerance| format!(", tolerance = {tolerance:?}"));
             let preconditioner = preconditioner.filter(|_| *kind == SolverKind::Pcg);
             let preconditioner = preconditioner
                 .map_or(String::new(), |kind| format!(", preconditioner = {:?}", preconditioner_name(kind)));
-            vec![set(format!("solver={{kind = {:?}{tolerance}{preconditioner}}}", solver_name(*kind)))]
+            let precision = precision.filter(|_| *kind == SolverKind::Gpu);
+            let precision = precision.map_or(String::new(), |of| {
+                format!(", precision = {:?}", if of == fem_scene::Precision::F64 { "f64" } else { "f32" })
+            });
+            vec![set(format!("solver={{kind = {:?}{tolerance}{preconditioner}{precision}}}", solver_name(*kind)))]
         }
     };
     Edit { table: "solver".to_owned(), overrides, effect: Effect::Method }
@@ -152,6 +156,7 @@ pub fn solver_name(kind: SolverKind) -> &'static str {
         SolverKind::Pcg => "pcg",
         SolverKind::SteepestDescent => "steepest_descent",
         SolverKind::ConjugateDirections => "conjugate_directions",
+        SolverKind::Gpu => "gpu",
     }
 }
 
@@ -253,12 +258,17 @@ integrator = "implicit_euler"
     fn every_solver_and_preconditioner_has_its_name() {
         use Preconditioner::{BlockJacobi, IncompleteCholesky, Multigrid, Ssor};
         for kind in [BlockJacobi, IncompleteCholesky, Multigrid, Ssor] {
-            let table = SolverTable { kind: SolverKind::Pcg, tolerance: Some(1e-9), preconditioner: Some(kind) };
+            let table = SolverTable {
+                kind: SolverKind::Pcg,
+                tolerance: Some(1e-9),
+                preconditioner: Some(kind),
+                precision: None,
+            };
             assert_eq!(after(&solver(Some(&table))).solver, Some(table));
         }
-        use SolverKind::{Cg, Cholesky, ConjugateDirections, Lu, SteepestDescent};
+        use SolverKind::{Cg, Cholesky, ConjugateDirections, Gpu, Lu, SteepestDescent};
         for kind in [Cholesky, Lu, Cg, SteepestDescent, ConjugateDirections] {
-            let table = SolverTable { kind, tolerance: None, preconditioner: None };
+            let table = SolverTable { kind, tolerance: None, preconditioner: None, precision: None };
             assert_eq!(after(&solver(Some(&table))).solver, Some(table));
         }
         assert_eq!(after(&solver(None)).solver, None);

@@ -81,12 +81,15 @@ fn remove_crates(dependencies: &mut dyn TableLike, is_crate: impl Fn(&str) -> bo
     missing
 }
 
-/// Removes the features that switch on a removed crate, and their names from the other features.
+/// Removes the features that switch on a removed crate or a feature of it, and their names from the other features.
 fn remove_features(features: &mut dyn TableLike, removed: &[String]) {
-    let uses = |feature: &Item, name: &str| {
-        feature.as_array().is_some_and(|parts| parts.iter().any(|part| part.as_str() == Some(name)))
+    let is_of = |part: &str, name: &str| {
+        part.strip_prefix("dep:") == Some(name) || part.strip_prefix(name).is_some_and(|rest| rest.starts_with('/'))
     };
-    let is_gone = |feature: &Item| removed.iter().any(|name| uses(feature, &format!("dep:{name}")));
+    let is_gone = |feature: &Item| {
+        let parts = feature.as_array().into_iter().flatten().filter_map(|part| part.as_str());
+        parts.into_iter().any(|part| removed.iter().any(|name| is_of(part, name)))
+    };
     let gone: Vec<String> =
         features.iter().filter(|(_, feature)| is_gone(feature)).map(|(name, _)| name.to_owned()).collect();
     gone.iter().for_each(|name| drop(features.remove(name)));
@@ -112,7 +115,7 @@ mod tests {
 
     #[test]
     fn crates_features_and_tests_that_are_not_handed_out_leave_no_trace() {
-        let whole = "[workspace]\nmembers = [\"a\", \"b\"]\n\n[features]\ndefault = [\"b\", \"window\"]\nb = [\"dep:b\"]\n\
+        let whole = "[workspace]\nmembers = [\"a\", \"b\"]\n\n[features]\ndefault = [\"b\", \"c\", \"window\"]\nb = [\"dep:b\"]\nc = [\"b/fast\"]\n\
                      window = []\n\n[[test]]\nname = \"x\"\n\n[[test]]\nname = \"y\"\n\n[dependencies]\na = { path = \"a\" }\n\
                      b = { path = \"b\", optional = true }\n\n[profile.dev.package]\na = { opt-level = 3 }\nb = { opt-level = 2 }\n";
         let text = root_manifest(whole, |file| ["a/Cargo.toml", "tests/x.rs"].contains(&file)).unwrap();

@@ -11,7 +11,7 @@ use crate::model::system::System;
 use crate::newton::{Newton, NewtonLimits};
 use crate::number::Real;
 use crate::refusal::Refusal;
-use crate::solvers::{Preconditioner, Solver, SolverChoice};
+use crate::solvers::{Preconditioner, Solver, SolverChoice, unusable_device};
 
 /// Smallest relative residual that a linear solver can be asked for, in units of the machine epsilon.
 const SMALLEST_RESIDUAL: f64 = 8.0;
@@ -107,8 +107,12 @@ pub(super) fn solver_choice(method: &Method, nodes: usize) -> SolverChoice {
 /// Largest number of nodes whose directions conjugate directions may keep: 2 (3n)² numbers, 144 MB.
 const MOST_DIRECTIONS: usize = 1000;
 
-/// Refuses a solver for teaching that would keep too many vectors.
+/// Refuses a graphics device that cannot be used, and a solver for teaching that would keep too many vectors.
 pub(super) fn check_solver(method: &Method, nodes: usize) -> Result<(), Refusal> {
+    let on_device = method.solver.as_ref().filter(|solver| solver.kind == SolverKind::Gpu);
+    if let Some(problem) = on_device.and_then(|solver| unusable_device(solver.precision)) {
+        return Err(("solver.kind", format!("is \"gpu\", and {problem}; write \"pcg\", or leave the table out")));
+    }
     let is_kept = method.solver.as_ref().is_some_and(|solver| solver.kind == SolverKind::ConjugateDirections);
     if !is_kept || nodes <= MOST_DIRECTIONS {
         return Ok(());

@@ -6,7 +6,7 @@ pub use fem_scene::Preconditioner;
 
 use crate::model::numbering::Ordering;
 use crate::sparse::Stored;
-use fem_scene::{SolverKind, SolverSettings};
+use fem_scene::{Precision, SolverKind, SolverSettings};
 
 /// A method to solve linear systems.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +23,8 @@ pub enum SolverChoice {
     SteepestDescent,
     /// Conjugate directions by Gram–Schmidt's method, for teaching.
     ConjugateDirections,
+    /// Conjugate gradients on a graphics device, in this precision.
+    Gpu(Precision),
 }
 
 impl SolverChoice {
@@ -30,7 +32,9 @@ impl SolverChoice {
     pub fn stored(self) -> Stored {
         match self {
             Self::Cholesky | Self::Pcg(Preconditioner::Ssor) => Stored::Lower,
-            Self::Lu | Self::Cg | Self::Pcg(_) | Self::SteepestDescent | Self::ConjugateDirections => Stored::Full,
+            Self::Lu | Self::Cg | Self::Pcg(_) | Self::SteepestDescent | Self::ConjugateDirections | Self::Gpu(_) => {
+                Stored::Full
+            }
         }
     }
 
@@ -38,7 +42,9 @@ impl SolverChoice {
     pub fn ordering(self) -> Ordering {
         match self {
             Self::Cholesky | Self::Lu => Ordering::FillReducing,
-            Self::Cg | Self::Pcg(_) | Self::SteepestDescent | Self::ConjugateDirections => Ordering::Parts,
+            Self::Cg | Self::Pcg(_) | Self::SteepestDescent | Self::ConjugateDirections | Self::Gpu(_) => {
+                Ordering::Parts
+            }
         }
     }
 
@@ -49,12 +55,12 @@ impl SolverChoice {
 
     /// Whether it prepares a preconditioner.
     pub fn has_preconditioner(self) -> bool {
-        matches!(self, Self::Pcg(_))
+        matches!(self, Self::Pcg(_) | Self::Gpu(_))
     }
 
-    /// Whether its iteration runs on a copy of the matrix in single precision, inside an iterative refinement.
+    /// Whether its iteration runs on a copy of the matrix, mostly in single precision, inside an iterative refinement.
     pub(crate) fn copies_matrix(self) -> bool {
-        self == Self::Pcg(Preconditioner::Ssor)
+        matches!(self, Self::Pcg(Preconditioner::Ssor) | Self::Gpu(_))
     }
 }
 
@@ -67,6 +73,7 @@ impl From<&SolverSettings> for SolverChoice {
             SolverKind::Pcg => Self::Pcg(settings.preconditioner),
             SolverKind::SteepestDescent => Self::SteepestDescent,
             SolverKind::ConjugateDirections => Self::ConjugateDirections,
+            SolverKind::Gpu => Self::Gpu(settings.precision),
         }
     }
 }
@@ -79,6 +86,8 @@ impl fmt::Display for SolverChoice {
             Self::Cg => "conjugate gradients",
             Self::SteepestDescent => "steepest descent, for teaching",
             Self::ConjugateDirections => "conjugate directions by Gram–Schmidt's method, for teaching",
+            Self::Gpu(Precision::F32) => "conjugate gradients on the graphics device, in single precision",
+            Self::Gpu(Precision::F64) => "conjugate gradients on the graphics device, in double precision",
             Self::Pcg(Preconditioner::BlockJacobi) => "conjugate gradients with a block Jacobi preconditioner",
             Self::Pcg(Preconditioner::IncompleteCholesky) => "conjugate gradients with an incomplete Cholesky factor",
             Self::Pcg(Preconditioner::Multigrid) => "conjugate gradients with a multigrid cycle",

@@ -19,6 +19,11 @@ pub(crate) trait ApproximateInverse<T: Real>: Send + Sync {
         Err(Breakdown::NotConverged { residual: 1.0 })
     }
 
+    /// Smallest relative residual that a correction is asked for: the next one begins with an exact residual.
+    fn smallest_tolerance(&self) -> f64 {
+        1e-4
+    }
+
     /// Adds what the next [`prepare`](Self::prepare) takes from earlier matrices, and, if P `is_kept`, what P takes from them. A
     /// factor takes nothing.
     fn save(&self, _is_kept: bool, _history: &mut History) {}

@@ -5,6 +5,7 @@
 
 mod block;
 mod choice;
+mod device;
 mod direct;
 mod inverse;
 mod krylov;
@@ -20,6 +21,8 @@ mod teaching_tests;
 mod tests;
 
 pub use choice::{Preconditioner, SolverChoice};
+pub use device::name as device_name;
 pub use solver::{Solver, SolverCounters};
 
+pub(crate) use device::unusable as unusable_device;
 pub(crate) use inverse::ApproximateInverse;

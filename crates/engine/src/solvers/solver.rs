@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::ApproximateInverse;
 use super::choice::{Preconditioner, SolverChoice};
+use super::device;
 use super::direct::{Lu, cholesky, cholesky_for_directions};
 use super::krylov::{
     LinearSystem, Workspace, conjugate_directions, conjugate_gradients, parts, product, refine, steepest_descent,
@@ -54,6 +55,7 @@ impl<T: Real> Solver<T> {
             SolverChoice::Pcg(Preconditioner::IncompleteCholesky) => Box::new(IncompleteCholesky::new(pattern)),
             SolverChoice::Pcg(Preconditioner::Multigrid) => Box::new(Multigrid::new(pattern, rest)),
             SolverChoice::Pcg(Preconditioner::Ssor) => Box::new(Ssor::new(pattern, rest)),
+            SolverChoice::Gpu(precision) => device::solver(precision, pattern, rest),
         };
         Self::with_inverse(choice, pattern, inverse)
     }
@@ -67,6 +69,7 @@ impl<T: Real> Solver<T> {
             | SolverChoice::Cg
             | SolverChoice::SteepestDescent
             | SolverChoice::ConjugateDirections
+            | SolverChoice::Gpu(_)
             | SolverChoice::Pcg(_) => Self::new(choice, pattern, rest),
         }
     }
@@ -126,8 +129,10 @@ impl<T: Real> Solver<T> {
             if !choice.is_iterative() {
                 inverse.apply(b, x);
             } else if choice.copies_matrix() {
-                let refined =
-                    refine(A, |r, x, tolerance| inverse.correct(r, x, tolerance), b, x, tolerance, workspace)?;
+                let refined = {
+                    let least = inverse.smallest_tolerance();
+                    refine(A, |r, x, t| inverse.correct(r, x, t), b, x, (tolerance, least), workspace)?
+                };
                 if refined.converged {
                     return Ok(refined.iterations);
                 }
@@ -139,9 +144,11 @@ impl<T: Real> Solver<T> {
             let iterations = match choice {
                 SolverChoice::SteepestDescent => steepest_descent(system, x, workspace, observe),
                 SolverChoice::ConjugateDirections => conjugate_directions(system, x, workspace, observe),
-                SolverChoice::Cholesky | SolverChoice::Lu | SolverChoice::Cg | SolverChoice::Pcg(_) => {
-                    conjugate_gradients(system, P, x, workspace, observe)
-                }
+                SolverChoice::Cholesky
+                | SolverChoice::Lu
+                | SolverChoice::Cg
+                | SolverChoice::Gpu(_)
+                | SolverChoice::Pcg(_) => conjugate_gradients(system, P, x, workspace, observe),
             };
             Ok(corrections + iterations?)
         })?;

@@ -135,6 +135,9 @@ fn check_tolerance(field: &str, tolerance: f64) -> Result<(), Problem> {
 
 fn check_solver(solver: &SolverTable) -> Result<(), Problem> {
     solver.tolerance.map_or(Ok(()), |tolerance| check_tolerance("solver.tolerance", tolerance))?;
+    if solver.precision.is_some() && solver.kind != SolverKind::Gpu {
+        return problem("solver.precision", "belongs to the kind \"gpu\"; write that kind, or time.precision");
+    }
     if solver.preconditioner.is_some() && solver.kind != SolverKind::Pcg {
         return problem("solver.preconditioner", "belongs to the kind \"pcg\"; write that kind or remove it");
     }

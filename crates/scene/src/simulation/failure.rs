@@ -89,6 +89,10 @@ pub enum Breakdown {
     },
     /// The factor would not fit into memory.
     TooLarge,
+    /// An array of the matrix does not fit into the memory of the graphics device.
+    DeviceTooSmall,
+    /// The graphics device was lost, ran out of memory, or refused a command.
+    DeviceFailed,
 }
 
 impl Failure {
@@ -140,6 +144,12 @@ impl fmt::Display for Breakdown {
                 write!(f, "the linear solver does not converge (relative residual {residual:.1e})")
             }
             Self::TooLarge => write!(f, "the factor of the stiffness does not fit into memory"),
+            Self::DeviceTooSmall => {
+                write!(f, "the stiffness does not fit into the graphics device: use solver.kind = \"pcg\"")
+            }
+            Self::DeviceFailed => {
+                write!(f, "the graphics device was lost, or is out of memory: use solver.kind = \"pcg\"")
+            }
         }
     }
 }

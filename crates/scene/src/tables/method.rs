@@ -106,6 +106,8 @@ pub struct SolverTable {
     pub tolerance: Option<f64>,
     /// Preconditioner of `pcg`; [`Preconditioner::BlockJacobi`] by default.
     pub preconditioner: Option<Preconditioner>,
+    /// Number type on the graphics device of `gpu`; [`Precision::F32`] by default.
+    pub precision: Option<Precision>,
 }
 
 /// Linear solvers.
@@ -119,6 +121,7 @@ pub enum SolverKind {
     Pcg,
     SteepestDescent,
     ConjugateDirections,
+    Gpu,
 }
 
 /// Preconditioners of the conjugate gradients.

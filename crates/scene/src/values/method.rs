@@ -94,6 +94,8 @@ pub struct SolverSettings {
     pub tolerance: Option<f64>,
     /// Preconditioner of `pcg`.
     pub preconditioner: Preconditioner,
+    /// Number type on the graphics device of `gpu`.
+    pub precision: Precision,
 }
 
 /// Rayleigh damping: the force −(α M + β K) v.
@@ -121,10 +123,11 @@ impl Scene {
             projection: table.projection.unwrap_or_default(),
             accept_unconverged: table.accept_unconverged,
         };
-        let solver = |&SolverTable { kind, tolerance, preconditioner }: &SolverTable| SolverSettings {
+        let solver = |&SolverTable { kind, tolerance, preconditioner, precision }: &SolverTable| SolverSettings {
             kind,
             tolerance,
             preconditioner: preconditioner.unwrap_or_default(),
+            precision: precision.unwrap_or(Precision::F32),
         };
         Method {
             integrator: self.time.integrator,

@@ -34,6 +34,7 @@ pub fn solver_name(scene: &Scene) -> String {
         SolverKind::Pcg => "pcg",
         SolverKind::SteepestDescent => "steepest_descent",
         SolverKind::ConjugateDirections => "conjugate_directions",
+        SolverKind::Gpu => "gpu",
     };
     let preconditioner = match solver.preconditioner {
         Some(Preconditioner::BlockJacobi) => " block_jacobi",

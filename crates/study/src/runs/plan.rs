@@ -112,7 +112,7 @@ fn variants(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     }
     for (kind, preconditioner) in SOLVERS {
         let mut scene = base.clone();
-        scene.solver = Some(SolverTable { kind, tolerance: None, preconditioner });
+        scene.solver = Some(SolverTable { kind, tolerance: None, preconditioner, precision: None });
         let method = format!("implicit Euler by {}", solver_name(&scene));
         ladders.push(ladder("solver", &method, &scene, &at, extent));
     }
@@ -218,7 +218,7 @@ pub fn equilibrium(scene: &Scene, load_steps: usize) -> Vec<Ladder> {
     let mut ladders = vec![run("method", "static".to_owned(), scene)];
     for (kind, preconditioner) in SOLVERS {
         let mut scene = scene.clone();
-        scene.solver = Some(SolverTable { kind, tolerance: None, preconditioner });
+        scene.solver = Some(SolverTable { kind, tolerance: None, preconditioner, precision: None });
         ladders.push(run("solver", format!("static by {}", solver_name(&scene)), &scene));
     }
     ladders.push(run("precision", "static in f32".to_owned(), &single(scene)));

@@ -9,13 +9,14 @@ use crate::parameter_rows::label;
 use crate::request::UserRequest;
 use crate::scene_edits::{self, preconditioner_name, solver_name};
 
-const SOLVERS: [SolverKind; 6] = [
+const SOLVERS: [SolverKind; 7] = [
     SolverKind::Cholesky,
     SolverKind::Lu,
     SolverKind::Cg,
     SolverKind::Pcg,
     SolverKind::SteepestDescent,
     SolverKind::ConjugateDirections,
+    SolverKind::Gpu,
 ];
 const PRECONDITIONERS: [Preconditioner; 4] =
     [Preconditioner::BlockJacobi, Preconditioner::IncompleteCholesky, Preconditioner::Multigrid, Preconditioner::Ssor];
@@ -60,6 +61,7 @@ fn linear(ui: &mut Ui, scene: &Scene, push: &mut impl FnMut(Edit)) {
             kind,
             tolerance: present.as_ref().and_then(|table| table.tolerance),
             preconditioner: None,
+            precision: None,
         });
         return push(scene_edits::solver(table.as_ref()));
     }

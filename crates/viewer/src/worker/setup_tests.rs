@@ -18,8 +18,12 @@ fn edit(worker: &Worker, edit: Edit) {
 fn painted_nodes_start_the_motion_again_and_loads_do_not() {
     let (worker, _) = start(0.0);
     let before = wait_for(&worker, "some steps on", |s| s.steps >= 10);
-    let solver =
-        fem_scene::tables::SolverTable { kind: fem_scene::SolverKind::Pcg, tolerance: None, preconditioner: None };
+    let solver = fem_scene::tables::SolverTable {
+        kind: fem_scene::SolverKind::Pcg,
+        tolerance: None,
+        preconditioner: None,
+        precision: None,
+    };
     edit(&worker, scene_edits::solver(Some(&solver)));
     let after = wait_for(&worker, "with another solver", |s| s.changes == 1 && !s.is_building);
     assert!(after.steps >= before.steps, "{}", after.steps);

@@ -14,17 +14,14 @@ pub(crate) struct Refined {
     pub(crate) converged: bool,
 }
 
-/// Smallest relative residual that a correction is asked for: the next one begins with an exact residual.
-const MIN_TOLERANCE: f64 = 1e-4;
-
 /// Corrects x until ‖b − A x‖ ≤ tolerance ‖b‖, or until a correction no longer halves the residual. `A(x, y)` sets y = A x, and
-/// `correct(r, x, tolerance)` adds to x a solution of A d = r and returns its iterations.
+/// `correct(r, x, tolerance)` adds to x a solution of A d = r and returns its iterations; it is asked for a relative residual of `least` or more.
 pub(crate) fn refine<T: Real>(
     A: impl Fn(&[[T; 3]], &mut [[T; 3]]),
     mut correct: impl FnMut(&[[T; 3]], &mut [[T; 3]], f64) -> Result<usize, Breakdown>,
     b: &[[T; 3]],
     x: &mut [[T; 3]],
-    tolerance: f64,
+    (tolerance, least): (f64, f64),
     workspace: &mut Workspace<T>,
 ) -> Result<Refined, Breakdown> {
     let r = &mut workspace.r;
@@ -46,7 +43,7 @@ pub(crate) fn refine<T: Real>(
             return Ok(Refined { iterations, converged });
         }
         before = residual;
-        match correct(r, x, (0.5 * target / residual).max(MIN_TOLERANCE)) {
+        match correct(r, x, (0.5 * target / residual).max(least)) {
             Ok(more) => iterations += more,
             // The correction may have reduced the residual all the same.
             Err(Breakdown::NotConverged { .. }) => {}

@@ -5,19 +5,19 @@ use std::ops::Range;
 use crate::sparse::Pattern;
 
 /// Sparsity pattern of the blocks left of the diagonal.
-pub(super) struct LowerHalf {
+pub(in crate::solvers) struct LowerHalf {
     starts: Vec<u32>,
     /// Column of each block, row by row.
-    pub(super) columns: Vec<u32>,
+    pub(in crate::solvers) columns: Vec<u32>,
     /// Number of each block in the matrix.
-    pub(super) sources: Vec<u32>,
+    pub(in crate::solvers) sources: Vec<u32>,
     /// Number of each diagonal block in the matrix.
-    pub(super) diagonal: Vec<u32>,
+    pub(in crate::solvers) diagonal: Vec<u32>,
 }
 
 impl LowerHalf {
     /// The lower half of a pattern, which may store all blocks.
-    pub(super) fn new(pattern: &Pattern) -> Self {
+    pub(in crate::solvers) fn new(pattern: &Pattern) -> Self {
         let (mut starts, mut columns, mut sources) = (vec![0], Vec::new(), Vec::new());
         for row in 0..pattern.rows() {
             for block in pattern.row(row).filter(|&block| (pattern.columns[block] as usize) < row) {
@@ -30,17 +30,17 @@ impl LowerHalf {
         Self { starts, columns, sources, diagonal }
     }
 
-    pub(super) fn rows(&self) -> usize {
+    pub(in crate::solvers) fn rows(&self) -> usize {
         self.diagonal.len()
     }
 
     /// The blocks of a row left of the diagonal.
     #[inline(always)]
-    pub(super) fn row(&self, row: usize) -> Range<usize> {
+    pub(in crate::solvers) fn row(&self, row: usize) -> Range<usize> {
         self.starts[row] as usize..self.starts[row + 1] as usize
     }
 
-    pub(super) fn bytes(&self) -> usize {
+    pub(in crate::solvers) fn bytes(&self) -> usize {
         size_of::<u32>() * (self.starts.len() + 2 * self.columns.len() + self.diagonal.len())
     }
 }

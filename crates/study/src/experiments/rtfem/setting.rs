@@ -26,6 +26,20 @@ pub const BETA: f64 = 2.5;
 /// The laws that are compared.
 pub const LAWS: [&str; 3] = ["linear", "corotated", "neo_hookean"];
 
+/// Linear solvers: a name, and the table of a scene.
+pub const SOLVERS: &[(&str, &str)] = &[
+    ("by size", ""),
+    ("cholesky", "[solver]\nkind = \"cholesky\"\n"),
+    ("lu", "[solver]\nkind = \"lu\"\n"),
+    ("cg", "[solver]\nkind = \"cg\"\n"),
+    ("pcg, block_jacobi", "[solver]\nkind = \"pcg\"\n"),
+    ("pcg, incomplete_cholesky", "[solver]\nkind = \"pcg\"\npreconditioner = \"incomplete_cholesky\"\n"),
+    ("pcg, multigrid", "[solver]\nkind = \"pcg\"\npreconditioner = \"multigrid\"\n"),
+    ("gpu, f32 on the device", "[solver]\nkind = \"gpu\"\n"),
+    ("gpu, f64 on the device", "[solver]\nkind = \"gpu\"\nprecision = \"f64\"\n"),
+    ("pcg, ssor", "[solver]\nkind = \"pcg\"\npreconditioner = \"ssor\"\n"),
+];
+
 /// What a run of the torus may have in place of the thesis' numbers.
 #[derive(Clone, Debug)]
 pub struct Setting<'a> {

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use fem_chart::{Axis, Chart, Dot, Guide, Series};
 
-use super::setting::{DT, LAWS, Setting, median_and_p95, one_thread};
+use super::setting::{DT, LAWS, SOLVERS, Setting, median_and_p95, one_thread};
 use super::steps::{parts_table, share};
 use super::torus::{ACCEPTED, Torus, sizes};
 use crate::experiments::{Figure, Mark, Part, Table};
@@ -28,18 +28,6 @@ const THEIRS: [Theirs; 8] = [
 /// Longest step of a frame in real time, ms, and of the largest linear torus.
 const FRAME: f64 = 1e3 * DT;
 const LARGEST: f64 = 1.0;
-
-/// Linear solvers: a name, and the table of a scene.
-const SOLVERS: &[(&str, &str)] = &[
-    ("by size", ""),
-    ("cholesky", "[solver]\nkind = \"cholesky\"\n"),
-    ("lu", "[solver]\nkind = \"lu\"\n"),
-    ("cg", "[solver]\nkind = \"cg\"\n"),
-    ("pcg, block_jacobi", "[solver]\nkind = \"pcg\"\n"),
-    ("pcg, incomplete_cholesky", "[solver]\nkind = \"pcg\"\npreconditioner = \"incomplete_cholesky\"\n"),
-    ("pcg, multigrid", "[solver]\nkind = \"pcg\"\npreconditioner = \"multigrid\"\n"),
-    ("pcg, ssor", "[solver]\nkind = \"pcg\"\npreconditioner = \"ssor\"\n"),
-];
 
 /// Steps that are timed.
 fn steps(quick: bool) -> usize {
@@ -307,6 +295,34 @@ mod tests {
         let row = solver_row(5, "cg", "f32", Err("no convergence".to_owned()));
         assert_eq!(row.len(), 8);
         assert_eq!(row[7], "no convergence");
+    }
+
+    #[test]
+    fn a_torus_ends_on_a_graphics_device_where_it_ends_on_the_processor() {
+        let torus = Torus::of_size(660).unwrap();
+        let end = |tables: &str| -> Result<_, String> {
+            let tables = format!("{tables}[newton]\ntolerance = 1e-14\n");
+            let mut simulation =
+                Setting { law: "corotated", tables: &tables, ..Setting::default() }.torus(&torus.mesh)?;
+            let start = simulation.positions();
+            (0..5).try_for_each(|_| super::super::setting::step(&mut *simulation))?;
+            Ok((start, simulation.positions()))
+        };
+        let (start, expected) = end("").unwrap();
+        for (precision, bound) in [("f32", 1e-10), ("f64", 1e-12)] {
+            let found = end(&format!("[solver]\nkind = \"gpu\"\nprecision = \"{precision}\"\ntolerance = 1e-13\n"));
+            match found {
+                Ok((_, found)) => {
+                    let error = (&found - &expected).amax() / (&expected - &start).amax();
+                    println!("{precision}: {error:e} of the displacement");
+                    assert!(error < bound, "{precision}: {error:e}");
+                }
+                Err(why) if ["`gpu`", "adapter", "double"].iter().any(|part| why.contains(part)) => {
+                    println!("skipped: {why}")
+                }
+                Err(why) => panic!("{why}"),
+            }
+        }
     }
 
     #[test]

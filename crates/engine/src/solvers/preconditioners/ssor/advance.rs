@@ -2,7 +2,8 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::{CHUNK, Pair, Row};
+use super::super::coarse::Row;
+use super::{CHUNK, Pair};
 use crate::number::vectorized;
 use crate::solvers::parts::Part;
 

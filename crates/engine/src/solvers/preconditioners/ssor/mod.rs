@@ -10,12 +10,11 @@
 //! Threads sweep over the parts of the matrix that are not coupled with each other, side by side.
 
 mod advance;
-mod coarse;
-mod grid;
 mod scaled;
 mod shares;
 mod sweeps;
 
+use super::coarse::{Coarse, Row};
 use super::single_precision_scale;
 use crate::number::Real;
 use crate::solvers::ApproximateInverse;
@@ -23,7 +22,6 @@ use crate::solvers::parts::Part;
 use crate::sparse::{Block, Pattern};
 use crate::vector::norm;
 use advance::Advance;
-use coarse::Coarse;
 use fem_scene::simulation::{Breakdown, History};
 use scaled::Scaled;
 use shares::Shares;
@@ -41,17 +39,14 @@ const ROUND_OFF: f64 = 1e-5;
 /// Rows whose terms are summed in single precision before they are added to a sum in double.
 const CHUNK: usize = 64;
 
-/// A row of three numbers, and a zero that fills a register.
-type Row = [f32; 4];
-
 /// Rows of two vectors together.
 type Pair = [Row; 2];
 
 /// The preconditioned matrix, and the vectors of the iteration.
 pub(crate) struct Ssor {
     parts: Part,
-    matrix: Scaled,
-    coarse: Coarse,
+    pub(super) matrix: Scaled,
+    pub(super) coarse: Coarse,
     /// Restriction of residuals to the coarse grid.
     shares: Shares,
     x: Vec<Row>,
@@ -68,7 +63,7 @@ impl Ssor {
     pub(crate) fn new(pattern: &Pattern, rest: &[[f64; 3]]) -> Self {
         let (rows, matrix) = (pattern.rows(), Scaled::new(pattern));
         let parts = Part::new(rows, |row| &matrix.pattern.columns[matrix.pattern.row(row)]);
-        let coarse = Coarse::new(&matrix.pattern, rest);
+        let coarse = Coarse::new(&matrix.pattern, rest, usize::MAX);
         let (vector, pairs) = (vec![[0.0; 4]; rows], vec![[[0.0; 4]; 2]; rows]);
         Self {
             shares: Shares::new(&parts, &coarse.grid),

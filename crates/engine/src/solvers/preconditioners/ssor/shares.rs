@@ -1,7 +1,6 @@
 //! Restriction to the coarse grid: Pᵀ r, part by part of the matrix.
 
-use super::Row;
-use super::grid::Grid;
+use super::super::coarse::{Grid, Row};
 use crate::solvers::parts::Part;
 
 /// Each part sums up what its own rows contribute to the corners of their cells, so that threads write to places of their own; then

@@ -13,10 +13,10 @@ use backward::Backward;
 use forward::Forward;
 use registers::dispatch;
 
-use super::coarse::Coarse;
+use super::super::coarse::{Coarse, Row};
+use super::Pair;
 use super::scaled::{Scaled, Triangle};
 use super::shares::{Places, Sums};
-use super::{Pair, Row};
 use crate::solvers::parts::Part;
 
 /// The next direction, p = r + (1 + L̃ᵀ) c + β p with the coarse correction c, t = (1 + L̃ᵀ)⁻¹ p, s = (L̃ + 1)⁻¹ (p + K t), and the

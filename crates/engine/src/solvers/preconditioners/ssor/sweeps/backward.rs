@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::super::coarse::Coarse;
+use super::super::super::coarse::{Coarse, Row};
+use super::super::Pair;
 use super::super::scaled::Scaled;
-use super::super::{Pair, Row};
 use super::registers::{Kernel, Registers};
 use super::{rows, transposed_times};
 

@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use super::super::grid::CellPoint;
+use super::super::super::coarse::{CellPoint, Row};
 use super::super::scaled::Scaled;
 use super::super::shares::{Places, Sums};
-use super::super::{CHUNK, Pair, Row};
+use super::super::{CHUNK, Pair};
 use super::registers::{Kernel, Registers};
 use super::{lower_times, rows, symmetric_times};
 

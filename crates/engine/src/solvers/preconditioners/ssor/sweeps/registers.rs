@@ -4,7 +4,8 @@
 use pulp::NullaryFnOnce;
 use wide::f32x4;
 
-use super::super::{Pair, Row};
+use super::super::super::coarse::Row;
+use super::super::Pair;
 
 /// Instructions on four numbers in single precision, and on the eight of a pair of rows.
 pub trait Registers: Copy {

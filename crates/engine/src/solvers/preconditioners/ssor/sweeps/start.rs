@@ -3,8 +3,7 @@
 use std::array::from_fn;
 use std::ops::Range;
 
-use super::super::Row;
-use super::super::coarse::Coarse;
+use super::super::super::coarse::{Coarse, Row};
 use super::super::scaled::Scaled;
 use super::super::shares::{Places, Sums};
 use crate::number::Real;

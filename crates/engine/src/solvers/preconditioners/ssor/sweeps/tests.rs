@@ -1,6 +1,7 @@
 //! The sweeps with each kind of registers, and with any number of threads.
 
-use super::super::{Pair, Row, Ssor};
+use super::super::super::coarse::Row;
+use super::super::{Pair, Ssor};
 use super::registers::{Kernel, Portable};
 use super::{Backward, Forward};
 use crate::solvers::ApproximateInverse;

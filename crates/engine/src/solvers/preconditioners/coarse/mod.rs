@@ -1,21 +1,23 @@
 //! The coarse-grid correction P (Pᵀ A P)⁻¹ Pᵀ with trilinear functions P, for smooth errors, which sweeps reduce slowly. It is
 //! added to the sweeps: Bramble, Pasciak and Xu, Parallel Multilevel Preconditioners (1990), with two levels.
 
+mod grid;
 mod history;
+#[cfg(feature = "gpu")]
+mod inverse;
 
 use std::array::from_fn;
 
 use nalgebra::Vector3;
 use pulp::{Simd, WithSimd};
 
-use super::super::lower_half::LowerHalf;
-use super::Row;
-use super::grid::Grid;
+use super::lower_half::LowerHalf;
 use crate::model::numbering::{Numbering, Ordering};
 use crate::number::{Real, vectorized};
 use crate::solvers::ApproximateInverse;
 use crate::solvers::direct::SupernodalCholesky;
 use crate::sparse::{Block, Pattern, Stored};
+pub use grid::{CellPoint, Grid};
 
 /// Weight of the coarse correction: the sweeps reduce a part of the smooth error as well.
 const WEIGHT: f32 = 0.5;
@@ -26,6 +28,9 @@ const SHIFT: f32 = 1e-4;
 /// The coarse matrix is assembled and factorised again if a solve takes more iterations than `.0 + .1` × those of its first
 /// solve.
 const REFACTOR: (f64, f64) = (3.0, 1.5);
+
+/// A row of three numbers, and a zero that fills a register.
+pub type Row = [f32; 4];
 
 /// The grid, and the factor of its matrix Pᵀ A P.
 pub struct Coarse {
@@ -46,7 +51,7 @@ pub struct Coarse {
     /// Whether the next preparation must factorise again.
     is_outdated: bool,
     /// Weight of the correction, for the scale of the present matrix.
-    weight: f32,
+    pub weight: f32,
     /// 1 for each free direction of a row, 0 for a constrained one, which the fine matrix does not couple to others.
     pub free: Vec<[f32; 3]>,
     /// Pᵀ r, and its decrease in a step of length 1.
@@ -71,9 +76,9 @@ const TRANSPOSED: u32 = 1;
 const BOTH: u32 = 2;
 
 impl Coarse {
-    /// A grid for a matrix and the undeformed positions of its nodes, m.
-    pub fn new(fine: &LowerHalf, rest: &[[f64; 3]]) -> Self {
-        let mut grid = Grid::new(fine, rest);
+    /// A grid of at most so many corners for a matrix and the undeformed positions of its nodes, m.
+    pub fn new(fine: &LowerHalf, rest: &[[f64; 3]], most_corners: usize) -> Self {
+        let mut grid = Grid::with_most_corners(fine, rest, most_corners);
         let cell = |node: usize| grid.nodes[node].cell;
         let lower = |row: usize| fine.row(row).map(|block| fine.columns[block] as usize).chain([row]);
         let rows = 0..fine.rows();
@@ -108,15 +113,18 @@ impl Coarse {
         }
     }
 
-    /// Assembles and factorises the coarse matrix, unless an earlier factor still serves. `values` holds the fine matrix.
-    pub fn prepare<T: Real>(&mut self, fine: &LowerHalf, values: &[Block<T, 3>], scale: f64) {
-        if self.is_outdated || self.scale.is_none() {
+    /// Assembles and factorises the coarse matrix, unless an earlier factor still serves. `values` holds the fine matrix. Returns whether
+    /// there is another factor.
+    pub fn prepare<T: Real>(&mut self, fine: &LowerHalf, values: &[Block<T, 3>], scale: f64) -> bool {
+        let is_new = self.is_outdated || self.scale.is_none();
+        if is_new {
             (self.is_outdated, self.effort) = (false, None);
             self.find_free_directions(fine, values);
             self.assemble(fine, values, scale);
             self.scale = self.factor.prepare(&self.values).is_ok().then_some(scale);
         }
         self.weight = self.scale.map_or(0.0, |then| WEIGHT * (then / scale) as f32);
+        is_new
     }
 
     /// Finds the directions that the matrix couples to others.

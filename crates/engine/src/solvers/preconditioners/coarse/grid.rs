@@ -28,12 +28,25 @@ pub struct CellPoint {
 }
 
 impl Grid {
-    /// A grid over these positions, m, with cells some node distances wide. `matrix` tells which nodes are neighbours.
-    pub fn new(matrix: &LowerHalf, rest: &[[f64; 3]]) -> Self {
+    /// A grid over these positions, m, with cells some node distances wide, or wider, so that there are at most so many corners. `matrix` tells
+    /// which nodes are neighbours.
+    pub fn with_most_corners(matrix: &LowerHalf, rest: &[[f64; 3]], most: usize) -> Self {
+        let mut edge = EDGE;
+        loop {
+            let grid = Self::new(matrix, rest, edge);
+            if grid.corners.len() <= most.max(8) {
+                return grid;
+            }
+            edge *= 1.25;
+        }
+    }
+
+    /// A grid with cells `edge` node distances wide.
+    fn new(matrix: &LowerHalf, rest: &[[f64; 3]], edge: f64) -> Self {
         let rest = &rest[..matrix.rows()];
         let lower: [f64; 3] = from_fn(|i| rest.iter().fold(f64::INFINITY, |lower, x| lower.min(x[i])));
         let upper: [f64; 3] = from_fn(|i| rest.iter().fold(f64::NEG_INFINITY, |upper, x| upper.max(x[i])));
-        let edge = EDGE * mean_distance(matrix, rest);
+        let edge = edge * mean_distance(matrix, rest);
         let extent: [f64; 3] = from_fn(|i| upper[i] - lower[i]);
         // The extent of a single node, or of a flat body along its normal, is zero.
         let counts =
@@ -107,14 +120,14 @@ fn mean_distance(matrix: &LowerHalf, rest: &[[f64; 3]]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Grid, LowerHalf};
+    use super::{EDGE, Grid, LowerHalf};
     use crate::solvers::beam::Beam;
     use crate::sparse::{Pattern, Stored};
 
     #[test]
     fn functions_sum_to_one_and_reproduce_positions() {
         let beam = Beam::new(7, Stored::Lower);
-        let grid = Grid::new(&LowerHalf::new(&beam.pattern), &beam.rest);
+        let grid = Grid::new(&LowerHalf::new(&beam.pattern), &beam.rest, EDGE);
         let scale: [f64; 3] = std::array::from_fn(|i| {
             let upper = |x: &[[f64; 3]]| x.iter().fold(f64::NEG_INFINITY, |upper, x| upper.max(x[i]));
             let lower = |x: &[[f64; 3]]| x.iter().fold(f64::INFINITY, |lower, x| lower.min(x[i]));
@@ -136,10 +149,10 @@ mod tests {
     #[test]
     fn a_single_node_and_a_flat_body_have_cells() {
         let node = LowerHalf::new(&Pattern::new::<4>(1, &[], Stored::Lower));
-        let grid = Grid::new(&node, &[[3.0, 1.0, 2.0]]);
+        let grid = Grid::new(&node, &[[3.0, 1.0, 2.0]], EDGE);
         assert_eq!((grid.cells.len(), grid.corners.len()), (1, 8));
         let triangle = LowerHalf::new(&Pattern::new(3, &[[0, 1, 2]], Stored::Lower));
-        let grid = Grid::new(&triangle, &[[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]]);
+        let grid = Grid::new(&triangle, &[[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]], EDGE);
         assert!(grid.nodes.iter().all(|point| point.at.iter().all(|at| (0.0..=1.0).contains(at))));
     }
 }

@@ -1,0 +1,36 @@
+//! A graphics device as solver, behind the feature `gpu`. A scene that does not ask for it opens no device.
+
+#[cfg(feature = "gpu")]
+mod gpu;
+
+#[cfg(feature = "gpu")]
+pub use gpu::{name, solver, unusable};
+
+#[cfg(not(feature = "gpu"))]
+pub use absent::{name, solver, unusable};
+
+#[cfg(not(feature = "gpu"))]
+mod absent {
+    use fem_scene::Precision;
+
+    use crate::number::Real;
+    use crate::solvers::ApproximateInverse;
+    use crate::sparse::Pattern;
+
+    /// Name of the graphics device, or why there is none.
+    pub fn name() -> Result<String, String> {
+        Err(ABSENT.to_owned())
+    }
+
+    const ABSENT: &str = "this program was built without the feature `gpu`";
+
+    /// Why no system can be solved on a device in this precision.
+    pub fn unusable(_precision: Precision) -> Option<String> {
+        Some(ABSENT.to_owned())
+    }
+
+    /// Scenes that ask for a device were refused.
+    pub fn solver<T: Real>(_: Precision, _: &Pattern, _: &[[f64; 3]]) -> Box<dyn ApproximateInverse<T>> {
+        unreachable!("a scene that asks for a device is refused without the feature `gpu`")
+    }
+}
