@@ -41,8 +41,9 @@ pub fn run(arguments: &SizesArguments) -> Result<(), End> {
         let (here, there) = (run::apart(&row.run, all)?, run::apart(&on_device, all)?);
         let largest = here.positions.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
         let pairs = here.positions.iter().zip(&there.positions);
-        let apart = pairs.fold(0.0, |apart: f64, (a, b)| apart.max((a - b).abs()));
-        if !(apart <= AGREEMENT * largest) {
+        let apart = pairs.fold(0.0, |apart: f64, (a, b)| if (a - b).abs() <= apart { apart } else { (a - b).abs() });
+        let agree = apart <= AGREEMENT * largest;
+        if !agree {
             return Err(End::wrong(format!("{}: device and processor end {apart:.1e} m apart", row.name)));
         }
         let contestants: [Contestant; 3] =

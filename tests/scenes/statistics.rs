@@ -183,7 +183,7 @@ fn sweeps_that_leave_a_stiff_body_far_from_balance_end_in_exit_code_1_unless_the
                  model = \"stable_neo_hookean\"\nyoung = 1e12\npoisson = 0.3\ndensity = 1000\n[mass]\nlumped = true\n[gravity]\n\
                  acceleration = [0, 0, -9.81]\n[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n[time]\ndt = 0.01\n\
                  integrator = \"vbd\"\n[iterations]\ncount = 1\n";
-    let desk = Desk::with("stiff.toml", scene.to_owned());
+    let desk = Desk::with("stiff.toml", scene);
     let outcome = desk.run("stiff.toml --headless --steps 3 --stats s.json");
     assert_eq!(outcome.code, Some(1), "{outcome:?}");
     let told = "3 of 3 steps ended far from the solution: the body has more than ten times the energy that it was supplied with";

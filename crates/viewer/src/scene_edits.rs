@@ -267,7 +267,7 @@ integrator = "implicit_euler"
             assert_eq!(after(&solver(Some(&table))).solver, Some(table));
         }
         use SolverKind::{Cg, Cholesky, ConjugateDirections, Gpu, Lu, SteepestDescent};
-        for kind in [Cholesky, Lu, Cg, SteepestDescent, ConjugateDirections] {
+        for kind in [Cholesky, Lu, Cg, SteepestDescent, ConjugateDirections, Gpu] {
             let table = SolverTable { kind, tolerance: None, preconditioner: None, precision: None };
             assert_eq!(after(&solver(Some(&table))).solver, Some(table));
         }

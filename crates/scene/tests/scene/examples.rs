@@ -71,7 +71,7 @@ fn every_table_of_a_scene_is_read() {
     );
     assert_eq!(
         scene.solver,
-        Some(SolverTable { kind: SolverKind::Cholesky, tolerance: Some(1e-12), preconditioner: None })
+        Some(SolverTable { kind: SolverKind::Cholesky, tolerance: Some(1e-12), preconditioner: None, precision: None })
     );
     let drag = DragTable {
         vertex: DragVertex::Highest,
@@ -154,5 +154,8 @@ fn tables_of_newton_and_solver_may_leave_out_their_numbers() {
         scene.newton,
         Some(NewtonTable { max_iterations: None, tolerance: None, projection: None, accept_unconverged: false })
     );
-    assert_eq!(scene.solver, Some(SolverTable { kind: SolverKind::Pcg, tolerance: None, preconditioner: None }));
+    assert_eq!(
+        scene.solver,
+        Some(SolverTable { kind: SolverKind::Pcg, tolerance: None, preconditioner: None, precision: None })
+    );
 }
