@@ -9,7 +9,7 @@ use bevy::ecs::schedule::{IntoScheduleConfigs, SystemSet};
 use bevy::mesh::Mesh;
 
 use crate::systems::{
-    Bounds, build_bodies, end_pull, forget_body, receive_news, request_steps, send_pulls, sync_meshes,
+    Bounds, advance_clocks, build_bodies, end_pull, forget_body, receive_news, request_steps, send_pulls, sync_meshes,
 };
 use crate::worker::Workers;
 use crate::{SoftBodyFailed, SoftBodyTiming};
@@ -51,7 +51,9 @@ impl Plugin for SoftBodyPlugin {
             .add_observer(end_pull)
             .add_systems(
                 PreUpdate,
-                (build_bodies, receive_news, send_pulls, request_steps, sync_meshes).chain().in_set(SoftBodySystems),
+                (build_bodies, receive_news, send_pulls, advance_clocks, sync_meshes, request_steps)
+                    .chain()
+                    .in_set(SoftBodySystems),
             );
     }
 }

@@ -26,7 +26,8 @@ pub struct SoftBodyState {
     pub(crate) clock: Clock,
     /// States from the one that is shown to the newest one, in order.
     pub(crate) frames: VecDeque<Frame>,
-    /// Number of steps that were requested.
+    /// Number of steps that are due, and of those that were requested.
+    pub(crate) due: usize,
     pub(crate) requested: usize,
     pub(crate) step_time: Duration,
     pub(crate) failure: Option<SoftBodyError>,

@@ -15,8 +15,8 @@ use crate::state::Model;
 use crate::worker::Workers;
 use crate::worker::message::{Command, News, Ready};
 use crate::{
-    SoftBody, SoftBodyFailed, SoftBodyMaterial, SoftBodyMeshSync, SoftBodyPinnedParticles, SoftBodyPlanes,
-    SoftBodyPull, SoftBodyState, SoftBodyTiming,
+    SoftBody, SoftBodyFailed, SoftBodyMaterial, SoftBodyMeshSync, SoftBodyPhase, SoftBodyPinnedParticles,
+    SoftBodyPlanes, SoftBodyPull, SoftBodyState, SoftBodyTiming,
 };
 
 /// Bounds of all bodies.
@@ -121,27 +121,18 @@ pub fn send_pulls(
     }
 }
 
-/// Advances the clocks, and requests the steps that are due.
-pub fn request_steps(
+/// Advances the clocks, and finds the steps that are due.
+pub fn advance_clocks(
     mut bodies: Query<&mut SoftBodyState>,
-    workers: ResMut<Workers>,
     time: Res<Time>,
     bounds: Res<Bounds>,
     mut timing: ResMut<SoftBodyTiming>,
 ) {
     let _watch = timing.watch();
-    for mut state in &mut bodies {
-        let Some(link) = state.link.filter(|_| state.model.is_some() && state.failure.is_none()) else { continue };
+    for mut state in bodies.iter_mut().filter(|state| state.phase() == SoftBodyPhase::Running) {
         let done = state.steps();
         let most_ahead = (bounds.most_lag.as_secs_f64() / state.dt()).ceil() as usize;
-        let due = state.clock.advance(time.delta_secs_f64(), done, most_ahead.max(LEAST_AHEAD));
-        if due > state.requested {
-            state.requested = due;
-            workers.send(link, Command::Advance(link.id, due));
-        }
-        for frame in state.outdated() {
-            workers.send(link, Command::Discard(frame));
-        }
+        state.due = state.clock.advance(time.delta_secs_f64(), done, most_ahead.max(LEAST_AHEAD));
     }
 }
 
@@ -171,6 +162,25 @@ pub fn sync_meshes(
             blend.write(&mut mesh);
         }
         state.written = Some(shown);
+    }
+}
+
+/// Requests the steps that are due. It comes last, because a thread that wakes up may take the place of this one.
+pub fn request_steps(
+    mut bodies: Query<&mut SoftBodyState>,
+    workers: ResMut<Workers>,
+    mut timing: ResMut<SoftBodyTiming>,
+) {
+    let _watch = timing.watch();
+    for mut state in &mut bodies {
+        let Some(link) = state.link else { continue };
+        if state.due > state.requested {
+            state.requested = state.due;
+            workers.send(link, Command::Advance(link.id, state.due));
+        }
+        for frame in state.outdated() {
+            workers.send(link, Command::Discard(frame));
+        }
     }
 }
 

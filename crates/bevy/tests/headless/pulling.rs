@@ -75,8 +75,8 @@ fn a_pull_gives_the_same_motion_however_fast_the_worker_is() {
         };
         for frame in 0..20 {
             match frame {
-                5 | 9 => drop(app.world_mut().entity_mut(body).insert(pull(frame as f32 * 0.1))),
-                14 => drop(app.world_mut().entity_mut(body).remove::<SoftBodyPull>()),
+                5 | 9 => _ = app.world_mut().entity_mut(body).insert(pull(frame as f32 * 0.1)),
+                14 => _ = app.world_mut().entity_mut(body).remove::<SoftBodyPull>(),
                 _ => {}
             }
             app.update();
