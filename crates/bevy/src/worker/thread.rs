@@ -11,6 +11,10 @@ use crate::link::BodyId;
 /// Time between two looks at a body that is being built.
 const BUILDING_INTERVAL: Duration = Duration::from_millis(2);
 
+/// How far threads that simulate stand back behind others.
+#[cfg(target_os = "linux")]
+const NICENESS: i32 = 5;
+
 /// A thread with the bodies that it owns.
 pub struct Thread {
     commands: Receiver<Command>,
@@ -26,6 +30,7 @@ impl Thread {
 
     /// Works until the main thread has dropped its end of the channel.
     pub fn run(mut self) {
+        give_way();
         while self.take_commands() {
             self.work();
         }
@@ -93,4 +98,10 @@ impl Thread {
             }
         }
     }
+}
+
+/// Lets threads that draw go first where there are fewer processors than threads. Without the right to do so, all stay equal.
+fn give_way() {
+    #[cfg(target_os = "linux")] // elsewhere this would concern the whole process
+    let _ = rustix::process::nice(NICENESS);
 }

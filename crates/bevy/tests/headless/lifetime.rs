@@ -1,5 +1,6 @@
 //! Bodies that come and go.
 
+use std::thread::sleep;
 use std::time::Duration;
 
 use bevy::prelude::*;
@@ -33,15 +34,21 @@ fn round(app: &mut App) {
 #[ignore = "long, and needs a process of its own; test.sh runs it"]
 fn a_hundred_bodies_leave_no_memory() {
     let mut app = app(Duration::from_millis(10), 1);
-    let mut after = Vec::new();
-    for _ in 0..6 {
+    app.update();
+    let mut after: Vec<f64> = resident().into_iter().collect();
+    for _ in 0..10 {
         round(&mut app);
+        // The worker frees its bodies in its own time, and frames free its last states.
+        for _ in 0..100 {
+            app.update();
+            sleep(Duration::from_millis(3));
+        }
         after.extend(resident());
     }
-    println!("resident memory after each 100 bodies, MiB: {after:.1?}");
-    if let [_, second, .., last] = after[..] {
-        // A hundred bodies take hundreds of MiB; allocators keep a few.
-        assert!(last - second < 10.0, "{after:?} MiB");
+    println!("resident memory before, and after each 100 bodies, MiB: {after:.1?}");
+    if let [_, first, .., last] = after[..] {
+        // A hundred bodies take 260 MiB; what an allocator keeps of that varies.
+        assert!(last - first < 50.0, "{after:?} MiB");
     }
 }
 
