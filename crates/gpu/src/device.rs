@@ -6,6 +6,7 @@ use bytemuck::Pod;
 use wgpu::{Buffer, BufferUsages, Features, PollType, PowerPreference};
 
 use crate::DeviceError;
+use crate::quiet::without_wayland_message;
 
 /// An open device. Its arrays and pipelines live as long as it does.
 pub struct Device {
@@ -20,11 +21,13 @@ pub struct Device {
 impl Device {
     /// Opens the fastest adapter of this machine. Mesa's llvmpipe, which computes on the processor, is one too.
     pub fn open() -> Result<Arc<Self>, DeviceError> {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
         let options =
             wgpu::RequestAdapterOptions { power_preference: PowerPreference::HighPerformance, ..Default::default() };
-        let adapter = pollster::block_on(instance.request_adapter(&options))
-            .map_err(|error| DeviceError::NoAdapter(error.to_string()))?;
+        let adapter = without_wayland_message(|| {
+            let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+            pollster::block_on(instance.request_adapter(&options))
+        });
+        let adapter = adapter.map_err(|error| DeviceError::NoAdapter(error.to_string()))?;
         let name = adapter.get_info().name;
         let has_double = adapter.features().contains(Features::SHADER_F64);
         let descriptor = wgpu::DeviceDescriptor {

@@ -8,6 +8,7 @@ mod device;
 mod matrix;
 mod number;
 mod program;
+mod quiet;
 
 pub use conjugate_gradients::{CoarseGrid, ConjugateGradients, Outcome, Solved};
 pub use device::Device;
