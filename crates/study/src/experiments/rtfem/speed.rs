@@ -308,9 +308,9 @@ mod tests {
             (0..5).try_for_each(|_| super::super::setting::step(&mut *simulation))?;
             Ok((start, simulation.positions()))
         };
-        // Kept Cholesky factors leave 1e-10 of it.
+        // Kept Cholesky factors leave 1e-10 of it, and Newton's method on either machine some 1e-12.
         let (start, expected) = end("[solver]\nkind = \"pcg\"\ntolerance = 1e-14\n").unwrap();
-        for (precision, bound) in [("f32", 1e-10), ("f64", 1e-12)] {
+        for (precision, bound) in [("f32", 1e-10), ("f64", 1e-11)] {
             let found = end(&format!("[solver]\nkind = \"gpu\"\nprecision = \"{precision}\"\ntolerance = 1e-13\n"));
             match found {
                 Ok((_, found)) => {
