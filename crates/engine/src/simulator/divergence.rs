@@ -116,7 +116,9 @@ impl<T: Real> SuppliedEnergy<T> {
         let moment = Moment::at(before.time + dt);
         self.add_work(system, integrator, before, state, dt);
         self.raise_largest(system, state, dt, moment);
-        energy(system, state, moment) > LIMIT * self.largest + round_off(system)
+        // An energy that is not a number is one too much.
+        let is_supplied = energy(system, state, moment) <= LIMIT * self.largest + round_off(system);
+        !is_supplied
     }
 
     /// Adds the work of a step that is not known from the displacements alone.
