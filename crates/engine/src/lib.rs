@@ -45,6 +45,7 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
 pub mod apparent_moduli;
+pub mod batch;
 pub mod boundary;
 pub mod cantilever;
 pub mod elements;

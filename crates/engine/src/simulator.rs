@@ -140,6 +140,10 @@ impl<T: Compiled> Simulator<T> {
 
 impl<T: Real> Simulator<T> {
     fn assembled(scene: &Scene, body: Body, own: OwnForces<T>) -> Result<Self, SceneError> {
+        if scene.batch.is_some() {
+            let problem = "is a table of many environments, and this is a simulation of one body; run the scene with --headless, or remove it";
+            return Err(scene.refuse("batch", problem));
+        }
         let law = check::<T>(scene, &body, T::EPSILON.as_f64())?;
         let method = scene.method();
         let skinned = body.shape.mesh.solid().zip(body.shape.display.as_ref());

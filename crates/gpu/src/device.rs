@@ -113,9 +113,17 @@ impl Device {
         }
     }
 
-    /// Runs commands.
-    pub(crate) fn submit(&self, encoder: wgpu::CommandEncoder) -> Result<(), DeviceError> {
-        self.queue.submit([encoder.finish()]);
+    /// Runs commands. The index tells when they have ended, see [`wait`](Self::wait).
+    pub(crate) fn submit(&self, encoder: wgpu::CommandEncoder) -> Result<wgpu::SubmissionIndex, DeviceError> {
+        let index = self.queue.submit([encoder.finish()]);
+        self.check()?;
+        Ok(index)
+    }
+
+    /// Waits until commands have ended.
+    pub(crate) fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), DeviceError> {
+        let submission = PollType::Wait { submission_index: Some(index), timeout: None };
+        self.device.poll(submission).map_err(|error| self.failed(error.to_string()))?;
         self.check()
     }
 

@@ -1,7 +1,7 @@
-//! Linear systems on a graphics device, through wgpu's compute shaders.
+//! Linear systems and time steps on a graphics device, through wgpu's compute shaders.
 //!
-//! [`Device`] is a card, or a program that stands in for one; [`ConjugateGradients`] solves systems of 3×3 blocks on it. This crate knows
-//! matrices and vectors, and nothing of bodies.
+//! [`Device`] is a card, or a program that stands in for one. [`ConjugateGradients`] solves systems of 3×3 blocks on it, and [`Bodies`]
+//! are many bodies of one mesh that step there. This crate knows arrays of numbers, and nothing of scenes.
 
 mod conjugate_gradients;
 mod device;
@@ -9,11 +9,13 @@ mod matrix;
 mod number;
 mod program;
 mod quiet;
+mod steps;
 
 pub use conjugate_gradients::{CoarseGrid, ConjugateGradients, Outcome, Solved};
 pub use device::Device;
 pub use matrix::BlockPattern;
 pub use number::Number;
+pub use steps::{Bodies, Cause, Environment, Law, Method, Scheme, Tetrahedra, Trouble};
 
 use thiserror::Error;
 

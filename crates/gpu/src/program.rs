@@ -13,11 +13,21 @@ pub(crate) struct Program<'a> {
     module: wgpu::ShaderModule,
 }
 
-/// An entry of a source with its arrays, and the number of groups that run it.
+/// An entry of a source with its arrays, and the number of groups that run it, in rows and columns.
 pub(crate) struct Kernel {
     pipeline: wgpu::ComputePipeline,
     arrays: wgpu::BindGroup,
-    groups: u32,
+    groups: [u32; 2],
+}
+
+/// Most groups in a row that every device runs.
+const LONGEST_ROW: usize = 65_535;
+
+/// Rows and columns of groups for so many invocations. Those beyond the last are idle.
+fn groups_for(invocations: usize) -> [u32; 2] {
+    let groups = invocations.div_ceil(GROUP).max(1);
+    let columns = groups.div_ceil(LONGEST_ROW);
+    [groups.div_ceil(columns) as u32, columns as u32]
 }
 
 impl<'a> Program<'a> {
@@ -41,27 +51,46 @@ impl<'a> Program<'a> {
         arrays: &[(u32, &Buffer)],
         groups: usize,
     ) -> Result<Kernel, DeviceError> {
+        let pipeline = self.pipeline(entry, constants);
+        let arrays = self.bound(&pipeline, entry, arrays);
+        self.device.check()?;
+        Ok(Kernel { pipeline, arrays, groups: [groups as u32, 1] })
+    }
+
+    /// The same with so many invocations, whose number may be larger than one row of groups has; the shader takes them row by row.
+    pub(crate) fn kernel_of(
+        &self,
+        entry: &str,
+        constants: &[(&str, f64)],
+        arrays: &[(u32, &Buffer)],
+        invocations: usize,
+    ) -> Result<Kernel, DeviceError> {
+        Ok(Kernel { groups: groups_for(invocations), ..self.kernel(entry, constants, arrays, 1)? })
+    }
+
+    fn pipeline(&self, entry: &str, constants: &[(&str, f64)]) -> wgpu::ComputePipeline {
         let device = &self.device.device;
-        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(entry),
             layout: None,
             module: &self.module,
             entry_point: Some(entry),
             compilation_options: PipelineCompilationOptions { constants, ..Default::default() },
             cache: None,
-        });
+        })
+    }
+
+    fn bound(&self, pipeline: &wgpu::ComputePipeline, entry: &str, arrays: &[(u32, &Buffer)]) -> wgpu::BindGroup {
         let entries: Vec<_> = arrays
             .iter()
             .map(|&(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
             .collect();
-        let descriptor = wgpu::BindGroupDescriptor {
+        let layout = &pipeline.get_bind_group_layout(0);
+        self.device.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(entry),
-            layout: &pipeline.get_bind_group_layout(0),
+            layout,
             entries: &entries,
-        };
-        let arrays = device.create_bind_group(&descriptor);
-        self.device.check()?;
-        Ok(Kernel { pipeline, arrays, groups: groups as u32 })
+        })
     }
 }
 
@@ -70,6 +99,7 @@ impl Kernel {
     pub(crate) fn run(&self, pass: &mut ComputePass) {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.arrays, &[]);
-        pass.dispatch_workgroups(self.groups, 1, 1);
+        let [rows, columns] = self.groups;
+        pass.dispatch_workgroups(rows, columns, 1);
     }
 }

@@ -77,9 +77,9 @@ pub use tables::{
 };
 pub use timer::Timer;
 pub use values::{
-    Contact, ContactPlane, ContactTreatment, DirichletCondition, Drag, IterationSettings, MaterialRegion, Method,
-    Motion, NewmarkParameters, NewtonSettings, PlaneMotion, Plasticity, Pressure, RayleighDamping, Rotation,
-    SolverSettings, Spring, Traction, highest_node,
+    Contact, ContactPlane, ContactTreatment, DirichletCondition, Drag, EnvironmentValues, IterationSettings,
+    MaterialRegion, Method, Motion, NewmarkParameters, NewtonSettings, PlaneMotion, Plasticity, Pressure,
+    RayleighDamping, Rotation, SolverSettings, Spring, Traction, highest_node,
 };
 pub use warnings::warnings;
 

@@ -14,7 +14,7 @@ use fem_mesh::MeshError;
 const LINE: usize = 120;
 
 /// The order of the tables in a file.
-const ORDER: [&str; 25] = [
+const ORDER: [&str; 26] = [
     "about",
     "pipeline",
     "mesh",
@@ -40,6 +40,7 @@ const ORDER: [&str; 25] = [
     "newton",
     "solver",
     "drag",
+    "batch",
 ];
 
 /// A scene that was not saved.

@@ -48,6 +48,8 @@ pub use verlet::Verlet;
 pub use xpbd::xpbd;
 
 pub use crate::newton::Convergence;
+#[cfg(feature = "gpu")]
+pub(crate) use projection::shape;
 
 use fem_scene::simulation::{Cause, Counters, History};
 

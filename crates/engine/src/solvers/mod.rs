@@ -24,5 +24,7 @@ pub use choice::{Preconditioner, SolverChoice};
 pub use device::name as device_name;
 pub use solver::{Solver, SolverCounters};
 
+#[cfg(feature = "gpu")]
+pub(crate) use device::device as open_device;
 pub(crate) use device::unusable as unusable_device;
 pub(crate) use inverse::ApproximateInverse;

@@ -1,5 +1,10 @@
 //! Scenes solved on a graphics device end where they end on the processor. Each test is skipped, with one line, where there is no device.
 
+#![allow(non_snake_case)] // E, G and J are the names that the mathematics uses
+
+mod batch;
+mod forces;
+
 use std::path::{Path, PathBuf};
 
 use fem_scene::simulation::Simulation;

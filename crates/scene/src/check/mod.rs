@@ -1,5 +1,6 @@
 //! Checks of a scene's values beyond their types.
 
+mod batch;
 mod constraints;
 pub(crate) mod contact;
 mod curves;
@@ -31,6 +32,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     plasticity::check(scene)?;
     flat::check_plane(scene)?;
     check_time(&scene.time)?;
+    batch::check(scene)?;
     unused::check(scene)?;
     second_order::check(scene)?;
     iterations::check(scene)?;

@@ -1,7 +1,7 @@
 //! Tables that have no effect with the integrator of the scene.
 
 use super::numbers::{Problem, problem};
-use crate::{Integrator, Pipeline, Scene};
+use crate::{Integrator, Pipeline, Scene, SolverKind};
 
 /// A table, whether the scene has it, whether its integrator uses it, and which integrators do.
 type Use = (&'static str, bool, bool, &'static str);
@@ -27,8 +27,9 @@ fn uses(scene: &Scene) -> [Use; 8] {
         (
             "solver",
             scene.solver.is_some(),
-            method.has_matrix() && !method.is_iterated(),
-            "an implicit method with a linear solver, or static",
+            method.has_matrix() && !method.is_iterated() || steps_on_device(scene),
+            "an implicit method with a linear solver, or static; a [batch], which may have count = 1, runs an explicit method or vbd on the \
+             device of kind = \"gpu\"",
         ),
         ("iterations", scene.iterations.is_some(), method.is_iterated(), "pbd, xpbd, vbd or projective_dynamics"),
         (
@@ -39,6 +40,13 @@ fn uses(scene: &Scene) -> [Use; 8] {
         ),
         ("damping", scene.damping.is_some(), !is_static, "a method that moves: equilibrium has no velocities"),
     ]
+}
+
+/// Whether whole steps run on a graphics device.
+fn steps_on_device(scene: &Scene) -> bool {
+    let method = scene.time.integrator;
+    let is_known = method.is_explicit() || method == Integrator::Vbd;
+    is_known && scene.batch.is_some() && scene.solver.as_ref().is_some_and(|solver| solver.kind == SolverKind::Gpu)
 }
 
 /// Refuses the first table without effect. The course's pipeline has none of them, and says so itself.

@@ -1,11 +1,13 @@
 //! The files of a run: state, energies, statistics, the final mesh, a series of meshes.
 
+mod batch;
 mod element_field;
 mod fields;
 mod probe;
 mod series;
 mod state;
 
+pub use batch::{EnvironmentEnd, write_batch};
 pub use element_field::ElementField;
 pub use fields::von_mises;
 pub use probe::Probe;

@@ -1,5 +1,6 @@
 //! The tables and keys of a scene file. A table that a scene leaves out is `None` and builds no part.
 
+mod batch;
 mod constraints;
 mod contact;
 mod initial;
@@ -12,6 +13,7 @@ mod vectors;
 
 pub use crate::curve::{CurveTable, SineTable};
 
+pub use batch::{BatchTable, RangeTable, Spacing, VaryTable};
 pub use constraints::{FixedTable, PrescribedTable, RotationTable};
 pub use contact::{ContactTable, PlaneTable};
 pub use initial::{AngularVelocityTable, InitialVelocityTable};
@@ -107,6 +109,8 @@ pub struct Scene {
     pub solver: Option<SolverTable>,
     /// `[drag]`
     pub drag: Option<DragTable>,
+    /// `[batch]`
+    pub batch: Option<BatchTable>,
 }
 
 /// The code that simulates a scene.

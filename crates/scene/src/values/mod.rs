@@ -1,5 +1,6 @@
 //! A scene's tables as values: SI units, the mesh's node numbers, defaults filled in.
 
+mod batch;
 mod constraints;
 mod contact;
 mod initial;
@@ -9,6 +10,7 @@ mod method;
 mod plasticity;
 mod selection;
 
+pub use batch::EnvironmentValues;
 pub use constraints::{DirichletCondition, Motion, Rotation};
 pub use contact::{Contact, ContactPlane, ContactTreatment, PlaneMotion};
 pub use loads::{Drag, Pressure, Spring, Traction, highest_node};

@@ -20,7 +20,7 @@ const MAX_ITERATIONS: usize = 2000;
 const MOST_CORNERS: usize = 400;
 
 /// The device of this process, opened when a scene first asks for it.
-fn device() -> Result<&'static Arc<Device>, &'static DeviceError> {
+pub fn device() -> Result<&'static Arc<Device>, &'static DeviceError> {
     static DEVICE: OnceLock<Result<Arc<Device>, DeviceError>> = OnceLock::new();
     DEVICE.get_or_init(Device::open).as_ref()
 }

@@ -4,7 +4,7 @@
 mod gpu;
 
 #[cfg(feature = "gpu")]
-pub use gpu::{name, solver, unusable};
+pub use gpu::{device, name, solver, unusable};
 
 #[cfg(not(feature = "gpu"))]
 pub use absent::{name, solver, unusable};

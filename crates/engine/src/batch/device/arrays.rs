@@ -1,0 +1,65 @@
+//! A body as arrays for a device, in the engine's numbering.
+
+use fem_gpu::{Environment, Law, Tetrahedra};
+use fem_scene::{Body, BodyMesh, Material, Scene};
+
+use crate::forces::{Moment, dead_load};
+use crate::integrators::shape;
+use crate::materials::AnyLaw;
+use crate::model::system::System;
+
+/// The law of a material with its parameters, if the device knows it.
+pub(super) fn law(material: &Material) -> Option<(Law, [f64; 2])> {
+    match AnyLaw::<f64>::new(material)? {
+        AnyLaw::Linear(law) => Some((Law::Linear, [law.mu, law.lambda])),
+        AnyLaw::StVenantKirchhoff(law) => Some((Law::StVenantKirchhoff, [law.mu, law.lambda])),
+        AnyLaw::NeoHookean(law) => Some((Law::NeoHookean, [law.C, law.D])),
+        AnyLaw::StableNeoHookean(law) => Some((Law::StableNeoHookean, [law.mu, law.lambda])),
+        _ => None,
+    }
+}
+
+/// The parameters of an environment beside those of the scene itself. The device knows the law.
+pub(super) fn environment(scene: &Scene, number: usize) -> Environment {
+    let material = scene.environment(number).material;
+    let (_, moduli) = law(&material).expect("other laws are refused");
+    let density = material.density / scene.material.density;
+    let gravity = scene.batch.as_ref().and_then(|batch| batch.values(number).gravity).unwrap_or(1.0);
+    Environment { moduli, weight: gravity * density, density }
+}
+
+/// The arrays of a body, whose masses are lumped.
+pub(super) fn tetrahedra(system: &System<f64>, body: &Body) -> Tetrahedra {
+    let BodyMesh::Solid(mesh) = &body.shape.mesh else { unreachable!("flat bodies are refused") };
+    let corners = system.numbering.elements(&mesh.elements);
+    let shapes: Vec<_> =
+        corners.iter().enumerate().map(|(e, corners)| shape(system, corners, system.elements.factor(e))).collect();
+    let mut inverse_masses: Vec<[f64; 3]> = system.mass.diagonal().into_iter().map(|mass| [1.0 / mass; 3]).collect();
+    system.dirichlet.clear_constrained(&mut inverse_masses);
+    let of_mesh = &body.initial_velocity;
+    let mut velocities: Vec<[f64; 3]> = match of_mesh[..] {
+        [] => Vec::new(),
+        _ => system.numbering.mesh_node.iter().map(|&node| of_mesh[node as usize].into()).collect(),
+    };
+    if !velocities.is_empty() {
+        system.dirichlet.clear_constrained(&mut velocities);
+    }
+    Tetrahedra {
+        gradients: shapes.iter().map(|shape| [1, 2, 3].map(|corner| shape.gradients[corner])).collect(),
+        volumes: shapes.iter().map(|shape| shape.volume).collect(),
+        weights: dead_loads(system, &Body { body_force: None, tractions: Vec::new(), ..body.clone() }),
+        loads: dead_loads(system, &Body { gravity: None, ..body.clone() }),
+        inverse_masses,
+        velocities,
+        corners,
+    }
+}
+
+/// Dead loads of a body on its nodes, N.
+fn dead_loads(system: &System<f64>, body: &Body) -> Vec<[f64; 3]> {
+    let mut gradient = vec![[0.0; 3]; system.nodes()];
+    if let Some(load) = dead_load::build::<f64>(body, &system.numbering) {
+        load.add_gradient(&[], Moment::at(0.0), &mut gradient);
+    }
+    gradient.into_iter().map(|gradient| gradient.map(|component| -component)).collect()
+}

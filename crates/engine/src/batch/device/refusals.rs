@@ -1,0 +1,76 @@
+//! Scenes that steps on a device do not know.
+
+use fem_gpu::{Law, Scheme};
+use fem_scene::{Body, Integrator, LoadCurve, Scene};
+
+use super::arrays;
+use crate::refusal::Refusal;
+
+/// The laws of the device, for messages.
+const LAWS: &str = "linear, st_venant_kirchhoff, neo_hookean or stable_neo_hookean";
+
+/// The law and the method of a scene. Returns the first key that the device does not know, with a remedy.
+pub(super) fn check(scene: &Scene, body: &Body) -> Result<(Law, Scheme), Refusal> {
+    let scheme = scheme(scene)?;
+    if let Some((field, what, remedy)) = unknown(scene, body) {
+        return Err((field, on_device(what, &format!("{remedy}, or leave [solver] out"))));
+    }
+    let law = arrays::law(&body.material).map(|(law, _)| law).ok_or_else(|| {
+        let what = format!("is \"{}\"", body.material.model);
+        ("material.model", on_device(&what, &format!("write {LAWS}, or leave [solver] out")))
+    })?;
+    Ok((law, scheme))
+}
+
+fn on_device(what: &str, remedy: &str) -> String {
+    format!("{what}, which steps on a graphics device (solver.kind = \"gpu\") do not know; {remedy}")
+}
+
+fn scheme(scene: &Scene) -> Result<Scheme, Refusal> {
+    match scene.time.integrator {
+        Integrator::ExplicitEuler => Ok(Scheme::ExplicitEuler),
+        Integrator::SemiImplicitEuler => Ok(Scheme::SemiImplicitEuler),
+        Integrator::Verlet => Ok(Scheme::Verlet),
+        Integrator::Rk2 => Ok(Scheme::Rk2),
+        Integrator::Rk4 => Ok(Scheme::Rk4),
+        other => {
+            let what = format!("is \"{}\"", other.name());
+            Err(("time.integrator", on_device(&what, "use an explicit method, or leave [solver] out")))
+        }
+    }
+}
+
+/// A key, what is wrong with it, and the remedy.
+type Unknown = (&'static str, &'static str, &'static str);
+
+fn unknown(scene: &Scene, body: &Body) -> Option<Unknown> {
+    let has_curve = |curve: &Option<LoadCurve>| curve.is_some();
+    let has_motion = body.dirichlet.iter().any(|condition| condition.motion.is_some());
+    let is_released = body.dirichlet.iter().any(|condition| condition.until.is_some());
+    let has_stiffness_damping = body.damping.is_some_and(|damping| damping.beta > 0.0);
+    let traction_curve = body.tractions.iter().any(|traction| traction.curve.is_some());
+    let keys: [(&'static str, bool, &'static str, &'static str); 16] = [
+        ("mesh", body.shape.mesh.is_flat(), "is a flat body", "take tetrahedra"),
+        ("materials", !body.regions.is_empty(), "gives the body several materials", "remove the tables"),
+        ("plasticity", body.plasticity.is_some(), "is a flow of the material", "remove the table"),
+        (
+            "mass.lumped",
+            !body.lumped_mass,
+            "is not true, and a consistent mass takes a linear system",
+            "write mass.lumped = true",
+        ),
+        ("gravity.curve", has_curve(&body.gravity_curve), "is a factor of time", "remove it"),
+        ("body_force.curve", has_curve(&body.body_force_curve), "is a factor of time", "remove it"),
+        ("traction", traction_curve, "has a factor of time", "remove its curve"),
+        ("traction", !body.pressures.is_empty(), "has a pressure that follows the surface", "give force_per_area"),
+        ("springs", !body.springs.is_empty(), "are forces between two nodes", "remove the tables"),
+        ("prescribed", has_motion, "is a motion of nodes", "use [fixed]"),
+        ("fixed.until", is_released, "is a time from which nodes are free", "remove it"),
+        ("planes", body.contact.is_some(), "are obstacles", "remove the tables"),
+        ("contact", scene.contact.is_some(), "is a table of obstacles", "remove it"),
+        ("damping.beta", has_stiffness_damping, "is the damping of a stiffness matrix", "give damping.alpha alone"),
+        ("drag", body.drag.is_some(), "is a force that follows a moving target", "remove the table"),
+        ("time.adaptive", scene.time.adaptive.is_some(), "are steps of different lengths", "remove it"),
+    ];
+    keys.into_iter().find(|(_, is_there, ..)| *is_there).map(|(field, _, what, remedy)| (field, what, remedy))
+}

@@ -1,0 +1,79 @@
+//! Environments on the processor: a simulation each.
+
+use fem_scene::simulation::{Failure, Simulation};
+use fem_scene::{Body, Scene, SceneError};
+use rayon::prelude::*;
+
+use super::{EnvironmentFailure, EnvironmentState, Environments, body_of};
+use crate::simulator;
+
+/// Most elements of all environments together, of which each takes a few hundred bytes.
+const MOST_ELEMENTS: usize = 1 << 24;
+
+/// The environments with their simulations.
+pub(super) struct OnProcessor(Vec<OneOf>);
+
+/// An environment.
+struct OneOf {
+    simulation: Box<dyn Simulation>,
+    failure: Option<Failure>,
+}
+
+impl OnProcessor {
+    /// Builds all simulations of a scene.
+    pub(super) fn new(scene: &Scene, body: &Body) -> Result<Self, SceneError> {
+        let (count, elements) = (scene.environments(), body.shape.mesh.elements());
+        let most = (MOST_ELEMENTS / elements.max(1)).max(1);
+        if count > most {
+            let problem = format!(
+                "is {count}, and so many bodies of {elements} elements take too much memory; give {most} at most, or a coarser mesh"
+            );
+            return Err(scene.refuse("batch.count", &problem));
+        }
+        let of = |number: usize| {
+            let environment = scene.environment(number);
+            let simulation = simulator::build(&environment, body_of(&environment, body))?;
+            Ok(OneOf { simulation, failure: None })
+        };
+        (0..count).into_par_iter().map(of).collect::<Result<_, SceneError>>().map(Self)
+    }
+}
+
+impl OneOf {
+    fn advance(&mut self, steps: usize) {
+        for _ in 0..steps {
+            if self.failure.is_some() {
+                return;
+            }
+            self.failure = self.simulation.step().err();
+        }
+    }
+}
+
+impl Environments for OnProcessor {
+    fn advance(&mut self, steps: usize) -> Result<(), String> {
+        self.0.par_iter_mut().for_each(|environment| environment.advance(steps));
+        Ok(())
+    }
+
+    fn state(&mut self, environment: usize) -> Result<EnvironmentState, String> {
+        let simulation = &self.0[environment].simulation;
+        let nodes = |stacked: nalgebra::DVector<f64>| stacked.as_slice().as_chunks::<3>().0.to_vec();
+        Ok(EnvironmentState { positions: nodes(simulation.positions()), velocities: nodes(simulation.velocities()) })
+    }
+
+    fn failures(&mut self) -> Result<Vec<EnvironmentFailure>, String> {
+        let failures = self.0.iter().enumerate().filter_map(|(environment, of)| {
+            let failure = of.failure.clone()?;
+            Some(EnvironmentFailure { environment, failure })
+        });
+        Ok(failures.collect())
+    }
+
+    fn place(&self) -> String {
+        match rayon::current_num_threads() {
+            1 => "one thread of the processor".to_owned(),
+            threads => format!("{threads} threads of the processor"),
+        }
+    }
+}

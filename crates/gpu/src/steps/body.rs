@@ -1,0 +1,98 @@
+//! What bodies on a device are made of: their mesh, what tells environments apart, the law and the method.
+
+use super::Cause;
+
+/// A body of linear tetrahedra, with all that its environments share.
+#[derive(Clone, Debug, Default)]
+pub struct Tetrahedra {
+    /// Nodes of each element.
+    pub corners: Vec<[u32; 4]>,
+    /// Gradients of the shape functions of the last three corners of each element, 1/m.
+    pub gradients: Vec<[[f64; 3]; 3]>,
+    /// Volume of each element, m³.
+    pub volumes: Vec<f64>,
+    /// One over the mass of each node in each direction, 1/kg; zero in constrained ones.
+    pub inverse_masses: Vec<[f64; 3]>,
+    /// Weight of each node, N.
+    pub weights: Vec<[f64; 3]>,
+    /// Other dead loads on each node, N.
+    pub loads: Vec<[f64; 3]>,
+    /// Velocities at the start, m/s; empty for a body at rest.
+    pub velocities: Vec<[f64; 3]>,
+}
+
+impl Tetrahedra {
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.inverse_masses.len()
+    }
+}
+
+/// What tells an environment from others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Environment {
+    /// Parameters of the law, Pa.
+    pub moduli: [f64; 2],
+    /// Factor on the weights.
+    pub weight: f64,
+    /// Factor on the masses.
+    pub density: f64,
+}
+
+/// The constitutive laws that a device knows. Their parameters are μ and λ, or C and D of the neo-Hookean law, Pa.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)] // the names are those of the laws
+pub enum Law {
+    Linear,
+    StVenantKirchhoff,
+    NeoHookean,
+    StableNeoHookean,
+}
+
+impl Law {
+    /// Whether elements may be inverted.
+    pub(crate) fn allows_inversion(self) -> bool {
+        self != Self::NeoHookean
+    }
+
+    pub(crate) fn source(self) -> &'static str {
+        match self {
+            Self::Linear => include_str!("laws/linear.wgsl"),
+            Self::StVenantKirchhoff => include_str!("laws/st_venant_kirchhoff.wgsl"),
+            Self::NeoHookean => include_str!("laws/neo_hookean.wgsl"),
+            Self::StableNeoHookean => include_str!("laws/stable_neo_hookean.wgsl"),
+        }
+    }
+}
+
+/// A time integration method with its step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Method {
+    /// The method.
+    pub scheme: Scheme,
+    /// s
+    pub dt: f64,
+    /// Damping of the mass, the force −α M v, 1/s.
+    pub alpha: f64,
+}
+
+/// Time integration methods.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)] // the names are the field's
+pub enum Scheme {
+    ExplicitEuler,
+    SemiImplicitEuler,
+    Verlet,
+    Rk2,
+    Rk4,
+}
+
+/// What a word of the shader says of a state: see `found` there.
+pub(super) fn cause(found: u32) -> Option<Cause> {
+    const NODE: u32 = 1 << 31;
+    match found {
+        u32::MAX => None,
+        element if element < NODE => Some(Cause::Inverted { element: element as usize }),
+        node => Some(Cause::NotFinite { node: (node - NODE) as usize }),
+    }
+}

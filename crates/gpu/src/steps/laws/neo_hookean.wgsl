@@ -1,0 +1,35 @@
+// Compressible neo-Hookean, ψ = C (Ī − 3) + D (J − 1)², Ī = J^(−2/3) tr(FᵀF): Bonet and Wood, Nonlinear Continuum Mechanics for Finite
+// Element Analysis (2008), §6.5. With y = J^(−1/3), i = I − 3, j = J − 1 and y² − 1 = −j w, near rest no term of first order cancels.
+
+const ALLOWS_INVERSION = false;
+
+// J^(−1/3) for J > 0: twice a step of y (1 − r)^(−1/3) by its series up to r³, r = 1 − J y³, from a power in single precision.
+fn inverse_cube_root(J: real) -> real {
+    var y = real(pow(f32(J), -1.0f / 3.0f));
+    for (var k = 0; k < 2; k++) {
+        let r = real(1.0) - y * y * (J * y);
+        let of_square = real(2.0) / real(9.0) + r * (real(14.0) / real(81.0));
+        y = y + y * (r / real(3.0) + r * r * of_square);
+    }
+    return y;
+}
+
+// P; the moduli are C and D, Pa. The stress of an element with J ≤ 0 means nothing.
+fn stress(G: Tensor, C: real, D: real) -> Tensor {
+    let j = volume_change(G);
+    let J = real(1.0) + j;
+    let y = inverse_cube_root(J);
+    let sum = y * y + y + real(1.0);
+    let inverse = real(1.0) / (J * sum);
+    let trace = trace_of(G);
+    let i = real(2.0) * trace + dot_of(G, G);
+    let w = (y + real(1.0)) * inverse;
+    let two_C = real(2.0) * C;
+    let three = real(3.0);
+    let of_F = -two_C * j * w;
+    let of_cof = two_C * (three * j - i + (three + i) * j * w) * (sum * inverse / three) + real(2.0) * D * j;
+    let F = plus_diagonal(G, real(1.0));
+    let difference = sum_of(sum_of(G, transposed(G)), scaled(real(-1.0), cofactor(G)));
+    let elastic = sum_of(scaled(of_F, F), scaled(of_cof, cofactor(F)));
+    return plus_diagonal(sum_of(elastic, scaled(two_C, difference)), -two_C * trace);
+}
