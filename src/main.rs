@@ -9,6 +9,7 @@ macro_rules! say {
 }
 
 mod demo {
+    pub mod batch;
     pub mod build;
     pub mod checkpoints;
     pub mod cli;

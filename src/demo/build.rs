@@ -71,7 +71,7 @@ pub fn body(scene: &Scene) -> Result<Body, End> {
 }
 
 /// The scene's number of steps; by default that of its load steps if it is static.
-fn steps(scene: &Scene) -> usize {
+pub fn steps(scene: &Scene) -> usize {
     let default = match scene.time.integrator {
         Integrator::Static => scene.method().load_steps,
         _ => DEFAULT_STEPS,

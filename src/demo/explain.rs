@@ -1,14 +1,15 @@
 //! `--explain`: the parts that a scene builds and those that it leaves out.
 
 use fem_scene::simulation::{Part, Simulation, least_stable_substeps};
-use fem_scene::{Body, Integrator, Pipeline, Scene};
+use fem_scene::tables::BatchTable;
+use fem_scene::{Body, Integrator, Pipeline, Scene, SolverKind};
 
 use super::build;
 use super::end::End;
 use super::engine;
 
 /// Largest number of nodes for which the critical time step is computed: it needs the whole body.
-const MOST_NODES: usize = 50_000;
+pub const MOST_NODES: usize = 50_000;
 
 /// Prints a line for every part.
 pub fn print(scene: &Scene) -> Result<(), End> {
@@ -19,7 +20,7 @@ pub fn print(scene: &Scene) -> Result<(), End> {
             let parts = engine::planned_parts(scene, &body)?;
             let moduli = engine::line_of_moduli(&body)?;
             let is_explicit = scene.time.integrator.is_explicit();
-            let stability = is_explicit.then(|| stability(scene, body)).transpose()?;
+            let stability = is_explicit.then(|| stability(scene, &body)).transpose()?;
             (parts, [stability, moduli].into_iter().flatten().collect())
         }
     };
@@ -39,6 +40,9 @@ pub fn print(scene: &Scene) -> Result<(), End> {
         },
     };
     say!("pipeline {pipeline}, {}, {step}", scene.time.integrator.name());
+    if let Some(batch) = &scene.batch {
+        say!("{}", of_batch(scene, batch));
+    }
     for line in lines {
         say!("{line}");
     }
@@ -47,6 +51,16 @@ pub fn print(scene: &Scene) -> Result<(), End> {
         say!("  {word:<10} {:<14} {}", part.name, part.why);
     }
     Ok(())
+}
+
+/// The environments of a batch, each of which has the parts.
+fn of_batch(scene: &Scene, batch: &BatchTable) -> String {
+    let (first, last) = (batch.values(0), batch.values(batch.count - 1));
+    let ranges = first.varied().zip(last.varied());
+    let ranges: String = ranges.map(|((key, from), (_, to))| format!(", {key} from {from} to {to}")).collect();
+    let is_on_device = scene.solver.as_ref().is_some_and(|solver| solver.kind == SolverKind::Gpu);
+    let place = if is_on_device { "the graphics device" } else { "the processor" };
+    format!("batch: {} environments on {place}{ranges}", batch.count)
 }
 
 /// The parts of a scene. Those of the engine are known before anything is built.
@@ -58,11 +72,11 @@ pub fn parts(scene: &Scene) -> Result<Vec<Part>, End> {
 }
 
 /// The critical time step of an explicit method beside the one in use, s.
-fn stability(scene: &Scene, body: Body) -> Result<String, End> {
+fn stability(scene: &Scene, body: &Body) -> Result<String, End> {
     if body.shape.mesh.vertices().len() > MOST_NODES {
         return Ok(format!("critical time step: not computed for more than {MOST_NODES} nodes"));
     }
-    let simulation = engine::build(scene, body)?;
+    let simulation = least_stable(scene, body)?;
     Ok(match simulation.critical_time_step() {
         None => "critical time step: none, as the body has no stiffness".to_owned(),
         Some(0.0) => "critical time step: none, as the method is unstable at any time step without damping".to_owned(),
@@ -70,7 +84,24 @@ fn stability(scene: &Scene, body: Body) -> Result<String, End> {
     })
 }
 
-fn verdict(critical: f64, simulation: &dyn Simulation) -> String {
+/// The simulation of a scene; of a batch, that of its first or last environment, whose critical time step is shorter.
+pub fn least_stable(scene: &Scene, body: &Body) -> Result<Box<dyn Simulation>, End> {
+    let environment = |number: usize| {
+        let environment = scene.environment(number);
+        let body = Body { material: environment.material.clone(), ..body.clone() };
+        engine::build(&environment, body)
+    };
+    let mut simulation = environment(0)?;
+    if scene.environments() > 1 {
+        let last = environment(scene.environments() - 1)?;
+        let is_shorter = last.critical_time_step() < simulation.critical_time_step();
+        simulation = if is_shorter { last } else { simulation };
+    }
+    Ok(simulation)
+}
+
+/// Whether a step is shorter than the critical one, s, and the remedy.
+pub fn verdict(critical: f64, simulation: &dyn Simulation) -> String {
     let substeps = simulation.substeps();
     let (dt, step) = (simulation.dt() / substeps as f64, if substeps == 1 { "dt" } else { "a substep" });
     let verdict =

@@ -57,7 +57,7 @@ pub fn run(ready: Ready, scene: &Scene, arguments: &RunArguments) -> Result<(), 
 }
 
 /// The progress bar; hidden if stderr is not a terminal.
-fn progress_bar(steps: usize) -> ProgressBar {
+pub fn progress_bar(steps: usize) -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:40} step {pos} of {len}, {eta} left").expect("a valid template");
     ProgressBar::new(steps as u64).with_style(style)
 }

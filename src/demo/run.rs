@@ -9,7 +9,7 @@ use fem_scene::{Scene, output};
 use super::build::{Ready, build};
 use super::cli::RunArguments;
 use super::end::End;
-use super::{data, explain, headless, results, window};
+use super::{batch, data, explain, headless, results, window};
 
 /// Runs the scene with the options.
 pub fn run(arguments: &RunArguments) -> Result<(), End> {
@@ -17,6 +17,9 @@ pub fn run(arguments: &RunArguments) -> Result<(), End> {
     let scene = scene_with_overrides(arguments)?;
     if arguments.explain {
         return explain::print(&scene);
+    }
+    if scene.batch.is_some() {
+        return batch::run(&scene, arguments);
     }
     let mut ready = build(&scene)?;
     check_color(arguments.color, &*ready.simulation)?;

@@ -9,6 +9,7 @@ mod agreement;
 mod bad_arguments;
 mod bad_meshes;
 mod bad_scenes;
+mod batch;
 mod driving;
 mod energies;
 mod experiments;

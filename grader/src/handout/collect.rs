@@ -35,6 +35,7 @@ const WHOLE: [&str; 16] = [
 const ENGINES_OWN: [&str; 3] = ["src/demo/study", "docs/reference", "include-docs/methods.md"];
 
 const ENGINE: &str = include_str!("../../handout/engine.rs");
+const BATCH: &str = include_str!("../../handout/batch.rs");
 const STUDY: &str = include_str!("../../handout/study.rs");
 const README: &str = include_str!("../../handout/README.md");
 const PROGRAM: &str = include_str!("../../handout/main.rs");
@@ -82,6 +83,7 @@ fn leave_out_the_engine(files: &mut Files) {
     };
     files.retain(|path, text| !ENGINES_OWN.iter().any(|own| path.starts_with(own)) && !needs_it(path, text));
     files.insert("src/demo/engine.rs".into(), ENGINE.into());
+    files.insert("src/demo/batch.rs".into(), BATCH.into());
     files.insert("src/demo/study.rs".into(), STUDY.into());
 }
 

@@ -43,6 +43,11 @@ trait Environments: Send {
     /// The environments that have failed so far.
     fn failures(&mut self) -> Result<Vec<EnvironmentFailure>, String>;
 
+    /// Steps of all environments together that have not converged.
+    fn unconverged_steps(&self) -> usize {
+        0
+    }
+
     /// Reads from a device so far.
     fn reads(&self) -> usize {
         0
@@ -117,6 +122,11 @@ impl Batch {
             self.failures = Some(self.environments.failures()?);
         }
         Ok(self.failures.as_deref().unwrap_or_default())
+    }
+
+    /// Steps of all environments together that have not converged; zero on a device, which does not look.
+    pub fn unconverged_steps(&self) -> usize {
+        self.environments.unconverged_steps()
     }
 
     /// How often something was read from a graphics device: once for each state, and once for the failures after some steps.

@@ -70,6 +70,10 @@ impl Environments for OnProcessor {
         Ok(failures.collect())
     }
 
+    fn unconverged_steps(&self) -> usize {
+        self.0.iter().map(|environment| environment.simulation.counters().unconverged_steps).sum()
+    }
+
     fn place(&self) -> String {
         match rayon::current_num_threads() {
             1 => "one thread of the processor".to_owned(),

@@ -2,6 +2,7 @@
 
 #![allow(non_snake_case)] // C, D and E are the names that the mathematics and the course use
 
+mod batch;
 mod bodies;
 mod curves;
 mod errors;
