@@ -66,8 +66,10 @@ impl<T: Real> Change<T> {
         let mut has_changed = false;
         for lane in 0..T::WIDTH {
             let allowed = T::of(ROUNDING) * T::EPSILON * self.size.lane(lane);
-            // Not a number fails the comparison.
-            if self.energy.lane(lane) <= allowed || self.in_lane(lane) == [T::default(); 3] {
+            // Not a number fails the comparison. The terms of an infinite change are infinite, too, and allow it nothing.
+            let energy = self.energy.lane(lane);
+            let is_allowed = energy <= allowed && energy.as_f64() < f64::INFINITY;
+            if is_allowed || self.in_lane(lane) == [T::default(); 3] {
                 continue;
             }
             has_changed = true;
@@ -105,5 +107,13 @@ mod tests {
         assert!(change.shorten(true));
         assert_eq!([0, 1, 2, 3].map(|lane| change.in_lane(lane)[2]), [0.5, 1.0, 0.5, 0.0]);
         assert!(!change.shorten(false));
+    }
+
+    #[test]
+    fn a_step_to_an_infinite_energy_is_halved_though_its_terms_are_infinite() {
+        let mut change = Change::<f64>::of([<f64 as Real>::Lanes::one(); 3]);
+        change.add(1, f64::INFINITY, f64::INFINITY);
+        assert!(change.shorten(false));
+        assert_eq!([0, 1].map(|lane| change.in_lane(lane)[0]), [1.0, 0.5]);
     }
 }
