@@ -68,6 +68,23 @@ impl<'a> Program<'a> {
         Ok(Kernel { groups: groups_for(invocations), ..self.kernel(entry, constants, arrays, 1)? })
     }
 
+    /// Kernels of one entry, each with its own arrays and number of invocations.
+    pub(crate) fn kernels_of<'b>(
+        &self,
+        entry: &str,
+        kernels: impl Iterator<Item = (Vec<(u32, &'b Buffer)>, usize)>,
+    ) -> Result<Vec<Kernel>, DeviceError> {
+        let pipeline = self.pipeline(entry, &[]);
+        let bound = kernels.map(|(arrays, invocations)| Kernel {
+            arrays: self.bound(&pipeline, entry, &arrays),
+            groups: groups_for(invocations),
+            pipeline: pipeline.clone(),
+        });
+        let kernels = bound.collect();
+        self.device.check()?;
+        Ok(kernels)
+    }
+
     fn pipeline(&self, entry: &str, constants: &[(&str, f64)]) -> wgpu::ComputePipeline {
         let device = &self.device.device;
         device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -95,6 +112,11 @@ impl<'a> Program<'a> {
 }
 
 impl Kernel {
+    /// Number of its invocations, idle ones included.
+    pub(crate) fn invocations(&self) -> usize {
+        self.groups[0] as usize * self.groups[1] as usize * GROUP
+    }
+
     /// Runs after what ran before it in the pass.
     pub(crate) fn run(&self, pass: &mut ComputePass) {
         pass.set_pipeline(&self.pipeline);

@@ -49,6 +49,8 @@ pub use xpbd::xpbd;
 
 pub use crate::newton::Convergence;
 #[cfg(feature = "gpu")]
+pub(crate) use descent::color_nodes;
+#[cfg(feature = "gpu")]
 pub(crate) use projection::shape;
 
 use fem_scene::simulation::{Cause, Counters, History};

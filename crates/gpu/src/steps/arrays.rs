@@ -53,7 +53,10 @@ impl Arrays {
         let numbers = |values: Vec<f64>| -> Vec<N> { values.into_iter().map(N::of).collect() };
         let (starts, around) = elements_around(body);
         let dt = method.dt;
-        let of_method = vec![dt, method.alpha, 0.0, 0.5 * dt, dt / 6.0, dt / 3.0];
+        let damped = 1.0 / (1.0 + method.alpha * dt);
+        let epsilon = if N::IS_DOUBLE { f64::EPSILON } else { f64::from(f32::EPSILON) };
+        let of_descent = [dt * damped, dt * dt * damped, 1.0 / dt, 1.0 / (dt * dt * damped), epsilon];
+        let of_method = [vec![dt, method.alpha, 0.0, 0.5 * dt, dt / 6.0, dt / 3.0], of_descent.to_vec()].concat();
         let records: Vec<u32> = (0..3 * count).map(|word| if word < 2 * count { 0 } else { u32::MAX }).collect();
         Ok(Self {
             sizes: device.uniform(&[nodes as u32, elements as u32, count as u32, 0])?,
@@ -114,6 +117,12 @@ impl Arrays {
     pub(super) fn keep_trouble(&self, program: &Program, begins: bool) -> Result<Kernel, DeviceError> {
         let bound = [(0, &self.sizes), (11, &self.found), (12, &self.records)];
         program.kernel_of("keep_trouble", &[("begins", f64::from(u8::from(begins)))], &bound, self.environments)
+    }
+
+    /// The look at the state after the last step.
+    pub(super) fn after_last(&self, program: &Program, law: Law) -> Result<Vec<Kernel>, DeviceError> {
+        let look = (!law.allows_inversion()).then(|| self.look(program)).transpose()?;
+        Ok(look.into_iter().chain([self.keep_trouble(program, false)?]).collect())
     }
 
     /// Kernels that read the state of one environment, set it, find the forces of all, and read those of one.

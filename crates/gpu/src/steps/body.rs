@@ -85,6 +85,12 @@ pub enum Scheme {
     Verlet,
     Rk2,
     Rk4,
+    VertexBlockDescent {
+        /// Sweeps over all nodes in a step.
+        sweeps: usize,
+        /// The nodes by colour: those of a colour share no element.
+        colors: Vec<Vec<u32>>,
+    },
 }
 
 /// What a word of the shader says of a state: see `found` there.

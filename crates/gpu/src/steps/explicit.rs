@@ -27,6 +27,7 @@ pub(super) fn kernels<N: Number>(
         Scheme::Verlet => return verlet(program, arrays, &arrays.state::<N>(device, "the accelerations")?),
         Scheme::Rk2 => &MIDPOINT,
         Scheme::Rk4 => &CLASSICAL,
+        Scheme::VertexBlockDescent { .. } => unreachable!("descent has kernels of its own"),
     };
     let [stage_u, stage_v, start_u, start_v] =
         ["a stage's displacements", "its velocities", "a start", "its velocities"]
@@ -39,13 +40,13 @@ pub(super) fn kernels<N: Number>(
         }
         step.push(of_stage(program, arrays, number == 0, stage, of_stages)?);
     }
-    Ok(Kernels { start: Vec::new(), step, end: after_last(program, arrays, law)?, evaluations: stages.len() })
+    Ok(of_steps(step, arrays.after_last(program, law)?))
 }
 
 fn of_one_stage(program: &Program, arrays: &Arrays, law: Law, entry: &str) -> Result<Kernels, DeviceError> {
     let update = program.kernel_of(entry, &[], &with_forces(arrays, true), arrays.all_nodes())?;
     let step = vec![arrays.find_forces(program, &arrays.u, true)?, arrays.keep_trouble(program, true)?, update];
-    Ok(Kernels { start: Vec::new(), step, end: after_last(program, arrays, law)?, evaluations: 1 })
+    Ok(of_steps(step, arrays.after_last(program, law)?))
 }
 
 fn verlet(program: &Program, arrays: &Arrays, a: &Buffer) -> Result<Kernels, DeviceError> {
@@ -57,12 +58,14 @@ fn verlet(program: &Program, arrays: &Arrays, a: &Buffer) -> Result<Kernels, Dev
     let drift = program.kernel_of("verlet_drift", &[], &drifted, arrays.all_nodes())?;
     let kicked = [with_forces(arrays, true), vec![(13, a)]].concat();
     let kick = program.kernel_of("verlet_kick", &[], &kicked, arrays.all_nodes())?;
-    Ok(Kernels {
-        start: vec![find_forces(true)?, start],
-        step: vec![arrays.keep_trouble(program, true)?, drift, find_forces(true)?, kick],
-        end: vec![arrays.keep_trouble(program, false)?],
-        evaluations: 1,
-    })
+    let step = vec![arrays.keep_trouble(program, true)?, drift, find_forces(true)?, kick];
+    let start = vec![find_forces(true)?, start];
+    Ok(Kernels { start, ..of_steps(step, vec![arrays.keep_trouble(program, false)?]) })
+}
+
+/// Steps without sweeps.
+fn of_steps(step: Vec<Kernel>, end: Vec<Kernel>) -> Kernels {
+    Kernels { start: Vec::new(), step, sweep: Vec::new(), sweeps: 0, finish: Vec::new(), end, weight: 1 }
 }
 
 /// A stage of a method of several.
@@ -86,10 +89,4 @@ fn with_forces(arrays: &Arrays, checks: bool) -> Vec<(u32, &Buffer)> {
     let of_forces = [(0, sizes), (3, factors), (4, u), (5, v), (6, forces), (7, starts), (8, around), (9, nodal)];
     let found = checks.then_some((11, found));
     of_forces.into_iter().chain([(10, numbers), (12, records)]).chain(found).collect()
-}
-
-/// The look at the state after the last step.
-fn after_last(program: &Program, arrays: &Arrays, law: Law) -> Result<Vec<Kernel>, DeviceError> {
-    let look = (!law.allows_inversion()).then(|| arrays.look(program)).transpose()?;
-    Ok(look.into_iter().chain([arrays.keep_trouble(program, false)?]).collect())
 }

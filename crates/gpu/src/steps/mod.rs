@@ -4,6 +4,7 @@
 
 mod arrays;
 mod body;
+mod descent;
 mod explicit;
 
 use std::sync::Arc;
@@ -17,7 +18,7 @@ use arrays::Arrays;
 pub use body::{Environment, Law, Method, Scheme, Tetrahedra};
 
 /// Most evaluations of an element in one submission: about a tenth of a second on a slow card, so that no watchdog ends it.
-const MOST_EVALUATIONS: usize = 1 << 24;
+const MOST_WORK: usize = 1 << 24;
 
 /// Most kernels in one submission.
 const MOST_KERNELS: usize = 4096;
@@ -50,12 +51,27 @@ pub enum Cause {
 pub(crate) struct Kernels {
     /// Before the first step.
     pub(crate) start: Vec<Kernel>,
-    /// A step.
+    /// The beginning of a step, or all of it.
     pub(crate) step: Vec<Kernel>,
+    /// A sweep of the step, and the number of sweeps.
+    pub(crate) sweep: Vec<Kernel>,
+    pub(crate) sweeps: usize,
+    /// The end of the step.
+    pub(crate) finish: Vec<Kernel>,
     /// After the last step that was asked for.
     pub(crate) end: Vec<Kernel>,
-    /// Evaluations of each element in a step.
-    pub(crate) evaluations: usize,
+    /// Evaluations of an element by one invocation, about.
+    pub(crate) weight: usize,
+}
+
+impl Kernels {
+    /// The kernels of some steps, which are the first or not.
+    fn of_steps(&self, steps: usize, are_first: bool) -> impl Iterator<Item = &Kernel> {
+        let start = self.start.iter().filter(move |_| are_first);
+        let sweeps = || (0..self.sweeps).flat_map(|_| &self.sweep);
+        let steps = (0..steps).flat_map(move |_| self.step.iter().chain(sweeps()).chain(&self.finish));
+        start.chain(steps).chain(&self.end)
+    }
 }
 
 /// Bodies on a device, in one number type.
@@ -70,7 +86,6 @@ pub struct Bodies<N: Number> {
     landing: Buffer,
     troubles: Buffer,
     nodes: usize,
-    elements: usize,
     environments: usize,
     has_started: bool,
     reads: usize,
@@ -86,9 +101,14 @@ impl<N: Number> Bodies<N> {
         method: &Method,
         environments: &[Environment],
     ) -> Result<Self, DeviceError> {
-        let (nodes, elements, count) = (body.nodes(), body.corners.len(), environments.len());
+        let (nodes, count) = (body.nodes(), environments.len());
         let arrays = Arrays::new::<N>(device, body, method, environments)?;
-        let kernels = explicit::kernels::<N>(device, &arrays, law, method)?;
+        let kernels = match &method.scheme {
+            Scheme::VertexBlockDescent { sweeps, colors } => {
+                descent::kernels::<N>(device, &arrays, law, (*sweeps, colors))?
+            }
+            _ => explicit::kernels::<N>(device, &arrays, law, method)?,
+        };
         let [read_state, set_state, find_forces, read_forces] = arrays.of_states::<N>(device, law)?;
         let mut bodies = Self {
             landing: device.landing((6 * nodes * size_of::<N>()) as u64)?,
@@ -101,7 +121,6 @@ impl<N: Number> Bodies<N> {
             find_forces,
             read_forces,
             nodes,
-            elements,
             environments: count,
             has_started: false,
             reads: 0,
@@ -116,34 +135,28 @@ impl<N: Number> Bodies<N> {
 
     /// Takes steps, and returns when they have ended.
     pub fn advance(&mut self, steps: usize) -> Result<(), DeviceError> {
-        let Self { device, kernels, .. } = self;
-        let work = kernels.evaluations * self.elements * self.environments;
-        let most = (MOST_EVALUATIONS / work.max(1)).min(MOST_KERNELS / kernels.step.len()).max(1);
-        let (mut left, mut before) = (steps, None);
-        while left > 0 {
-            let now = left.min(most);
-            left -= now;
-            let mut commands = device.commands();
-            {
-                let mut pass = commands.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                if !self.has_started {
-                    kernels.start.iter().for_each(|kernel| kernel.run(&mut pass));
-                    self.has_started = true;
-                }
-                for _ in 0..now {
-                    kernels.step.iter().for_each(|kernel| kernel.run(&mut pass));
-                }
-                if left == 0 {
-                    kernels.end.iter().for_each(|kernel| kernel.run(&mut pass));
-                }
-            }
-            let sent = device.submit(commands)?;
-            // One submission waits while another runs: the device is never idle, and its queue never long.
-            if let Some(index) = before.replace(sent) {
-                device.wait(index)?;
+        if steps == 0 {
+            return Ok(());
+        }
+        let (mut together, mut work, mut before) = (Vec::new(), 0, None);
+        for kernel in self.kernels.of_steps(steps, !self.has_started) {
+            together.push(kernel);
+            work += kernel.invocations();
+            if work * self.kernels.weight >= MOST_WORK || together.len() >= MOST_KERNELS {
+                self.send(&mut together, &mut before)?;
+                work = 0;
             }
         }
-        before.map_or(Ok(()), |index| device.wait(index))
+        self.send(&mut together, &mut before)?;
+        self.has_started = true;
+        before.map_or(Ok(()), |index| self.device.wait(index))
+    }
+
+    /// Sends kernels while those before them run: the device is never idle, and its queue never long.
+    fn send(&self, together: &mut Vec<&Kernel>, before: &mut Option<wgpu::SubmissionIndex>) -> Result<(), DeviceError> {
+        let sent = self.run(together)?;
+        together.clear();
+        before.replace(sent).map_or(Ok(()), |index| self.device.wait(index))
     }
 
     /// Displacements (m) and velocities (m/s) of the nodes of an environment now. They mean nothing for one with a trouble.

@@ -4,7 +4,7 @@ use fem_gpu::{Environment, Law, Tetrahedra};
 use fem_scene::{Body, BodyMesh, Material, Scene};
 
 use crate::forces::{Moment, dead_load};
-use crate::integrators::shape;
+use crate::integrators::{color_nodes, shape};
 use crate::materials::AnyLaw;
 use crate::model::system::System;
 
@@ -53,6 +53,14 @@ pub(super) fn tetrahedra(system: &System<f64>, body: &Body) -> Tetrahedra {
         velocities,
         corners,
     }
+}
+
+/// The nodes of a body by colour, those of vertex block descent on the processor.
+pub(super) fn colors(system: &System<f64>, body: &Body) -> Vec<Vec<u32>> {
+    let BodyMesh::Solid(mesh) = &body.shape.mesh else { unreachable!("flat bodies are refused") };
+    let corners = system.numbering.elements(&mesh.elements);
+    let cliques: Vec<&[u32]> = corners.iter().map(|corners| &corners[..]).collect();
+    color_nodes(system.nodes(), &cliques)
 }
 
 /// Dead loads of a body on its nodes, N.

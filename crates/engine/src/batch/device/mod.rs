@@ -5,7 +5,7 @@ mod refusals;
 
 use std::sync::Arc;
 
-use fem_gpu::{Bodies, DeviceError, Environment, Method as DeviceMethod, Number};
+use fem_gpu::{Bodies, DeviceError, Environment, Method as DeviceMethod, Number, Scheme};
 use fem_scene::simulation::{Cause, Failure};
 use fem_scene::{Body, Method, Precision, Scene, SceneError};
 use nalgebra::Vector3;
@@ -41,9 +41,12 @@ impl<N: Number> OnDevice<N> {
     fn new(scene: &Scene, body: &Body) -> Result<Self, SceneError> {
         let refuse = |(field, problem): (&str, String)| scene.refuse(field, &problem);
         let method = scene.method();
-        let (law, scheme) = refusals::check(scene, body).map_err(refuse)?;
+        let (law, mut scheme) = refusals::check(scene, body).map_err(refuse)?;
         let system =
             System::<f64>::without_matrix(body, AnyLaw::<<f64 as Real>::Lanes>::new(&body.material), &|_| Vec::new());
+        if let Scheme::VertexBlockDescent { colors, .. } = &mut scheme {
+            *colors = arrays::colors(&system, body);
+        }
         let environments: Vec<Environment> =
             (0..scene.environments()).map(|number| arrays::environment(scene, number)).collect();
         let failed = |error: &DeviceError| match error {

@@ -9,7 +9,7 @@ use crate::refusal::Refusal;
 /// The laws of the device, for messages.
 const LAWS: &str = "linear, st_venant_kirchhoff, neo_hookean or stable_neo_hookean";
 
-/// The law and the method of a scene. Returns the first key that the device does not know, with a remedy.
+/// The law and the method of a scene; the nodes of vertex block descent are still without colours. Returns the first key that the device does not know, with a remedy.
 pub(super) fn check(scene: &Scene, body: &Body) -> Result<(Law, Scheme), Refusal> {
     let scheme = scheme(scene)?;
     if let Some((field, what, remedy)) = unknown(scene, body) {
@@ -33,9 +33,12 @@ fn scheme(scene: &Scene) -> Result<Scheme, Refusal> {
         Integrator::Verlet => Ok(Scheme::Verlet),
         Integrator::Rk2 => Ok(Scheme::Rk2),
         Integrator::Rk4 => Ok(Scheme::Rk4),
+        Integrator::Vbd => {
+            Ok(Scheme::VertexBlockDescent { sweeps: scene.method().iterations.count, colors: Vec::new() })
+        }
         other => {
             let what = format!("is \"{}\"", other.name());
-            Err(("time.integrator", on_device(&what, "use an explicit method, or leave [solver] out")))
+            Err(("time.integrator", on_device(&what, "use an explicit method or vbd, or leave [solver] out")))
         }
     }
 }
@@ -49,7 +52,9 @@ fn unknown(scene: &Scene, body: &Body) -> Option<Unknown> {
     let is_released = body.dirichlet.iter().any(|condition| condition.until.is_some());
     let has_stiffness_damping = body.damping.is_some_and(|damping| damping.beta > 0.0);
     let traction_curve = body.tractions.iter().any(|traction| traction.curve.is_some());
-    let keys: [(&'static str, bool, &'static str, &'static str); 16] = [
+    let iterations = scene.method().iterations;
+    let is_accelerated = iterations.acceleration.is_some_and(|radius| radius > 0.0);
+    let keys: [(&'static str, bool, &'static str, &'static str); 18] = [
         ("mesh", body.shape.mesh.is_flat(), "is a flat body", "take tetrahedra"),
         ("materials", !body.regions.is_empty(), "gives the body several materials", "remove the tables"),
         ("plasticity", body.plasticity.is_some(), "is a flow of the material", "remove the table"),
@@ -70,6 +75,8 @@ fn unknown(scene: &Scene, body: &Body) -> Option<Unknown> {
         ("contact", scene.contact.is_some(), "is a table of obstacles", "remove it"),
         ("damping.beta", has_stiffness_damping, "is the damping of a stiffness matrix", "give damping.alpha alone"),
         ("drag", body.drag.is_some(), "is a force that follows a moving target", "remove the table"),
+        ("iterations.tolerance", iterations.tolerance.is_some(), "may end a step early", "give iterations.count alone"),
+        ("iterations.acceleration", is_accelerated, "is the radius of Chebyshev acceleration", "remove it"),
         ("time.adaptive", scene.time.adaptive.is_some(), "are steps of different lengths", "remove it"),
     ];
     keys.into_iter().find(|(_, is_there, ..)| *is_there).map(|(field, _, what, remedy)| (field, what, remedy))

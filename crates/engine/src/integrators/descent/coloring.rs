@@ -1,7 +1,7 @@
 //! Colours of nodes: those of one colour share no element and no spring.
 
 /// Groups the nodes by colour: each node has the first colour that none of its neighbours has. Nodes of a colour ascend.
-pub(super) fn color_nodes(nodes: usize, cliques: &[&[u32]]) -> Vec<Vec<u32>> {
+pub(crate) fn color_nodes(nodes: usize, cliques: &[&[u32]]) -> Vec<Vec<u32>> {
     let (starts, around) = cliques_of_nodes(nodes, cliques);
     let mut colors: Vec<Vec<u32>> = Vec::new();
     let mut of_node = vec![u32::MAX; nodes];

@@ -21,4 +21,6 @@ mod slot;
 mod solve;
 mod sums;
 
+#[cfg(feature = "gpu")]
+pub(crate) use coloring::color_nodes;
 pub use method::Descent;

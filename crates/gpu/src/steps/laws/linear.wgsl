@@ -4,5 +4,17 @@ const ALLOWS_INVERSION = true;
 
 // P; the moduli are μ and λ, Pa.
 fn stress(G: Tensor, mu: real, lambda: real) -> Tensor {
-    return plus_diagonal(scaled(mu, sum_of(G, transposed(G))), lambda * trace_of(G));
+    return hooke_stress(G, mu, lambda);
+}
+
+fn energy(G: Tensor, mu: real, lambda: real) -> real {
+    return hooke_energy(G, mu, lambda);
+}
+
+fn block(G: Tensor, gradient: vector, mu: real, lambda: real) -> Block {
+    return hooke_block(gradient, mu, lambda);
+}
+
+fn lame(mu: real, lambda: real) -> array<real, 2> {
+    return array<real, 2>(mu, lambda);
 }

@@ -33,3 +33,42 @@ fn stress(G: Tensor, C: real, D: real) -> Tensor {
     let elastic = sum_of(scaled(of_F, F), scaled(of_cof, cofactor(F)));
     return plus_diagonal(sum_of(elastic, scaled(two_C, difference)), -two_C * trace);
 }
+
+// C (Ī − 3) + D j², where Ī − 3 = G:G − 2 (tr cof G + det G) − 3j (w − 2/3) − j w i; beyond all others where J ≤ 0.
+fn energy(G: Tensor, C: real, D: real) -> real {
+    let second_order = second_order_volume_change(G);
+    let j = trace_of(G) + second_order;
+    let J = real(1.0) + j;
+    if !(J > real(0.0)) { return real(1e30); }
+    let y = inverse_cube_root(J);
+    let inverse = real(1.0) / (J * (y * y + y + real(1.0)));
+    let squares = dot_of(G, G);
+    let i = real(2.0) * trace_of(G) + squares;
+    let two = real(2.0);
+    let three = real(3.0);
+    let e = -j * inverse;
+    let w_change = (three * e - real(6.0) * (j + J * e) - two * J * e * e) * (inverse / three);
+    let w = (y + real(1.0)) * inverse;
+    return C * (squares - two * second_order - three * j * w_change - j * w * i) + D * j * j;
+}
+
+// a |g|² 1 + t (f⊗c + c⊗f) + r c⊗c, f = F g, c = cof F g: the terms of the second derivatives of Ī and (J − 1)².
+fn block(G: Tensor, gradient: vector, C: real, D: real) -> Block {
+    let F = plus_diagonal(G, real(1.0));
+    let J = real(1.0) + volume_change(G);
+    let y = inverse_cube_root(J);
+    let over_J = real(1.0) / J;
+    let g0 = y * y;
+    let g1 = real(-2.0) / real(3.0) * g0 * over_J;
+    let g2 = real(-5.0) / real(3.0) * g1 * over_J;
+    let two = real(2.0);
+    let c = times(cofactor(F), gradient);
+    let along = diagonal_block(two * C * g0 * inner(gradient, gradient));
+    let mixed = plus_mixed(along, two * C * g1, times(F, gradient), c);
+    return plus_outer(mixed, C * dot_of(F, F) * g2 + two * D, c);
+}
+
+// Lamé's constants of small strain: the shear modulus is 2C, the bulk modulus 2D.
+fn lame(C: real, D: real) -> array<real, 2> {
+    return array<real, 2>(real(2.0) * C, real(2.0) * D - real(4.0) * C / real(3.0));
+}

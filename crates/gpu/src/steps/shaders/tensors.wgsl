@@ -92,3 +92,38 @@ fn is_finite(x: real) -> bool {
 fn all_finite(a: vector) -> bool {
     return is_finite(a.x) && is_finite(a.y) && is_finite(a.z);
 }
+
+// A symmetric 3×3 matrix: its diagonal, and its entries xy, xz and yz.
+struct Block {
+    diagonal: vector,
+    off: vector,
+}
+
+fn diagonal_block(s: real) -> Block {
+    return Block(vector(s, s, s), vector(real(0.0), real(0.0), real(0.0)));
+}
+
+// block + s a⊗a
+fn plus_outer(block: Block, s: real, a: vector) -> Block {
+    return Block(block.diagonal + s * a * a, block.off + s * vector(a.x * a.y, a.x * a.z, a.y * a.z));
+}
+
+// block + t (a⊗b + b⊗a)
+fn plus_mixed(block: Block, t: real, a: vector, b: vector) -> Block {
+    let off = vector(a.x * b.y + a.y * b.x, a.x * b.z + a.z * b.x, a.y * b.z + a.z * b.y);
+    return Block(block.diagonal + real(2.0) * t * a * b, block.off + t * off);
+}
+
+// Hooke's law for small strain, with Lamé's constants μ and λ: stress, energy density, and the block Σ_jl H_(ij)(kl) g_j g_l of its
+// derivative.
+fn hooke_stress(G: Tensor, mu: real, lambda: real) -> Tensor {
+    return plus_diagonal(scaled(mu, sum_of(G, transposed(G))), lambda * trace_of(G));
+}
+
+fn hooke_energy(G: Tensor, mu: real, lambda: real) -> real {
+    return real(0.5) * dot_of(G, hooke_stress(G, mu, lambda));
+}
+
+fn hooke_block(gradient: vector, mu: real, lambda: real) -> Block {
+    return plus_outer(diagonal_block(mu * inner(gradient, gradient)), mu + lambda, gradient);
+}
