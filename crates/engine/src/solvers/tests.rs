@@ -181,6 +181,21 @@ fn multigrid_takes_few_more_iterations_on_a_finer_mesh() {
     assert!(iterations[0] < 40 && 2 * iterations[1] < 3 * iterations[0], "{iterations:?}");
 }
 
+/// The beam of 20 cells per metre has 1360 aggregates, which are aggregated in turn; those of 10 cells per metre are not.
+#[test]
+fn a_further_level_of_multigrid_takes_few_more_iterations() {
+    let iterations = [10, 20].map(|cells| {
+        let (beam, mut solver) = beam::<f64>(SolverChoice::Pcg(Preconditioner::Multigrid), cells);
+        let values = beam.scaled(|_| 1.0, 0.0);
+        let mut b = vec![[0.0; 3]; beam.pattern.rows()];
+        beam.rest.iter().zip(&mut b).filter(|(x, _)| x[0] == 4.0).for_each(|(_, b)| b[2] = -1.0);
+        let mut x = vec![[0.0; 3]; b.len()];
+        solver.prepare(&values).unwrap();
+        solver.solve(&values, &b, &mut x, 1e-12).unwrap()
+    });
+    assert!(iterations[1] <= iterations[0] + 4, "{iterations:?}");
+}
+
 #[test]
 fn every_choice_says_whether_it_has_a_preconditioner_and_names_it() {
     for choice in CHOICES {

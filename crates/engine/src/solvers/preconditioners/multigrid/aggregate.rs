@@ -5,14 +5,18 @@ use super::blocks::Blocks;
 /// Marks a node without an aggregate.
 const NONE: u32 = u32::MAX;
 
-/// The aggregate of each node, and the number of aggregates. First whole neighbourhoods become aggregates, then each remaining
-/// node joins an adjacent one (Vaněk, Mandel and Brezina, Algebraic Multigrid by Smoothed Aggregation for Second and Fourth
-/// Order Elliptic Problems, 1996).
-pub fn aggregate<const D: usize>(A: &Blocks<D, D>) -> (Vec<u32>, usize) {
+/// Coarse nodes of an aggregate in its first pass. A coarse matrix couples a node with three or four times as many, and aggregates of
+/// all of them would leave too few nodes for the motions of the next level: the cycle would need more iterations with each level.
+const COARSE_NEIGHBOURS: usize = 8;
+
+/// The aggregate of each node, and the number of aggregates, from the pattern of A and the positions of its nodes. First whole
+/// neighbourhoods become aggregates, then each remaining node joins an adjacent one (Vaněk, Mandel and Brezina, Algebraic Multigrid by
+/// Smoothed Aggregation for Second and Fourth Order Elliptic Problems, 1996), or becomes one of its own if there is none.
+pub fn aggregate<const D: usize>(A: &Blocks<D, D>, positions: &[[f32; 3]]) -> (Vec<u32>, usize) {
     let mut aggregates = vec![NONE; A.rows()];
     let mut count = 0;
     for node in 0..A.rows() {
-        let neighbours = A.row(node).0;
+        let neighbours = neighbours(A, node, positions);
         if neighbours.iter().all(|&other| aggregates[other as usize] == NONE) {
             neighbours.iter().for_each(|&other| aggregates[other as usize] = count);
             count += 1;
@@ -21,12 +25,26 @@ pub fn aggregate<const D: usize>(A: &Blocks<D, D>) -> (Vec<u32>, usize) {
     // Nodes join aggregates of the first pass only, so that no aggregate grows across the body.
     let first = aggregates.clone();
     for node in 0..A.rows() {
-        let near = A.row(node).0.iter().map(|&other| first[other as usize]).find(|&near| near != NONE);
-        if let (NONE, Some(near)) = (aggregates[node], near) {
-            aggregates[node] = near;
+        let adjacent = || neighbours(A, node, positions).into_iter().chain(A.row(node).0.iter().copied());
+        if aggregates[node] == NONE {
+            let near = adjacent().map(|other| first[other as usize]).find(|&near| near != NONE);
+            aggregates[node] = near.unwrap_or(count);
+            count += u32::from(near.is_none());
         }
     }
     (aggregates, count as usize)
+}
+
+/// The node and the nodes that an aggregate takes with it: all adjacent ones on the finest level, the nearest on the others.
+fn neighbours<const D: usize>(A: &Blocks<D, D>, node: usize, positions: &[[f32; 3]]) -> Vec<u32> {
+    let mut neighbours = A.row(node).0.to_vec();
+    if D > 3 && neighbours.len() > COARSE_NEIGHBOURS {
+        let squared_distance =
+            |&other: &u32| (0..3).map(|i| (positions[other as usize][i] - positions[node][i]).powi(2)).sum::<f32>();
+        neighbours.sort_by(|a, b| squared_distance(a).total_cmp(&squared_distance(b)).then(a.cmp(b)));
+        neighbours.truncate(COARSE_NEIGHBOURS);
+    }
+    neighbours
 }
 
 /// Mean position of the nodes of each aggregate.

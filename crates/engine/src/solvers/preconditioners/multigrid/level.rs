@@ -44,7 +44,7 @@ impl<const D: usize> Level<D> {
     /// From the pattern of A and the positions of its nodes: the level, the pattern of the coarse matrix and the coarse
     /// positions.
     pub fn new(A: Blocks<D, D>, positions: &[[f32; 3]]) -> (Self, Blocks<6, 6>, Vec<[f32; 3]>) {
-        let (aggregates, count) = aggregate(&A);
+        let (aggregates, count) = aggregate(&A, positions);
         let coarse_positions = centres(&aggregates, count, positions);
         let rigid = rigid(&aggregates, &coarse_positions, positions);
         let P = Blocks::product(&A, &rigid);
