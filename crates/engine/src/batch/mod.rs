@@ -32,7 +32,7 @@ pub struct EnvironmentFailure {
     pub failure: Failure,
 }
 
-/// Where the environments of a batch step.
+/// The environments of a batch, on the processor or on a device.
 trait Environments: Send {
     /// Takes steps.
     fn advance(&mut self, steps: usize) -> Result<(), String>;

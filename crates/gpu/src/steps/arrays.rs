@@ -6,7 +6,7 @@ use super::{Environment, Law, Method, Tetrahedra};
 use crate::program::{Kernel, Program};
 use crate::{Device, DeviceError, Number};
 
-/// What the kernels of all methods share: tensors, the law, the forces.
+/// Shader functions that the kernels of all methods call: tensors, the law, the forces.
 pub(super) fn source(law: Law, rest: &str) -> String {
     let [tensors, bodies] = [include_str!("shaders/tensors.wgsl"), include_str!("shaders/bodies.wgsl")];
     [tensors, law.source(), bodies, rest].join("\n")

@@ -1,4 +1,4 @@
-//! What bodies on a device are made of: their mesh, what tells environments apart, the law and the method.
+//! The data of a batch on a device: mesh, masses and loads of a body, the parameters of each environment, the law and the method.
 
 use super::Cause;
 
@@ -28,7 +28,7 @@ impl Tetrahedra {
     }
 }
 
-/// What tells an environment from others.
+/// The parameters of one environment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Environment {
     /// Parameters of the law, Pa.
@@ -93,7 +93,7 @@ pub enum Scheme {
     },
 }
 
-/// What a word of the shader says of a state: see `found` there.
+/// Decodes the number in which a shader reports an inverted element or a value that is not finite: see `found` there.
 pub(super) fn cause(found: u32) -> Option<Cause> {
     const NODE: u32 = 1 << 31;
     match found {

@@ -28,11 +28,11 @@ const MOST_KERNELS: usize = 4096;
 pub struct Trouble {
     /// The step after which it was found, from 1.
     pub step: usize,
-    /// What was found.
+    /// Inverted element, or number that is not finite.
     pub cause: Cause,
 }
 
-/// What is wrong with a state.
+/// The reason for which a state is of no use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
     /// The place or velocity of this node is not finite; it is the first such node.
