@@ -38,6 +38,7 @@ pub fn run(scene: &Scene, arguments: &RunArguments) -> Result<(), End> {
     }
     let seconds = start.elapsed().as_secs_f64();
     bar.finish_and_clear();
+    batch.check_ends().map_err(End::Stopped)?;
     print_speed(scene, &mut batch, seconds)?;
     if let Some(path) = &arguments.state {
         let (time, count) = (batch.time(), batch.count());

@@ -5,6 +5,7 @@ mod checkpoint;
 mod compiled;
 mod contact;
 mod divergence;
+mod foreign_end;
 mod integrator;
 mod iterated_check;
 mod parts;

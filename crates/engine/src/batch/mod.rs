@@ -43,6 +43,11 @@ trait Environments: Send {
     /// The environments that have failed so far.
     fn failures(&mut self) -> Result<Vec<EnvironmentFailure>, String>;
 
+    /// Judges the states now, where steps are not judged one by one.
+    fn check_ends(&mut self) -> Result<(), String> {
+        Ok(())
+    }
+
     /// Steps of all environments together that have not converged.
     fn unconverged_steps(&self) -> usize {
         0
@@ -124,7 +129,16 @@ impl Batch {
         Ok(self.failures.as_deref().unwrap_or_default())
     }
 
-    /// Steps of all environments together that have not converged; zero on a device, which does not look.
+    /// Judges the end of a run. On the processor each step has been judged. A device looks for no energies: here all its states are read, and
+    /// each is taken through one more step on the processor, which compares the energy with what loads and the start have supplied. A
+    /// motion that has grown without bound is then among the [`failures`](Self::failures), and a step that ends far from its solution
+    /// among the [`unconverged_steps`](Self::unconverged_steps). Returns an error if the device is lost.
+    pub fn check_ends(&mut self) -> Result<(), String> {
+        self.failures = None;
+        self.environments.check_ends()
+    }
+
+    /// Steps of all environments together that have not converged; on a device those that [`check_ends`](Self::check_ends) has found.
     pub fn unconverged_steps(&self) -> usize {
         self.environments.unconverged_steps()
     }

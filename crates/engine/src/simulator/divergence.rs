@@ -121,6 +121,12 @@ impl<T: Real> SuppliedEnergy<T> {
         !is_supplied
     }
 
+    /// Takes the energies of the state before the first step.
+    pub(super) fn start_at(&mut self, system: &System<T>, start: &State<T>, dt: f64) {
+        let moment = Moment::at(start.time + dt);
+        self.start = Some((energy(system, start, moment), steady_potential(system, &start.u, moment)));
+    }
+
     /// Adds the work of a step that is not known from the displacements alone.
     fn add_work(
         &mut self,
@@ -131,8 +137,7 @@ impl<T: Real> SuppliedEnergy<T> {
         dt: f64,
     ) {
         if self.start.is_none() {
-            let moment = Moment::at(before.time + dt);
-            self.start = Some((energy(system, before, moment), steady_potential(system, &before.u, moment)));
+            self.start_at(system, before, dt);
         }
         self.work += self.work_of_loads(system, before, state, dt);
         if system.dirichlet.has_motion() {

@@ -4,7 +4,7 @@ use fem_engine::batch::Batch;
 use fem_scene::parse;
 use fem_scene::simulation::Cause;
 
-const BEAM: &str = r#"pipeline = "engine"
+pub(crate) const BEAM: &str = r#"pipeline = "engine"
 [mesh]
 box = { size = [2, 1, 1], cells_per_unit = 2 }
 [material]
@@ -31,7 +31,7 @@ integrator = "METHOD"
 const METHODS: [&str; 5] = ["explicit_euler", "semi_implicit_euler", "verlet", "rk2", "rk4"];
 
 /// Stiffness, density and weight that differ.
-const VARIED: &str = r#"[batch]
+pub(crate) const VARIED: &str = r#"[batch]
 count = 5
 [batch.vary]
 young = { from = 1e5, to = 4e5, spacing = "geometric" }
@@ -39,8 +39,10 @@ density = { from = 800, to = 1200 }
 gravity = { from = 0.5, to = 2 }
 "#;
 
+pub(crate) const ONE: &str = "[batch]\ncount = 1\n";
+
 /// A batch; `None`, after one line, where there is no device for it.
-fn batch(text: &str) -> Option<Batch> {
+pub(crate) fn batch(text: &str) -> Option<Batch> {
     match build(text) {
         Ok(batch) => Some(batch),
         Err(error) if error.contains("no graphics adapter") || error.contains("double precision") => {
@@ -51,13 +53,13 @@ fn batch(text: &str) -> Option<Batch> {
     }
 }
 
-fn build(text: &str) -> Result<Batch, String> {
+pub(crate) fn build(text: &str) -> Result<Batch, String> {
     let scene = parse(text, "batch.toml".as_ref()).map_err(|error| error.to_string())?;
     let body = fem_scene::body(&scene, "no data".as_ref()).map_err(|error| error.to_string())?;
     Batch::new(&scene, body).map_err(|error| error.to_string())
 }
 
-fn gpu(precision: &str) -> String {
+pub(crate) fn gpu(precision: &str) -> String {
     format!("[solver]\nkind = \"gpu\"\nprecision = \"{precision}\"\n")
 }
 

@@ -10,11 +10,12 @@ use fem_scene::simulation::{Cause, Failure};
 use fem_scene::{Body, Method, Precision, Scene, SceneError};
 use nalgebra::Vector3;
 
-use super::{EnvironmentFailure, EnvironmentState, Environments};
+use super::{EnvironmentFailure, EnvironmentState, Environments, body_of};
 use crate::materials::AnyLaw;
 use crate::model::numbering::Numbering;
 use crate::model::system::System;
 use crate::number::Real;
+use crate::simulator::{Compiled, Simulator};
 use crate::solvers::open_device;
 
 /// Builds the environments of a scene on the device in a precision.
@@ -34,7 +35,12 @@ struct OnDevice<N: Number> {
     rest: Vec<Vector3<f64>>,
     /// Nodes of the elements in the mesh's numbering.
     body: Body,
+    scene: Scene,
     method: Method,
+    /// Steps so far.
+    steps: usize,
+    /// The end of each environment, if it was judged after the last step.
+    ends: Vec<Option<Result<bool, Failure>>>,
 }
 
 impl<N: Number> OnDevice<N> {
@@ -67,7 +73,10 @@ impl<N: Number> OnDevice<N> {
             numbering: system.numbering,
             rest: body.shape.mesh.vertices().to_vec(),
             body: body.clone(),
+            scene: scene.clone(),
             method,
+            steps: 0,
+            ends: Vec::new(),
         })
     }
 
@@ -97,22 +106,65 @@ impl<N: Number> OnDevice<N> {
     fn all_failures(&mut self) -> Result<Vec<EnvironmentFailure>, DeviceError> {
         let troubles = self.bodies.troubles()?.into_iter().enumerate();
         let troubled = troubles.filter_map(|(environment, trouble)| Some((environment, trouble?)));
-        troubled.map(|(environment, trouble)| self.failure(environment, trouble)).collect()
+        let mut failures: Vec<_> =
+            troubled.map(|(environment, trouble)| self.failure(environment, trouble)).collect::<Result<_, _>>()?;
+        failures.extend(self.ends.iter().enumerate().filter_map(|(environment, end)| match end {
+            Some(Err(failure)) => Some(EnvironmentFailure { environment, failure: failure.clone() }),
+            _ => None,
+        }));
+        failures.sort_by_key(|failure| failure.environment);
+        Ok(failures)
+    }
+
+    /// Displacements, m, and velocities, m/s, of an environment in the mesh's numbering.
+    fn motion(&mut self, environment: usize) -> Result<[Vec<[f64; 3]>; 2], DeviceError> {
+        let vectors = self.bodies.state(environment)?;
+        let in_mesh = |vector: Vec<[N; 3]>| self.numbering.to_mesh(&vector).into_iter().map(|x| x.map(N::as_f64));
+        Ok(vectors.map(|vector| in_mesh(vector).collect()))
+    }
+
+    /// Takes one more step on the processor from the end of an environment.
+    fn step_on_processor(&mut self, environment: usize) -> Result<Result<bool, Failure>, String> {
+        let [u, v] = self.motion(environment).map_err(lost)?;
+        let mut scene = self.scene.environment(environment);
+        scene.solver = None;
+        let body = body_of(&scene, &self.body);
+        Ok(match self.method.precision {
+            Precision::F64 => end::<f64>(&scene, body, (self.steps, &u, &v))?,
+            Precision::F32 => end::<f32>(&scene, body, (self.steps, &u, &v))?,
+        })
     }
 }
 
 impl<N: Number> Environments for OnDevice<N> {
     fn advance(&mut self, steps: usize) -> Result<(), String> {
+        self.ends.clear();
+        self.steps += steps;
         self.bodies.advance(steps * self.method.substeps).map_err(lost)
     }
 
     fn state(&mut self, environment: usize) -> Result<EnvironmentState, String> {
-        let [u, v] = self.bodies.state(environment).map_err(lost)?;
-        let in_mesh = |vectors: &[[N; 3]]| -> Vec<[f64; 3]> {
-            self.numbering.to_mesh(vectors).into_iter().map(|vector| vector.map(N::as_f64)).collect()
-        };
-        let positions = self.rest.iter().zip(in_mesh(&u)).map(|(X, u)| [0, 1, 2].map(|i| X[i] + u[i]));
-        Ok(EnvironmentState { positions: positions.collect(), velocities: in_mesh(&v) })
+        let [u, velocities] = self.motion(environment).map_err(lost)?;
+        let positions = self.rest.iter().zip(u).map(|(X, u)| [0, 1, 2].map(|i| X[i] + u[i]));
+        Ok(EnvironmentState { positions: positions.collect(), velocities })
+    }
+
+    fn check_ends(&mut self) -> Result<(), String> {
+        let failed = self.failures()?;
+        let has_failed = |environment| failed.iter().any(|failure| failure.environment == environment);
+        let ends = (0..self.scene.environments()).map(|environment| {
+            if self.steps == 0 || has_failed(environment) {
+                Ok(None)
+            } else {
+                self.step_on_processor(environment).map(Some)
+            }
+        });
+        self.ends = ends.collect::<Result<_, String>>()?;
+        Ok(())
+    }
+
+    fn unconverged_steps(&self) -> usize {
+        self.ends.iter().filter(|end| matches!(end, Some(Ok(false)))).count()
     }
 
     fn failures(&mut self) -> Result<Vec<EnvironmentFailure>, String> {
@@ -130,4 +182,14 @@ impl<N: Number> Environments for OnDevice<N> {
 
 fn lost(error: DeviceError) -> String {
     format!("{error}; use fewer environments, or leave solver.kind = \"gpu\" out")
+}
+
+/// One step on the processor from displacements and velocities after so many steps; whether it has converged.
+fn end<T: Compiled>(
+    scene: &Scene,
+    body: Body,
+    (steps, u, v): (usize, &[[f64; 3]], &[[f64; 3]]),
+) -> Result<Result<bool, Failure>, String> {
+    let mut simulator = Simulator::<T>::new(scene, body).map_err(|error| error.to_string())?;
+    Ok(simulator.step_from(steps, u, v))
 }
