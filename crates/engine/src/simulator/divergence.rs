@@ -124,7 +124,9 @@ impl<T: Real> SuppliedEnergy<T> {
     /// Takes the energies of the state before the first step.
     pub(super) fn start_at(&mut self, system: &System<T>, start: &State<T>, dt: f64) {
         let moment = Moment::at(start.time + dt);
-        self.start = Some((energy(system, start, moment), steady_potential(system, &start.u, moment)));
+        let supplied = energy(system, start, moment);
+        self.start = Some((supplied, steady_potential(system, &start.u, moment)));
+        self.largest = self.largest.max(supplied);
     }
 
     /// Adds the work of a step that is not known from the displacements alone.
