@@ -111,7 +111,7 @@ fn every_explicit_method_ends_where_it_ends_on_the_processor() {
 #[test]
 fn other_laws_and_substeps_end_where_they_end_on_the_processor() {
     let text = BEAM.replace("METHOD", "verlet").replace("dt = 2e-3", "dt = 8e-3\nsubsteps = 4");
-    for law in ["linear", "st_venant_kirchhoff", "stable_neo_hookean"] {
+    for law in ["linear", "corotated", "st_venant_kirchhoff", "stable_neo_hookean"] {
         println!("{law}");
         compare(&text.replace("neo_hookean", law), "f64", 12, 1e-11);
     }
@@ -120,7 +120,7 @@ fn other_laws_and_substeps_end_where_they_end_on_the_processor() {
 #[test]
 fn descent_has_the_iterates_of_the_processor() {
     let beam = BEAM.replace("METHOD", "vbd").replace("dt = 2e-3", "dt = 1e-2");
-    for law in ["linear", "st_venant_kirchhoff", "stable_neo_hookean", "neo_hookean"] {
+    for law in ["linear", "corotated", "st_venant_kirchhoff", "stable_neo_hookean", "neo_hookean"] {
         let text = beam.replace("neo_hookean", law);
         for (sweeps, steps) in [(1, 1), (5, 30)] {
             println!("{law}, {sweeps} sweeps");
@@ -139,9 +139,11 @@ fn descent_of_a_body_that_is_thrown_hard_has_the_iterates_of_the_processor() {
     for (law, velocity) in [
         ("st_venant_kirchhoff", "[-0.5, 0, 0.01]"),
         ("stable_neo_hookean", "[-1.2, 0.8, 0.4]"),
+        ("corotated", "[-0.6, 0.43, 0.27]"),
         ("neo_hookean", "[-0.36, 0.24, 0.12]"),
     ] {
-        for sweeps in [2, 10] {
+        // Where the rotation of the corotated law jumps, further sweeps multiply rounding errors.
+        for sweeps in if law == "corotated" { [1, 2] } else { [2, 10] } {
             println!("{law}, {sweeps} sweeps");
             let text = beam.replace("neo_hookean", law).replace("[0.5, -1, 0.25]", velocity);
             // A layer that is compressed to a third has blocks that are not definite.

@@ -44,6 +44,7 @@ pub struct Environment {
 #[allow(missing_docs)] // the names are those of the laws
 pub enum Law {
     Linear,
+    Corotated,
     StVenantKirchhoff,
     NeoHookean,
     StableNeoHookean,
@@ -58,6 +59,7 @@ impl Law {
     pub(crate) fn source(self) -> &'static str {
         match self {
             Self::Linear => include_str!("laws/linear.wgsl"),
+            Self::Corotated => include_str!("laws/corotated.wgsl"),
             Self::StVenantKirchhoff => include_str!("laws/st_venant_kirchhoff.wgsl"),
             Self::NeoHookean => include_str!("laws/neo_hookean.wgsl"),
             Self::StableNeoHookean => include_str!("laws/stable_neo_hookean.wgsl"),

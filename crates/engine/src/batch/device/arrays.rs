@@ -12,6 +12,7 @@ use crate::model::system::System;
 pub(super) fn law(material: &Material) -> Option<(Law, [f64; 2])> {
     match AnyLaw::<f64>::new(material)? {
         AnyLaw::Linear(law) => Some((Law::Linear, [law.mu, law.lambda])),
+        AnyLaw::Corotated(law) => Some((Law::Corotated, [law.mu, law.lambda])),
         AnyLaw::StVenantKirchhoff(law) => Some((Law::StVenantKirchhoff, [law.mu, law.lambda])),
         AnyLaw::NeoHookean(law) => Some((Law::NeoHookean, [law.C, law.D])),
         AnyLaw::StableNeoHookean(law) => Some((Law::StableNeoHookean, [law.mu, law.lambda])),

@@ -7,7 +7,7 @@ use super::arrays;
 use crate::refusal::Refusal;
 
 /// The laws of the device, for messages.
-const LAWS: &str = "linear, st_venant_kirchhoff, neo_hookean or stable_neo_hookean";
+const LAWS: &str = "linear, corotated, st_venant_kirchhoff, neo_hookean or stable_neo_hookean";
 
 /// The law and the method of a scene; the nodes of vertex block descent are still without colours. Returns the first key that the device does not know, with a remedy.
 pub(super) fn check(scene: &Scene, body: &Body) -> Result<(Law, Scheme), Refusal> {

@@ -1,10 +1,8 @@
-//! The graphics device beside the processor, on the same scenes.
+//! Bodies of increasing size with implicit steps, whose linear systems the device solves.
 
-use std::path::Path;
+use fem_study::machine;
 
-use fem_engine::solvers::device_name;
-use fem_study::machine::{self, Machine};
-
+use super::{GPU, check_agreement};
 use crate::cli::{RunArguments, SizesArguments};
 use crate::end::End;
 use crate::race::{Contestant, race};
@@ -12,9 +10,6 @@ use crate::run;
 
 /// Cells per metre of beams of 1 225 to 60 625 nodes.
 const CELLS: [usize; 5] = [6, 10, 13, 16, 24];
-
-/// The solver of the device.
-const GPU: &str = "solver={kind = \"gpu\"}";
 
 /// Largest difference between the two ends of a run, as a part of the body's largest coordinate: both stop at Newton's tolerance.
 const AGREEMENT: f64 = 1e-8;
@@ -27,8 +22,6 @@ struct Row {
 
 /// Times beams, and the large armadillo, with the solver for their size on the processor and with that on the device, and prints a table.
 pub fn run(arguments: &SizesArguments) -> Result<(), End> {
-    let device = device_name().map_err(End::unusable)?;
-    println!("{}; device: {device}\n", Machine::this(Path::new(".")).line());
     println!(
         "| scene | nodes | elements | one thread, ms per step | all threads, ms per step | device, ms per step | all threads over device |"
     );
@@ -39,13 +32,7 @@ pub fn run(arguments: &SizesArguments) -> Result<(), End> {
         let on_device = RunArguments { overrides: vec![GPU.parse().map_err(End::unusable)?], ..row.run.clone() };
         let all = machine::threads();
         let (here, there) = (run::apart(&row.run, all)?, run::apart(&on_device, all)?);
-        let largest = here.positions.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-        let pairs = here.positions.iter().zip(&there.positions);
-        let apart = pairs.fold(0.0, |apart: f64, (a, b)| if (a - b).abs() <= apart { apart } else { (a - b).abs() });
-        let agree = apart <= AGREEMENT * largest;
-        if !agree {
-            return Err(End::wrong(format!("{}: device and processor end {apart:.1e} m apart", row.name)));
-        }
+        check_agreement(&row.name, &here.positions, &there.positions, AGREEMENT)?;
         let contestants: [Contestant; 3] =
             [run::timed(&row.run, 1), run::timed(&row.run, all), run::timed(&on_device, all)];
         let [one, threads, device] = race(arguments.rounds, &contestants)?[..] else {
