@@ -29,8 +29,9 @@ const LARGEST_RESIDUAL: f64 = 0.05;
 const MOST_ITERATIONS: (usize, usize) = (200, 2000);
 
 /// Number of nodes up to which a factor is cheaper than iterations where the scene names no solver: in motion, where inertia keeps
-/// iterations few, and in equilibrium, where one factor is enough.
-const DIRECT: (usize, usize) = (2000, 20_000);
+/// iterations few, and in equilibrium. There a cantilever of 5 265 nodes takes three times as long by a factor if ν = 0.3, as long if ν = 0.49, and
+/// half as long if ν = 0.499.
+const DIRECT: (usize, usize) = (2000, 5000);
 
 /// Methods that a running simulation can be switched to.
 pub fn integrators(kind: IntegratorKind) -> &'static [IntegratorKind] {

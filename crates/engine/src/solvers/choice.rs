@@ -31,7 +31,7 @@ impl SolverChoice {
     /// The blocks that the pattern of its matrices must store.
     pub fn stored(self) -> Stored {
         match self {
-            Self::Cholesky | Self::Pcg(Preconditioner::Ssor) => Stored::Lower,
+            Self::Cholesky | Self::Pcg(Preconditioner::Ssor | Preconditioner::Multigrid) => Stored::Lower,
             Self::Lu | Self::Cg | Self::Pcg(_) | Self::SteepestDescent | Self::ConjugateDirections | Self::Gpu(_) => {
                 Stored::Full
             }

@@ -4,7 +4,7 @@ use super::beam::{Beam, random};
 use super::krylov::{parts, product};
 use super::{Preconditioner, Solver, SolverChoice};
 use crate::number::Real;
-use crate::vector::{norm, subtract_from};
+use crate::vector::{dot, norm, subtract_from};
 use fem_scene::simulation::Breakdown;
 
 /// Those for teaching have tests of their own.
@@ -179,6 +179,30 @@ fn multigrid_takes_few_more_iterations_on_a_finer_mesh() {
         solver.solve(&values, &b, &mut x, 1e-8).unwrap()
     });
     assert!(iterations[0] < 40 && 2 * iterations[1] < 3 * iterations[0], "{iterations:?}");
+}
+
+#[test]
+fn a_cycle_of_multigrid_is_symmetric_and_the_same_bits_with_any_number_of_threads() {
+    let applied = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let (beam, mut solver) = beam::<f64>(SolverChoice::Pcg(Preconditioner::Multigrid), 12);
+            assert!(parts(&beam.pattern).numbers.len() > 4);
+            solver.prepare(&beam.values()).unwrap();
+            [1, 2].map(|seed| {
+                let r = random::<f64>(beam.pattern.rows(), seed);
+                let mut z = vec![[0.0; 3]; r.len()];
+                solver.apply(&r, &mut z);
+                (r, z)
+            })
+        })
+    };
+    let one = applied(1);
+    assert!([2, 3].into_iter().all(|threads| applied(threads) == one));
+    let [(a, Pa), (b, Pb)] = &one;
+    let (a_Pb, b_Pa) = (dot(a, Pb), dot(b, Pa));
+    assert!((a_Pb - b_Pa).abs() < 1e-5 * norm(a) * norm(Pb), "{a_Pb} and {b_Pa}");
+    assert!(dot(a, Pa) > 0.0);
 }
 
 /// The beam of 20 cells per metre has 1360 aggregates, which are aggregated in turn; those of 10 cells per metre are not.

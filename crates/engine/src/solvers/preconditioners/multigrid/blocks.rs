@@ -131,19 +131,21 @@ pub fn add_product<const R: usize, const K: usize, const C: usize>(
 #[inline(always)]
 pub fn row_times<const R: usize, const C: usize>(A: &Blocks<R, C>, row: usize, x: &[[f32; C]]) -> [f32; R] {
     let (columns, values) = A.row(row);
-    sum_products(columns, values, x)
+    sum_products(columns, values, 0, x)
 }
 
-/// Sum of blocks times entries of x. Each entry of a block has a sum of its own, so that no addition waits for another.
+/// Sum of blocks times entries of x, which begins with row `first`. Each entry of a block has a sum of its own, so that no addition waits
+/// for another.
 #[inline(always)]
 pub fn sum_products<const R: usize, const C: usize>(
     columns: &[u32],
     values: &[[[f32; C]; R]],
+    first: usize,
     x: &[[f32; C]],
 ) -> [f32; R] {
     let mut sums = [[0.0; C]; R];
     for (&column, block) in columns.iter().zip(values) {
-        let x = &x[column as usize];
+        let x = &x[column as usize - first];
         for i in 0..R {
             for j in 0..C {
                 sums[i][j] += block[i][j] * x[j];

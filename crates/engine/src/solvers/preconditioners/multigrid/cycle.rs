@@ -1,9 +1,16 @@
-//! The parts of a cycle on one level. Threads share the products; a sweep goes from row to row.
+//! The parts of a cycle on one level. Threads share the rows of products, and sweep side by side over the parts of a matrix.
+//!
+//! The matrices are symmetric, so a sweep reads the blocks left of the diagonal alone and applies each one twice: to its row, and transposed to
+//! its column.
+
+use std::ops::Range;
 
 use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
 use super::blocks::{Blocks, row_times, sum_products};
+use crate::number::vectorized;
+use crate::solvers::parts::Part;
 
 /// From this many numbers on several threads share the rows of a vector, so many at a time.
 const NUMBERS: [usize; 2] = [9000, 3000];
@@ -23,13 +30,72 @@ pub fn times<const D: usize>(A: &[[f32; D]; D], x: &[f32; D]) -> [f32; D] {
     std::array::from_fn(|i| (0..D).map(|j| A[i][j] * x[j]).sum())
 }
 
-/// Forward Gauss–Seidel from x = 0.
-pub struct Forward<'a, const D: usize> {
+/// y += Aᵀ x for a block.
+#[inline(always)]
+fn add_transposed<const D: usize>(A: &[[f32; D]; D], x: &[f32; D], y: &mut [f32; D]) {
+    for i in 0..D {
+        for j in 0..D {
+            y[j] += A[i][j] * x[i];
+        }
+    }
+}
+
+/// What the sweeps read.
+#[derive(Clone, Copy)]
+pub struct Smoother<'a, const D: usize> {
     pub A: &'a Blocks<D, D>,
+    /// Number of each diagonal block.
     pub diagonal: &'a [usize],
     pub inverses: &'a [[[f32; D]; D]],
     pub b: &'a [[f32; D]],
-    pub x: &'a mut [[f32; D]],
+}
+
+impl<const D: usize> Smoother<'_, D> {
+    /// Forward Gauss–Seidel from x = 0, and the residual r = b − A x that it leaves.
+    pub fn forward(&self, part: &Part, x: &mut [[f32; D]], r: &mut [[f32; D]]) {
+        self.forward_from(part.rows.start, part, x, r);
+    }
+
+    /// The rows of a part: those of its halves side by side, then its own. The vectors begin with row `first`.
+    fn forward_from(&self, first: usize, part: &Part, x: &mut [[f32; D]], r: &mut [[f32; D]]) {
+        if let Some([left, right]) = part.halves.as_deref() {
+            let middle = part.middle() - first;
+            let ((x_left, x_right), (r_left, r_right)) = (x.split_at_mut(middle), r.split_at_mut(middle));
+            rayon::join(
+                || self.forward_from(first, left, x_left, r_left),
+                || self.forward_from(part.middle(), right, x_right, r_right),
+            );
+        }
+        vectorized(Forward { smoother: self, rows: part.own(), first, x, r });
+    }
+
+    /// Backward Gauss–Seidel from x. `above` is workspace, zero before and after.
+    pub fn backward(&self, part: &Part, x: &mut [[f32; D]], above: &mut [[f32; D]]) {
+        self.backward_from(part.rows.start, part, x, above);
+    }
+
+    /// The rows of a part: its own, then those of its halves side by side.
+    fn backward_from(&self, first: usize, part: &Part, x: &mut [[f32; D]], above: &mut [[f32; D]]) {
+        vectorized(Backward { smoother: self, rows: part.own(), first, x, above });
+        if let Some([left, right]) = part.halves.as_deref() {
+            let middle = part.middle() - first;
+            let ((x_left, x_right), (above_left, above_right)) = (x.split_at_mut(middle), above.split_at_mut(middle));
+            rayon::join(
+                || self.backward_from(first, left, x_left, above_left),
+                || self.backward_from(part.middle(), right, x_right, above_right),
+            );
+        }
+    }
+}
+
+/// Some rows of a forward sweep.
+struct Forward<'a, const D: usize> {
+    smoother: &'a Smoother<'a, D>,
+    rows: Range<usize>,
+    /// The first row of the vectors below.
+    first: usize,
+    x: &'a mut [[f32; D]],
+    r: &'a mut [[f32; D]],
 }
 
 impl<const D: usize> WithSimd for Forward<'_, D> {
@@ -37,21 +103,31 @@ impl<const D: usize> WithSimd for Forward<'_, D> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) {
-        let Self { A, diagonal, inverses, b, x } = self;
-        for row in 0..A.rows() {
+        let Self { smoother: &Smoother { A, diagonal, inverses, b }, rows, first, x, r } = self;
+        for row in rows {
             let before = A.starts[row]..diagonal[row];
-            let product = sum_products(&A.columns[before.clone()], &A.values[before], x);
-            x[row] = times(&inverses[row], &std::array::from_fn(|i| b[row][i] - product[i]));
+            let (columns, values) = (&A.columns[before.clone()], &A.values[before]);
+            let product = sum_products(columns, values, first, x);
+            let solved = times(&inverses[row], &std::array::from_fn(|i| b[row][i] - product[i]));
+            // The row itself is solved for; blocks right of the diagonal, which met zeros, leave the residual.
+            (x[row - first], r[row - first]) = (solved, [0.0; D]);
+            let negative = solved.map(|x| -x);
+            for (&column, block) in columns.iter().zip(values) {
+                add_transposed(block, &negative, &mut r[column as usize - first]);
+            }
         }
     }
 }
 
-/// Backward Gauss–Seidel.
-pub struct Backward<'a, const D: usize> {
-    pub A: &'a Blocks<D, D>,
-    pub inverses: &'a [[[f32; D]; D]],
-    pub b: &'a [[f32; D]],
-    pub x: &'a mut [[f32; D]],
+/// Some rows of a backward sweep.
+struct Backward<'a, const D: usize> {
+    smoother: &'a Smoother<'a, D>,
+    rows: Range<usize>,
+    /// The first row of the vectors below.
+    first: usize,
+    x: &'a mut [[f32; D]],
+    /// Blocks right of the diagonal times x, as far as the sweep has come.
+    above: &'a mut [[f32; D]],
 }
 
 impl<const D: usize> WithSimd for Backward<'_, D> {
@@ -59,33 +135,19 @@ impl<const D: usize> WithSimd for Backward<'_, D> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) {
-        let Self { A, inverses, b, x } = self;
-        for row in (0..A.rows()).rev() {
-            let product = row_times(A, row, x);
-            let change = times(&inverses[row], &std::array::from_fn(|i| b[row][i] - product[i]));
-            (0..D).for_each(|i| x[row][i] += change[i]);
-        }
-    }
-}
-
-/// r = −(blocks right of the diagonal) x in the rows from `first` on.
-pub struct Upper<'a, const D: usize> {
-    pub A: &'a Blocks<D, D>,
-    pub diagonal: &'a [usize],
-    pub x: &'a [[f32; D]],
-    pub first: usize,
-    pub r: &'a mut [[f32; D]],
-}
-
-impl<const D: usize> WithSimd for Upper<'_, D> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _simd: S) {
-        let Self { A, diagonal, x, first, r } = self;
-        for (row, r) in r.iter_mut().enumerate() {
-            let after = diagonal[first + row] + 1..A.starts[first + row + 1];
-            *r = sum_products(&A.columns[after.clone()], &A.values[after], x).map(|product| -product);
+        let Self { smoother: &Smoother { A, diagonal, inverses, b }, rows, first, x, above } = self;
+        for row in rows.rev() {
+            let blocks = A.starts[row]..=diagonal[row];
+            let (columns, values) = (&A.columns[blocks.clone()], &A.values[blocks]);
+            let (product, above_row) =
+                (sum_products(columns, values, first, x), std::mem::replace(&mut above[row - first], [0.0; D]));
+            let residual = std::array::from_fn(|i| b[row][i] - product[i] - above_row[i]);
+            let change = times(&inverses[row], &residual);
+            let x_row = std::array::from_fn(|i| x[row - first][i] + change[i]);
+            x[row - first] = x_row;
+            for (&column, block) in columns.iter().zip(values).take(columns.len() - 1) {
+                add_transposed(block, &x_row, &mut above[column as usize - first]);
+            }
         }
     }
 }

@@ -2,10 +2,11 @@
 
 use super::aggregate::{aggregate, centres, rigid};
 use super::blocks::{Blocks, Product, add_product, row_times};
-use super::cycle::{Backward, Forward, Rows, Upper, over_rows, times};
+use super::cycle::{Rows, Smoother, over_rows, times};
 use crate::history::{put, take};
 use crate::number::vectorized;
 use crate::solvers::block::invert;
+use crate::solvers::parts::Part;
 use fem_scene::simulation::{Breakdown, History};
 
 /// Steps of the power iteration for the largest eigenvalue of D⁻¹A. It starts from the vector of the last preparation.
@@ -18,6 +19,8 @@ const PIVOT: f32 = 1e-5;
 /// A level whose nodes have D unknowns.
 pub struct Level<const D: usize> {
     pub A: Blocks<D, D>,
+    /// The parts of A that threads sweep over side by side.
+    parts: Part,
     /// Number of each diagonal block.
     diagonal: Vec<usize>,
     inverses: Vec<[[f32; D]; D]>,
@@ -54,6 +57,7 @@ impl<const D: usize> Level<D> {
         let rows = A.rows();
         let vector = || vec![[0.0; D]; rows];
         let mut level = Self {
+            parts: Part::new(rows, |row| A.row(row).0),
             diagonal: (0..rows).map(|row| diagonal(&A, row)).collect(),
             inverses: vec![[[0.0; D]; D]; rows],
             slots: vec![0; count],
@@ -152,21 +156,19 @@ impl<const D: usize> Level<D> {
 
     /// Smooths from x = 0 and restricts the residual: `coarse` = Pᵀ (b − A x).
     pub fn descend(&mut self, coarse: &mut [[f32; 6]]) {
-        let Self { A, diagonal, inverses, R, b, x, r, .. } = self;
-        vectorized(Forward { A, diagonal, inverses, b, x });
-        // Blocks right of the diagonal have met zeros: with the others they leave no residual.
-        over_rows(r, |first, r| vectorized(Upper { A, diagonal, x, first, r }));
+        let Self { A, parts, diagonal, inverses, R, b, x, r, .. } = self;
+        Smoother { A, diagonal, inverses, b }.forward(parts, x, r);
         over_rows(coarse, |first, y| vectorized(Rows { A: R, x: r, first, y }));
     }
 
     /// Adds the coarse correction and smooths in the reverse order, so that the whole cycle is symmetric.
     pub fn ascend(&mut self, coarse: &[[f32; 6]]) {
-        let Self { A, inverses, P, b, x, r, .. } = self;
+        let Self { A, parts, diagonal, inverses, P, b, x, r, .. } = self;
         over_rows(r, |first, y| vectorized(Rows { A: P, x: coarse, first, y }));
-        for (x, correction) in x.as_flattened_mut().iter_mut().zip(r.as_flattened()) {
-            *x += correction;
+        for (x, r) in x.as_flattened_mut().iter_mut().zip(r.as_flattened_mut()) {
+            *x += std::mem::take(r);
         }
-        vectorized(Backward { A, inverses, b, x });
+        Smoother { A, diagonal, inverses, b }.backward(parts, x, r);
     }
 
     pub fn bytes(&self) -> usize {

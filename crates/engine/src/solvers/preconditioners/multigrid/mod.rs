@@ -31,15 +31,17 @@ pub(crate) struct Multigrid {
     x: Vec<[f32; 6]>,
     direct: SupernodalCholesky<f32>,
     direct_values: Vec<[[f32; 3]; 3]>,
+    /// Number in the given matrix of each block of the fine one, or of its transpose right of the diagonal.
+    sources: Vec<u32>,
     diagonal: Vec<u32>,
     /// Factor by which the matrix is scaled into the range of single precision.
     scale: f64,
 }
 
 impl Multigrid {
-    /// Finds the levels from a pattern that stores all blocks, and the undeformed positions of its nodes, m.
+    /// Finds the levels from a pattern, which may store the lower half, and the undeformed positions of its nodes, m.
     pub(crate) fn new(pattern: &Pattern, rest: &[[f64; 3]]) -> Self {
-        let fine = Blocks::zeros(pattern.starts.clone(), pattern.columns.clone());
+        let (fine, sources) = all_blocks(pattern);
         let (fine, mut coarsest, mut positions) = Level::new(fine, &scaled_positions(rest));
         let mut coarser = Vec::new();
         while coarsest.rows() > MAX_COARSEST {
@@ -61,6 +63,7 @@ impl Multigrid {
             b: vector.clone(),
             x: vector,
             coarsest,
+            sources,
             diagonal: pattern.diagonal().map(|block| block as u32).collect(),
             scale: 1.0,
         }
@@ -101,8 +104,13 @@ impl Multigrid {
 impl<T: Real> ApproximateInverse<T> for Multigrid {
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
         self.scale = single_precision_scale(values, &self.diagonal)?;
-        for (single, block) in self.fine.A.values.iter_mut().zip(values) {
-            *single = block.map(|row| row.map(|entry| (entry.as_f64() * self.scale) as f32));
+        let Blocks { starts, columns, values: singles } = &mut self.fine.A;
+        for row in 0..starts.len() - 1 {
+            for block in starts[row]..starts[row + 1] {
+                let value = &values[self.sources[block] as usize];
+                let single = value.map(|row| row.map(|entry| (entry.as_f64() * self.scale) as f32));
+                singles[block] = if columns[block] as usize > row { transposed(&single) } else { single };
+            }
         }
         self.prepare_levels()
     }
@@ -156,7 +164,8 @@ impl<T: Real> ApproximateInverse<T> for Multigrid {
     fn bytes(&self) -> usize {
         let levels: usize = self.coarser.iter().map(Level::bytes).sum();
         let direct = self.direct.bytes() + size_of_val(self.direct_values.as_slice());
-        self.fine.bytes() + levels + self.coarsest.bytes() + direct + size_of_val(self.diagonal.as_slice())
+        let own = size_of_val(self.sources.as_slice()) + size_of_val(self.diagonal.as_slice());
+        self.fine.bytes() + levels + self.coarsest.bytes() + direct + own
     }
 }
 
@@ -167,6 +176,33 @@ fn scaled_positions(rest: &[[f64; 3]]) -> Vec<[f32; 3]> {
     let largest = rest.iter().flat_map(relative).fold(0.0, |most: f64, x| most.max(x.abs()));
     let unit = if largest > 0.0 { largest } else { 1.0 };
     rest.iter().map(|x| relative(x).map(|x| (x / unit) as f32)).collect()
+}
+
+/// A zero matrix with all blocks of a pattern, which may store the lower half, and the number in the pattern of each block, or of its transpose
+/// right of the diagonal.
+fn all_blocks(pattern: &Pattern) -> (Blocks<3, 3>, Vec<u32>) {
+    let mut rows: Vec<Vec<(u32, u32)>> = vec![Vec::new(); pattern.rows()];
+    for row in 0..pattern.rows() {
+        for block in pattern.row(row).filter(|&block| pattern.columns[block] as usize <= row) {
+            let column = pattern.columns[block];
+            rows[row].push((column, block as u32));
+            if (column as usize) < row {
+                rows[column as usize].push((row as u32, block as u32));
+            }
+        }
+    }
+    let mut starts = vec![0];
+    starts.extend(rows.iter().scan(0, |blocks, row| {
+        *blocks += row.len();
+        Some(*blocks)
+    }));
+    let (columns, sources) = rows.into_iter().flatten().unzip();
+    (Blocks::zeros(starts, columns), sources)
+}
+
+/// Aᵀ for a block.
+fn transposed(A: &[[f32; 3]; 3]) -> [[f32; 3]; 3] {
+    std::array::from_fn(|i| std::array::from_fn(|j| A[j][i]))
 }
 
 /// The pattern of the lower half of a matrix of 6×6 blocks, as 3×3 blocks.
