@@ -19,8 +19,8 @@ pub fn print(scene: &Scene) -> Result<(), End> {
             let body = build::body(scene)?;
             let parts = engine::planned_parts(scene, &body)?;
             let moduli = engine::line_of_moduli(&body)?;
-            let is_explicit = scene.time.integrator.is_explicit();
-            let stability = is_explicit.then(|| stability(scene, &body)).transpose()?;
+            let has_limit = scene.time.integrator.is_explicit() || is_conditional_newmark(scene);
+            let stability = has_limit.then(|| stability(scene, &body)).transpose()?;
             (parts, [stability, moduli].into_iter().flatten().collect())
         }
     };
@@ -53,6 +53,11 @@ pub fn print(scene: &Scene) -> Result<(), End> {
     Ok(())
 }
 
+/// Whether Newmark's parameters leave the method a critical time step.
+fn is_conditional_newmark(scene: &Scene) -> bool {
+    scene.time.integrator == Integrator::Newmark && !scene.method().newmark.is_unconditionally_stable()
+}
+
 /// The environments of a batch, each of which has the parts.
 fn of_batch(scene: &Scene, batch: &BatchTable) -> String {
     let (first, last) = (batch.values(0), batch.values(batch.count - 1));
@@ -71,7 +76,7 @@ pub fn parts(scene: &Scene) -> Result<Vec<Part>, End> {
     }
 }
 
-/// The critical time step of an explicit method beside the one in use, s.
+/// The critical time step of a method that has one beside the one in use, s.
 fn stability(scene: &Scene, body: &Body) -> Result<String, End> {
     if body.shape.mesh.vertices().len() > MOST_NODES {
         return Ok(format!("critical time step: not computed for more than {MOST_NODES} nodes"));

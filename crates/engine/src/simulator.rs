@@ -5,6 +5,7 @@ mod checkpoint;
 mod compiled;
 mod contact;
 mod divergence;
+#[cfg(feature = "gpu")]
 mod foreign_end;
 mod integrator;
 mod iterated_check;

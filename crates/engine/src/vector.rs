@@ -2,6 +2,8 @@
 //!
 //! Inner products accumulate in double precision and in a fixed order, so that results do not depend on the number of threads.
 
+use rayon::prelude::*;
+
 use crate::number::Real;
 
 /// Number of independent partial sums, so that an addition does not wait for the one before it.
@@ -59,12 +61,36 @@ pub(crate) fn max_norm<T: Real>(x: &[[T; 3]]) -> f64 {
     rest.iter().fold(maxima.into_iter().fold(0.0, f64::max), larger)
 }
 
+/// Nodes that a thread updates at a time, where there are more of them.
+const UPDATED: usize = 2048;
+
+/// Calls `update` for every number of y with that of x, in several threads for long vectors.
+fn update<T: Real>(x: &[[T; 3]], y: &mut [[T; 3]], update: impl Fn(T, &mut T) + Sync) {
+    let nodes = x.len().min(y.len());
+    let (x, y) = (&x[..nodes], &mut y[..nodes]);
+    let over = |x: &[[T; 3]], y: &mut [[T; 3]]| {
+        y.as_flattened_mut().iter_mut().zip(x.as_flattened()).for_each(|(y, x)| update(*x, y));
+    };
+    if nodes <= CHUNK {
+        over(x, y);
+    } else {
+        y.par_chunks_mut(UPDATED).zip(x.par_chunks(UPDATED)).for_each(|(y, x)| over(x, y));
+    }
+}
+
+/// Sets all numbers to zero, in several threads for a large matrix.
+pub(crate) fn clear<X: Copy + Default + Send>(x: &mut [X]) {
+    if x.len() <= CHUNK {
+        x.fill(X::default());
+    } else {
+        x.par_chunks_mut(CHUNK).for_each(|x| x.fill(X::default()));
+    }
+}
+
 /// y += a x
 pub(crate) fn axpy<T: Real>(a: f64, x: &[[T; 3]], y: &mut [[T; 3]]) {
     let a = <T as Real>::of(a);
-    for (y, x) in y.as_flattened_mut().iter_mut().zip(x.as_flattened()) {
-        *y += a * *x;
-    }
+    update(x, y, |x, y| *y += a * x);
 }
 
 /// x = a x
@@ -76,16 +102,12 @@ pub(crate) fn scale<T: Real>(a: f64, x: &mut [[T; 3]]) {
 /// y = x + b y
 pub(crate) fn xpby<T: Real>(x: &[[T; 3]], b: f64, y: &mut [[T; 3]]) {
     let b = <T as Real>::of(b);
-    for (y, x) in y.as_flattened_mut().iter_mut().zip(x.as_flattened()) {
-        *y = *x + b * *y;
-    }
+    update(x, y, |x, y| *y = x + b * *y);
 }
 
 /// y = x − y
 pub(crate) fn subtract_from<T: Real>(x: &[[T; 3]], y: &mut [[T; 3]]) {
-    for (y, x) in y.as_flattened_mut().iter_mut().zip(x.as_flattened()) {
-        *y = *x - *y;
-    }
+    update(x, y, |x, y| *y = x - *y);
 }
 
 #[cfg(test)]

@@ -2,9 +2,11 @@
 
 use std::marker::PhantomData;
 
+use rayon::prelude::*;
+
 use super::chunk_sums::{
     AddEnergyAndGradientOf, AddGradientOf, AddStiffnessOf, AddStiffnessTimesOf, EnergyOf, InvertedOf, MinDetFOf,
-    SquaresOf,
+    SquaresOf, smaller,
 };
 use super::parallel::over_chunks;
 use super::{BatchLaws, Chunk, Elements};
@@ -93,14 +95,8 @@ impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, 
 
     /// Minimum of det F, and its element in the mesh.
     pub fn min_det_F(&self, u: &[[T; 3]]) -> (T, usize) {
-        let mut least = (T::of(f64::INFINITY), 0);
-        for chunk in &self.chunks {
-            let (J, element) = with_widest_lanes!(T, MinDetFOf { chunk, u });
-            if !(least.0 <= J) {
-                least = (J, element);
-            }
-        }
-        least
+        let of_chunk = |chunk: &Chunk<T, D, E, N>| with_widest_lanes!(T, MinDetFOf { chunk, u });
+        self.chunks.par_iter().map(of_chunk).reduce(|| (T::of(f64::INFINITY), 0), smaller)
     }
 
     /// Number of elements with det F ≤ 0.

@@ -237,14 +237,17 @@ impl<L: Lanes, const D: usize, const E: usize, const N: usize> WithSimd for MinD
         for ((batch, corners), elements) in batches(chunk, L::one()).zip(chunk.elements.chunks(L::LANES)) {
             let J = volume_change(&displacement_gradient(&batch, corners, u)).0 + constant(1.0);
             for (&J, &element) in J.as_slice().iter().zip(elements) {
-                // NaN is the smallest of all.
-                if !(least.0 <= J) {
-                    least = (J, element as usize);
-                }
+                least = smaller(least, (J, element as usize));
             }
         }
         least
     }
+}
+
+/// The smaller of two values with their elements, the first one of equal values; NaN is the smallest of all.
+#[inline(always)]
+pub(crate) fn smaller<T: Real>(a: (T, usize), b: (T, usize)) -> (T, usize) {
+    if b.0 >= a.0 || a.0.as_f64().is_nan() { a } else { b }
 }
 
 /// Number of the elements of a chunk with det F ≤ 0.

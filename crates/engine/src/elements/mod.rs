@@ -24,6 +24,7 @@ mod tests;
 use std::ops::Range;
 
 use crate::number::Real;
+pub(crate) use chunk_sums::smaller;
 pub use laws::BatchLaws;
 
 /// All elements of a mesh, with `N = E + 1` nodes each in `D` dimensions, in batches, with the targets of their scatter.

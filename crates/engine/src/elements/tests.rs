@@ -200,6 +200,18 @@ fn an_inverted_element_has_infinite_energy_and_is_named() {
 }
 
 #[test]
+fn a_displacement_that_is_not_a_number_is_not_hidden_by_elements_after_it() {
+    let Case { elements, mut u, .. } = tetrahedra(12);
+    assert!(elements.chunks.len() > 1);
+    for node in [0, u.len() / 2, u.len() - 1] {
+        let before = std::mem::replace(&mut u[node], [f64::NAN; 3]);
+        assert!(elements.min_det_F(&u).0.is_nan(), "node {node}");
+        u[node] = before;
+    }
+    assert!(elements.min_det_F(&u).0.is_finite());
+}
+
+#[test]
 fn rows_beyond_the_pattern_have_forces_but_no_stiffness() {
     let mesh = box_mesh([1.0, 1.0, 1.0], 1).unwrap();
     let elements: Vec<[u32; 4]> = mesh.elements.iter().map(|element| element.map(|node| node as u32)).collect();

@@ -1,6 +1,6 @@
 //! The critical time step of explicit methods, from the fastest vibration of the undeformed body.
 
-use fem_scene::{Integrator as IntegratorKind, RayleighDamping};
+use fem_scene::{Integrator as IntegratorKind, NewmarkParameters, RayleighDamping};
 use nalgebra::{Complex, DMatrix};
 
 use super::MassInverse;
@@ -14,11 +14,16 @@ const ACCURACY: (f64, usize) = (1e-5, 96);
 /// Iterations between two looks at the eigenvalues.
 const BLOCK: usize = 8;
 
-/// The longest stable time step of an explicit method for small vibrations about the undeformed body, s; a lower bound of it where dampers
-/// of springs are not in proportion to the stiffness. Zero for a method that is
-/// unstable at any time step, `None` for implicit methods and for bodies without stiffness.
-pub fn critical_time_step<T: Real>(kind: IntegratorKind, system: &System<T>) -> Option<f64> {
-    if !kind.is_explicit() {
+/// The longest stable time step of a method for small vibrations about the undeformed body, s; a lower bound of it where dampers
+/// of springs are not in proportion to the stiffness. Zero for a method that is unstable at any time step, `None` for a method that is stable at
+/// any, which most implicit ones are, and for bodies without stiffness.
+pub fn critical_time_step<T: Real>(
+    kind: IntegratorKind,
+    newmark: NewmarkParameters,
+    system: &System<T>,
+) -> Option<f64> {
+    let is_conditional = kind == IntegratorKind::Newmark && !newmark.is_unconditionally_stable();
+    if !kind.is_explicit() && !is_conditional {
         return None;
     }
     let omega = largest_frequency(system)?;
@@ -33,9 +38,17 @@ pub fn critical_time_step<T: Real>(kind: IntegratorKind, system: &System<T>) -> 
         IntegratorKind::ExplicitEuler => limit_of_taylor_method(1, ratio),
         IntegratorKind::Rk2 => limit_of_taylor_method(2, ratio),
         IntegratorKind::Rk4 => limit_of_taylor_method(4, ratio),
+        IntegratorKind::Newmark => limit_of_newmark(newmark, ratio),
         _ => return None,
     };
     Some(limit / omega)
+}
+
+/// The largest stable ω dt of Newmark's method with 2β < γ for a vibration with damping ratio ξ: Hughes, The Finite Element Method (1987),
+/// equation 9.1.13.
+fn limit_of_newmark(NewmarkParameters { beta, gamma }: NewmarkParameters, ratio: f64) -> f64 {
+    let (damped, missing) = (ratio * (gamma - 0.5), 0.5 * gamma - beta);
+    (damped + (missing + damped * damped).sqrt()) / missing
 }
 
 /// The largest stable ω dt for a vibration with damping ratio ξ of a method whose amplification factor is the Taylor polynomial of

@@ -5,7 +5,7 @@ mod metric;
 use fem_scene::{Body, Material, PlaneState};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::elements::BatchLaws;
+use crate::elements::{BatchLaws, smaller};
 use crate::materials::{
     AnyLaw, Law, Projected, Vectorized, cauchy_stress, match_law, plane_cauchy_stress, pushed_forward, with_law,
 };
@@ -265,10 +265,7 @@ impl<T: Real> Solids<T> {
         let mut least = (T::of(f64::INFINITY), 0);
         for group in self.groups.iter().filter(|group| is_meant(group)) {
             let (J, point) = with_elements!(&group.elements, elements => elements.min_det_F(u));
-            // NaN is the smallest of all.
-            if !(least.0 <= J) {
-                least = (J, group.number(point) / self.points_per_element);
-            }
+            least = smaller(least, (J, group.number(point) / self.points_per_element));
         }
         least
     }

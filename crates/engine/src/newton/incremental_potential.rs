@@ -7,7 +7,7 @@ use crate::model::damping::DampingRates;
 use crate::model::system::System;
 use crate::number::Real;
 use crate::sparse::Block;
-use crate::vector::axpy;
+use crate::vector::{axpy, clear, dot, subtract_from};
 
 /// E(w) = ‖w − ŵ‖²_M / (2 τ²) + c (w − w̌)ᵀ C (w − w̌) / 2 + V(u₀ + w) + W(u₀ + s w) κ/s, C = α M + β K(u_d) + D(u_d), for the displacement
 /// increment w: its minimum solves M (w − ŵ)/τ² + c C (w − w̌) = f(u₀ + w) + κ f_o(u₀ + s w). With τ = dt, c = 1/dt, w̌ = 0 and s = κ = 1
@@ -45,9 +45,8 @@ impl<T: Real> Workspace<T> {
     }
 
     fn set_u(&mut self, start: &[[T; 3]], w: &[[T; 3]]) {
-        for (u, (start, w)) in self.u.iter_mut().zip(start.iter().zip(w)) {
-            *u = std::array::from_fn(|i| start[i] + w[i]);
-        }
+        self.u.copy_from_slice(start);
+        axpy(1.0, w, &mut self.u);
     }
 
     /// Sets the displacements at the end of the step, u₀ + s w.
@@ -144,15 +143,14 @@ impl<T: Real> IncrementalPotential<'_, T> {
         workspace: &mut Workspace<T>,
     ) -> Energy {
         let Workspace { difference, product, .. } = workspace;
-        for (difference, (w, inertial)) in difference.iter_mut().zip(w.iter().zip(inertia.inertial)) {
-            *difference = std::array::from_fn(|i| w[i] - inertial[i]);
-        }
-        product.fill([T::default(); 3]);
+        difference.copy_from_slice(inertia.inertial);
+        subtract_from(w, difference);
+        clear(product);
         self.system.add_mass_times(inertia.over_dt2, difference, product);
         let mut energy = Energy::of(add_and_multiply(difference, product, gradient));
         if let Some(rates) = inertia.damping {
             let moved = inertia.moved(w, difference);
-            product.fill([T::default(); 3]);
+            clear(product);
             let stiffness_at = inertia.stiffness_at.unwrap_or(self.increment.start);
             self.system.add_damping_times(rates, stiffness_at, moved, product);
             energy = energy + Energy::of(add_and_multiply(moved, product, gradient));
@@ -199,7 +197,7 @@ impl<T: Real> IncrementalPotential<'_, T> {
     pub fn hessian(&self, w: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>], workspace: &mut Workspace<T>) {
         let Self { system, increment: Increment { start, inertia, .. }, .. } = *self;
         workspace.set_u(start, w);
-        values.fill([[T::default(); 3]; 3]);
+        clear(values.as_flattened_mut());
         system.add_stiffness(T::of(1.0), &workspace.u, kind, values);
         if let Some(Inertia { damping: Some(rates), stiffness_at, .. }) = inertia {
             system.add_damping_matrix(rates, stiffness_at.unwrap_or(start), kind, values);
@@ -222,12 +220,6 @@ impl<T: Real> IncrementalPotential<'_, T> {
 
 /// sum += y; returns ½ x · y.
 fn add_and_multiply<T: Real>(x: &[[T; 3]], y: &[[T; 3]], sum: &mut [[T; 3]]) -> f64 {
-    let mut twice = 0.0;
-    for (sum, (x, y)) in sum.iter_mut().zip(x.iter().zip(y)) {
-        for i in 0..3 {
-            sum[i] += y[i];
-            twice += x[i].as_f64() * y[i].as_f64();
-        }
-    }
-    0.5 * twice
+    axpy(1.0, y, sum);
+    0.5 * dot(x, y)
 }

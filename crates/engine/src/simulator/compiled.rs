@@ -64,7 +64,7 @@ macro_rules! compiled {
             }
 
             fn critical_time_step(simulator: &Simulator<Self>) -> Option<f64> {
-                critical_time_step(simulator.kind, &simulator.system)
+                critical_time_step(simulator.kind, simulator.method.newmark, &simulator.system)
             }
         }
     )* };

@@ -62,9 +62,12 @@ fn a_linear_body_does_not_run_on_to_absurd_energies() {
 
 #[test]
 fn small_vibrations_are_stable_below_the_critical_time_step_and_grow_above_it() {
-    for integrator in ["semi_implicit_euler", "verlet", "rk4"] {
+    let methods = ["semi_implicit_euler", "verlet", "rk4"].map(|integrator| (integrator, ""));
+    let newmark = ["beta = 0.083333333333", "gamma = 0.7\nbeta = 0.2"].map(|values| ("newmark", values));
+    for (integrator, values) in methods.into_iter().chain(newmark) {
+        let table = if values.is_empty() { String::new() } else { format!("[newmark]\n{values}\n") };
         for rest in ["", LUMPED, "[damping]\nbeta = 2e-3\n", "[damping]\nalpha = 3\n"] {
-            let text = |dt: f64| of_law("linear", &soft(integrator, dt, &format!("{FALLING}{rest}")));
+            let text = |dt: f64| of_law("linear", &soft(integrator, dt, &format!("{FALLING}{rest}{table}")));
             let critical = critical("linear", &text(1e-3));
             run(&mut *build(&text(0.99 * critical)), 3000);
             let mut above = build(&text(1.03 * critical));

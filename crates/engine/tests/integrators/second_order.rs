@@ -90,7 +90,7 @@ fn distances(integrator: &str, rest: &str) -> [f64; 4] {
 #[test]
 fn vibrations_faster_than_the_step_are_damped_as_the_theory_of_each_method_says() {
     for rho in [0.0, 0.3, 0.5, 0.8, 0.9, 1.0] {
-        let d = distances("generalized_alpha", &format!("[generalized_alpha]\nrho_inf = {rho}\n"));
+        let d = distances("generalized_alpha", &format!("[generalized_alpha]\nspectral_radius = {rho}\n"));
         // All three roots are −ρ∞: (λ + ρ)³ annihilates the distances, and Newton's method on ρ finds the root that does.
         let residual = d[3] + 3.0 * rho * d[2] + 3.0 * rho * rho * d[1] + rho.powi(3) * d[0];
         let slope = 3.0 * (d[2] + 2.0 * rho * d[1] + rho * rho * d[0]);

@@ -35,10 +35,13 @@ pub fn frequency() -> f64 {
     (1e6 / masses[5]).sqrt()
 }
 
+/// Newmark's method with the most accurate periods.
+const FOX_GOODWIN: &str = "[newmark]\nbeta = 0.083333333333333\n";
+
 /// Largest distance from rest in the last of many steps, over that of the true motion.
-fn swing(integrator: &str, z: f64) -> f64 {
+fn swing(integrator: &str, z: f64, rest: &str) -> f64 {
     let omega = frequency();
-    let mut simulation = build(&oscillator(integrator, z / omega, ""));
+    let mut simulation = build(&oscillator(integrator, z / omega, rest));
     let largest = 2.0 / (omega * omega);
     let mut swing: f64 = 0.0;
     for step in 0..4000 {
@@ -55,17 +58,43 @@ fn swing(integrator: &str, z: f64) -> f64 {
 #[test]
 fn methods_are_stable_up_to_their_limit_and_not_beyond() {
     let limit = 8f64.sqrt();
-    for (integrator, stable) in [("verlet", 2.0), ("semi_implicit_euler", 2.0), ("rk4", limit)] {
-        let (below, above) = (swing(integrator, 0.99 * stable), swing(integrator, 1.01 * stable));
-        assert!(below < 20.0 && above > 1e3, "{integrator}: {below} below, {above} above");
+    for (integrator, stable, rest) in [
+        ("verlet", 2.0, ""),
+        ("semi_implicit_euler", 2.0, ""),
+        ("rk4", limit, ""),
+        ("newmark", 6f64.sqrt(), FOX_GOODWIN),
+        ("newmark", 12f64.sqrt(), "[newmark]\nbeta = 0.166666666667\n"),
+    ] {
+        let (below, above) = (swing(integrator, 0.99 * stable, rest), swing(integrator, 1.01 * stable, rest));
+        assert!(below < 20.0 && above > 1e3, "{integrator} {rest}: {below} below, {above} above");
     }
     for integrator in ["rk2", "explicit_euler"] {
-        let at = swing(integrator, 0.5);
+        let at = swing(integrator, 0.5, "");
         assert!(at > 1e3, "{integrator} does not grow: {at}");
     }
     for integrator in ["linearly_implicit_euler", "implicit_euler", "generalized_alpha", "bdf2"] {
-        let at = swing(integrator, 50.0);
+        let at = swing(integrator, 50.0, "");
         assert!(at < 1.0, "{integrator}: {at}");
+    }
+}
+
+/// Distance from x(t) = x∞ (1 − cos ωt), over x∞, after 62 rad, about 10 periods.
+fn distance_of_newmark(steps_per_radian: f64, rest: &str) -> f64 {
+    let omega = frequency();
+    let mut simulation = build(&oscillator("newmark", 1.0 / (omega * steps_per_radian), rest));
+    for _ in 0..(62.0 * steps_per_radian) as usize {
+        simulation.step().unwrap();
+    }
+    ((simulation.positions()[15] - 2.0) * omega * omega - (1.0 - (omega * simulation.time()).cos())).abs()
+}
+
+#[test]
+fn vibrations_by_newmarks_method_are_of_fourth_order_where_beta_is_a_twelfth() {
+    for (rest, expected) in [("", 2.0), (FOX_GOODWIN, 4.0)] {
+        let rest = format!("{rest}[newton]\ntolerance = 1e-14\n");
+        let [coarse, fine] = [20.0, 40.0].map(|steps| distance_of_newmark(steps, &rest));
+        let order = (coarse / fine).log2();
+        assert!((order - expected).abs() < 0.1, "{rest}: {coarse:e} and {fine:e}, order {order}");
     }
 }
 

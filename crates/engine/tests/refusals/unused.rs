@@ -21,7 +21,7 @@ fn tables_without_effect_are_refused_with_the_method_and_the_remedy() {
         ),
         (ALL.to_owned(), "static", "damping"),
         (format!("{ALL}[newmark]\nbeta = 0.25\n"), "implicit_euler", "newmark"),
-        (format!("{ALL}[generalized_alpha]\nrho_inf = 0.5\n"), "bdf2", "generalized_alpha"),
+        (format!("{ALL}[generalized_alpha]\nspectral_radius = 0.5\n"), "bdf2", "generalized_alpha"),
     ];
     for (text, integrator, table) in cases {
         let text = edit(&text, "\"implicit_euler\"", &format!("\"{integrator}\""));

@@ -34,7 +34,8 @@ fn check_adaptive(scene: &Scene) -> Result<(), Problem> {
     check_tolerance("time.adaptive.tolerance", adaptive.tolerance)
 }
 
-/// Newmark's method is stable at any time step for 2β ≥ γ ≥ ½: Hughes, The Finite Element Method (1987), 9.1.
+/// Newmark's method is stable at any time step for 2β ≥ γ ≥ ½, and for smaller β below a critical one: Hughes, The Finite Element Method (1987),
+/// 9.1. Periods are most accurate with β = 1/12.
 fn check_newmark(table: &NewmarkTable, values: &crate::NewmarkParameters) -> Result<(), Problem> {
     for (field, value) in [("newmark.beta", table.beta), ("newmark.gamma", table.gamma)] {
         value.map_or(Ok(()), |value| check_finite(field, &[value]))?;
@@ -46,11 +47,12 @@ fn check_newmark(table: &NewmarkTable, values: &crate::NewmarkParameters) -> Res
         );
         return problem("newmark.gamma", text);
     }
-    if !(0.5 * gamma..=1.0).contains(&beta) {
+    // Rounded, 1/12 is any number of 16 digits near it.
+    if !(1.0 / 12.0 - 1e-9..=1.0).contains(&beta) {
         let least = 0.5 * gamma;
         let text = format!(
-            "is {beta} with newmark.gamma = {gamma}; give a number from {least}, half of it, to 1: with less the method is not stable at \
-             every time step"
+            "is {beta}; give a number from {least}, half of newmark.gamma, to 1, for a method that is stable at any time step, or one from \
+             0.0833333333, Fox and Goodwin's 1/12, on, for a method that has a critical time step"
         );
         return problem("newmark.beta", text);
     }
@@ -58,12 +60,12 @@ fn check_newmark(table: &NewmarkTable, values: &crate::NewmarkParameters) -> Res
 }
 
 fn check_generalized_alpha(table: &GeneralizedAlphaTable) -> Result<(), Problem> {
-    let Some(rho_inf) = table.rho_inf else { return Ok(()) };
-    if (0.0..=1.0).contains(&rho_inf) {
+    let Some(radius) = table.spectral_radius else { return Ok(()) };
+    if (0.0..=1.0).contains(&radius) {
         return Ok(());
     }
     let text = format!(
-        "is {rho_inf}; give a number from 0, which ends the fastest vibrations in a step, to 1, which keeps them"
+        "is {radius}; give a number from 0, which ends the fastest vibrations in a step, to 1, which keeps them"
     );
-    problem("generalized_alpha.rho_inf", text)
+    problem("generalized_alpha.spectral_radius", text)
 }

@@ -177,5 +177,6 @@ pub struct NewmarkTable {
 #[serde(deny_unknown_fields)]
 pub struct GeneralizedAlphaTable {
     /// ρ∞, the factor by which a step changes the amplitude of infinitely fast vibrations; 0.8 by default.
-    pub rho_inf: Option<f64>,
+    #[serde(alias = "rho_inf")]
+    pub spectral_radius: Option<f64>,
 }

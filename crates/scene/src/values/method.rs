@@ -42,6 +42,13 @@ pub struct NewmarkParameters {
     pub gamma: f64,
 }
 
+impl NewmarkParameters {
+    /// Whether the method is stable at any time step: 2β ≥ γ.
+    pub fn is_unconditionally_stable(self) -> bool {
+        2.0 * self.beta >= self.gamma
+    }
+}
+
 /// Settings of the iterated methods.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IterationSettings {
@@ -141,7 +148,7 @@ impl Scene {
                 beta: self.newmark.as_ref().and_then(|table| table.beta).unwrap_or(0.25),
                 gamma: self.newmark.as_ref().and_then(|table| table.gamma).unwrap_or(0.5),
             },
-            rho_inf: self.generalized_alpha.as_ref().and_then(|table| table.rho_inf).unwrap_or(0.8),
+            rho_inf: self.generalized_alpha.as_ref().and_then(|table| table.spectral_radius).unwrap_or(0.8),
             iterations: IterationSettings::new(self.iterations.as_ref().unwrap_or(&IterationsTable::default())),
             newton: self.newton.as_ref().map(newton).unwrap_or_default(),
             solver: self.solver.as_ref().map(solver),

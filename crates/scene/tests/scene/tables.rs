@@ -68,19 +68,22 @@ fn parameters_of_newmark_and_generalized_alpha_are_read_and_have_ranges() {
     let method = read(LEAST).method();
     assert_eq!((method.newmark.beta, method.newmark.gamma, method.rho_inf), (0.25, 0.5, 0.8));
     assert_refused(
-        &edit(&newmark, "0.3025", "0.29"),
+        &edit(&newmark, "0.3025", "0.08"),
         13,
-        "newmark.beta is 0.29 with newmark.gamma = 0.6; give a number from 0.3",
+        "newmark.beta is 0.08; give a number from 0.3, half of newmark.gamma",
     );
+    let conditional = read(&edit(&newmark, "0.3025", "0.0833333333333")).method().newmark;
+    assert!(!conditional.is_unconditionally_stable() && parameters.is_unconditionally_stable());
     assert_refused(&edit(&newmark, "0.6", "0.4"), 14, "newmark.gamma is 0.4; give a number from 0.5 to 1");
     assert_refused(&edit(&newmark, "0.6", "nan"), 14, "newmark.gamma");
-    let alpha = edit(LEAST, "implicit_euler", "generalized_alpha") + "[generalized_alpha]\nrho_inf = 0.5\n";
+    let alpha = edit(LEAST, "implicit_euler", "generalized_alpha") + "[generalized_alpha]\nspectral_radius = 0.5\n";
     assert_eq!(read(&alpha).method().rho_inf, 0.5);
+    assert_eq!(read(&edit(&alpha, "spectral_radius", "rho_inf")).method().rho_inf, 0.5);
     for wrong in ["-0.1", "1.5", "inf"] {
         assert_refused(
-            &edit(&alpha, "rho_inf = 0.5", &format!("rho_inf = {wrong}")),
+            &edit(&alpha, "spectral_radius = 0.5", &format!("spectral_radius = {wrong}")),
             13,
-            "generalized_alpha.rho_inf is",
+            "generalized_alpha.spectral_radius is",
         );
     }
     let other = edit(&edit(&alpha, "\"generalized_alpha\"", "\"bdf2\""), "\"course\"", "\"engine\"");

@@ -3,7 +3,7 @@
 //! Every integrator runs with a ladder of halved time steps. Explicit integrators start above their stability limit, so that the
 //! failure is shown. Tolerance, solver, projection, precision and mesh vary around one point of the ladder of implicit Euler.
 
-use fem_scene::tables::{AdaptiveTable, NewtonTable, SolverTable, TimeTable};
+use fem_scene::tables::{AdaptiveTable, NewmarkTable, NewtonTable, SolverTable, TimeTable};
 use fem_scene::{Integrator, Pipeline, Precision, Preconditioner, Projection, Scene, SolverKind};
 
 use super::names::{name, solver_name};
@@ -66,6 +66,31 @@ pub fn dynamic(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     ladders.extend(course(scene, extent));
     ladders.extend(adaptive(scene, extent));
     ladders.extend(variants(scene, extent));
+    ladders.extend(loose(scene, &implicit, extent));
+    ladders
+}
+
+/// Implicit methods as fast as errors of 1e-4 allow, in single precision with a loose tolerance; Newmark's method with its most accurate periods
+/// too, from just below its critical time step on.
+fn loose(scene: &Scene, implicit: &[usize], extent: Extent) -> Vec<Ladder> {
+    let mut scene = single(scene);
+    scene.newton = Some(NewtonTable { tolerance: Some(1e-4), ..newton(&scene) });
+    let stable = (extent.horizon * extent.fastest / (0.95 * 6f64.sqrt())).ceil().max(1.0) as usize;
+    let accurate = NewmarkTable { beta: Some(1.0 / 12.0), gamma: None };
+    let mut ladders = Vec::new();
+    for integrator in [Integrator::ImplicitEuler].into_iter().chain(Integrator::SECOND_ORDER_IMPLICIT) {
+        scene.time.integrator = integrator;
+        ladders.push(ladder("precision", &format!("{} in f32 to 1e-4", name(integrator)), &scene, implicit, extent));
+    }
+    scene.time.integrator = Integrator::Newmark;
+    scene.newmark = Some(accurate);
+    ladders.push(ladder(
+        "precision",
+        "Newmark, β = 1/12, in f32 to 1e-4",
+        &scene,
+        &[stable, 2 * stable, 4 * stable],
+        extent,
+    ));
     ladders
 }
 

@@ -8,12 +8,16 @@ use fem_engine::model::system::System;
 use fem_engine::vector::{dot, norm};
 use fem_scene::simulation::Cause;
 
+/// Newmark's method with β = 1/12, Fox and Goodwin's, has this name here: the other β of the study are stable at any time step.
+pub const FOX_GOODWIN: &str = "newmark with beta = 1/12";
+
 /// The stability limit of ω dt; `None` for unconditionally stable integrators.
 pub fn limit(integrator: &str) -> Option<f64> {
     match integrator {
         "explicit_euler" | "rk2" => Some(0.0),
         "semi_implicit_euler" | "verlet" => Some(2.0),
         "rk4" => Some(8.0f64.sqrt()),
+        FOX_GOODWIN => Some(6.0f64.sqrt()),
         _ => None,
     }
 }
@@ -31,6 +35,9 @@ pub fn growth(integrator: &str, z: f64) -> f64 {
         // trace 2 − z², determinant 1
         "semi_implicit_euler" | "verlet" if z > 2.0 => (0.5 * z2 - 1.0).acosh(),
         "semi_implicit_euler" | "verlet" => 0.0,
+        // trace 2 − z²/(1 + z²/12), determinant 1
+        FOX_GOODWIN if z2 > 6.0 => (0.5 * z2 / (1.0 + z2 / 12.0) - 1.0).acosh(),
+        FOX_GOODWIN => 0.0,
         // Roots on the unit circle.
         "implicit_midpoint" | "newmark" => 0.0,
         // 1 / |1 − iz|; generalized-α and BDF2 damp too.

@@ -2,10 +2,8 @@
 
 use std::path::Path;
 
-use fem_engine::integrators::critical_time_step;
 use fem_engine::simulator::Simulator;
 use fem_mesh::generate::picture::PictureMesh;
-use fem_scene::Integrator;
 use fem_scene::simulation::Simulation;
 
 use super::object::{LAME, OBJECTS, disturb, meshed, picture, simulator};
@@ -108,8 +106,7 @@ fn method(name: &str, substeps: usize) -> String {
 /// The longest stable time step, s.
 fn limit(mesh: &PictureMesh, lame: f64, damping: &str) -> Result<f64, String> {
     let simulation = simulator(mesh, lame, &method("semi_implicit_euler", 1), damping)?;
-    let limit = critical_time_step(Integrator::SemiImplicitEuler, simulation.system());
-    limit.ok_or_else(|| "the body has no stiffness".to_owned())
+    simulation.critical_time_step().ok_or_else(|| "the body has no stiffness".to_owned())
 }
 
 /// Whether a vibration with this frequency, 1/s, and damping ratio grows visibly within a run: λ² − (2 − z² − 2ξz) λ + 1 − 2ξz = 0, z = ω dt.

@@ -17,7 +17,7 @@ const MOST: usize = 40_000;
 /// Adds the family.
 pub fn add(cases: &mut Vec<Case>, quick: bool) {
     let parts: &[f64] = if quick { &[0.99, 1.01] } else { &[0.5, 0.9, 0.98, 0.99, 1.01, 1.02, 1.1, 2.0] };
-    for integrator in ["semi_implicit_euler", "verlet", "rk4"] {
+    for integrator in ["semi_implicit_euler", "verlet", "rk4", theory::FOX_GOODWIN] {
         for mass in ["", LUMPED] {
             cases.extend(parts.iter().map(|&part| near(integrator, "linear", mass, part)));
             // Natural frequencies of the nonlinear material change with the amplitude, by less than a tenth.
@@ -36,9 +36,13 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
 fn near(integrator: &'static str, model: &'static str, mass: &'static str, part: f64) -> Case {
     let z = part * theory::limit(integrator).unwrap_or(f64::INFINITY);
     let forecast = forecast(integrator, z, MOST);
-    let text = clamped(integrator, model, 1e5, 1.0).with(mass);
+    let (integrator, method, note) = match integrator {
+        theory::FOX_GOODWIN => ("newmark", "[newmark]\nbeta = 0.083333333333\n", ", beta = 1/12"),
+        _ => (integrator, "", ""),
+    };
+    let text = clamped(integrator, model, 1e5, 1.0).with(mass).with(method);
     let name = if mass.is_empty() { "consistent" } else { "lumped" };
-    let parameters = format!("E = 1e5 Pa, {name} mass, dt omega_max = {z:.4}, {} steps", forecast.steps);
+    let parameters = format!("E = 1e5 Pa, {name} mass{note}, dt omega_max = {z:.4}, {} steps", forecast.steps);
     Case {
         expected: forecast.expected,
         margin_is: "dt / dt_limit; stable below 1",
