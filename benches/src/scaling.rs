@@ -38,6 +38,16 @@ fn beam(arguments: &ScalingArguments, cells: usize) -> RunArguments {
     }
 }
 
+/// Times of a size, s.
+struct Row {
+    nodes: f64,
+    /// A step by one thread, and by all.
+    one: f64,
+    all: f64,
+    /// Set-up and all steps by one thread.
+    whole: f64,
+}
+
 /// `times` contains two values for each run: with one thread, and with all threads.
 fn print(cells: &[usize], runs: &[Measurement], times: &[Time]) {
     println!("{}\n", Machine::this(Path::new(".")).line());
@@ -58,11 +68,14 @@ fn print(cells: &[usize], runs: &[Measurement], times: &[Time]) {
             run.newton_per_step,
             run.seconds_setup
         );
-        rows.push((run.nodes as f64, one, all));
+        rows.push(Row { nodes: run.nodes as f64, one, all, whole: run.seconds_setup + run.steps as f64 * one });
     }
-    let exponent = |time: fn(&(f64, f64, f64)) -> f64| {
-        let points: Vec<(f64, f64)> = rows.iter().map(|row| (row.0, time(row))).collect();
+    let exponent = |time: fn(&Row) -> f64| {
+        let points: Vec<(f64, f64)> = rows.iter().map(|row| (row.nodes, time(row))).collect();
         fit(&points).map_or("unknown: give two sizes".to_owned(), |fit| format!("{:.3}", fit.value))
     };
-    println!("\nExponent, one thread: {}; all threads: {}.", exponent(|row| row.1), exponent(|row| row.2));
+    let (one, all, whole) = (exponent(|row| row.one), exponent(|row| row.all), exponent(|row| row.whole));
+    println!(
+        "\nExponent of a step, one thread: {one}; all threads: {all}. Of set-up and all steps, one thread: {whole}."
+    );
 }
