@@ -1,6 +1,7 @@
 //! Registers of four numbers, and of the eight of a pair, for kernels in which the compiler does not find them: a row of three numbers
 //! leaves one out.
 
+#[cfg(target_arch = "x86_64")]
 use pulp::NullaryFnOnce;
 use wide::f32x4;
 
