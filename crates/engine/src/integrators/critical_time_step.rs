@@ -47,8 +47,8 @@ pub fn critical_time_step<T: Real>(
 /// The largest stable ω dt of Newmark's method with 2β < γ for a vibration with damping ratio ξ: Hughes, The Finite Element Method (1987),
 /// equation 9.1.13.
 fn limit_of_newmark(NewmarkParameters { beta, gamma }: NewmarkParameters, ratio: f64) -> f64 {
-    let (damped, missing) = (ratio * (gamma - 0.5), 0.5 * gamma - beta);
-    (damped + (missing + damped * damped).sqrt()) / missing
+    let (damping, short) = (ratio * (gamma - 0.5), 0.5 * gamma - beta);
+    (damping + (short + damping * damping).sqrt()) / short
 }
 
 /// The largest stable ω dt for a vibration with damping ratio ξ of a method whose amplification factor is the Taylor polynomial of

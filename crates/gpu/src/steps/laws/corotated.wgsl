@@ -77,11 +77,9 @@ fn rotation_by_quaternion(G: Tensor) -> Rotation {
             for (var q = p + 1u; q < 4u; q++) {
                 let entry = K[4u * p + q];
                 if entry == zero { continue; }
-                let theta = (K[5u * q] - K[5u * p]) / (real(2.0) * entry);
-                let size = one / (abs(theta) + sqrt(theta * theta + one));
-                let t = select(size, -size, theta < zero);
-                let c = one / sqrt(t * t + one);
-                let s = t * c;
+                let turn = jacobi_rotation(K[5u * p], K[5u * q], entry);
+                let c = turn[0];
+                let s = turn[1];
                 for (var k = 0u; k < 4u; k++) {
                     let a = K[4u * k + p];
                     let b = K[4u * k + q];

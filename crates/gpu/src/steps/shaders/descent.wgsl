@@ -207,11 +207,9 @@ fn made_definite(block: Block, weights: vector) -> Block {
         let q = select(2u, 1u, rotation % 3u == 0u);
         let entry = A[3u * p + q];
         if entry == zero { continue; }
-        let theta = (A[4u * q] - A[4u * p]) / (real(2.0) * entry);
-        let size = one / (abs(theta) + sqrt(theta * theta + one));
-        let t = select(size, -size, theta < zero);
-        let c = one / sqrt(t * t + one);
-        let s = t * c;
+        let turn = jacobi_rotation(A[4u * p], A[4u * q], entry);
+        let c = turn[0];
+        let s = turn[1];
         for (var k = 0u; k < 3u; k++) {
             let a = A[3u * k + p];
             let b = A[3u * k + q];

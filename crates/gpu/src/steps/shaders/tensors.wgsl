@@ -127,3 +127,14 @@ fn hooke_energy(G: Tensor, mu: real, lambda: real) -> real {
 fn hooke_block(gradient: vector, mu: real, lambda: real) -> Block {
     return plus_outer(diagonal_block(mu * inner(gradient, gradient)), mu + lambda, gradient);
 }
+
+// Cosine and sine of Jacobi's rotation that makes the entry between two diagonal entries p and q of a symmetric matrix zero: Golub and Van
+// Loan, Matrix Computations (2013), section 8.5.
+fn jacobi_rotation(p: real, q: real, entry: real) -> array<real, 2> {
+    let one = real(1.0);
+    let theta = (q - p) / (real(2.0) * entry);
+    let size = one / (abs(theta) + sqrt(theta * theta + one));
+    let t = select(size, -size, theta < real(0.0));
+    let c = one / sqrt(t * t + one);
+    return array<real, 2>(c, t * c);
+}

@@ -40,50 +40,37 @@ fn add_transposed<const D: usize>(A: &[[f32; D]; D], x: &[f32; D], y: &mut [f32;
     }
 }
 
-/// What the sweeps read.
+/// Gauss–Seidel sweeps for A x = b over the parts of A. Vectors that a sweep writes begin with the first row of its part.
 #[derive(Clone, Copy)]
 pub struct Smoother<'a, const D: usize> {
     pub A: &'a Blocks<D, D>,
     /// Number of each diagonal block.
     pub diagonal: &'a [usize],
+    /// Inverses of the diagonal blocks.
     pub inverses: &'a [[[f32; D]; D]],
     pub b: &'a [[f32; D]],
 }
 
 impl<const D: usize> Smoother<'_, D> {
-    /// Forward Gauss–Seidel from x = 0, and the residual r = b − A x that it leaves.
+    /// Forward sweep from x = 0, and the residual r = b − A x that it leaves: over the halves of a part side by side, then over its own rows.
     pub fn forward(&self, part: &Part, x: &mut [[f32; D]], r: &mut [[f32; D]]) {
-        self.forward_from(part.rows.start, part, x, r);
-    }
-
-    /// The rows of a part: those of its halves side by side, then its own. The vectors begin with row `first`.
-    fn forward_from(&self, first: usize, part: &Part, x: &mut [[f32; D]], r: &mut [[f32; D]]) {
+        let first = part.rows.start;
         if let Some([left, right]) = part.halves.as_deref() {
             let middle = part.middle() - first;
             let ((x_left, x_right), (r_left, r_right)) = (x.split_at_mut(middle), r.split_at_mut(middle));
-            rayon::join(
-                || self.forward_from(first, left, x_left, r_left),
-                || self.forward_from(part.middle(), right, x_right, r_right),
-            );
+            rayon::join(|| self.forward(left, x_left, r_left), || self.forward(right, x_right, r_right));
         }
         vectorized(Forward { smoother: self, rows: part.own(), first, x, r });
     }
 
-    /// Backward Gauss–Seidel from x. `above` is workspace, zero before and after.
+    /// Backward sweep from x: over the own rows of a part, then over its halves side by side. `above` is workspace, zero before and after.
     pub fn backward(&self, part: &Part, x: &mut [[f32; D]], above: &mut [[f32; D]]) {
-        self.backward_from(part.rows.start, part, x, above);
-    }
-
-    /// The rows of a part: its own, then those of its halves side by side.
-    fn backward_from(&self, first: usize, part: &Part, x: &mut [[f32; D]], above: &mut [[f32; D]]) {
+        let first = part.rows.start;
         vectorized(Backward { smoother: self, rows: part.own(), first, x, above });
         if let Some([left, right]) = part.halves.as_deref() {
             let middle = part.middle() - first;
             let ((x_left, x_right), (above_left, above_right)) = (x.split_at_mut(middle), above.split_at_mut(middle));
-            rayon::join(
-                || self.backward_from(first, left, x_left, above_left),
-                || self.backward_from(part.middle(), right, x_right, above_right),
-            );
+            rayon::join(|| self.backward(left, x_left, above_left), || self.backward(right, x_right, above_right));
         }
     }
 }
