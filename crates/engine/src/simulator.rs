@@ -4,6 +4,9 @@ mod adaptive;
 mod checkpoint;
 mod compiled;
 mod contact;
+pub(crate) mod device_assembly;
+#[cfg(feature = "gpu")]
+pub(crate) mod device_elements;
 mod divergence;
 #[cfg(feature = "gpu")]
 mod foreign_end;

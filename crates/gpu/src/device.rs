@@ -108,8 +108,13 @@ impl Device {
 
     /// Sets the first numbers of an array.
     pub(crate) fn write<T: Pod>(&self, buffer: &Buffer, numbers: &[T]) {
+        self.write_at(buffer, 0, numbers);
+    }
+
+    /// Sets the numbers of an array from a place on.
+    pub(crate) fn write_at<T: Pod>(&self, buffer: &Buffer, place: usize, numbers: &[T]) {
         if !numbers.is_empty() {
-            self.queue.write_buffer(buffer, 0, bytemuck::cast_slice(numbers));
+            self.queue.write_buffer(buffer, (place * size_of::<T>()) as u64, bytemuck::cast_slice(numbers));
         }
     }
 

@@ -1,21 +1,26 @@
 //! Linear systems and time steps on a graphics device, through wgpu's compute shaders.
 //!
-//! [`Device`] is a card, or a program that stands in for one. [`ConjugateGradients`] solves systems of 3×3 blocks on it, and [`Bodies`]
-//! are many bodies of one mesh that step there. This crate knows arrays of numbers, and nothing of scenes.
+//! [`Device`] is a card, or a program that stands in for one. [`ConjugateGradients`] solves systems of 3×3 blocks on it, [`Stiffness`]
+//! assembles their matrix there, and [`Bodies`] are many bodies of one mesh that step there. This crate knows arrays of numbers, and
+//! nothing of scenes.
 
 mod conjugate_gradients;
 mod device;
+mod elements;
 mod matrix;
 mod number;
 mod program;
 mod quiet;
 mod steps;
+mod stiffness;
 
 pub use conjugate_gradients::{CoarseGrid, ConjugateGradients, Outcome, Solved};
 pub use device::Device;
+pub use elements::{Law, Tetrahedra};
 pub use matrix::BlockPattern;
 pub use number::Number;
-pub use steps::{Bodies, Cause, Environment, Law, Method, Scheme, Tetrahedra, Trouble};
+pub use steps::{Bodies, Body, Cause, Environment, Method, Scheme, Trouble};
+pub use stiffness::{Matrix, Stiffness};
 
 use thiserror::Error;
 

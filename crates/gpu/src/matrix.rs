@@ -32,7 +32,7 @@ impl BlockPattern {
         self.starts.len() - 1
     }
 
-    fn row(&self, row: usize) -> std::ops::Range<usize> {
+    pub(crate) fn row(&self, row: usize) -> std::ops::Range<usize> {
         self.starts[row] as usize..self.starts[row + 1] as usize
     }
 }
@@ -59,6 +59,15 @@ impl Slices {
             starts.push((before + layers) as u32);
         }
         Self { starts, columns, places }
+    }
+
+    /// The first number of the diagonal block of each row.
+    pub(crate) fn diagonal(&self, pattern: &BlockPattern) -> Vec<u32> {
+        let place = |row: usize| {
+            let block = pattern.row(row).find(|&block| pattern.columns[block] as usize == row);
+            self.places[block.expect("every row has a diagonal block")]
+        };
+        (0..pattern.rows()).map(place).collect()
     }
 
     /// Numbers of all slices.

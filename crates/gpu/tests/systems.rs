@@ -73,18 +73,7 @@ impl Lattice {
 
     fn solve<T: Number>(&self, device: &Arc<Device>, b: &[f64], tolerance: f64) -> (Solved, Vec<T>) {
         let mut solver = ConjugateGradients::<T>::new(device, &self.pattern, None).unwrap();
-        let inverse = |row: usize| {
-            let mut inverse = [[0.0; 3]; 3];
-            let m = self.values[self.diagonal[row]];
-            let cofactor = |i: usize, j: usize| {
-                let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-                m[a][c] * m[b][d] - m[a][d] * m[b][c]
-            };
-            let determinant: f64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
-            (0..9).for_each(|k| inverse[k / 3][k % 3] = cofactor(k % 3, k / 3) / determinant);
-            inverse
-        };
-        solver.set_matrix(|block| self.values[block], inverse).unwrap();
+        solver.set_matrix(|block| self.values[block]).unwrap();
         solver.solve(b.iter().copied(), tolerance, 1000).unwrap()
     }
 }

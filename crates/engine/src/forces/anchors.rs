@@ -75,6 +75,10 @@ impl<T: Real> Potential<T> for Anchors {
         }
     }
 
+    fn nodes_of_hessian(&self) -> Option<Vec<u32>> {
+        Some(self.springs::<T>(0.0).map(|(node, _)| node as u32).collect())
+    }
+
     /// Without it a stiff spring would be integrated explicitly and become unstable.
     fn add_hessian(&self, factor: T, _: &[[T; 3]], _: HessianKind, pattern: &Pattern, values: &mut [Block<T, 3>]) {
         let stiffness = factor * T::of(self.interaction.stiffness);

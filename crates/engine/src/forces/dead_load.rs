@@ -105,6 +105,10 @@ impl<T: Real> Potential<T> for DeadLoad<T> {
     }
 
     /// Energy of the forces of this moment. A force that changes with time does work on a body that does not move.
+    fn nodes_of_hessian(&self) -> Option<Vec<u32>> {
+        Some(Vec::new())
+    }
+
     fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy {
         let of_load = |load: &Load<T>| -> Energy {
             let factor = moment.factor(load.curve.as_ref());

@@ -3,6 +3,7 @@
 pub mod anchors;
 pub mod contact;
 pub mod dead_load;
+mod energy;
 pub mod mass_spring;
 pub mod pressure;
 pub mod springs;
@@ -13,6 +14,7 @@ use crate::model::numbering::Numbering;
 use crate::number::Real;
 use crate::sparse::{Block, Pattern};
 use anchors::Anchors;
+pub use energy::Energy;
 
 /// A force on the body. External forces are functions of time; a conservative one is minus the gradient of its energy.
 ///
@@ -103,6 +105,11 @@ pub trait Potential<T: Real>: Send + Sync {
     /// Adds minus the force on each node, N: the gradient of [`energy`](Self::energy) where it is conservative.
     fn add_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]);
 
+    /// The nodes whose blocks its Hessian and its damping matrix may add to; `None` if these may be any.
+    fn nodes_of_hessian(&self) -> Option<Vec<u32>> {
+        None
+    }
+
     /// Adds `factor` times the Hessian of the energy, N/m; made positive semi-definite where `kind` asks for that.
     fn add_hessian(
         &self,
@@ -176,36 +183,6 @@ pub enum HessianKind {
     Projected,
 }
 
-/// An energy, and the size of its terms, which bounds its rounding error; J.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Energy {
-    /// The sum.
-    pub value: f64,
-    /// Sum of the magnitudes of its terms.
-    pub terms: f64,
-}
-
-impl Energy {
-    /// A single term.
-    pub fn of(value: f64) -> Self {
-        Self { value, terms: value.abs() }
-    }
-}
-
-impl std::ops::Add for Energy {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self { value: self.value + other.value, terms: self.terms + other.terms }
-    }
-}
-
-impl std::iter::Sum for Energy {
-    fn sum<I: Iterator<Item = Self>>(energies: I) -> Self {
-        energies.fold(Self::default(), std::ops::Add::add)
-    }
-}
-
 /// A force that is ready to be built where the scene asks for it.
 pub struct Kind<T: Real> {
     /// Key in the statistics.
@@ -257,6 +234,15 @@ impl<T: Real> Forces<T> {
     /// The active ones.
     pub fn active(&self) -> impl Iterator<Item = (&dyn Potential<T>, &Timer)> {
         self.all().filter(|(potential, _)| potential.is_active())
+    }
+
+    /// The nodes, in ascending order, whose blocks the Hessians and damping matrices of active forces may add to; `None` if these may be any.
+    pub fn nodes_of_hessians(&self) -> Option<Vec<u32>> {
+        let of_forces: Option<Vec<_>> = self.active().map(|(force, _)| force.nodes_of_hessian()).collect();
+        let mut nodes = of_forces?.concat();
+        nodes.sort_unstable();
+        nodes.dedup();
+        Some(nodes)
     }
 
     /// Prepares the assembly of matrices with a pattern.

@@ -75,8 +75,13 @@ impl<T: Real> System<T> {
         if rates.stiffness != T::zero() {
             self.add_stiffness(rates.stiffness, u, kind, values);
         }
+        self.add_damping_matrices_of_forces(rates.forces, u, values);
+    }
+
+    /// Adds `factor` D(u) of the forces that damp motions, N/m.
+    pub fn add_damping_matrices_of_forces(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
         for (potential, timer) in self.forces.active().filter(|(potential, _)| potential.has_damping()) {
-            timer.time(|| potential.add_damping_matrix(rates.forces, u, values));
+            timer.time(|| potential.add_damping_matrix(factor, u, values));
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The elements of a body, grouped by material: the loops over a group are compiled for its law.
 
+mod flow;
 mod metric;
 
 use fem_scene::{Body, Material, PlaneState};
@@ -13,7 +14,7 @@ use crate::model::any_elements::{AnyElements, with_elements};
 use crate::model::numbering::Numbering;
 use crate::model::solid::{Solid, SolidLaws, with_law_and_elements, with_law_by_reference};
 use crate::number::{Lanes, Real};
-use crate::plasticity::{Internal, Plasticity};
+use crate::plasticity::Plasticity;
 use crate::sparse::{Block, Pattern};
 
 /// All elements of a body. A body of one material is one group.
@@ -132,36 +133,6 @@ impl<T: Real> Solids<T> {
         }
     }
 
-    /// Plastic flow of the elements, where the scene has some.
-    pub fn plasticity(&self) -> Option<&Plasticity<T>> {
-        self.plasticity.as_ref()
-    }
-
-    /// The same, to be reset or restored.
-    pub fn plasticity_mut(&mut self) -> Option<&mut Plasticity<T>> {
-        self.plasticity.as_mut()
-    }
-
-    /// Lets the elements flow in an accepted step of `dt` seconds, which ends with the displacements `u`.
-    pub fn flow(&mut self, u: &[[T; 3]], dt: f64) {
-        let Self { groups, plasticity: Some(plasticity), .. } = self else { return };
-        for group in groups.iter() {
-            let moduli = group.laws.law.moduli();
-            with_elements!(&group.elements, elements => elements.for_each_gradient(u, |point, volume, G| {
-                plasticity.flow(group.number(point), moduli, volume, G, dt);
-            }));
-        }
-    }
-
-    /// Measure of the plastic strain of each element of the mesh, the mean of its quadrature points; `None` where the body does not flow.
-    pub fn plastic_strains(&self) -> Option<Vec<f64>> {
-        let points = self.plasticity.as_ref()?.variables().chunks_exact(self.points_per_element);
-        let mean = |points: &[Internal<T>]| {
-            points.iter().map(|of| of.strain.as_f64()).sum::<f64>() / self.points_per_element as f64
-        };
-        Some(points.map(mean).collect())
-    }
-
     /// Whether the stress of every element is a linear function of the displacement gradient.
     pub fn is_linear(&self) -> bool {
         self.groups.iter().all(|group| group.laws.law.is_linear())
@@ -175,6 +146,11 @@ impl<T: Real> Solids<T> {
     /// Shear modulus and bulk modulus of each material at small strain, Pa.
     pub fn moduli(&self) -> impl Iterator<Item = [f64; 2]> {
         self.groups.iter().map(|group| group.laws.law.moduli())
+    }
+
+    /// The law of each material.
+    pub(crate) fn laws(&self) -> impl Iterator<Item = &AnyLaw<T::Lanes>> {
+        self.groups.iter().map(|group| &group.laws.law)
     }
 
     /// Memory, bytes.

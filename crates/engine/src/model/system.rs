@@ -188,11 +188,21 @@ impl<T: Real> System<T> {
 
     /// Adds `factor` K(u), the Hessian of the body's own energy: elements and springs between its nodes, N/m.
     pub fn add_stiffness(&self, factor: T, u: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>]) {
+        self.add_stiffness_of_elements(factor, u, kind, values);
+        self.add_internal_hessian(factor, u, kind, values);
+    }
+
+    /// Adds `factor` times the Hessian of the elements' energy, N/m.
+    pub fn add_stiffness_of_elements(&self, factor: T, u: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>]) {
         let Self { profile, elements, .. } = self;
         match kind {
             HessianKind::Exact => profile.stiffness.time(|| elements.add_stiffness(factor, u, values)),
             HessianKind::Projected => profile.projection.time(|| elements.add_projected_stiffness(factor, u, values)),
         }
+    }
+
+    /// Adds `factor` times the Hessian of the springs between the body's nodes, N/m.
+    pub fn add_internal_hessian(&self, factor: T, u: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>]) {
         for (potential, timer) in self.forces.active().filter(|(potential, _)| potential.is_internal()) {
             timer.time(|| potential.add_hessian(factor, u, kind, &self.pattern, values));
         }

@@ -12,7 +12,8 @@ impl<T: Real> Newton<T> {
             *right = g.map(|g| -g);
         }
         let solved = if self.solver.is_iterative() {
-            at.forcing = at.next_forcing(tolerance).max(self.limits.solver_tolerance);
+            let least = self.limits.solver_tolerance.max(self.solver.smallest_tolerance());
+            at.forcing = at.next_forcing(tolerance).max(least);
             self.solve_inexactly(at.forcing)
         } else {
             let Self { solver, lbfgs, direction, right, .. } = self;

@@ -1,7 +1,7 @@
 //! The Hessian of an iteration and its factor: exact, projected, or with a shifted diagonal.
 
 use fem_scene::Projection;
-use fem_scene::simulation::{Cause, Counters};
+use fem_scene::simulation::{Breakdown, Cause, Counters};
 
 use super::incremental_potential::IncrementalPotential;
 use super::{Factor, Newton};
@@ -79,8 +79,11 @@ impl<T: Real> Newton<T> {
         self.lbfgs.clear();
         if kind == HessianKind::Exact && self.limits.projection != Projection::Always {
             counters.stiffness_assemblies += 1;
-            potential.hessian(w, HessianKind::Exact, &mut self.values, &mut self.workspace);
-            if self.factor_values(potential, counters) {
+            let factored = self.assemble_where_it_is_solved(potential, w, counters).unwrap_or_else(|| {
+                potential.hessian(w, HessianKind::Exact, &mut self.values, &mut self.workspace);
+                self.factor_values(potential, counters)
+            });
+            if is_usable(factored)? {
                 self.factor = Factor::Fresh;
                 return Ok(());
             }
@@ -89,7 +92,7 @@ impl<T: Real> Newton<T> {
             counters.stiffness_assemblies += 1;
             counters.projections += potential.system.elements.count;
             potential.hessian(w, HessianKind::Projected, &mut self.values, &mut self.workspace);
-            if self.factor_values(potential, counters) {
+            if is_usable(self.factor_values(potential, counters))? {
                 self.factor = Factor::FreshProjected;
                 return Ok(());
             }
@@ -97,16 +100,34 @@ impl<T: Real> Newton<T> {
         self.factor_shifted(potential, counters)
     }
 
-    /// Factors the assembled values, or makes a preconditioner for them unless the kept one still serves. Returns false if the
-    /// factorization fails.
-    fn factor_values(&mut self, potential: &IncrementalPotential<T>, counters: &mut Counters) -> bool {
+    /// Lets the solver assemble the exact Hessian and prepare it, if it can.
+    fn assemble_where_it_is_solved(
+        &mut self,
+        potential: &IncrementalPotential<T>,
+        w: &[[T; 3]],
+        counters: &mut Counters,
+    ) -> Option<Result<(), Breakdown>> {
+        // Without projection the diagonal of a matrix here is shifted.
+        if !self.solver.assembles() || self.limits.projection == Projection::Never {
+            return None;
+        }
+        let Self { solver, values, workspace, .. } = self;
+        let assembled = potential.with_sum(w, values, workspace, |sum| solver.assemble(sum));
+        counters.factorizations += 1;
+        self.inertia_of_hessian = potential.increment.inertia.map(|inertia| inertia.over_dt2);
+        self.is_new_preconditioner = true;
+        Some(assembled)
+    }
+
+    /// Factors the assembled values, or makes a preconditioner for them unless the kept one still serves.
+    fn factor_values(&mut self, potential: &IncrementalPotential<T>, counters: &mut Counters) -> Result<(), Breakdown> {
         self.inertia_of_hessian = potential.increment.inertia.map(|inertia| inertia.over_dt2);
         if self.solver.is_iterative() && !self.solver.copies_matrix() && self.first_iterations.is_some() {
-            return true;
+            return Ok(());
         }
         counters.factorizations += 1;
         self.is_new_preconditioner = true;
-        self.solver.prepare(&self.values).is_ok()
+        self.solver.prepare(&self.values)
     }
 
     /// Adds a growing multiple of the largest diagonal entry to the diagonal until the factorization succeeds.
@@ -122,12 +143,20 @@ impl<T: Real> Newton<T> {
                 }
             }
             counters.factorizations += 1;
-            if self.solver.prepare(&self.values).is_ok() {
+            if is_usable(self.solver.prepare(&self.values))? {
                 self.factor = Factor::FreshProjected;
                 return Ok(());
             }
             shift *= 10.0;
         }
         Err(Cause::Stuck { unbalanced: max_norm(&self.gradient) })
+    }
+}
+
+/// Whether a matrix could be factored; with an error where another matrix could not be either.
+fn is_usable(factored: Result<(), Breakdown>) -> Result<bool, Cause> {
+    match factored {
+        Err(breakdown) if breakdown.is_of_machine() => Err(Cause::Solver(breakdown)),
+        factored => Ok(factored.is_ok()),
     }
 }

@@ -2,11 +2,10 @@
 
 pub use super::increment::{Increment, Inertia, StepEnd};
 
-use crate::forces::{Energy, HessianKind};
+use crate::forces::Energy;
 use crate::model::damping::DampingRates;
 use crate::model::system::System;
 use crate::number::Real;
-use crate::sparse::Block;
 use crate::vector::{axpy, clear, dot, subtract_from};
 
 /// E(w) = ‖w − ŵ‖²_M / (2 τ²) + c (w − w̌)ᵀ C (w − w̌) / 2 + V(u₀ + w) + W(u₀ + s w) κ/s, C = α M + β K(u_d) + D(u_d), for the displacement
@@ -30,11 +29,11 @@ pub struct IncrementalPotential<'a, T: Real> {
 /// Vectors for evaluations, kept from step to step.
 #[derive(Clone, Debug, Default)]
 pub struct Workspace<T> {
-    u: Vec<[T; 3]>,
-    difference: Vec<[T; 3]>,
+    pub(super) u: Vec<[T; 3]>,
+    pub(super) difference: Vec<[T; 3]>,
     product: Vec<[T; 3]>,
     /// Displacements at the end of the step, m; empty until they are needed.
-    end: Vec<[T; 3]>,
+    pub(super) end: Vec<[T; 3]>,
 }
 
 impl<T: Real> Workspace<T> {
@@ -44,13 +43,13 @@ impl<T: Real> Workspace<T> {
         Self { u: zero(), difference: zero(), product: zero(), end: Vec::new() }
     }
 
-    fn set_u(&mut self, start: &[[T; 3]], w: &[[T; 3]]) {
+    pub(super) fn set_u(&mut self, start: &[[T; 3]], w: &[[T; 3]]) {
         self.u.copy_from_slice(start);
         axpy(1.0, w, &mut self.u);
     }
 
     /// Sets the displacements at the end of the step, u₀ + s w.
-    fn set_end(&mut self, start: &[[T; 3]], ratio: f64, w: &[[T; 3]]) {
+    pub(super) fn set_end(&mut self, start: &[[T; 3]], ratio: f64, w: &[[T; 3]]) {
         self.end.resize(start.len(), [T::default(); 3]);
         self.end.copy_from_slice(start);
         axpy(ratio, w, &mut self.end);
@@ -100,7 +99,7 @@ impl<T: Real> IncrementalPotential<'_, T> {
     }
 
     /// The end of the step where it is not that of the increment and obstacles act on the body.
-    fn end_with_obstacles(&self) -> Option<StepEnd> {
+    pub(super) fn end_with_obstacles(&self) -> Option<StepEnd> {
         self.increment.step_end().filter(|_| self.system.forces.has_obstacles())
     }
 
@@ -191,30 +190,6 @@ impl<T: Real> IncrementalPotential<'_, T> {
             profile.prescribed.time(|| system.add_stiffness_times(stiffness, start, prescribed, gradient));
         }
         system.dirichlet.clear_constrained(gradient);
-    }
-
-    /// ∂²E/∂w², N/m.
-    pub fn hessian(&self, w: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>], workspace: &mut Workspace<T>) {
-        let Self { system, increment: Increment { start, inertia, .. }, .. } = *self;
-        workspace.set_u(start, w);
-        clear(values.as_flattened_mut());
-        system.add_stiffness(T::of(1.0), &workspace.u, kind, values);
-        if let Some(Inertia { damping: Some(rates), stiffness_at, .. }) = inertia {
-            system.add_damping_matrix(rates, stiffness_at.unwrap_or(start), kind, values);
-        }
-        match self.end_with_obstacles() {
-            None => system.add_external_hessian(&workspace.u, kind, values),
-            Some(StepEnd { ratio, weight, .. }) => {
-                workspace.set_end(start, ratio, w);
-                system.add_own_external_hessian(&workspace.u, kind, values);
-                system.add_obstacle_hessian(T::of(weight * ratio), &workspace.end, kind, values);
-            }
-        }
-        if let Some(inertia) = inertia {
-            let mass = inertia.over_dt2 + inertia.damping.map_or(T::default(), |rates| rates.mass);
-            system.profile.mass.time(|| system.mass.add_to(mass, &system.pattern, values));
-        }
-        system.dirichlet.eliminate(&system.pattern, values);
     }
 }
 

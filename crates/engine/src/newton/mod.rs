@@ -13,6 +13,7 @@ pub mod incremental_potential;
 mod lbfgs;
 mod limits;
 mod line_search;
+mod second_derivative;
 
 pub use limits::NewtonLimits;
 
@@ -132,7 +133,9 @@ impl<T: Real> Newton<T> {
         self.solver.save(is_kept || first_iterations.is_some(), history);
         if is_kept {
             put_option(history, "newton.inertia", self.inertia_of_hessian.map(|inertia| inertia.as_f64()));
-            put(history, "newton.values", self.values.as_flattened().as_flattened());
+            let own = self.solver.own_matrix();
+            let values = own.as_ref().unwrap_or(&self.values);
+            put(history, "newton.values", values.as_flattened().as_flattened());
             self.lbfgs.save(history);
         }
     }

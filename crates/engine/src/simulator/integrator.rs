@@ -11,6 +11,9 @@ use crate::model::system::System;
 use crate::newton::{Newton, NewtonLimits};
 use crate::number::Real;
 use crate::refusal::Refusal;
+use crate::simulator::device_assembly;
+#[cfg(feature = "gpu")]
+use crate::simulator::device_elements;
 use crate::solvers::{Preconditioner, Solver, SolverChoice, unusable_device};
 
 /// Smallest relative residual that a linear solver can be asked for, in units of the machine epsilon.
@@ -158,6 +161,9 @@ pub(super) fn build<T: Real>(
         } else {
             Solver::for_directions(choice, &system.pattern, &rest())
         };
+        let is_on_device = matches!(choice, SolverChoice::Gpu(_));
+        let is_assembled_there = is_on_device && device_assembly::is_possible(kind, method, system);
+        let solver = if is_assembled_there { with_elements(solver, system) } else { solver };
         Newton::new(limits::<T>(kind, method, tolerance), solver, system.nodes(), system.pattern.blocks())
     };
     match kind {
@@ -184,6 +190,19 @@ pub(super) fn build<T: Real>(
         IntegratorKind::Vbd => Box::new(vbd(&method.iterations, system, planes)),
         IntegratorKind::Static => Box::new(Statics::new(newton(), system, method.load_steps)),
     }
+}
+
+/// Gives the elements to a solver on a graphics device.
+#[cfg(feature = "gpu")]
+fn with_elements<T: Real>(mut solver: Solver<T>, system: &System<T>) -> Solver<T> {
+    solver.set_elements(&device_elements::elements(system));
+    solver
+}
+
+/// Without the feature `gpu` there is no such solver.
+#[cfg(not(feature = "gpu"))]
+fn with_elements<T: Real>(solver: Solver<T>, _system: &System<T>) -> Solver<T> {
+    solver
 }
 
 /// The scene's limits of Newton's method, or the defaults.

@@ -8,6 +8,7 @@ use fem_scene::{
 use crate::forces::{self, Potential, contact};
 use crate::number::Real;
 use crate::plasticity;
+use crate::simulator::device_assembly;
 use crate::solvers::SolverChoice;
 
 /// Bytes, uses and seconds, which only a simulation knows.
@@ -32,6 +33,8 @@ pub(super) struct Plan {
     is_damped: bool,
     has_drag: bool,
     has_display: bool,
+    /// Why a graphics device cannot assemble the elements.
+    unknown_on_device: Option<String>,
 }
 
 impl Plan {
@@ -53,6 +56,7 @@ impl Plan {
             is_damped: body.damping.is_some(),
             has_drag: body.drag.is_some(),
             has_display: body.shape.display.is_some(),
+            unknown_on_device: device_assembly::unknown_in_body(body),
         }
     }
 
@@ -74,7 +78,8 @@ impl Plan {
         parts.extend(self.forces());
         // Along a path there is nothing to minimise.
         let is_minimized = !(kind == IntegratorKind::Static && (is_linear || method.arc_length));
-        parts.extend(of_method(kind, method.newton.projection, solver, is_minimized));
+        let assembly = self.assembly(kind, method, solver, is_linear);
+        parts.extend(of_method(kind, method.newton.projection, solver, is_minimized, &assembly));
         parts.push(Part::skinning(self.has_display.then_some(0), NO_COST));
         parts.push(if self.is_unconstrained {
             Part::left_out("reactions", "the body is unconstrained")
@@ -82,6 +87,17 @@ impl Plan {
             built("reactions", "forces of the constraints, on request")
         });
         parts
+    }
+
+    /// Where the matrix is assembled.
+    fn assembly(&self, kind: IntegratorKind, method: &Method, solver: SolverChoice, is_linear: bool) -> String {
+        let solves = format!("{} solves with it", kind.name());
+        let other_method = device_assembly::other_method(kind, method, is_linear);
+        match (solver, self.unknown_on_device.as_deref().or(other_method)) {
+            (SolverChoice::Gpu(_), None) => format!("{solves}; the graphics device assembles it"),
+            (SolverChoice::Gpu(_), Some(why)) => format!("{solves}; the processor assembles it: {why}"),
+            _ => solves,
+        }
     }
 
     /// Parts of the body itself.
@@ -195,12 +211,18 @@ fn mass(is_lumped: bool, kind: IntegratorKind) -> String {
 }
 
 /// Parts of the time integration method.
-fn of_method(kind: IntegratorKind, projection: Projection, choice: SolverChoice, is_minimized: bool) -> Vec<Part> {
+fn of_method(
+    kind: IntegratorKind,
+    projection: Projection,
+    choice: SolverChoice,
+    is_minimized: bool,
+    assembly: &str,
+) -> Vec<Part> {
     let name = kind.name();
     let has_matrix = kind.has_matrix();
     let has_line_search = kind.has_newton() && is_minimized;
     let mut parts: Vec<Part> = if has_matrix {
-        solver(name, choice).into()
+        solver(assembly, choice).into()
     } else {
         ["stiffness", "solver", "preconditioner"].map(|part| Part::left_out(part, needs_no(name, "matrix"))).into()
     };
@@ -220,13 +242,13 @@ fn of_method(kind: IntegratorKind, projection: Projection, choice: SolverChoice,
 }
 
 /// Parts of the linear solver. A factor belongs to the solver; a preconditioner is a part of its own.
-fn solver(method: &str, choice: SolverChoice) -> [Part; 3] {
+fn solver(assembly: &str, choice: SolverChoice) -> [Part; 3] {
     let preconditioner = if choice.has_preconditioner() {
         built("preconditioner", "[solver] with kind \"pcg\", or a body of many nodes")
     } else {
         Part::left_out("preconditioner", format!("the solver is {choice}"))
     };
-    [built("stiffness", format!("{method} solves with it")), built("solver", choice.to_string()), preconditioner]
+    [built("stiffness", assembly), built("solver", choice.to_string()), preconditioner]
 }
 
 fn built(name: &'static str, why: impl Into<String>) -> Part {

@@ -1,5 +1,8 @@
 //! The trait behind which every method of the solver stands.
 
+use super::assembly::Assembly;
+#[cfg(feature = "gpu")]
+use super::assembly::DeviceElements;
 use crate::number::Real;
 use crate::sparse::Block;
 use fem_scene::simulation::{Breakdown, History};
@@ -9,6 +12,26 @@ use fem_scene::simulation::{Breakdown, History};
 pub(crate) trait ApproximateInverse<T: Real>: Send + Sync {
     /// Computes P for the values of a matrix. After an error P must be prepared again before it is applied.
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown>;
+
+    /// Takes over the elements whose matrices it then assembles itself.
+    #[cfg(feature = "gpu")]
+    fn set_elements(&mut self, _elements: &DeviceElements) {}
+
+    /// Whether it [assembles](Self::assemble) matrices.
+    fn assembles(&self) -> bool {
+        false
+    }
+
+    /// Assembles a matrix and computes P for it. The matrix stays where it is solved with: [`correct`](Self::correct) is all that can
+    /// be done with it.
+    fn assemble(&mut self, _matrix: &Assembly<T>) -> Result<(), Breakdown> {
+        Err(Breakdown::Singular)
+    }
+
+    /// The assembled matrix.
+    fn assembled(&self) -> Result<Vec<Block<T, 3>>, Breakdown> {
+        Err(Breakdown::Singular)
+    }
 
     /// z = P⁻¹ r
     fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]);

@@ -3,6 +3,7 @@
 //! [`Solver`] splits the work by what it depends on: the pattern alone ([`Solver::new`]), the values ([`Solver::prepare`]) or
 //! the right-hand side ([`Solver::solve`]). Behind it, each method implements one trait, `ApproximateInverse`.
 
+mod assembly;
 mod block;
 mod choice;
 mod device;
@@ -20,10 +21,13 @@ mod teaching_tests;
 #[cfg(test)]
 mod tests;
 
+pub use assembly::Assembly;
 pub use choice::{Preconditioner, SolverChoice};
 pub use device::name as device_name;
 pub use solver::{Solver, SolverCounters};
 
+#[cfg(feature = "gpu")]
+pub(crate) use assembly::DeviceElements;
 #[cfg(feature = "gpu")]
 pub(crate) use device::device as open_device;
 pub(crate) use device::unusable as unusable_device;

@@ -3,6 +3,9 @@
 use std::sync::Arc;
 
 use super::ApproximateInverse;
+use super::assembly::Assembly;
+#[cfg(feature = "gpu")]
+use super::assembly::DeviceElements;
 use super::choice::{Preconditioner, SolverChoice};
 use super::device;
 use super::direct::{Lu, cholesky, cholesky_for_directions};
@@ -11,6 +14,7 @@ use super::krylov::{
 };
 use super::parts::Part;
 use super::preconditioners::{BlockJacobi, Identity, IncompleteCholesky, Multigrid, Ssor};
+use crate::history::{put_flag, take_flag};
 use crate::number::Real;
 use crate::sparse::{Block, Pattern};
 use fem_scene::Timer;
@@ -37,6 +41,8 @@ pub struct Solver<T: Real> {
     /// The parts of the matrix for products.
     parts: Part,
     inverse: Box<dyn ApproximateInverse<T>>,
+    /// Whether the matrix was assembled where it is solved with, and nowhere else.
+    has_own_matrix: bool,
     workspace: Workspace<T>,
     counters: SolverCounters,
     preparing: Timer,
@@ -80,6 +86,7 @@ impl<T: Real> Solver<T> {
             parts: parts(pattern),
             pattern: Arc::clone(pattern),
             inverse,
+            has_own_matrix: false,
             workspace: Workspace::new(pattern.rows()),
             counters: SolverCounters { symbolic_factorizations: 1, ..SolverCounters::default() },
             preparing: Timer::default(),
@@ -91,8 +98,39 @@ impl<T: Real> Solver<T> {
     /// [`solve`](Self::solve) and [`apply`](Self::apply).
     pub fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
         self.counters.factorizations += 1;
+        self.has_own_matrix = false;
         let Self { inverse, preparing, .. } = self;
         preparing.time(|| inverse.prepare(values))
+    }
+
+    /// Takes over the elements whose matrices a graphics device then assembles; other solvers have no use for them.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn set_elements(&mut self, elements: &DeviceElements) {
+        self.inverse.set_elements(elements);
+    }
+
+    /// Whether it [assembles](Self::assemble) matrices.
+    pub fn assembles(&self) -> bool {
+        self.inverse.assembles()
+    }
+
+    /// Assembles a matrix where it is solved with, and prepares it, if the solver [can](Self::assembles). Until the next
+    /// [`prepare`](Self::prepare) it solves with this matrix, whatever values it is given.
+    pub fn assemble(&mut self, matrix: &Assembly<T>) -> Result<(), Breakdown> {
+        self.counters.factorizations += 1;
+        self.has_own_matrix = true;
+        let Self { inverse, preparing, .. } = self;
+        preparing.time(|| inverse.assemble(matrix))
+    }
+
+    /// The smallest relative residual that [`solve`](Self::solve) reaches with the matrix of [`assemble`](Self::assemble).
+    pub fn smallest_tolerance(&self) -> f64 {
+        if self.has_own_matrix { self.inverse.smallest_tolerance() } else { 0.0 }
+    }
+
+    /// The matrix of [`assemble`](Self::assemble), where that is in use.
+    pub fn own_matrix(&self) -> Option<Vec<Block<T, 3>>> {
+        self.has_own_matrix.then(|| self.inverse.assembled().ok()).flatten()
     }
 
     /// Solves A x = b to ‖b − A x‖ ≤ `tolerance` ‖b‖, with the factor or preconditioner of this matrix or of a similar one.
@@ -123,7 +161,12 @@ impl<T: Real> Solver<T> {
         self.counters.solves += 1;
         let Self { choice, pattern, parts, inverse, workspace, solving, .. } = self;
         let (b, x) = (&b[..pattern.rows()], &mut x[..pattern.rows()]);
+        let has_own_matrix = self.has_own_matrix;
         let iterations = solving.time(|| {
+            if has_own_matrix {
+                x.fill([T::default(); 3]);
+                return inverse.correct(b, x, tolerance.max(inverse.smallest_tolerance()));
+            }
             let A = |x: &[[T; 3]], y: &mut [[T; 3]]| product(pattern, parts, values, x, y);
             let mut corrections = 0;
             if !choice.is_iterative() {
@@ -165,11 +208,15 @@ impl<T: Real> Solver<T> {
     /// Adds what the next preparation takes from earlier matrices, and, if the factor or preconditioner `is_kept`, what it takes
     /// from them.
     pub fn save(&self, is_kept: bool, history: &mut History) {
+        if self.choice.copies_matrix() {
+            put_flag(history, "solver.has_own_matrix", self.has_own_matrix);
+        }
         self.inverse.save(is_kept, history);
     }
 
     /// Takes over what [`save`](Self::save) has added.
     pub fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String> {
+        self.has_own_matrix = self.choice.copies_matrix() && take_flag(history, "solver.has_own_matrix")?;
         self.inverse.restore(is_kept, history)
     }
 

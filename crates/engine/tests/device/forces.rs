@@ -1,7 +1,7 @@
 //! Forces of elements on a device beside those on the processor, for random deformations of each element by itself.
 
 use fem_engine::simulator::{Compiled, Simulator};
-use fem_gpu::{Bodies, Device, Environment, Law, Method, Number, Scheme, Tetrahedra};
+use fem_gpu::{Bodies, Body, Device, Environment, Law, Method, Number, Scheme, Tetrahedra};
 use fem_scene::{BodyMesh, parse};
 use nalgebra::{Matrix3, Vector3};
 use rand::{RngExt, SeedableRng};
@@ -22,7 +22,7 @@ integrator = "semi_implicit_euler"
 "#;
 
 /// The laws of the device, by their names and with their parameters for the scene's moduli.
-fn laws() -> [(&'static str, Law, [f64; 2]); 5] {
+pub(crate) fn device_laws() -> [(&'static str, Law, [f64; 2]); 5] {
     let (E, nu): (f64, f64) = (1e5, 0.35);
     let lame = [E / (2.0 * (1.0 + nu)), E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))];
     let neo_hookean = [E / (4.0 * (1.0 + nu)), E / (6.0 * (1.0 - 2.0 * nu))];
@@ -49,15 +49,9 @@ fn parted(model: &str) -> (fem_scene::Scene, fem_scene::Body) {
 }
 
 /// The same elements as arrays, in the mesh's numbering.
-fn arrays(body: &fem_scene::Body) -> Tetrahedra {
+pub(crate) fn tetrahedra(body: &fem_scene::Body) -> Tetrahedra {
     let BodyMesh::Solid(mesh) = &body.shape.mesh else { panic!("tetrahedra") };
-    let nodes = mesh.vertices.len();
-    let mut arrays = Tetrahedra {
-        inverse_masses: vec![[1.0; 3]; nodes],
-        weights: vec![[0.0; 3]; nodes],
-        loads: vec![[0.0; 3]; nodes],
-        ..Tetrahedra::default()
-    };
+    let mut arrays = Tetrahedra::default();
     for element in &mesh.elements {
         let x = element.map(|node| mesh.vertices[node]);
         let edges = Matrix3::from_columns(&[x[1] - x[0], x[2] - x[0], x[3] - x[0]]);
@@ -91,12 +85,20 @@ fn displacements(body: &fem_scene::Body, amplitude: f64, least: f64) -> Vec<[f64
 
 /// Largest difference of a force from that on the processor, as a part of the largest force on the element.
 fn error<T: Compiled, N: Number>(device: &std::sync::Arc<Device>, law: usize, (amplitude, least): (f64, f64)) -> f64 {
-    let (name, law, moduli) = laws()[law];
+    let (name, law, moduli) = device_laws()[law];
     let (scene, body) = parted(name);
     let u = displacements(&body, amplitude, least);
     let method = Method { scheme: Scheme::SemiImplicitEuler, dt: 1e-3, alpha: 0.0 };
     let environments = [Environment { moduli, weight: 1.0, density: 1.0 }; 3];
-    let mut bodies = Bodies::<N>::new(device, &arrays(&body), law, &method, &environments).unwrap();
+    let nodes = u.len();
+    let arrays = Body {
+        tetrahedra: tetrahedra(&body),
+        inverse_masses: vec![[1.0; 3]; nodes],
+        weights: vec![[0.0; 3]; nodes],
+        loads: vec![[0.0; 3]; nodes],
+        velocities: Vec::new(),
+    };
+    let mut bodies = Bodies::<N>::new(device, &arrays, law, &method, &environments).unwrap();
     bodies.set_state(1, &u, &vec![[0.0; 3]; u.len()]).unwrap();
     let found = bodies.elastic_forces(1).unwrap();
     assert!(bodies.elastic_forces(2).unwrap().iter().flatten().all(|force| force.as_f64() == 0.0), "{name}: at rest");
@@ -123,7 +125,7 @@ fn forces_of_every_law_are_those_of_the_processor() {
         Ok(device) => device,
         Err(error) => return println!("skipped: {error}"),
     };
-    for law in 0..laws().len() {
+    for law in 0..device_laws().len() {
         for displacements in [(0.3, 0.1), (1e-4, 0.1)] {
             assert!(error::<f32, f32>(&device, law, displacements) < 1e-5);
             if device.has_double_precision() {
@@ -143,7 +145,7 @@ fn forces_of_inverted_elements_are_those_of_the_processor() {
         Ok(_) => return println!("skipped: no double precision"),
         Err(error) => return println!("skipped: {error}"),
     };
-    for law in (0..laws().len()).filter(|&law| laws()[law].1 != Law::NeoHookean) {
+    for law in (0..device_laws().len()).filter(|&law| device_laws()[law].1 != Law::NeoHookean) {
         assert!(error::<f64, f64>(&device, law, (2.0, f64::NEG_INFINITY)) < 1e-9);
     }
 }

@@ -5,6 +5,7 @@
 mod batch;
 mod ends;
 mod forces;
+mod stiffness;
 
 use std::path::{Path, PathBuf};
 

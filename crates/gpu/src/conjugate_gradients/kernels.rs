@@ -1,5 +1,7 @@
 //! The kernels of an iteration, with their arrays and constants.
 
+use wgpu::Buffer;
+
 use super::{Arrays, CoarseGrid};
 use crate::matrix::Slices;
 use crate::program::{Kernel, Program};
@@ -12,15 +14,34 @@ const PART: f64 = 1.0 / 20.0;
 /// Largest eigenvalue of D⁻¹A: the number of nodes of an element, if the matrices of the elements are positive semi-definite.
 const LARGEST: f64 = 4.0;
 
+/// The shader of all kernels.
+pub(super) fn program<T: Number>(device: &Device) -> Result<Program<'_>, DeviceError> {
+    Program::new::<T>(device, include_str!("kernels.wgsl"))
+}
+
+/// The kernel that inverts the diagonal blocks, whose first numbers are given.
+pub(super) fn invert(
+    program: &Program,
+    device: &Device,
+    arrays: &Arrays,
+    (rows, groups): (usize, usize),
+    diagonal: &Buffer,
+) -> Result<Kernel, DeviceError> {
+    let sizes = device.uniform(&[rows as u32, 0, groups as u32, 0])?;
+    let Arrays { values, inverses, is_indefinite, .. } = arrays;
+    let bound = [(0, &sizes), (3, values), (23, diagonal), (24, inverses), (25, is_indefinite)];
+    program.kernel("invert", &[], &bound, groups)
+}
+
 /// The kernels of an iteration in their order.
 pub(super) fn of_iteration<T: Number>(
+    program: &Program,
     device: &Device,
     slices: &Slices,
     arrays: &Arrays,
     coarse: Option<&CoarseGrid>,
     (rows, groups): (usize, usize),
 ) -> Result<Vec<Kernel>, DeviceError> {
-    let program = Program::new::<T>(device, include_str!("kernels.wgsl"))?;
     let corners = coarse.map_or(0, |coarse| coarse.corners);
     let sizes = device.uniform(&[rows as u32, corners as u32, groups as u32, 0])?;
     let starts = device.array_of("the slices", &slices.starts)?;
@@ -32,7 +53,7 @@ pub(super) fn of_iteration<T: Number>(
     let coarse_change = device.array::<T>("the coarse correction", 3 * corners)?;
     let (corners_of, weights) = (corners_of(coarse), weights_of::<T>(coarse));
     let (corners_of, weights) = (device.array_of("corners", &corners_of)?, device.array_of("weights", &weights)?);
-    let Arrays { values, inverses, x, r, p, q, numbers, counts, free, coarse_inverse } = arrays;
+    let Arrays { values, inverses, x, r, p, q, numbers, counts, is_indefinite, free, coarse_inverse } = arrays;
     let [first, higher @ ..] = coefficients();
     let mut list = vec![program.kernel(
         "advance",
@@ -83,7 +104,8 @@ pub(super) fn of_iteration<T: Number>(
     let summed = [(0, &sizes), (12, &sums), (13, numbers), (14, counts)];
     let multiplied = [(0, &sizes), (1, &starts), (2, &columns), (3, values), (7, p), (8, q), (12, &sums)];
     list.push(program.kernel("prolong", &[], &prolonged, groups)?);
-    list.push(program.kernel("find_direction", &[], &summed, 1)?);
+    let directed = [&summed[..], &[(25, is_indefinite)]].concat();
+    list.push(program.kernel("find_direction", &[], &directed, 1)?);
     list.push(program.kernel("turn", &[], &[(0, &sizes), (7, p), (8, q), (13, numbers)], groups)?);
     list.push(program.kernel("multiply", &[], &multiplied, groups)?);
     list.push(program.kernel("find_length", &[], &summed, 1)?);

@@ -32,6 +32,9 @@ struct Sizes {
 @group(0) @binding(20) var<storage, read_write> coarse_change: array<real>;
 @group(0) @binding(21) var<storage, read> corners: array<u32>; // eight of each row
 @group(0) @binding(22) var<storage, read> weights: array<real>;
+@group(0) @binding(23) var<storage, read> diagonal: array<u32>; // the first number of the diagonal block of each row
+@group(0) @binding(24) var<storage, read_write> found: array<real>; // D⁻¹ of a new matrix
+@group(0) @binding(25) var<storage, read_write> is_indefinite: array<atomic<u32>>;
 
 // Places in `numbers`.
 const RZ = 0u;
@@ -84,6 +87,36 @@ fn scaled(row: u32, a: real, b: real, c: real) -> array<real, 3> {
         inverses[at + 96u] * a + inverses[at + 128u] * b + inverses[at + 160u] * c,
         inverses[at + 192u] * a + inverses[at + 224u] * b + inverses[at + 256u] * c,
     );
+}
+
+// The inverse of a row's diagonal block, which is symmetric: cofactors over the determinant. A block that is not positive definite is noted.
+@compute @workgroup_size(64)
+fn invert(@builtin(global_invocation_id) id: vec3<u32>) {
+    let row = id.x;
+    if row >= sizes.rows { return; }
+    let at = diagonal[row];
+    let xx = values[at];
+    let xy = values[at + 96u];
+    let yy = values[at + 128u];
+    let xz = values[at + 192u];
+    let yz = values[at + 224u];
+    let zz = values[at + 256u];
+    let of_xx = yy * zz - yz * yz;
+    let of_xy = xz * yz - xy * zz;
+    let of_xz = xy * yz - xz * yy;
+    let of_zz = xx * yy - xy * xy;
+    let of_yz = xy * xz - xx * yz;
+    let determinant = xx * of_xx + xy * of_xy + xz * of_xz;
+    if !(xx > real(0.0) && of_zz > real(0.0) && determinant > real(0.0)) {
+        atomicStore(&is_indefinite[0], 1u);
+    }
+    let to = (row / 32u) * 288u + row % 32u;
+    let inverse = real(1.0) / determinant;
+    let of_yy = xx * zz - xz * xz;
+    let entries = array<real, 9>(of_xx, of_xy, of_xz, of_xy, of_yy, of_yz, of_xz, of_yz, of_zz);
+    for (var k = 0u; k < 9u; k++) {
+        found[to + 32u * k] = inverse * entries[k];
+    }
 }
 
 @compute @workgroup_size(64)
@@ -231,7 +264,11 @@ fn find_direction(@builtin(local_invocation_index) lane: u32) {
         counts[IS_STARTED] = 1u;
         numbers[RZ] = first[0];
         numbers[RR] = second[0];
-        if second[0] <= numbers[TARGET] {
+        if atomicLoad(&is_indefinite[0]) == 1u {
+            numbers[PQ] = -second[0];
+            numbers[PP] = second[0];
+            counts[END] = NO_CURVATURE;
+        } else if second[0] <= numbers[TARGET] {
             counts[END] = CONVERGED;
         } else if first[0] <= real(0.0) {
             // Below the smallest number, or D is not positive definite: no direction is left.

@@ -3,6 +3,7 @@
 //!
 //! An iteration is a list of kernels. Its scalars stay on the device, and are looked at after every sixteen iterations.
 
+mod blocks;
 mod kernels;
 
 use std::sync::Arc;
@@ -62,15 +63,16 @@ pub struct Solved {
 pub struct ConjugateGradients<T: Number> {
     device: Arc<Device>,
     rows: usize,
-    slices: Slices,
+    pub(crate) slices: Slices,
     arrays: Arrays,
     landing: Buffer,
     landing_x: Buffer,
+    /// The inverses of the diagonal blocks.
+    invert: Kernel,
     /// One iteration, from a step along the direction of the last one to the length of the next.
     iteration: Vec<Kernel>,
-    /// Numbers of the matrix in their slices, and those of D⁻¹.
+    /// Numbers of the matrix in their slices.
     values: Vec<T>,
-    inverses: Vec<T>,
     coarse_weight: f64,
     /// Iterations of the last solve.
     expected: usize,
@@ -87,6 +89,8 @@ struct Arrays {
     q: Buffer,
     numbers: Buffer,
     counts: Buffer,
+    /// Whether a diagonal block is not positive definite.
+    is_indefinite: Buffer,
     free: Buffer,
     coarse_inverse: Buffer,
 }
@@ -107,46 +111,38 @@ impl<T: Number> ConjugateGradients<T> {
             q: vector("the product")?,
             numbers: device.array::<T>("numbers", NUMBERS)?,
             counts: device.array::<u32>("counts", COUNTS)?,
+            is_indefinite: device.array::<u32>("a flag", 1)?,
             free: vector("the free directions")?,
             coarse_inverse: device.array::<T>("the inverse of the coarse matrix", 9 * corners * corners)?,
         };
-        let iteration = kernels::of_iteration::<T>(device, &slices, &arrays, coarse, (rows, groups))?;
+        let diagonal = device.array_of("the diagonal", &slices.diagonal(pattern))?;
+        let program = &kernels::program::<T>(device)?;
+        let invert = kernels::invert(program, device, &arrays, (rows, groups), &diagonal)?;
+        let iteration = kernels::of_iteration::<T>(program, device, &slices, &arrays, coarse, (rows, groups))?;
         Ok(Self {
             landing: device.landing((NUMBERS * size_of::<T>() + COUNTS * size_of::<u32>()) as u64)?,
             landing_x: device.landing((3 * rows * size_of::<T>()) as u64)?,
             bytes: ((slices.numbers() + 9 * padded + 27 * rows + 9 * corners * corners) * size_of::<T>()) as u64,
             values: vec![T::zeroed(); slices.numbers()],
-            inverses: vec![T::zeroed(); 9 * padded],
             device: Arc::clone(device),
             rows,
             slices,
             arrays,
+            invert,
             iteration,
             coarse_weight: 0.0,
             expected: LOOK,
         })
     }
 
-    /// Sends a matrix: its blocks in the order of the pattern, and the inverses of its diagonal blocks.
-    pub fn set_matrix(
-        &mut self,
-        block: impl Fn(usize) -> [[f64; 3]; 3],
-        inverse: impl Fn(usize) -> [[f64; 3]; 3],
-    ) -> Result<(), DeviceError> {
-        let put = |numbers: &mut [T], first: usize, block: [[f64; 3]; 3]| {
-            for (k, entry) in block.as_flattened().iter().enumerate() {
-                numbers[first + k * SLICE] = T::of(*entry);
-            }
-        };
-        for (number, &place) in self.slices.places.iter().enumerate() {
-            put(&mut self.values, place as usize, block(number));
-        }
-        for row in 0..self.rows {
-            put(&mut self.inverses, row / SLICE * SLICE * 9 + row % SLICE, inverse(row));
-        }
-        self.device.write(&self.arrays.values, &self.values);
-        self.device.write(&self.arrays.inverses, &self.inverses);
-        self.device.check()
+    /// Its device.
+    pub(crate) fn device(&self) -> &Arc<Device> {
+        &self.device
+    }
+
+    /// The numbers of the matrix on it.
+    pub(crate) fn values(&self) -> &Buffer {
+        &self.arrays.values
     }
 
     /// Sends the inverse of the coarse matrix, row by row, and the free directions of the rows: 1, or 0 for a constrained one.

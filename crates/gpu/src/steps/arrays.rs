@@ -2,14 +2,14 @@
 
 use wgpu::Buffer;
 
-use super::{Environment, Law, Method, Tetrahedra};
+use super::{Body, Environment, Method};
+use crate::elements::{self, Law, lists};
 use crate::program::{Kernel, Program};
 use crate::{Device, DeviceError, Number};
 
 /// Shader functions that the kernels of all methods call: tensors, the law, the forces.
 pub(super) fn source(law: Law, rest: &str) -> String {
-    let [tensors, bodies] = [include_str!("shaders/tensors.wgsl"), include_str!("shaders/bodies.wgsl")];
-    [tensors, law.source(), bodies, rest].join("\n")
+    elements::source(law, &[include_str!("shaders/bodies.wgsl"), rest].join("\n"))
 }
 
 /// Places in `numbers` of the shader.
@@ -45,11 +45,11 @@ pub(super) struct Arrays {
 impl Arrays {
     pub(super) fn new<N: Number>(
         device: &Device,
-        body: &Tetrahedra,
+        body: &Body,
         method: &Method,
         environments: &[Environment],
     ) -> Result<Self, DeviceError> {
-        let (nodes, elements, count) = (body.nodes(), body.corners.len(), environments.len());
+        let (nodes, elements, count) = (body.nodes(), body.tetrahedra.corners.len(), environments.len());
         let numbers = |values: Vec<f64>| -> Vec<N> { values.into_iter().map(N::of).collect() };
         let (starts, around) = elements_around(body);
         let dt = method.dt;
@@ -60,8 +60,8 @@ impl Arrays {
         let records: Vec<u32> = (0..3 * count).map(|word| if word < 2 * count { 0 } else { u32::MAX }).collect();
         Ok(Self {
             sizes: device.uniform(&[nodes as u32, elements as u32, count as u32, 0])?,
-            corners: device.array_of("the corners of the elements", &lists(4, elements, |k, e| body.corners[e][k]))?,
-            shapes: device.array_of("the shapes of the elements", &numbers(shapes(body)))?,
+            corners: device.array_of("the corners of the elements", &body.tetrahedra.corner_lists())?,
+            shapes: device.array_of("the shapes of the elements", &numbers(body.tetrahedra.shape_lists()))?,
             factors: device.array_of("the parameters of the environments", &numbers(factors(environments)))?,
             u: device.array::<N>("the displacements", 3 * nodes * count)?,
             v: device.array::<N>("the velocities", 3 * nodes * count)?,
@@ -147,18 +147,7 @@ impl Arrays {
     }
 }
 
-/// `lists` lists of `length` entries each, one behind the other.
-fn lists<T>(lists: usize, length: usize, entry: impl Fn(usize, usize) -> T) -> Vec<T> {
-    let entry = &entry;
-    (0..lists).flat_map(|list| (0..length).map(move |place| entry(list, place))).collect()
-}
-
-fn shapes(body: &Tetrahedra) -> Vec<f64> {
-    let entry = |k: usize, e: usize| if k < 9 { body.gradients[e][k / 3][k % 3] } else { body.volumes[e] };
-    lists(10, body.corners.len(), entry)
-}
-
-fn nodal(body: &Tetrahedra) -> Vec<f64> {
+fn nodal(body: &Body) -> Vec<f64> {
     let of = [&body.inverse_masses, &body.weights, &body.loads];
     lists(9, body.nodes(), |k, node| of[k / 3][node][k % 3])
 }
@@ -171,9 +160,9 @@ fn factors(environments: &[Environment]) -> Vec<f64> {
 }
 
 /// The elements around each node as 4 · element + corner, and the first of each node.
-fn elements_around(body: &Tetrahedra) -> (Vec<u32>, Vec<u32>) {
+fn elements_around(body: &Body) -> (Vec<u32>, Vec<u32>) {
     let mut around = vec![Vec::new(); body.nodes()];
-    for (element, corners) in body.corners.iter().enumerate() {
+    for (element, corners) in body.tetrahedra.corners.iter().enumerate() {
         for (corner, &node) in corners.iter().enumerate() {
             around[node as usize].push((4 * element + corner) as u32);
         }

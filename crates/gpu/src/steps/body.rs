@@ -1,16 +1,13 @@
-//! The data of a batch on a device: mesh, masses and loads of a body, the parameters of each environment, the law and the method.
+//! The data of a batch on a device: mesh, masses and loads of a body, the parameters of each environment, and the method.
 
 use super::Cause;
+use crate::elements::Tetrahedra;
 
-/// A body of linear tetrahedra, with all that its environments share.
+/// A body with all that its environments share.
 #[derive(Clone, Debug, Default)]
-pub struct Tetrahedra {
-    /// Nodes of each element.
-    pub corners: Vec<[u32; 4]>,
-    /// Gradients of the shape functions of the last three corners of each element, 1/m.
-    pub gradients: Vec<[[f64; 3]; 3]>,
-    /// Volume of each element, m³.
-    pub volumes: Vec<f64>,
+pub struct Body {
+    /// Its elements.
+    pub tetrahedra: Tetrahedra,
     /// One over the mass of each node in each direction, 1/kg; zero in constrained ones.
     pub inverse_masses: Vec<[f64; 3]>,
     /// Weight of each node, N.
@@ -21,7 +18,7 @@ pub struct Tetrahedra {
     pub velocities: Vec<[f64; 3]>,
 }
 
-impl Tetrahedra {
+impl Body {
     /// Number of nodes.
     pub fn nodes(&self) -> usize {
         self.inverse_masses.len()
@@ -37,34 +34,6 @@ pub struct Environment {
     pub weight: f64,
     /// Factor on the masses.
     pub density: f64,
-}
-
-/// The constitutive laws that a device knows. Their parameters are μ and λ, or C and D of the neo-Hookean law, Pa.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)] // the names are those of the laws
-pub enum Law {
-    Linear,
-    Corotated,
-    StVenantKirchhoff,
-    NeoHookean,
-    StableNeoHookean,
-}
-
-impl Law {
-    /// Whether elements may be inverted.
-    pub(crate) fn allows_inversion(self) -> bool {
-        self != Self::NeoHookean
-    }
-
-    pub(crate) fn source(self) -> &'static str {
-        match self {
-            Self::Linear => include_str!("laws/linear.wgsl"),
-            Self::Corotated => include_str!("laws/corotated.wgsl"),
-            Self::StVenantKirchhoff => include_str!("laws/st_venant_kirchhoff.wgsl"),
-            Self::NeoHookean => include_str!("laws/neo_hookean.wgsl"),
-            Self::StableNeoHookean => include_str!("laws/stable_neo_hookean.wgsl"),
-        }
-    }
 }
 
 /// A time integration method with its step.

@@ -1,7 +1,8 @@
 //! The kernels of vertex block descent.
 
+use super::Kernels;
 use super::arrays::{Arrays, source};
-use super::{Kernels, Law};
+use crate::elements::Law;
 use crate::program::Program;
 use crate::{Device, DeviceError, Number};
 

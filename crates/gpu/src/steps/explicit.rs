@@ -3,7 +3,8 @@
 use wgpu::Buffer;
 
 use super::arrays::{Arrays, DT, HALF_DT, SIXTH_DT, THIRD_DT, ZERO, source};
-use super::{Kernels, Law, Method, Scheme};
+use super::{Kernels, Method, Scheme};
+use crate::elements::Law;
 use crate::program::{Kernel, Program};
 use crate::{Device, DeviceError, Number};
 

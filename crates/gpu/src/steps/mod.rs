@@ -11,11 +11,12 @@ use std::sync::Arc;
 
 use wgpu::Buffer;
 
+use crate::elements::Law;
 use crate::program::Kernel;
 use crate::{Device, DeviceError, Number};
 use arrays::Arrays;
 
-pub use body::{Environment, Law, Method, Scheme, Tetrahedra};
+pub use body::{Body, Environment, Method, Scheme};
 
 /// Most evaluations of an element in one submission: about a tenth of a second on a slow card, so that no watchdog ends it.
 const MOST_WORK: usize = 1 << 24;
@@ -96,7 +97,7 @@ impl<N: Number> Bodies<N> {
     /// Builds arrays and kernels on a device, and sets the bodies into their initial state: undeformed.
     pub fn new(
         device: &Arc<Device>,
-        body: &Tetrahedra,
+        body: &Body,
         law: Law,
         method: &Method,
         environments: &[Environment],

@@ -103,6 +103,9 @@ impl Failure {
             _ if matches!(cause, Cause::SmallestStep { .. }) => {
                 "give a larger time.adaptive.tolerance, or loads without jumps".to_owned()
             }
+            _ if matches!(cause, Cause::Solver(breakdown) if breakdown.is_of_machine()) => {
+                "use solver.kind = \"pcg\"".to_owned()
+            }
             Integrator::Static => {
                 "use more static.load_steps, smaller loads, or static.arc_length where the load has a limit point"
                     .to_owned()
@@ -135,6 +138,13 @@ impl Failure {
     }
 }
 
+impl Breakdown {
+    /// Whether memory or a device is at fault, so that no other matrix would help.
+    pub fn is_of_machine(self) -> bool {
+        matches!(self, Self::TooLarge | Self::DeviceTooSmall | Self::DeviceFailed)
+    }
+}
+
 impl fmt::Display for Breakdown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -145,10 +155,10 @@ impl fmt::Display for Breakdown {
             }
             Self::TooLarge => write!(f, "the factor of the stiffness does not fit into memory"),
             Self::DeviceTooSmall => {
-                write!(f, "the stiffness does not fit into the graphics device: use solver.kind = \"pcg\"")
+                write!(f, "the stiffness does not fit into the graphics device")
             }
             Self::DeviceFailed => {
-                write!(f, "the graphics device was lost, or is out of memory: use solver.kind = \"pcg\"")
+                write!(f, "the graphics device was lost, or is out of memory")
             }
         }
     }

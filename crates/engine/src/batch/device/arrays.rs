@@ -1,23 +1,17 @@
 //! A body as arrays for a device, in the engine's numbering.
 
-use fem_gpu::{Environment, Law, Tetrahedra};
+use fem_gpu::{Environment, Law};
 use fem_scene::{Body, BodyMesh, Material, Scene};
 
 use crate::forces::{Moment, dead_load};
-use crate::integrators::{color_nodes, shape};
+use crate::integrators::color_nodes;
 use crate::materials::AnyLaw;
 use crate::model::system::System;
+use crate::simulator::device_elements;
 
 /// The law of a material with its parameters, if the device knows it.
 pub(super) fn law(material: &Material) -> Option<(Law, [f64; 2])> {
-    match AnyLaw::<f64>::new(material)? {
-        AnyLaw::Linear(law) => Some((Law::Linear, [law.mu, law.lambda])),
-        AnyLaw::Corotated(law) => Some((Law::Corotated, [law.mu, law.lambda])),
-        AnyLaw::StVenantKirchhoff(law) => Some((Law::StVenantKirchhoff, [law.mu, law.lambda])),
-        AnyLaw::NeoHookean(law) => Some((Law::NeoHookean, [law.C, law.D])),
-        AnyLaw::StableNeoHookean(law) => Some((Law::StableNeoHookean, [law.mu, law.lambda])),
-        _ => None,
-    }
+    device_elements::law(&AnyLaw::<f64>::new(material)?)
 }
 
 /// The parameters of an environment beside those of the scene itself. The device knows the law.
@@ -30,11 +24,8 @@ pub(super) fn environment(scene: &Scene, number: usize) -> Environment {
 }
 
 /// The arrays of a body, whose masses are lumped.
-pub(super) fn tetrahedra(system: &System<f64>, body: &Body) -> Tetrahedra {
+pub(super) fn arrays(system: &System<f64>, body: &Body) -> fem_gpu::Body {
     let BodyMesh::Solid(mesh) = &body.shape.mesh else { unreachable!("flat bodies are refused") };
-    let corners = system.numbering.elements(&mesh.elements);
-    let shapes: Vec<_> =
-        corners.iter().enumerate().map(|(e, corners)| shape(system, corners, system.elements.factor(e))).collect();
     let mut inverse_masses: Vec<[f64; 3]> = system.mass.diagonal().into_iter().map(|mass| [1.0 / mass; 3]).collect();
     system.dirichlet.clear_constrained(&mut inverse_masses);
     let of_mesh = &body.initial_velocity;
@@ -45,14 +36,12 @@ pub(super) fn tetrahedra(system: &System<f64>, body: &Body) -> Tetrahedra {
     if !velocities.is_empty() {
         system.dirichlet.clear_constrained(&mut velocities);
     }
-    Tetrahedra {
-        gradients: shapes.iter().map(|shape| [1, 2, 3].map(|corner| shape.gradients[corner])).collect(),
-        volumes: shapes.iter().map(|shape| shape.volume).collect(),
+    fem_gpu::Body {
+        tetrahedra: device_elements::tetrahedra(system, mesh),
         weights: dead_loads(system, &Body { body_force: None, tractions: Vec::new(), ..body.clone() }),
         loads: dead_loads(system, &Body { gravity: None, ..body.clone() }),
         inverse_masses,
         velocities,
-        corners,
     }
 }
 

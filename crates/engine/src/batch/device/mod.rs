@@ -65,7 +65,7 @@ impl<N: Number> OnDevice<N> {
         let device = open_device().map_err(failed)?;
         let dt = method.dt / method.substeps as f64;
         let alpha = body.damping.map_or(0.0, |damping| damping.alpha);
-        let arrays = arrays::tetrahedra(&system, body);
+        let arrays = arrays::arrays(&system, body);
         let bodies = Bodies::new(&Arc::clone(device), &arrays, law, &DeviceMethod { scheme, dt, alpha }, &environments);
         Ok(Self {
             bodies: bodies.map_err(|error| failed(&error))?,

@@ -5,9 +5,7 @@ use fem_scene::{Body, Integrator, LoadCurve, Scene};
 
 use super::arrays;
 use crate::refusal::Refusal;
-
-/// The laws of the device, for messages.
-const LAWS: &str = "linear, corotated, st_venant_kirchhoff, neo_hookean or stable_neo_hookean";
+use crate::simulator::device_assembly::LAWS;
 
 /// The law and the method of a scene; the nodes of vertex block descent are still without colours. Returns the first key that the device does not know, with a remedy.
 pub(super) fn check(scene: &Scene, body: &Body) -> Result<(Law, Scheme), Refusal> {
@@ -17,7 +15,8 @@ pub(super) fn check(scene: &Scene, body: &Body) -> Result<(Law, Scheme), Refusal
     }
     let law = arrays::law(&body.material).map(|(law, _)| law).ok_or_else(|| {
         let what = format!("is \"{}\"", body.material.model);
-        ("material.model", on_device(&what, &format!("write {LAWS}, or leave [solver] out")))
+        let [laws @ .., last] = &LAWS;
+        ("material.model", on_device(&what, &format!("write {} or {last}, or leave [solver] out", laws.join(", "))))
     })?;
     Ok((law, scheme))
 }

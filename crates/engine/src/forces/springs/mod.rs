@@ -100,6 +100,10 @@ impl<T: Real> Potential<T> for Springs<T> {
         self.springs.iter().map(|spring| spring.nodes).collect()
     }
 
+    fn nodes_of_hessian(&self) -> Option<Vec<u32>> {
+        Some(self.springs.iter().flat_map(|spring| spring.nodes).collect())
+    }
+
     fn set_pattern(&mut self, pattern: &Pattern) {
         let place = |row: u32, column: u32| match pattern.find(row as usize, column as usize) {
             Some(block) => u32::try_from(block).expect("a matrix has fewer than 2³² blocks"),

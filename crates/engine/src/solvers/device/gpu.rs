@@ -2,12 +2,14 @@
 
 use std::sync::{Arc, OnceLock};
 
-use fem_gpu::{BlockPattern, CoarseGrid, ConjugateGradients, Device, DeviceError, Number, Outcome};
+use fem_gpu::{BlockPattern, CoarseGrid, ConjugateGradients, Device, DeviceError, Matrix, Number, Outcome, Stiffness};
 use fem_scene::Precision;
 use fem_scene::simulation::{Breakdown, History};
 
+use crate::history::{put_option, take_option};
 use crate::number::Real;
 use crate::solvers::ApproximateInverse;
+use crate::solvers::assembly::{Assembly, DeviceElements};
 use crate::solvers::block::invert;
 use crate::solvers::preconditioners::{Coarse, LowerHalf, single_precision_scale};
 use crate::sparse::{Block, Pattern};
@@ -53,12 +55,22 @@ pub fn solver<T: Real>(precision: Precision, pattern: &Pattern, rest: &[[f64; 3]
 struct OnDevice<N: Number> {
     /// An error of the device appears when a matrix is prepared.
     solver: Result<ConjugateGradients<N>, DeviceError>,
+    /// The assembly of the elements, where the device does it; an error appears when a matrix is assembled.
+    elements: Option<Result<Elements<N>, DeviceError>>,
+    blocks: BlockPattern,
     lower: LowerHalf,
     coarse: Coarse,
     /// The number that the matrix is multiplied by.
     scale: f64,
-    /// Inverses of the diagonal blocks of the scaled matrix.
+    /// Inverses of the diagonal blocks of a matrix that was assembled here, scaled.
     inverses: Vec<Block<f64, 3>>,
+}
+
+/// The assembly on the device.
+struct Elements<N: Number> {
+    stiffness: Stiffness<N>,
+    /// Bounds of a diagonal entry, see [`DeviceElements`].
+    largest: [f64; 2],
 }
 
 impl<N: Number> OnDevice<N> {
@@ -77,37 +89,107 @@ impl<N: Number> OnDevice<N> {
         };
         let solver = device().map_err(Clone::clone);
         let solver = solver.and_then(|device| ConjugateGradients::new(device, &blocks, Some(&grid)));
-        Self { solver, lower, coarse, scale: 1.0, inverses: vec![[[0.0; 3]; 3]; pattern.rows()] }
+        let inverses = vec![[[0.0; 3]; 3]; pattern.rows()];
+        Self { solver, elements: None, blocks, lower, coarse, scale: 1.0, inverses }
     }
 
-    /// Scales the matrix into the range of single precision, and inverts its diagonal blocks.
-    fn set_scale<T: Real>(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
-        self.scale = single_precision_scale(values, &self.lower.diagonal)?;
+    /// Inverts the diagonal blocks of the scaled matrix.
+    fn invert_diagonal<T: Real>(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
         for (inverse, &block) in self.inverses.iter_mut().zip(&self.lower.diagonal) {
             *inverse = invert(&values[block as usize].map(|row| row.map(|entry| entry.as_f64() * self.scale)))?;
         }
         Ok(())
     }
 
-    fn send<T: Real>(&mut self, values: &[Block<T, 3>], has_new_coarse: bool) -> Result<(), DeviceError> {
-        let Self { solver, coarse, scale, inverses, .. } = self;
+    fn send<T: Real>(&mut self, values: &[Block<T, 3>]) -> Result<(), DeviceError> {
+        let Self { solver, scale, .. } = self;
         let solver = solver.as_mut().map_err(|error| error.clone())?;
-        let scaled = |block: usize| values[block].map(|row| row.map(|entry| entry.as_f64() * *scale));
-        solver.set_matrix(scaled, |row| inverses[row])?;
-        if has_new_coarse {
+        solver.set_matrix(|block| values[block].map(|row| row.map(|entry| entry.as_f64() * *scale)))
+    }
+
+    /// Sends the coarse grid, whose factor is another one or not.
+    fn send_coarse(&mut self, is_new: bool) -> Result<(), DeviceError> {
+        let Self { solver, coarse, .. } = self;
+        let solver = solver.as_mut().map_err(|error| error.clone())?;
+        if is_new {
             let inverse: Vec<N> = coarse.inverse().iter().map(|entry| N::of(f64::from(*entry))).collect();
             solver.set_coarse(&inverse, &coarse.free)?;
         }
         solver.set_coarse_weight(f64::from(coarse.weight));
         Ok(())
     }
+
+    /// Builds what the device needs to assemble matrices.
+    fn build_elements(&self, elements: &DeviceElements) -> Result<Elements<N>, DeviceError> {
+        let solver = self.solver.as_ref().map_err(|error| error.clone())?;
+        let DeviceElements { nodes, tetrahedra, law, moduli, masses, largest } = elements;
+        let stiffness = Stiffness::new(solver, &self.blocks, *nodes, tetrahedra, *law, moduli, masses)?;
+        Ok(Elements { stiffness, largest: *largest })
+    }
+
+    fn assemble_on_device<T: Real>(&mut self, matrix: &Assembly<T>) -> Result<(), DeviceError> {
+        let Self { solver, elements, scale, .. } = self;
+        let solver = solver.as_mut().map_err(|error| error.clone())?;
+        let elements = elements.as_ref().expect("a solver without elements does not assemble");
+        let Elements { stiffness, largest: [of_stiffness, of_mass] } =
+            elements.as_ref().map_err(|error| error.clone())?;
+        let factors: f64 = matrix.stiffness.iter().map(|(factor, _)| factor.as_f64()).sum();
+        *scale = power_of_two(1.0 / (factors * *of_stiffness + matrix.mass.as_f64() * *of_mass));
+        let vectors = |of: &[[T; 3]]| -> Vec<[f64; 3]> { of.iter().map(|of| of.map(|x| x.as_f64())).collect() };
+        let stiffness_at: Vec<_> = matrix.stiffness.iter().map(|&(factor, u)| (factor.as_f64(), vectors(u))).collect();
+        let block =
+            |(number, block): &(usize, Block<T, 3>)| (*number, block.map(|row| row.map(|entry| entry.as_f64())));
+        let others: Vec<_> = matrix.others.iter().map(block).collect();
+        let sum = Matrix {
+            stiffness: &stiffness_at,
+            mass: matrix.mass.as_f64(),
+            others: &others,
+            free: &vectors(matrix.free),
+            scale: *scale,
+        };
+        stiffness.assemble(solver, &sum)?;
+        let is_new = self.coarse.needs_factor();
+        let values = if is_new { self.read()? } else { Vec::new() };
+        self.coarse.prepare(&self.lower, &values, self.scale);
+        self.send_coarse(is_new)
+    }
+
+    /// The matrix on the device.
+    fn read(&self) -> Result<Vec<Block<f64, 3>>, DeviceError> {
+        let solver = self.solver.as_ref().map_err(|error| error.clone())?;
+        let blocks = solver.matrix()?;
+        Ok(blocks.into_iter().map(|block| block.map(|row| row.map(|entry| entry / self.scale))).collect())
+    }
+}
+
+/// The nearest power of two below, with which no product has a rounding error.
+fn power_of_two(scale: f64) -> f64 {
+    scale.log2().floor().exp2()
 }
 
 impl<T: Real, N: Number> ApproximateInverse<T> for OnDevice<N> {
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
-        self.set_scale(values)?;
-        let has_new_coarse = self.coarse.prepare(&self.lower, values, self.scale);
-        self.send(values, has_new_coarse).map_err(|error| breakdown(&error))
+        self.scale = power_of_two(single_precision_scale(values, &self.lower.diagonal)?);
+        self.invert_diagonal(values)?;
+        let is_new = self.coarse.prepare(&self.lower, values, self.scale);
+        self.send(values).and_then(|()| self.send_coarse(is_new)).map_err(|error| breakdown(&error))
+    }
+
+    fn set_elements(&mut self, elements: &DeviceElements) {
+        self.elements = Some(self.build_elements(elements));
+    }
+
+    fn assembles(&self) -> bool {
+        self.elements.is_some()
+    }
+
+    fn assemble(&mut self, matrix: &Assembly<T>) -> Result<(), Breakdown> {
+        self.assemble_on_device(matrix).map_err(|error| breakdown(&error))
+    }
+
+    fn assembled(&self) -> Result<Vec<Block<T, 3>>, Breakdown> {
+        let blocks = self.read().map_err(|error| breakdown(&error))?;
+        Ok(blocks.into_iter().map(|block| block.map(|row| row.map(T::of))).collect())
     }
 
     fn correct(&mut self, r: &[[T; 3]], x: &mut [[T; 3]], tolerance: f64) -> Result<usize, Breakdown> {
@@ -145,21 +227,25 @@ impl<T: Real, N: Number> ApproximateInverse<T> for OnDevice<N> {
 
     fn save(&self, _is_kept: bool, history: &mut History) {
         self.coarse.save(history);
+        put_option(history, "device.scale", Some(self.scale));
     }
 
     fn restore(&mut self, _is_kept: bool, history: &History) -> Result<(), String> {
+        self.scale = take_option(history, "device.scale")?.unwrap_or(1.0);
         self.coarse.restore(history)
     }
 
-    /// The coarse matrix may be that of an earlier matrix; it is restored.
+    /// The scale is that of the time, and the coarse matrix may be that of an earlier matrix: both are restored.
     fn prepare_again(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
-        self.set_scale(values)?;
-        self.send(values, true).map_err(|error| breakdown(&error))
+        self.invert_diagonal(values)?;
+        self.send(values).and_then(|()| self.send_coarse(true)).map_err(|error| breakdown(&error))
     }
 
     /// Bytes on the device, and of the coarse grid here.
     fn bytes(&self) -> usize {
         let on_device = self.solver.as_ref().map_or(0, |solver| solver.bytes());
+        let on_device =
+            on_device + self.elements.iter().flatten().map(|elements| elements.stiffness.bytes()).sum::<usize>();
         on_device + self.coarse.bytes() + self.lower.bytes() + size_of_val(&self.inverses[..])
     }
 }

@@ -2,6 +2,8 @@
 
 #[cfg(feature = "gpu")]
 mod gpu;
+#[cfg(all(test, feature = "gpu"))]
+mod tests;
 
 #[cfg(feature = "gpu")]
 pub use gpu::{device, name, solver, unusable};

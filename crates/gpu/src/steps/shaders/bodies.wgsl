@@ -1,19 +1,6 @@
-// Many bodies of one mesh, environment beside environment: entry k of an array of the mesh belongs to all of them, and entry
-// k · environments + e of a state to environment e. An invocation owns an element or a node of one environment, and invocations side by
-// side read numbers side by side.
+// Many bodies of one mesh, which step together. An invocation owns an element or a node of one environment.
 
-struct Sizes {
-    nodes: u32,
-    elements: u32,
-    environments: u32,
-    padding: u32,
-}
-
-@group(0) @binding(0) var<uniform> sizes: Sizes;
-@group(0) @binding(1) var<storage, read> corners: array<u32>; // four lists of nodes, one number for each element
-@group(0) @binding(2) var<storage, read> shapes: array<real>; // gradients of three corners, 1/m, and volumes, m³: ten lists
 @group(0) @binding(3) var<storage, read> factors: array<real>; // MODULUS, SECOND_MODULUS, WEIGHT, OVER_DENSITY: one of each environment
-@group(0) @binding(4) var<storage, read_write> u: array<real>; // displacements, m: three lists
 @group(0) @binding(5) var<storage, read_write> v: array<real>; // velocities, m/s
 @group(0) @binding(6) var<storage, read_write> forces: array<real>; // of the elements on three corners, N: nine lists
 @group(0) @binding(7) var<storage, read> starts: array<u32>; // first element around each node, and their number
@@ -36,47 +23,6 @@ const ALPHA = 1u;
 // Values of `found`: an inverted element comes before a node whose place it has made infinite in the same step.
 const NO_TROUBLE = 0xffffffffu;
 const NODE = 0x80000000u;
-
-fn number_of(group: vec3<u32>, groups: vec3<u32>, lane: u32) -> u32 {
-    return (group.y * groups.x + group.x) * 64u + lane;
-}
-
-// Place in a state of the first entry of a node; the others follow at distances of `stride()`.
-fn place_of(node: u32, environment: u32) -> u32 {
-    return node * sizes.environments + environment;
-}
-
-fn stride() -> u32 {
-    return sizes.nodes * sizes.environments;
-}
-
-fn displacement(node: u32, environment: u32) -> vector {
-    let at = place_of(node, environment);
-    return vector(u[at], u[at + stride()], u[at + 2u * stride()]);
-}
-
-// Gradient of the shape function of corner 1, 2 or 3, 1/m.
-fn gradient_of(element: u32, corner: u32) -> vector {
-    let at = 3u * (corner - 1u) * sizes.elements + element;
-    return vector(shapes[at], shapes[at + sizes.elements], shapes[at + 2u * sizes.elements]);
-}
-
-fn volume_of(element: u32) -> real {
-    return shapes[9u * sizes.elements + element];
-}
-
-fn node_of(element: u32, corner: u32) -> u32 {
-    return corners[corner * sizes.elements + element];
-}
-
-// G = Σ (u_a − u_0) ⊗ ∇φ_a
-fn displacement_gradient(element: u32, environment: u32) -> Tensor {
-    let origin = displacement(node_of(element, 0u), environment);
-    let a = outer(displacement(node_of(element, 1u), environment) - origin, gradient_of(element, 1u));
-    let b = outer(displacement(node_of(element, 2u), environment) - origin, gradient_of(element, 2u));
-    let c = outer(displacement(node_of(element, 3u), environment) - origin, gradient_of(element, 3u));
-    return sum_of(sum_of(a, b), c);
-}
 
 // Notes an element without volume where the law has no stress for it. Where J is not finite, a node will tell.
 fn check_volume(G: Tensor, element: u32, environment: u32) {

@@ -102,6 +102,15 @@ struct Sums {
     sharpness: real,
 }
 
+// Σ_jl H_(ij)(kl) g_j g_l
+fn block(at: Tangent, gradient: vector) -> Block {
+    let none = vector(real(0.0), real(0.0), real(0.0));
+    let x = times(stress_change(at, Tensor(gradient, none, none)), gradient);
+    let y = times(stress_change(at, Tensor(none, gradient, none)), gradient);
+    let z = times(stress_change(at, Tensor(none, none, gradient)), gradient);
+    return Block(vector(x.x, y.y, z.z), vector(y.x, z.x, z.y));
+}
+
 fn sums_of(node: u32, environment: u32, place: vector) -> Sums {
     let moduli = array<real, 2>(factors[environment], factors[sizes.environments * SECOND_MODULUS + environment]);
     let at_rest = lame(moduli[0], moduli[1]);
@@ -116,7 +125,7 @@ fn sums_of(node: u32, environment: u32, place: vector) -> Sums {
         var added: Block;
         if is_upright(G) {
             P = stress(G, moduli[0], moduli[1]);
-            added = block(G, gradient, moduli[0], moduli[1]);
+            added = block(tangent(G, moduli[0], moduli[1]), gradient);
             if !ALLOWS_INVERSION {
                 let J = real(1.0) + volume_change(G);
                 let slope = times(cofactor(plus_diagonal(G, real(1.0))), gradient);

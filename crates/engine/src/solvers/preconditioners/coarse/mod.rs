@@ -116,7 +116,7 @@ impl Coarse {
     /// Assembles and factorises the coarse matrix, unless an earlier factor still serves. `values` holds the fine matrix. Returns whether
     /// there is another factor.
     pub fn prepare<T: Real>(&mut self, fine: &LowerHalf, values: &[Block<T, 3>], scale: f64) -> bool {
-        let is_new = self.is_outdated || self.scale.is_none();
+        let is_new = self.needs_factor();
         if is_new {
             (self.is_outdated, self.effort) = (false, None);
             self.find_free_directions(fine, values);
@@ -125,6 +125,11 @@ impl Coarse {
         }
         self.weight = self.scale.map_or(0.0, |then| WEIGHT * (then / scale) as f32);
         is_new
+    }
+
+    /// Whether the next preparation assembles and factorises.
+    pub fn needs_factor(&self) -> bool {
+        self.is_outdated || self.scale.is_none()
     }
 
     /// Finds the directions that the matrix couples to others.

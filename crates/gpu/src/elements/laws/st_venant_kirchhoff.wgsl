@@ -19,17 +19,20 @@ fn energy(G: Tensor, mu: real, lambda: real) -> real {
     return mu * dot_of(E, E) + real(0.5) * lambda * volume * volume;
 }
 
-// (g·S g) 1 + μ |g|² F Fᵀ + (μ + λ) F g⊗F g
-fn block(G: Tensor, gradient: vector, mu: real, lambda: real) -> Block {
-    let F = plus_diagonal(G, real(1.0));
-    let along = inner(gradient, times(second_stress(G, mu, lambda), gradient));
-    let of_left = mu * inner(gradient, gradient);
-    let left = Block(
-        vector(inner(F.x, F.x), inner(F.y, F.y), inner(F.z, F.z)),
-        vector(inner(F.x, F.y), inner(F.x, F.z), inner(F.y, F.z)),
-    );
-    let sum = Block(vector(along, along, along) + of_left * left.diagonal, of_left * left.off);
-    return plus_outer(sum, mu + lambda, times(F, gradient));
+struct Tangent {
+    F: Tensor,
+    S: Tensor,
+    mu: real,
+    lambda: real,
+}
+
+fn tangent(G: Tensor, mu: real, lambda: real) -> Tangent {
+    return Tangent(plus_diagonal(G, real(1.0)), second_stress(G, mu, lambda), mu, lambda);
+}
+
+// D S + F S', S' = 2μ E' + λ tr(E') 1, where E' is the symmetric part of DᵀF.
+fn stress_change(at: Tangent, D: Tensor) -> Tensor {
+    return sum_of(product(D, at.S), product(at.F, hooke_stress(product(transposed(D), at.F), at.mu, at.lambda)));
 }
 
 fn lame(mu: real, lambda: real) -> array<real, 2> {

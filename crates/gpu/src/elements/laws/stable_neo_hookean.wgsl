@@ -44,15 +44,15 @@ fn energy(G: Tensor, mu: real, lambda: real) -> real {
     return mu * shear + real(0.5) * lambda_prime(mu, lambda) * j * j;
 }
 
-// a |g|² 1 + 2μ'/(I + 1)² F g⊗F g + λ' cof F g⊗cof F g, a = μ' I/(I + 1), μ' = 4μ/3
-fn block(G: Tensor, gradient: vector, mu: real, lambda: real) -> Block {
+// a = μ' I/(I + 1), b = λ' j − μ, s = 2μ'/(I + 1)², t = 0, r = λ', where μ' = 4μ/3
+fn tangent(G: Tensor, mu: real, lambda: real) -> Tangent {
     let F = plus_diagonal(G, real(1.0));
     let I = dot_of(F, F);
     let mu_prime = real(4.0) * mu / real(3.0);
     let inverse = real(1.0) / (I + real(1.0));
-    let along = diagonal_block(mu_prime * I * inverse * inner(gradient, gradient));
-    let of_F = plus_outer(along, real(2.0) * mu_prime * inverse * inverse, times(F, gradient));
-    return plus_outer(of_F, lambda_prime(mu, lambda), times(cofactor(F), gradient));
+    let r = lambda_prime(mu, lambda);
+    let s = real(2.0) * mu_prime * inverse * inverse;
+    return Tangent(F, cofactor(F), mu_prime * I * inverse, r * volume_change(G) - mu, s, real(0.0), r);
 }
 
 fn lame(mu: real, lambda: real) -> array<real, 2> {

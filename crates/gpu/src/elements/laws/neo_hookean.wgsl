@@ -52,20 +52,18 @@ fn energy(G: Tensor, C: real, D: real) -> real {
     return C * (squares - two * second_order - three * j * w_change - j * w * i) + D * j * j;
 }
 
-// a |g|² 1 + t (f⊗c + c⊗f) + r c⊗c, f = F g, c = cof F g: the terms of the second derivatives of Ī and (J − 1)².
-fn block(G: Tensor, gradient: vector, C: real, D: real) -> Block {
+// With g = J^(−2/3): a = 2C g, b = C I g' + 2D j, s = 0, t = 2C g', r = C I g'' + 2D
+fn tangent(G: Tensor, C: real, D: real) -> Tangent {
     let F = plus_diagonal(G, real(1.0));
-    let J = real(1.0) + volume_change(G);
-    let y = inverse_cube_root(J);
-    let over_J = real(1.0) / J;
+    let j = volume_change(G);
+    let y = inverse_cube_root(real(1.0) + j);
+    let over_J = real(1.0) / (real(1.0) + j);
     let g0 = y * y;
     let g1 = real(-2.0) / real(3.0) * g0 * over_J;
     let g2 = real(-5.0) / real(3.0) * g1 * over_J;
     let two = real(2.0);
-    let c = times(cofactor(F), gradient);
-    let along = diagonal_block(two * C * g0 * inner(gradient, gradient));
-    let mixed = plus_mixed(along, two * C * g1, times(F, gradient), c);
-    return plus_outer(mixed, C * dot_of(F, F) * g2 + two * D, c);
+    let CI = C * dot_of(F, F);
+    return Tangent(F, cofactor(F), two * C * g0, CI * g1 + two * D * j, real(0.0), two * C * g1, CI * g2 + two * D);
 }
 
 // Lamé's constants of small strain: the shear modulus is 2C, the bulk modulus 2D.

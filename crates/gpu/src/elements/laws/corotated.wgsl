@@ -139,22 +139,31 @@ fn energy(G: Tensor, mu: real, lambda: real) -> real {
     return mu * dot_of(difference, difference) + real(0.5) * lambda * R.strain * R.strain;
 }
 
-// 2μ |g|² 1 + λ R g⊗R g + (λ y − 2μ) R [g]× B [g]×ᵀ Rᵀ, where B = (tr S 1 − S)⁻¹, S = RᵀF, gives the spin of R.
-fn block(G: Tensor, gradient: vector, mu: real, lambda: real) -> Block {
+// R, y, and B = (tr S 1 − S)⁻¹, S = RᵀF, which gives the spin of R.
+struct Tangent {
+    R: Tensor,
+    B: Tensor,
+    strain: real,
+    mu: real,
+    lambda: real,
+}
+
+fn tangent(G: Tensor, mu: real, lambda: real) -> Tangent {
     let found = rotation(G);
     let R = plus_diagonal(found.change, real(1.0));
     let S = product(transposed(R), plus_diagonal(G, real(1.0)));
     let A = plus_diagonal(scaled(real(-1.0), S), real(3.0) + found.strain);
-    let B = scaled(real(2.0) / found.denominator, cofactor(A));
-    // The rows of R [g]×.
-    let turned = Tensor(cross_of(R.x, gradient), cross_of(R.y, gradient), cross_of(R.z, gradient));
-    let spun = product(turned, B);
-    let of_spin = lambda * found.strain - real(2.0) * mu;
-    let along = plus_outer(diagonal_block(real(2.0) * mu * inner(gradient, gradient)), lambda, times(R, gradient));
-    return Block(
-        along.diagonal + of_spin * vector(inner(spun.x, turned.x), inner(spun.y, turned.y), inner(spun.z, turned.z)),
-        along.off + of_spin * vector(inner(spun.x, turned.y), inner(spun.x, turned.z), inner(spun.y, turned.z)),
-    );
+    return Tangent(R, scaled(real(2.0) / found.denominator, cofactor(A)), found.strain, mu, lambda);
+}
+
+// 2μ D + λ tr(W) R + (λ y − 2μ) R', W = RᵀD. R' = R [ω]×, where B gives ω from the axial vector of W − Wᵀ.
+fn stress_change(at: Tangent, D: Tensor) -> Tensor {
+    let W = product(transposed(at.R), D);
+    let spin = times(at.B, vector(W.z.y - W.y.z, W.x.z - W.z.x, W.y.x - W.x.y));
+    let turned = Tensor(cross_of(at.R.x, spin), cross_of(at.R.y, spin), cross_of(at.R.z, spin));
+    let of_spin = at.lambda * at.strain - real(2.0) * at.mu;
+    let along = sum_of(scaled(real(2.0) * at.mu, D), scaled(at.lambda * trace_of(W), at.R));
+    return sum_of(along, scaled(of_spin, turned));
 }
 
 fn lame(mu: real, lambda: real) -> array<real, 2> {

@@ -108,12 +108,6 @@ fn plus_outer(block: Block, s: real, a: vector) -> Block {
     return Block(block.diagonal + s * a * a, block.off + s * vector(a.x * a.y, a.x * a.z, a.y * a.z));
 }
 
-// block + t (a⊗b + b⊗a)
-fn plus_mixed(block: Block, t: real, a: vector, b: vector) -> Block {
-    let off = vector(a.x * b.y + a.y * b.x, a.x * b.z + a.z * b.x, a.y * b.z + a.z * b.y);
-    return Block(block.diagonal + real(2.0) * t * a * b, block.off + t * off);
-}
-
 // Hooke's law for small strain, with Lamé's constants μ and λ: stress, energy density, and the block Σ_jl H_(ij)(kl) g_j g_l of its
 // derivative.
 fn hooke_stress(G: Tensor, mu: real, lambda: real) -> Tensor {

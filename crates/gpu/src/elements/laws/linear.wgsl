@@ -11,8 +11,17 @@ fn energy(G: Tensor, mu: real, lambda: real) -> real {
     return hooke_energy(G, mu, lambda);
 }
 
-fn block(G: Tensor, gradient: vector, mu: real, lambda: real) -> Block {
-    return hooke_block(gradient, mu, lambda);
+struct Tangent {
+    mu: real,
+    lambda: real,
+}
+
+fn tangent(G: Tensor, mu: real, lambda: real) -> Tangent {
+    return Tangent(mu, lambda);
+}
+
+fn stress_change(at: Tangent, D: Tensor) -> Tensor {
+    return hooke_stress(D, at.mu, at.lambda);
 }
 
 fn lame(mu: real, lambda: real) -> array<real, 2> {

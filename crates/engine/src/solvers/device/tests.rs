@@ -1,0 +1,40 @@
+//! A device that is lost in the middle of a run.
+
+use fem_scene::simulation::{Breakdown, Cause};
+use fem_scene::{body, parse};
+
+use super::device;
+
+const SCENE: &str = r#"pipeline = "engine"
+mesh.box = { size = [2, 1, 1], cells_per_unit = 2 }
+material = { model = "MODEL", young = 2e5, poisson = 0.3, density = 1000 }
+gravity.acceleration = [0, 0, -9.81]
+fixed.plane = { axis = "x", below = 1e-9 }
+time = { dt = 0.01, integrator = "implicit_euler" }
+solver.kind = "gpu"
+"#;
+
+/// Of the two laws the device assembles the matrices, and the processor does.
+#[test]
+fn a_run_whose_device_is_lost_ends_with_its_last_state_and_says_so() {
+    let device = match device() {
+        Ok(device) => device,
+        Err(error) => return println!("skipped: {error}"),
+    };
+    let start = |model: &str| {
+        let scene = parse(&SCENE.replace("MODEL", model), "lost.toml".as_ref()).unwrap();
+        let body = body(&scene, "no data".as_ref()).unwrap();
+        let mut simulation = crate::simulator::build(&scene, body).unwrap();
+        simulation.step().unwrap();
+        simulation
+    };
+    let runs = ["neo_hookean", "hencky"].map(start);
+    device.lose();
+    for mut run in runs {
+        let last = run.positions();
+        let failure = run.step().unwrap_err();
+        assert_eq!(failure.cause, Cause::Solver(Breakdown::DeviceFailed), "{failure}");
+        assert!(failure.to_string().ends_with("out of memory; use solver.kind = \"pcg\""), "{failure}");
+        assert_eq!(run.positions(), last);
+    }
+}
