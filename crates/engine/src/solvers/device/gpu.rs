@@ -62,7 +62,7 @@ struct OnDevice<N: Number> {
     coarse: Coarse,
     /// The number that the matrix is multiplied by.
     scale: f64,
-    /// Inverses of the diagonal blocks of a matrix that was assembled here, scaled.
+    /// Inverses of the diagonal blocks of a matrix that the processor has assembled, scaled.
     inverses: Vec<Block<f64, 3>>,
 }
 
