@@ -26,9 +26,7 @@ for threads in 1 2; do
 done
 
 step "memory after bodies that are gone"
-# glibc keeps freed memory unless it is told to give it back.
-MALLOC_MMAP_THRESHOLD_=16384 MALLOC_TRIM_THRESHOLD_=65536 \
-    cargo test --test headless -- --ignored --nocapture a_hundred_bodies_leave_no_memory
+cargo test --test headless -- --ignored --nocapture a_hundred_bodies_leave_no_memory
 
 step "costs at 60 frames a second; 99 frames in 100 are held up for less than 0.5 ms"
 cargo run --quiet --example costs

@@ -1,18 +1,23 @@
 //! Bodies that come and go.
 
+use std::alloc::System;
 use std::thread::sleep;
 use std::time::Duration;
 
 use bevy::prelude::*;
 use fem_bevy::{SoftBody, SoftBodyMeshSync, SoftBodyState};
+use stats_alloc::{INSTRUMENTED_SYSTEM, Stats, StatsAlloc};
 
 use crate::app::{DATA, app, state, wait_for_bodies, wait_until};
 
-/// Resident memory of this process, MiB; `None` where the system does not tell.
-fn resident() -> Option<f64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;
-    Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? / 1024.0)
+/// Counts what is allocated and not freed.
+#[global_allocator]
+static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+/// Memory that is in use, MiB.
+fn in_use() -> f64 {
+    let Stats { bytes_allocated, bytes_deallocated, .. } = ALLOCATOR.stats();
+    (bytes_allocated as f64 - bytes_deallocated as f64) / (1 << 20) as f64
 }
 
 /// Spawns 100 bodies, lets them move, and despawns them.
@@ -35,7 +40,7 @@ fn round(app: &mut App) {
 fn a_hundred_bodies_leave_no_memory() {
     let mut app = app(Duration::from_millis(10), 1);
     app.update();
-    let mut after: Vec<f64> = resident().into_iter().collect();
+    let mut after = vec![in_use()];
     for _ in 0..10 {
         round(&mut app);
         // The worker frees its bodies in its own time, and frames free its last states.
@@ -43,13 +48,11 @@ fn a_hundred_bodies_leave_no_memory() {
             app.update();
             sleep(Duration::from_millis(3));
         }
-        after.extend(resident());
+        after.push(in_use());
     }
-    println!("resident memory before, and after each 100 bodies, MiB: {after:.1?}");
-    if let [_, first, .., last] = after[..] {
-        // A hundred bodies take 260 MiB; what an allocator keeps of that varies.
-        assert!(last - first < 50.0, "{after:?} MiB");
-    }
+    println!("memory in use before, and after each 100 bodies, MiB: {after:.3?}");
+    // A hundred bodies take 260 MiB.
+    assert!(after[10] - after[1] < 0.1, "{after:?} MiB");
 }
 
 #[test]
