@@ -107,8 +107,7 @@ impl<T: Real> Newton<T> {
         w: &[[T; 3]],
         counters: &mut Counters,
     ) -> Option<Result<(), Breakdown>> {
-        // Without projection the diagonal of a matrix here is shifted.
-        if !self.solver.assembles() || self.limits.projection == Projection::Never {
+        if !self.solver.assembles() {
             return None;
         }
         let Self { solver, values, workspace, .. } = self;

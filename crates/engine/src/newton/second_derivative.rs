@@ -24,7 +24,7 @@ impl<T: Real> IncrementalPotential<'_, T> {
         system.dirichlet.eliminate(&system.pattern, values);
     }
 
-    /// Does something with the parts of ∂²E/∂w², for a solver that assembles it itself. `values` is for those parts that are computed here.
+    /// Hands the parts of ∂²E/∂w² to `work`, which assembles them where the matrix is solved with. `values` is scratch space.
     pub fn with_sum<R>(
         &self,
         w: &[[T; 3]],

@@ -24,7 +24,9 @@ pub(super) fn unknown_elements(is_solid: bool, flows: bool, laws: &[&str]) -> Op
 
 /// The same for the body of a scene.
 pub(super) fn unknown_in_body(body: &Body) -> Option<String> {
-    let materials = std::iter::once(&body.material).chain(body.regions.iter().map(|region| &region.material));
+    let in_regions: usize = body.regions.iter().map(|region| region.elements.len()).sum();
+    let own = (in_regions < body.shape.mesh.elements()).then_some(&body.material);
+    let materials = own.into_iter().chain(body.regions.iter().map(|region| &region.material));
     let laws: Vec<&str> = materials.map(|material| &material.model[..]).collect();
     unknown_elements(body.shape.mesh.solid().is_some(), body.plasticity.is_some(), &laws)
 }

@@ -89,7 +89,7 @@ impl Plan {
         parts
     }
 
-    /// Where the matrix is assembled.
+    /// Why the matrix is a part, and whether the processor or the graphics device assembles it.
     fn assembly(&self, kind: IntegratorKind, method: &Method, solver: SolverChoice, is_linear: bool) -> String {
         let solves = format!("{} solves with it", kind.name());
         let other_method = device_assembly::other_method(kind, method, is_linear);

@@ -208,7 +208,7 @@ impl<T: Real> Solver<T> {
     /// Adds what the next preparation takes from earlier matrices, and, if the factor or preconditioner `is_kept`, what it takes
     /// from them.
     pub fn save(&self, is_kept: bool, history: &mut History) {
-        if self.choice.copies_matrix() {
+        if self.inverse.assembles() {
             put_flag(history, "solver.has_own_matrix", self.has_own_matrix);
         }
         self.inverse.save(is_kept, history);
@@ -216,7 +216,7 @@ impl<T: Real> Solver<T> {
 
     /// Takes over what [`save`](Self::save) has added.
     pub fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String> {
-        self.has_own_matrix = self.choice.copies_matrix() && take_flag(history, "solver.has_own_matrix")?;
+        self.has_own_matrix = self.inverse.assembles() && take_flag(history, "solver.has_own_matrix")?;
         self.inverse.restore(is_kept, history)
     }
 
