@@ -33,7 +33,7 @@ use crate::materials::AnyLaw;
 use crate::model::numbering::Numbering;
 use crate::model::state::State;
 use crate::model::system::{OwnForces, System};
-use crate::number::Real;
+use crate::number::{Real, check_instructions};
 use crate::refusal::Refusal;
 use crate::skinning::Skinning;
 use crate::solvers::SolverChoice;
@@ -111,9 +111,10 @@ pub fn planned_parts(scene: &Scene, body: &Body) -> Result<Vec<Part>, SceneError
 }
 
 /// The law of a body that the engine can simulate with numbers of this machine epsilon; `None` for a mass-spring body.
-fn check<T: Real>(scene: &Scene, body: &Body, epsilon: f64) -> Result<Option<AnyLaw<T::Lanes>>, SceneError> {
+fn check<T: Real>(scene: &Scene, body: &Body, epsilon: f64) -> Result<Option<AnyLaw<T::Single>>, SceneError> {
     let refuse = |(field, problem): Refusal| scene.refuse(field, &problem);
-    let law = AnyLaw::<T::Lanes>::new(&body.material);
+    check_instructions().map_err(|problem| scene.refuse("pipeline", &problem))?;
+    let law = AnyLaw::<T::Single>::new(&body.material);
     if law.is_none() && !body.material.is_mass_spring() {
         return Err(refuse(("material", "lacks the parameters of its model; see README.md for them".to_owned())));
     }

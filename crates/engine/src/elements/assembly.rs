@@ -2,6 +2,7 @@
 
 use std::marker::PhantomData;
 
+use pulp::WithSimd;
 use rayon::prelude::*;
 
 use super::chunk_sums::{
@@ -19,16 +20,22 @@ macro_rules! with_widest_lanes {
         if $T::has_fast() {
             $T::Fast::vectorize($Work::<$T::Fast, D, E, N> { $($field),* })
         } else {
-            $T::Lanes::vectorize($Work::<$T::Lanes, D, E, N> { $($field),* })
+            $T::Single::vectorize($Work::<$T::Single, D, E, N> { $($field),* })
         }
     };
+}
+
+/// Runs work on a chunk with these lanes and laws.
+#[inline(always)]
+fn vectorize<L: Lanes, B: BatchLaws<L>, W: WithSimd>(work: W) -> W::Output {
+    if B::IS_INLINED { L::vectorize_widest(work) } else { L::vectorize(work) }
 }
 
 impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, N> {
     /// Elastic energy at displacements `u` of all nodes, J; not finite where the law does not allow an element.
     pub fn energy<L: Lanes<Element = T>, B: BatchLaws<L>>(&self, laws: B, u: &[[T; 3]]) -> f64 {
         let of_chunk = |chunk: &Chunk<T, D, E, N>, _: &mut [()]| {
-            L::vectorize(EnergyOf { lanes: PhantomData::<L>, chunk, laws, u })
+            vectorize::<L, B, _>(EnergyOf { lanes: PhantomData::<L>, chunk, laws, u })
         };
         over_chunks(&self.chunks, &mut [], |_| 0, &of_chunk)
     }
@@ -43,7 +50,7 @@ impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, 
     /// Adds the gradient of the energy by the nodes' positions, N.
     pub fn add_gradient<L: Lanes<Element = T>, B: BatchLaws<L>>(&self, laws: B, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
         let of_chunk = |chunk: &Chunk<T, D, E, N>, sums: &mut [[T; 3]]| {
-            L::vectorize(AddGradientOf { lanes: PhantomData::<L>, chunk, laws, u, sums });
+            vectorize::<L, B, _>(AddGradientOf { lanes: PhantomData::<L>, chunk, laws, u, sums });
             0.0
         };
         over_chunks(&self.chunks, gradient, |chunk| chunk.nodes.end, &of_chunk);
@@ -57,7 +64,7 @@ impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, 
         gradient: &mut [[T; 3]],
     ) -> f64 {
         let of_chunk = |chunk: &Chunk<T, D, E, N>, sums: &mut [[T; 3]]| {
-            L::vectorize(AddEnergyAndGradientOf { lanes: PhantomData::<L>, chunk, laws, u, sums })
+            vectorize::<L, B, _>(AddEnergyAndGradientOf { lanes: PhantomData::<L>, chunk, laws, u, sums })
         };
         over_chunks(&self.chunks, gradient, |chunk| chunk.nodes.end, &of_chunk)
     }
@@ -71,7 +78,7 @@ impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, 
         values: &mut [Block<T, 3>],
     ) {
         let of_chunk = |chunk: &Chunk<T, D, E, N>, values: &mut [Block<T, 3>]| {
-            L::vectorize(AddStiffnessOf { lanes: PhantomData::<L>, chunk, laws, factor, u, values });
+            vectorize::<L, B, _>(AddStiffnessOf { lanes: PhantomData::<L>, chunk, laws, factor, u, values });
             0.0
         };
         over_chunks(&self.chunks, values, |chunk| chunk.blocks.end, &of_chunk);
@@ -87,7 +94,7 @@ impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, 
         product: &mut [[T; 3]],
     ) {
         let of_chunk = |chunk: &Chunk<T, D, E, N>, sums: &mut [[T; 3]]| {
-            L::vectorize(AddStiffnessTimesOf { lanes: PhantomData::<L>, chunk, laws, factor, u, d, sums });
+            vectorize::<L, B, _>(AddStiffnessTimesOf { lanes: PhantomData::<L>, chunk, laws, factor, u, d, sums });
             0.0
         };
         over_chunks(&self.chunks, product, |chunk| chunk.nodes.end, &of_chunk);

@@ -9,39 +9,38 @@ use super::kernel::{
 };
 use super::scatter::{add_hessian, scatter};
 use super::{Batch, BatchLaws, Chunk};
-use crate::materials::Law;
+use crate::materials::{Law, Linearized};
 use crate::number::{Lanes, Real, constant};
 use crate::sparse::Block;
 use crate::tensor::{from_fn, volume_change};
 
-/// A stored batch in lanes like `one`.
+/// A part of a stored batch in lanes like `one`.
 #[inline(always)]
 fn load<L: Lanes, const D: usize, const E: usize>(
     stored: &Batch<<L::Element as Real>::Lanes, D, E>,
+    part: usize,
     one: L,
 ) -> Batch<L, D, E> {
-    let (volume, counted) = (one.load(&stored.volume), one.load(&stored.counted));
+    let (volume, counted) = (one.load(&stored.volume, part), one.load(&stored.counted, part));
     let mut batch = Batch { gradients: [[one; D]; E], volume, counted };
     for e in 0..E {
         for j in 0..D {
-            batch.gradients[e][j] = one.load(&stored.gradients[e][j]);
+            batch.gradients[e][j] = one.load(&stored.gradients[e][j], part);
         }
     }
     batch
 }
 
-/// The batches of a chunk, in lanes like `one`, with their corners.
+/// The batches of a chunk in parts of as many elements as there are lanes like `one`, with their corners.
 #[inline(always)]
-fn batches<L: Lanes, const D: usize, const E: usize, const N: usize>(
+pub(super) fn batches<L: Lanes, const D: usize, const E: usize, const N: usize>(
     chunk: &Chunk<L::Element, D, E, N>,
     one: L,
 ) -> impl Iterator<Item = (Batch<L, D, E>, &[[u32; N]])> {
-    chunk
-        .batches
-        .iter()
+    (0..chunk.batches.len() * L::PARTS)
         .map(
             #[inline(always)]
-            move |stored| load(stored, one),
+            move |i| load(&chunk.batches[i / L::PARTS], i % L::PARTS, one),
         )
         .zip(chunk.corners.chunks_exact(L::LANES))
 }
@@ -169,12 +168,10 @@ impl<L: Lanes, B: BatchLaws<L>, const D: usize, const E: usize, const N: usize> 
             let G = displacement_gradient(&batch, corners, u);
             let mut scaled = batch;
             scaled.volume *= factor;
-            let inner = if let Some(terms) = law.of_invariants(&G) {
-                invariant_blocks(&scaled, &terms)
-            } else if let Some(terms) = law.of_rotation(&G) {
-                rotation_blocks(&scaled, &terms)
-            } else {
-                corner_blocks(&scaled, &law.derivative(&G))
+            let inner = match law.linearized(&G) {
+                Linearized::General(H) => corner_blocks(&scaled, &H),
+                Linearized::Invariants(terms) => invariant_blocks(&scaled, &terms),
+                Linearized::Rotation(terms) => rotation_blocks(&scaled, &terms),
             };
             add_hessian(chunk, i, &inner, values);
         }

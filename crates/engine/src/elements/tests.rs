@@ -63,8 +63,8 @@ fn triangles() -> Case<2, 2, 3> {
     case(&positions, &cells.flat_map(cell).collect::<Vec<_>>())
 }
 
-fn law<T: Real>() -> NeoHookean<T::Lanes> {
-    NeoHookean { C: T::Lanes::splat(T::of(C)), D: T::Lanes::splat(T::of(D)) }
+fn law<T: Real>() -> NeoHookean<T::Single> {
+    NeoHookean { C: T::Single::splat(T::of(C)), D: T::Single::splat(T::of(D)) }
 }
 
 fn moved(u: &[[f64; 3]], d: &[[f64; 3]], h: f64) -> Vec<[f64; 3]> {
@@ -247,7 +247,7 @@ impl<T: Number, L: Law<T>> Law<T> for Entries<L> {
 
 fn blocks_of_both_kinds_are_alike<const D: usize, const E: usize, const N: usize>(
     case: &Case<D, E, N>,
-    law: impl Law<<f64 as Real>::Lanes> + Copy,
+    law: impl Law<f64> + Copy,
 ) {
     let mut values = [vec![[[0.0; 3]; 3]; case.pattern.blocks()], vec![[[0.0; 3]; 3]; case.pattern.blocks()]];
     case.elements.add_stiffness(&law, 2.0, &case.u, &mut values[0]);
@@ -261,11 +261,10 @@ fn blocks_of_both_kinds_are_alike<const D: usize, const E: usize, const N: usize
 
 #[test]
 fn blocks_from_invariants_and_from_a_rotation_are_those_from_all_entries_of_the_derivative() {
-    let lanes = <f64 as Real>::Lanes::splat;
-    let stable = StableNeoHookean { mu: lanes(C), lambda: lanes(D) };
+    let stable = StableNeoHookean { mu: C, lambda: D };
     blocks_of_both_kinds_are_alike(&tetrahedra(2), law::<f64>());
     blocks_of_both_kinds_are_alike(&tetrahedra(2), stable);
-    blocks_of_both_kinds_are_alike(&tetrahedra(2), crate::materials::Corotated { mu: lanes(C), lambda: lanes(D) });
+    blocks_of_both_kinds_are_alike(&tetrahedra(2), crate::materials::Corotated { mu: C, lambda: D });
     blocks_of_both_kinds_are_alike(&triangles(), law::<f64>());
     blocks_of_both_kinds_are_alike(&triangles(), stable);
 }

@@ -2,7 +2,10 @@
 
 /// Defines [`AnyLaw`](super::AnyLaw) and its methods from a list of `file::Law`.
 macro_rules! laws {
-    (() $($file:ident::$Law:ident),* $(,)?) => {
+    (() inlined { $($first:tt)* } by_reference { $($second:tt)* }) => {
+        $crate::materials::any::laws! { $($first)* $($second)* }
+    };
+    ($($file:ident::$Law:ident,)*) => {
         $(pub use $file::$Law;)*
 
         /// One of the laws, with its parameters.
@@ -43,15 +46,9 @@ macro_rules! laws {
                 }
             }
 
-            fn of_invariants(&self, G: &Tensor<T>) -> Option<OfInvariants<T>> {
+            fn linearized(&self, G: &Tensor<T>) -> Linearized<T> {
                 match self {
-                    $(Self::$Law(law) => Vectorized(*law).of_invariants(G),)*
-                }
-            }
-
-            fn of_rotation(&self, G: &Tensor<T>) -> Option<OfRotation<T>> {
-                match self {
-                    $(Self::$Law(law) => Vectorized(*law).of_rotation(G),)*
+                    $(Self::$Law(law) => Vectorized(*law).linearized(G),)*
                 }
             }
 
@@ -115,21 +112,23 @@ macro_rules! laws {
 }
 pub(super) use laws;
 
-/// Chooses the law once, outside the loop over elements: `with_law!(any_law, law => expression)` evaluates the expression, compiled
-/// once for each law, with `law` bound to the law itself. Needs [`match_law`] in scope.
-macro_rules! with_law {
-    ($any:expr, $law:ident => $work:expr) => {
-        $crate::materials::law_list! { match_law ($any, $law, $work) }
+/// Chooses the law once, outside the loop over elements: `with_inlined_law!(any_law, law => expression, else other)` evaluates the
+/// expression, compiled once for each law that is worth it, with `law` bound to the law itself; for all others the other expression. Needs
+/// [`match_inlined_law`] in scope.
+macro_rules! with_inlined_law {
+    ($any:expr, $law:ident => $work:expr, else $other:block) => {
+        $crate::materials::law_list! { match_inlined_law ($any, $law, $work, $other) }
     };
 }
-pub(crate) use with_law;
+pub(crate) use with_inlined_law;
 
-/// The match of [`with_law`].
-macro_rules! match_law {
-    (($any:expr, $law:ident, $work:expr) $($file:ident::$Law:ident),* $(,)?) => {
+/// The match of [`with_inlined_law`].
+macro_rules! match_inlined_law {
+    (($any:expr, $law:ident, $work:expr, $other:expr) inlined { $($file:ident::$Law:ident,)* } by_reference { $($rest:tt)* }) => {
         match $any {
             $($crate::materials::AnyLaw::$Law($law) => $work,)*
+            _ => $other,
         }
     };
 }
-pub(crate) use match_law;
+pub(crate) use match_inlined_law;

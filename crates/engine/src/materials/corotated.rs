@@ -11,7 +11,7 @@
 use pulp::{Simd, WithSimd};
 
 use super::isotropic::{Principal, derivative_from, projected_derivative_from};
-use super::{Law, NamedLaw};
+use super::{Law, Linearized, NamedLaw};
 use crate::number::{Number, Real, constant};
 use crate::polar::SpaceRotation;
 use crate::svd::{Svd, svd, svd_in_plane};
@@ -252,11 +252,11 @@ impl<T: Number> Law<T> for Corotated<T> {
     }
 
     #[inline(always)]
-    fn of_rotation(&self, G: &Tensor<T>) -> Option<OfRotation<T>> {
-        SpaceRotation::of(G).map(
-            #[inline(always)]
-            |R| self.terms_at(&R, G),
-        )
+    fn linearized(&self, G: &Tensor<T>) -> Linearized<T> {
+        match SpaceRotation::of(G) {
+            Some(R) => Linearized::Rotation(self.terms_at(&R, G)),
+            None => Linearized::General(self.derivative_on_crease(G)),
+        }
     }
 
     #[inline(always)]

@@ -2,7 +2,7 @@
 //! ch. 7; Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis (2008), §6.5.
 
 use super::isochoric::Isochoric;
-use super::{Law, NamedLaw, OfInvariants};
+use super::{Law, Linearized, NamedLaw, OfInvariants};
 use crate::number::{Number, constant};
 use crate::tensor::{Tensor, Tensor4};
 
@@ -41,8 +41,8 @@ impl<T: Number> Law<T> for NeoHookean<T> {
     }
 
     #[inline(always)]
-    fn of_invariants(&self, G: &Tensor<T>) -> Option<OfInvariants<T>> {
-        Some(self.terms(G))
+    fn linearized(&self, G: &Tensor<T>) -> Linearized<T> {
+        Linearized::Invariants(self.terms(G))
     }
 
     /// Requires J > 0.

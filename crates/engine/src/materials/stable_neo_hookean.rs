@@ -7,7 +7,7 @@
 //! With i = I − 3 and j = J − 1, P = a F + b cof, a = μ' I/(I + 1), b = λ' j − μ, and
 //! ∂P/∂F = a 1 + 2μ'/(I + 1)² F⊗F + λ' cof⊗cof + b ∂cof/∂F.
 
-use super::{Law, NamedLaw, OfInvariants};
+use super::{Law, Linearized, NamedLaw, OfInvariants};
 use crate::number::{Number, constant, minus_ln_1p};
 use crate::tensor::{Tensor, Tensor4, cofactor, dot, from_fn, half, plus_identity, trace, volume_change};
 
@@ -84,8 +84,8 @@ impl<T: Number> Law<T> for StableNeoHookean<T> {
     }
 
     #[inline(always)]
-    fn of_invariants(&self, G: &Tensor<T>) -> Option<OfInvariants<T>> {
-        Some(self.terms(G))
+    fn linearized(&self, G: &Tensor<T>) -> Linearized<T> {
+        Linearized::Invariants(self.terms(G))
     }
 
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::{Law, OfInvariants, OfRotation};
+use super::{Law, Linearized};
 use crate::number::Number;
 use crate::tensor::{Tensor, Tensor4};
 
@@ -41,7 +41,6 @@ vectorized_law!(
     Stress stress -> Tensor<T>,
     EnergyAndStress energy_and_stress -> (T, Tensor<T>),
     Derivative derivative -> Tensor4<T>,
-    Invariants of_invariants -> Option<OfInvariants<T>>,
-    Rotation of_rotation -> Option<OfRotation<T>>,
+    Linearization linearized -> Linearized<T>,
     ProjectedDerivative projected_derivative -> Tensor4<T>,
 );

@@ -5,7 +5,7 @@
 //! P = f' ∂Ī/∂F + 2D (J − 1) cof and ∂P/∂F = f' ∂²Ī/∂F² + f'' ∂Ī/∂F⊗∂Ī/∂F + that of the last term.
 
 use super::isochoric::Isochoric;
-use super::{Law, NamedLaw, OfInvariants};
+use super::{Law, Linearized, NamedLaw, OfInvariants};
 use crate::number::{Number, constant};
 use crate::tensor::{Tensor, Tensor4, dot};
 
@@ -64,8 +64,8 @@ impl<T: Number> Law<T> for Yeoh<T> {
     }
 
     #[inline(always)]
-    fn of_invariants(&self, G: &Tensor<T>) -> Option<OfInvariants<T>> {
-        Some(self.terms(G))
+    fn linearized(&self, G: &Tensor<T>) -> Linearized<T> {
+        Linearized::Invariants(self.terms(G))
     }
 
     /// Requires J > 0.

@@ -1,13 +1,15 @@
 //! The elements of one material with its law, and the choice of the law and of the lanes for the loops over them.
 
-use crate::materials::{AnyLaw, Law, PlaneCorotated, Vectorized};
+use crate::elements::BatchLaws;
+use crate::materials::{AnyLaw, Law, Linearized, PlaneCorotated, Vectorized};
 use crate::model::any_elements::AnyElements;
-use crate::number::{Lanes, Real};
-use crate::plasticity::{PlasticLaws, Plasticity};
+use crate::number::{Lanes, Number, Real};
+use crate::plasticity::{PlasticLaw, PlasticLaws, Plasticity};
+use crate::tensor::{Tensor, Tensor4};
 
 /// The elements of one material.
 pub(super) struct Solid<T: Real> {
-    pub(super) laws: SolidLaws<T::Lanes>,
+    pub(super) laws: SolidLaws<T::Single>,
     /// The same in wide registers, on processors that have them.
     pub(super) fast: Option<SolidLaws<T::Fast>>,
     pub(super) elements: AnyElements<T>,
@@ -33,69 +35,139 @@ impl<L: Lanes> SolidLaws<L> {
     }
 }
 
-/// Evaluates an expression for the elements of a group with its law, in the widest lanes of this processor. For these `with_law!` compiles
-/// the value for each law of tetrahedra that do not flow; old processors without them call laws by reference, to keep the program small.
-macro_rules! with_law_and_elements {
-    ($solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
+/// Evaluates an expression for the elements of a group and its laws, called by reference, in the widest lanes of this processor.
+macro_rules! with_laws_by_reference {
+    ($solids:expr, $group:expr, $laws:ident, $elements:ident => $value:expr) => {
         match &$group.fast {
-            Some(laws) => with_law_and_elements!(in laws, $solids, $group, $law, $elements => $value),
-            None => with_law_by_reference!(in &$group.laws, $solids, $group, $law, $elements => $value),
-        }
-    };
-    (in $laws:expr, $solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
-        match (&$group.elements, $group.plastic_laws(&$solids.plasticity, $laws)) {
-            (AnyElements::Tetrahedra($elements), None) => with_law!(&$laws.law, $law => $value),
-            (AnyElements::Triangles($elements), None) => match &$laws.in_plane {
-                Some(Vectorized($law)) => $value,
-                None => {
-                    let $law = $laws.law.as_law();
-                    $value
-                }
-            },
-            (AnyElements::QuadraticTriangles($elements), None) => {
-                let $law = $laws.as_law();
-                $value
+            Some(laws) => {
+                let $laws = LawsByReference::new($group, laws, &$solids.plasticity);
+                with_elements!(&$group.elements, $elements => $value)
             }
-            (AnyElements::Tetrahedra($elements), Some($law)) => $value,
-            (AnyElements::Triangles($elements), Some($law)) => $value,
-            (AnyElements::QuadraticTriangles($elements), Some($law)) => $value,
-        }
-    };
-}
-pub(super) use with_law_and_elements;
-
-/// The same with the law by reference.
-macro_rules! with_law_by_reference {
-    ($solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
-        match &$group.fast {
-            Some(laws) => with_law_by_reference!(in laws, $solids, $group, $law, $elements => $value),
-            None => with_law_by_reference!(in &$group.laws, $solids, $group, $law, $elements => $value),
-        }
-    };
-    (in $laws:expr, $solids:expr, $group:expr, $law:ident, $elements:ident => $value:expr) => {
-        with_elements!(&$group.elements, $elements => match $group.plastic_laws(&$solids.plasticity, $laws) {
             None => {
-                let $law = $laws.as_law();
-                $value
+                let $laws = LawsByReference::new($group, &$group.laws, &$solids.plasticity);
+                with_elements!(&$group.elements, $elements => $value)
             }
-            Some($law) => $value,
-        })
+        }
     };
 }
-pub(super) use with_law_by_reference;
+pub(super) use with_laws_by_reference;
+
+/// The same, but compiled for the law itself where many steps spend most of their time: in wide registers, for tetrahedra of the laws that
+/// are worth it, and triangles of the corotated one.
+macro_rules! with_laws {
+    ($solids:expr, $group:expr, $laws:ident, $elements:ident => $value:expr) => {
+        match (&$group.fast, &$group.elements) {
+            (Some(laws), AnyElements::Tetrahedra($elements)) if $solids.plasticity.is_none() => {
+                with_inlined_law!(&laws.law, $laws => $value, else {
+                    let $laws = LawsByReference::new($group, laws, &None);
+                    $value
+                })
+            }
+            (Some(SolidLaws { in_plane: Some(Vectorized($laws)), .. }), AnyElements::Triangles($elements))
+                if $solids.plasticity.is_none() =>
+            {
+                $value
+            }
+            _ => with_laws_by_reference!($solids, $group, $laws, $elements => $value),
+        }
+    };
+}
+pub(super) use with_laws;
+
+/// The laws of the elements of one material, called by reference once per batch.
+#[derive(Clone, Copy)]
+pub(super) struct LawsByReference<'a, T: Real, L> {
+    laws: ElasticOrPlastic<&'a dyn Law<L>, PlasticLaws<'a, T, L>>,
+    is_projected: bool,
+}
+
+/// The law of a batch, which is that of all elements or has internal variables. Its derivative may be the projected one.
+pub(super) struct LawByReference<'a, L> {
+    law: ElasticOrPlastic<&'a dyn Law<L>, PlasticLaw<L>>,
+    is_projected: bool,
+}
+
+#[derive(Clone, Copy)]
+enum ElasticOrPlastic<E, P> {
+    Elastic(E),
+    Plastic(P),
+}
+
+impl<'a, T: Real, L: Lanes<Element = T>> LawsByReference<'a, T, L> {
+    /// The laws of a group's elements.
+    pub(super) fn new(group: &'a Solid<T>, laws: &'a SolidLaws<L>, plasticity: &'a Option<Plasticity<T>>) -> Self {
+        match plasticity {
+            None => Self::one(laws.as_law()),
+            Some(plasticity) => {
+                let laws = PlasticLaws::new(plasticity, &laws.law, &group.numbers);
+                Self { laws: ElasticOrPlastic::Plastic(laws), is_projected: false }
+            }
+        }
+    }
+
+    /// One law for all elements.
+    pub(super) fn one(law: &'a dyn Law<L>) -> Self {
+        Self { laws: ElasticOrPlastic::Elastic(law), is_projected: false }
+    }
+
+    /// The laws whose derivatives are the positive semi-definite projections of these.
+    pub(super) fn projected(self) -> Self {
+        Self { is_projected: true, ..self }
+    }
+}
+
+impl<'a, T: Real, L: Lanes<Element = T>> BatchLaws<L> for LawsByReference<'a, T, L> {
+    type Law = LawByReference<'a, L>;
+    const IS_INLINED: bool = false;
+
+    #[inline(always)]
+    fn of_batch(&self, elements: &[u32], batch: usize) -> LawByReference<'a, L> {
+        let law = match &self.laws {
+            ElasticOrPlastic::Elastic(law) => ElasticOrPlastic::Elastic(*law),
+            ElasticOrPlastic::Plastic(laws) => ElasticOrPlastic::Plastic(laws.of_batch(elements, batch)),
+        };
+        LawByReference { law, is_projected: self.is_projected }
+    }
+}
+
+impl<L: Number> LawByReference<'_, L> {
+    fn law(&self) -> &dyn Law<L> {
+        match &self.law {
+            ElasticOrPlastic::Elastic(law) => *law,
+            ElasticOrPlastic::Plastic(law) => law,
+        }
+    }
+}
+
+impl<L: Number> Law<L> for LawByReference<'_, L> {
+    fn energy(&self, G: &Tensor<L>) -> L {
+        self.law().energy(G)
+    }
+
+    fn stress(&self, G: &Tensor<L>) -> Tensor<L> {
+        self.law().stress(G)
+    }
+
+    fn energy_and_stress(&self, G: &Tensor<L>) -> (L, Tensor<L>) {
+        self.law().energy_and_stress(G)
+    }
+
+    fn derivative(&self, G: &Tensor<L>) -> Tensor4<L> {
+        if self.is_projected { self.law().projected_derivative(G) } else { self.law().derivative(G) }
+    }
+
+    fn linearized(&self, G: &Tensor<L>) -> Linearized<L> {
+        if self.is_projected { Linearized::General(self.derivative(G)) } else { self.law().linearized(G) }
+    }
+
+    fn projected_derivative(&self, G: &Tensor<L>) -> Tensor4<L> {
+        self.law().projected_derivative(G)
+    }
+}
 
 impl<T: Real> Solid<T> {
     /// The number in the mesh of a quadrature point of the group.
     pub(super) fn number(&self, point: usize) -> usize {
         self.numbers.get(point).copied().unwrap_or(point)
-    }
-
-    /// The laws of its quadrature points where they flow.
-    pub(super) fn plastic_laws<'a, L: Lanes<Element = T>>(
-        &'a self,
-        plasticity: &'a Option<Plasticity<T>>,
-        laws: &SolidLaws<L>,
-    ) -> Option<PlasticLaws<'a, T, L>> {
-        plasticity.as_ref().map(|plasticity| PlasticLaws::new(plasticity, &laws.law, &self.numbers))
     }
 }

@@ -6,13 +6,11 @@ mod metric;
 use fem_scene::{Body, Material, PlaneState};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::elements::{BatchLaws, smaller};
-use crate::materials::{
-    AnyLaw, Law, Projected, Vectorized, cauchy_stress, match_law, plane_cauchy_stress, pushed_forward, with_law,
-};
+use crate::elements::smaller;
+use crate::materials::{AnyLaw, Law, Vectorized, cauchy_stress, in_plane_stress, match_inlined_law, with_inlined_law};
 use crate::model::any_elements::{AnyElements, with_elements};
 use crate::model::numbering::Numbering;
-use crate::model::solid::{Solid, SolidLaws, with_law_and_elements, with_law_by_reference};
+use crate::model::solid::{LawsByReference, Solid, SolidLaws, with_laws, with_laws_by_reference};
 use crate::number::{Lanes, Real};
 use crate::plasticity::Plasticity;
 use crate::sparse::{Block, Pattern};
@@ -43,12 +41,12 @@ pub trait LawWork<T: Real> {
 impl<T: Real> Solids<T> {
     /// Groups the elements of a body, with positions and numbers of nodes as the engine has them. `law` is that of the body's own
     /// material; without one, as in a mass-spring body, no element is built.
-    pub fn new(body: &Body, law: Option<AnyLaw<T::Lanes>>, rest: &[Vector3<f64>], numbering: &Numbering) -> Self {
+    pub fn new(body: &Body, law: Option<AnyLaw<T::Single>>, rest: &[Vector3<f64>], numbering: &Numbering) -> Self {
         let Some(law) = law else { return Self::none() };
         let factors = &body.stiffness_factors;
         let (count, points_per_element) = (body.shape.mesh.elements(), body.shape.mesh.points_per_element());
         let is_flat = body.shape.mesh.is_flat();
-        let group = |(law, material): (AnyLaw<T::Lanes>, &Material), elements: Vec<usize>| {
+        let group = |(law, material): (AnyLaw<T::Single>, &Material), elements: Vec<usize>| {
             let of_element = |&element: &usize| element * points_per_element..(element + 1) * points_per_element;
             let numbers = elements.iter().flat_map(of_element).collect();
             let elements = AnyElements::new(&body.shape.mesh, factors, &elements, rest, numbering);
@@ -149,7 +147,7 @@ impl<T: Real> Solids<T> {
     }
 
     /// The law of each material.
-    pub(crate) fn laws(&self) -> impl Iterator<Item = &AnyLaw<T::Lanes>> {
+    pub(crate) fn laws(&self) -> impl Iterator<Item = &AnyLaw<T::Single>> {
         self.groups.iter().map(|group| &group.laws.law)
     }
 
@@ -167,14 +165,14 @@ impl<T: Real> Solids<T> {
     pub fn energy(&self, u: &[[T; 3]]) -> f64 {
         self.groups
             .iter()
-            .map(|group| with_law_by_reference!(self, group, law, elements => elements.energy(law, u)))
+            .map(|group| with_laws_by_reference!(self, group, laws, elements => elements.energy(laws, u)))
             .sum()
     }
 
     /// Adds the gradient of the energy, N.
     pub fn add_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
         for group in &self.groups {
-            with_law_and_elements!(self, group, law, elements => elements.add_gradient(law, u, gradient));
+            with_laws!(self, group, laws, elements => elements.add_gradient(laws, u, gradient));
         }
     }
 
@@ -182,9 +180,7 @@ impl<T: Real> Solids<T> {
     pub fn add_energy_and_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) -> f64 {
         let mut energy = 0.0;
         for group in &self.groups {
-            energy += with_law_and_elements!(self, group, law, elements => {
-                elements.add_energy_and_gradient(law, u, gradient)
-            });
+            energy += with_laws!(self, group, laws, elements => elements.add_energy_and_gradient(laws, u, gradient));
         }
         energy
     }
@@ -192,15 +188,15 @@ impl<T: Real> Solids<T> {
     /// Adds `factor` times the exact Hessian of the energy, N/m.
     pub fn add_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
         for group in &self.groups {
-            with_law_and_elements!(self, group, law, elements => elements.add_stiffness(law, factor, u, values));
+            with_laws!(self, group, laws, elements => elements.add_stiffness(laws, factor, u, values));
         }
     }
 
     /// Adds `factor` times the Hessian of the energy, projected element by element to positive semi-definite, N/m.
     pub fn add_projected_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
         for group in &self.groups {
-            with_law_by_reference!(self, group, law, elements => {
-                elements.add_stiffness(Projected(law), factor, u, values)
+            with_laws_by_reference!(self, group, laws, elements => {
+                elements.add_stiffness(laws.projected(), factor, u, values)
             });
         }
     }
@@ -208,8 +204,8 @@ impl<T: Real> Solids<T> {
     /// Adds `factor` K(u) d without a matrix, N.
     pub fn add_stiffness_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
         for group in &self.groups {
-            with_law_by_reference!(self, group, law, elements => {
-                elements.add_stiffness_times(law, factor, u, d, product)
+            with_laws_by_reference!(self, group, laws, elements => {
+                elements.add_stiffness_times(laws, factor, u, d, product)
             });
         }
     }
@@ -250,16 +246,17 @@ impl<T: Real> Solids<T> {
     pub fn cauchy_stresses(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
         let mut stresses = vec![Matrix3::zeros(); self.count / self.points_per_element];
         for group in &self.groups {
-            let of_group = with_elements!(&group.elements, elements => {
-                match group.plastic_laws(&self.plasticity, &group.laws) {
-                    None if self.is_in_plane_stress => {
-                        elements.cauchy_stresses(u, |_, _, G| plane_cauchy_stress(&group.laws.law, &group.laws.as_law().stress(G), G))
+            let law = &group.laws.law;
+            let is_pushed_forward = !law.is_linear() || self.plasticity.is_some();
+            let shear_modulus = (self.is_in_plane_stress && self.plasticity.is_none()).then(|| law.moduli()[0]);
+            let of_group = with_laws_by_reference!(self, group, laws, elements => {
+                elements.cauchy_stresses(laws, u, &|law, G| {
+                    let (mut P, mut G) = (law.stress(G), *G);
+                    if let Some(shear_modulus) = shear_modulus {
+                        (P, G) = in_plane_stress(shear_modulus, &P, &G);
                     }
-                    None => elements.cauchy_stresses(u, |_, _, G| cauchy_stress(&group.laws.law, &group.laws.as_law().stress(G), G)),
-                    Some(laws) => elements.cauchy_stresses(u, |elements, batch, G| {
-                        pushed_forward(&laws.of_batch(elements, batch).stress(G), G)
-                    }),
-                }
+                    if is_pushed_forward { cauchy_stress(&P, &G) } else { P }
+                })
             });
             for (point, stress) in of_group.into_iter().enumerate() {
                 let number = group.number(point) / self.points_per_element;

@@ -14,14 +14,14 @@ use crate::sparse::{Pattern, Stored};
 impl<T: Real> System<T> {
     /// Builds what the scene names, and nothing else; rows and blocks as the solver wants them.
     /// `law` is that of the body's material, `None` for a mass-spring body.
-    pub fn new(body: Body, law: impl Into<Option<AnyLaw<T::Lanes>>>, choice: SolverChoice) -> Self {
+    pub fn new(body: Body, law: impl Into<Option<AnyLaw<T::Single>>>, choice: SolverChoice) -> Self {
         Self::with_forces(body, law, choice, &|_| Vec::new())
     }
 
     /// The same with forces of one's own beside those that the scene names.
     pub fn with_forces(
         body: Body,
-        law: impl Into<Option<AnyLaw<T::Lanes>>>,
+        law: impl Into<Option<AnyLaw<T::Single>>>,
         choice: SolverChoice,
         own: OwnForces<T>,
     ) -> Self {
@@ -31,7 +31,7 @@ impl<T: Real> System<T> {
     }
 
     /// The same for a method that needs no matrix: neighbours in the body have near numbers, and no pattern is found.
-    pub fn without_matrix(body: &Body, law: impl Into<Option<AnyLaw<T::Lanes>>>, own: OwnForces<T>) -> Self {
+    pub fn without_matrix(body: &Body, law: impl Into<Option<AnyLaw<T::Single>>>, own: OwnForces<T>) -> Self {
         Self::of_body(body, law.into(), Ordering::Parts, own)
     }
 

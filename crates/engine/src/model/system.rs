@@ -60,7 +60,7 @@ pub type OwnForces<'a, T> = &'a dyn Fn(&Numbering) -> Vec<Box<dyn Potential<T>>>
 
 impl<T: Real> System<T> {
     /// Builds what the scene names, and nothing else, without a matrix.
-    pub(super) fn of_body(body: &Body, law: Option<AnyLaw<T::Lanes>>, ordering: Ordering, own: OwnForces<T>) -> Self {
+    pub(super) fn of_body(body: &Body, law: Option<AnyLaw<T::Single>>, ordering: Ordering, own: OwnForces<T>) -> Self {
         match &body.shape.mesh {
             BodyMesh::Solid(mesh) => {
                 Self::of_elements(&mesh.elements, ElementMass::simplex(), body, law, ordering, own)
@@ -78,7 +78,7 @@ impl<T: Real> System<T> {
         elements: &[[usize; N]],
         shares: ElementMass<N>,
         body: &Body,
-        law: Option<AnyLaw<T::Lanes>>,
+        law: Option<AnyLaw<T::Single>>,
         ordering: Ordering,
         own: OwnForces<T>,
     ) -> Self {

@@ -42,6 +42,12 @@ pub trait Number:
         work.with_simd(pulp::Scalar::new())
     }
 
+    /// The same, compiled once more for processors that have more registers of this kind: for kernels in which that matters.
+    #[inline(always)]
+    fn vectorize_widest<W: WithSimd>(work: W) -> W::Output {
+        Self::vectorize(work)
+    }
+
     /// The same number in every lane.
     fn splat(x: Self::Element) -> Self;
 
@@ -138,10 +144,16 @@ pub trait Number:
     }
 }
 
-/// Numbers of as many elements as a register holds.
+/// Numbers of as many elements as a register holds, or of one element where kernels are run without registers of their own.
 pub trait Lanes: Number {
-    /// Lanes of this kind from the form in which they are stored.
-    fn load(self, stored: &<Self::Element as Real>::Lanes) -> Self;
+    /// Number of parts in which a stored batch is computed: one, or one for each of its elements.
+    const PARTS: usize = <Self::Element as Real>::WIDTH / Self::LANES;
+
+    /// Lanes of this kind from a part of those that are stored.
+    fn load(self, stored: &<Self::Element as Real>::Lanes, part: usize) -> Self;
+
+    /// Replaces a part of the lanes that are stored.
+    fn store(self, stored: &mut <Self::Element as Real>::Lanes, part: usize);
 
     /// The numbers of all lanes.
     fn as_slice(&self) -> &[Self::Element];
@@ -164,8 +176,10 @@ pub trait Lanes: Number {
 pub trait Real: RealField + FaerReal + Packed + Default + std::iter::Sum {
     /// As many of them as a register of 256 bits holds, on any processor: the form in which lanes are stored.
     type Lanes: Lanes<Element = Self>;
-    /// The same for processors that [have](Self::has_fast) wide registers.
+    /// The same where kernels are [run with](Self::has_fast) wide registers.
     type Fast: Lanes<Element = Self>;
+    /// The number itself, for kernels where they are not: one element after the other.
+    type Single: Lanes<Element = Self>;
     /// Number of lanes in [`Lanes`](Self::Lanes).
     const WIDTH: usize;
     /// Number of lanes in the widest register of any processor, to which dense columns are padded.
@@ -182,7 +196,7 @@ pub trait Real: RealField + FaerReal + Packed + Default + std::iter::Sum {
     /// The numbers of all lanes, mutable.
     fn each_mut(lanes: &mut Self::Lanes) -> &mut [Self];
 
-    /// Whether this processor has the instructions of [`Fast`](Self::Fast).
+    /// Whether kernels are run with the instructions of [`Fast`](Self::Fast).
     fn has_fast() -> bool;
 
     /// The nearest number of this type.

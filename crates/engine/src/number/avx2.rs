@@ -10,10 +10,11 @@ use std::ops::{Add, AddAssign, BitAnd, Div, DivAssign, Mul, MulAssign, Neg, Sub,
 use std::sync::OnceLock;
 
 use pulp::bytemuck::{cast, cast_mut, cast_ref};
-use pulp::x86::{V3, V4};
+use pulp::x86::V3;
 use pulp::{Simd, WithSimd};
 
 use super::arithmetic::{Lanes, Number};
+use super::instructions::{Instructions, avx2, instructions};
 use super::lanes::{F32x8, F64x4};
 
 /// The proof of AVX2, once [`is_available`] has found it.
@@ -34,9 +35,9 @@ fn unproven() -> ! {
     panic!("these lanes are for processors with AVX2: ask `Real::has_fast` first")
 }
 
-/// Whether this processor has AVX2.
+/// Whether kernels are run with AVX2.
 pub(super) fn is_available() -> bool {
-    let simd = V3::try_new();
+    let simd = avx2();
     if let Some(simd) = simd {
         PROOF.get_or_init(|| simd);
     }
@@ -88,10 +89,14 @@ macro_rules! avx2_lanes {
 
             #[inline(always)]
             fn vectorize<W: WithSimd>(work: W) -> W::Output {
-                // The same registers, but twice as many of them.
-                match V4::try_new() {
-                    Some(simd) => Simd::vectorize(simd, work),
-                    None => Simd::vectorize(proof(), work),
+                Simd::vectorize(proof(), work)
+            }
+
+            #[inline(always)]
+            fn vectorize_widest<W: WithSimd>(work: W) -> W::Output {
+                match instructions() {
+                    Instructions::Avx512(simd) => Simd::vectorize(simd, work),
+                    _ => Simd::vectorize(proof(), work),
                 }
             }
 
@@ -190,8 +195,13 @@ macro_rules! avx2_lanes {
 
         impl Lanes for $Lanes {
             #[inline(always)]
-            fn load(self, stored: &$Stored) -> Self {
+            fn load(self, stored: &$Stored, _part: usize) -> Self {
                 self.with(stored.0)
+            }
+
+            #[inline(always)]
+            fn store(self, stored: &mut $Stored, _part: usize) {
+                stored.0 = self.register;
             }
 
             #[inline(always)]

@@ -1,6 +1,6 @@
 //! `f64` and `f32` as numbers of kernels and of simulations.
 
-use super::arithmetic::{CUBE_ROOT_F32, CUBE_ROOT_F64, Number, Real, THIRD};
+use super::arithmetic::{CUBE_ROOT_F32, CUBE_ROOT_F64, Lanes, Number, Real, THIRD};
 #[cfg(target_arch = "x86_64")]
 use super::avx2::{Avx2F32x8 as FastF32, Avx2F64x4 as FastF64, is_available as has_fast};
 use super::lanes::{F32x8, F64x4};
@@ -86,6 +86,51 @@ macro_rules! number {
                 mask
             }
         }
+
+        impl Lanes for $float {
+            #[inline(always)]
+            fn load(self, stored: &<Self as Real>::Lanes, part: usize) -> Self {
+                stored.as_slice()[part]
+            }
+
+            #[inline(always)]
+            fn store(self, stored: &mut <Self as Real>::Lanes, part: usize) {
+                stored.as_mut_slice()[part] = self;
+            }
+
+            #[inline(always)]
+            fn as_slice(&self) -> &[Self] {
+                std::slice::from_ref(self)
+            }
+
+            #[inline(always)]
+            fn as_mut_slice(&mut self) -> &mut [Self] {
+                std::slice::from_mut(self)
+            }
+
+            #[inline(always)]
+            fn gather(self, vectors: &[[Self; 3]], node: impl Fn(usize) -> u32) -> [Self; 3] {
+                vectors[node(0) as usize]
+            }
+
+            #[inline(always)]
+            fn add_vectors_by_lane(vector: &[Self; 3], sums: &mut [[Self; 3]], target: impl Fn(usize) -> u32) {
+                let Some(sum) = sums.get_mut(target(0) as usize) else { return };
+                for i in 0..3 {
+                    sum[i] += vector[i];
+                }
+            }
+
+            #[inline(always)]
+            fn add_by_lane(block: &[[Self; 3]; 3], blocks: &mut [[[Self; 3]; 3]], target: impl Fn(usize) -> u32) {
+                let Some(sums) = blocks.get_mut(target(0) as usize) else { return };
+                for i in 0..3 {
+                    for k in 0..3 {
+                        sums[i][k] += block[i][k];
+                    }
+                }
+            }
+        }
     };
 }
 
@@ -99,6 +144,7 @@ macro_rules! real {
         impl Real for $float {
             type Lanes = $lanes;
             type Fast = $fast;
+            type Single = $float;
             const WIDTH: usize = $width;
             const MAX_WIDTH: usize = $max_width;
             const EPSILON: Self = $float::EPSILON;

@@ -178,8 +178,13 @@ macro_rules! lanes {
 
         impl Lanes for $Lanes {
             #[inline(always)]
-            fn load(self, stored: &Self) -> Self {
+            fn load(self, stored: &Self, _part: usize) -> Self {
                 *stored
+            }
+
+            #[inline(always)]
+            fn store(self, stored: &mut Self, _part: usize) {
+                *stored = self;
             }
 
             #[inline(always)]

@@ -8,18 +8,32 @@ mod arithmetic;
 mod avx2;
 mod floats;
 mod functions;
+mod instructions;
 mod lanes;
 mod packed;
 
 pub use arithmetic::{Lanes, Number, Real};
 pub use functions::{constant, inverse_cube_root, is_positive, minus_ln_1p};
+#[cfg(target_arch = "x86_64")]
+pub(crate) use instructions::avx2;
+pub use instructions::check_instructions;
+pub(crate) use instructions::{Instructions, instructions};
 pub(crate) use packed::Packed;
 
-/// Runs `work` with the widest instructions that this processor has. Functions that it calls must be inlined into it.
+/// Runs `work` with the widest [`instructions`] of this run. Functions that it calls must be inlined into it.
 ///
 /// Work is a type of its own, not a closure: only its `with_simd`, marked `inline(always)`, is compiled once for each
 /// instruction set.
 #[inline(always)]
 pub(crate) fn vectorized<W: pulp::WithSimd>(work: W) -> W::Output {
-    pulp::Arch::new().dispatch(work)
+    match instructions() {
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Avx512(simd) => pulp::Simd::vectorize(simd, work),
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Avx2(simd) => pulp::Simd::vectorize(simd, work),
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Fallback => pulp::Simd::vectorize(pulp::Scalar::new(), work),
+        #[cfg(not(target_arch = "x86_64"))]
+        Instructions::Fallback => pulp::Arch::new().dispatch(work),
+    }
 }

@@ -34,6 +34,7 @@ impl<'a, T: Real, L: Lanes<Element = T>> PlasticLaws<'a, T, L> {
 
 impl<T: Real, L: Lanes<Element = T>> BatchLaws<L> for PlasticLaws<'_, T, L> {
     type Law = PlasticLaw<L>;
+    const IS_INLINED: bool = false;
 
     fn of_batch(&self, elements: &[u32], batch: usize) -> PlasticLaw<L> {
         let first = batch * L::LANES;

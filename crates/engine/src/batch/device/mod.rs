@@ -48,8 +48,7 @@ impl<N: Number> OnDevice<N> {
         let refuse = |(field, problem): (&str, String)| scene.refuse(field, &problem);
         let method = scene.method();
         let (law, mut scheme) = refusals::check(scene, body).map_err(refuse)?;
-        let system =
-            System::<f64>::without_matrix(body, AnyLaw::<<f64 as Real>::Lanes>::new(&body.material), &|_| Vec::new());
+        let system = System::<f64>::without_matrix(body, AnyLaw::<f64>::new(&body.material), &|_| Vec::new());
         if let Scheme::VertexBlockDescent { colors, .. } = &mut scheme {
             *colors = arrays::colors(&system, body);
         }

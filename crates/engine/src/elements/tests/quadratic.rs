@@ -6,7 +6,6 @@ use super::{Case, blocks_of_both_kinds_are_alike, case_of, converges, largest, l
 use crate::elements::Elements;
 use crate::elements::quadratic::{BARYCENTRIC, POINTS};
 use crate::materials::{Law, Linear};
-use crate::number::Real;
 use crate::tensor::Tensor;
 use fem_mesh::{QuadraticMesh, SurfaceMesh, quadratic, rectangle_mesh};
 
@@ -91,9 +90,7 @@ fn a_rigid_motion_of_quadratic_triangles_has_no_forces() {
 
 #[test]
 fn the_rule_integrates_the_energy_of_a_linear_law_exactly() {
-    use crate::number::Number;
-    let lanes = <f64 as Real>::Lanes::splat;
-    let law = Linear { mu: lanes(2.0), lambda: lanes(3.0) };
+    let law = Linear { mu: 2.0, lambda: 3.0 };
     let u = |x: &Vector3<f64>| [x.x * x.y + 0.2 * x.x * x.x, x.y * x.y - 0.4 * x.x * x.y, 0.0];
     // Every mesh has the same displacement, so energies differ by errors of integration alone.
     let energy = |linear: SurfaceMesh| {
@@ -105,7 +102,7 @@ fn the_rule_integrates_the_energy_of_a_linear_law_exactly() {
     // By hand, ∫ over [0, 2] × [0, 1] of 3/2 (tr ε)² + 2 ε:ε by a product rule.
     let exact = by_gauss(|x, y| {
         let G = [[y + 0.4 * x, x, 0.0], [-0.4 * y, 2.0 * y - 0.4 * x, 0.0], [0.0; 3]];
-        Linear { mu: 2.0, lambda: 3.0 }.energy(&G)
+        law.energy(&G)
     });
     assert!((fine - exact).abs() < 1e-12 * exact, "{fine} {exact}");
 }

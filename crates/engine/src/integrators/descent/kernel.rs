@@ -7,8 +7,8 @@ use pulp::{Simd, WithSimd};
 
 use super::search::Change;
 use super::slot::Slot;
-use super::sums::{Sums, UPPER, store};
-use crate::materials::{Law, OfInvariants, OfRotation};
+use super::sums::{Sums, UPPER};
+use crate::materials::{Law, Linearized, OfInvariants, OfRotation};
 use crate::number::{Lanes, Real};
 use crate::tensor::{Tensor, Tensor4, cofactor, half, plus_identity, volume_change, zero};
 
@@ -32,15 +32,16 @@ impl<L: Lanes, W: Law<L> + ?Sized, const E: usize> WithSimd for SumsOf<'_, L, W,
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) {
         let Self { law, allows_inversion, slots, others, starts, lanes, u, sums } = self;
-        for (batch, stored) in sums.iter_mut().enumerate() {
-            let own = places_of(&lanes[batch * L::LANES..][..L::LANES], u);
-            let mut sums = Sums::<L>::load(stored);
+        for i in 0..sums.len() * L::PARTS {
+            let (batch, part) = (i / L::PARTS, i % L::PARTS);
+            let own = places_of(&lanes[i * L::LANES..][..L::LANES], u);
+            let mut of_part = Sums::<L>::load(&sums[batch], part);
             for slot in starts[batch]..starts[batch + 1] {
-                let others = &others[slot * L::LANES..(slot + 1) * L::LANES];
-                let (G, gradient, volume) = deformation(&slots[slot], others, &own, u);
-                add_element::<L, W, E>(law, allows_inversion, &G, &gradient, volume, &mut sums);
+                let others = &others[(slot * L::PARTS + part) * L::LANES..][..L::LANES];
+                let (G, gradient, volume) = deformation(&slots[slot], part, others, &own, u);
+                add_element::<L, W, E>(law, allows_inversion, &G, &gradient, volume, &mut of_part);
             }
-            sums.store(stored);
+            of_part.store(&mut sums[batch], part);
         }
     }
 }
@@ -64,28 +65,31 @@ impl<L: Lanes, W: Law<L> + ?Sized, const E: usize> WithSimd for ChangesOf<'_, L,
     fn with_simd<S: Simd>(self, _simd: S) {
         let Self { law, allows_inversion, slots, others, lanes, u, change } = self;
         let one = L::one();
-        let own = places_of(&lanes[..L::LANES], u);
-        let (mut total, mut size) = (one.load(&change.energy), one.load(&change.size));
-        let mut step = [one; 3];
-        for i in 0..3 {
-            step[i] = one.load(&change.step[i]);
-        }
-        for (slot, others) in slots.iter().zip(others.chunks_exact(L::LANES)) {
-            let (G, gradient, volume) = deformation(slot, others, &own, u);
-            let mut after = G;
+        for part in 0..L::PARTS {
+            let own = places_of(&lanes[part * L::LANES..][..L::LANES], u);
+            let (mut total, mut size) = (one.load(&change.energy, part), one.load(&change.size, part));
+            let mut step = [one; 3];
             for i in 0..3 {
-                for j in 0..3 {
-                    after[i][j] = step[i].times_plus(gradient[j], after[i][j]);
-                }
+                step[i] = one.load(&change.step[i], part);
             }
-            let (before, after) = energies(law, allows_inversion, &G, &after);
-            // A lane without an element has no volume, whatever its energy.
-            let counts = volume.gt(L::zero());
-            total += (volume * (after - before)).select(counts, L::zero());
-            size += (volume * (after.abs() + before.abs())).select(counts, L::zero());
+            for (slot, of_slot) in slots.iter().enumerate() {
+                let others = &others[(slot * L::PARTS + part) * L::LANES..][..L::LANES];
+                let (G, gradient, volume) = deformation(of_slot, part, others, &own, u);
+                let mut after = G;
+                for i in 0..3 {
+                    for j in 0..3 {
+                        after[i][j] = step[i].times_plus(gradient[j], after[i][j]);
+                    }
+                }
+                let (before, after) = energies(law, allows_inversion, &G, &after);
+                // A lane without an element has no volume, whatever its energy.
+                let counts = volume.gt(L::zero());
+                total += (volume * (after - before)).select(counts, L::zero());
+                size += (volume * (after.abs() + before.abs())).select(counts, L::zero());
+            }
+            total.store(&mut change.energy, part);
+            size.store(&mut change.size, part);
         }
-        store(total, &mut change.energy);
-        store(size, &mut change.size);
     }
 }
 
@@ -103,6 +107,7 @@ fn places_of<L: Lanes>(lanes: &[u32], u: &[[L::Element; 3]]) -> [L; 3] {
 #[inline(always)]
 fn deformation<L: Lanes, const E: usize>(
     slot: &Slot<L::Element, E>,
+    part: usize,
     others: &[[u32; E]],
     own: &[L; 3],
     u: &[[L::Element; 3]],
@@ -117,7 +122,7 @@ fn deformation<L: Lanes, const E: usize>(
         );
         let mut of_other = [one; 3];
         for j in 0..3 {
-            of_other[j] = one.load(&slot.gradients[a][j]);
+            of_other[j] = one.load(&slot.gradients[a][j], part);
             gradient[j] -= of_other[j];
         }
         for i in 0..3 {
@@ -127,7 +132,7 @@ fn deformation<L: Lanes, const E: usize>(
             }
         }
     }
-    (G, gradient, one.load(&slot.volume))
+    (G, gradient, one.load(&slot.volume, part))
 }
 
 /// a · b
@@ -146,12 +151,10 @@ fn add_element<L: Lanes, W: Law<L> + ?Sized, const E: usize>(
     sums: &mut Sums<L>,
 ) {
     let mut P = law.stress(G);
-    let mut block = if let Some(terms) = law.of_invariants(G) {
-        invariant_block(&terms, gradient)
-    } else if let Some(terms) = law.of_rotation(G) {
-        rotation_block(&terms, gradient)
-    } else {
-        general_block(&law.derivative(G), gradient)
+    let mut block = match law.linearized(G) {
+        Linearized::General(H) => general_block(&H, gradient),
+        Linearized::Invariants(terms) => invariant_block(&terms, gradient),
+        Linearized::Rotation(terms) => rotation_block(&terms, gradient),
     };
     let square = inner(gradient, gradient);
     let mut sharpness = square;

@@ -208,6 +208,6 @@ fn solve<T: Real>(
     if T::has_fast() {
         T::Fast::vectorize(StepsOf::<T::Fast> { inertia, lanes, u, sums, steps });
     } else {
-        T::Lanes::vectorize(StepsOf::<T::Lanes> { inertia, lanes, u, sums, steps });
+        T::Single::vectorize(StepsOf::<T::Single> { inertia, lanes, u, sums, steps });
     }
 }

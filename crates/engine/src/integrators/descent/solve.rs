@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use pulp::{Simd, WithSimd};
 
-use super::sums::{Sums, UPPER, store};
+use super::sums::{Sums, UPPER};
 use crate::number::{Lanes, Number, Real, constant};
 
 /// Smallest pivot of a block that is solved as it is, as a part of its diagonal entry.
@@ -48,12 +48,14 @@ impl<L: Lanes> WithSimd for StepsOf<'_, L> {
     fn with_simd<S: Simd>(self, _simd: S) {
         let Self { inertia: Inertia { masses, over_dt2, inertial }, lanes, u, sums, steps } = self;
         let (one, over_dt2) = (L::one(), constant::<L>(over_dt2));
-        let lanes = lanes.chunks_exact(L::LANES);
-        for (((stored, steps), masses), lanes) in sums.iter_mut().zip(steps).zip(masses).zip(lanes) {
-            let mut sums = Sums::<L>::load(stored);
+        steps.iter_mut().for_each(|steps| steps.is_doubtful = false);
+        for (i, lanes) in lanes.chunks_exact(L::LANES).enumerate() {
+            let (batch, part) = (i / L::PARTS, i % L::PARTS);
+            let (stored, steps, masses) = (&mut sums[batch], &mut steps[batch], &masses[batch]);
+            let mut sums = Sums::<L>::load(stored, part);
             let mut weights = [one; 3];
             for i in 0..3 {
-                weights[i] = over_dt2 * one.load(&masses[i]);
+                weights[i] = over_dt2 * one.load(&masses[i], part);
                 let mut moved = L::zero();
                 for (lane, &node) in lanes.iter().enumerate() {
                     moved.as_mut_slice()[lane] = u[node as usize][i] - inertial[node as usize][i];
@@ -63,16 +65,16 @@ impl<L: Lanes> WithSimd for StepsOf<'_, L> {
             }
             constrain(&weights, &mut sums);
             let (mut step, is_definite) = solved(&sums);
-            steps.is_doubtful = !is_definite;
+            steps.is_doubtful |= !is_definite;
             if !is_definite {
                 make_definite(&weights, &mut sums);
                 step = solved(&sums).0;
             }
             let length2 = step[2].times_plus(step[2], step[1].times_plus(step[1], step[0] * step[0]));
             steps.is_doubtful |= !L::all((length2 * sums.sharpness).le(constant(SHORT * SHORT)));
-            sums.store(stored);
+            sums.store(stored, part);
             for i in 0..3 {
-                store(step[i], &mut steps.step[i]);
+                step[i].store(&mut steps.step[i], part);
             }
         }
     }

@@ -26,35 +26,29 @@ impl<L: Number> Sums<L> {
 }
 
 impl<L: Lanes> Sums<L> {
-    /// Sums in the form in which they are stored.
+    /// A part of stored sums.
     #[inline(always)]
-    pub fn load(stored: &Sums<<L::Element as Real>::Lanes>) -> Self {
+    pub fn load(stored: &Sums<<L::Element as Real>::Lanes>, part: usize) -> Self {
         let (one, mut sums) = (L::one(), Self::zero());
         for i in 0..3 {
-            sums.gradient[i] = one.load(&stored.gradient[i]);
+            sums.gradient[i] = one.load(&stored.gradient[i], part);
         }
         for i in 0..6 {
-            sums.block[i] = one.load(&stored.block[i]);
+            sums.block[i] = one.load(&stored.block[i], part);
         }
-        sums.sharpness = one.load(&stored.sharpness);
+        sums.sharpness = one.load(&stored.sharpness, part);
         sums
     }
 
-    /// Stores the sums.
+    /// Replaces a part of stored sums.
     #[inline(always)]
-    pub fn store(&self, stored: &mut Sums<<L::Element as Real>::Lanes>) {
+    pub fn store(&self, stored: &mut Sums<<L::Element as Real>::Lanes>, part: usize) {
         for i in 0..3 {
-            store(self.gradient[i], &mut stored.gradient[i]);
+            self.gradient[i].store(&mut stored.gradient[i], part);
         }
         for i in 0..6 {
-            store(self.block[i], &mut stored.block[i]);
+            self.block[i].store(&mut stored.block[i], part);
         }
-        store(self.sharpness, &mut stored.sharpness);
+        self.sharpness.store(&mut stored.sharpness, part);
     }
-}
-
-/// Stores the numbers of all lanes.
-#[inline(always)]
-pub(super) fn store<L: Lanes>(lanes: L, stored: &mut <L::Element as Real>::Lanes) {
-    <L::Element as Real>::each_mut(stored).copy_from_slice(lanes.as_slice());
 }

@@ -33,15 +33,16 @@ impl<L: Lanes, const N: usize> WithSimd for CorrectionsOf<'_, L, N> {
         let Self { law, allows_inversion, sweep, batches, moves, corners, u } = self;
         let one = L::one();
         let (dt2, dt) = (constant::<L>(sweep.dt2), constant::<L>(sweep.dt2.sqrt()));
-        for ((batch, moves), corners) in batches.iter_mut().zip(moves).zip(corners.chunks_exact(L::LANES)) {
-            let gradients = batch.gradients.map(|g| g.map(|g| one.load(&g)));
-            let masses = batch.inverse_masses.map(|m| m.map(|m| one.load(&m)));
-            let mut multiplier = batch.multiplier.map(|row| row.map(|entry| one.load(&entry)));
+        for (i, corners) in corners.chunks_exact(L::LANES).enumerate() {
+            let (batch, part) = (&mut batches[i / L::PARTS], i % L::PARTS);
+            let gradients = batch.gradients.map(|g| g.map(|g| one.load(&g, part)));
+            let masses = batch.inverse_masses.map(|m| m.map(|m| one.load(&m, part)));
+            let mut multiplier = batch.multiplier.map(|row| row.map(|entry| one.load(&entry, part)));
             let G = displacement_gradient(&gradients, corners, u);
-            let pressed = dt2 * one.load(&batch.volume);
+            let pressed = dt2 * one.load(&batch.volume, part);
             let (factor, direction, change) = match sweep.rule {
                 Rule::Stress => {
-                    let factors = batch.factors.map(|l| l.map(|row| row.map(|entry| dt * one.load(&entry))));
+                    let factors = batch.factors.map(|l| l.map(|row| row.map(|entry| dt * one.load(&entry, part))));
                     let change = change_of_stress(law, allows_inversion, &G, &multiplier, &factors);
                     (pressed, change, change)
                 }
@@ -59,25 +60,21 @@ impl<L: Lanes, const N: usize> WithSimd for CorrectionsOf<'_, L, N> {
                     corrections[a][i] = -(factor * masses[a][i] * inner(&direction[i], &gradients[a]));
                 }
             }
-            let part = if allows_inversion { one } else { feasible_part(&G, &corrections, &gradients) };
+            let feasible = if allows_inversion { one } else { feasible_part(&G, &corrections, &gradients) };
+            let moves = &mut moves[i / L::PARTS];
             for a in 0..N {
                 for i in 0..3 {
-                    store(part * corrections[a][i], &mut moves[a][i]);
+                    (feasible * corrections[a][i]).store(&mut moves[a][i], part);
                 }
             }
             for i in 0..3 {
                 for j in 0..3 {
-                    multiplier[i][j] = part.times_plus(change[i][j], multiplier[i][j]);
-                    store(multiplier[i][j], &mut batch.multiplier[i][j]);
+                    multiplier[i][j] = feasible.times_plus(change[i][j], multiplier[i][j]);
+                    multiplier[i][j].store(&mut batch.multiplier[i][j], part);
                 }
             }
         }
     }
-}
-
-#[inline(always)]
-fn store<L: Lanes>(lanes: L, stored: &mut <L::Element as Real>::Lanes) {
-    <L::Element as Real>::each_mut(stored).copy_from_slice(lanes.as_slice());
 }
 
 /// G_ij = Σ_a (u_a − u_0)_i (∇φ_a)_j.

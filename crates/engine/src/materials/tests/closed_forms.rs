@@ -1,7 +1,7 @@
 //! Deformations with a known stress.
 
 use super::*;
-use crate::materials::pushed_forward;
+use crate::materials::cauchy_stress;
 use crate::tensor::zero;
 
 fn assert_near(found: f64, expected: f64) {
@@ -15,7 +15,7 @@ fn the_stress_of_a_simple_shear_of_the_neo_hookean_law() {
         let mut G = zero();
         G[0][1] = shear;
         assert_near(law.energy(&G), law.C * shear * shear);
-        let stress = pushed_forward(&law.stress(&G), &G);
+        let stress = cauchy_stress(&law.stress(&G), &G);
         let (along, across) = (4.0 * law.C * shear * shear / 3.0, -2.0 * law.C * shear * shear / 3.0);
         let expected = [[along, 2.0 * law.C * shear, 0.0], [2.0 * law.C * shear, across, 0.0], [0.0, 0.0, across]];
         assert!(distance(&stress, &expected) < 1e-13, "{stress:?}");

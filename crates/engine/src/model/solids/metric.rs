@@ -3,6 +3,7 @@
 use super::Solids;
 use crate::materials::QuadraticForm;
 use crate::model::any_elements::{AnyElements, with_elements};
+use crate::model::solid::LawsByReference;
 use crate::number::{Real, constant};
 use crate::sparse::Block;
 
@@ -12,8 +13,16 @@ impl<T: Real> Solids<T> {
         let zero = vec![[T::default(); 3]; self.nodes];
         for group in &self.groups {
             let [mu, bulk] = group.laws.law.moduli();
-            let law: QuadraticForm<T::Lanes> = QuadraticForm(constant(4.0 / 3.0 * mu + bulk));
-            with_elements!(&group.elements, elements => elements.add_stiffness(&law, T::one(), &zero, values));
+            let modulus = 4.0 / 3.0 * mu + bulk;
+            if T::has_fast() {
+                let law = QuadraticForm::<T::Fast>(constant(modulus));
+                let laws = LawsByReference::one(&law);
+                with_elements!(&group.elements, elements => elements.add_stiffness(laws, T::one(), &zero, values));
+            } else {
+                let law = QuadraticForm::<T::Single>(constant(modulus));
+                let laws = LawsByReference::one(&law);
+                with_elements!(&group.elements, elements => elements.add_stiffness(laws, T::one(), &zero, values));
+            }
         }
     }
 }

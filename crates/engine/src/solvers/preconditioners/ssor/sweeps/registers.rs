@@ -7,6 +7,8 @@ use wide::f32x4;
 
 use super::super::super::coarse::Row;
 use super::super::Pair;
+#[cfg(target_arch = "x86_64")]
+use crate::number::avx2;
 
 /// Instructions on four numbers in single precision, and on the eight of a pair of rows.
 pub trait Registers: Copy {
@@ -40,7 +42,8 @@ pub trait Kernel {
 /// Runs a kernel with the registers that this processor has.
 pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
-    if let Some(avx2) = pulp::x86::V3::try_new() {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx2) = avx2() {
         return avx2.vectorize(Avx2 { avx2, kernel });
     }
     kernel.run(Portable)
