@@ -1,0 +1,90 @@
+//! Stands for [ravif](https://docs.rs/ravif), a writer of AVIF files with a whole video encoder, rav1e. `image` calls it in its
+//! `codecs/avif/encoder.rs` if a picture is saved as `.avif`; nothing here does. Encoding returns an error.
+
+use std::fmt;
+
+pub use rgb::{RGB8, RGBA8};
+
+/// AVIF is not written here.
+#[derive(Debug)]
+pub struct Error;
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("this program is built without a writer of AVIF files")
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// Pixels with their width and height.
+pub struct Img<P>(P);
+
+impl<P> Img<P> {
+    pub fn new(pixels: P, _width: usize, _height: usize) -> Self {
+        Img(pixels)
+    }
+
+    pub fn buf(&self) -> &P {
+        &self.0
+    }
+}
+
+pub enum BitDepth {
+    Eight,
+}
+
+pub enum ColorModel {
+    YCbCr,
+    RGB,
+}
+
+pub struct EncodedImage {
+    pub avif_file: Vec<u8>,
+}
+
+/// The encoder, of which every setting changes nothing.
+#[derive(Default)]
+pub struct Encoder<'a>(std::marker::PhantomData<&'a ()>);
+
+impl<'a> Encoder<'a> {
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    pub fn with_quality(self, _quality: f32) -> Self {
+        self
+    }
+
+    pub fn with_alpha_quality(self, _quality: f32) -> Self {
+        self
+    }
+
+    pub fn with_speed(self, _speed: u8) -> Self {
+        self
+    }
+
+    pub fn with_bit_depth(self, _depth: BitDepth) -> Self {
+        self
+    }
+
+    pub fn with_internal_color_model(self, _model: ColorModel) -> Self {
+        self
+    }
+
+    pub fn with_num_threads(self, _threads: Option<usize>) -> Self {
+        self
+    }
+
+    pub fn with_exif(self, _exif: Vec<u8>) -> Self {
+        self
+    }
+
+    pub fn encode_rgb(&self, _picture: Img<&[RGB8]>) -> Result<EncodedImage, Error> {
+        Err(Error)
+    }
+
+    pub fn encode_rgba(&self, _picture: Img<&[RGBA8]>) -> Result<EncodedImage, Error> {
+        Err(Error)
+    }
+}
