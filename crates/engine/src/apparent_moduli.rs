@@ -170,7 +170,7 @@ fn isotropic_mean(C: &DMatrix<f64>) -> (f64, f64) {
 
 /// Smallest and largest E(n) = 1/(s·C⁻¹ s) with the stress s = n⊗n, Nye, Physical Properties of Crystals (1985), ch. VIII.
 fn young_of_directions(C: &DMatrix<f64>) -> Result<[f64; 2], String> {
-    let compliance = C.clone().try_inverse().ok_or("the springs do not resist every strain")?;
+    let compliance = C.clone().lu().try_inverse().ok_or("the springs do not resist every strain")?;
     let young = |n: [f64; 3]| {
         let [x, y, z] = n;
         let s = match C.nrows() {

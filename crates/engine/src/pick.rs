@@ -20,7 +20,7 @@ pub fn nodes_under(click: &Click, x: &[Vector3<f64>], shape: &Shape) -> Vec<usiz
 
 /// The line of sight through a pixel: where it begins, and where it leads to at the far plane.
 fn ray(click: &Click) -> Option<(Vector3<f64>, Vector3<f64>)> {
-    let from_clip = (click.proj.cast::<f64>() * click.view.cast::<f64>()).try_inverse()?;
+    let from_clip = (click.proj.cast::<f64>() * click.view.cast::<f64>()).lu().try_inverse()?;
     let viewport = click.viewport.cast::<f64>();
     let x = 2.0 * (click.win.x - viewport.x) / viewport.z - 1.0;
     let y = 2.0 * (click.win.y - viewport.y) / viewport.w - 1.0;

@@ -4,6 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use fem_mesh::TetrahedralMesh;
 
+use crate::tensor::inverse;
+
 /// Four nodes and their weights for each display vertex.
 #[derive(Clone, Debug)]
 pub struct Skinning {
@@ -68,5 +70,5 @@ impl Skinning {
 fn shape(mesh: &TetrahedralMesh, element: &[usize; 4]) -> (Vector3<f64>, Matrix3<f64>) {
     let [a, b, c, d] = element.map(|node| mesh.vertices[node]);
     // Meshes are checked: every element has a volume.
-    (a, Matrix3::from_columns(&[b - a, c - a, d - a]).try_inverse().unwrap_or_default())
+    (a, inverse(&Matrix3::from_columns(&[b - a, c - a, d - a])))
 }

@@ -1,5 +1,7 @@
 //! 3×3 matrices of kernel numbers, `a[i][j]` in row i and column j, with the operations that materials need.
 
+use nalgebra::Matrix3;
+
 use crate::number::{Number, constant};
 
 /// A 3×3 matrix.
@@ -17,13 +19,15 @@ pub fn zero<T: Number>() -> Tensor<T> {
 /// The matrix of the entries `entry(i, j)`.
 #[inline(always)]
 pub fn from_fn<T: Number>(mut entry: impl FnMut(usize, usize) -> T) -> Tensor<T> {
-    let mut a = zero();
-    for i in 0..3 {
-        for j in 0..3 {
-            a[i][j] = entry(i, j);
-        }
-    }
-    a
+    let mut row = |i| [entry(i, 0), entry(i, 1), entry(i, 2)];
+    [row(0), row(1), row(2)]
+}
+
+/// The matrix of a function of each entry.
+#[inline(always)]
+pub fn map<A: Copy, B>(a: &Tensor<A>, mut function: impl FnMut(A) -> B) -> Tensor<B> {
+    let mut row = |row: [A; 3]| [function(row[0]), function(row[1]), function(row[2])];
+    [row(a[0]), row(a[1]), row(a[2])]
 }
 
 /// The deformation gradient F = 1 + G of a displacement gradient G.
@@ -65,6 +69,16 @@ pub fn cofactor<T: Number>(a: &Tensor<T>) -> Tensor<T> {
             a[i1][j1].times_plus(a[i2][j2], -(a[i1][j2] * a[i2][j1]))
         },
     )
+}
+
+/// The inverse of a 3×3 matrix by its cofactors; zero where the matrix is singular.
+pub fn inverse(a: &Matrix3<f64>) -> Matrix3<f64> {
+    let determinant = a.determinant();
+    if determinant == 0.0 {
+        return Matrix3::zeros();
+    }
+    let cofactors = cofactor(&from_fn(|i, j| a[(i, j)]));
+    Matrix3::from_fn(|i, j| cofactors[j][i] / determinant)
 }
 
 /// a b

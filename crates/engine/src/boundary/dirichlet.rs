@@ -11,7 +11,7 @@ use crate::forces::Moment;
 use crate::model::numbering::Numbering;
 use crate::number::Real;
 use crate::sparse::{Block, Pattern, Stored};
-use crate::vector::scale;
+use crate::vector::{scale, triple};
 
 /// The Dirichlet conditions of a body. Nodes have the engine's numbers; those from `free` on are fully constrained at all times.
 #[derive(Clone, Debug, Default)]
@@ -43,7 +43,7 @@ fn constrain<'a>(conditions: impl Iterator<Item = &'a DirichletCondition>, direc
     for condition in conditions {
         for &node in &condition.nodes {
             let constrained = directions[node];
-            directions[node] = std::array::from_fn(|i| constrained[i] || condition.components[i]);
+            directions[node] = triple(|i| constrained[i] || condition.components[i]);
         }
     }
 }
@@ -147,7 +147,7 @@ impl DirichletConditions {
         for (node, x) in x[..self.free].iter_mut().enumerate() {
             let constrained =
                 partly.next_if(|(partly, _)| *partly == node).map_or([false; 3], |(_, directions)| *directions);
-            *x = std::array::from_fn(|i| if constrained[i] { x[i] } else { T::default() });
+            *x = triple(|i| if constrained[i] { x[i] } else { T::default() });
         }
     }
 

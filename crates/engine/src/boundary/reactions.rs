@@ -7,6 +7,7 @@ use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
+use crate::vector::triple;
 
 /// One for each Dirichlet condition, zero where its nodes are free by now. The acceleration is the mean of the last step, which began at `before`; Rayleigh damping takes
 /// its stiffness there too.
@@ -23,7 +24,7 @@ pub fn reactions_at<T: Real>(
 ) -> Vec<Reaction> {
     let between = |before: &[[T; 3]], end: &[[T; 3]]| -> Vec<[T; 3]> {
         let mean = |a: T, b: T| T::of(1.0 - part) * a + T::of(part) * b;
-        before.iter().zip(end).map(|(a, b)| std::array::from_fn(|i| mean(a[i], b[i]))).collect()
+        before.iter().zip(end).map(|(a, b)| triple(|i| mean(a[i], b[i]))).collect()
     };
     let (u, v) = (between(&before.u, &state.u), between(&before.v, &state.v));
     let time = (1.0 - part) * before.time + part * state.time;
@@ -39,7 +40,7 @@ pub fn reactions_at<T: Real>(
 fn of_unbalanced<T: Real>(system: &System<T>, force: &[[T; 3]]) -> Vec<Reaction> {
     let sum = |nodes: &[usize], components: [bool; 3]| {
         let along = |i: usize| nodes.iter().map(|&node| force[node][i].as_f64()).sum();
-        std::array::from_fn(|i| if components[i] { along(i) } else { 0.0 })
+        triple(|i| if components[i] { along(i) } else { 0.0 })
     };
     let reaction = |(condition, applies): (&DirichletCondition, bool)| Reaction {
         name: condition.name.clone(),
@@ -58,7 +59,7 @@ fn unbalanced<T: Real>(system: &System<T>, before: &State<T>, state: &State<T>, 
     // There is no acceleration at the start, nor in equilibrium.
     if state.time > before.time {
         let over_dt = T::of(1.0 / (state.time - before.time));
-        let change = |(v, before): (&[T; 3], &[T; 3])| std::array::from_fn(|i| v[i] - before[i]);
+        let change = |(v, before): (&[T; 3], &[T; 3])| triple(|i| v[i] - before[i]);
         let change: Vec<[T; 3]> = state.v.iter().zip(&before.v).map(change).collect();
         system.mass.add_times(over_dt, &change, &mut unbalanced);
     }

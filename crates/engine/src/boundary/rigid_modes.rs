@@ -5,6 +5,7 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 
 use super::dirichlet::everywhere;
 use crate::refusal::Refusal;
+use crate::vector::triple;
 
 /// A rigid motion is constrained if its stiffness is more than this part of the largest.
 const LEAST: f64 = 1e-9;
@@ -35,7 +36,7 @@ fn constrained_directions(body: &Body) -> Vec<[bool; 3]> {
     for condition in &body.dirichlet {
         for &node in &condition.nodes {
             let before = constrained[node];
-            constrained[node] = std::array::from_fn(|i| before[i] || condition.components[i]);
+            constrained[node] = triple(|i| before[i] || condition.components[i]);
         }
     }
     if let Some(drag) = &body.drag {

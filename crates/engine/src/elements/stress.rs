@@ -5,7 +5,7 @@ use super::kernel::displacement_gradient;
 use super::{BatchLaws, Elements};
 use crate::materials::Law;
 use crate::number::{Lanes, Number, Real};
-use crate::tensor::Tensor;
+use crate::tensor::{Tensor, map};
 
 impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, N> {
     /// Cauchy stress of each element, Pa: that which `stress` finds for the law and the displacement gradients of a batch. They come from
@@ -45,5 +45,5 @@ impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, 
 }
 
 fn of_lane<L: Lanes>(a: &Tensor<L>, lane: usize) -> Tensor<f64> {
-    a.map(|row| row.map(|entry| entry.lane(lane).as_f64()))
+    map(&a, |entry| entry.lane(lane).as_f64())
 }

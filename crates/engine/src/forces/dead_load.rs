@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use super::{Energy, Moment, Potential};
 use crate::model::numbering::Numbering;
 use crate::number::Real;
-use crate::vector::dot3;
+use crate::vector::{dot3, triple};
 
 /// Key in the statistics.
 pub const NAME: &str = "dead_load";
@@ -132,9 +132,9 @@ impl<T: Real> Potential<T> for DeadLoad<T> {
         let along = |load: &Load<T>, i: usize| load.force.iter().map(|force| force[i].as_f64()).sum::<f64>();
         let of_load = |load: &Load<T>| {
             let factor = moment.factor(load.curve.as_ref());
-            std::array::from_fn(|i| factor * along(load, i))
+            triple(|i| factor * along(load, i))
         };
-        let add = |sum: [f64; 3], force: [f64; 3]| std::array::from_fn(|i| sum[i] + force[i]);
+        let add = |sum: [f64; 3], force: [f64; 3]| triple(|i| sum[i] + force[i]);
         Some(self.0.iter().map(of_load).fold([0.0; 3], add))
     }
 

@@ -6,7 +6,7 @@ use nalgebra::{Complex, DMatrix};
 use super::MassInverse;
 use crate::model::system::System;
 use crate::number::Real;
-use crate::vector::{axpy, dot};
+use crate::vector::{axpy, dot, triple};
 
 /// Relative change of an eigenvalue within [`BLOCK`] iterations at which Lanczos's method ends, and its largest number of iterations.
 const ACCURACY: (f64, usize) = (1e-5, 96);
@@ -160,7 +160,7 @@ fn largest_eigenvalue(diagonal: &[f64], beside: &[f64]) -> f64 {
 /// A vector in which every vibration takes part: multiples of the golden ratio, modulo 1.
 fn irregular<T: Real>(nodes: usize) -> Vec<[T; 3]> {
     let entry = |k: usize| T::of((k as f64 * 0.618_033_988_749_894_9).fract() - 0.5);
-    (0..nodes).map(|node| std::array::from_fn(|i| entry(3 * node + i + 1))).collect()
+    (0..nodes).map(|node| triple(|i| entry(3 * node + i + 1))).collect()
 }
 
 fn scale<T: Real>(factor: f64, x: &mut [[T; 3]]) {

@@ -7,7 +7,7 @@ use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, IncrementalPotential};
 use crate::newton::{Newton, Start};
 use crate::number::Real;
-use crate::vector::max_norm;
+use crate::vector::{max_norm, triple};
 
 /// Largest number of evaluations in a step.
 const MOST: usize = 100;
@@ -41,7 +41,7 @@ impl<T: Real> Followers<T> {
             return;
         }
         for (u, (start, w)) in self.u.iter_mut().zip(increment.start.iter().zip(w)) {
-            *u = std::array::from_fn(|i| start[i] + w[i]);
+            *u = triple(|i| start[i] + w[i]);
         }
         self.gradient.fill([T::default(); 3]);
         system.add_follower_gradient(&self.u, increment.end, &mut self.gradient);

@@ -15,6 +15,7 @@ use crate::history::put;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
+use crate::vector::triple;
 
 /// Distance from a plane at which a node rests, in lengths of the body and in rounding errors of its displacement.
 const SKIN: f64 = 1e-9;
@@ -295,5 +296,5 @@ fn free<T: Real>(system: &System<T>, node: usize) -> Vector3<f64> {
 }
 
 fn add<T: Real>(u: &mut [T; 3], change: Vector3<f64>) {
-    *u = std::array::from_fn(|i| T::of(u[i].as_f64() + change[i]));
+    *u = triple(|i| T::of(u[i].as_f64() + change[i]));
 }

@@ -7,6 +7,7 @@ use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, Inertia};
 use crate::newton::{Convergence, Newton, Start};
 use crate::number::Real;
+use crate::vector::triple;
 
 /// A step in need of an initial guess.
 pub struct InitialGuess<'a, T: Real> {
@@ -119,7 +120,7 @@ impl<T: Real> InitialGuess<'_, T> {
         counters: &mut Counters,
     ) -> Option<Start> {
         let sum = |a: &[[T; 3]], factor: f64, b: &[[T; 3]]| -> Vec<[T; 3]> {
-            let add = |(a, b): (&[T; 3], &[T; 3])| std::array::from_fn(|i| a[i] + T::of(factor) * b[i]);
+            let add = |(a, b): (&[T; 3], &[T; 3])| triple(|i| a[i] + T::of(factor) * b[i]);
             a.iter().zip(b).map(add).collect()
         };
         let zero = vec![[T::default(); 3]; prescribed.len()];
@@ -173,7 +174,7 @@ impl<T: Real> InitialGuess<'_, T> {
 /// The cause of an infeasible start: an element that is inverted at the displacements u or after the prescribed increments, or else
 /// a number that is too large.
 pub fn infeasible<T: Real>(system: &System<T>, u: &[[T; 3]], prescribed: &[[T; 3]]) -> Cause {
-    let add = |(u, prescribed): (&[T; 3], &[T; 3])| std::array::from_fn(|i| u[i] + prescribed[i]);
+    let add = |(u, prescribed): (&[T; 3], &[T; 3])| triple(|i| u[i] + prescribed[i]);
     let end: Vec<[T; 3]> = u.iter().zip(prescribed).map(add).collect();
     for u in [u, &end] {
         let (J, element) = system.elements.min_det_F(u);

@@ -2,12 +2,13 @@
 
 use crate::model::state::State;
 use crate::number::Real;
+use crate::vector::triple;
 
 /// The increment, m, if velocities change as in the last step; `inertial` is that without a change.
 pub fn extrapolate<T: Real>(step: &mut [[T; 3]], inertial: &[[T; 3]], last_change: &[[T; 3]], dt: f64) {
     let dt = T::of(dt);
     for ((step, inertial), change) in step.iter_mut().zip(inertial).zip(last_change) {
-        *step = std::array::from_fn(|i| inertial[i] + dt * change[i]);
+        *step = triple(|i| inertial[i] + dt * change[i]);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::newton::incremental_potential::IncrementalPotential;
 use crate::number::Real;
+use crate::vector::triple;
 
 /// Corrects the mean of an increment where the body is unconstrained and the sum of its external forces is known.
 ///
@@ -15,7 +16,7 @@ pub fn restore<T: Real>(potential: &IncrementalPotential<T>, tau: f64, velocity:
         return;
     }
     let mut conservative = system.forces.active().filter(|(force, _)| force.is_conservative());
-    let add = |sum: [f64; 3], force: [f64; 3]| std::array::from_fn(|i| sum[i] + force[i]);
+    let add = |sum: [f64; 3], force: [f64; 3]| triple(|i| sum[i] + force[i]);
     let resultant = conservative.try_fold([0.0; 3], |sum, (force, _)| Some(add(sum, force.resultant(increment.end)?)));
     let Some(resultant) = resultant else { return };
     let drag = tau * velocity * system.damping.as_ref().map_or(0.0, |damping| damping.alpha);

@@ -2,12 +2,12 @@
 //! that its first Piola–Kirchhoff stress is its Cauchy stress.
 
 use crate::number::{Number, constant};
-use crate::tensor::{Tensor, plus_identity, product, transpose, volume_change};
+use crate::tensor::{Tensor, map, plus_identity, product, transpose, volume_change};
 
 /// Cauchy stress P Fᵀ/J of a first Piola–Kirchhoff stress, Pa. Not finite for J = 0.
 pub fn cauchy_stress<T: Number>(P: &Tensor<T>, G: &Tensor<T>) -> Tensor<T> {
     let J = T::one() + volume_change(G).0;
-    product(P, &transpose(&plus_identity(G))).map(|row| row.map(|entry| entry / J))
+    map(&product(P, &transpose(&plus_identity(G))), |entry| entry / J)
 }
 
 /// First Piola–Kirchhoff stress (Pa) and displacement gradient of a body in plane stress, of a law with this shear modulus (Pa) and the

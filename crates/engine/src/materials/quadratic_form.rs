@@ -2,7 +2,7 @@
 
 use super::Law;
 use crate::number::Number;
-use crate::tensor::{Tensor, Tensor4, add_diagonal, dot, half};
+use crate::tensor::{Tensor, Tensor4, add_diagonal, dot, half, map};
 
 /// The form with this k, Pa.
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +14,7 @@ impl<T: Number> Law<T> for QuadraticForm<T> {
     }
 
     fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
-        G.map(|row| row.map(|entry| self.0 * entry))
+        map(&G, |entry| self.0 * entry)
     }
 
     fn derivative(&self, _: &Tensor<T>) -> Tensor4<T> {

@@ -17,6 +17,7 @@ use crate::materials::AnyLaw;
 use crate::number::Real;
 use crate::profile::Profile;
 use crate::sparse::{Block, Pattern};
+use crate::vector::triple;
 
 /// A body in the engine's numbering: free nodes first, fully constrained ones last.
 pub struct System<T: Real> {
@@ -176,7 +177,7 @@ impl<T: Real> System<T> {
             *force = -*force;
         }
         for (force, contact) in force.iter_mut().zip(&self.contact_force) {
-            *force = std::array::from_fn(|i| force[i] + contact[i]);
+            *force = triple(|i| force[i] + contact[i]);
         }
         self.add_damping_force(u_damping, v, force);
     }

@@ -6,7 +6,7 @@ use crate::forces::Energy;
 use crate::model::damping::DampingRates;
 use crate::model::system::System;
 use crate::number::Real;
-use crate::vector::{axpy, clear, dot, subtract_from};
+use crate::vector::{axpy, clear, dot, subtract_from, triple};
 
 /// E(w) = ‖w − ŵ‖²_M / (2 τ²) + c (w − w̌)ᵀ C (w − w̌) / 2 + V(u₀ + w) + W(u₀ + s w) κ/s, C = α M + β K(u_d) + D(u_d), for the displacement
 /// increment w: its minimum solves M (w − ŵ)/τ² + c C (w − w̌) = f(u₀ + w) + κ f_o(u₀ + s w). With τ = dt, c = 1/dt, w̌ = 0 and s = κ = 1
@@ -174,7 +174,7 @@ impl<T: Real> IncrementalPotential<'_, T> {
         if let Some(inertia) = inertia {
             let increments = prescribed.iter().zip(inertia.inertial);
             for (difference, (prescribed, inertial)) in workspace.difference.iter_mut().zip(increments) {
-                *difference = std::array::from_fn(|i| prescribed[i] - inertial[i]);
+                *difference = triple(|i| prescribed[i] - inertial[i]);
             }
             system.add_mass_times(inertia.over_dt2, &workspace.difference, gradient);
             if let Some(rates) = inertia.damping {

@@ -12,7 +12,7 @@ use super::{Flow, Internal};
 use crate::materials::{Law, derivative_in_basis, stretches, stretches_in_plane};
 use crate::number::{Number, Real, constant};
 use crate::svd::Svd;
-use crate::tensor::{Tensor, Tensor4, dot, from_fn, half, trace};
+use crate::tensor::{Tensor, Tensor4, dot, from_fn, half, map, trace};
 
 /// Lamé's constants, Pa, and the plastic strain.
 #[derive(Clone, Copy, Debug)]
@@ -175,11 +175,11 @@ impl Additive<f64> {
         let part = relaxed * (1.0 - yield_strain / size);
         let elastic =
             from_fn(|i, j| (0..9).map(|kl| at.elastic[kl / 3][kl % 3] * V[kl / 3][i] * V[kl % 3][j]).sum::<f64>());
-        let mut change = elastic.map(|row| row.map(|entry| part * entry));
+        let mut change = map(&elastic, |entry| part * entry);
         let reached = norm(&plus(&self.plastic, 1.0, &change));
         if reached > maximum {
             let bounded = maximum / reached * (1.0 - ROUNDING);
-            let plastic = plus(&self.plastic, 1.0, &change).map(|row| row.map(|entry| bounded * entry));
+            let plastic = map(&plus(&self.plastic, 1.0, &change), |entry| bounded * entry);
             let way = plus(&plastic, -1.0, &self.plastic);
             // The projection may raise the energy where λ weighs volume more than shape; the part of the way that lowers it most does not.
             let descent = dot(&self.conjugate(&elastic), &way);
@@ -187,7 +187,7 @@ impl Additive<f64> {
             if part.is_nan() {
                 return unchanged;
             }
-            change = way.map(|row| row.map(|entry| part * entry));
+            change = map(&way, |entry| part * entry);
         }
         let plastic = plus(&self.plastic, 1.0, &change);
         let dissipated = self.energy_of(&elastic) - self.energy_of(&plus(&elastic, -1.0, &change));

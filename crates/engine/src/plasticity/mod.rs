@@ -18,7 +18,8 @@ use fem_scene::simulation::History;
 
 use crate::history::{put, take};
 use crate::number::Real;
-use crate::tensor::Tensor;
+use crate::tensor::{Tensor, map};
+use crate::vector::triple;
 
 /// Internal variables of an element.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -78,7 +79,7 @@ impl<T: Real> Plasticity<T> {
     /// modulus are in Pa, its volume in m³.
     pub fn flow(&mut self, element: usize, [shear, bulk]: [f64; 2], volume: f64, G: &Tensor<f64>, dt: f64) {
         let before = self.variables[element];
-        let plastic = before.plastic.map(|row| row.map(T::as_f64));
+        let plastic = map(&before.plastic, T::as_f64);
         let (after, dissipated) = match self.model {
             Model::Additive { yield_strain, creep, maximum } => {
                 let law = Additive { mu: shear, lambda: bulk - 2.0 / 3.0 * shear, plastic, is_flat: self.is_flat };
@@ -88,8 +89,7 @@ impl<T: Real> Plasticity<T> {
                 J2 { mu: shear, bulk, yield_stress, hardening, plastic, strain: before.strain.as_f64() }.flow(G)
             }
         };
-        self.variables[element] =
-            Internal { plastic: after.plastic.map(|row| row.map(T::of)), strain: T::of(after.strain) };
+        self.variables[element] = Internal { plastic: map(&after.plastic, T::of), strain: T::of(after.strain) };
         self.dissipated += volume * dissipated;
     }
 
@@ -106,7 +106,7 @@ impl<T: Real> Plasticity<T> {
         let mut numbers = vec![T::default(); 10 * self.variables.len()];
         take(history, "plasticity.variables", &mut numbers)?;
         for (variables, numbers) in self.variables.iter_mut().zip(numbers.chunks_exact(10)) {
-            variables.plastic = std::array::from_fn(|i| std::array::from_fn(|j| numbers[3 * i + j]));
+            variables.plastic = triple(|i| triple(|j| numbers[3 * i + j]));
             variables.strain = numbers[9];
         }
         let mut dissipated = [0.0];

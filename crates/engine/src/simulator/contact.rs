@@ -12,6 +12,7 @@ use crate::history::{put, take};
 use crate::integrators::{Convergence, Impulses, PlaneContacts};
 use crate::model::system::System;
 use crate::number::Real;
+use crate::vector::triple;
 
 /// Relative change of lagged forces at which they no longer change, and the one up to which they may change by rounding error.
 const CONVERGED: f64 = 1e-6;
@@ -179,7 +180,7 @@ impl<T: Real> Simulator<T> {
         let force = |near: crate::forces::contact::planes::Near| {
             let plane = &contact.planes.planes[near.plane];
             let normal = contact.barrier.force(contact.barrier.area(near.plane, near.node), near.gap);
-            let moved = std::array::from_fn(|i| (state.u[near.node][i] - last_good.u[near.node][i]).as_f64());
+            let moved = triple(|i| (state.u[near.node][i] - last_good.u[near.node][i]).as_f64());
             let slide = tangential(plane, moved, [last_good.time, state.time]);
             let factor = plane.friction * normal * slope_over_y(norm(slide), transition);
             let friction = if plane.friction > 0.0 { Vector3::from(slide) * factor } else { Vector3::zeros() };

@@ -12,7 +12,7 @@ use crate::integrators::Integrator;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
-use crate::vector::dot;
+use crate::vector::{dot, triple};
 
 /// Energy over supplied energy beyond which a motion has diverged, or a step has not converged. The margin is for the work of loads, which is summed by
 /// a rule of first order.
@@ -232,6 +232,6 @@ fn round_off<T: Real>(system: &System<T>) -> f64 {
 fn add_scaled<T: Real>(x: &[[T; 3]], a: f64, y: &[[T; 3]], sum: &mut [[T; 3]]) {
     let a = T::of(a);
     for (sum, (x, y)) in sum.iter_mut().zip(x.iter().zip(y)) {
-        *sum = std::array::from_fn(|i| x[i] + a * y[i]);
+        *sum = triple(|i| x[i] + a * y[i]);
     }
 }

@@ -76,7 +76,7 @@ impl Beam {
 /// Gradients of the four shape functions, and the volume.
 fn shape(x: &[Vector3<f64>; 4]) -> ([Vector3<f64>; 4], f64) {
     let edges = Matrix3::from_columns(&[x[1] - x[0], x[2] - x[0], x[3] - x[0]]);
-    let inverse = edges.try_inverse().unwrap();
+    let inverse = crate::tensor::inverse(&edges);
     let rows = [0, 1, 2].map(|row| inverse.row(row).transpose());
     ([-(rows[0] + rows[1] + rows[2]), rows[0], rows[1], rows[2]], edges.determinant() / 6.0)
 }

@@ -8,6 +8,7 @@ use fem_scene::Body;
 use crate::forces::mass_spring;
 use crate::materials::AnyLaw;
 use crate::model::numbering::Numbering;
+use crate::vector::triple;
 
 /// The barrier of a body.
 #[derive(Clone, Debug)]
@@ -138,7 +139,7 @@ fn constrained_directions(body: &Body) -> Vec<[bool; 3]> {
     for condition in body.dirichlet.iter().filter(|condition| condition.until.is_none()) {
         for &node in &condition.nodes {
             let before = constrained[node];
-            constrained[node] = std::array::from_fn(|i| before[i] || condition.components[i]);
+            constrained[node] = triple(|i| before[i] || condition.components[i]);
         }
     }
     constrained

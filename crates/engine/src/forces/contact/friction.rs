@@ -12,6 +12,7 @@ use crate::forces::{Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
 use crate::number::Real;
 use crate::sparse::{Block, Pattern};
+use crate::vector::triple;
 
 /// Key in the statistics.
 pub const NAME: &str = "friction";
@@ -86,7 +87,7 @@ impl<T: Real> Friction<T> {
     /// The touching nodes, each with its sliding in the step, m.
     fn sliding(&self, u: &[[T; 3]]) -> impl Iterator<Item = (&Lagged, [f64; 3])> {
         let slide = move |plane: usize, node: usize| {
-            let moved: [f64; 3] = std::array::from_fn(|i| (u[node][i] - self.start[node][i]).as_f64());
+            let moved: [f64; 3] = triple(|i| (u[node][i] - self.start[node][i]).as_f64());
             tangential(&self.planes.planes[plane], moved, self.times)
         };
         self.lagged.iter().map(move |lagged| (lagged, slide(lagged.plane, lagged.node)))
@@ -98,8 +99,8 @@ impl<T: Real> Friction<T> {
         let across = slope_over_y(y, self.transition);
         // Along the direction of sliding the slope no longer grows beyond ε.
         let along = if y > 0.0 { (curvature(y, self.transition) - across) / (y * y) } else { 0.0 };
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
+        triple(|i| {
+            triple(|j| {
                 let one = if i == j { 1.0 } else { 0.0 };
                 lagged.bound * (across * (one - n[i] * n[j]) + along * slide[i] * slide[j])
             })

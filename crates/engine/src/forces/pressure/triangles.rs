@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use nalgebra::Vector3;
 
 use crate::number::Real;
+use crate::vector::triple;
 
 /// Triangles whose normals point outward.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,8 +40,8 @@ impl<T: Real> Triangles<T> {
     pub fn add_gradient(&self, pressure: T, u: &[[T; 3]], gradient: &mut [[T; 3]]) {
         let sixth = pressure * T::of(1.0 / 6.0);
         for Triangle { nodes: [a, b, c], edges } in &self.triangles {
-            let d: [T; 3] = std::array::from_fn(|i| edges[0][i] + (u[*b][i] - u[*a][i]));
-            let e: [T; 3] = std::array::from_fn(|i| edges[1][i] + (u[*c][i] - u[*a][i]));
+            let d: [T; 3] = triple(|i| edges[0][i] + (u[*b][i] - u[*a][i]));
+            let e: [T; 3] = triple(|i| edges[1][i] + (u[*c][i] - u[*a][i]));
             let normal = [d[1] * e[2] - d[2] * e[1], d[2] * e[0] - d[0] * e[2], d[0] * e[1] - d[1] * e[0]];
             for &node in &[*a, *b, *c] {
                 for i in 0..3 {

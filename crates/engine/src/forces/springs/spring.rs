@@ -6,6 +6,7 @@ use crate::forces::{Energy, HessianKind};
 use crate::model::numbering::Numbering;
 use crate::number::Real;
 use crate::sparse::{Block, Pattern};
+use crate::vector::triple;
 
 /// A spring between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,8 +102,8 @@ impl<T: Real> Spring<T> {
         if kind == HessianKind::Projected && across < T::zero() {
             across = T::zero();
         }
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
+        triple(|i| {
+            triple(|j| {
                 let one = if i == j { across } else { T::zero() };
                 self.stiffness * (one + (T::one() - across) * n[i] * n[j])
             })
@@ -113,7 +114,7 @@ impl<T: Real> Spring<T> {
     pub(super) fn add_hessian_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
         let H = self.hessian(u, HessianKind::Exact);
         let [a, b] = self.ends();
-        let apart: [T; 3] = std::array::from_fn(|i| d[b][i] - d[a][i]);
+        let apart: [T; 3] = triple(|i| d[b][i] - d[a][i]);
         for i in 0..3 {
             let force = factor * (H[i][0] * apart[0] + H[i][1] * apart[1] + H[i][2] * apart[2]);
             product[a][i] -= force;
@@ -136,7 +137,7 @@ impl<T: Real> Spring<T> {
     /// c n nᵀ, N s/m: the block D of its damping matrix (D, −D; −D, D), which is positive semi-definite.
     pub(super) fn damping_matrix(&self, u: &[[T; 3]]) -> Block<T, 3> {
         let n = self.direction(u).unwrap_or([T::zero(); 3]);
-        std::array::from_fn(|i| std::array::from_fn(|j| self.damping * n[i] * n[j]))
+        triple(|i| triple(|j| self.damping * n[i] * n[j]))
     }
 
     /// (x_b − x_a)/|x_b − x_a|; `None` where both ends meet.
@@ -154,8 +155,8 @@ impl<T: Real> Spring<T> {
     /// difference of the lengths cancels.
     pub fn now(&self, u: &[[T; 3]]) -> Now<T> {
         let [a, b] = self.ends();
-        let moved: [T; 3] = std::array::from_fn(|i| u[b][i] - u[a][i]);
-        let d: [T; 3] = std::array::from_fn(|i| self.edge[i] + moved[i]);
+        let moved: [T; 3] = triple(|i| u[b][i] - u[a][i]);
+        let d: [T; 3] = triple(|i| self.edge[i] + moved[i]);
         let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
         let (mut difference, mut size) = (self.excess, self.excess.abs());
         for i in 0..3 {

@@ -5,6 +5,7 @@ use pulp::{Simd, WithSimd};
 
 use super::sums::{Sums, UPPER};
 use crate::number::{Lanes, Number, Real, constant};
+use crate::tensor::inverse;
 
 /// Smallest pivot of a block that is solved as it is, as a part of its diagonal entry.
 const SMALLEST_PIVOT: f64 = 1e-5;
@@ -145,6 +146,6 @@ fn make_definite<L: Lanes>(weights: &[L; 3], sums: &mut Sums<L>) {
 pub(super) fn inverse_block<T: Real>(sums: &Sums<T::Lanes>, masses: &[T::Lanes; 3], lane: usize) -> Matrix3<f64> {
     let [a, d, f, b, c, e] = sums.block.map(|entry| entry.lane(lane).as_f64());
     let free = masses.map(|mass| if mass.lane(lane) > T::default() { 1.0 } else { 0.0 });
-    let inverse = Matrix3::new(a, b, c, b, d, e, c, e, f).try_inverse().unwrap_or_else(Matrix3::zeros);
+    let inverse = inverse(&Matrix3::new(a, b, c, b, d, e, c, e, f));
     Matrix3::from_fn(|i, j| inverse[(i, j)] * free[i] * free[j])
 }

@@ -5,7 +5,7 @@ use super::rule::{Rule, Sweep};
 use crate::forces::HessianKind;
 use crate::forces::springs::Spring;
 use crate::number::Real;
-use crate::vector::dot3;
+use crate::vector::{dot3, triple};
 
 /// Distance constraints in the order of their colours, each with what it adds up in a step.
 pub(super) struct Distances<T> {
@@ -37,7 +37,7 @@ impl<T: Real> Distances<T> {
         for (spring, multiplier) in self.springs.iter().zip(&mut self.multipliers) {
             let [a, b] = spring.ends();
             let (of_a, of_b) = (inverse_masses[a], inverse_masses[b]);
-            let both: [T; 3] = std::array::from_fn(|i| of_a[i] + of_b[i]);
+            let both: [T; 3] = triple(|i| of_a[i] + of_b[i]);
             let change = match sweep.rule {
                 Rule::Stress => by_force(spring, multiplier, both.map(|w| T::of(sweep.dt2) * w), u),
                 Rule::Energy => by_length(spring, multiplier, both, T::of(sweep.dt2), u),
@@ -62,14 +62,14 @@ fn by_force<T: Real>(spring: &Spring<T>, force: &mut [T; 3], w: [T; 3], u: &[[T;
     let pull = spring.stiffness * now.stretch / now.length;
     let H = spring.hessian(u, HessianKind::Projected);
     let root = w.map(|w| w.sqrt());
-    let residual: [T; 3] = std::array::from_fn(|i| pull * now.d[i] - force[i]);
+    let residual: [T; 3] = triple(|i| pull * now.d[i] - force[i]);
     let A =
         nalgebra::Matrix3::from_fn(|i, j| root[i] * H[i][j] * root[j] + if i == j { T::one() } else { T::default() });
     let right = nalgebra::Vector3::from_fn(|i, _| root[i] * residual[i]);
     let Some(factor) = A.cholesky() else { return [T::default(); 3] };
     let y = factor.solve(&right);
-    let change: [T; 3] = std::array::from_fn(|i| residual[i] - (0..3).map(|j| H[i][j] * root[j] * y[j]).sum::<T>());
-    *force = std::array::from_fn(|i| force[i] + change[i]);
+    let change: [T; 3] = triple(|i| residual[i] - (0..3).map(|j| H[i][j] * root[j] * y[j]).sum::<T>());
+    *force = triple(|i| force[i] + change[i]);
     change
 }
 
@@ -96,6 +96,6 @@ fn direction<T: Real>(spring: &Spring<T>, w: [T; 3], u: &[[T; 3]]) -> Option<([T
         return None;
     }
     let n = now.d.map(|d| d / now.length);
-    let along = T::of(dot3(&n, &std::array::from_fn(|i| w[i] * n[i])));
+    let along = T::of(dot3(&n, &triple(|i| w[i] * n[i])));
     Some((n, now.stretch, along))
 }

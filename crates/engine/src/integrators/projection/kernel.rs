@@ -8,7 +8,7 @@ use super::scalar::{by_energy, by_volume, inner};
 use super::stress::change_of_stress;
 use crate::materials::Law;
 use crate::number::{Lanes, Number, Real, constant};
-use crate::tensor::{Tensor, half, volume_change, zero};
+use crate::tensor::{Tensor, half, map, volume_change, zero};
 
 /// Part of det F that a correction keeps at least, and most halvings of it.
 const KEPT: f64 = 0.1;
@@ -37,12 +37,12 @@ impl<L: Lanes, const N: usize> WithSimd for CorrectionsOf<'_, L, N> {
             let (batch, part) = (&mut batches[i / L::PARTS], i % L::PARTS);
             let gradients = batch.gradients.map(|g| g.map(|g| one.load(&g, part)));
             let masses = batch.inverse_masses.map(|m| m.map(|m| one.load(&m, part)));
-            let mut multiplier = batch.multiplier.map(|row| row.map(|entry| one.load(&entry, part)));
+            let mut multiplier = map(&batch.multiplier, |entry| one.load(&entry, part));
             let G = displacement_gradient(&gradients, corners, u);
             let pressed = dt2 * one.load(&batch.volume, part);
             let (factor, direction, change) = match sweep.rule {
                 Rule::Stress => {
-                    let factors = batch.factors.map(|l| l.map(|row| row.map(|entry| dt * one.load(&entry, part))));
+                    let factors = batch.factors.map(|l| map(&l, |entry| dt * one.load(&entry, part)));
                     let change = change_of_stress(law, allows_inversion, &G, &multiplier, &factors);
                     (pressed, change, change)
                 }
@@ -50,7 +50,7 @@ impl<L: Lanes, const N: usize> WithSimd for CorrectionsOf<'_, L, N> {
                     let (direction, change) = by_energy(law, &G, multiplier[0][0], pressed, &gradients, &masses);
                     let mut of_first = zero::<L>();
                     of_first[0][0] = change;
-                    (pressed, direction.map(|row| row.map(|entry| -(entry * change))), of_first)
+                    (pressed, map(&direction, |entry| -(entry * change)), of_first)
                 }
                 Rule::Volume { stiffness } => (one, by_volume(constant(stiffness), &G, &gradients, &masses), zero()),
             };

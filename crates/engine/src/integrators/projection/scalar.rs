@@ -2,7 +2,7 @@
 
 use crate::materials::Law;
 use crate::number::{Lanes, Number, constant};
-use crate::tensor::{Tensor, cofactor, dot, plus_identity, volume_change};
+use crate::tensor::{Tensor, cofactor, dot, map, plus_identity, volume_change};
 
 /// Part of the moduli below which an energy density is rounding error and has no direction.
 const NO_ENERGY: f64 = 1e-28;
@@ -46,7 +46,7 @@ pub(super) fn by_energy<L: Lanes, const N: usize>(
     let is_strained = energy.gt(L::zero()) & is_finite & (energy * energy).ge(strained);
     let C = (energy + energy).select(is_strained, L::one()).sqrt();
     let zero = L::zero();
-    let direction = P.map(|row| row.map(|entry| (entry / C).select(is_strained, zero)));
+    let direction = map(&P, |entry| (entry / C).select(is_strained, zero));
     let w = pressed * inverse_mass(&direction, gradients, masses);
     let change = (-(C + multiplier)).select(is_strained, zero) / (w + L::one());
     (direction, change)
@@ -65,5 +65,5 @@ pub(super) fn by_volume<L: Number, const N: usize>(
     let is_free = w.gt(L::zero());
     let (change, _) = volume_change(G);
     let size = (stiffness * change).select(is_free, L::zero()) / w.select(is_free, L::one());
-    cof.map(|row| row.map(|entry| size * entry))
+    map(&cof, |entry| size * entry)
 }

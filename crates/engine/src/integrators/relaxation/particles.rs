@@ -4,6 +4,7 @@ use crate::forces::{Moment, dead_load};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
+use crate::vector::triple;
 
 /// Inverse masses of the nodes, and the start of the step.
 pub struct Particles<T> {
@@ -49,11 +50,11 @@ impl<T: Real> Particles<T> {
         let (of_velocity, of_load) = (T::of(dt * damped), T::of(dt2));
         let inertia = self.inverse_masses.iter().zip(&state.v);
         for (w, (inverse_mass, v)) in self.increment.iter_mut().zip(inertia) {
-            *w = std::array::from_fn(|i| of_velocity * v[i] - of_load * inverse_mass[i] * w[i]);
+            *w = triple(|i| of_velocity * v[i] - of_load * inverse_mass[i] * w[i]);
         }
         system.prescribe(&self.start, end, &mut self.increment);
         for (u, w) in state.u.iter_mut().zip(&self.increment) {
-            *u = std::array::from_fn(|i| u[i] + w[i]);
+            *u = triple(|i| u[i] + w[i]);
         }
         dt2
     }
@@ -62,7 +63,7 @@ impl<T: Real> Particles<T> {
     pub fn finish(&self, state: &mut State<T>, dt: f64) {
         let over_dt = T::of(1.0 / dt);
         for (v, (u, start)) in state.v.iter_mut().zip(state.u.iter().zip(&self.start)) {
-            *v = std::array::from_fn(|i| (u[i] - start[i]) * over_dt);
+            *v = triple(|i| (u[i] - start[i]) * over_dt);
         }
     }
 

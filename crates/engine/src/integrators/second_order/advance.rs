@@ -11,7 +11,7 @@ use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, Inertia, StepEnd};
 use crate::number::Real;
-use crate::vector::{axpy, max_norm};
+use crate::vector::{axpy, max_norm, triple};
 
 /// Part of the minimum of det F at the start that displacements must keep where damping takes its stiffness.
 const KEPT: f64 = 0.5;
@@ -69,7 +69,7 @@ impl<T: Real> SecondOrder<T> {
         known.combine(&of.known_stage_velocity(), &state.v, still);
         let over = T::of(of.tau / of.stage_velocity());
         for (still, inertial) in still.iter_mut().zip(&*inertial) {
-            *still = std::array::from_fn(|i| inertial[i] - over * still[i]);
+            *still = triple(|i| inertial[i] - over * still[i]);
         }
         if is_moving {
             set_constrained(system, step, &start.velocity, over, still);
@@ -90,7 +90,7 @@ impl<T: Real> SecondOrder<T> {
         let Self { start, known, next, inertial, step, velocity, acceleration, .. } = self;
         let over_square = T::of(1.0 / (of.tau * of.tau));
         for (a, (step, inertial)) in acceleration.iter_mut().zip(step.iter().zip(&*inertial)) {
-            *a = std::array::from_fn(|i| (step[i] - inertial[i]) * over_square);
+            *a = triple(|i| (step[i] - inertial[i]) * over_square);
         }
         if !next.increment.is_empty() {
             next.increment.copy_from_slice(step);
@@ -109,7 +109,7 @@ impl<T: Real> SecondOrder<T> {
                 axpy(-of.obstacles, by_obstacles, &mut next.acceleration);
             }
             for (next, known) in next.acceleration.iter_mut().zip(&known.acceleration) {
-                *next = std::array::from_fn(|i| T::of(of_known) * known[i] + T::of(of_stage) * next[i]);
+                *next = triple(|i| T::of(of_known) * known[i] + T::of(of_stage) * next[i]);
             }
         }
         if system.dirichlet.has_motion() {

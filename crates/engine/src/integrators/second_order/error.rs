@@ -6,7 +6,7 @@ use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
-use crate::vector::{axpy, max_norm, scale};
+use crate::vector::{axpy, max_norm, scale, triple};
 use fem_scene::simulation::Cause;
 
 impl Scheme {
@@ -37,7 +37,7 @@ impl<T: Real> SecondOrder<T> {
         let Self { start, next, before, .. } = self;
         let over_dt = T::of(1.0 / dt);
         for (mean, (after, before)) in next.mean.iter_mut().zip(state.v.iter().zip(&*before)) {
-            *mean = std::array::from_fn(|i| (after[i] - before[i]) * over_dt);
+            *mean = triple(|i| (after[i] - before[i]) * over_dt);
         }
         next.age = Some(0.5 * dt);
         if let Some(by_obstacles) = start.by_obstacles(system, &state.u, Moment::at(state.time + dt))? {

@@ -8,7 +8,7 @@ use crate::model::mass::Mass;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::number::Real;
-use crate::vector::max_norm;
+use crate::vector::{max_norm, triple};
 
 /// Part of the largest prescribed velocity from which a change of it is a jump.
 const JUMP: f64 = 1e-9;
@@ -55,7 +55,7 @@ impl<T: Real> Start<T> {
         let Self { mass, force, velocity, obstacles: change, .. } = self;
         let largest = max_norm(velocity);
         for ((change, velocity), v) in change.iter_mut().zip(&*velocity).zip(&state.v) {
-            *change = std::array::from_fn(|i| velocity[i] - v[i]);
+            *change = triple(|i| velocity[i] - v[i]);
         }
         system.dirichlet.clear_free(change);
         let size = max_norm(change);
@@ -70,7 +70,7 @@ impl<T: Real> Start<T> {
             mass.solve(system, force, change)?;
             system.dirichlet.clear_constrained(change);
             for (v, change) in state.v.iter_mut().zip(&*change) {
-                *v = std::array::from_fn(|i| v[i] + change[i]);
+                *v = triple(|i| v[i] + change[i]);
             }
         }
         Ok(true)

@@ -53,12 +53,12 @@ impl<T: Real> CscMatrix<T> {
         Self { symbolic, values, targets, is_diagonal, stored: pattern.stored }
     }
 
-    pub(super) fn set_values(&mut self, values: &[Block<T, 3>]) {
+    pub(super) fn set_values<S: Real>(&mut self, values: &[Block<S, 3>], convert: fn(S) -> T) {
         for ((block, targets), &is_diagonal) in values.iter().zip(&self.targets).zip(&self.is_diagonal) {
             for c in 0..3 {
                 let first = if is_diagonal && self.stored == Stored::Lower { c } else { 0 };
                 for r in first..3 {
-                    self.values[targets[c] as usize + r - first] = block[r][c];
+                    self.values[targets[c] as usize + r - first] = convert(block[r][c]);
                 }
             }
         }

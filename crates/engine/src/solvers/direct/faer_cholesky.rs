@@ -52,7 +52,7 @@ impl<T: Real> FaerCholesky<T> {
 impl<T: Real> ApproximateInverse<T> for FaerCholesky<T> {
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
         let symbolic = self.symbolic.as_ref().ok_or(Breakdown::TooLarge)?;
-        self.matrix.set_values(values);
+        self.matrix.set_values(values, |value| value);
         let matrix = self.matrix.view();
         let stack = MemStack::new(&mut self.workspace);
         let no_regularization = LltRegularization::default();

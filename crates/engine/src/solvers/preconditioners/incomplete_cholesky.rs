@@ -8,6 +8,7 @@ use crate::number::Real;
 use crate::solvers::ApproximateInverse;
 use crate::solvers::block::{factor, invert_lower};
 use crate::sparse::{Block, Pattern};
+use crate::vector::triple;
 use fem_scene::simulation::{Breakdown, History};
 
 /// Relative shifts of the diagonal, tried one after the other until the factorisation succeeds.
@@ -154,7 +155,7 @@ fn subtract_product<T: Real>(A: &Block<T, 3>, B: &Block<T, 3>, C: &mut Block<T, 
 /// Aᵀ x
 #[inline(always)]
 fn transposed_product<T: Real>(A: &Block<T, 3>, x: &[T; 3]) -> [T; 3] {
-    std::array::from_fn(|i| A[0][i] * x[0] + A[1][i] * x[1] + A[2][i] * x[2])
+    triple(|i| A[0][i] * x[0] + A[1][i] * x[1] + A[2][i] * x[2])
 }
 
 #[cfg(test)]
@@ -169,7 +170,7 @@ mod tests {
         let pattern = Pattern::new(3, &[[0, 1], [1, 2]], Stored::Full);
         let block = |row: usize, column: usize| {
             let entry = if row == column { 2.0 } else { off };
-            std::array::from_fn(|i| std::array::from_fn(|j| if i == j { entry } else { 0.1 * entry }))
+            triple(|i| triple(|j| if i == j { entry } else { 0.1 * entry }))
         };
         let values = (0..3)
             .flat_map(|row| pattern.row(row).map(move |k| (row, k)))

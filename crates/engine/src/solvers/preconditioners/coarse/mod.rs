@@ -6,8 +6,6 @@ mod history;
 #[cfg(feature = "gpu")]
 mod inverse;
 
-use std::array::from_fn;
-
 use nalgebra::Vector3;
 use pulp::{Simd, WithSimd};
 
@@ -17,6 +15,7 @@ use crate::number::{Real, vectorized};
 use crate::solvers::ApproximateInverse;
 use crate::solvers::direct::SupernodalCholesky;
 use crate::sparse::{Block, Pattern, Stored};
+use crate::vector::triple;
 pub use grid::{CellPoint, Grid};
 
 /// Weight of the coarse correction: the sweeps reduce a part of the smooth error as well.
@@ -158,8 +157,8 @@ impl Coarse {
         let mut add = |row: usize, column: usize, block: u32| {
             let Some(&pair) = pairs.next() else { return };
             let (free_row, free_column) = (&self.free[row], &self.free[column]);
-            let A: Block<f32, 3> = from_fn(|i| {
-                from_fn(|j| (values[block as usize][i][j].as_f64() * scale) as f32 * free_row[i] * free_column[j])
+            let A: Block<f32, 3> = triple(|i| {
+                triple(|j| (values[block as usize][i][j].as_f64() * scale) as f32 * free_row[i] * free_column[j])
             });
             let (rows, columns) = (self.grid.nodes[row].weights(), self.grid.nodes[column].weights());
             let forms = forms(&A, row == column);
@@ -237,9 +236,9 @@ fn forms(A: &Block<f32, 3>, is_diagonal: bool) -> [[Row; 3]; 3] {
     let other = if is_diagonal { 0.0 } else { 1.0 };
     let row = |of: &dyn Fn(usize) -> f32| [of(0), of(1), of(2), 0.0];
     [
-        from_fn(|i| row(&|j| A[i][j])),
-        from_fn(|i| row(&|j| other * A[j][i])),
-        from_fn(|i| row(&|j| A[i][j] + other * A[j][i])),
+        triple(|i| row(&|j| A[i][j])),
+        triple(|i| row(&|j| other * A[j][i])),
+        triple(|i| row(&|j| A[i][j] + other * A[j][i])),
     ]
 }
 
@@ -286,7 +285,7 @@ fn renumber(grid: &mut Grid, pairs: &[[u32; 2]]) -> Pattern {
 
 /// The coarse blocks of the products of two cells' functions.
 fn slots(matrix: &Pattern, a: &[u32; 8], b: &[u32; 8]) -> [Slot; 64] {
-    from_fn(|number| {
+    std::array::from_fn(|number| {
         let (row, column) = (a[number / 8], b[number % 8]);
         let form = match row.cmp(&column) {
             std::cmp::Ordering::Greater => PLAIN,

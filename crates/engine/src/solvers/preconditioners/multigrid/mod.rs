@@ -15,6 +15,7 @@ use crate::number::Real;
 use crate::solvers::ApproximateInverse;
 use crate::solvers::direct::SupernodalCholesky;
 use crate::sparse::{Block, Pattern, Stored};
+use crate::tensor::map;
 use crate::vector::norm;
 use fem_scene::simulation::{Breakdown, History};
 
@@ -108,7 +109,7 @@ impl<T: Real> ApproximateInverse<T> for Multigrid {
         for row in 0..starts.len() - 1 {
             for block in starts[row]..starts[row + 1] {
                 let value = &values[self.sources[block] as usize];
-                let single = value.map(|row| row.map(|entry| (entry.as_f64() * self.scale) as f32));
+                let single = map(&value, |entry| (entry.as_f64() * self.scale) as f32);
                 singles[block] = if columns[block] as usize > row { transposed(&single) } else { single };
             }
         }

@@ -9,6 +9,8 @@ use crate::number::{Real, vectorized};
 use crate::solvers::block::{factor, invert_lower};
 use crate::solvers::parts::Part;
 use crate::sparse::{Block, Pattern};
+use crate::tensor::map;
+use crate::vector::triple;
 use fem_scene::simulation::Breakdown;
 
 /// Fractions of the diagonal's change by an incomplete factorisation, tried one after the other until all blocks are positive
@@ -134,7 +136,7 @@ impl<T: Real> WithSimd for Factor<'_, T> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) -> Result<(), Breakdown> {
         let Rows { pattern, values, free, fraction, scale, first, L, K, G, inverses } = self.all;
-        let single = |block: u32| values[block as usize].map(|row| row.map(|entry| (entry.as_f64() * scale) as f32));
+        let single = |block: u32| map(&values[block as usize], |entry| (entry.as_f64() * scale) as f32);
         let first_block = pattern.row(first).start;
         for row in self.rows {
             let blocks = pattern.row(row);
@@ -159,7 +161,7 @@ impl<T: Real> WithSimd for Factor<'_, T> {
             let inverse = invert_lower(&root);
             G[row - first] = LOWER.map(|(i, j)| free[row][i] * root[i][j]);
             for L in own {
-                let half: Block<f32, 3> = std::array::from_fn(|i| std::array::from_fn(|j| L[3 * i + j]));
+                let half: Block<f32, 3> = triple(|i| triple(|j| L[3 * i + j]));
                 L.copy_from_slice(times(&inverse, &half).as_flattened());
             }
             let scaled = times_transpose(&times(&inverse, &diagonal), &inverse);
@@ -173,11 +175,11 @@ impl<T: Real> WithSimd for Factor<'_, T> {
 /// A B
 #[inline(always)]
 fn times(A: &Block<f32, 3>, B: &Block<f32, 3>) -> Block<f32, 3> {
-    std::array::from_fn(|i| std::array::from_fn(|j| A[i][0] * B[0][j] + A[i][1] * B[1][j] + A[i][2] * B[2][j]))
+    triple(|i| triple(|j| A[i][0] * B[0][j] + A[i][1] * B[1][j] + A[i][2] * B[2][j]))
 }
 
 /// A Bᵀ
 #[inline(always)]
 fn times_transpose(A: &Block<f32, 3>, B: &Block<f32, 3>) -> Block<f32, 3> {
-    std::array::from_fn(|i| std::array::from_fn(|j| A[i][0] * B[j][0] + A[i][1] * B[j][1] + A[i][2] * B[j][2]))
+    triple(|i| triple(|j| A[i][0] * B[j][0] + A[i][1] * B[j][1] + A[i][2] * B[j][2]))
 }

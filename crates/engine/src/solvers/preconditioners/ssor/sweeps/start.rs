@@ -1,6 +1,5 @@
 //! The forward sweep that starts an iteration.
 
-use std::array::from_fn;
 use std::ops::Range;
 
 use super::super::super::coarse::{Coarse, Row};
@@ -8,6 +7,7 @@ use super::super::scaled::Scaled;
 use super::super::shares::{Places, Sums};
 use crate::number::Real;
 use crate::solvers::parts::Part;
+use crate::vector::triple;
 
 /// r̃ = (L̃ + 1)⁻¹ G⁻¹ b and the coarse residual Pᵀ b, with b scaled by `factor`.
 pub struct Start<'a, T> {
@@ -48,7 +48,7 @@ impl<T: Real> Start<'_, T> {
             let free = &coarse.free[row];
             let of_free = [free[0] * b[0], free[1] * b[1], free[2] * b[2], 0.0];
             residual.add(&places, row, of_free, coarse.grid.nodes[row].weights());
-            let mut scaled: [f32; 3] = from_fn(|i| (0..=i).map(|j| inverses[row][i][j] * b[j]).sum());
+            let mut scaled: [f32; 3] = triple(|i| (0..=i).map(|j| inverses[row][i][j] * b[j]).sum());
             for block in pattern.row(row) {
                 let known = &r[pattern.columns[block] as usize - first];
                 (0..3).for_each(|i| scaled[i] -= (0..3).map(|k| L[9 * block + 3 * i + k] * known[k]).sum::<f32>());
