@@ -19,15 +19,20 @@ pub fn zero<T: Number>() -> Tensor<T> {
 /// The matrix of the entries `entry(i, j)`.
 #[inline(always)]
 pub fn from_fn<T: Number>(mut entry: impl FnMut(usize, usize) -> T) -> Tensor<T> {
-    let mut row = |i| [entry(i, 0), entry(i, 1), entry(i, 2)];
-    [row(0), row(1), row(2)]
+    let mut a = zero();
+    for i in 0..3 {
+        for j in 0..3 {
+            a[i][j] = entry(i, j);
+        }
+    }
+    a
 }
 
-/// The matrix of a function of each entry.
+/// The matrix of a function of each entry. In kernels the function is marked `inline(always)`.
 #[inline(always)]
-pub fn map<A: Copy, B>(a: &Tensor<A>, mut function: impl FnMut(A) -> B) -> Tensor<B> {
-    let mut row = |row: [A; 3]| [function(row[0]), function(row[1]), function(row[2])];
-    [row(a[0]), row(a[1]), row(a[2])]
+pub fn map<A: Copy, B>(a: &Tensor<A>, mut f: impl FnMut(A) -> B) -> Tensor<B> {
+    let [[a, b, c], [d, e, g], [h, i, j]] = *a;
+    [[f(a), f(b), f(c)], [f(d), f(e), f(g)], [f(h), f(i), f(j)]]
 }
 
 /// The deformation gradient F = 1 + G of a displacement gradient G.

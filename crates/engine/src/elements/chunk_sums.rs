@@ -9,7 +9,7 @@ use super::kernel::{
 };
 use super::scatter::{add_hessian, scatter};
 use super::{Batch, BatchLaws, Chunk};
-use crate::materials::{Law, Linearized};
+use crate::materials::{Law, Terms};
 use crate::number::{Lanes, Real, constant};
 use crate::sparse::Block;
 use crate::tensor::{from_fn, volume_change};
@@ -168,10 +168,10 @@ impl<L: Lanes, B: BatchLaws<L>, const D: usize, const E: usize, const N: usize> 
             let G = displacement_gradient(&batch, corners, u);
             let mut scaled = batch;
             scaled.volume *= factor;
-            let inner = match law.linearized(&G) {
-                Linearized::General(H) => corner_blocks(&scaled, &H),
-                Linearized::Invariants(terms) => invariant_blocks(&scaled, &terms),
-                Linearized::Rotation(terms) => rotation_blocks(&scaled, &terms),
+            let inner = match law.terms(&G) {
+                Terms::Invariants(terms) => invariant_blocks(&scaled, &terms),
+                Terms::Rotation(terms) => rotation_blocks(&scaled, &terms),
+                Terms::Entries => corner_blocks(&scaled, &law.derivative(&G)),
             };
             add_hessian(chunk, i, &inner, values);
         }

@@ -46,9 +46,9 @@ macro_rules! laws {
                 }
             }
 
-            fn linearized(&self, G: &Tensor<T>) -> Linearized<T> {
+            fn terms(&self, G: &Tensor<T>) -> Terms<T> {
                 match self {
-                    $(Self::$Law(law) => Vectorized(*law).linearized(G),)*
+                    $(Self::$Law(law) => Vectorized(*law).terms(G),)*
                 }
             }
 

@@ -7,7 +7,11 @@ use crate::tensor::{Tensor, map, plus_identity, product, transpose, volume_chang
 /// Cauchy stress P Fᵀ/J of a first Piola–Kirchhoff stress, Pa. Not finite for J = 0.
 pub fn cauchy_stress<T: Number>(P: &Tensor<T>, G: &Tensor<T>) -> Tensor<T> {
     let J = T::one() + volume_change(G).0;
-    map(&product(P, &transpose(&plus_identity(G))), |entry| entry / J)
+    map(
+        &product(P, &transpose(&plus_identity(G))),
+        #[inline(always)]
+        |entry| entry / J,
+    )
 }
 
 /// First Piola–Kirchhoff stress (Pa) and displacement gradient of a body in plane stress, of a law with this shear modulus (Pa) and the

@@ -11,7 +11,7 @@
 use pulp::{Simd, WithSimd};
 
 use super::isotropic::{Principal, derivative_from, projected_derivative_from};
-use super::{Law, Linearized, NamedLaw};
+use super::{Law, NamedLaw, Terms};
 use crate::number::{Number, Real, constant};
 use crate::polar::SpaceRotation;
 use crate::svd::{Svd, svd, svd_in_plane};
@@ -252,10 +252,10 @@ impl<T: Number> Law<T> for Corotated<T> {
     }
 
     #[inline(always)]
-    fn linearized(&self, G: &Tensor<T>) -> Linearized<T> {
+    fn terms(&self, G: &Tensor<T>) -> Terms<T> {
         match SpaceRotation::of(G) {
-            Some(R) => Linearized::Rotation(self.terms_at(&R, G)),
-            None => Linearized::General(self.derivative_on_crease(G)),
+            Some(R) => Terms::Rotation(self.terms_at(&R, G)),
+            None => Terms::Entries,
         }
     }
 

@@ -48,11 +48,11 @@ macro_rules! law_list {
             inlined {
                 linear::Linear,
                 corotated::Corotated,
+                st_venant_kirchhoff::StVenantKirchhoff,
                 neo_hookean::NeoHookean,
                 stable_neo_hookean::StableNeoHookean,
             }
             by_reference {
-                st_venant_kirchhoff::StVenantKirchhoff,
                 hencky::Hencky,
                 mooney_rivlin::MooneyRivlin,
                 yeoh::Yeoh,
@@ -82,24 +82,24 @@ pub trait Law<T: Number>: Send + Sync {
     /// `∂P/∂F`, Pa, exact and symmetric.
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T>;
 
-    /// [`derivative`](Self::derivative) in the form with the fewest numbers.
+    /// The terms of [`derivative`](Self::derivative) where they are far fewer numbers than its 81 entries.
     #[inline(always)]
-    fn linearized(&self, G: &Tensor<T>) -> Linearized<T> {
-        Linearized::General(self.derivative(G))
+    fn terms(&self, _G: &Tensor<T>) -> Terms<T> {
+        Terms::Entries
     }
 
     /// `∂P/∂F` with its negative eigenvalues raised to zero, Pa: the positive semi-definite projection.
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T>;
 }
 
-/// ∂P/∂F.
-pub enum Linearized<T> {
-    /// All entries.
-    General(Tensor4<T>),
-    /// The terms of a law that has no invariants but tr(FᵀF) and det F.
+/// The terms of ∂P/∂F.
+pub enum Terms<T> {
+    /// Those of a law that has no invariants but tr(FᵀF) and det F.
     Invariants(OfInvariants<T>),
-    /// The terms of a law of the rotation nearest to F, where it is well-conditioned.
+    /// Those of a law of the rotation nearest to F, where it is well-conditioned.
     Rotation(OfRotation<T>),
+    /// No terms but all entries of [`Law::derivative`].
+    Entries,
 }
 
 /// A law that scene files name, and the facts that methods ask for.
@@ -142,8 +142,8 @@ impl<T: Number, L: Law<T> + ?Sized> Law<T> for &L {
     }
 
     #[inline(always)]
-    fn linearized(&self, G: &Tensor<T>) -> Linearized<T> {
-        (**self).linearized(G)
+    fn terms(&self, G: &Tensor<T>) -> Terms<T> {
+        (**self).terms(G)
     }
 
     #[inline(always)]

@@ -54,7 +54,7 @@ fn cross<T: Number>(A: &Tensor<T>, B: &Tensor<T>) -> Tensor<T> {
 impl<T: Number> MooneyRivlin<T> {
     /// All terms of the derivative that have this form, C01 h and C01 h'.
     #[inline(always)]
-    fn terms(&self, G: &Tensor<T>) -> (OfInvariants<T>, T, T) {
+    fn invariants_and_slopes(&self, G: &Tensor<T>) -> (OfInvariants<T>, T, T) {
         let at = Isochoric::new(G);
         let mut terms = at.terms(G, self.C10, self.D);
         let (I2, over_J, squared) = (dot(&terms.cof, &terms.cof), T::one() / at.J, at.y * at.y);
@@ -86,7 +86,7 @@ impl<T: Number> Law<T> for MooneyRivlin<T> {
 
     #[inline(always)]
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        let (terms, h, h1) = self.terms(G);
+        let (terms, h, h1) = self.invariants_and_slopes(G);
         let (F, cof, two) = (&terms.F, &terms.cof, constant::<T>(2.0));
         let (right, left) = (product(&transpose(F), F), product(F, &transpose(F)));
         let (I, FC) = (trace(&right), product(F, &right));
@@ -114,7 +114,7 @@ impl<T: Number> Law<T> for MooneyRivlin<T> {
     /// Requires J > 0. Of I2 = Σ σ_i² σ_j², the ratios of `isotropic.rs` are 2 (σ_k² ± σ_i σ_j).
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        let (terms, h, h1) = self.terms(G);
+        let (terms, h, h1) = self.invariants_and_slopes(G);
         let F = svd(&terms.F);
         let (sigma, two_h) = (&F.sigma, constant::<T>(2.0) * h);
         let mut principal = terms.principal(sigma);

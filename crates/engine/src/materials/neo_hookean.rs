@@ -2,7 +2,7 @@
 //! ch. 7; Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis (2008), §6.5.
 
 use super::isochoric::Isochoric;
-use super::{Law, Linearized, NamedLaw, OfInvariants};
+use super::{Law, NamedLaw, OfInvariants, Terms};
 use crate::number::{Number, constant};
 use crate::tensor::{Tensor, Tensor4};
 
@@ -17,7 +17,7 @@ pub struct NeoHookean<T> {
 
 impl<T: Number> NeoHookean<T> {
     #[inline(always)]
-    fn terms(&self, G: &Tensor<T>) -> OfInvariants<T> {
+    fn of_invariants(&self, G: &Tensor<T>) -> OfInvariants<T> {
         Isochoric::new(G).terms(G, self.C, self.D)
     }
 }
@@ -37,18 +37,18 @@ impl<T: Number> Law<T> for NeoHookean<T> {
 
     #[inline(always)]
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        self.terms(G).derivative()
+        self.of_invariants(G).derivative()
     }
 
     #[inline(always)]
-    fn linearized(&self, G: &Tensor<T>) -> Linearized<T> {
-        Linearized::Invariants(self.terms(G))
+    fn terms(&self, G: &Tensor<T>) -> Terms<T> {
+        Terms::Invariants(self.of_invariants(G))
     }
 
     /// Requires J > 0.
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        self.terms(G).projected_derivative()
+        self.of_invariants(G).projected_derivative()
     }
 }
 

@@ -14,7 +14,11 @@ impl<T: Number> Law<T> for QuadraticForm<T> {
     }
 
     fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
-        map(&G, |entry| self.0 * entry)
+        map(
+            &G,
+            #[inline(always)]
+            |entry| self.0 * entry,
+        )
     }
 
     fn derivative(&self, _: &Tensor<T>) -> Tensor4<T> {

@@ -7,7 +7,7 @@
 //! With i = I − 3 and j = J − 1, P = a F + b cof, a = μ' I/(I + 1), b = λ' j − μ, and
 //! ∂P/∂F = a 1 + 2μ'/(I + 1)² F⊗F + λ' cof⊗cof + b ∂cof/∂F.
 
-use super::{Law, Linearized, NamedLaw, OfInvariants};
+use super::{Law, NamedLaw, OfInvariants, Terms};
 use crate::number::{Number, constant, minus_ln_1p};
 use crate::tensor::{Tensor, Tensor4, cofactor, dot, from_fn, half, plus_identity, trace, volume_change};
 
@@ -28,7 +28,7 @@ impl<T: Number> StableNeoHookean<T> {
     }
 
     #[inline(always)]
-    fn terms(&self, G: &Tensor<T>) -> OfInvariants<T> {
+    fn of_invariants(&self, G: &Tensor<T>) -> OfInvariants<T> {
         let (j, _) = volume_change(G);
         let F = plus_identity(G);
         let I = dot(&F, &F);
@@ -80,17 +80,17 @@ impl<T: Number> Law<T> for StableNeoHookean<T> {
 
     #[inline(always)]
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        self.terms(G).derivative()
+        self.of_invariants(G).derivative()
     }
 
     #[inline(always)]
-    fn linearized(&self, G: &Tensor<T>) -> Linearized<T> {
-        Linearized::Invariants(self.terms(G))
+    fn terms(&self, G: &Tensor<T>) -> Terms<T> {
+        Terms::Invariants(self.of_invariants(G))
     }
 
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        self.terms(G).projected_derivative()
+        self.of_invariants(G).projected_derivative()
     }
 }
 

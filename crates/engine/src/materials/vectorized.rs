@@ -2,7 +2,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::{Law, Linearized};
+use super::{Law, Terms};
 use crate::number::Number;
 use crate::tensor::{Tensor, Tensor4};
 
@@ -12,7 +12,7 @@ pub struct Vectorized<L>(pub L);
 
 /// Defines the functions of [`Vectorized`], each by a type of work that calls the same function of the law.
 macro_rules! vectorized_law {
-    ($($Call:ident $function:ident -> $Answer:ty),* $(,)?) => {
+    ($($Call:ident $function:ident -> $Answer:ty, $vectorize:ident);* $(;)?) => {
         $(
             struct $Call<'a, T, L>(&'a L, &'a Tensor<T>);
 
@@ -29,7 +29,7 @@ macro_rules! vectorized_law {
         impl<T: Number, L: Law<T>> Law<T> for Vectorized<L> {
             $(
                 fn $function(&self, G: &Tensor<T>) -> $Answer {
-                    T::vectorize($Call(&self.0, G))
+                    T::$vectorize($Call(&self.0, G))
                 }
             )*
         }
@@ -37,10 +37,10 @@ macro_rules! vectorized_law {
 }
 
 vectorized_law!(
-    Energy energy -> T,
-    Stress stress -> Tensor<T>,
-    EnergyAndStress energy_and_stress -> (T, Tensor<T>),
-    Derivative derivative -> Tensor4<T>,
-    Linearization linearized -> Linearized<T>,
-    ProjectedDerivative projected_derivative -> Tensor4<T>,
+    Energy energy -> T, vectorize;
+    Stress stress -> Tensor<T>, vectorize_widest;
+    EnergyAndStress energy_and_stress -> (T, Tensor<T>), vectorize;
+    Derivative derivative -> Tensor4<T>, vectorize;
+    TermsOf terms -> Terms<T>, vectorize_widest;
+    ProjectedDerivative projected_derivative -> Tensor4<T>, vectorize;
 );

@@ -5,7 +5,7 @@
 //! P = f' ∂Ī/∂F + 2D (J − 1) cof and ∂P/∂F = f' ∂²Ī/∂F² + f'' ∂Ī/∂F⊗∂Ī/∂F + that of the last term.
 
 use super::isochoric::Isochoric;
-use super::{Law, Linearized, NamedLaw, OfInvariants};
+use super::{Law, NamedLaw, OfInvariants, Terms};
 use crate::number::{Number, constant};
 use crate::tensor::{Tensor, Tensor4, dot};
 
@@ -29,7 +29,7 @@ impl<T: Number> Yeoh<T> {
     }
 
     #[inline(always)]
-    fn terms(&self, G: &Tensor<T>) -> OfInvariants<T> {
+    fn of_invariants(&self, G: &Tensor<T>) -> OfInvariants<T> {
         let at = Isochoric::new(G);
         let e = at.excess();
         let mut terms = at.terms(G, self.slope(e), self.D);
@@ -60,18 +60,18 @@ impl<T: Number> Law<T> for Yeoh<T> {
 
     #[inline(always)]
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        self.terms(G).derivative()
+        self.of_invariants(G).derivative()
     }
 
     #[inline(always)]
-    fn linearized(&self, G: &Tensor<T>) -> Linearized<T> {
-        Linearized::Invariants(self.terms(G))
+    fn terms(&self, G: &Tensor<T>) -> Terms<T> {
+        Terms::Invariants(self.of_invariants(G))
     }
 
     /// Requires J > 0.
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        self.terms(G).projected_derivative()
+        self.of_invariants(G).projected_derivative()
     }
 }
 

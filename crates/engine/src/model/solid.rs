@@ -1,7 +1,7 @@
 //! The elements of one material with its law, and the choice of the law and of the lanes for the loops over them.
 
 use crate::elements::BatchLaws;
-use crate::materials::{AnyLaw, Law, Linearized, PlaneCorotated, Vectorized};
+use crate::materials::{AnyLaw, Law, PlaneCorotated, Terms, Vectorized};
 use crate::model::any_elements::AnyElements;
 use crate::number::{Lanes, Number, Real};
 use crate::plasticity::{PlasticLaw, PlasticLaws, Plasticity};
@@ -156,8 +156,8 @@ impl<L: Number> Law<L> for LawByReference<'_, L> {
         if self.is_projected { self.law().projected_derivative(G) } else { self.law().derivative(G) }
     }
 
-    fn linearized(&self, G: &Tensor<L>) -> Linearized<L> {
-        if self.is_projected { Linearized::General(self.derivative(G)) } else { self.law().linearized(G) }
+    fn terms(&self, G: &Tensor<L>) -> Terms<L> {
+        if self.is_projected { Terms::Entries } else { self.law().terms(G) }
     }
 
     fn projected_derivative(&self, G: &Tensor<L>) -> Tensor4<L> {

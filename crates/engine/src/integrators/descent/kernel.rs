@@ -8,7 +8,7 @@ use pulp::{Simd, WithSimd};
 use super::search::Change;
 use super::slot::Slot;
 use super::sums::{Sums, UPPER};
-use crate::materials::{Law, Linearized, OfInvariants, OfRotation};
+use crate::materials::{Law, OfInvariants, OfRotation, Terms};
 use crate::number::{Lanes, Real};
 use crate::tensor::{Tensor, Tensor4, cofactor, half, plus_identity, volume_change, zero};
 
@@ -151,10 +151,10 @@ fn add_element<L: Lanes, W: Law<L> + ?Sized, const E: usize>(
     sums: &mut Sums<L>,
 ) {
     let mut P = law.stress(G);
-    let mut block = match law.linearized(G) {
-        Linearized::General(H) => general_block(&H, gradient),
-        Linearized::Invariants(terms) => invariant_block(&terms, gradient),
-        Linearized::Rotation(terms) => rotation_block(&terms, gradient),
+    let mut block = match law.terms(G) {
+        Terms::Invariants(terms) => invariant_block(&terms, gradient),
+        Terms::Rotation(terms) => rotation_block(&terms, gradient),
+        Terms::Entries => general_block(&law.derivative(G), gradient),
     };
     let square = inner(gradient, gradient);
     let mut sharpness = square;

@@ -37,12 +37,22 @@ impl<L: Lanes, const N: usize> WithSimd for CorrectionsOf<'_, L, N> {
             let (batch, part) = (&mut batches[i / L::PARTS], i % L::PARTS);
             let gradients = batch.gradients.map(|g| g.map(|g| one.load(&g, part)));
             let masses = batch.inverse_masses.map(|m| m.map(|m| one.load(&m, part)));
-            let mut multiplier = map(&batch.multiplier, |entry| one.load(&entry, part));
+            let mut multiplier = map(
+                &batch.multiplier,
+                #[inline(always)]
+                |entry| one.load(&entry, part),
+            );
             let G = displacement_gradient(&gradients, corners, u);
             let pressed = dt2 * one.load(&batch.volume, part);
             let (factor, direction, change) = match sweep.rule {
                 Rule::Stress => {
-                    let factors = batch.factors.map(|l| map(&l, |entry| dt * one.load(&entry, part)));
+                    let factors = batch.factors.map(|l| {
+                        map(
+                            &l,
+                            #[inline(always)]
+                            |entry| dt * one.load(&entry, part),
+                        )
+                    });
                     let change = change_of_stress(law, allows_inversion, &G, &multiplier, &factors);
                     (pressed, change, change)
                 }
@@ -50,7 +60,15 @@ impl<L: Lanes, const N: usize> WithSimd for CorrectionsOf<'_, L, N> {
                     let (direction, change) = by_energy(law, &G, multiplier[0][0], pressed, &gradients, &masses);
                     let mut of_first = zero::<L>();
                     of_first[0][0] = change;
-                    (pressed, map(&direction, |entry| -(entry * change)), of_first)
+                    (
+                        pressed,
+                        map(
+                            &direction,
+                            #[inline(always)]
+                            |entry| -(entry * change),
+                        ),
+                        of_first,
+                    )
                 }
                 Rule::Volume { stiffness } => (one, by_volume(constant(stiffness), &G, &gradients, &masses), zero()),
             };

@@ -46,7 +46,11 @@ pub(super) fn by_energy<L: Lanes, const N: usize>(
     let is_strained = energy.gt(L::zero()) & is_finite & (energy * energy).ge(strained);
     let C = (energy + energy).select(is_strained, L::one()).sqrt();
     let zero = L::zero();
-    let direction = map(&P, |entry| (entry / C).select(is_strained, zero));
+    let direction = map(
+        &P,
+        #[inline(always)]
+        |entry| (entry / C).select(is_strained, zero),
+    );
     let w = pressed * inverse_mass(&direction, gradients, masses);
     let change = (-(C + multiplier)).select(is_strained, zero) / (w + L::one());
     (direction, change)
@@ -65,5 +69,9 @@ pub(super) fn by_volume<L: Number, const N: usize>(
     let is_free = w.gt(L::zero());
     let (change, _) = volume_change(G);
     let size = (stiffness * change).select(is_free, L::zero()) / w.select(is_free, L::one());
-    map(&cof, |entry| size * entry)
+    map(
+        &cof,
+        #[inline(always)]
+        |entry| size * entry,
+    )
 }
