@@ -1,10 +1,12 @@
-//! The lock file of the students' repository: ours without what is no longer needed, all versions as they are.
+//! The lock file of the students' repository: ours without what is no longer needed, all versions as they are; and the profiles of
+//! what is left in it.
 
 use std::env;
+use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use super::HandoutError;
+use super::{HandoutError, manifest};
 
 /// Lets cargo drop from `Cargo.lock` in `folder` what the manifests there do not ask for. Cargo alone knows which features are
 /// left, and so which optional dependencies; a lock file that it would change breaks `--locked` and needs the registry.
@@ -23,5 +25,8 @@ pub fn settle(folder: &Path) -> Result<(), HandoutError> {
         }
     };
     // What this program was built with is known on this machine already, so the network is the second choice.
-    update(&["--offline"]).or_else(|_| update(&[]))
+    update(&["--offline"]).or_else(|_| update(&[]))?;
+    let read = |name: &str| fs::read_to_string(folder.join(name)).map_err(HandoutError::io(&folder.join(name)));
+    let root = manifest::with_locked_profiles(&read("Cargo.toml")?, &read("Cargo.lock")?).map_err(failed)?;
+    fs::write(folder.join("Cargo.toml"), root).map_err(HandoutError::io(&folder.join("Cargo.toml")))
 }

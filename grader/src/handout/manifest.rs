@@ -5,6 +5,9 @@ use std::collections::BTreeSet;
 use proc_macro2::{TokenStream, TokenTree};
 use toml_edit::{DocumentMut, Item, TableLike, TomlError};
 
+/// The package that no source names: it asks for features alone.
+const FEATURES: &str = "fem-features";
+
 /// A package's manifest with only those dependencies that its `sources` name.
 pub fn with_used_dependencies<'a>(
     manifest: &str,
@@ -16,7 +19,7 @@ pub fn with_used_dependencies<'a>(
         add_crates(source.parse().map_err(|error| format!("{error}"))?, &mut used);
     }
     if let Some(dependencies) = manifest["dependencies"].as_table_mut() {
-        dependencies.retain(|name, _| used.contains(&name.replace('-', "_")));
+        dependencies.retain(|name, _| name == FEATURES || used.contains(&name.replace('-', "_")));
         // The comment above the list is about its whole.
         dependencies.decor_mut().set_prefix("\n");
     }
@@ -55,17 +58,27 @@ pub fn root_manifest(manifest: &str, has: impl Fn(&str) -> bool) -> Result<Strin
     if let Some(features) = manifest.get_mut("features").and_then(Item::as_table_like_mut) {
         remove_features(features, &removed);
     }
-    if let Some(optimised) = manifest.get_mut("profile").and_then(|profile| profile.get_mut("dev")?.get_mut("package"))
-        && let Some(packages) = optimised.as_table_like_mut()
-    {
-        removed.iter().for_each(|name| drop(packages.remove(name)));
-    }
     for (kind, folder) in [("test", "tests"), ("bench", "benches"), ("example", "examples")] {
         if let Some(targets) = manifest.get_mut(kind).and_then(Item::as_array_of_tables_mut) {
             targets.retain(|target| {
                 let name = target.get("name").and_then(Item::as_str).unwrap_or_default();
                 has(&format!("{folder}/{name}.rs")) || has(&format!("{folder}/{name}/main.rs"))
             });
+        }
+    }
+    Ok(manifest.to_string())
+}
+
+/// The root's `Cargo.toml` without the profiles of packages that the lock file does not have, of which cargo would warn.
+pub fn with_locked_profiles(manifest: &str, lock: &str) -> Result<String, String> {
+    let mut manifest: DocumentMut = manifest.parse().map_err(|error: TomlError| error.to_string())?;
+    for profile in ["dev", "release"] {
+        let packages = manifest.get_mut("profile").and_then(|all| all.get_mut(profile)?.get_mut("package"));
+        if let Some(packages) = packages.and_then(Item::as_table_like_mut) {
+            let is_locked = |name: &str| name == "*" || lock.contains(&format!("\nname = \"{name}\"\n"));
+            let gone: Vec<String> =
+                packages.iter().map(|(name, _)| name.to_owned()).filter(|name| !is_locked(name)).collect();
+            gone.iter().for_each(|name| drop(packages.remove(name)));
         }
     }
     Ok(manifest.to_string())
@@ -102,25 +115,31 @@ fn remove_features(features: &mut dyn TableLike, removed: &[String]) {
 
 #[cfg(test)]
 mod tests {
-    use super::{root_manifest, with_used_dependencies};
+    use super::{root_manifest, with_locked_profiles, with_used_dependencies};
 
     #[test]
     fn dependencies_that_no_source_names_are_removed() {
-        let whole =
-            "[dependencies]\nserde.workspace = true\nsome-zip = \"1\"\nzip = \"2\"\n\n[dev-dependencies]\nx = \"3\"\n";
+        let whole = "[dependencies]\nfem-features = \"0\"\nserde.workspace = true\nsome-zip = \"1\"\nzip = \"2\"\n\n[dev-dependencies]\nx = \"3\"\n";
         let source = "use some_zip::Archive;\nfn f() { let zip = a.iter().zip(b); crate::zip::g(\"serde::\") }";
         let text = with_used_dependencies(whole, [source]).unwrap();
-        assert_eq!(text, "\n[dependencies]\nsome-zip = \"1\"\n\n[dev-dependencies]\nx = \"3\"\n");
+        assert_eq!(text, "\n[dependencies]\nfem-features = \"0\"\nsome-zip = \"1\"\n\n[dev-dependencies]\nx = \"3\"\n");
     }
 
     #[test]
     fn crates_features_and_tests_that_are_not_handed_out_leave_no_trace() {
         let whole = "[workspace]\nmembers = [\"a\", \"b\"]\n\n[features]\ndefault = [\"b\", \"c\", \"window\"]\nb = [\"dep:b\"]\nc = [\"b/fast\"]\n\
                      window = []\n\n[[test]]\nname = \"x\"\n\n[[test]]\nname = \"y\"\n\n[dependencies]\na = { path = \"a\" }\n\
-                     b = { path = \"b\", optional = true }\n\n[profile.dev.package]\na = { opt-level = 3 }\nb = { opt-level = 2 }\n";
+                     b = { path = \"b\", optional = true }\n";
         let text = root_manifest(whole, |file| ["a/Cargo.toml", "tests/x.rs"].contains(&file)).unwrap();
         let expected = "[workspace]\nmembers = [\"a\"]\n\n[features]\ndefault = [ \"window\"]\nwindow = []\n\n[[test]]\nname = \"x\"\n\n\
-                        [dependencies]\na = { path = \"a\" }\n\n[profile.dev.package]\na = { opt-level = 3 }\n";
+                        [dependencies]\na = { path = \"a\" }\n";
         assert_eq!(text, expected);
+    }
+
+    #[test]
+    fn profiles_of_packages_that_are_not_locked_are_removed() {
+        let whole = "[profile.dev.package.\"*\"]\ndebug = false\n\n[profile.release.package]\na = { opt-level = 3 }\nb = { opt-level = 0 }\n";
+        let text = with_locked_profiles(whole, "\n[[package]]\nname = \"a\"\nversion = \"1\"\n").unwrap();
+        assert_eq!(text, whole.replace("b = { opt-level = 0 }\n", ""));
     }
 }
