@@ -15,9 +15,6 @@ use tempfile::tempdir;
 
 use self::mutation::fuzz;
 
-/// Mutated bytes for each kind of state in a usual run.
-const USUAL: usize = 100_000;
-
 fn scene(integrator: &str, cells: usize) -> Scene {
     let text = format!(
         r#"pipeline = "engine"
@@ -79,7 +76,7 @@ fn mutated_states_are_taken_or_refused() {
                 assert!(message.len() < 1000 && message.lines().count() == 1, "{message}");
             }
         };
-        fuzz(integrator, USUAL, &files, <[u8]>::len, prepare, read, go_on);
+        fuzz(integrator, &files, <[u8]>::len, prepare, read, go_on);
     }
 }
 

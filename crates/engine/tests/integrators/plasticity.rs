@@ -234,7 +234,7 @@ fn a_scene_without_the_table_has_no_flow_and_a_scene_with_it_counts_one_a_step()
     let mut with = build(&plastic(ADDITIVE, "implicit_euler", 0.01, PULLED));
     run(&mut *with, 3);
     let built = part(&*with);
-    assert!(built.built && built.bytes == 12 * 80 && built.uses == 3 && built.seconds > 0.0, "{built:?}");
+    assert!(built.built && built.bytes == 12 * 80 && built.uses == 3, "{built:?}");
 }
 
 #[test]

@@ -67,8 +67,8 @@ fn bent(plane: &str, ratio: f64) -> f64 {
 
 #[test]
 fn pure_bending_is_exact_in_plane_strain_and_in_plane_stress() {
-    assert!(bent("strain", 0.3 / 0.7) < 1e-14);
-    assert!(bent("stress", 0.3) < 1e-14);
+    assert!(bent("strain", 0.3 / 0.7) < 1e-13);
+    assert!(bent("stress", 0.3) < 1e-13);
     // Another lateral contraction is no equilibrium.
     assert!(bent("stress", 0.0) > 1e-5);
 }

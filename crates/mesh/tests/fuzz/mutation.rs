@@ -133,18 +133,18 @@ fn line(random: &mut Random, bytes: &mut Vec<u8>, from: usize) -> usize {
     line.len()
 }
 
-/// Number of mutated bytes for each reader: `FUZZ_BYTES`, or the usual one.
-fn wanted(usual: usize) -> usize {
-    std::env::var("FUZZ_BYTES").ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
+/// Mutated bytes for each reader: a million in the long tests, which `.ci/long` runs, and in the usual ones its first tenth.
+fn bytes_to_mutate() -> usize {
+    let is_long = std::env::var("FEM_TEST_EFFORT").is_ok_and(|effort| effort == "long");
+    if is_long { 1_000_000 } else { 100_000 }
 }
 
-/// Calls `read` with mutations of the files until so many bytes have been mutated, and asserts that it does not panic, hang, or take
+/// Calls `read` with mutations of the files until enough bytes have been mutated, and asserts that it does not panic, hang, or take
 /// memory beyond the file's. `size` tells the bytes that a file stands for, more than its own if it is compressed.
 ///
 /// `prepare` makes the mutated file ready, such as on a disk, and `go_on` uses what was read; neither takes part in the measurement.
 pub fn fuzz<P, R>(
     name: &str,
-    usual: usize,
     files: &[Vec<u8>],
     size: impl Fn(&[u8]) -> usize,
     prepare: impl Fn(&[u8]) -> P,
@@ -152,7 +152,7 @@ pub fn fuzz<P, R>(
     go_on: impl Fn(R),
 ) {
     let (goal, seed) =
-        (wanted(usual), name.bytes().fold(0, |seed: u64, byte| seed.wrapping_mul(257) + u64::from(byte)));
+        (bytes_to_mutate(), name.bytes().fold(0, |seed: u64, byte| seed.wrapping_mul(257) + u64::from(byte)));
     let watch = Watch::start(name);
     let (mut mutated, mut case, mut largest) = (0, 0, 0.0_f64);
     while mutated < goal {
