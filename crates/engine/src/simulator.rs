@@ -8,6 +8,7 @@ pub(crate) mod device_assembly;
 #[cfg(feature = "gpu")]
 pub(crate) mod device_elements;
 mod divergence;
+pub mod double;
 #[cfg(feature = "gpu")]
 mod foreign_end;
 mod integrator;

@@ -57,6 +57,7 @@ mod save;
 pub mod simulate;
 pub mod simulation;
 pub mod tables;
+mod text;
 mod timer;
 mod values;
 mod warnings;

@@ -9,6 +9,7 @@ use toml::{Spanned, Table};
 
 use crate::check::check;
 use crate::overrides::Override;
+use crate::text::{TextError, scene_of};
 use crate::{Scene, SceneError};
 
 /// Largest scene file, bytes: the tree of a text takes up to a hundred times its memory, so at most 128 MiB.
@@ -45,13 +46,13 @@ pub fn parse(text: &str, path: &Path) -> Result<Scene, SceneError> {
 }
 
 fn parse_with(text: &str, path: &Path, overrides: &[Override]) -> Result<Scene, SceneError> {
-    let mut source: Table = text.parse().map_err(|error| of_line(text, path, &error))?;
+    let mut source: Table = text.parse().map_err(|error: toml::de::Error| of_line(text, path, &error.into()))?;
     for change in overrides {
         let refuse = |problem| SceneError::Override { option: change.to_string(), problem };
         change.apply(&mut source).map_err(refuse)?;
     }
     let mut scene = match overrides {
-        [] => toml::from_str(text).map_err(|error| of_line(text, path, &error))?,
+        [] => scene_of(text).map_err(|error| of_line(text, path, &error))?,
         _ => overridden(text, path, &source, overrides)?,
     };
     scene.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -65,8 +66,8 @@ fn parse_with(text: &str, path: &Path, overrides: &[Override]) -> Result<Scene, 
 /// Reads a scene from its tables after the overrides.
 fn overridden(text: &str, path: &Path, source: &Table, overrides: &[Override]) -> Result<Scene, SceneError> {
     let merged = source.to_string();
-    toml::from_str(&merged).map_err(|error: toml::de::Error| {
-        if let Err(own) = toml::from_str::<Scene>(text)
+    scene_of(&merged).map_err(|error| {
+        if let Err(own) = scene_of(text)
             && own.message() == error.message()
         {
             return of_line(text, path, &own);
@@ -111,12 +112,12 @@ impl Scene {
     }
 }
 
-fn of_line(text: &str, path: &Path, error: &toml::de::Error) -> SceneError {
+fn of_line(text: &str, path: &Path, error: &TextError) -> SceneError {
     let line = error.span().map_or(1, |span| line_at(text, span.start));
     SceneError::Line { file: path.to_owned(), line, problem: problem_of(error) }
 }
 
-fn problem_of(error: &toml::de::Error) -> String {
+fn problem_of(error: &TextError) -> String {
     format!("{}; correct it as the scene format in README.md says", error.message().trim_end())
 }
 

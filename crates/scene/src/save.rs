@@ -126,7 +126,7 @@ pub fn save(scene: &Scene, path: &Path, data: &Path) -> Result<(), SaveError> {
         return refuse("would have more than 1 MiB, the most that is read; choose fewer nodes and faces");
     }
     parse(&text, path).map_err(SaveError::Unreadable)?;
-    fem_mesh::write::save(path, |out| out.write_all(text.as_bytes()))?;
+    fem_mesh::write::save_bytes(path, text.as_bytes())?;
     Ok(())
 }
 

@@ -2,10 +2,9 @@
 //! Without the Agonizing Pain (1994), equations 28 and 52: on the matrix of a scene's first step, and on its stiffness.
 
 use fem_chart::{Axis, Chart, Dot, Series};
-use fem_engine::forces::{HessianKind, Moment};
-use fem_engine::materials::AnyLaw;
-use fem_engine::model::system::System;
-use fem_engine::solvers::{Preconditioner, Solver, SolverChoice};
+use fem_engine::forces::Moment;
+use fem_engine::simulator::double::{self, Solver, System};
+use fem_engine::solvers::{Preconditioner, SolverChoice};
 use fem_engine::vector::{dot, norm};
 use fem_scene::simulation::Breakdown;
 use fem_scene::{Body, Integrator, Scene};
@@ -67,7 +66,7 @@ pub fn study(
 
 /// A linear system with its condition number and its solution.
 struct LinearSystem {
-    system: System<f64>,
+    system: System,
     values: Vec<[[f64; 3]; 3]>,
     b: Vec<[f64; 3]>,
     exact: Vec<[f64; 3]>,
@@ -80,17 +79,17 @@ type Iterate = [f64; 2];
 impl LinearSystem {
     /// M/dt² + K of the first step, or K without a time step; the right-hand side is the force at the start.
     fn new(scene: &Scene, body: Body, dt: Option<f64>) -> Result<Self, String> {
-        let system = System::new(body, AnyLaw::new(&scene.material), SolverChoice::Lu);
+        let system = double::system(body, SolverChoice::Lu);
         let undeformed = vec![[0.0; 3]; system.nodes()];
         let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
-        system.add_stiffness(1.0, &undeformed, HessianKind::Exact, &mut values);
-        system.add_external_hessian(&undeformed, HessianKind::Exact, &mut values);
+        double::add_stiffness(&system, &undeformed, &mut values);
+        double::add_external_hessian(&system, &undeformed, &mut values);
         if let Some(dt) = dt {
             system.mass.add_to(1.0 / (dt * dt), &system.pattern, &mut values);
         }
         system.dirichlet.eliminate(&system.pattern, &mut values);
         let mut b = undeformed.clone();
-        system.force(&undeformed, &undeformed, &undeformed, Moment::at(dt.unwrap_or(0.0)), &mut b);
+        double::force(&system, &undeformed, &undeformed, Moment::at(dt.unwrap_or(0.0)), &mut b);
         system.dirichlet.clear_constrained(&mut b);
         // Without loads every vibration takes part.
         if norm(&b) == 0.0 {
@@ -99,10 +98,10 @@ impl LinearSystem {
         }
         let failed =
             |cause: fem_scene::simulation::Breakdown| format!("{}: its matrix has no factor: {cause}", scene.name);
-        let mut direct = Solver::new(SolverChoice::Lu, &system.pattern, &rest(&system));
+        let mut direct = Solver::new(SolverChoice::Lu, &system);
         direct.prepare(&values).map_err(failed)?;
         let mut exact = undeformed;
-        direct.solve(&values, &b, &mut exact, 1e-13).map_err(failed)?;
+        direct.solve(&values, &b, &mut exact, 1e-13, &mut |_| {}).map_err(failed)?;
         let largest = largest_eigenvalue(&system, |x, y| times(&system, &values, x, y));
         let smallest = 1.0 / largest_eigenvalue(&system, |x, y| direct.apply(x, y));
         Ok(Self { condition: MARGIN * largest / smallest, system, values, b, exact })
@@ -111,7 +110,7 @@ impl LinearSystem {
     /// The iterates of a solver, from zero to a relative residual, or to the breakdown that ends it early.
     fn iterates(&self, choice: SolverChoice, tolerance: f64) -> (Vec<Iterate>, Option<Breakdown>) {
         let Self { system, values, b, exact, .. } = self;
-        let mut solver = Solver::new(choice, &system.pattern, &rest(system));
+        let mut solver = Solver::new(choice, system);
         let (mut x, mut e, mut product) = (vec![[0.0; 3]; b.len()], exact.clone(), exact.clone());
         let mut found = Vec::new();
         let size = norm(b);
@@ -124,18 +123,13 @@ impl LinearSystem {
             let rows = system.pattern.rows();
             found.push([norm(&product[..rows]) / size, dot(&product[..rows], &e[..rows]).max(0.0).sqrt()]);
         };
-        let solved =
-            solver.prepare(values).and_then(|()| solver.solve_observed(values, b, &mut x, tolerance, &mut observe));
+        let solved = solver.prepare(values).and_then(|()| solver.solve(values, b, &mut x, tolerance, &mut observe));
         (found, solved.err())
     }
 }
 
-fn rest(system: &System<f64>) -> Vec<[f64; 3]> {
-    system.rest[..system.free()].iter().map(|x| (*x).into()).collect()
-}
-
 /// y = A x for the rows of the matrix.
-fn times(system: &System<f64>, values: &[[[f64; 3]; 3]], x: &[[f64; 3]], y: &mut [[f64; 3]]) {
+fn times(system: &System, values: &[[[f64; 3]; 3]], x: &[[f64; 3]], y: &mut [[f64; 3]]) {
     let pattern = &system.pattern;
     for row in 0..pattern.rows() {
         y[row] = [0.0; 3];

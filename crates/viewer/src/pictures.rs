@@ -42,7 +42,7 @@ impl Picture {
         let not_written = |cause: String| NotWritten { path: path.to_owned(), cause };
         let mut png = Cursor::new(Vec::new());
         self.image.write_to(&mut png, ImageFormat::Png).map_err(|error| not_written(cause(error)))?;
-        fem_mesh::write::save(path, |out| out.write_all(png.get_ref())).map_err(|error| match *error.problem {
+        fem_mesh::write::save_bytes(path, png.get_ref()).map_err(|error| match *error.problem {
             Problem::Unwritable { reason } => not_written(reason),
             other => not_written(other.to_string()),
         })

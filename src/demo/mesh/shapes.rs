@@ -40,7 +40,7 @@ pub fn draw(file: &Path, name: &str, surface: &SurfaceMesh, distributions: &[Dis
         None => eprintln!("warning: {}: too many triangles are seen to draw them; histograms alone", file.display()),
     }
     let text = fem_chart::grid(name, 1, &pictures).standalone();
-    fem_mesh::write::save(file, |out| out.write_all(text.as_bytes()))
+    fem_mesh::write::save_bytes(file, text.as_bytes())
 }
 
 fn histogram(distribution: &Distribution) -> Picture {

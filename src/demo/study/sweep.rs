@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use fem_mesh::write::save;
+use fem_mesh::write::save_bytes;
 use fem_scene::output::write_state;
 use fem_scene::simulate::{self, quantile};
 use fem_scene::{Override, Scene, load_with};
@@ -71,7 +71,7 @@ pub fn run(scenes: &[String], sweeps: &[Sweep], out: &Path, tell: &dyn Fn(usize,
     let table = sweep::csv(&keys, &results).map_err(|error| End::Stopped(error.to_string()))?;
     let files = [out.join("sweep.csv"), out.join("sweep.html")];
     for (file, text) in files.iter().zip([table, sweep::html_page(&keys, &results)]) {
-        save(file, |out| out.write_all(text.as_bytes())).map_err(End::unusable)?;
+        save_bytes(file, text.as_bytes()).map_err(End::unusable)?;
     }
     let failed = results.iter().filter(|run| !run.is_done()).count();
     Ok(Swept { files, runs: results.len(), failed })

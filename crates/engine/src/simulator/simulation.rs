@@ -11,7 +11,7 @@ use fem_scene::simulation::{
 use nalgebra::{DVector, Matrix3, Vector3};
 
 use super::integrator::{integrators, switched};
-use super::{Compiled, Simulator, checkpoint, parts};
+use super::{Compiled, Simulator, parts};
 use crate::boundary::reactions::{reactions, reactions_at};
 use crate::integrators::LastStage;
 use crate::model::state::State;
@@ -80,11 +80,11 @@ impl<T: Compiled> Simulation for Simulator<T> {
     }
 
     fn checkpoint(&self) -> Checkpoint {
-        checkpoint::of(self)
+        T::checkpoint(self)
     }
 
     fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), String> {
-        let outcome = checkpoint::restore(self, checkpoint);
+        let outcome = T::restore(self, checkpoint);
         if outcome.is_err() {
             self.reset();
         }
@@ -104,19 +104,11 @@ impl<T: Compiled> Simulation for Simulator<T> {
     }
 
     fn min_J(&self) -> (f64, usize) {
-        if !self.has_stress() {
-            let of_elements = self.det_F_of_mesh().enumerate().map(|(element, J)| (J, element));
-            return of_elements.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0));
-        }
-        let (J, element) = self.system.elements.min_det_F(&self.state.u);
-        (J.as_f64(), element)
+        T::min_J(self)
     }
 
     fn inverted_elements(&self) -> usize {
-        if !self.has_stress() {
-            return self.det_F_of_mesh().filter(|J| *J <= 0.0).count();
-        }
-        self.system.elements.inverted(&self.state.u)
+        T::inverted_elements(self)
     }
 
     fn critical_time_step(&self) -> Option<f64> {
@@ -221,6 +213,22 @@ impl<T: Compiled> Simulation for Simulator<T> {
 }
 
 impl<T: Real> Simulator<T> {
+    pub(super) fn min_J_now(&self) -> (f64, usize) {
+        if self.system.elements.count == 0 {
+            let of_elements = self.det_F_of_mesh().enumerate().map(|(element, J)| (J, element));
+            return of_elements.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0));
+        }
+        let (J, element) = self.system.elements.min_det_F(&self.state.u);
+        (J.as_f64(), element)
+    }
+
+    pub(super) fn inverted_elements_now(&self) -> usize {
+        if self.system.elements.count == 0 {
+            return self.det_F_of_mesh().filter(|J| *J <= 0.0).count();
+        }
+        self.system.elements.inverted(&self.state.u)
+    }
+
     pub(super) fn energies_now(&self) -> Energies {
         let Self { system, state, integrator, .. } = self;
         let potential = system.reported_potential(&state.u, integrator.moment(state));

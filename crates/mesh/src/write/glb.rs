@@ -39,8 +39,12 @@ pub fn write_glb(path: &Path, rest: &[Vector3<f64>], faces: &[[usize; 3]], frame
     check_frames(rest, frames).map_err(in_file)?;
     check_size(vertices.len(), faces.len(), frames.len()).map_err(in_file)?;
     let buffer = fill(rest, &vertices, &faces, frames);
-    let document = document(&buffer, frames.len()).to_string();
-    save(path, |out| write_chunks(out, document.into_bytes(), buffer.bytes))
+    let mut json = document(&buffer, frames.len()).to_string().into_bytes();
+    let mut numbers = buffer.bytes;
+    // Chunks end at a multiple of 4 bytes.
+    json.resize(json.len().next_multiple_of(4), b' ');
+    numbers.resize(numbers.len().next_multiple_of(4), 0);
+    save(path, &mut |out| write_chunks(out, &json, &numbers))
 }
 
 /// The vertices of the faces, ascending, and the faces in the numbers of these vertices.
@@ -219,10 +223,8 @@ fn document(buffer: &Buffer, frames: usize) -> Value {
     document
 }
 
-/// Writes the header and the two chunks, each padded to a multiple of 4 bytes: JSON with blanks, numbers with zeros.
-fn write_chunks(out: &mut dyn Write, mut json: Vec<u8>, mut numbers: Vec<u8>) -> io::Result<()> {
-    json.resize(json.len().next_multiple_of(4), b' ');
-    numbers.resize(numbers.len().next_multiple_of(4), 0);
+/// Writes the header and the two chunks.
+fn write_chunks(out: &mut dyn Write, json: &[u8], numbers: &[u8]) -> io::Result<()> {
     let length = |bytes: usize| u32::try_from(bytes).map(u32::to_le_bytes).map_err(io::Error::other);
     out.write_all(b"glTF")?;
     out.write_all(&2_u32.to_le_bytes())?;
@@ -230,7 +232,7 @@ fn write_chunks(out: &mut dyn Write, mut json: Vec<u8>, mut numbers: Vec<u8>) ->
     for (kind, bytes) in [(b"JSON", json), (b"BIN\0", numbers)] {
         out.write_all(&length(bytes.len())?)?;
         out.write_all(kind)?;
-        out.write_all(&bytes)?;
+        out.write_all(bytes)?;
     }
     Ok(())
 }

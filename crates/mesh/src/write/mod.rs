@@ -46,10 +46,10 @@ pub fn write_mesh(path: &Path, mesh: &AnyMesh) -> Result<(), MeshError> {
 pub fn write_tetrahedra(path: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
     match extension(path).as_str() {
         "node" | "ele" => tetgen::write(path, mesh),
-        "mesh" => save_mesh(path, |out| medit::write(out, mesh)),
-        "msh" => save_mesh(path, |out| gmsh::write(out, mesh)),
+        "mesh" => save_mesh(path, &mut |out| medit::write(out, mesh)),
+        "msh" => save_mesh(path, &mut |out| gmsh::write(out, mesh)),
         "vtu" => write_vtu(path, mesh, &[], &[]),
-        "vtk" => save_mesh(path, |out| vtk::write(out, mesh)),
+        "vtk" => save_mesh(path, &mut |out| vtk::write(out, mesh)),
         _ => Err(no_tetrahedra(path)),
     }
 }
@@ -69,14 +69,14 @@ fn no_tetrahedra(path: &Path) -> MeshError {
 /// place and leaves out unused ones. `.node` is for meshes in the plane z = 0. Named sets are kept by `.msh` alone.
 pub fn write_surface(path: &Path, mesh: &SurfaceMesh) -> Result<(), MeshError> {
     match extension(path).as_str() {
-        "obj" => save_mesh(path, |out| obj::write(out, mesh)),
-        "ply" => save_mesh(path, |out| ply::write(out, mesh)),
-        "stl" => save_mesh(path, |out| stl::write(out, mesh)),
+        "obj" => save_mesh(path, &mut |out| obj::write(out, mesh)),
+        "ply" => save_mesh(path, &mut |out| ply::write(out, mesh)),
+        "stl" => save_mesh(path, &mut |out| stl::write(out, mesh)),
         "node" | "ele" => tetgen::write_plane(path, mesh),
-        "mesh" => save_mesh(path, |out| medit::write(out, mesh)),
-        "msh" => save_mesh(path, |out| gmsh::write(out, mesh)),
+        "mesh" => save_mesh(path, &mut |out| medit::write(out, mesh)),
+        "msh" => save_mesh(path, &mut |out| gmsh::write(out, mesh)),
         "vtu" => write_vtu(path, mesh, &[], &[]),
-        "vtk" => save_mesh(path, |out| vtk::write(out, mesh)),
+        "vtk" => save_mesh(path, &mut |out| vtk::write(out, mesh)),
         _ => Err(unknown_extension(path, SURFACES)),
     }
 }
@@ -108,9 +108,12 @@ pub fn keeps_sets(path: &Path) -> bool {
     extension(path) == "msh"
 }
 
+/// Writes the contents of a file, once.
+pub type Contents<'a> = &'a mut dyn FnMut(&mut dyn Write) -> io::Result<()>;
+
 /// Writes a temporary file in the same folder and renames it, so that no incomplete file has the name. A link stays a link, to
 /// the new file; a device or pipe is written directly.
-pub fn save(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), MeshError> {
+pub fn save(path: &Path, write: Contents) -> Result<(), MeshError> {
     let unwritable = |error: io::Error| MeshError::in_file(path, Problem::Unwritable { reason: error.to_string() });
     if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
         return write_all(path, write).map(drop).map_err(unwritable);
@@ -126,19 +129,24 @@ pub fn save(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -
     })
 }
 
+/// [`save`] of contents that are known.
+pub fn save_bytes(path: &Path, bytes: &[u8]) -> Result<(), MeshError> {
+    save(path, &mut |out| out.write_all(bytes))
+}
+
 /// [`save`] of a mesh file, which is compressed if its name ends in `.gz`.
-fn save_mesh(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), MeshError> {
+fn save_mesh(path: &Path, write: Contents) -> Result<(), MeshError> {
     if !is_packed(path) {
         return save(path, write);
     }
-    save(path, |out| {
+    save(path, &mut |out| {
         let mut packed = GzEncoder::new(out, Compression::default());
         write(&mut packed)?;
         packed.finish().map(drop)
     })
 }
 
-fn write_all(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<File> {
+fn write_all(path: &Path, write: Contents) -> io::Result<File> {
     let mut out = BufWriter::new(File::create(path)?);
     write(&mut out)?;
     out.into_inner().map_err(io::IntoInnerError::into_error)

@@ -27,7 +27,7 @@ fn write_pair<const N: usize>(path: &Path, mesh: &Mesh<3, N>, dimension: usize) 
         "node" => (path.to_owned(), with_extension(path, "ele")),
         _ => (with_extension(path, "node"), path.to_owned()),
     };
-    save_mesh(&ele_file, |out| {
+    save_mesh(&ele_file, &mut |out| {
         writeln!(out, "{} {N} 0", mesh.elements.len())?;
         for (i, element) in mesh.elements.iter().enumerate() {
             write!(out, "{i}")?;
@@ -36,7 +36,7 @@ fn write_pair<const N: usize>(path: &Path, mesh: &Mesh<3, N>, dimension: usize) 
         }
         Ok(())
     })?;
-    save_mesh(&node_file, |out| {
+    save_mesh(&node_file, &mut |out| {
         writeln!(out, "{} {dimension} 0 0", mesh.vertices.len())?;
         for (i, x) in mesh.vertices.iter().enumerate() {
             writeln!(out, "{i} {}", if dimension == 2 { place_in_plane(x) } else { place(x) })?;

@@ -39,7 +39,7 @@ pub fn write_vtu<const N: usize>(
 ) -> Result<(), MeshError> {
     check_sizes(point_fields, mesh.vertices.len(), "point").map_err(|problem| MeshError::in_file(path, problem))?;
     check_sizes(cell_fields, mesh.elements.len(), "cell").map_err(|problem| MeshError::in_file(path, problem))?;
-    save_mesh(path, |out| write_grid(out, mesh, point_fields, cell_fields))
+    save_mesh(path, &mut |out| write_grid(out, mesh, point_fields, cell_fields))
 }
 
 fn check_sizes(fields: &[Field], entries: usize, per: &'static str) -> Result<(), Problem> {

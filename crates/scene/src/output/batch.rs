@@ -24,7 +24,7 @@ pub fn write_batch(
     environments: usize,
     mut end: impl FnMut(usize) -> EnvironmentEnd,
 ) -> Result<(), MeshError> {
-    save(path, |out| {
+    save(path, &mut |out| {
         write!(out, "{{\n\"time\": {time:.16e},\n\"environments\": [")?;
         for number in 0..environments {
             write!(out, "{}\n{{", if number == 0 { "" } else { "," })?;

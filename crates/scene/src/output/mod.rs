@@ -23,7 +23,7 @@ use serde::Serialize;
 
 use crate::simulate::{Run, quantile};
 use crate::simulation::{Energies, Part, PlaneContact, PlasticFlow, Simulation};
-use fem_mesh::write::{Frame, save, write_glb, write_surface};
+use fem_mesh::write::{Frame, save_bytes, write_glb, write_surface};
 use fem_mesh::{MeshError, Problem, SurfaceMesh};
 
 /// File extensions that [`export`] supports.
@@ -37,7 +37,7 @@ pub fn write_energies(path: &Path, rows: &[(f64, Energies)]) -> Result<(), MeshE
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{time:.9e},{kinetic:.16e},{potential:.16e},{:.16e}", energies.total());
     }
-    write_text(path, &text)
+    save_bytes(path, text.as_bytes())
 }
 
 /// The numbers of a run, in the order of the statistics file.
@@ -140,7 +140,7 @@ impl Stats {
     /// Writes the numbers as JSON.
     pub fn write(&self, path: &Path) -> Result<(), MeshError> {
         let text = serde_json::to_string_pretty(self).expect("numbers and strings have a JSON form");
-        write_text(path, &(text + "\n"))
+        save_bytes(path, (text + "\n").as_bytes())
     }
 }
 
@@ -169,8 +169,4 @@ pub fn export(path: &Path, simulation: &dyn Simulation, frames: &[Frame]) -> Res
 /// The error of an extension that [`export`] does not support.
 pub fn unknown_export(path: &Path, extension: &str) -> MeshError {
     MeshError::in_file(path, Problem::UnknownExtension { found: extension.to_owned(), known: ".obj, .vtu, .glb" })
-}
-
-fn write_text(path: &Path, text: &str) -> Result<(), MeshError> {
-    save(path, |out| out.write_all(text.as_bytes()))
 }

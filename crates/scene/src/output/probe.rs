@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use super::write_text;
 use crate::simulation::Simulation;
 use fem_mesh::MeshError;
+use fem_mesh::write::save_bytes;
 
 /// A table `time,x,y,z,vx,vy,vz,fx,fy,fz` with a row for the first state and for each step, in s, m, m/s and N; in equilibrium with the
 /// column `load_factor` as well.
@@ -53,6 +53,6 @@ impl Probe {
 
     /// Writes the rows so far.
     pub fn write(&self) -> Result<(), MeshError> {
-        write_text(&self.file, &self.text)
+        save_bytes(&self.file, self.text.as_bytes())
     }
 }

@@ -69,7 +69,7 @@ pub enum ResumeError {
 pub fn write_state(path: &Path, scene: &Scene, simulation: &dyn Simulation) -> Result<(), MeshError> {
     let Checkpoint { time, steps, positions, velocities, displacements, history } = simulation.checkpoint();
     let json = |error: serde_json::Error| io::Error::other(error);
-    save(path, |out| {
+    save(path, &mut |out| {
         write!(out, "{{\n\"time\": {time:.16e}")?;
         for (name, list) in [("q", &positions), ("qdot", &velocities), ("displacements", &displacements)] {
             write!(out, ",\n\"{name}\": [")?;

@@ -3,10 +3,9 @@
 //! Forces are the engine's. The mass is assembled and factorised here, by code that the engine's integrators do not use.
 
 use fem_engine::forces::Moment;
-use fem_engine::materials::AnyLaw;
-use fem_engine::model::system::System;
+use fem_engine::simulator::double::{self, System};
 use fem_engine::solvers::SolverChoice;
-use fem_scene::{Body, LoadCurve, Scene};
+use fem_scene::{Body, LoadCurve};
 use nalgebra::Vector3;
 
 use super::mass::{Density, MassInverse};
@@ -18,7 +17,7 @@ pub type Phase = [Vec<[f64; 3]>; 2];
 /// A body's equations of motion, in the engine's numbering of nodes.
 pub struct Equations {
     /// The body.
-    pub system: System<f64>,
+    pub system: System,
     mass: MassInverse,
     has_prescribed_motion: bool,
     /// Velocities at the start, m/s.
@@ -38,11 +37,7 @@ pub struct Scratch {
 
 impl Equations {
     /// Builds the equations of a scene. The error says why the scene has none.
-    pub fn new(scene: &Scene, body: Body) -> Result<Self, String> {
-        let law = AnyLaw::new(&scene.material);
-        if law.is_none() && !scene.material.is_mass_spring() {
-            return Err("the material lacks its parameters".to_owned());
-        }
+    pub fn new(body: Body) -> Result<Self, String> {
         if body.dirichlet.iter().any(|condition| condition.until.is_some()) {
             return Err("nodes become free at a time, which the reference in time does not compute".to_owned());
         }
@@ -55,7 +50,7 @@ impl Equations {
         let kinks = kinks(&body);
         let density = Density::new(&body);
         let velocities = body.initial_velocity.clone();
-        let system = System::new(body, law, SolverChoice::Cholesky);
+        let system = double::system(body, SolverChoice::Cholesky);
         let mass = MassInverse::new(&density, &system)?;
         let has_prescribed_motion = system.dirichlet.motions().any(|(_, motion)| moves(motion));
         let initial_velocity = initial_velocity(&velocities, &system);
@@ -77,7 +72,7 @@ impl Equations {
     pub fn accelerations(&self, u: &[[f64; 3]], v: &[[f64; 3]], time: f64, a: &mut [[f64; 3]], scratch: &mut Scratch) {
         let Scratch { force, prescribed, right } = scratch;
         force.resize(self.nodes(), [0.0; 3]);
-        self.system.force(u, v, u, Moment::at(time), force);
+        double::force(&self.system, u, v, Moment::at(time), force);
         if !prescribed.is_empty() {
             self.system.mass.add_times(-1.0, prescribed, force);
         }
@@ -157,7 +152,7 @@ impl Equations {
         for _ in 0..POWER_ITERATIONS {
             scratch.force.clear();
             scratch.force.resize(n, [0.0; 3]);
-            self.system.add_stiffness_times(1.0, &rest, &d, &mut scratch.force);
+            double::add_stiffness_times(&self.system, &rest, &d, &mut scratch.force);
             for (force, _) in self.system.forces.active().filter(|(force, _)| !force.is_internal()) {
                 force.add_hessian_times(1.0, &rest, &d, &mut scratch.force);
             }
@@ -174,12 +169,12 @@ impl Equations {
 
     /// Kinetic and potential energy, J.
     pub fn energies(&self, u: &[[f64; 3]], v: &[[f64; 3]], time: f64) -> (f64, f64) {
-        (self.system.mass.kinetic_energy(v), self.system.potential(u, Moment::at(time)).value)
+        (self.system.mass.kinetic_energy(v), double::potential(&self.system, u, Moment::at(time)).value)
     }
 }
 
 /// Velocities of the mesh's nodes in the engine's numbering, zero in constrained directions, m/s.
-fn initial_velocity(of_mesh: &[Vector3<f64>], system: &System<f64>) -> Vec<[f64; 3]> {
+fn initial_velocity(of_mesh: &[Vector3<f64>], system: &System) -> Vec<[f64; 3]> {
     let of_node = |&node: &u32| of_mesh.get(node as usize).copied().unwrap_or_default().into();
     let mut velocities: Vec<[f64; 3]> = system.numbering.mesh_node.iter().map(of_node).collect();
     system.dirichlet.clear_constrained(&mut velocities);

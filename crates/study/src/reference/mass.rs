@@ -1,6 +1,6 @@
 //! The inverse mass matrix of the reference, factorised exactly.
 
-use fem_engine::model::system::System;
+use fem_engine::simulator::double::System;
 use fem_scene::{Body, BodyMesh};
 
 use super::ldl::Ldl;
@@ -34,7 +34,7 @@ struct Factor {
 
 impl MassInverse {
     /// Factorises the consistent mass, or the lumped one if the body has that.
-    pub fn new(density: &Density, system: &System<f64>) -> Result<Self, String> {
+    pub fn new(density: &Density, system: &System) -> Result<Self, String> {
         let mut is_free = vec![[1.0; 3]; system.nodes()];
         system.dirichlet.clear_constrained(&mut is_free);
         let mut factors: Vec<Factor> = Vec::new();
@@ -75,7 +75,7 @@ fn shares(mesh: &BodyMesh) -> Vec<f64> {
 }
 
 /// ∫ ρ φ_i φ_j of these nodes, or the lumped mass: the upper triangle by columns, kg.
-fn mass(density: &Density, system: &System<f64>, nodes: &[usize]) -> Vec<Vec<(usize, f64)>> {
+fn mass(density: &Density, system: &System, nodes: &[usize]) -> Vec<Vec<(usize, f64)>> {
     let mesh = &system.shape.mesh;
     let mut place = vec![usize::MAX; mesh.vertices().len()];
     for (i, &node) in nodes.iter().enumerate() {

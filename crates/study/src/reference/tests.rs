@@ -9,7 +9,7 @@ use super::*;
 fn equations(text: &str) -> Equations {
     let scene = parse(text, Path::new("folder/name.toml")).unwrap();
     let body = body(&scene, Path::new("no data")).unwrap();
-    Equations::new(&scene, body).unwrap()
+    Equations::new(body).unwrap()
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn a_release_has_no_reference() {
         young = 1e3\npoisson = 0.0\ndensity = 1000.0\n[fixed]\nnodes = [0]\nuntil = 1\n[time]\ndt = 0.01\nintegrator = \"verlet\"\n";
     let scene = parse(text, Path::new("folder/name.toml")).unwrap();
     let body = body(&scene, Path::new("no data")).unwrap();
-    assert!(Equations::new(&scene, body).is_err_and(|reason| reason.contains("become free")));
+    assert!(Equations::new(body).is_err_and(|reason| reason.contains("become free")));
 }
 
 #[test]
@@ -168,7 +168,7 @@ fn explicit_methods_follow_a_turning_clamp_to_the_reference_with_their_order() {
         parse(&text, Path::new("folder/name.toml")).unwrap()
     };
     let scene = of("rk4", 100);
-    let exact = reference(&Equations::new(&scene, body(&scene, Path::new("")).unwrap()).unwrap(), 0.2, 60.0).unwrap();
+    let exact = reference(&Equations::new(body(&scene, Path::new("")).unwrap()).unwrap(), 0.2, 60.0).unwrap();
     for (method, order, steps) in [("verlet", 2.0, 200), ("rk2", 2.0, 400), ("rk4", 4.0, 200)] {
         let error = |steps: usize| {
             let scene = of(method, steps);

@@ -24,7 +24,7 @@ use crate::studies::scene::{self, Question, SceneStudy};
 use crate::studies::space::{self, SpaceOrders, SpaceStudy};
 use crate::studies::{Settings, make_folders};
 use fem_chart::page::page;
-use fem_mesh::write::save;
+use fem_mesh::write::save_bytes;
 use fem_scene::{Scene, parse};
 
 /// The results of a report.
@@ -127,9 +127,8 @@ fn orders_in_time(study: &SceneStudy) -> Vec<Observed> {
 }
 
 fn write(report: &Report, out: &Path) -> Result<(), String> {
-    let write = |name: &str, text: String| {
-        save(&out.join(name), |file| file.write_all(text.as_bytes())).map_err(|error| error.to_string())
-    };
+    let write =
+        |name: &str, text: String| save_bytes(&out.join(name), text.as_bytes()).map_err(|error| error.to_string());
     let rows = report.rows();
     let csv = |text: Result<String, csv::Error>| text.map_err(|error| error.to_string());
     write("runs.csv", csv(table::csv(&rows, &report.machine))?)?;

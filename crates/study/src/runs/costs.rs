@@ -1,12 +1,12 @@
 //! Costs of the parts of a step on this machine, each timed alone. With the counters of a run they give the shares of its time.
 
-use std::sync::Arc;
 use std::time::Instant;
 
 use crate::reference::Equations;
 use crate::runs::row::Row;
-use fem_engine::forces::{HessianKind, Moment};
-use fem_engine::solvers::{Solver, SolverChoice};
+use fem_engine::forces::Moment;
+use fem_engine::simulator::double::{self, Solver};
+use fem_engine::solvers::SolverChoice;
 use fem_scene::simulate::quantile;
 
 /// Time of one call, s.
@@ -35,15 +35,14 @@ pub fn measure(equations: &Equations) -> Costs {
     let mut gradient = u.clone();
     let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
     let moment = Moment::at(0.0);
-    let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
-    let mut solver = Solver::<f64>::new(SolverChoice::Cholesky, &Arc::clone(&system.pattern), &rest);
-    let force = median(|| system.gradient(&u, moment, &mut gradient));
+    let mut solver = Solver::new(SolverChoice::Cholesky, system);
+    let force = median(|| double::gradient(system, &u, moment, &mut gradient));
     let pass = median(|| {
-        system.potential_and_gradient(&u, moment, &mut gradient);
+        double::potential_and_gradient(system, &u, moment, &mut gradient);
     });
     let stiffness = median(|| {
         values.fill([[0.0; 3]; 3]);
-        system.add_stiffness(1.0, &u, HessianKind::Exact, &mut values);
+        double::add_stiffness(system, &u, &mut values);
     });
     // The mass makes the matrix positive definite, as in a step.
     system.mass.add_to(1e4, &system.pattern, &mut values);

@@ -6,7 +6,7 @@ use nalgebra::DVector;
 
 use crate::reference::Reference;
 use crate::space::norms;
-use fem_mesh::write::save;
+use fem_mesh::write::save_bytes;
 use fem_scene::BodyMesh;
 
 /// The state at the end of a run.
@@ -24,7 +24,7 @@ pub struct Snapshot<'a> {
 
 /// Writes `time`, `kinetic`, `potential`, `q`, `qdot` with 17 significant digits.
 pub fn write_state(path: &Path, snapshot: &Snapshot) -> Result<(), String> {
-    save(path, |out| writeln!(out, "{{\n{}\n}}", fields(snapshot))).map_err(|error| error.to_string())
+    save_bytes(path, format!("{{\n{}\n}}\n", fields(snapshot)).as_bytes()).map_err(|error| error.to_string())
 }
 
 /// Writes a reference: a state with its self-check, and the data of the error norms: `rest`, `elements`, `weights` (m³), `length`
@@ -45,13 +45,13 @@ pub fn write_reference(
         format!("{},\n{check},\n\"force_evaluations\": {evaluations},\n", fields(&snapshot))
     });
     let text = format!(
-        "{{\n{state}\"length\": {:e},\n\"density\": {density:e},\n\"weights\": [{}],\n\"rest\": [{}],\n\"elements\": [{}]\n}}",
+        "{{\n{state}\"length\": {:e},\n\"density\": {density:e},\n\"weights\": [{}],\n\"rest\": [{}],\n\"elements\": [{}]\n}}\n",
         norms::length(mesh),
         list(norms::weights(mesh).into_iter()),
         list(rest),
         elements.join(", ")
     );
-    save(path, |out| writeln!(out, "{text}")).map_err(|error| error.to_string())
+    save_bytes(path, text.as_bytes()).map_err(|error| error.to_string())
 }
 
 fn fields(snapshot: &Snapshot) -> String {

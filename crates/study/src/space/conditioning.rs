@@ -6,10 +6,9 @@
 
 use std::path::Path;
 
-use fem_engine::forces::HessianKind;
-use fem_engine::model::system::System;
 use fem_engine::simulator::Simulator;
-use fem_engine::solvers::{Solver, SolverChoice};
+use fem_engine::simulator::double::{Solver, System, add_stiffness, add_stiffness_times};
+use fem_engine::solvers::SolverChoice;
 use fem_engine::vector::dot;
 use fem_mesh::TetrahedralMesh;
 use fem_scene::{body_of, parse};
@@ -66,12 +65,11 @@ pub fn conditioning(mesh: &TetrahedralMesh) -> Result<Conditioning, String> {
     let simulator = Simulator::<f64>::new(&scene, body).map_err(|error| error.to_string())?;
     let system = simulator.system();
     let undeformed = vec![[0.0; 3]; system.nodes()];
-    let times_stiffness = |x: &[[f64; 3]], y: &mut [[f64; 3]]| system.add_stiffness_times(1.0, &undeformed, x, y);
+    let times_stiffness = |x: &[[f64; 3]], y: &mut [[f64; 3]]| add_stiffness_times(system, &undeformed, x, y);
     let largest = largest_eigenvalue(system, times_stiffness);
     let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
-    system.add_stiffness(1.0, &undeformed, HessianKind::Exact, &mut values);
-    let rest: Vec<[f64; 3]> = system.rest.iter().map(|&x| x.into()).collect();
-    let mut solver = Solver::new(SolverChoice::Cholesky, &system.pattern, &rest);
+    add_stiffness(system, &undeformed, &mut values);
+    let mut solver = Solver::new(SolverChoice::Cholesky, system);
     solver.prepare(&values).map_err(|breakdown| format!("the stiffness cannot be factored: {breakdown}"))?;
     let smallest = 1.0 / largest_eigenvalue(system, |x, y| solver.apply(x, y));
     Ok(Conditioning { largest, smallest, axis })
@@ -88,7 +86,7 @@ fn scene(axis: &str, below: f64) -> String {
 
 /// The largest eigenvalue of a positive definite operator on the free nodes, which `apply` adds to zero, by Lanczos's method: Golub and Van Loan,
 /// Matrix Computations (2013), §10.1. It approaches the eigenvalue from below.
-pub(crate) fn largest_eigenvalue(system: &System<f64>, mut apply: impl FnMut(&[[f64; 3]], &mut [[f64; 3]])) -> f64 {
+pub(crate) fn largest_eigenvalue(system: &System, mut apply: impl FnMut(&[[f64; 3]], &mut [[f64; 3]])) -> f64 {
     let zero = || vec![[0.0; 3]; system.nodes()];
     let (mut before, mut x, mut next) = (zero(), irregular(system.nodes()), zero());
     system.dirichlet.clear_constrained(&mut x);

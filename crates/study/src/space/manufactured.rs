@@ -11,18 +11,14 @@ use nalgebra::{DVector, Vector3};
 
 use crate::space::points::{LocalGradient, points};
 use fem_engine::forces::dead_load::DeadLoad;
-use fem_engine::integrators::{Integrator, Statics};
 use fem_engine::materials::AnyLaw;
 use fem_engine::model::numbering::Numbering;
-use fem_engine::model::state::State;
-use fem_engine::model::system::System;
-use fem_engine::newton::{Newton, NewtonLimits};
-use fem_engine::solvers::{Solver, SolverChoice};
-use fem_engine::tensor::{Tensor, from_fn};
+use fem_engine::simulator::{Simulator, double};
+use fem_engine::tensor::{Tensor, from_fn, inverse};
 use fem_mesh::TetrahedralMesh;
-use fem_scene::simulation::Counters;
+use fem_scene::simulation::{Counters, Simulation};
 use fem_scene::tables::FixedTable;
-use fem_scene::{Body, BodyMesh, Projection, Scene, body, parse};
+use fem_scene::{Body, BodyMesh, Scene, body, parse};
 
 /// a, m: large enough that the neo-Hookean law is far from linear. The third belongs to the cube.
 pub const AMPLITUDE: [f64; 3] = [0.06, -0.05, 0.04];
@@ -125,7 +121,7 @@ impl Exact {
 
     /// −Div P, N/m³.
     fn body_force(self, law: &AnyLaw<f64>, X: &Vector3<f64>) -> [f64; 3] {
-        let H = law.as_law().derivative(&self.gradient(X));
+        let H = double::stress_derivative(law, &self.gradient(X));
         let mut force = [0.0; 3];
         for (i, force) in force.iter_mut().enumerate() {
             for j in 0..3 {
@@ -147,27 +143,17 @@ pub fn solve(model: &str, family: Family, cells: usize) -> Result<Solved, String
     let mesh = body.shape.mesh.clone();
     let lacks = "the material lacks its parameters";
     let load = nodal_load(&AnyLaw::new(&scene.material).ok_or(lacks)?, &mesh, exact);
-    let law = AnyLaw::new(&scene.material).ok_or(lacks)?;
     let in_order = |numbering: &Numbering| numbering.mesh_node.iter().map(|&node| load[node as usize]).collect();
-    let system = System::<f64>::with_forces(body, law, SolverChoice::Cholesky, &|numbering| {
-        vec![Box::new(DeadLoad::new(in_order(numbering)))]
-    });
-    let mut counters = Counters::default();
-    let mut state = State::at_rest(system.nodes());
-    let projection = Projection::WhenNeeded;
-    let limits = NewtonLimits { max_iterations: 50, tolerance: 1e-13, projection, solver_tolerance: 1e-12 };
-    let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
-    let solver = Solver::new(SolverChoice::Cholesky, &system.pattern, &rest);
-    let newton = Newton::new(limits, solver, system.nodes(), system.pattern.blocks());
-    let mut method = Statics::new(newton, &system, 1);
+    let simulation =
+        Simulator::<f64>::with_forces(&scene, body, &|numbering| vec![Box::new(DeadLoad::new(in_order(numbering)))]);
+    let mut simulation = simulation.map_err(|error| error.to_string())?;
     let start = std::time::Instant::now();
-    method.step(&system, &mut state, 1.0, &mut counters).map_err(|cause| format!("no equilibrium: {cause:?}"))?;
-    counters.steps = 1;
+    simulation.step().map_err(|failure| format!("no equilibrium: {failure}"))?;
     let seconds = start.elapsed().as_secs_f64();
-    let u = system.numbering.to_mesh(&state.u);
+    let u = simulation.system().numbering.to_mesh(&simulation.state().u);
     let (l2, h1) = errors(&mesh, &u, exact);
     let q = DVector::from_fn(3 * u.len(), |i, _| mesh.vertices()[i / 3][i % 3] + u[i / 3][i % 3]);
-    Ok(Solved { scene, mesh, q, l2, h1, counters, seconds })
+    Ok(Solved { scene, mesh, q, l2, h1, counters: simulation.counters(), seconds })
 }
 
 /// The unit cube or square with fixed sides.
@@ -183,7 +169,8 @@ fn fixed_body(model: &str, family: Family, cells: usize) -> Result<(Scene, Body)
     };
     let text = format!(
         "pipeline = \"engine\"\n[mesh]\n{mesh}\n[material]\n{moduli}\n\
-         density = 1000.0\n[time]\ndt = 1.0\nintegrator = \"static\"\nsteps = 1\n"
+         density = 1000.0\n[time]\ndt = 1.0\nintegrator = \"static\"\nsteps = 1\n\
+         [newton]\nmax_iterations = 50\ntolerance = 1e-13\n[solver]\nkind = \"cholesky\"\n"
     );
     let law = if model == "neo_hookean" { "neo-hookean" } else { "linear" };
     let name = match family {
@@ -249,7 +236,7 @@ pub fn element_gradient(mesh: &TetrahedralMesh, element: &[usize; 4], u: &[[f64;
         nalgebra::Matrix3::from_columns(&[of(element[1]) - origin, of(element[2]) - origin, of(element[3]) - origin])
     };
     let (rest, moved) = (edge(&|node| mesh.vertices[node]), edge(&|node| Vector3::from(u[node])));
-    let G = moved * rest.try_inverse().unwrap_or_default();
+    let G = moved * inverse(&rest);
     from_fn(|i, j| G[(i, j)])
 }
 

@@ -4,7 +4,7 @@
 //! Differential Equations II (1996), ch. IV.2.
 
 use fem_engine::integrators::MassInverse;
-use fem_engine::model::system::System;
+use fem_engine::simulator::double::{System, add_stiffness_times, solve_mass};
 use fem_engine::vector::{dot, norm};
 use fem_scene::simulation::Cause;
 
@@ -59,7 +59,7 @@ const MAX_ITERATIONS: usize = 20_000;
 /// ω_max at rest: the square root of the largest eigenvalue of M⁻¹ K by power iteration (Golub and Van Loan, Matrix Computations,
 /// 2013, ch. 8.2) with the Rayleigh quotient, whose error is the square of the mode's.
 /// `start` must contain the mode.
-pub fn highest_mode(system: &System<f64>, start: Vec<[f64; 3]>) -> Result<HighestMode, Cause> {
+pub fn highest_mode(system: &System, start: Vec<[f64; 3]>) -> Result<HighestMode, Cause> {
     let mut inverse = MassInverse::new(&system.mass);
     let rest = vec![[0.0; 3]; system.nodes()];
     let mut x = start;
@@ -70,14 +70,14 @@ pub fn highest_mode(system: &System<f64>, start: Vec<[f64; 3]>) -> Result<Highes
         let length = norm(&x);
         scale(&mut x, 1.0 / length);
         force.fill([0.0; 3]);
-        system.add_stiffness_times(1.0, &rest, &x, &mut force);
+        add_stiffness_times(system, &rest, &x, &mut force);
         let quotient = dot(&x, &force) / (2.0 * system.mass.kinetic_energy(&x));
         let is_settled = (quotient - omega2).abs() <= 1e-13 * quotient;
         omega2 = quotient;
         if is_settled {
             break;
         }
-        inverse.solve(system, &mut force, &mut next)?;
+        solve_mass(&mut inverse, system, &mut force, &mut next)?;
         std::mem::swap(&mut x, &mut next);
     }
     let largest = x.as_flattened().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));

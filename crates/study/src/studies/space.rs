@@ -115,7 +115,7 @@ fn solved(settings: &Settings, model: &str, family: Family, cells: usize, number
             poisson: moduli.map(|moduli| moduli.1),
             integrator: "static",
             projection: "when_needed",
-            solver: names::solver_name(scene).replace("automatic", "cholesky"),
+            solver: names::solver_name(scene),
             dt: 1.0,
             steps: 1,
             tolerance: Some(1e-13),

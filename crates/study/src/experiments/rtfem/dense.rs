@@ -1,6 +1,7 @@
 //! Linear elasticity as textbooks and the thesis write it, with dense matrices and apart from the engine: strains ε = B u in engineering
 //! notation (xx, yy, zz, xy, yz, zx), element stiffness V Bᵀ C B.
 
+use fem_engine::tensor::inverse;
 use fem_mesh::TetrahedralMesh;
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, SMatrix, Vector3};
 
@@ -32,7 +33,7 @@ pub fn stiffness(mesh: &TetrahedralMesh, C: &Matrix6<f64>) -> DMatrix<f64> {
         let [a, b, c, d] = element.map(|i| mesh.vertices[i]);
         let edges = Matrix3::from_columns(&[b - a, c - a, d - a]);
         let volume = edges.determinant() / 6.0;
-        let Some(inverse) = edges.try_inverse() else { continue };
+        let inverse = inverse(&edges);
         // Rows of the inverse are the gradients of the last three barycentric coordinates.
         let rest: [Vector3<f64>; 3] = std::array::from_fn(|i| inverse.row(i).transpose());
         let gradients = [-(rest[0] + rest[1] + rest[2]), rest[0], rest[1], rest[2]];

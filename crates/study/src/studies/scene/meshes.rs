@@ -37,7 +37,7 @@ impl StudyMeshes<'_> {
         let file = format!("states/{}{name}-reference.json", scene.name);
         let mut found = None;
         if let Some(horizon) = horizon {
-            match Equations::new(scene, body) {
+            match Equations::new(body) {
                 Ok(equations) => {
                     if is_own {
                         study.fastest = equations.fastest();

@@ -86,7 +86,7 @@ impl Case {
         let (text, mesh) = self.scene(model, "verlet", "");
         let scene = parse(&text, Path::new("rtfem.toml")).map_err(|error| error.to_string())?;
         let body = body_of(&scene, mesh, Path::new("")).map_err(|error| error.to_string())?;
-        let equations = Equations::new(&scene, body)?;
+        let equations = Equations::new(body)?;
         Ok(reference(&equations, self.steps as f64 / self.rate as f64, PATIENCE)?.q)
     }
 

@@ -1,0 +1,107 @@
+//! A body's parts in double precision, for studies that call them one by one.
+//!
+//! The generic functions of the same names are compiled anew in each crate that calls them, with all elements, laws and solvers; these
+//! are compiled here, once.
+
+use fem_scene::Body;
+use fem_scene::simulation::{Breakdown, Cause};
+
+use crate::forces::{Energy, HessianKind, Moment};
+use crate::integrators::MassInverse;
+use crate::materials::AnyLaw;
+use crate::model::system;
+use crate::solvers::{self, SolverChoice};
+use crate::sparse::Block;
+use crate::tensor::{Tensor, Tensor4};
+
+/// A body in double precision.
+pub type System = system::System<f64>;
+
+/// Builds what a body has, and the pattern of its stiffness matrix.
+pub fn system(body: Body, choice: SolverChoice) -> System {
+    let law = AnyLaw::new(&body.material);
+    System::new(body, law, choice)
+}
+
+/// [`System::potential`](system::System::potential)
+pub fn potential(system: &System, u: &[[f64; 3]], moment: Moment) -> Energy {
+    system.potential(u, moment)
+}
+
+/// [`System::gradient`](system::System::gradient)
+pub fn gradient(system: &System, u: &[[f64; 3]], moment: Moment, gradient: &mut [[f64; 3]]) {
+    system.gradient(u, moment, gradient);
+}
+
+/// [`System::potential_and_gradient`](system::System::potential_and_gradient)
+pub fn potential_and_gradient(system: &System, u: &[[f64; 3]], moment: Moment, gradient: &mut [[f64; 3]]) -> Energy {
+    system.potential_and_gradient(u, moment, gradient)
+}
+
+/// [`System::force`](system::System::force), with damping by the stiffness at `u`.
+pub fn force(system: &System, u: &[[f64; 3]], v: &[[f64; 3]], moment: Moment, force: &mut [[f64; 3]]) {
+    system.force(u, v, u, moment, force);
+}
+
+/// [`System::add_stiffness`](system::System::add_stiffness), not projected.
+pub fn add_stiffness(system: &System, u: &[[f64; 3]], values: &mut [Block<f64, 3>]) {
+    system.add_stiffness(1.0, u, HessianKind::Exact, values);
+}
+
+/// [`System::add_external_hessian`](system::System::add_external_hessian), not projected.
+pub fn add_external_hessian(system: &System, u: &[[f64; 3]], values: &mut [Block<f64, 3>]) {
+    system.add_external_hessian(u, HessianKind::Exact, values);
+}
+
+/// [`System::add_stiffness_times`](system::System::add_stiffness_times)
+pub fn add_stiffness_times(system: &System, u: &[[f64; 3]], d: &[[f64; 3]], product: &mut [[f64; 3]]) {
+    system.add_stiffness_times(1.0, u, d, product);
+}
+
+/// [`MassInverse::solve`]
+pub fn solve_mass(
+    inverse: &mut MassInverse<f64>,
+    system: &System,
+    f: &mut [[f64; 3]],
+    a: &mut [[f64; 3]],
+) -> Result<(), Cause> {
+    inverse.solve(system, f, a)
+}
+
+/// The stress derivative of a law at a displacement gradient.
+pub fn stress_derivative(law: &AnyLaw<f64>, G: &Tensor<f64>) -> Tensor4<f64> {
+    law.as_law().derivative(G)
+}
+
+/// A solver for the matrices of a body.
+pub struct Solver(solvers::Solver<f64>);
+
+impl Solver {
+    /// Analyses the pattern of the body's matrices.
+    pub fn new(choice: SolverChoice, system: &System) -> Self {
+        let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
+        Self(solvers::Solver::new(choice, &system.pattern, &rest))
+    }
+
+    /// [`Solver::prepare`](solvers::Solver::prepare)
+    pub fn prepare(&mut self, values: &[Block<f64, 3>]) -> Result<(), Breakdown> {
+        self.0.prepare(values)
+    }
+
+    /// [`Solver::solve_observed`](solvers::Solver::solve_observed)
+    pub fn solve(
+        &mut self,
+        values: &[Block<f64, 3>],
+        b: &[[f64; 3]],
+        x: &mut [[f64; 3]],
+        tolerance: f64,
+        observe: &mut dyn FnMut(&[[f64; 3]]),
+    ) -> Result<usize, Breakdown> {
+        self.0.solve_observed(values, b, x, tolerance, observe)
+    }
+
+    /// [`Solver::apply`](solvers::Solver::apply)
+    pub fn apply(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
+        self.0.apply(r, z);
+    }
+}
