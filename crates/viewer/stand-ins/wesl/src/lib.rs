@@ -199,14 +199,10 @@ fn reachable(declarations: &[String]) -> Result<String, Error> {
     }
     let mut reached = BTreeMap::new();
     while let Some(name) = waiting.pop() {
-        match named.get(name).map(Vec::as_slice) {
-            Some([declaration]) => {
-                if reached.insert(name, *declaration).is_none() {
-                    waiting.extend(declaration.split(|c| !is_word(c)));
-                }
-            }
-            Some(_) => return Err(Error(format!("{name} is declared twice"))),
-            None => {}
+        let Some(same) = named.get(name) else { continue }; // a word of the language, a local name
+        let [declaration] = same.as_slice() else { return Err(Error(format!("{name} is declared twice"))) };
+        if reached.insert(name, *declaration).is_none() {
+            waiting.extend(declaration.split(|c| !is_word(c)));
         }
     }
     directives.extend(reached.values());
