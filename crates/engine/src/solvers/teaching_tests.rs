@@ -78,7 +78,9 @@ fn conjugate_directions_have_the_iterates_of_conjugate_gradients_and_end_within_
     for (i, (one, other)) in directions.iter().zip(&gradients).take(20).enumerate() {
         assert!((one - other).abs() < 1e-9 * directions[0], "iteration {i}: {one:e} and {other:e}");
     }
-    assert!(directions.len() <= 3 * system.b.len() + 1 && directions.len() <= gradients.len(), "{}", directions.len());
+    // Round-off decides the last iteration.
+    let most = gradients.len().min(3 * system.b.len()) + 1;
+    assert!(directions.len() <= most, "{} of {most} iterates", directions.len());
     let descent = system.errors(SolverChoice::SteepestDescent, 1e-6).len();
     assert!(descent > 4 * system.errors(SolverChoice::Cg, 1e-6).len(), "{descent} iterations of steepest descent");
 }
