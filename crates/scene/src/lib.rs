@@ -57,7 +57,6 @@ mod save;
 pub mod simulate;
 pub mod simulation;
 pub mod tables;
-mod text;
 mod timer;
 mod values;
 mod warnings;

@@ -9,7 +9,6 @@ use toml::{Spanned, Table};
 
 use crate::check::check;
 use crate::overrides::Override;
-use crate::text::{TextError, scene_of};
 use crate::{Scene, SceneError};
 
 /// Largest scene file, bytes: the tree of a text takes up to a hundred times its memory, so at most 128 MiB.
@@ -46,13 +45,13 @@ pub fn parse(text: &str, path: &Path) -> Result<Scene, SceneError> {
 }
 
 fn parse_with(text: &str, path: &Path, overrides: &[Override]) -> Result<Scene, SceneError> {
-    let mut source: Table = text.parse().map_err(|error: toml::de::Error| of_line(text, path, &error.into()))?;
+    let mut source: Table = text.parse().map_err(|error| of_line(text, path, &error))?;
     for change in overrides {
         let refuse = |problem| SceneError::Override { option: change.to_string(), problem };
         change.apply(&mut source).map_err(refuse)?;
     }
     let mut scene = match overrides {
-        [] => scene_of(text).map_err(|error| of_line(text, path, &error))?,
+        [] => toml::from_str(text).map_err(|error| of_line(text, path, &error))?,
         _ => overridden(text, path, &source, overrides)?,
     };
     scene.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -66,8 +65,8 @@ fn parse_with(text: &str, path: &Path, overrides: &[Override]) -> Result<Scene, 
 /// Reads a scene from its tables after the overrides.
 fn overridden(text: &str, path: &Path, source: &Table, overrides: &[Override]) -> Result<Scene, SceneError> {
     let merged = source.to_string();
-    scene_of(&merged).map_err(|error| {
-        if let Err(own) = scene_of(text)
+    toml::from_str(&merged).map_err(|error: toml::de::Error| {
+        if let Err(own) = toml::from_str::<Scene>(text)
             && own.message() == error.message()
         {
             return of_line(text, path, &own);
@@ -112,12 +111,12 @@ impl Scene {
     }
 }
 
-fn of_line(text: &str, path: &Path, error: &TextError) -> SceneError {
+fn of_line(text: &str, path: &Path, error: &toml::de::Error) -> SceneError {
     let line = error.span().map_or(1, |span| line_at(text, span.start));
     SceneError::Line { file: path.to_owned(), line, problem: problem_of(error) }
 }
 
-fn problem_of(error: &TextError) -> String {
+fn problem_of(error: &toml::de::Error) -> String {
     format!("{}; correct it as the scene format in README.md says", error.message().trim_end())
 }
 

@@ -14,7 +14,6 @@ use super::{EnvironmentFailure, EnvironmentState, Environments, body_of};
 use crate::materials::AnyLaw;
 use crate::model::numbering::Numbering;
 use crate::model::system::System;
-use crate::number::Real;
 use crate::simulator::{Compiled, Simulator};
 use crate::solvers::open_device;
 
