@@ -170,7 +170,7 @@ mod tests {
         let pattern = Pattern::new(3, &[[0, 1], [1, 2]], Stored::Full);
         let block = |row: usize, column: usize| {
             let entry = if row == column { 2.0 } else { off };
-            triple(|i| triple(|j| if i == j { entry } else { 0.1 * entry }))
+            std::array::from_fn(|i| std::array::from_fn(|j| if i == j { entry } else { 0.1 * entry }))
         };
         let values = (0..3)
             .flat_map(|row| pattern.row(row).map(move |k| (row, k)))
