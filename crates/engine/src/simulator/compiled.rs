@@ -3,11 +3,11 @@
 //! A generic function is compiled anew in each crate that calls it, and a simulation holds all elements, laws and solvers. So what
 //! is large is reached through a trait with an implementation for each type, which is compiled here, once.
 
-use fem_scene::simulation::{Checkpoint, Energies, Failure, Reaction};
+use fem_scene::simulation::{Energies, Failure, Reaction};
 use fem_scene::{Body, Scene, SceneError};
 use nalgebra::Matrix3;
 
-use super::{Simulator, checkpoint};
+use super::Simulator;
 use crate::integrators::critical_time_step;
 use crate::model::system::OwnForces;
 use crate::number::Real;
@@ -34,10 +34,6 @@ pub trait Compiled: Real {
     fn min_J(simulator: &Simulator<Self>) -> (f64, usize);
     #[doc(hidden)]
     fn inverted_elements(simulator: &Simulator<Self>) -> usize;
-    #[doc(hidden)]
-    fn checkpoint(simulator: &Simulator<Self>) -> Checkpoint;
-    #[doc(hidden)]
-    fn restore(simulator: &mut Simulator<Self>, checkpoint: &Checkpoint) -> Result<(), String>;
 }
 
 macro_rules! compiled {
@@ -81,14 +77,6 @@ macro_rules! compiled {
 
             fn inverted_elements(simulator: &Simulator<Self>) -> usize {
                 simulator.inverted_elements_now()
-            }
-
-            fn checkpoint(simulator: &Simulator<Self>) -> Checkpoint {
-                checkpoint::of(simulator)
-            }
-
-            fn restore(simulator: &mut Simulator<Self>, checkpoint: &Checkpoint) -> Result<(), String> {
-                checkpoint::restore(simulator, checkpoint)
             }
         }
     )* };

@@ -11,7 +11,7 @@ use fem_scene::simulation::{
 use nalgebra::{DVector, Matrix3, Vector3};
 
 use super::integrator::{integrators, switched};
-use super::{Compiled, Simulator, parts};
+use super::{Compiled, Simulator, checkpoint, parts};
 use crate::boundary::reactions::{reactions, reactions_at};
 use crate::integrators::LastStage;
 use crate::model::state::State;
@@ -80,11 +80,11 @@ impl<T: Compiled> Simulation for Simulator<T> {
     }
 
     fn checkpoint(&self) -> Checkpoint {
-        T::checkpoint(self)
+        checkpoint::of(self)
     }
 
     fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), String> {
-        let outcome = T::restore(self, checkpoint);
+        let outcome = checkpoint::restore(self, checkpoint);
         if outcome.is_err() {
             self.reset();
         }
