@@ -10,8 +10,17 @@ use toml::{Table, Value};
 use super::{PackError, at, output};
 
 /// Files that the grader is built from and works with.
-const PARTS: [&str; 8] =
-    ["Cargo.toml", "Cargo.lock", "LICENSE-APACHE", "LICENSE-MIT", "crates/chart", "grader", "include-docs", "src"];
+const PARTS: [&str; 9] = [
+    "Cargo.toml",
+    "Cargo.lock",
+    "LICENSE-APACHE",
+    "LICENSE-MIT",
+    "crates/chart",
+    "crates/features",
+    "grader",
+    "include-docs",
+    "src",
+];
 
 /// Copies the sources of the repository `root` into the folder `to`, with a manifest and a lock file that ask for no more.
 pub fn copy(root: &Path, to: &Path) -> Result<(), PackError> {
@@ -57,7 +66,8 @@ fn copy_one(from: &Path, to: &Path) -> Result<(), PackError> {
 /// The root's manifest without programs, tests, optional dependencies and the members that are not there.
 fn lean(manifest: &str, is_there: impl Fn(&str) -> bool) -> Result<String, String> {
     let mut table: Table = manifest.parse().map_err(|error: toml::de::Error| error.to_string())?;
-    for kind in ["bin", "test", "bench", "example", "dev-dependencies"] {
+    // What is patched belongs to the window.
+    for kind in ["bin", "test", "bench", "example", "dev-dependencies", "patch"] {
         table.remove(kind);
     }
     if let Some(members) = table.get_mut("workspace").and_then(|workspace| workspace.get_mut("members")) {
