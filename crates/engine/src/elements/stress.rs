@@ -7,6 +7,9 @@ use crate::materials::Law;
 use crate::number::{Lanes, Number, Real};
 use crate::tensor::{Tensor, map};
 
+/// The Cauchy stress of a batch (Pa) by its law and its displacement gradients.
+type StressOf<'a, L> = &'a dyn Fn(&dyn Law<L>, &Tensor<L>) -> Tensor<L>;
+
 impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, N> {
     /// Cauchy stress of each element, Pa: that which `stress` finds for the law and the displacement gradients of a batch. They come from
     /// displacements, which keep their digits far from the origin and near rest.
@@ -14,7 +17,7 @@ impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, 
         &self,
         laws: B,
         u: &[[T; 3]],
-        stress: &dyn Fn(&dyn Law<L>, &Tensor<L>) -> Tensor<L>,
+        stress: StressOf<L>,
     ) -> Vec<Tensor<f64>> {
         let mut stresses = vec![[[0.0; 3]; 3]; self.count];
         for chunk in &self.chunks {
@@ -45,5 +48,5 @@ impl<T: Real, const D: usize, const E: usize, const N: usize> Elements<T, D, E, 
 }
 
 fn of_lane<L: Lanes>(a: &Tensor<L>, lane: usize) -> Tensor<f64> {
-    map(&a, |entry| entry.lane(lane).as_f64())
+    map(a, |entry| entry.lane(lane).as_f64())
 }

@@ -15,7 +15,7 @@ impl<T: Number> Law<T> for QuadraticForm<T> {
 
     fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
         map(
-            &G,
+            G,
             #[inline(always)]
             |entry| self.0 * entry,
         )

@@ -85,7 +85,7 @@ never! {
         read_inputs() -> Option<Empty<f32>>,
         read_inverse_bind_matrices() -> Option<Empty<[[f32; 4]; 4]>>,
         read_joints(u32) -> Option<Joints>,
-        read_morph_targets() -> Empty<(Option<Empty<[f32; 3]>>, Option<Empty<[f32; 3]>>, Option<Empty<[f32; 3]>>)>,
+        read_morph_targets() -> Empty<(Points, Points, Points)>,
         read_normals() -> Option<Empty<[f32; 3]>>,
         read_outputs() -> Option<animation::util::ReadOutputs>,
         read_positions() -> Option<Empty<[f32; 3]>>,
@@ -180,3 +180,6 @@ pub mod image {
         R32G32B32A32FLOAT,
     }
 }
+
+/// Positions, normals or tangents that may be missing.
+type Points = Option<Empty<[f32; 3]>>;

@@ -109,7 +109,7 @@ impl<T: Real> ApproximateInverse<T> for Multigrid {
         for row in 0..starts.len() - 1 {
             for block in starts[row]..starts[row + 1] {
                 let value = &values[self.sources[block] as usize];
-                let single = map(&value, |entry| (entry.as_f64() * self.scale) as f32);
+                let single = map(value, |entry| (entry.as_f64() * self.scale) as f32);
                 singles[block] = if columns[block] as usize > row { transposed(&single) } else { single };
             }
         }
