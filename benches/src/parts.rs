@@ -25,7 +25,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), End> {
     };
     let name = arguments.solver.unwrap_or(SolverName::Cholesky);
     let system = System::<f64>::new(body, law, choice(name));
-    let (nodes, free, elements) = (system.nodes(), system.free(), system.elements.count);
+    let (nodes, free, elements) = (system.nodes(), system.free(), system.elements.count());
     println!("{}\n", Machine::this(Path::new(".")).line());
     println!("{}: {nodes} nodes, {free} free, {elements} elements, {} blocks\n", scene.name, system.pattern.blocks());
     println!("| part | µs | fastest, µs | ns per element |\n|---|---:|---:|---:|");
@@ -51,7 +51,7 @@ fn bent(system: &System<f64>) -> Vec<[f64; 3]> {
 
 /// Assemblies over all elements.
 fn elastic(system: &System<f64>) -> Result<(), End> {
-    let (u, moment, count) = (bent(system), Moment::at(0.0), system.elements.count);
+    let (u, moment, count) = (bent(system), Moment::at(0.0), system.elements.count());
     let mut gradient = vec![[0.0; 3]; system.nodes()];
     let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
     time("energy", count, || {
@@ -86,7 +86,7 @@ fn elastic(system: &System<f64>) -> Result<(), End> {
 
 /// Mass, and the linear solver on K + M/dt².
 fn linear(system: &System<f64>, name: SolverName, dt: f64) -> Result<(), End> {
-    let (u, count) = (bent(system), system.elements.count);
+    let (u, count) = (bent(system), system.elements.count());
     let mut product = vec![[0.0; 3]; system.nodes()];
     let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
     time("mass times vector", count, || {

@@ -118,7 +118,7 @@ fn every_key_of_every_table_and_every_parameter_of_a_law_is_named_in_the_scene_f
 fn every_law_has_a_file_of_its_name_and_a_row_in_the_readme() {
     let cells = first_cells();
     let mut problems = Vec::new();
-    for path in files("rs").into_iter().filter(|path| path.starts_with("crates/engine/src/materials")) {
+    for path in files("rs").into_iter().filter(|path| path.starts_with("crates/elements/src/materials")) {
         let text = read(&path);
         let Some(name) = text.split("const NAME: &'static str = \"").nth(1).and_then(|rest| rest.split('"').next())
         else {

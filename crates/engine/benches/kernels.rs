@@ -8,10 +8,10 @@ use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use fem_engine::Real;
 use fem_engine::forces::{HessianKind, Moment};
 use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
-use fem_engine::number::Real;
 use fem_engine::solvers::{Preconditioner, Solver, SolverChoice};
 use fem_scene::{Scene, body, parse};
 
@@ -45,7 +45,7 @@ fn sums<T: Real>(group: &mut BenchmarkGroup<WallTime>, law: &str, precision: &st
     let (u, moment) = (bent(&system), Moment::at(0.0));
     let mut gradient = vec![[T::default(); 3]; system.nodes()];
     let mut values = vec![[[T::default(); 3]; 3]; system.pattern.blocks()];
-    group.throughput(Throughput::Elements(system.elements.count as u64));
+    group.throughput(Throughput::Elements(system.elements.count() as u64));
     let name = |part: &str| format!("{part}/{law}/{precision}");
     group.bench_function(name("gradient"), |b| b.iter(|| system.gradient(&u, moment, black_box(&mut gradient))));
     group.bench_function(name("energy and gradient"), |b| {
@@ -85,7 +85,7 @@ fn solvers(criterion: &mut Criterion) {
             let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
             let mut solver = Solver::<f64>::new(choice, &system.pattern, &rest);
             let mut x = vec![[0.0; 3]; system.nodes()];
-            group.throughput(Throughput::Elements(system.elements.count as u64));
+            group.throughput(Throughput::Elements(system.elements.count() as u64));
             group.bench_function(format!("preparation/{name}/{cells} cells"), |b| {
                 b.iter(|| solver.prepare(&values).expect("positive definite"))
             });

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::materials::AnyLaw;
+use fem_elements::materials::AnyLaw;
 use fem_mesh::{Side, nodes_on_side};
 use fem_scene::simulation::Simulation;
 use fem_scene::tables::TractionTable;

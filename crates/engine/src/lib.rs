@@ -44,27 +44,19 @@
 #![allow(clippy::needless_range_loop)] // indices of tensors are the notation of the field
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
+pub use fem_elements::{Real, elements, materials, number, plasticity, sparse, svd, tensor, vector};
+
 pub mod apparent_moduli;
 pub mod batch;
 pub mod boundary;
 pub mod cantilever;
-pub mod elements;
 pub mod forces;
-mod history;
 pub mod integrators;
-pub mod materials;
 pub mod model;
 pub mod newton;
-pub mod number;
 mod pick;
-pub mod plasticity;
-mod polar;
 pub mod profile;
 mod refusal;
 pub mod simulator;
 pub mod skinning;
 pub mod solvers;
-pub mod sparse;
-pub mod svd;
-pub mod tensor;
-pub mod vector;

@@ -30,14 +30,15 @@ use nalgebra::Vector3;
 use crate::boundary::rigid_modes;
 use crate::forces::{self, anchors};
 use crate::integrators::Integrator;
-use crate::materials::AnyLaw;
 use crate::model::numbering::Numbering;
 use crate::model::state::State;
 use crate::model::system::{OwnForces, System};
-use crate::number::{Real, check_instructions};
 use crate::refusal::Refusal;
 use crate::skinning::Skinning;
 use crate::solvers::SolverChoice;
+use fem_elements::Real;
+use fem_elements::materials::AnyLaw;
+use fem_elements::number::check_instructions;
 
 use adaptive::Control;
 use contact::Contacts;

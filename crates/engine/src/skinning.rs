@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use fem_mesh::TetrahedralMesh;
 
-use crate::tensor::inverse;
+use fem_elements::tensor::inverse;
 
 /// Four nodes and their weights for each display vertex.
 #[derive(Clone, Debug)]

@@ -9,9 +9,9 @@ use nalgebra::Vector3;
 
 use crate::forces::Moment;
 use crate::model::numbering::Numbering;
-use crate::number::Real;
-use crate::sparse::{Block, Pattern, Stored};
-use crate::vector::{scale, triple};
+use fem_elements::Real;
+use fem_elements::sparse::{Block, Pattern, Stored};
+use fem_elements::vector::{scale, triple};
 
 /// The Dirichlet conditions of a body. Nodes have the engine's numbers; those from `free` on are fully constrained at all times.
 #[derive(Clone, Debug, Default)]

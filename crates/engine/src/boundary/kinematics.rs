@@ -6,7 +6,7 @@ use fem_scene::{LoadCurve, Motion};
 use nalgebra::Vector3;
 
 use super::dirichlet::DirichletConditions;
-use crate::number::Real;
+use fem_elements::Real;
 
 impl DirichletConditions {
     /// Overwrites the constrained entries with velocities (m/s) and accelerations (m/s²) of the prescribed motions at a time, s. Where a

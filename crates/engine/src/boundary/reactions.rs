@@ -6,8 +6,8 @@ use fem_scene::simulation::Reaction;
 use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::number::Real;
-use crate::vector::triple;
+use fem_elements::Real;
+use fem_elements::vector::triple;
 
 /// One for each Dirichlet condition, zero where its nodes are free by now. The acceleration is the mean of the last step, which began at `before`; Rayleigh damping takes
 /// its stiffness there too.

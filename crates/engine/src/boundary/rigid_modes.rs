@@ -5,7 +5,7 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 
 use super::dirichlet::everywhere;
 use crate::refusal::Refusal;
-use crate::vector::triple;
+use fem_elements::vector::triple;
 
 /// A rigid motion is constrained if its stiffness is more than this part of the largest.
 const LEAST: f64 = 1e-9;

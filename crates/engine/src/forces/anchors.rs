@@ -8,8 +8,9 @@ use fem_scene::{Anchor, Body, Interaction};
 
 use super::{Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
-use crate::number::{Real, is_positive};
-use crate::sparse::{Block, Pattern};
+use fem_elements::Real;
+use fem_elements::number::is_positive;
+use fem_elements::sparse::{Block, Pattern};
 
 /// Key in the statistics.
 pub const NAME: &str = "drag";

@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 
 use super::{Energy, Moment, Potential};
 use crate::model::numbering::Numbering;
-use crate::number::Real;
-use crate::vector::{dot3, triple};
+use fem_elements::Real;
+use fem_elements::vector::{dot3, triple};
 
 /// Key in the statistics.
 pub const NAME: &str = "dead_load";

@@ -11,7 +11,7 @@ use fem_scene::{Body, Spring};
 use super::Potential;
 use super::springs::{Source, Springs};
 use crate::model::numbering::Numbering;
-use crate::number::Real;
+use fem_elements::Real;
 
 /// Key in the statistics.
 pub const NAME: &str = "mass_spring";

@@ -11,10 +11,10 @@ pub mod springs;
 use fem_scene::{Body, LoadCurve, Timer};
 
 use crate::model::numbering::Numbering;
-use crate::number::Real;
-use crate::sparse::{Block, Pattern};
 use anchors::Anchors;
 pub use energy::Energy;
+use fem_elements::Real;
+use fem_elements::sparse::{Block, Pattern};
 
 /// A force on the body. External forces are functions of time; a conservative one is minus the gradient of its energy.
 ///

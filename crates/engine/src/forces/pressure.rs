@@ -9,8 +9,8 @@ use fem_scene::{Body, LoadCurve};
 
 use super::{Energy, Moment, Potential};
 use crate::model::numbering::Numbering;
-use crate::number::Real;
 use edges::Edges;
+use fem_elements::Real;
 use triangles::Triangles;
 
 /// Key in the statistics.

@@ -9,14 +9,14 @@ use fem_scene::simulation::{Cause, Counters, History};
 
 use super::Convergence;
 use crate::forces::{HessianKind, Moment};
-use crate::history::{put, put_option, take, take_option};
 use crate::model::system::System;
 use crate::newton::NewtonLimits;
 use crate::newton::incremental_potential::{Increment, IncrementalPotential, Workspace};
-use crate::number::Real;
 use crate::solvers::Solver;
-use crate::sparse::Block;
-use crate::vector::{axpy, dot, max_norm, norm};
+use fem_elements::Real;
+use fem_elements::history::{put, put_option, take, take_option};
+use fem_elements::sparse::Block;
+use fem_elements::vector::{axpy, dot, max_norm, norm};
 
 /// Largest number of iterations of a step, and the number with which the arc length stays as it is.
 const ITERATIONS: (usize, usize) = (16, 4);

@@ -5,8 +5,8 @@ use nalgebra::{Complex, DMatrix};
 
 use super::MassInverse;
 use crate::model::system::System;
-use crate::number::Real;
-use crate::vector::{axpy, dot, triple};
+use fem_elements::Real;
+use fem_elements::vector::{axpy, dot, triple};
 
 /// Relative change of an eigenvalue within [`BLOCK`] iterations at which Lanczos's method ends, and its largest number of iterations.
 const ACCURACY: (f64, usize) = (1e-5, 96);

@@ -5,8 +5,8 @@ use fem_scene::simulation::{Cause, Counters};
 use super::{Accelerations, Convergence, Integrator, Stage};
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::number::Real;
-use crate::vector::axpy;
+use fem_elements::Real;
+use fem_elements::vector::axpy;
 
 /// Explicit Euler with its vectors.
 pub struct ExplicitEuler<T: Real> {

@@ -7,13 +7,13 @@ use super::initial_guess::InitialGuess;
 use super::last_change::{extrapolate, finish};
 use super::{Convergence, Integrator, momentum};
 use crate::forces::Moment;
-use crate::history::{put, take};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::Newton;
 use crate::newton::incremental_potential::{Increment, Inertia};
-use crate::number::Real;
 use crate::solvers::Solver;
+use fem_elements::Real;
+use fem_elements::history::{put, take};
 
 /// Implicit Euler as the minimum of the incremental potential, found by [`Newton`]'s method.
 pub struct ImplicitEuler<T: Real> {

@@ -11,11 +11,11 @@ use fem_scene::{ContactPlane, ContactTreatment, Integrator as IntegratorKind};
 use nalgebra::Vector3;
 
 use crate::forces::contact::planes::{Near, Planes};
-use crate::history::put;
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::number::Real;
-use crate::vector::triple;
+use fem_elements::Real;
+use fem_elements::history::put;
+use fem_elements::vector::triple;
 
 /// Distance from a plane at which a node rests, in lengths of the body and in rounding errors of its displacement.
 const SKIN: f64 = 1e-9;
@@ -145,7 +145,7 @@ impl<T: Real> Impulses<T> {
         let round_off = ROUNDING * T::EPSILON.as_f64();
         for _ in 0..PASSES {
             let mut has_moved = false;
-            let farthest = TOUCHING * (SKIN * *length + round_off * crate::vector::max_norm(u));
+            let farthest = TOUCHING * (SKIN * *length + round_off * fem_elements::vector::max_norm(u));
             near.clear();
             near.extend(planes.near(u, time, farthest));
             for &Near { plane, node, .. } in &*near {
@@ -155,7 +155,7 @@ impl<T: Real> Impulses<T> {
                 if free_normal.norm_squared() < 1e-12 {
                     continue;
                 }
-                let skin = SKIN * *length + round_off * crate::vector::max_norm(&[u[node]]);
+                let skin = SKIN * *length + round_off * fem_elements::vector::max_norm(&[u[node]]);
                 let gap = planes.gap(plane, node, &u[node], time);
                 if gap < TOUCHING * skin && !is_listed(impulses, *ordered, (plane, node)) {
                     impulses.push(Impulse { plane, node, normal: 0.0, tangential: Vector3::zeros() });

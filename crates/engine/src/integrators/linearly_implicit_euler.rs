@@ -8,14 +8,14 @@ use super::followers::Followers;
 use super::last_change::{extrapolate, finish};
 use super::{Convergence, Integrator, momentum};
 use crate::forces::{HessianKind, Moment};
-use crate::history::{put, take};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, IncrementalPotential, Inertia, Workspace};
-use crate::number::Real;
 use crate::solvers::Solver;
-use crate::sparse::Block;
-use crate::vector::axpy;
+use fem_elements::Real;
+use fem_elements::history::{put, take};
+use fem_elements::sparse::Block;
+use fem_elements::vector::axpy;
 
 /// Linearly implicit Euler with its solver and vectors.
 pub struct LinearlyImplicitEuler<T: Real> {
@@ -123,7 +123,7 @@ fn prepare<T: Real>(
     let mut factor = |kind: HessianKind| {
         counters.stiffness_assemblies += 1;
         counters.factorizations += 1;
-        counters.projections += if kind == HessianKind::Projected { potential.system.elements.count } else { 0 };
+        counters.projections += if kind == HessianKind::Projected { potential.system.elements.count() } else { 0 };
         potential.hessian(w, kind, values, workspace);
         solver.prepare(values)
     };

@@ -2,8 +2,8 @@
 
 use crate::model::mass::Mass;
 use crate::model::system::System;
-use crate::number::Real;
-use crate::vector::{axpy, dot, norm, subtract_from, xpby};
+use fem_elements::Real;
+use fem_elements::vector::{axpy, dot, norm, subtract_from, xpby};
 use fem_scene::simulation::{Breakdown, Cause};
 
 /// Division by a lumped mass; conjugate gradients with the diagonal as preconditioner for a consistent one. For tetrahedra the

@@ -58,8 +58,8 @@ use fem_scene::simulation::{Cause, Counters, History};
 use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::number::Real;
 use crate::solvers::Solver;
+use fem_elements::Real;
 
 /// A time integration method with the vectors and factors that it keeps from step to step.
 pub trait Integrator<T: Real>: Send {

@@ -7,7 +7,7 @@ use super::relaxation::Relaxed;
 use crate::forces::contact::planes::Planes;
 use crate::forces::springs::Spring;
 use crate::model::system::System;
-use crate::number::Real;
+use fem_elements::Real;
 
 /// PBD: each sweep brings the volume of every element (the area of a triangle) and the length of every edge nearer to that at rest. The
 /// moduli of the material play no part: the stiffness comes from the time step and the number of sweeps.

@@ -2,7 +2,7 @@
 
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::number::Real;
+use fem_elements::Real;
 
 /// Rounding errors of places and velocities, in units of the machine epsilon, that are no jump.
 const ROUNDING: f64 = 64.0;

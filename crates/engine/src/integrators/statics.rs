@@ -7,15 +7,15 @@ use super::followers::Followers;
 use super::initial_guess::infeasible;
 use super::{Convergence, Integrator};
 use crate::forces::{HessianKind, Moment};
-use crate::history::{put, take};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::Newton;
 use crate::newton::incremental_potential::{Increment, IncrementalPotential, Workspace};
-use crate::number::Real;
 use crate::solvers::Solver;
-use crate::sparse::Block;
-use crate::vector::{axpy, max_norm};
+use fem_elements::Real;
+use fem_elements::history::{put, take};
+use fem_elements::sparse::Block;
+use fem_elements::vector::{axpy, max_norm};
 
 /// Load stepping with its solver and vectors.
 pub struct Statics<T: Real> {

@@ -6,7 +6,7 @@ use super::descent::Descent;
 use super::relaxation::Relaxed;
 use crate::forces::contact::planes::Planes;
 use crate::model::system::System;
-use crate::number::Real;
+use fem_elements::Real;
 
 /// VBD: each sweep moves every node to where the incremental potential of implicit Euler is least for it alone, by one step of Newton's
 /// method. Sweeps converge to implicit Euler. Before that the forces between nodes are not equal and opposite, so that a step of few sweeps

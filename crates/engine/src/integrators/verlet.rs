@@ -4,11 +4,11 @@
 use fem_scene::simulation::{Cause, Counters, History};
 
 use super::{Accelerations, Convergence, Integrator, Stage};
-use crate::history::{put, take};
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::number::Real;
-use crate::vector::axpy;
+use fem_elements::Real;
+use fem_elements::history::{put, take};
+use fem_elements::vector::axpy;
 
 /// Velocity Verlet with its vectors.
 pub struct Verlet<T: Real> {

@@ -4,8 +4,8 @@ use fem_scene::RayleighDamping;
 
 use super::system::System;
 use crate::forces::HessianKind;
-use crate::number::Real;
-use crate::sparse::Block;
+use fem_elements::Real;
+use fem_elements::sparse::Block;
 
 /// Multiples of the mass, the stiffness and the damping matrices of forces in a sum α M + β K + γ D.
 #[derive(Clone, Copy, Debug, PartialEq)]

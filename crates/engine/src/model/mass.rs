@@ -5,8 +5,8 @@ use std::ops::Range;
 use fem_scene::Body;
 use rayon::prelude::*;
 
-use crate::number::Real;
-use crate::sparse::{Block, Pattern, Stored};
+use fem_elements::Real;
+use fem_elements::sparse::{Block, Pattern, Stored};
 
 /// From this many rows on several threads share the rows of a product, so many at a time.
 const ROWS_FOR_THREADS: usize = 3000;

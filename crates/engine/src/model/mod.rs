@@ -1,12 +1,9 @@
 //! A body as the engine computes with it: what never changes in a run ([`system`]), and what does ([`state`]).
 
-mod any_elements;
 pub mod damping;
 pub mod mass;
 pub mod numbering;
 mod obstacles;
-mod solid;
-pub mod solids;
 pub mod state;
 mod stiffness_pattern;
 pub mod system;

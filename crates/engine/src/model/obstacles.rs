@@ -2,8 +2,8 @@
 
 use super::system::System;
 use crate::forces::{Energy, HessianKind, Moment, Potential};
-use crate::number::Real;
-use crate::sparse::Block;
+use fem_elements::Real;
+use fem_elements::sparse::Block;
 
 impl<T: Real> System<T> {
     /// Potential energy without that of obstacles, and its gradient (N).

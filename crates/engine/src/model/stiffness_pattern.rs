@@ -6,10 +6,10 @@ use fem_scene::{Body, BodyMesh};
 
 use super::numbering::{Numbering, Ordering};
 use super::system::{OwnForces, System};
-use crate::materials::AnyLaw;
-use crate::number::Real;
 use crate::solvers::SolverChoice;
-use crate::sparse::{Pattern, Stored};
+use fem_elements::Real;
+use fem_elements::materials::AnyLaw;
+use fem_elements::sparse::{Pattern, Stored};
 
 impl<T: Real> System<T> {
     /// Builds what the scene names, and nothing else; rows and blocks as the solver wants them.

@@ -3,21 +3,21 @@
 
 use std::sync::Arc;
 
+use fem_elements::solids::Solids;
 use fem_scene::simulation::Shape;
 use fem_scene::{Body, BodyMesh, Interaction, RayleighDamping};
 use nalgebra::{Matrix3, Vector3};
 
 use super::mass::{ElementMass, Mass, element_masses};
 use super::numbering::{Numbering, Ordering};
-use super::solids::Solids;
 use crate::boundary::dirichlet::{DirichletConditions, fully_constrained_nodes};
 use crate::forces::anchors::{self, Anchors};
 use crate::forces::{Energy, Forces, HessianKind, Moment, Potential, mass_spring};
-use crate::materials::AnyLaw;
-use crate::number::Real;
 use crate::profile::Profile;
-use crate::sparse::{Block, Pattern};
-use crate::vector::triple;
+use fem_elements::Real;
+use fem_elements::materials::AnyLaw;
+use fem_elements::sparse::{Block, Pattern};
+use fem_elements::vector::triple;
 
 /// A body in the engine's numbering: free nodes first, fully constrained ones last.
 pub struct System<T: Real> {
@@ -30,7 +30,7 @@ pub struct System<T: Real> {
     /// Undeformed positions in the engine's numbering, m.
     pub rest: Vec<Vector3<f64>>,
     /// Undeformed elastic elements and their materials; none in a mass-spring body.
-    pub elements: Solids<T>,
+    pub elements: Box<dyn Solids<T>>,
     /// Sparsity of the stiffness matrix, whose rows are the nodes that are not fully constrained; without rows if the method needs no
     /// matrix, until [`prepare_matrix`](Self::prepare_matrix).
     pub pattern: Arc<Pattern>,
@@ -100,7 +100,7 @@ impl<T: Real> System<T> {
         };
         let dirichlet = DirichletConditions::new(body, &numbering);
         Self {
-            elements: Solids::new(body, law, &rest, &numbering),
+            elements: T::solids(body, law, &rest, &numbering.engine_node),
             length: mesh.length(),
             total_mass: masses.iter().sum(),
             node_masses: if dirichlet.is_empty() { mass.row_sums() } else { Vec::new() },

@@ -1,7 +1,7 @@
 //! Forcing terms: the residual to which an iterative solver solves for a direction, and when its matrix is assembled again.
 
 use super::{Factor, Iterate, Newton};
-use crate::number::Real;
+use fem_elements::Real;
 use fem_scene::simulation::Breakdown;
 
 /// Largest relative residual of a direction.

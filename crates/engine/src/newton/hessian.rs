@@ -7,8 +7,8 @@ use super::incremental_potential::IncrementalPotential;
 use super::{Factor, Newton};
 use crate::forces::HessianKind;
 use crate::model::system::System;
-use crate::number::Real;
-use crate::vector::max_norm;
+use fem_elements::Real;
+use fem_elements::vector::max_norm;
 
 /// Change of 1/τ² up to which a factor is kept: with another one, an update would be too short or too long by about that.
 const SAME: f64 = 1.5;
@@ -90,7 +90,7 @@ impl<T: Real> Newton<T> {
         }
         if self.limits.projection != Projection::Never {
             counters.stiffness_assemblies += 1;
-            counters.projections += potential.system.elements.count;
+            counters.projections += potential.system.elements.count();
             potential.hessian(w, HessianKind::Projected, &mut self.values, &mut self.workspace);
             if is_usable(self.factor_values(potential, counters))? {
                 self.factor = Factor::FreshProjected;

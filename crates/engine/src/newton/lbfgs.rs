@@ -4,9 +4,9 @@ use std::collections::VecDeque;
 
 use fem_scene::simulation::History;
 
-use crate::history::{put, take};
-use crate::number::Real;
-use crate::vector::{axpy, dot};
+use fem_elements::Real;
+use fem_elements::history::{put, take};
+use fem_elements::vector::{axpy, dot};
 
 /// Number of pairs of steps and gradient changes that are kept.
 const DEPTH: usize = 6;

@@ -20,11 +20,11 @@ pub use limits::NewtonLimits;
 use fem_scene::simulation::{Cause, Counters, History};
 
 use crate::forces::{Energy, HessianKind};
-use crate::history::{put, put_flag, put_option, take, take_flag, take_option};
-use crate::number::Real;
 use crate::solvers::Solver;
-use crate::sparse::Block;
-use crate::vector::{max_norm, norm};
+use fem_elements::Real;
+use fem_elements::history::{put, put_flag, put_option, take, take_flag, take_option};
+use fem_elements::sparse::Block;
+use fem_elements::vector::{max_norm, norm};
 use incremental_potential::{IncrementalPotential, Workspace};
 use lbfgs::Lbfgs;
 

@@ -3,10 +3,10 @@
 use super::incremental_potential::{IncrementalPotential, StepEnd, Workspace};
 use crate::forces::HessianKind;
 use crate::model::damping::DampingRates;
-use crate::number::Real;
 use crate::solvers::Assembly;
-use crate::sparse::Block;
-use crate::vector::clear;
+use fem_elements::Real;
+use fem_elements::sparse::Block;
+use fem_elements::vector::clear;
 
 impl<T: Real> IncrementalPotential<'_, T> {
     /// ∂²E/∂w², N/m.

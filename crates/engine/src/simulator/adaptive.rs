@@ -7,9 +7,9 @@
 use fem_scene::simulation::{Cause, Failure, History};
 
 use super::Simulator;
-use crate::history::{put_option, take, take_option};
 use crate::integrators::Convergence;
-use crate::number::Real;
+use fem_elements::Real;
+use fem_elements::history::{put_option, take, take_option};
 
 /// Part of the step that the last estimate would allow.
 const SAFETY: f64 = 0.9;

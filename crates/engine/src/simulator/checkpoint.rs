@@ -4,7 +4,7 @@ use fem_scene::simulation::{Checkpoint, History, Simulation};
 
 use super::{Compiled, Simulator};
 use crate::forces::Moment;
-use crate::history::{put, take};
+use fem_elements::history::{put, take};
 
 /// The checkpoint of a simulator, in the mesh's numbering; the history is in the engine's.
 pub(super) fn of<T: Compiled>(simulator: &Simulator<T>) -> Checkpoint {

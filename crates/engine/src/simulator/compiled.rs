@@ -10,7 +10,7 @@ use nalgebra::Matrix3;
 use super::Simulator;
 use crate::integrators::critical_time_step;
 use crate::model::system::OwnForces;
-use crate::number::Real;
+use fem_elements::Real;
 
 /// A number type that the engine simulates in: `f32` or `f64`. Its functions are the bodies of [`Simulator`]'s of the same names.
 pub trait Compiled: Real {

@@ -8,11 +8,11 @@ use super::Simulator;
 use crate::forces::contact::barrier::Barrier;
 use crate::forces::contact::friction::{norm, slope_over_y, tangential};
 use crate::forces::contact::planes::Planes;
-use crate::history::{put, take};
 use crate::integrators::{Convergence, Impulses, PlaneContacts};
 use crate::model::system::System;
-use crate::number::Real;
-use crate::vector::triple;
+use fem_elements::Real;
+use fem_elements::history::{put, take};
+use fem_elements::vector::triple;
 
 /// Relative change of lagged forces at which they no longer change, and the one up to which they may change by rounding error.
 const CONVERGED: f64 = 1e-6;

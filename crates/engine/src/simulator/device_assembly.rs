@@ -3,7 +3,7 @@
 use fem_scene::{Body, Integrator as IntegratorKind, Method, Projection};
 
 use crate::model::system::System;
-use crate::number::Real;
+use fem_elements::Real;
 
 /// The laws that the device knows.
 pub(crate) const LAWS: [&str; 5] = ["linear", "corotated", "st_venant_kirchhoff", "neo_hookean", "stable_neo_hookean"];

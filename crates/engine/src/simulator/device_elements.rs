@@ -4,11 +4,12 @@ use fem_gpu::{Law, Tetrahedra};
 use fem_mesh::TetrahedralMesh;
 
 use crate::integrators::shape;
-use crate::materials::AnyLaw;
 use crate::model::system::System;
-use crate::number::{Number, Real};
 use crate::solvers::DeviceElements;
-use crate::sparse::{Block, Pattern};
+use fem_elements::Real;
+use fem_elements::materials::AnyLaw;
+use fem_elements::number::Number;
+use fem_elements::sparse::{Block, Pattern};
 
 /// A law and its parameters (Pa), if the device knows it.
 pub(crate) fn law<L: Number>(law: &AnyLaw<L>) -> Option<(Law, [f64; 2])> {

@@ -7,12 +7,12 @@
 use fem_scene::simulation::{Cause, History};
 
 use crate::forces::{Moment, Potential};
-use crate::history::{put_option, take, take_option};
 use crate::integrators::Integrator;
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::number::Real;
-use crate::vector::{dot, triple};
+use fem_elements::Real;
+use fem_elements::history::{put_option, take, take_option};
+use fem_elements::vector::{dot, triple};
 
 /// Energy over supplied energy beyond which a motion has diverged, or a step has not converged. The margin is for the work of loads, which is summed by
 /// a rule of first order.

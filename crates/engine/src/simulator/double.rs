@@ -8,11 +8,11 @@ use fem_scene::simulation::{Breakdown, Cause};
 
 use crate::forces::{Energy, HessianKind, Moment};
 use crate::integrators::MassInverse;
-use crate::materials::AnyLaw;
 use crate::model::system;
 use crate::solvers::{self, SolverChoice};
-use crate::sparse::Block;
-use crate::tensor::{Tensor, Tensor4};
+use fem_elements::materials::AnyLaw;
+use fem_elements::sparse::Block;
+use fem_elements::tensor::{Tensor, Tensor4};
 
 /// A body in double precision.
 pub type System = system::System<f64>;
@@ -70,7 +70,7 @@ pub fn solve_mass(
 
 /// The stress derivative of a law at a displacement gradient.
 pub fn stress_derivative(law: &AnyLaw<f64>, G: &Tensor<f64>) -> Tensor4<f64> {
-    law.as_law().derivative(G)
+    <f64 as fem_elements::Real>::law(law).derivative(G)
 }
 
 /// A solver for the matrices of a body.

@@ -9,12 +9,12 @@ use crate::integrators::{
 };
 use crate::model::system::System;
 use crate::newton::{Newton, NewtonLimits};
-use crate::number::Real;
 use crate::refusal::Refusal;
 use crate::simulator::device_assembly;
 #[cfg(feature = "gpu")]
 use crate::simulator::device_elements;
 use crate::solvers::{Preconditioner, Solver, SolverChoice, unusable_device};
+use fem_elements::Real;
 
 /// Smallest relative residual that a linear solver can be asked for, in units of the machine epsilon.
 const SMALLEST_RESIDUAL: f64 = 8.0;

@@ -3,8 +3,8 @@
 use fem_scene::Method;
 
 use crate::forces::{Forces, anchors, dead_load, springs};
-use crate::number::Real;
 use crate::refusal::Refusal;
+use fem_elements::Real;
 
 /// Refuses forces that a method which moves nodes one by one does not know: those of a program's own.
 pub(super) fn check_forces<T: Real>(method: &Method, forces: &Forces<T>) -> Result<(), Refusal> {

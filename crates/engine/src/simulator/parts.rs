@@ -4,7 +4,7 @@ use fem_scene::simulation::Part;
 
 use super::Simulator;
 use crate::forces::anchors;
-use crate::number::Real;
+use fem_elements::Real;
 
 /// Bytes, and uses with their seconds.
 type Cost = (usize, (usize, f64));

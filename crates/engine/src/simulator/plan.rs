@@ -6,10 +6,10 @@ use fem_scene::{
 };
 
 use crate::forces::{self, Potential, contact};
-use crate::number::Real;
-use crate::plasticity;
 use crate::simulator::device_assembly;
 use crate::solvers::SolverChoice;
+use fem_elements::Real;
+use fem_elements::plasticity;
 
 /// Bytes, uses and seconds, which only a simulation knows.
 const NO_COST: (usize, f64) = (0, 0.0);

@@ -3,10 +3,11 @@
 use fem_scene::{Material, Method, Precision};
 
 use super::integrator::SMALLEST_TOLERANCE;
-use crate::materials::AnyLaw;
 use crate::model::system::System;
-use crate::number::{Real, is_positive};
 use crate::refusal::Refusal;
+use fem_elements::Real;
+use fem_elements::materials::AnyLaw;
+use fem_elements::number::is_positive;
 
 /// Refuses a tolerance of Newton's method that rounding error does not let it reach: it would iterate to its limit in every step.
 pub(super) fn check_tolerance(method: &Method, epsilon: f64) -> Result<(), Refusal> {

@@ -15,8 +15,8 @@ use super::{Compiled, Simulator, checkpoint, parts};
 use crate::boundary::reactions::{reactions, reactions_at};
 use crate::integrators::LastStage;
 use crate::model::state::State;
-use crate::number::Real;
 use crate::pick;
+use fem_elements::Real;
 
 impl<T: Compiled> Simulation for Simulator<T> {
     fn name(&self) -> &str {
@@ -116,7 +116,7 @@ impl<T: Compiled> Simulation for Simulator<T> {
     }
 
     fn has_stress(&self) -> bool {
-        self.system.elements.count > 0
+        self.system.elements.count() > 0
     }
 
     fn stresses(&self) -> Vec<Matrix3<f64>> {
@@ -214,7 +214,7 @@ impl<T: Compiled> Simulation for Simulator<T> {
 
 impl<T: Real> Simulator<T> {
     pub(super) fn min_J_now(&self) -> (f64, usize) {
-        if self.system.elements.count == 0 {
+        if self.system.elements.count() == 0 {
             let of_elements = self.det_F_of_mesh().enumerate().map(|(element, J)| (J, element));
             return of_elements.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0));
         }
@@ -223,7 +223,7 @@ impl<T: Real> Simulator<T> {
     }
 
     pub(super) fn inverted_elements_now(&self) -> usize {
-        if self.system.elements.count == 0 {
+        if self.system.elements.count() == 0 {
             return self.det_F_of_mesh().filter(|J| *J <= 0.0).count();
         }
         self.system.elements.inverted(&self.state.u)

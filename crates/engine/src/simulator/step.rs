@@ -4,7 +4,7 @@ use fem_scene::simulation::Failure;
 
 use super::Simulator;
 use crate::integrators::Convergence;
-use crate::number::Real;
+use fem_elements::Real;
 
 /// From this many nodes on several threads share the work of a step.
 const NODES_FOR_THREADS: usize = 2000;

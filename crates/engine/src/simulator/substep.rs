@@ -5,7 +5,7 @@ use fem_scene::simulation::{Cause, Failure};
 use super::Simulator;
 use crate::integrators::Convergence;
 use crate::model::system::System;
-use crate::number::Real;
+use fem_elements::Real;
 
 /// Smallest part of a substep with inverted elements that is tried.
 const SMALLEST: f64 = 1.0 / 64.0;

@@ -3,7 +3,7 @@
 #[cfg(feature = "gpu")]
 use fem_gpu::{Law, Tetrahedra};
 
-use crate::sparse::Block;
+use fem_elements::sparse::Block;
 
 /// Σ f K(u) + m M + others, with zero beside the diagonal in constrained directions.
 pub struct Assembly<'a, T> {

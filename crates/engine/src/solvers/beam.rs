@@ -5,8 +5,8 @@ use std::sync::Arc;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::model::numbering::{Numbering, Ordering};
-use crate::number::Real;
-use crate::sparse::{Pattern, Stored};
+use fem_elements::Real;
+use fem_elements::sparse::{Pattern, Stored};
 use fem_mesh::box_mesh;
 
 /// Young's modulus in Pa, Poisson's ratio, density in kg/m³.
@@ -56,7 +56,7 @@ impl Beam {
                 }
             }
         }
-        values.into_iter().map(|block: [[f64; 3]; 3]| block.map(|row| row.map(<T as Real>::of))).collect()
+        values.into_iter().map(|block: [[f64; 3]; 3]| block.map(|row| row.map(T::of))).collect()
     }
 
     fn add(&self, values: &mut [[[f64; 3]; 3]], [row, column]: [u32; 2], entry: &Matrix3<f64>) {
@@ -76,7 +76,7 @@ impl Beam {
 /// Gradients of the four shape functions, and the volume.
 fn shape(x: &[Vector3<f64>; 4]) -> ([Vector3<f64>; 4], f64) {
     let edges = Matrix3::from_columns(&[x[1] - x[0], x[2] - x[0], x[3] - x[0]]);
-    let inverse = crate::tensor::inverse(&edges);
+    let inverse = fem_elements::tensor::inverse(&edges);
     let rows = [0, 1, 2].map(|row| inverse.row(row).transpose());
     ([-(rows[0] + rows[1] + rows[2]), rows[0], rows[1], rows[2]], edges.determinant() / 6.0)
 }
@@ -95,7 +95,7 @@ pub fn random<T: Real>(nodes: usize, seed: u64) -> Vec<[T; 3]> {
         state ^= state << 13;
         state ^= state >> 7;
         state ^= state << 17;
-        <T as Real>::of((state >> 11) as f64 / (1u64 << 52) as f64 - 1.0)
+        T::of((state >> 11) as f64 / (1u64 << 52) as f64 - 1.0)
     };
     (0..nodes).map(|_| [number(), number(), number()]).collect()
 }

@@ -1,12 +1,12 @@
 //! Cholesky factors and inverses of dense D×D blocks.
 
-use crate::number::Real;
-use crate::sparse::Block;
+use fem_elements::number::Float;
+use fem_elements::sparse::Block;
 use fem_scene::simulation::Breakdown;
 
 /// Inverse L⁻ᵀ L⁻¹ of a symmetric positive definite block, from its lower triangle.
 #[inline(always)]
-pub(crate) fn invert<T: Real, const D: usize>(A: &Block<T, D>) -> Result<Block<T, D>, Breakdown> {
+pub(crate) fn invert<T: Float, const D: usize>(A: &Block<T, D>) -> Result<Block<T, D>, Breakdown> {
     let inverse_L = invert_lower(&factor(A)?);
     let mut inverse = [[T::default(); D]; D];
     for i in 0..D {
@@ -21,7 +21,7 @@ pub(crate) fn invert<T: Real, const D: usize>(A: &Block<T, D>) -> Result<Block<T
 
 /// The factor L of A = L Lᵀ, from the lower triangle of A.
 #[inline(always)]
-pub(crate) fn factor<T: Real, const D: usize>(A: &Block<T, D>) -> Result<Block<T, D>, Breakdown> {
+pub(crate) fn factor<T: Float, const D: usize>(A: &Block<T, D>) -> Result<Block<T, D>, Breakdown> {
     let mut L = [[T::default(); D]; D];
     for j in 0..D {
         let mut pivot = A[j][j];
@@ -42,7 +42,7 @@ pub(crate) fn factor<T: Real, const D: usize>(A: &Block<T, D>) -> Result<Block<T
 
 /// √pivot. Fails unless the pivot exceeds the round-off of the diagonal entry from which contributions were subtracted.
 #[inline(always)]
-pub(crate) fn sqrt_pivot<T: Real>(pivot: T, entry: T) -> Result<T, Breakdown> {
+pub(crate) fn sqrt_pivot<T: Float>(pivot: T, entry: T) -> Result<T, Breakdown> {
     if !pivot.is_finite() || !entry.is_finite() {
         return Err(Breakdown::Singular);
     }
@@ -56,7 +56,7 @@ pub(crate) fn sqrt_pivot<T: Real>(pivot: T, entry: T) -> Result<T, Breakdown> {
 
 /// Inverse of a lower triangular block.
 #[inline(always)]
-pub(crate) fn invert_lower<T: Real, const D: usize>(L: &Block<T, D>) -> Block<T, D> {
+pub(crate) fn invert_lower<T: Float, const D: usize>(L: &Block<T, D>) -> Block<T, D> {
     let mut inverse = [[T::default(); D]; D];
     for j in 0..D {
         inverse[j][j] = T::one() / L[j][j];

@@ -5,7 +5,7 @@ use std::fmt;
 pub use fem_scene::Preconditioner;
 
 use crate::model::numbering::Ordering;
-use crate::sparse::Stored;
+use fem_elements::sparse::Stored;
 use fem_scene::{Precision, SolverKind, SolverSettings};
 
 /// A method to solve linear systems.

@@ -3,8 +3,8 @@
 use super::assembly::Assembly;
 #[cfg(feature = "gpu")]
 use super::assembly::DeviceElements;
-use crate::number::Real;
-use crate::sparse::Block;
+use fem_elements::Real;
+use fem_elements::sparse::Block;
 use fem_scene::simulation::{Breakdown, History};
 
 /// An approximate inverse P⁻¹ of a matrix A: a factor, which is exact up to round-off, or a preconditioner. It is created for

@@ -93,7 +93,7 @@ fn halves<'a>(rows: &Range<usize>, columns: &impl Fn(usize) -> &'a [u32]) -> Opt
 mod tests {
     use super::Part;
     use crate::solvers::beam::Beam;
-    use crate::sparse::{Pattern, Stored};
+    use fem_elements::sparse::{Pattern, Stored};
 
     fn parts(pattern: &Pattern) -> Part {
         Part::new(pattern.rows(), |row| &pattern.columns[pattern.row(row)])

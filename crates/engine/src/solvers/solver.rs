@@ -14,9 +14,9 @@ use super::krylov::{
 };
 use super::parts::Part;
 use super::preconditioners::{BlockJacobi, Identity, IncompleteCholesky, Multigrid, Ssor};
-use crate::history::{put_flag, take_flag};
-use crate::number::Real;
-use crate::sparse::{Block, Pattern};
+use fem_elements::Real;
+use fem_elements::history::{put_flag, take_flag};
+use fem_elements::sparse::{Block, Pattern};
 use fem_scene::Timer;
 use fem_scene::simulation::{Breakdown, History};
 

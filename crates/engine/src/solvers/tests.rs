@@ -3,8 +3,8 @@
 use super::beam::{Beam, random};
 use super::krylov::{parts, product};
 use super::{Preconditioner, Solver, SolverChoice};
-use crate::number::Real;
-use crate::vector::{dot, norm, subtract_from};
+use fem_elements::Real;
+use fem_elements::vector::{dot, norm, subtract_from};
 use fem_scene::simulation::Breakdown;
 
 /// Those for teaching have tests of their own.

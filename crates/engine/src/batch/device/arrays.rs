@@ -5,9 +5,9 @@ use fem_scene::{Body, BodyMesh, Material, Scene};
 
 use crate::forces::{Moment, dead_load};
 use crate::integrators::color_nodes;
-use crate::materials::AnyLaw;
 use crate::model::system::System;
 use crate::simulator::device_elements;
+use fem_elements::materials::AnyLaw;
 
 /// The law of a material with its parameters, if the device knows it.
 pub(super) fn law(material: &Material) -> Option<(Law, [f64; 2])> {

@@ -11,11 +11,11 @@ use fem_scene::{Body, Method, Precision, Scene, SceneError};
 use nalgebra::Vector3;
 
 use super::{EnvironmentFailure, EnvironmentState, Environments, body_of};
-use crate::materials::AnyLaw;
 use crate::model::numbering::Numbering;
 use crate::model::system::System;
 use crate::simulator::{Compiled, Simulator};
 use crate::solvers::open_device;
+use fem_elements::materials::AnyLaw;
 
 /// Builds the environments of a scene on the device in a precision.
 pub(super) fn build(scene: &Scene, body: &Body, precision: Precision) -> Result<Box<dyn Environments>, SceneError> {

@@ -6,9 +6,9 @@
 use fem_scene::Body;
 
 use crate::forces::mass_spring;
-use crate::materials::AnyLaw;
 use crate::model::numbering::Numbering;
-use crate::vector::triple;
+use fem_elements::materials::AnyLaw;
+use fem_elements::vector::triple;
 
 /// The barrier of a body.
 #[derive(Clone, Debug)]

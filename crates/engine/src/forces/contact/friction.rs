@@ -10,9 +10,9 @@ use super::barrier::Barrier;
 use super::planes::Planes;
 use crate::forces::{Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
-use crate::number::Real;
-use crate::sparse::{Block, Pattern};
-use crate::vector::triple;
+use fem_elements::Real;
+use fem_elements::sparse::{Block, Pattern};
+use fem_elements::vector::triple;
 
 /// Key in the statistics.
 pub const NAME: &str = "friction";

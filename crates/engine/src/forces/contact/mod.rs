@@ -9,9 +9,9 @@ use fem_scene::{Body, ContactTreatment};
 
 use super::{Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
-use crate::number::Real;
-use crate::sparse::{Block, Pattern};
 use barrier::Barrier;
+use fem_elements::Real;
+use fem_elements::sparse::{Block, Pattern};
 use planes::Planes;
 
 /// Key in the statistics.
@@ -159,7 +159,8 @@ impl<T: Real> Potential<T> for Contact {
 
     fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
         let Barrier { distance, stiffness, .. } = &self.barrier;
-        let fits = crate::number::is_positive(T::of(*distance)) && crate::number::is_positive(T::of(*stiffness));
+        let fits =
+            fem_elements::number::is_positive(T::of(*distance)) && fem_elements::number::is_positive(T::of(*stiffness));
         (!fits).then_some(("contact", "a stiffness of the barrier"))
     }
 }

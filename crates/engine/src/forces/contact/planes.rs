@@ -3,7 +3,7 @@
 use fem_scene::{Body, ContactPlane};
 
 use crate::model::numbering::Numbering;
-use crate::number::Real;
+use fem_elements::Real;
 
 /// The obstacles of a body, with what the distances of its nodes need. Nodes have the engine's numbers.
 #[derive(Clone, Debug)]

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use nalgebra::{Vector2, Vector3};
 
-use crate::number::Real;
+use fem_elements::Real;
 
 /// Edges with the body on their left.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use nalgebra::Vector3;
 
-use crate::number::Real;
-use crate::vector::triple;
+use fem_elements::Real;
+use fem_elements::vector::triple;
 
 /// Triangles whose normals point outward.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,8 +7,9 @@ use fem_scene::Body;
 
 use super::{Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
-use crate::number::{Real, is_positive};
-use crate::sparse::{Block, Pattern};
+use fem_elements::Real;
+use fem_elements::number::is_positive;
+use fem_elements::sparse::{Block, Pattern};
 pub use spring::Spring;
 
 /// Key in the statistics.

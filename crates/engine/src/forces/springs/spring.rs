@@ -4,9 +4,9 @@ use fem_scene::Body;
 
 use crate::forces::{Energy, HessianKind};
 use crate::model::numbering::Numbering;
-use crate::number::Real;
-use crate::sparse::{Block, Pattern};
-use crate::vector::triple;
+use fem_elements::Real;
+use fem_elements::sparse::{Block, Pattern};
+use fem_elements::vector::triple;
 
 /// A spring between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,7 +9,7 @@ use super::patches::Patches;
 use super::search::Change;
 use super::sums::Sums;
 use crate::model::system::System;
-use crate::number::Real;
+use fem_elements::Real;
 
 /// The elements of one material around the nodes.
 pub(super) enum Group<T: Real> {

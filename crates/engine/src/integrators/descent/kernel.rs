@@ -8,9 +8,10 @@ use pulp::{Simd, WithSimd};
 use super::search::Change;
 use super::slot::Slot;
 use super::sums::{Sums, UPPER};
-use crate::materials::{Law, OfInvariants, OfRotation, Terms};
-use crate::number::{Lanes, Real};
-use crate::tensor::{Tensor, Tensor4, cofactor, half, plus_identity, volume_change, zero};
+use fem_elements::materials::{Law, OfInvariants, OfRotation, Terms};
+use fem_elements::number::Float;
+use fem_elements::number::Lanes;
+use fem_elements::tensor::{Tensor, Tensor4, cofactor, half, plus_identity, volume_change, zero};
 
 /// Adds gradients and blocks of batches of one colour.
 pub(super) struct SumsOf<'a, L: Lanes, W: Law<L> + ?Sized, const E: usize> {
@@ -23,7 +24,7 @@ pub(super) struct SumsOf<'a, L: Lanes, W: Law<L> + ?Sized, const E: usize> {
     /// Nodes of the batches.
     pub lanes: &'a [u32],
     pub u: &'a [[L::Element; 3]],
-    pub sums: &'a mut [Sums<<L::Element as Real>::Lanes>],
+    pub sums: &'a mut [Sums<<L::Element as Float>::Lanes>],
 }
 
 impl<L: Lanes, W: Law<L> + ?Sized, const E: usize> WithSimd for SumsOf<'_, L, W, E> {
@@ -221,7 +222,7 @@ fn linear_stress<L: Lanes>(H: &Tensor4<L>, G: &Tensor<L>) -> Tensor<L> {
 /// ½ G:H G
 #[inline(always)]
 fn linear_energy<L: Lanes>(H: &Tensor4<L>, G: &Tensor<L>) -> L {
-    half::<L>() * crate::tensor::dot(G, &linear_stress(H, G))
+    half::<L>() * fem_elements::tensor::dot(G, &linear_stress(H, G))
 }
 
 /// a |∇φ|² 1 + s f⊗f + t (f⊗c + c⊗f) + r c⊗c with f = F ∇φ and c = cof ∇φ: that of ∂cof/∂F vanishes.

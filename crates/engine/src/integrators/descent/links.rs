@@ -6,7 +6,8 @@ use super::sums::{Sums, UPPER};
 use crate::forces::HessianKind;
 use crate::forces::anchors::Anchors;
 use crate::forces::springs::Spring;
-use crate::number::{Number, Real};
+use fem_elements::Real;
+use fem_elements::number::Number;
 
 /// The springs of a body, with the places of their ends.
 pub(super) struct Links<T: Real> {

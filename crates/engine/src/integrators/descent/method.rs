@@ -13,7 +13,8 @@ use super::solve::{Inertia, Steps, StepsOf, inverse_block};
 use super::sums::Sums;
 use crate::integrators::relaxation::{PlaneContacts, Relaxation, StepOf};
 use crate::model::system::System;
-use crate::number::{Number, Real};
+use fem_elements::Real;
+use fem_elements::number::Number;
 
 /// A body whose nodes descend one after the other.
 pub struct Descent<T: Real> {

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use crate::number::{Number, Real};
+use fem_elements::Real;
+use fem_elements::number::Number;
 
 /// Batches of nodes that a thread takes at a time.
 pub(super) const CHUNK: usize = 16;

@@ -12,10 +12,11 @@ use super::slot::Slot;
 use super::sums::Sums;
 
 use crate::integrators::projection::shape;
-use crate::materials::Law;
-use crate::model::solids::LawWork;
 use crate::model::system::System;
-use crate::number::{Lanes, Number, Real};
+use fem_elements::Real;
+use fem_elements::materials::Law;
+use fem_elements::number::{Lanes, Number};
+use fem_elements::solids::LawWork;
 
 /// The elements of one material around all nodes.
 pub(super) struct Patches<T: Real, const E: usize> {
@@ -83,7 +84,7 @@ impl<T: Real, const E: usize> Patches<T, E> {
         u: &[[T; 3]],
         sums: &mut [Sums<T::Lanes>],
     ) {
-        system.elements.with_law(self.material, SumsOfColor { patches: self, nodes, color, u, sums });
+        system.elements.law_in_lanes(self.material).run(SumsOfColor { patches: self, nodes, color, u, sums });
     }
 
     /// Adds the changes of the elements' energy at these batches as their nodes move.
@@ -95,7 +96,7 @@ impl<T: Real, const E: usize> Patches<T, E> {
         u: &[[T; 3]],
         changes: &mut [Change<T>],
     ) {
-        system.elements.with_law(self.material, ChangesOfBatches { patches: self, nodes, batches, u, changes });
+        system.elements.law_in_lanes(self.material).run(ChangesOfBatches { patches: self, nodes, batches, u, changes });
     }
 
     /// Memory, bytes.

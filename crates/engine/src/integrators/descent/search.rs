@@ -1,7 +1,8 @@
 //! Lengths of steps that Newton's method for one node does not vouch for: the energy around the node must not rise.
 
 use super::solve::Inertia;
-use crate::number::{Number, Real};
+use fem_elements::number::Float;
+use fem_elements::number::Number;
 
 /// Most halvings of a step; a node that needs more stays in this sweep.
 pub(super) const HALVINGS: usize = 16;
@@ -11,7 +12,7 @@ const ROUNDING: f64 = 16.0;
 
 /// A step of the nodes of a batch, and the change of the energy around each node that it makes.
 #[derive(Clone, Copy)]
-pub(super) struct Change<T: Real> {
+pub(super) struct Change<T: Float> {
     /// m
     pub step: [T::Lanes; 3],
     /// J
@@ -20,7 +21,7 @@ pub(super) struct Change<T: Real> {
     pub size: T::Lanes,
 }
 
-impl<T: Real> Change<T> {
+impl<T: Float> Change<T> {
     /// A step whose change of energy is not known yet.
     pub fn of(step: [T::Lanes; 3]) -> Self {
         Self { step, energy: T::Lanes::zero(), size: T::Lanes::zero() }
@@ -84,18 +85,18 @@ impl<T: Real> Change<T> {
 }
 
 /// |x|
-pub(super) fn magnitude<T: Real>(x: T) -> T {
+pub(super) fn magnitude<T: Float>(x: T) -> T {
     if x < T::default() { -x } else { x }
 }
 
 #[cfg(test)]
 mod tests {
     use super::Change;
-    use crate::number::{Number, Real};
+    use fem_elements::number::{Float, Number};
 
     #[test]
     fn steps_that_raise_the_energy_are_halved_and_at_last_taken_back() {
-        let mut change = Change::<f64>::of([<f64 as Real>::Lanes::one(); 3]);
+        let mut change = Change::<f64>::of([<f64 as Float>::Lanes::one(); 3]);
         change.add(0, 1.0, 1.0);
         change.add(1, -1.0, 1.0);
         change.add(2, f64::INFINITY, 1.0);
@@ -111,7 +112,7 @@ mod tests {
 
     #[test]
     fn a_step_to_an_infinite_energy_is_halved_though_its_terms_are_infinite() {
-        let mut change = Change::<f64>::of([<f64 as Real>::Lanes::one(); 3]);
+        let mut change = Change::<f64>::of([<f64 as Float>::Lanes::one(); 3]);
         change.add(1, f64::INFINITY, f64::INFINITY);
         assert!(change.shorten(false));
         assert_eq!([0, 1].map(|lane| change.in_lane(lane)[0]), [1.0, 0.5]);

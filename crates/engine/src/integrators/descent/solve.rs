@@ -4,8 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 use pulp::{Simd, WithSimd};
 
 use super::sums::{Sums, UPPER};
-use crate::number::{Lanes, Number, Real, constant};
-use crate::tensor::inverse;
+use fem_elements::number::Float;
+use fem_elements::number::{Lanes, Number, constant};
+use fem_elements::tensor::inverse;
 
 /// Smallest pivot of a block that is solved as it is, as a part of its diagonal entry.
 const SMALLEST_PIVOT: f64 = 1e-5;
@@ -24,7 +25,7 @@ pub(super) struct Steps<L> {
 
 /// Inertia of the nodes of batches.
 #[derive(Clone, Copy)]
-pub(super) struct Inertia<'a, T: Real> {
+pub(super) struct Inertia<'a, T: Float> {
     /// Masses of each batch, kg; zero in constrained directions.
     pub masses: &'a [[T::Lanes; 3]],
     /// 1/Δt², 1/s².
@@ -38,8 +39,8 @@ pub(super) struct StepsOf<'a, L: Lanes> {
     pub inertia: Inertia<'a, L::Element>,
     pub lanes: &'a [u32],
     pub u: &'a [[L::Element; 3]],
-    pub sums: &'a mut [Sums<<L::Element as Real>::Lanes>],
-    pub steps: &'a mut [Steps<<L::Element as Real>::Lanes>],
+    pub sums: &'a mut [Sums<<L::Element as Float>::Lanes>],
+    pub steps: &'a mut [Steps<<L::Element as Float>::Lanes>],
 }
 
 impl<L: Lanes> WithSimd for StepsOf<'_, L> {
@@ -137,13 +138,13 @@ fn make_definite<L: Lanes>(weights: &[L; 3], sums: &mut Sums<L>) {
         let values = eigen.eigenvalues.map(|value| value.abs().max(least));
         let A = eigen.eigenvectors * Matrix3::from_diagonal(&values) * eigen.eigenvectors.transpose();
         for (k, (i, j)) in UPPER.into_iter().enumerate() {
-            sums.block[k].set_lane(lane, <L::Element as Real>::of(A[(i, j)]));
+            sums.block[k].set_lane(lane, <L::Element as Float>::of(A[(i, j)]));
         }
     }
 }
 
 /// The inverse of a node's block in its free directions, m/N; zero in constrained ones.
-pub(super) fn inverse_block<T: Real>(sums: &Sums<T::Lanes>, masses: &[T::Lanes; 3], lane: usize) -> Matrix3<f64> {
+pub(super) fn inverse_block<T: Float>(sums: &Sums<T::Lanes>, masses: &[T::Lanes; 3], lane: usize) -> Matrix3<f64> {
     let [a, d, f, b, c, e] = sums.block.map(|entry| entry.lane(lane).as_f64());
     let free = masses.map(|mass| if mass.lane(lane) > T::default() { 1.0 } else { 0.0 });
     let inverse = inverse(&Matrix3::new(a, b, c, b, d, e, c, e, f));

@@ -1,6 +1,7 @@
 //! Gradient and block of the incremental potential at the nodes of a batch.
 
-use crate::number::{Lanes, Number, Real};
+use fem_elements::number::Float;
+use fem_elements::number::{Lanes, Number};
 
 /// Rows and columns of the upper half of a block, in the order in which its entries are kept.
 pub(super) const UPPER: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
@@ -28,7 +29,7 @@ impl<L: Number> Sums<L> {
 impl<L: Lanes> Sums<L> {
     /// A part of stored sums.
     #[inline(always)]
-    pub fn load(stored: &Sums<<L::Element as Real>::Lanes>, part: usize) -> Self {
+    pub fn load(stored: &Sums<<L::Element as Float>::Lanes>, part: usize) -> Self {
         let (one, mut sums) = (L::one(), Self::zero());
         for i in 0..3 {
             sums.gradient[i] = one.load(&stored.gradient[i], part);
@@ -42,7 +43,7 @@ impl<L: Lanes> Sums<L> {
 
     /// Replaces a part of stored sums.
     #[inline(always)]
-    pub fn store(&self, stored: &mut Sums<<L::Element as Real>::Lanes>, part: usize) {
+    pub fn store(&self, stored: &mut Sums<<L::Element as Float>::Lanes>, part: usize) {
         for i in 0..3 {
             self.gradient[i].store(&mut stored.gradient[i], part);
         }

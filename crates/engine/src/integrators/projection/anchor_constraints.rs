@@ -1,7 +1,7 @@
 //! Constraints of anchor springs, `[drag]` and the pull of a user: a node to a point in space, with the compliance 1/k.
 
 use crate::forces::anchors::Anchors;
-use crate::number::Real;
+use fem_elements::Real;
 
 /// The anchor springs of a step.
 pub(super) struct AnchorConstraints<T> {

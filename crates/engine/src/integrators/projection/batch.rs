@@ -1,12 +1,14 @@
 //! Batches of elements without common nodes, one in each SIMD lane.
 
 use crate::model::system::System;
-use crate::number::{Number, Real};
-use crate::tensor::{Tensor, zero};
+use fem_elements::Real;
+use fem_elements::number::Float;
+use fem_elements::number::Number;
+use fem_elements::tensor::{Tensor, zero};
 
 /// As many elements as there are lanes, with no common node.
 #[derive(Clone)]
-pub(super) struct Batch<T: Real, const N: usize> {
+pub(super) struct Batch<T: Float, const N: usize> {
     /// Gradients of the shape functions of all nodes, 1/m; the third direction of triangles is zero.
     pub gradients: [[T::Lanes; 3]; N],
     /// Volume, m³; zero in lanes without an element.
@@ -36,7 +38,7 @@ pub fn shape<T: Real, const N: usize>(system: &System<T>, corners: &[u32; N], fa
         edges.set_column(e - 1, &(x(e) - x(0)));
     }
     let determinant = edges.determinant();
-    let cofactors = crate::tensor::cofactor(&crate::tensor::from_fn(|i, j| edges[(i, j)]));
+    let cofactors = fem_elements::tensor::cofactor(&fem_elements::tensor::from_fn(|i, j| edges[(i, j)]));
     let mut gradients = [[0.0; 3]; N];
     for e in 1..N {
         for j in 0..3 {
@@ -49,7 +51,7 @@ pub fn shape<T: Real, const N: usize>(system: &System<T>, corners: &[u32; N], fa
 }
 
 /// A batch of elements of these shapes, still without masses.
-pub(super) fn batch<T: Real, const N: usize>(shapes: &[Option<Shape<N>>]) -> Batch<T, N> {
+pub(super) fn batch<T: Float, const N: usize>(shapes: &[Option<Shape<N>>]) -> Batch<T, N> {
     let nothing = T::Lanes::zero();
     let gradient = |lane: usize, a: usize, j: usize| shapes[lane].map_or(0.0, |shape| shape.gradients[a][j]);
     let mut batch = Batch {
@@ -69,7 +71,7 @@ pub(super) fn batch<T: Real, const N: usize>(shapes: &[Option<Shape<N>>]) -> Bat
 
 /// Cholesky's factor L of V Σ_a m_a⁻¹ ∇φ_a⊗∇φ_a for coordinate i. Constrained nodes leave the matrix singular, and a triangle does in
 /// its third direction: a column without a pivot is zero.
-pub(super) fn factor<T: Real, const N: usize>(batch: &Batch<T, N>, i: usize) -> Tensor<T::Lanes> {
+pub(super) fn factor<T: Float, const N: usize>(batch: &Batch<T, N>, i: usize) -> Tensor<T::Lanes> {
     let mut L = zero::<T::Lanes>();
     for lane in 0..T::WIDTH {
         let number = |x: &T::Lanes| x.lane(lane);

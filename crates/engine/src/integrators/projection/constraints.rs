@@ -9,7 +9,7 @@ use super::rule::{Rule, Sweep};
 use crate::forces::springs::Spring;
 use crate::integrators::relaxation::{PlaneContacts, Relaxation, StepOf};
 use crate::model::system::System;
-use crate::number::Real;
+use fem_elements::Real;
 
 /// The constraints of a body.
 pub struct Constraints<T: Real> {

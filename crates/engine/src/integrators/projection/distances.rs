@@ -4,8 +4,8 @@ use super::coloring::color;
 use super::rule::{Rule, Sweep};
 use crate::forces::HessianKind;
 use crate::forces::springs::Spring;
-use crate::number::Real;
-use crate::vector::{dot3, triple};
+use fem_elements::Real;
+use fem_elements::vector::{dot3, triple};
 
 /// Distance constraints in the order of their colours, each with what it adds up in a step.
 pub(super) struct Distances<T> {

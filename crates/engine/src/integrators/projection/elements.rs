@@ -8,11 +8,12 @@ use super::batch::{Batch, batch, factor, shape};
 use super::coloring::color;
 use super::kernel::CorrectionsOf;
 use super::rule::Sweep;
-use crate::materials::Law;
-use crate::model::solids::LawWork;
 use crate::model::system::System;
-use crate::number::{Lanes, Number, Real};
-use crate::tensor::zero;
+use fem_elements::Real;
+use fem_elements::materials::Law;
+use fem_elements::number::{Lanes, Number};
+use fem_elements::solids::LawWork;
+use fem_elements::tensor::zero;
 
 /// Batches that a thread corrects at a time.
 const CHUNK: usize = 16;
@@ -81,7 +82,7 @@ impl<T: Real, const N: usize> Elements<T, N> {
     /// Corrects the nodes of all elements, colour after colour.
     pub fn sweep(&mut self, system: &System<T>, sweep: Sweep, u: &mut [[T; 3]]) {
         let solids = &system.elements;
-        solids.with_law(self.material, ColorsOf { elements: self, sweep, u });
+        solids.law_in_lanes(self.material).run(ColorsOf { elements: self, sweep, u });
     }
 
     /// Memory, bytes.

@@ -6,9 +6,10 @@ use super::batch::Batch;
 use super::rule::{Rule, Sweep};
 use super::scalar::{by_energy, by_volume, inner};
 use super::stress::change_of_stress;
-use crate::materials::Law;
-use crate::number::{Lanes, Number, Real, constant};
-use crate::tensor::{Tensor, half, map, volume_change, zero};
+use fem_elements::materials::Law;
+use fem_elements::number::Float;
+use fem_elements::number::{Lanes, Number, constant};
+use fem_elements::tensor::{Tensor, half, map, volume_change, zero};
 
 /// Part of det F that a correction keeps at least, and most halvings of it.
 const KEPT: f64 = 0.1;
@@ -20,7 +21,7 @@ pub(super) struct CorrectionsOf<'a, L: Lanes, const N: usize> {
     pub allows_inversion: bool,
     pub sweep: Sweep,
     pub batches: &'a mut [Batch<L::Element, N>],
-    pub moves: &'a mut [[[<L::Element as Real>::Lanes; 3]; N]],
+    pub moves: &'a mut [[[<L::Element as Float>::Lanes; 3]; N]],
     pub corners: &'a [[u32; N]],
     pub u: &'a [[L::Element; 3]],
 }

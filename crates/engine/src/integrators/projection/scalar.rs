@@ -1,8 +1,8 @@
 //! Constraints of one number for an element: the energy of XPBD, the volume of PBD.
 
-use crate::materials::Law;
-use crate::number::{Lanes, Number, constant};
-use crate::tensor::{Tensor, cofactor, dot, map, plus_identity, volume_change};
+use fem_elements::materials::Law;
+use fem_elements::number::{Lanes, Number, constant};
+use fem_elements::tensor::{Tensor, cofactor, dot, map, plus_identity, volume_change};
 
 /// Part of the moduli below which an energy density is rounding error and has no direction.
 const NO_ENERGY: f64 = 1e-28;

@@ -7,9 +7,9 @@
 //! Newton's method for one element, ΔΠ = P(F) − Π + H ΔF with ΔF_i = −L_i L_iᵀ ΔΠ_i for each coordinate i, is symmetric in y = Lᵀ ΔΠ:
 //! (1 + Lᵀ H L) y = Lᵀ (P − Π), ΔΠ = P − Π − H L y.
 
-use crate::materials::Law;
-use crate::number::{Lanes, Number, constant};
-use crate::tensor::{Tensor, Tensor4, volume_change, zero};
+use fem_elements::materials::Law;
+use fem_elements::number::{Lanes, Number, constant};
+use fem_elements::tensor::{Tensor, Tensor4, volume_change, zero};
 
 /// Smallest pivot that makes the exact Hessian of an element good enough.
 const SMALLEST_PIVOT: f64 = 0.1;

@@ -15,7 +15,7 @@ use super::{Convergence, Integrator};
 use crate::forces::contact::planes::Planes;
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::number::Real;
+use fem_elements::Real;
 
 /// What a method does with the nodes of a body, once in each sweep.
 pub trait Relaxation<T: Real>: Send {

@@ -10,8 +10,8 @@ use crate::integrators::{Convergence, momentum};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::incremental_potential::{Increment, Inertia, StepEnd};
-use crate::number::Real;
-use crate::vector::{axpy, max_norm, triple};
+use fem_elements::Real;
+use fem_elements::vector::{axpy, max_norm, triple};
 
 /// Part of the minimum of det F at the start that displacements must keep where damping takes its stiffness.
 const KEPT: f64 = 0.5;

@@ -5,8 +5,8 @@ use super::scheme::Scheme;
 use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::number::Real;
-use crate::vector::{axpy, max_norm, scale, triple};
+use fem_elements::Real;
+use fem_elements::vector::{axpy, max_norm, scale, triple};
 use fem_scene::simulation::Cause;
 
 impl Scheme {

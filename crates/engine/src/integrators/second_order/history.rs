@@ -3,9 +3,9 @@
 use fem_scene::simulation::History;
 
 use super::coefficients::Combination;
-use crate::history::{put, put_option, take, take_option};
-use crate::number::Real;
-use crate::vector::axpy;
+use fem_elements::Real;
+use fem_elements::history::{put, put_option, take, take_option};
+use fem_elements::vector::axpy;
 
 /// The acceleration of a method that keeps one, and the last increment of a multistep method.
 #[derive(Clone, Debug, Default)]

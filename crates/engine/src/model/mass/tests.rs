@@ -1,7 +1,7 @@
 //! Masses of simplices and of quadratic triangles.
 
 use super::{ElementMass, Mass};
-use crate::sparse::{Pattern, Stored};
+use fem_elements::sparse::{Pattern, Stored};
 
 fn masses() -> [Mass<f64>; 4] {
     let (simplices, triangles) = ([[0, 1, 2, 3], [1, 2, 3, 4]], [[0, 1, 2, 3, 4, 5], [1, 6, 2, 7, 8, 4]]);

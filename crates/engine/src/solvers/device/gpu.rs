@@ -6,14 +6,14 @@ use fem_gpu::{BlockPattern, CoarseGrid, ConjugateGradients, Device, DeviceError,
 use fem_scene::Precision;
 use fem_scene::simulation::{Breakdown, History};
 
-use crate::history::{put_option, take_option};
-use crate::number::Real;
 use crate::solvers::ApproximateInverse;
 use crate::solvers::assembly::{Assembly, DeviceElements};
 use crate::solvers::block::invert;
 use crate::solvers::preconditioners::{Coarse, LowerHalf, single_precision_scale};
-use crate::sparse::{Block, Pattern};
-use crate::vector::norm;
+use fem_elements::Real;
+use fem_elements::history::{put_option, take_option};
+use fem_elements::sparse::{Block, Pattern};
+use fem_elements::vector::norm;
 
 /// The largest number of iterations of one correction.
 const MAX_ITERATIONS: usize = 2000;

@@ -15,9 +15,9 @@ pub use absent::{name, solver, unusable};
 mod absent {
     use fem_scene::Precision;
 
-    use crate::number::Real;
     use crate::solvers::ApproximateInverse;
-    use crate::sparse::Pattern;
+    use fem_elements::Real;
+    use fem_elements::sparse::Pattern;
 
     /// Name of the graphics device, or why there is none.
     pub fn name() -> Result<String, String> {

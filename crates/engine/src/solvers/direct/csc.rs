@@ -2,8 +2,8 @@
 
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 
-use crate::number::Real;
-use crate::sparse::{Block, Pattern, Stored};
+use fem_elements::Real;
+use fem_elements::sparse::{Block, Pattern, Stored};
 
 /// A matrix of scalars with a fixed sparsity pattern.
 pub(super) struct CscMatrix<T> {

@@ -11,10 +11,10 @@ use faer::sparse::linalg::cholesky::{
 use faer::{Conj, MatMut, Par, Side, Spec};
 
 use super::csc::CscMatrix;
-use crate::number::Real;
 use crate::solvers::ApproximateInverse;
 use crate::solvers::block::sqrt_pivot;
-use crate::sparse::{Block, Pattern};
+use fem_elements::Real;
+use fem_elements::sparse::{Block, Pattern};
 use fem_scene::simulation::Breakdown;
 
 /// From this many rows on the factorisation uses several threads.

@@ -6,9 +6,9 @@ use faer::sparse::linalg::lu::{LuRef, NumericLu, SymbolicLu, factorize_symbolic_
 use faer::{Conj, MatMut, Par, Spec};
 
 use super::csc::CscMatrix;
-use crate::number::Real;
 use crate::solvers::ApproximateInverse;
-use crate::sparse::{Block, Pattern};
+use fem_elements::Real;
+use fem_elements::sparse::{Block, Pattern};
 use fem_scene::simulation::Breakdown;
 
 /// The factors with their workspace.

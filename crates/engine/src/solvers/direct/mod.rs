@@ -15,9 +15,9 @@ pub(crate) use supernodal::SupernodalCholesky;
 use std::sync::Arc;
 
 use super::ApproximateInverse;
-use crate::number::Real;
-use crate::sparse::Pattern;
 use faer_cholesky::FaerCholesky;
+use fem_elements::Real;
+use fem_elements::sparse::Pattern;
 use single::SingleCholesky;
 
 /// Up to this many rows [`SupernodalCholesky`] is faster. On beams of 8 000 rows faer with two threads takes the same time.

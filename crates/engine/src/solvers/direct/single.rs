@@ -4,11 +4,11 @@
 use std::sync::Arc;
 
 use super::cholesky;
-use crate::number::Real;
 use crate::solvers::ApproximateInverse;
 use crate::solvers::krylov::{parts, product};
 use crate::solvers::parts::Part;
-use crate::sparse::{Block, Pattern};
+use fem_elements::Real;
+use fem_elements::sparse::{Block, Pattern};
 use fem_scene::simulation::Breakdown;
 
 /// Largest relative residual of a solution by the factor in single precision: iterations with a better one would not be fewer.
@@ -90,7 +90,7 @@ impl<T: Real> ApproximateInverse<T> for SingleCholesky<T> {
         if let Some(precise) = self.precise.as_mut().filter(|_| self.is_precise) {
             return precise.apply(r, z);
         }
-        let size = crate::vector::max_norm(r);
+        let size = fem_elements::vector::max_norm(r);
         if !(size > 0.0) {
             // Zero, or NaN.
             return z.copy_from_slice(r);

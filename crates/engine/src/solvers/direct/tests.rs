@@ -5,8 +5,8 @@ use super::single::SingleCholesky;
 use super::{SupernodalCholesky, cholesky};
 use crate::solvers::ApproximateInverse;
 use crate::solvers::beam::{Beam, random};
-use crate::sparse::Stored;
-use crate::vector::{norm, subtract_from};
+use fem_elements::sparse::Stored;
+use fem_elements::vector::{norm, subtract_from};
 
 #[test]
 fn both_cholesky_factors_give_the_same_solution() {

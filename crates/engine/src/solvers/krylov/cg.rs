@@ -1,8 +1,8 @@
 //! Preconditioned conjugate gradients: Hestenes and Stiefel, Methods of Conjugate Gradients for Solving Linear Systems (1952).
 
 use super::progress::{LinearSystem, Progress, max_iterations};
-use crate::number::Real;
-use crate::vector::{axpy, dot, norm, subtract_from, xpby};
+use fem_elements::Real;
+use fem_elements::vector::{axpy, dot, norm, subtract_from, xpby};
 use fem_scene::simulation::Breakdown;
 
 /// Vectors of the iteration: the residual r, the preconditioned residual z, the direction p and q = A p.

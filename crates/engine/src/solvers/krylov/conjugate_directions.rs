@@ -4,8 +4,8 @@
 
 use super::cg::Workspace;
 use super::progress::{LinearSystem, Progress, max_iterations};
-use crate::number::Real;
-use crate::vector::{axpy, dot, norm, subtract_from};
+use fem_elements::Real;
+use fem_elements::vector::{axpy, dot, norm, subtract_from};
 use fem_scene::simulation::Breakdown;
 
 /// A kept direction p.

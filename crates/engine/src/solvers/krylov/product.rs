@@ -5,9 +5,10 @@ use std::ops::Range;
 use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
-use crate::number::{Real, vectorized};
 use crate::solvers::parts::Part;
-use crate::sparse::{Block, Pattern, Stored};
+use fem_elements::Real;
+use fem_elements::number::vectorized;
+use fem_elements::sparse::{Block, Pattern, Stored};
 
 /// From this many rows on several threads share the rows. For fewer rows, waking the threads costs more than they save.
 const ROWS_FOR_THREADS: usize = 3000;
@@ -135,7 +136,7 @@ fn add_product<T: Real>(A: &Block<T, 3>, x: &[T; 3], y: &mut [T; 3]) {
 #[cfg(test)]
 mod tests {
     use crate::solvers::beam::{Beam, random};
-    use crate::sparse::{Block, Pattern, Stored};
+    use fem_elements::sparse::{Block, Pattern, Stored};
 
     fn product(pattern: &Pattern, values: &[Block<f64, 3>], x: &[[f64; 3]], y: &mut [[f64; 3]]) {
         super::product(pattern, &super::parts(pattern), values, x, y);

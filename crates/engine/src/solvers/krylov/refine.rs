@@ -2,8 +2,8 @@
 //! (1963).
 
 use super::cg::Workspace;
-use crate::number::Real;
-use crate::vector::{norm, subtract_from};
+use fem_elements::Real;
+use fem_elements::vector::{norm, subtract_from};
 use fem_scene::simulation::Breakdown;
 
 /// Outcome of the refinement.

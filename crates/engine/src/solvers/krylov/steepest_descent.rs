@@ -4,8 +4,8 @@
 
 use super::cg::Workspace;
 use super::progress::{LinearSystem, Progress};
-use crate::number::Real;
-use crate::vector::{axpy, dot, norm, subtract_from};
+use fem_elements::Real;
+use fem_elements::vector::{axpy, dot, norm, subtract_from};
 use fem_scene::simulation::Breakdown;
 
 /// Iterations after which the residual is computed from its definition, and not by recurrence.

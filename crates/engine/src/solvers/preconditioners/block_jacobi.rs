@@ -1,10 +1,10 @@
 //! The block Jacobi preconditioner: the inverse of each diagonal block.
 
-use crate::history::{put, take};
-use crate::number::Real;
 use crate::solvers::ApproximateInverse;
 use crate::solvers::block::invert;
-use crate::sparse::{Block, Pattern};
+use fem_elements::Real;
+use fem_elements::history::{put, take};
+use fem_elements::sparse::{Block, Pattern};
 use fem_scene::simulation::{Breakdown, History};
 
 /// The inverse of each diagonal block.

@@ -1,8 +1,8 @@
 //! No preconditioner: P = 1.
 
-use crate::number::Real;
 use crate::solvers::ApproximateInverse;
-use crate::sparse::Block;
+use fem_elements::Real;
+use fem_elements::sparse::Block;
 use fem_scene::simulation::Breakdown;
 
 /// P = 1.

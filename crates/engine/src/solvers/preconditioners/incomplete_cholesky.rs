@@ -3,12 +3,12 @@
 //! enlarged: Manteuffel, An Incomplete Factorization Technique for Positive Definite Linear Systems (1980).
 
 use super::lower_half::LowerHalf;
-use crate::history::{put, take};
-use crate::number::Real;
 use crate::solvers::ApproximateInverse;
 use crate::solvers::block::{factor, invert_lower};
-use crate::sparse::{Block, Pattern};
-use crate::vector::triple;
+use fem_elements::Real;
+use fem_elements::history::{put, take};
+use fem_elements::sparse::{Block, Pattern};
+use fem_elements::vector::triple;
 use fem_scene::simulation::{Breakdown, History};
 
 /// Relative shifts of the diagonal, tried one after the other until the factorisation succeeds.
@@ -163,7 +163,7 @@ mod tests {
     use super::IncompleteCholesky;
     use crate::solvers::ApproximateInverse;
     use crate::solvers::krylov::{parts, product};
-    use crate::sparse::{Pattern, Stored};
+    use fem_elements::sparse::{Pattern, Stored};
     use fem_scene::simulation::Breakdown;
 
     fn chain(off: f64) -> (Pattern, Vec<[[f64; 3]; 3]>) {

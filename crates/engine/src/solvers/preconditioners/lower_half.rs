@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::sparse::Pattern;
+use fem_elements::sparse::Pattern;
 
 /// Sparsity pattern of the blocks left of the diagonal.
 pub(in crate::solvers) struct LowerHalf {

@@ -16,8 +16,8 @@ pub(super) use ssor::Ssor;
 #[cfg(feature = "gpu")]
 pub(super) use {coarse::Coarse, lower_half::LowerHalf};
 
-use crate::number::Real;
-use crate::sparse::Block;
+use fem_elements::Real;
+use fem_elements::sparse::Block;
 use fem_scene::simulation::Breakdown;
 
 /// The factor that scales the largest diagonal entry of a positive definite matrix to 1, into the range of single precision.

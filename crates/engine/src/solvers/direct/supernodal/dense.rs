@@ -6,8 +6,9 @@ use std::ops::Range;
 
 use pulp::{Simd, WithSimd};
 
-use crate::number::{Packed, Real};
 use crate::solvers::block::sqrt_pivot;
+use fem_elements::number::Float;
+use fem_elements::number::Packed;
 use fem_scene::simulation::Breakdown;
 
 /// Columns that a kernel processes together.
@@ -40,7 +41,7 @@ pub struct Products<'a, T> {
     pub fresh: bool,
 }
 
-impl<T: Real> WithSimd for Products<'_, T> {
+impl<T: Float> WithSimd for Products<'_, T> {
     type Output = ();
 
     #[inline(always)]
@@ -63,7 +64,7 @@ impl<T: Real> WithSimd for Products<'_, T> {
     }
 }
 
-impl<T: Real> Products<'_, T> {
+impl<T: Float> Products<'_, T> {
     /// N columns of some rows.
     #[inline(always)]
     fn strip<S: Simd, const N: usize>(&mut self, simd: S, rows: Range<usize>, column: usize) {
@@ -146,7 +147,7 @@ impl<T: Packed, const N: usize> WithSimd for Divide<'_, T, N> {
 /// them. In the register of its diagonal entry a column of L is zero above the diagonal; entries farther up are meaningless.
 ///
 /// On entry `inverse` holds the diagonal of the sparse matrix, on return 1 / diagonal of L.
-pub fn factor_columns<T: Real, S: Simd>(
+pub fn factor_columns<T: Float, S: Simd>(
     simd: S,
     columns: &mut [T],
     stride: usize,
@@ -173,7 +174,7 @@ pub fn factor_columns<T: Real, S: Simd>(
 }
 
 /// Subtracts the contribution of the columns `done` from the columns `next`.
-fn subtract_columns<T: Real, S: Simd>(
+fn subtract_columns<T: Float, S: Simd>(
     simd: S,
     columns: &mut [T],
     stride: usize,
@@ -199,7 +200,7 @@ fn subtract_columns<T: Real, S: Simd>(
 }
 
 /// Factorises N columns, of which the first has its diagonal entry in row `first`.
-fn factor_block<T: Real, S: Simd, const N: usize>(
+fn factor_block<T: Float, S: Simd, const N: usize>(
     simd: S,
     C: &mut [T],
     stride: usize,
@@ -207,7 +208,7 @@ fn factor_block<T: Real, S: Simd, const N: usize>(
     inverse: &mut [T],
 ) -> Result<(), Breakdown> {
     // Registers begin at the same rows in all columns.
-    let from = first / <T as Real>::MAX_WIDTH * <T as Real>::MAX_WIDTH;
+    let from = first / <T as Float>::MAX_WIDTH * <T as Float>::MAX_WIDTH;
     let mut L = [[T::default(); N]; N];
     let mut inverses = [T::default(); N];
     for j in 0..N {

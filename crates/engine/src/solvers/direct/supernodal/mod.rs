@@ -11,9 +11,10 @@ use dense::{Products, factor_columns};
 use substitute::Substitute;
 use symbolic::{RowRange, Supernode, SymbolicFactor};
 
-use crate::number::{Real, vectorized};
 use crate::solvers::ApproximateInverse;
-use crate::sparse::{Block, Pattern};
+use fem_elements::Real;
+use fem_elements::number::vectorized;
+use fem_elements::sparse::{Block, Pattern};
 use fem_scene::simulation::Breakdown;
 
 /// The factor with its workspace.
@@ -31,7 +32,7 @@ pub(crate) struct SupernodalCholesky<T> {
 impl<T: Real> SupernodalCholesky<T> {
     /// Symbolic factorisation in the order of the rows; `pattern` stores the lower half.
     pub(crate) fn new(pattern: &Pattern) -> Self {
-        let symbolic = SymbolicFactor::new(pattern, <T as Real>::MAX_WIDTH);
+        let symbolic = SymbolicFactor::new(pattern, <T as fem_elements::number::Float>::MAX_WIDTH);
         let zeros = |count: usize| vec![T::default(); count];
         let largest = symbolic.supernodes.iter().map(|supernode| supernode.stride).max().unwrap_or(0);
         Self {

@@ -4,7 +4,7 @@ use pulp::{Simd, WithSimd};
 
 use super::dense::lanes;
 use super::symbolic::{Supernode, SymbolicFactor};
-use crate::number::Real;
+use fem_elements::Real;
 
 /// z = L⁻ᵀ L⁻¹ z
 pub struct Substitute<'a, T> {

@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use crate::sparse::Pattern;
+use fem_elements::sparse::Pattern;
 
 /// Consecutive nodes that are eliminated together. Sizes are in nodes unless they say scalars.
 pub struct Supernode {

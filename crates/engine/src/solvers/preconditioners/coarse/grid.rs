@@ -122,7 +122,7 @@ fn mean_distance(matrix: &LowerHalf, rest: &[[f64; 3]]) -> f64 {
 mod tests {
     use super::{EDGE, Grid, LowerHalf};
     use crate::solvers::beam::Beam;
-    use crate::sparse::{Pattern, Stored};
+    use fem_elements::sparse::{Pattern, Stored};
 
     #[test]
     fn functions_sum_to_one_and_reproduce_positions() {

@@ -3,8 +3,8 @@
 use fem_scene::simulation::History;
 
 use super::Coarse;
-use crate::history::{put, put_flag, put_option, take, take_flag, take_option};
 use crate::solvers::ApproximateInverse;
+use fem_elements::history::{put, put_flag, put_option, take, take_flag, take_option};
 
 impl Coarse {
     /// Adds the coarse matrix and what decides when it is assembled again.

@@ -11,11 +11,12 @@ use pulp::{Simd, WithSimd};
 
 use super::lower_half::LowerHalf;
 use crate::model::numbering::{Numbering, Ordering};
-use crate::number::{Real, vectorized};
 use crate::solvers::ApproximateInverse;
 use crate::solvers::direct::SupernodalCholesky;
-use crate::sparse::{Block, Pattern, Stored};
-use crate::vector::triple;
+use fem_elements::Real;
+use fem_elements::number::vectorized;
+use fem_elements::sparse::{Block, Pattern, Stored};
+use fem_elements::vector::triple;
 pub use grid::{CellPoint, Grid};
 
 /// Weight of the coarse correction: the sweeps reduce a part of the smooth error as well.

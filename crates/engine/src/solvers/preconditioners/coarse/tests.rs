@@ -3,7 +3,7 @@
 use super::super::Ssor;
 use crate::solvers::ApproximateInverse;
 use crate::solvers::beam::{Beam, random};
-use crate::sparse::Stored;
+use fem_elements::sparse::Stored;
 
 /// A prepared preconditioner, and its beam.
 fn prepared(cells: usize, values: impl Fn(&Beam) -> Vec<[[f64; 3]; 3]>) -> (Ssor, Beam) {

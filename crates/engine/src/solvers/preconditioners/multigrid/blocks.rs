@@ -2,7 +2,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use crate::number::vectorized;
+use fem_elements::number::vectorized;
 
 /// A matrix in block compressed sparse rows.
 #[derive(Clone)]

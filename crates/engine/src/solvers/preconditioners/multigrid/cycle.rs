@@ -9,8 +9,8 @@ use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
 use super::blocks::{Blocks, row_times, sum_products};
-use crate::number::vectorized;
 use crate::solvers::parts::Part;
+use fem_elements::number::vectorized;
 
 /// From this many numbers on several threads share the rows of a vector, so many at a time.
 const NUMBERS: [usize; 2] = [9000, 3000];

@@ -3,10 +3,10 @@
 use super::aggregate::{aggregate, centres, rigid};
 use super::blocks::{Blocks, Product, add_product, row_times};
 use super::cycle::{Rows, Smoother, over_rows, times};
-use crate::history::{put, take};
-use crate::number::vectorized;
 use crate::solvers::block::invert;
 use crate::solvers::parts::Part;
+use fem_elements::history::{put, take};
+use fem_elements::number::vectorized;
 use fem_scene::simulation::{Breakdown, History};
 
 /// Steps of the power iteration for the largest eigenvalue of D⁻¹A. It starts from the vector of the last preparation.

@@ -10,13 +10,13 @@ use blocks::Blocks;
 use level::Level;
 
 use super::single_precision_scale;
-use crate::history::{put, put_option, take, take_option};
-use crate::number::Real;
 use crate::solvers::ApproximateInverse;
 use crate::solvers::direct::SupernodalCholesky;
-use crate::sparse::{Block, Pattern, Stored};
-use crate::tensor::map;
-use crate::vector::norm;
+use fem_elements::Real;
+use fem_elements::history::{put, put_option, take, take_option};
+use fem_elements::sparse::{Block, Pattern, Stored};
+use fem_elements::tensor::map;
+use fem_elements::vector::norm;
 use fem_scene::simulation::{Breakdown, History};
 
 /// Coarse matrices of up to this many nodes are factorised. One level more would leave too few nodes for the motions of a slender body.

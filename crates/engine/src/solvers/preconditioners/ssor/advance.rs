@@ -4,8 +4,8 @@ use pulp::{Simd, WithSimd};
 
 use super::super::coarse::Row;
 use super::{CHUNK, Pair};
-use crate::number::vectorized;
 use crate::solvers::parts::Part;
+use fem_elements::number::vectorized;
 
 /// x += α t, r −= α (t + s).
 pub struct Advance<'a> {

@@ -16,12 +16,12 @@ mod sweeps;
 
 use super::coarse::{Coarse, Row};
 use super::single_precision_scale;
-use crate::number::Real;
 use crate::solvers::ApproximateInverse;
 use crate::solvers::parts::Part;
-use crate::sparse::{Block, Pattern};
-use crate::vector::norm;
 use advance::Advance;
+use fem_elements::Real;
+use fem_elements::sparse::{Block, Pattern};
+use fem_elements::vector::norm;
 use fem_scene::simulation::{Breakdown, History};
 use scaled::Scaled;
 use shares::Shares;

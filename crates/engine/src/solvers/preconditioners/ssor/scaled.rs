@@ -5,12 +5,13 @@ use std::ops::Range;
 use pulp::{Simd, WithSimd};
 
 use super::super::lower_half::LowerHalf;
-use crate::number::{Real, vectorized};
 use crate::solvers::block::{factor, invert_lower};
 use crate::solvers::parts::Part;
-use crate::sparse::{Block, Pattern};
-use crate::tensor::map;
-use crate::vector::triple;
+use fem_elements::Real;
+use fem_elements::number::vectorized;
+use fem_elements::sparse::{Block, Pattern};
+use fem_elements::tensor::map;
+use fem_elements::vector::triple;
 use fem_scene::simulation::Breakdown;
 
 /// Fractions of the diagonal's change by an incomplete factorisation, tried one after the other until all blocks are positive

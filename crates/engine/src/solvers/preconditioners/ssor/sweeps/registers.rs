@@ -8,7 +8,7 @@ use wide::f32x4;
 use super::super::super::coarse::Row;
 use super::super::Pair;
 #[cfg(target_arch = "x86_64")]
-use crate::number::avx2;
+use fem_elements::number::avx2;
 
 /// Instructions on four numbers in single precision, and on the eight of a pair of rows.
 pub trait Registers: Copy {

@@ -5,9 +5,9 @@ use std::ops::Range;
 use super::super::super::coarse::{Coarse, Row};
 use super::super::scaled::Scaled;
 use super::super::shares::{Places, Sums};
-use crate::number::Real;
 use crate::solvers::parts::Part;
-use crate::vector::triple;
+use fem_elements::Real;
+use fem_elements::vector::triple;
 
 /// r̃ = (L̃ + 1)⁻¹ G⁻¹ b and the coarse residual Pᵀ b, with b scaled by `factor`.
 pub struct Start<'a, T> {

@@ -6,7 +6,7 @@ use super::registers::{Kernel, Portable};
 use super::{Backward, Forward};
 use crate::solvers::ApproximateInverse;
 use crate::solvers::beam::{Beam, random};
-use crate::sparse::Stored;
+use fem_elements::sparse::Stored;
 
 fn prepared(cells: usize) -> (Ssor, Vec<[f64; 3]>) {
     let beam = Beam::new(cells, Stored::Lower);

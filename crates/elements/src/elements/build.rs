@@ -1,0 +1,189 @@
+//! Builds batches of elements from a mesh.
+
+use std::ops::Range;
+
+use crate::number::Number;
+use nalgebra::{SMatrix, Vector3};
+
+use super::quadratic::{self, BARYCENTRIC, POINTS};
+use super::{Batch, Chunk, Elements};
+use crate::number::Float;
+use crate::sparse::Pattern;
+
+/// Smallest and largest number of nodes of a chunk: with the smallest, few elements lie between chunks. Beyond eight chunks their
+/// size grows before their number, because the cuts across a body would lie closer and closer together.
+const CHUNK: (usize, usize) = (2048, 16_384);
+
+/// A target beyond every block.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Gradients of the shape functions of all nodes but the first at a quadrature point, 1/m, and the volume that belongs to it, m³ (area
+/// in the plane, m²).
+type Shape<const D: usize, const E: usize> = ([[f64; D]; E], f64);
+
+impl<T: Float, const D: usize, const E: usize, const N: usize> Elements<T, D, E, N> {
+    /// Simplices with corners and positions in the order of the rows of `pattern`; nodes beyond its rows have forces but no
+    /// stiffness. Without rows the elements have forces alone, until [`set_pattern`](Self::set_pattern).
+    pub fn new(positions: &[Vector3<f64>], elements: &[[u32; N]], pattern: &Pattern) -> Self {
+        Self::stiffened(positions, elements, &[], pattern)
+    }
+
+    /// The same with a factor on the energy of each element; `factors` is empty where all are 1.
+    pub fn stiffened(positions: &[Vector3<f64>], elements: &[[u32; N]], factors: &[f64], pattern: &Pattern) -> Self {
+        assert_eq!([N, E], [D + 1, D], "a simplex in {D} dimensions has {} corners", D + 1);
+        let shape = |element: usize, corners: &[u32; N]| {
+            let (inverse, volume) = simplex::<D, N>(corners, positions, factors.get(element).copied().unwrap_or(1.0));
+            (std::array::from_fn(|e| std::array::from_fn(|j| inverse[(e, j)])), volume)
+        };
+        Self::of_shapes(positions.len(), elements, pattern, &shape)
+    }
+
+    /// Prepares the assembly of matrices with another pattern: finds the block of each pair of nodes.
+    pub fn set_pattern(&mut self, pattern: &Pattern) {
+        for chunk in &mut self.chunks {
+            chunk.set_pattern(pattern);
+        }
+    }
+
+    /// Elements with the shapes that `shape` gives for the number of an element and its nodes in ascending order.
+    fn of_shapes(
+        nodes: usize,
+        elements: &[[u32; N]],
+        pattern: &Pattern,
+        shape: &dyn Fn(usize, &[u32; N]) -> Shape<D, E>,
+    ) -> Self {
+        let chunks = chunk_ranges(nodes).map(|nodes| chunk(nodes, elements, pattern, shape)).collect();
+        Self { chunks, count: elements.len() }
+    }
+}
+
+impl<T: Float> Elements<T, 2, 5, 6> {
+    /// Straight-sided quadratic triangles with their nodes in the order of [`quadratic::gradients`]. Each becomes three elements, its
+    /// quadrature points: element 3 t + k is point k of triangle t. `factors` is as for [`stiffened`](Elements::stiffened), one for
+    /// each triangle.
+    pub fn quadratic(positions: &[Vector3<f64>], triangles: &[[u32; 6]], factors: &[f64], pattern: &Pattern) -> Self {
+        let points: Vec<[u32; 6]> = triangles.iter().flat_map(|&triangle| [triangle; POINTS]).collect();
+        let shape = |point: usize, nodes: &[u32; 6]| {
+            let triangle = &triangles[point / POINTS];
+            let [a, b, c, ..] = *triangle;
+            let factor = factors.get(point / POINTS).copied().unwrap_or(1.0);
+            let (corners, area) = simplex::<2, 3>(&[a, b, c], positions, factor);
+            let gradients = quadratic::gradients(&corners, &BARYCENTRIC[point % POINTS]);
+            let of_node =
+                |node: u32| triangle.iter().position(|&other| other == node).map_or([0.0; 2], |i| gradients[i]);
+            (std::array::from_fn(|e| of_node(nodes[e + 1])), area / POINTS as f64)
+        };
+        Self::of_shapes(positions.len(), &points, pattern, &shape)
+    }
+}
+
+fn chunk_ranges(nodes: usize) -> impl Iterator<Item = Range<usize>> {
+    let chunks = (nodes / CHUNK.0).clamp(1, 8).max(nodes / CHUNK.1);
+    (0..chunks).map(move |i| nodes * i / chunks..nodes * (i + 1) / chunks)
+}
+
+fn chunk<T: Float, const D: usize, const E: usize, const N: usize>(
+    nodes: Range<usize>,
+    elements: &[[u32; N]],
+    pattern: &Pattern,
+    shape: &dyn Fn(usize, &[u32; N]) -> Shape<D, E>,
+) -> Chunk<T, D, E, N> {
+    let touches = |element: &[u32; N]| element.iter().any(|&node| nodes.contains(&(node as usize)));
+    let all = 0..elements.len() as u32;
+    let mut chosen: Vec<u32> = all.filter(|&element| touches(&elements[element as usize])).collect();
+    // Neighbours in memory are neighbours in space, as far as the numbers of nodes are.
+    chosen.sort_by_key(|&element| elements[element as usize].iter().min().copied());
+
+    let mut corners: Vec<[u32; N]> = chosen.iter().map(|&element| ascending(elements[element as usize])).collect();
+    let of_element = |(corners, &element): (&[u32; N], &u32)| shape(element as usize, corners);
+    let shapes: Vec<_> = corners.iter().zip(&chosen).map(of_element).collect();
+    let owned: Vec<bool> = corners
+        .iter()
+        .map(|corners| corners.iter().min().is_some_and(|&least| nodes.contains(&(least as usize))))
+        .collect();
+    let batches = (0..chosen.len().div_ceil(T::WIDTH))
+        .map(|i| batch::<T, D, E>(i * T::WIDTH, &shapes, &owned))
+        .collect::<Vec<_>>();
+
+    let filling = batches.len() * T::WIDTH - chosen.len();
+    corners.extend(std::iter::repeat_n([nodes.start as u32; N], filling));
+    let mut chunk = Chunk { nodes, blocks: 0..0, corners, targets: Vec::new(), batches, elements: chosen };
+    if pattern.rows() > 0 {
+        chunk.set_pattern(pattern);
+    }
+    chunk
+}
+
+impl<T: Float, const D: usize, const E: usize, const N: usize> Chunk<T, D, E, N> {
+    fn set_pattern(&mut self, pattern: &Pattern) {
+        let rows = self.nodes.start.min(pattern.rows())..self.nodes.end.min(pattern.rows());
+        self.blocks = pattern.starts[rows.start]..pattern.starts[rows.end];
+        let corners = self.corners[..self.elements.len()].iter();
+        self.targets = corners.map(|corners| target(corners, &rows, self.blocks.start, pattern)).collect();
+        // Elements of no volume fill the last batch.
+        self.targets.resize(self.corners.len(), [[NONE; N]; N]);
+    }
+}
+
+fn target<const N: usize>(
+    corners: &[u32; N],
+    rows: &Range<usize>,
+    first_block: usize,
+    pattern: &Pattern,
+) -> [[u32; N]; N] {
+    corners.map(|row| {
+        corners.map(|column| {
+            let block = rows.contains(&(row as usize)).then(|| pattern.find(row as usize, column as usize)).flatten();
+            block.map_or(NONE, |block| (block - first_block) as u32)
+        })
+    })
+}
+
+/// Inverse of the edge matrix, and volume times a factor: energies, forces and stiffnesses are proportional to it.
+fn simplex<const D: usize, const N: usize>(
+    corners: &[u32; N],
+    positions: &[Vector3<f64>],
+    factor: f64,
+) -> (SMatrix<f64, D, D>, f64) {
+    let x = |corner: usize| positions[corners[corner] as usize];
+    let edges = SMatrix::<f64, D, D>::from_fn(|i, e| x(e + 1)[i] - x(0)[i]);
+    let (inverse, determinant) = inverse_and_determinant(&edges);
+    (inverse, factor * determinant.abs() / (1..=D).product::<usize>() as f64)
+}
+
+/// Corners in the order of their numbers, so that the same pairs of all elements lie in the lower half of a matrix: a branch that
+/// goes another way for every element costs more than what it saves. F and the volume's size do not depend on the order.
+fn ascending<const N: usize>(mut corners: [u32; N]) -> [u32; N] {
+    corners.sort_unstable();
+    corners
+}
+
+/// By cofactors in three dimensions and two. Meshes are checked before: the determinant is not zero.
+fn inverse_and_determinant<const D: usize>(a: &SMatrix<f64, D, D>) -> (SMatrix<f64, D, D>, f64) {
+    let mut embedded = nalgebra::Matrix3::identity();
+    embedded.view_mut((0, 0), (D, D)).copy_from(a);
+    let determinant = embedded.determinant();
+    let cofactors = crate::tensor::cofactor(&crate::tensor::from_fn(|i, j| embedded[(i, j)]));
+    (SMatrix::from_fn(|i, j| cofactors[j][i] / determinant), determinant)
+}
+
+fn batch<T: Float, const D: usize, const E: usize>(
+    first: usize,
+    shapes: &[Shape<D, E>],
+    owned: &[bool],
+) -> Batch<T::Lanes, D, E> {
+    let volume = |lane: usize| shapes.get(first + lane).map_or(0.0, |shape| shape.1);
+    let gradient = |lane: usize, e: usize, j: usize| shapes.get(first + lane).map_or(0.0, |shape| shape.0[e][j]);
+    let counts = |lane: usize| owned.get(first + lane).copied().unwrap_or(false);
+    let mut batch = Batch {
+        gradients: [[T::Lanes::zero(); D]; E],
+        volume: T::lanes(|lane| T::of(volume(lane))),
+        counted: T::lanes(|lane| T::of(if counts(lane) { volume(lane) } else { 0.0 })),
+    };
+    for e in 0..E {
+        for j in 0..D {
+            batch.gradients[e][j] = T::lanes(|lane| T::of(gradient(lane, e, j)));
+        }
+    }
+    batch
+}

@@ -1,0 +1,26 @@
+//! Elements of deformable solids: constitutive laws, plastic flow, and the loops over all elements of a body that sum up its energy,
+//! gradient and stiffness.
+//!
+//! What is slow to compile lives here: kernels that are compiled once for each law, kind of element, number type and instruction set.
+//! [`Real::solids`] makes the [`Solids`](solids::Solids) of a body, whose loops are called once per pass, so that nothing else is
+//! compiled for a law.
+
+#![deny(missing_docs)]
+#![allow(non_snake_case)] // J, F, C and D are the names that the mathematics and the course use
+#![allow(clippy::needless_range_loop)] // indices of tensors are the notation of the field
+#![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
+
+pub mod elements;
+pub mod history;
+pub mod materials;
+pub mod number;
+pub mod plasticity;
+pub mod polar;
+mod real;
+pub mod solids;
+pub mod sparse;
+pub mod svd;
+pub mod tensor;
+pub mod vector;
+
+pub use real::Real;

@@ -1,0 +1,151 @@
+//! Constitutive laws, one file each: energy, stress and stress derivative side by side, and the facts about the law.
+//!
+//! A law takes the displacement gradient G = F − 1, because energies computed from F cancel near rest: at strain 1e-7
+//! they would lose all their digits. Stresses are first Piola–Kirchhoff, derivatives are ∂P/∂F, flattened row by row.
+//! [`AnyLaw`] is one of the laws, chosen by a scene.
+
+mod any;
+mod cauchy;
+mod corotated;
+mod hencky;
+mod invariants;
+mod isochoric;
+mod isotropic;
+mod linear;
+mod logarithmic;
+mod mooney_rivlin;
+mod neo_hookean;
+mod plane_corotated;
+mod quadratic_form;
+mod st_venant_kirchhoff;
+mod stable_neo_hookean;
+mod vectorized;
+mod yeoh;
+
+pub use cauchy::{cauchy_stress, in_plane_stress};
+pub use invariants::OfInvariants;
+pub use plane_corotated::PlaneCorotated;
+pub use quadratic_form::QuadraticForm;
+pub use vectorized::Vectorized;
+
+use crate::number::Number;
+use crate::tensor::{Tensor, Tensor4};
+use any::laws;
+pub(crate) use any::{match_inlined_law, with_inlined_law};
+pub use corotated::OfRotation;
+pub(crate) use corotated::{stretches, stretches_in_plane};
+pub(crate) use isotropic::{derivative_from, derivative_in_basis, projected_derivative_from};
+pub(crate) use logarithmic::{Kirchhoff, Logarithmic};
+
+/// Hands the list of all laws, each as `file::Law`, to another macro: first those for which the loops over tetrahedra are compiled, then
+/// those that they call by reference. A law of the first kind costs the build three kernels for each number type and instruction set,
+/// and saves a tenth to a quarter of the time of its forces and stiffness.
+macro_rules! law_list {
+    ($callback:ident $arguments:tt) => {
+        $callback! { $arguments
+            inlined {
+                linear::Linear,
+                corotated::Corotated,
+                st_venant_kirchhoff::StVenantKirchhoff,
+                neo_hookean::NeoHookean,
+                stable_neo_hookean::StableNeoHookean,
+            }
+            by_reference {
+                hencky::Hencky,
+                mooney_rivlin::MooneyRivlin,
+                yeoh::Yeoh,
+            }
+        }
+    };
+}
+pub(crate) use law_list;
+
+law_list! { laws () }
+
+/// A constitutive law, for one element or for a batch of them. The loops that take most of a step's time are compiled for the laws that
+/// are used most (`with_inlined_law`); all others call it by reference, once per batch.
+pub trait Law<T: Number>: Send + Sync {
+    /// `ψ(G)` energy density, J/m³; zero at rest, not finite where the law does not allow the deformation.
+    fn energy(&self, G: &Tensor<T>) -> T;
+
+    /// `P(G) = ∂ψ/∂F`, Pa.
+    fn stress(&self, G: &Tensor<T>) -> Tensor<T>;
+
+    /// Energy density and stress in one call. The compiler shares their common terms, apart from calls that it does not inline.
+    #[inline(always)]
+    fn energy_and_stress(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
+        (self.energy(G), self.stress(G))
+    }
+
+    /// `∂P/∂F`, Pa, exact and symmetric.
+    fn derivative(&self, G: &Tensor<T>) -> Tensor4<T>;
+
+    /// The terms of [`derivative`](Self::derivative) where they are far fewer numbers than its 81 entries.
+    #[inline(always)]
+    fn terms(&self, _G: &Tensor<T>) -> Terms<T> {
+        Terms::Entries
+    }
+
+    /// `∂P/∂F` with its negative eigenvalues raised to zero, Pa: the positive semi-definite projection.
+    fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T>;
+}
+
+/// The terms of ∂P/∂F.
+pub enum Terms<T> {
+    /// Those of a law that has no invariants but tr(FᵀF) and det F.
+    Invariants(OfInvariants<T>),
+    /// Those of a law of the rotation nearest to F, where it is well-conditioned.
+    Rotation(OfRotation<T>),
+    /// No terms but all entries of [`Law::derivative`].
+    Entries,
+}
+
+/// A law that scene files name, and the facts that methods ask for.
+pub trait NamedLaw<T: Number>: Law<T> + Copy {
+    /// The name in scene files.
+    const NAME: &'static str;
+
+    /// Whether the stress is a linear function of the displacement gradient.
+    const IS_LINEAR: bool = false;
+
+    /// Whether the energy is finite for J = det F ≤ 0 too. If it is not, a step must keep J > 0 in every element.
+    const ALLOWS_INVERSION: bool = true;
+
+    /// The law with a scene's parameters; `None` if the table lacks them, as a checked table never does.
+    fn from_scene(table: &fem_scene::Material) -> Option<Self>;
+
+    /// Shear modulus and bulk modulus of small strain, Pa.
+    fn moduli(&self) -> [T; 2];
+}
+
+impl<T: Number, L: Law<T> + ?Sized> Law<T> for &L {
+    #[inline(always)]
+    fn energy(&self, G: &Tensor<T>) -> T {
+        (**self).energy(G)
+    }
+
+    #[inline(always)]
+    fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
+        (**self).stress(G)
+    }
+
+    #[inline(always)]
+    fn energy_and_stress(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
+        (**self).energy_and_stress(G)
+    }
+
+    #[inline(always)]
+    fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
+        (**self).derivative(G)
+    }
+
+    #[inline(always)]
+    fn terms(&self, G: &Tensor<T>) -> Terms<T> {
+        (**self).terms(G)
+    }
+
+    #[inline(always)]
+    fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
+        (**self).projected_derivative(G)
+    }
+}

@@ -1,0 +1,105 @@
+//! The laws of batches of plastic elements.
+
+use fem_scene::Plasticity as Model;
+
+use super::{Additive, J2, Plasticity};
+use crate::elements::BatchLaws;
+use crate::materials::{AnyLaw, Law, Vectorized};
+use crate::number::{Float, Lanes, Number, constant};
+use crate::tensor::{Tensor, Tensor4, from_fn};
+
+/// A law with the internal variables of a batch.
+#[derive(Clone, Copy)]
+#[allow(missing_docs)] // the names are those of the models
+pub enum PlasticLaw<T> {
+    Additive(Additive<T>),
+    J2(J2<T>),
+}
+
+/// The laws of the elements of one material.
+#[derive(Clone, Copy)]
+pub struct PlasticLaws<'a, T: Float, L> {
+    plasticity: &'a Plasticity<T>,
+    moduli: [L; 2],
+    /// Number in the mesh of each element; empty where elements are numbered as there.
+    numbers: &'a [usize],
+}
+
+impl<'a, T: Float, L: Lanes<Element = T>> PlasticLaws<'a, T, L> {
+    /// The laws of elements with these numbers in the mesh; without numbers of all elements of the mesh.
+    pub fn new(plasticity: &'a Plasticity<T>, law: &AnyLaw<L>, numbers: &'a [usize]) -> Self {
+        Self { plasticity, moduli: law.moduli().map(constant), numbers }
+    }
+}
+
+impl<T: Float, L: Lanes<Element = T>> BatchLaws<L> for PlasticLaws<'_, T, L> {
+    type Law = PlasticLaw<L>;
+    const IS_INLINED: bool = false;
+
+    fn of_batch(&self, elements: &[u32], batch: usize) -> PlasticLaw<L> {
+        let first = batch * L::LANES;
+        // The last batch is filled up with elements without history.
+        let variables = |lane: usize| {
+            let element = *elements.get(first + lane)? as usize;
+            let number = self.numbers.get(element).copied().unwrap_or(element);
+            Some(&self.plasticity.variables()[number])
+        };
+        let gather = |entry: &dyn Fn(&super::Internal<T>) -> T| {
+            let mut lanes = L::zero();
+            for (lane, number) in lanes.as_mut_slice().iter_mut().enumerate() {
+                *number = variables(lane).map_or(T::default(), entry);
+            }
+            lanes
+        };
+        let plastic = from_fn(|i, j| gather(&|of| of.plastic[i][j]));
+        let [mu, bulk] = self.moduli;
+        match self.plasticity.model() {
+            Model::Additive { .. } => PlasticLaw::Additive(Additive {
+                mu,
+                lambda: bulk - constant::<L>(2.0 / 3.0) * mu,
+                plastic,
+                is_flat: self.plasticity.is_flat(),
+            }),
+            Model::J2 { yield_stress, hardening } => PlasticLaw::J2(J2 {
+                mu,
+                bulk,
+                yield_stress: constant(yield_stress),
+                hardening: constant(hardening),
+                plastic,
+                strain: gather(&|of| of.strain),
+            }),
+        }
+    }
+}
+
+/// Evaluates an expression for the law of either model.
+macro_rules! with_model {
+    ($law:expr, $name:ident => $value:expr) => {
+        match $law {
+            PlasticLaw::Additive($name) => $value,
+            PlasticLaw::J2($name) => $value,
+        }
+    };
+}
+
+impl<T: Number> Law<T> for PlasticLaw<T> {
+    fn energy(&self, G: &Tensor<T>) -> T {
+        with_model!(self, law => Vectorized(*law).energy(G))
+    }
+
+    fn stress(&self, G: &Tensor<T>) -> Tensor<T> {
+        with_model!(self, law => Vectorized(*law).stress(G))
+    }
+
+    fn energy_and_stress(&self, G: &Tensor<T>) -> (T, Tensor<T>) {
+        with_model!(self, law => Vectorized(*law).energy_and_stress(G))
+    }
+
+    fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
+        with_model!(self, law => Vectorized(*law).derivative(G))
+    }
+
+    fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
+        with_model!(self, law => Vectorized(*law).projected_derivative(G))
+    }
+}

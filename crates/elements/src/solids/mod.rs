@@ -1,0 +1,121 @@
+//! The elastic elements of a body, seen from outside: one call per pass over all of them.
+
+mod any_elements;
+mod groups;
+mod material;
+
+use nalgebra::Matrix3;
+
+use crate::materials::{AnyLaw, Law};
+use crate::number::{Float, Lanes};
+use crate::plasticity::Plasticity;
+use crate::sparse::{Block, Pattern};
+
+pub(crate) use groups::Groups;
+pub use material::LawInLanes;
+
+/// All elastic elements of a body, with their materials. Displacements `u` are those of all nodes, m.
+pub trait Solids<T: Float>: Send + Sync {
+    /// Number of quadrature points: one in every linear element, three in a quadratic triangle.
+    fn count(&self) -> usize;
+
+    /// Number of materials.
+    fn materials(&self) -> usize;
+
+    /// The law of a material, for one element.
+    fn law(&self, material: usize) -> &AnyLaw<T::Single>;
+
+    /// The same for [work](LawWork) in the widest lanes of this processor.
+    fn law_in_lanes(&self, material: usize) -> LawInLanes<'_, T>;
+
+    /// Numbers in the mesh of the elements of a material. The body has linear elements.
+    fn numbers(&self, material: usize) -> Vec<usize>;
+
+    /// Factor of the moduli of an element of the mesh.
+    fn factor(&self, element: usize) -> f64;
+
+    /// Memory, bytes.
+    fn bytes(&self) -> usize;
+
+    /// Prepares the assembly of matrices with a pattern.
+    fn set_pattern(&mut self, pattern: &Pattern);
+
+    /// Elastic energy, J.
+    fn energy(&self, u: &[[T; 3]]) -> f64;
+
+    /// Adds the gradient of the energy, N.
+    fn add_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]);
+
+    /// Energy and gradient in one pass.
+    fn add_energy_and_gradient(&self, u: &[[T; 3]], gradient: &mut [[T; 3]]) -> f64;
+
+    /// Adds `factor` times the exact Hessian of the energy, N/m.
+    fn add_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]);
+
+    /// Adds `factor` times the Hessian of the energy, projected element by element to positive semi-definite, N/m.
+    fn add_projected_stiffness(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]);
+
+    /// Adds `factor` K(u) d without a matrix, N.
+    fn add_stiffness_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]);
+
+    /// Adds the Hessian of Σ V k/2 G:G, k = 2μ + λ with Lamé's constants at small strain, N/m.
+    fn add_metric(&self, values: &mut [Block<T, 3>]);
+
+    /// Magnitude of the terms that cancel in the elastic energy of a rotated body, J.
+    fn cancelled(&self, u: &[[T; 3]]) -> f64;
+
+    /// Minimum of det F over the quadrature points, and its element in the mesh.
+    fn min_det_F(&self, u: &[[T; 3]]) -> (T, usize);
+
+    /// Minimum of det F over the elements whose law does not allow inversion, and its element in the mesh; infinite if there are none.
+    fn min_det_F_of_barriers(&self, u: &[[T; 3]]) -> (T, usize);
+
+    /// Number of quadrature points with det F ≤ 0.
+    fn inverted(&self, u: &[[T; 3]]) -> usize;
+
+    /// Cauchy stress of each element of the mesh, Pa: the mean of its quadrature points.
+    fn cauchy_stresses(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>>;
+
+    /// Plastic flow of the elements, where the scene has some.
+    fn plasticity(&self) -> Option<&Plasticity<T>>;
+
+    /// The same, to be reset or restored.
+    fn plasticity_mut(&mut self) -> Option<&mut Plasticity<T>>;
+
+    /// Lets the elements flow in an accepted step of `dt` seconds, which ends with the displacements `u`.
+    fn flow(&mut self, u: &[[T; 3]], dt: f64);
+
+    /// Measure of the plastic strain of each element of the mesh, the mean of its quadrature points; `None` where the body does not flow.
+    fn plastic_strains(&self) -> Option<Vec<f64>>;
+}
+
+impl<T: Float> dyn Solids<T> + '_ {
+    /// The law of each material.
+    pub fn laws(&self) -> impl Iterator<Item = &AnyLaw<T::Single>> {
+        (0..self.materials()).map(|material| self.law(material))
+    }
+
+    /// Whether the stress of every element is a linear function of the displacement gradient.
+    pub fn is_linear(&self) -> bool {
+        self.laws().all(|law| law.is_linear())
+    }
+
+    /// Whether every law allows J = det F ≤ 0.
+    pub fn allow_inversion(&self) -> bool {
+        self.laws().all(|law| law.allows_inversion())
+    }
+
+    /// Shear modulus and bulk modulus of each material at small strain, Pa.
+    pub fn moduli(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.laws().map(|law| law.moduli())
+    }
+}
+
+/// Work with the law of a material, written for any lanes.
+pub trait LawWork<T: Float> {
+    /// The result.
+    type Output;
+
+    /// Does the work.
+    fn run<L: Lanes<Element = T>>(self, law: &dyn Law<L>, allows_inversion: bool) -> Self::Output;
+}
