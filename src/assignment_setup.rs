@@ -41,6 +41,8 @@ pub struct AssignmentSetup {
     skinning: Option<CsrMatrix<f64>>,
     /// The scene's drag, or the pull of the mouse.
     interaction: Interaction,
+    /// True if the stiffness contains the springs of the drag or of the mouse.
+    has_springs_in_stiffness: bool,
     /// Largest displacement of a coordinate up to which an assembled stiffness is used again, m.
     reuse_distance: f64,
     integrator: Integrator,
@@ -172,14 +174,17 @@ impl AssignmentSetup {
         }
     }
 
-    /// ∂f/∂q of [`force`](Self::force) with projected elements, N/m. A spring of zero rest length has the same stiffness in
-    /// every direction; without it in K, a stiff spring would be treated explicitly and be unstable.
+    /// ∂f/∂q of [`force`](Self::force) with projected elements, N/m. The springs of the drag and of the mouse are left out, as in the
+    /// assignment, unless the scene asks for them or has no table `[drag]`: linearly implicit Euler then treats them explicitly and explodes where a spring is
+    /// stiffer than the body, and Newton's line search shortens its steps. A spring of zero rest length has the same stiffness in every
+    /// direction.
     fn stiffness(&self, q: &DVector<f64>, springs: &[AnchorSpring]) -> CsrMatrix<f64> {
         self.profile.count_stiffness_assembly(self.shape.mesh.elements());
         let x = self.constraints.all_coordinates(q);
         let (V, T) = (self.shape.mesh.vertices(), self.shape.mesh.tetrahedra());
         let mut K = assemble_stiffness(&x, V, T, &self.v0, self.C, self.D);
-        for spring in springs {
+        let springs_in_K = if self.has_springs_in_stiffness { springs } else { &[] };
+        for spring in springs_in_K {
             let block = Matrix3::from_diagonal_element(-self.interaction.stiffness);
             add_block(&mut K, spring.node, spring.node, &block);
         }

@@ -44,6 +44,7 @@ impl AssignmentSetup {
             constraints,
             skinning,
             interaction: Interaction::new(body.drag, C * extent(V)),
+            has_springs_in_stiffness: scene.drag.as_ref().is_none_or(|drag| drag.in_stiffness == Some(true)),
             reuse_distance: REUSE * smallest_height(V, T),
             integrator: scene.time.integrator,
             dt: scene.time.dt(),

@@ -34,7 +34,7 @@ fn bodies(setup: &AssignmentSetup) -> Vec<Part> {
                 Part::built("fixed", why, setup.constraints.bytes(), NO_WORK)
             }
         },
-        Part::drag(setup.interaction.has_drag(), NO_WORK),
+        Part::drag(setup.interaction.has_drag(), setup.has_springs_in_stiffness, NO_WORK),
         Part::skinning(setup.skinning.as_ref().map(bytes), setup.profile.skinning.read()),
     ]
 }

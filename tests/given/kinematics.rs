@@ -1,5 +1,6 @@
 //! Given functions, `given::{deformation_gradient, volumes}`: no exercise; read include-docs/given.md.
 
+use approx::assert_relative_eq;
 use finite_elements_3d::{dphi_linear_tetrahedron_dX, given};
 use nalgebra::{Matrix3, Vector3};
 
@@ -30,5 +31,10 @@ fn volumes_are_those_of_geometry() -> Outcome {
     }
     let stretched =
         Tetrahedron::new([4, 1, 7, 3], &Matrix3::from_diagonal(&Vector3::new(2.0, 3.0, 4.0)), &Vector3::x());
-    near_number("2 · 3 · 4 / 6", given::volumes(&stretched.V, &[stretched.element])[0], 4.0, 1e-14)
+    assert_relative_eq!(
+        given::volumes(&stretched.V, &[stretched.element])[0],
+        2.0 * 3.0 * 4.0 / 6.0,
+        max_relative = 1e-14
+    );
+    Ok(())
 }

@@ -1,21 +1,21 @@
 //! The course's pipeline and the engine compute the same motion, although they share no element, assembly or solver code.
 
 use fem_scene::simulation::Simulation;
-use fem_scene::{Integrator, body};
+use fem_scene::{Integrator, Pipeline, Scene, body};
 
 use crate::program::data;
 use crate::scene_text::{build, shipped};
 
 const STEPS: usize = 100;
 
-/// Largest distance of a coordinate in any of the steps of `name` and `name-engine`, as a part of the body's size.
+/// Largest distance of a coordinate in any of the steps of `name-engine` in both pipelines, as a part of the body's size. The course's
+/// stiffness contains the spring of the drag, as the engine's does.
 fn largest_distance(name: &str, integrator: Integrator, amplitude: f64) -> f64 {
-    let [course_scene, engine_scene] = [name.to_owned(), format!("{name}-engine")].map(|name| {
-        let mut scene = shipped(&name);
-        scene.time.integrator = integrator;
-        scene.drag.as_mut().unwrap().amplitude = amplitude;
-        scene
-    });
+    let mut engine_scene = shipped(&format!("{name}-engine"));
+    engine_scene.time.integrator = integrator;
+    let drag = engine_scene.drag.as_mut().unwrap();
+    (drag.amplitude, drag.in_stiffness) = (amplitude, Some(true));
+    let course_scene = Scene { pipeline: Pipeline::Course, ..engine_scene.clone() };
     let mut course = build(&course_scene);
     let engine_body = body(&engine_scene, &data()).unwrap();
     let mut engine = fem_engine::simulator::build(&engine_scene, engine_body).unwrap();

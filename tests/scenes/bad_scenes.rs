@@ -36,7 +36,7 @@ fn broken_toml_is_refused_where_it_breaks() {
 #[test]
 fn an_unknown_key_is_refused_at_the_top_and_in_every_table() {
     assert_text_refused(&format!("colour = \"red\"\n{CUBE}"), 1, &["unknown field `colour`", "`about`", "`drag`"]);
-    assert_text_refused(&format!("{CUBE}[wind]\nspeed = 1\n"), 24, &["unknown field `wind`", "`gravity`"]);
+    assert_text_refused(&format!("{CUBE}[wind]\nspeed = 1\n"), 25, &["unknown field `wind`", "`gravity`"]);
     let tables = [("mesh", 4), ("material", 6), ("gravity", 11), ("fixed", 13), ("time", 15), ("drag", 19)];
     for (table, line) in tables {
         assert_refused(&format!("[{table}]\n"), &format!("[{table}]\nfoo = 1\n"), line, &["unknown field `foo`"]);
@@ -204,9 +204,9 @@ fn keys_of_the_engine_are_refused_in_a_course_scene() {
         "[[materials]]\non = \"all\"\nmodel = \"neo_hookean\"\nC = 1e5\nD = 4e5\ndensity = 1.0\n".to_owned(),
     ];
     for table in tables {
-        assert_text_refused(&format!("{CUBE}{table}"), 24, &["belongs to the engine", "remove it"]);
+        assert_text_refused(&format!("{CUBE}{table}"), 25, &["belongs to the engine", "remove it"]);
     }
-    assert_text_refused(&format!("{CUBE}[mass]\nlumped = true\n"), 25, &["mass.lumped belongs to the engine"]);
+    assert_text_refused(&format!("{CUBE}[mass]\nlumped = true\n"), 26, &["mass.lumped belongs to the engine"]);
     assert_refused("dt = 0.01", "precision = \"f32\"\ndt = 0.01", 15, &["time.precision belongs to the engine"]);
     assert_refused("[material]", "refine = 1\n[material]", 5, &["mesh.refine belongs to the engine"]);
     assert_refused(

@@ -74,7 +74,12 @@ fn the_short_experiment_on_the_torus_holds_its_marks_and_writes_a_page_tables_an
         assert!(text.lines().count() > 1, "{table}: {text}");
     }
     let solvers = fs::read_to_string(desk.path("found/rtfem-solvers.csv")).unwrap();
-    assert!(solvers.lines().skip(1).all(|line| line.ends_with("converged") && !line.contains("not")), "{solvers}");
+    let is_right = |line: &str| match line.contains("gpu, ") {
+        // Times of adapters that are programs on the processor are left out.
+        true => line.ends_with("converged") || line.ends_with("to time it") || line.contains("no adapter"),
+        false => line.ends_with("converged") && !line.contains("not"),
+    };
+    assert!(solvers.lines().skip(1).all(is_right), "{solvers}");
     let runs = fs::read_to_string(desk.path("found/rtfem-methods.csv")).unwrap();
     assert!(runs.lines().skip(1).all(|line| line.ends_with(",done")), "{runs}");
     let page = fs::read_to_string(desk.path("found/rtfem.html")).unwrap();

@@ -64,7 +64,7 @@ fn a_cube_of_six_elements_under_weight_and_drag_agrees_with_the_reference() {
 
 #[test]
 fn a_free_cube_dragged_by_a_corner_agrees_with_the_reference() {
-    let drag = "[drag]\nvertex = 7\nstiffness = 1e5\ndirection = [1, 0.5, -0.2]\namplitude = 0.2\nfrequency = 1.0\n";
+    let drag = "[drag]\nvertex = 7\nstiffness = 1e5\ndirection = [1, 0.5, -0.2]\namplitude = 0.2\nfrequency = 1.0\nin_stiffness = true\n";
     assert_agrees(&format!("{}{drag}", small(&free_cube())), 8);
 }
 

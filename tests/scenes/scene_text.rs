@@ -34,6 +34,7 @@ stiffness = 1e5
 direction = [1, 0, 0]
 amplitude = 0.2
 frequency = 1.0
+in_stiffness = true
 "#;
 
 /// The text with one passage replaced, which must be there.

@@ -2,8 +2,8 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use crate::STYLE;
 use crate::svg::{Px, text};
+use crate::{COLOURS, STYLE};
 
 /// A finished drawing.
 #[derive(Clone, Debug)]
@@ -58,7 +58,7 @@ impl Picture {
         };
         let file = html! {
             svg xmlns="http://www.w3.org/2000/svg" viewBox={ "0 0 " (width) " " (whole) } width=(width) height=(whole) class="alone" {
-                style { (PreEscaped(STYLE)) }
+                style { (PreEscaped(literal_style())) }
                 rect class="paper" width=(width) height=(whole) {}
                 (text("title", "start", (10.0, 20.0), &self.label))
                 g transform={ "translate(0 " (TITLE) ")" } { (self.inner) } "\n"
@@ -71,4 +71,39 @@ impl Picture {
         };
         file.into_string() + "\n"
     }
+}
+
+/// [`STYLE`] with the colours of the light page written out: viewers other than browsers know no variables of CSS, and draw in black.
+fn literal_style() -> String {
+    let (palette, rules) = STYLE.split_once("svg .paper").unwrap_or(("", STYLE));
+    let colour = |name: &str| {
+        let value = palette.split_once(&format!("--{name}: ")).and_then(|(_, rest)| rest.split(';').next());
+        value.unwrap_or("#000000")
+    };
+    let written_out = |declarations: &str| {
+        let mut parts = declarations.split("var(--");
+        let first = parts.next().unwrap_or_default().to_owned();
+        parts.fold(first, |text, part| {
+            let (name, rest) = part.split_once(')').unwrap_or((part, ""));
+            text + colour(name) + rest
+        })
+    };
+    let mut style = String::new();
+    for (selector, declarations) in format!("svg .paper{rules}").split('}').filter_map(|rule| rule.split_once('{')) {
+        let selector = selector.trim();
+        if selector.starts_with(".k") {
+            continue; // the rules that give `--k` its value
+        }
+        if !declarations.contains("var(--k)") {
+            style += &format!("{selector} {{{}}}\n", written_out(declarations));
+            continue;
+        }
+        // The colour of a series: its class is that of the element or of the group around it.
+        let part = selector.strip_prefix("svg ").unwrap_or(selector);
+        for k in 0..COLOURS {
+            let declarations = written_out(&declarations.replace("var(--k)", &format!("var(--k{k})")));
+            style += &format!("svg .k{k} {part}, svg {part}.k{k} {{{declarations}}}\n");
+        }
+    }
+    style
 }

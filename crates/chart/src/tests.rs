@@ -133,3 +133,12 @@ fn triangles_that_are_hidden_are_left_out() {
     assert_eq!(count(&[]), None);
     assert_finite(&triangles("a point", &[[[1.0; 3]; 3]]).unwrap().standalone());
 }
+
+#[test]
+fn a_file_of_its_own_has_colours_that_every_viewer_knows() {
+    let file = chart(&[1.0, 0.1]).draw().standalone();
+    assert!(!file.contains("var(") && !file.contains("--k"), "{file}");
+    for rule in ["svg .paper { fill: #ffffff; }", "svg .k1 .curve, svg .curve.k1 { fill: none; stroke: #d1600a;"] {
+        assert!(file.contains(rule), "{rule} is not in {file}");
+    }
+}

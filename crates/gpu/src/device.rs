@@ -11,6 +11,7 @@ use crate::quiet::without_wayland_message;
 /// An open device. Its arrays and pipelines live as long as it does.
 pub struct Device {
     adapter: String,
+    is_software: bool,
     has_double: bool,
     pub(crate) device: wgpu::Device,
     queue: wgpu::Queue,
@@ -28,7 +29,8 @@ impl Device {
             pollster::block_on(instance.request_adapter(&options))
         });
         let adapter = adapter.map_err(|error| DeviceError::NoAdapter(error.to_string()))?;
-        let name = adapter.get_info().name;
+        let wgpu::AdapterInfo { name, device_type, .. } = adapter.get_info();
+        let is_software = device_type == wgpu::DeviceType::Cpu;
         let has_double = adapter.features().contains(Features::SHADER_F64);
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("finite elements"),
@@ -48,12 +50,17 @@ impl Device {
                 record(&note, format!("the device was lost: {message}"));
             }
         });
-        Ok(Arc::new(Self { adapter: name, has_double, device, queue, trouble }))
+        Ok(Arc::new(Self { adapter: name, is_software, has_double, device, queue, trouble }))
     }
 
     /// Name of the adapter.
     pub fn adapter(&self) -> &str {
         &self.adapter
+    }
+
+    /// Returns true if the adapter is a program that computes on the processor, such as Mesa's llvmpipe.
+    pub fn is_software(&self) -> bool {
+        self.is_software
     }
 
     /// Whether it computes in double precision.

@@ -234,7 +234,9 @@ fn help(context: &Context, text: &str) {
         let margin = Margin::symmetric(12, 4);
         panel_frame().inner_margin(margin).show(ui, |ui| {
             ui.set_width(width);
-            ui.label(RichText::new(text).size(12.0));
+            // Spaces within a hint do not break: a line ends between two hints.
+            let hints: Vec<_> = text.split("  ·  ").map(|hint| hint.replace(' ', "\u{a0}")).collect();
+            ui.label(RichText::new(hints.join("  · ")).size(12.0));
         });
     });
 }

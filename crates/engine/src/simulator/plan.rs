@@ -152,7 +152,7 @@ impl Plan {
         } else {
             left_out_without("damping", "[damping]")
         });
-        parts.push(Part::drag(self.has_drag, NO_COST));
+        parts.push(Part::drag(self.has_drag, true, NO_COST));
         parts
     }
 }

@@ -2,8 +2,8 @@
 
 use super::numbers::{Problem, check_finite, check_not_negative, check_positive, check_vector, problem};
 use super::selector::check_one;
-use crate::Scene;
 use crate::tables::{DragTable, SpringTable, TractionTable};
+use crate::{Pipeline, Scene};
 
 pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     if let Some(gravity) = &scene.gravity {
@@ -18,7 +18,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     for (number, spring) in scene.springs.iter().enumerate() {
         check_spring(&format!("springs[{number}]"), spring)?;
     }
-    scene.drag.as_ref().map_or(Ok(()), check_drag)
+    scene.drag.as_ref().map_or(Ok(()), |drag| check_drag(scene.pipeline, drag))
 }
 
 fn check_traction(table: &str, traction: &TractionTable) -> Result<(), Problem> {
@@ -41,7 +41,11 @@ fn check_spring(table: &str, spring: &SpringTable) -> Result<(), Problem> {
     length.map_or(Ok(()), |length| check_not_negative(&format!("{table}.rest_length"), length, "m"))
 }
 
-fn check_drag(drag: &DragTable) -> Result<(), Problem> {
+fn check_drag(pipeline: Pipeline, drag: &DragTable) -> Result<(), Problem> {
+    if pipeline == Pipeline::Engine && drag.in_stiffness == Some(false) {
+        let text = "is false, and the engine's stiffness always contains the spring; remove the key, or write pipeline = \"course\"";
+        return problem("drag.in_stiffness", text);
+    }
     check_positive("drag.stiffness", drag.stiffness, " of N/m")?;
     check_vector("drag.direction", &drag.direction)?;
     if drag.direction == [0.0; 3] {

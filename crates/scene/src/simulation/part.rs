@@ -33,10 +33,14 @@ impl Part {
         Self::built("mesh", format!("[mesh]: {nodes} nodes, {elements} {kind}"), bytes, (0, 0.0))
     }
 
-    /// The scene's drag.
-    pub fn drag(is_built: bool, used: (usize, f64)) -> Self {
+    /// The scene's drag; `is_in_stiffness` tells if the stiffness contains its spring.
+    pub fn drag(is_built: bool, is_in_stiffness: bool, used: (usize, f64)) -> Self {
         if is_built {
-            Self::built("drag", "[drag]: a spring in force and stiffness", 0, used)
+            let why = match is_in_stiffness {
+                true => "[drag]: a spring in force and stiffness",
+                false => "[drag]: a spring in the force, not in the stiffness (drag.in_stiffness)",
+            };
+            Self::built("drag", why, 0, used)
         } else {
             Self::left_out("drag", "the scene has no [drag]; the mouse can pull in the window all the same")
         }

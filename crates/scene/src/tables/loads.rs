@@ -97,6 +97,9 @@ pub struct DragTable {
     pub amplitude: f64,
     /// Hz
     pub frequency: f64,
+    /// True if the stiffness contains the spring of the drag, or of the mouse in its place. In the course's pipeline it does not by default, as
+    /// in the assignment: linearly implicit Euler then treats the spring explicitly. Without `[drag]` it contains the mouse's spring. The engine's stiffness always contains it.
+    pub in_stiffness: Option<bool>,
 }
 
 /// The vertex of a drag.

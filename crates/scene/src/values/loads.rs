@@ -126,7 +126,9 @@ pub(crate) fn springs(scene: &Scene, mesh: &BodyMesh) -> Result<Vec<Spring>, Sce
 
 /// The spring of `[drag]`.
 pub(crate) fn drag(scene: &Scene, mesh: &BodyMesh) -> Result<Option<Drag>, SceneError> {
-    let Some(DragTable { vertex, stiffness, direction, amplitude, frequency }) = scene.drag else { return Ok(None) };
+    let Some(DragTable { vertex, stiffness, direction, amplitude, frequency, .. }) = scene.drag else {
+        return Ok(None);
+    };
     let node = match vertex {
         DragVertex::Index(node) => listed(scene, "drag.vertex", &[node], mesh).map(|_| node)?,
         DragVertex::Highest => highest_node(mesh),

@@ -79,6 +79,7 @@ fn every_table_of_a_scene_is_read() {
         direction: [1.0, 0.0, 0.0],
         amplitude: 0.2,
         frequency: 1.0,
+        in_stiffness: None,
     };
     assert_eq!(scene.drag, Some(drag));
 }

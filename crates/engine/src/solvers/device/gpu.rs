@@ -32,6 +32,11 @@ pub fn name() -> Result<String, String> {
     device().map(|device| device.adapter().to_owned()).map_err(|error| error.to_string())
 }
 
+/// Returns true if the device is a program on the processor, such as Mesa's llvmpipe.
+pub fn is_software() -> bool {
+    device().is_ok_and(|device| device.is_software())
+}
+
 /// Why no system can be solved on a device in this precision.
 pub fn unusable(precision: Precision) -> Option<String> {
     match device() {

@@ -6,10 +6,10 @@ mod gpu;
 mod tests;
 
 #[cfg(feature = "gpu")]
-pub use gpu::{device, name, solver, unusable};
+pub use gpu::{device, is_software, name, solver, unusable};
 
 #[cfg(not(feature = "gpu"))]
-pub use absent::{name, solver, unusable};
+pub use absent::{is_software, name, solver, unusable};
 
 #[cfg(not(feature = "gpu"))]
 mod absent {
@@ -22,6 +22,11 @@ mod absent {
     /// Name of the graphics device, or why there is none.
     pub fn name() -> Result<String, String> {
         Err(ABSENT.to_owned())
+    }
+
+    /// There is no device.
+    pub fn is_software() -> bool {
+        false
     }
 
     const ABSENT: &str = "this program was built without the feature `gpu`";
