@@ -5,6 +5,9 @@ use std::process::Command;
 
 use super::{assert_none, files, read, root};
 
+/// The page whose last table says what each dependency is for.
+const TABLE: &str = "docs/decisions/dependencies.md";
+
 /// Names of the crates that a Cargo.toml takes from elsewhere.
 fn dependencies(manifest: &str) -> Vec<String> {
     let mut names = Vec::new();
@@ -22,17 +25,16 @@ fn dependencies(manifest: &str) -> Vec<String> {
 }
 
 #[test]
-fn every_dependency_has_a_line_in_architecture_md_and_every_line_a_dependency() {
-    let text = read("ARCHITECTURE.md");
-    let section =
-        text.split("\n## ").find(|section| section.starts_with("Dependencies")).expect("a section Dependencies");
+fn every_dependency_has_a_line_in_its_table_and_every_line_a_dependency() {
+    let text = read(TABLE);
+    let section = text.split("\n## ").find(|section| section.starts_with("What each is for"));
+    let section = section.expect("docs/decisions/dependencies.md has a section `What each is for`");
     let cells = section.lines().filter(|line| line.starts_with('|')).skip(2).filter_map(|row| row.split('|').nth(1));
     let told: BTreeSet<_> = cells.flat_map(|cell| cell.split(',')).map(|name| name.trim().replace('`', "")).collect();
     let manifests = files("toml").into_iter().filter(|path| path.ends_with("Cargo.toml"));
     let used: BTreeSet<_> = manifests.flat_map(|path| dependencies(&read(path))).collect();
-    let untold = used.difference(&told).map(|name| format!("ARCHITECTURE.md: tell what {name} does here, and why it"));
-    let unused =
-        told.difference(&used).map(|name| format!("ARCHITECTURE.md: {name} is no dependency; remove its line"));
+    let untold = used.difference(&told).map(|name| format!("{TABLE}: tell what {name} does here, and why it"));
+    let unused = told.difference(&used).map(|name| format!("{TABLE}: {name} is no dependency; remove its line"));
     assert_none(untold.chain(unused).collect());
 }
 

@@ -43,6 +43,8 @@ fn tables_of_the_functions_are_in_the_order_of_the_course() {
     assert_eq!(named("README.md", in_row), NAMES, "README.md: give every function one row of the table, in order");
     let in_row = |name: &str| format!("| [{name}]({name}.md) |");
     assert_eq!(named("include-docs/course.md", in_row), NAMES, "include-docs/course.md: give every function one row");
+    let module = |name: &str| format!("pub mod {name};");
+    assert_eq!(named("src/lib.rs", module), NAMES, "src/lib.rs: put the modules in the order of the course");
     let in_table = |name: &str| format!("name = \"{name}\"");
     assert_eq!(
         named("grader/rubric.toml", in_table),
