@@ -3,13 +3,13 @@
 //! Needs no feature: `cargo test --no-default-features --test tidy`. Every message ends with what to do.
 
 mod attacks;
+mod book;
 mod dependencies;
 mod exercises;
 mod layout;
 mod lists;
 mod modules;
 mod pages;
-mod readme;
 
 use std::fs;
 use std::path::{Path, PathBuf};

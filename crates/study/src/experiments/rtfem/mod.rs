@@ -14,6 +14,7 @@ mod setting;
 mod speed;
 mod steps;
 mod structures;
+mod timing;
 mod torus;
 
 use std::path::Path;
