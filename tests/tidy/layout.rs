@@ -14,6 +14,12 @@ fn no_file_has_more_than_300_lines_apart_from_its_unit_tests() {
 }
 
 #[test]
+fn the_map_of_the_code_has_at_most_150_lines() {
+    let lines = read("ARCHITECTURE.md").lines().count();
+    assert!(lines <= 150, "ARCHITECTURE.md: {lines} lines; move what explains a choice to docs/decisions");
+}
+
+#[test]
 fn no_file_has_tabs_spaces_at_the_end_of_a_line_or_a_last_line_without_an_end() {
     let mut problems = Vec::new();
     for path in ["rs", "md", "toml"].iter().flat_map(|extension| files(extension)) {
