@@ -143,7 +143,7 @@ fn enough(sandbox: Sandbox) -> Result<Sandbox, Problem> {
         return Ok(sandbox);
     }
     let advice = "grade on Linux, as root or where the kernel and the container allow user namespaces or Landlock and seccomp \
-        (README.md, Sandbox), or give --without-sandbox if you trust the submissions as you trust yourself";
+        (docs/book/instructors.md, Sandbox), or give --without-sandbox if you trust the submissions as you trust yourself";
     Err(failed(format!("this machine cannot confine submissions: {}; {advice}", missing.join("; "))))
 }
 

@@ -1,13 +1,18 @@
-//! The README's tables of scene keys, materials, integrators and solvers agree with the code.
+//! The tables of scene keys, materials, integrators and solvers in README.md and the book agree with the code.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{assert_none, files, read, stem};
 
-/// The first cells of the README's rows.
+/// The text of README.md and of all pages of the book.
+fn manual() -> String {
+    let pages = files("md").into_iter().filter(|path| path.starts_with("docs/book"));
+    pages.fold(read("README.md"), |text, page| text + &read(page))
+}
+
+/// The first cells of the manual's rows.
 fn first_cells() -> Vec<String> {
-    let text = read("README.md");
-    text.lines().filter_map(|line| Some(line.strip_prefix("| ")?.split(" |").next()?.to_owned())).collect()
+    manual().lines().filter_map(|line| Some(line.strip_prefix("| ")?.split(" |").next()?.to_owned())).collect()
 }
 
 /// The text of all files in a folder.
@@ -40,7 +45,7 @@ fn keys(scene: &str, table: &str) -> BTreeMap<String, String> {
 }
 
 #[test]
-fn every_scene_key_is_in_the_readme_and_every_key_there_is_one() {
+fn every_scene_key_is_in_the_book_and_every_key_there_is_one() {
     let scene = sources("crates/scene/src");
     let cells = first_cells();
     // A cell names a table and one key or several: `[fixed]` `plane` or `nodes`.
@@ -61,25 +66,27 @@ fn every_scene_key_is_in_the_readme_and_every_key_there_is_one() {
         } else if known.is_empty() {
             // A key without a table.
             if !cells.contains(&format!("`{table}`")) {
-                problems.push(format!("README.md: add a row for the key `{table}` of scene files"));
+                problems.push(format!("docs/book/scene-keys.md: add a row for the key `{table}` of scene files"));
             }
         } else {
             let missing = known.keys().filter(|key| !told.contains(*key));
             problems
-                .extend(missing.map(|key| format!("README.md: add a row `[{table}]` `{key}` to the keys of scenes")));
+                .extend(missing.map(|key| {
+                    format!("docs/book/scene-keys.md: add a row `[{table}]` `{key}` to the keys of scenes")
+                }));
             let unknown = told.iter().filter(|key| !known.contains_key(*key));
-            problems.extend(unknown.map(|key| format!("README.md: scene files have no key `{key}` in [{table}]")));
+            problems.extend(
+                unknown.map(|key| format!("docs/book/scene-keys.md: scene files have no key `{key}` in [{table}]")),
+            );
         }
     }
     assert_none(problems);
 }
 
-/// The words in code of the README's chapters on scene files and materials.
+/// The words in code of the manual.
 fn words_of_the_scene_format() -> BTreeSet<String> {
-    let text = read("README.md");
-    let chapter = text.split("\n## Scene files\n").nth(1).and_then(|rest| rest.split("\n## Integrators\n").next());
-    let chapter = chapter.expect("README.md has a chapter `Scene files`, and `Integrators` after it");
-    let code = chapter.split('`').skip(1).step_by(2);
+    let text = manual();
+    let code = text.split('`').skip(1).step_by(2);
     let words = code.flat_map(|code| code.split(|c: char| !c.is_alphanumeric() && c != '_'));
     words.map(str::to_owned).collect()
 }
@@ -106,7 +113,7 @@ fn every_key_of_every_table_and_every_parameter_of_a_law_is_named_in_the_scene_f
         for key in of_tables.chain(parameters) {
             count += 1;
             if !words.contains(&key) {
-                problems.push(format!("{}: name its key `{key}` in README.md, Scene files", path.display()));
+                problems.push(format!("{}: name its key `{key}` in docs/book/scene-keys.md", path.display()));
             }
         }
     }
@@ -115,7 +122,7 @@ fn every_key_of_every_table_and_every_parameter_of_a_law_is_named_in_the_scene_f
 }
 
 #[test]
-fn every_law_has_a_file_of_its_name_and_a_row_in_the_readme() {
+fn every_law_has_a_file_of_its_name_and_a_row_in_the_book() {
     let cells = first_cells();
     let mut problems = Vec::new();
     for path in files("rs").into_iter().filter(|path| path.starts_with("crates/elements/src/materials")) {
@@ -128,23 +135,25 @@ fn every_law_has_a_file_of_its_name_and_a_row_in_the_readme() {
             problems.push(format!("{}: call this file {name}.rs, like its law", path.display()));
         }
         if !cells.contains(&format!("`{name}`")) {
-            problems.push(format!("README.md: add a row for `{name}` to the table of materials"));
+            problems.push(format!("docs/book/materials.md: add a row for `{name}` to the table of materials"));
         }
     }
     assert_none(problems);
 }
 
 #[test]
-fn every_integrator_solver_and_preconditioner_has_a_row_in_the_readme() {
+fn every_integrator_solver_and_preconditioner_has_a_row_in_the_book() {
     let (scene, cells) = (sources("crates/scene/src"), first_cells());
     let mut problems = Vec::new();
-    for kind in ["Integrator", "SolverKind", "Preconditioner"] {
+    for (kind, page) in [("Integrator", "integrators"), ("SolverKind", "solvers"), ("Preconditioner", "solvers")] {
         let lines = body(&scene, &format!("pub enum {kind} {{"));
         let is_variant = |line: &&str| line.starts_with(char::is_uppercase);
         let variants: Vec<_> = lines.into_iter().filter(is_variant).map(snake_case).collect();
         assert!(variants.len() > 1, "no enum {kind} with variants in crates/scene/src");
         let missing = variants.into_iter().filter(|name| !cells.contains(&format!("`{name}`")));
-        problems.extend(missing.map(|name| format!("README.md: add a row for `{name}` to the table of its kind")));
+        problems.extend(
+            missing.map(|name| format!("docs/book/{page}.md: add a row for `{name}` to the table of its kind")),
+        );
     }
     assert_none(problems);
 }

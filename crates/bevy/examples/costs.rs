@@ -1,5 +1,5 @@
 //! Costs of bodies at 60 frames a second: the time of a step on its thread, the time by which the plugin holds up a frame, and memory.
-//! Ends with an error if more than one frame in a hundred is held up for 0.5 ms or more. Prints the rows of the table in `docs/game-engines.md`.
+//! Ends with an error if more than one frame in a hundred is held up for 0.5 ms or more. Prints the rows of the table in `docs/book/game-engines.md`.
 //!
 //! ```sh
 //! cargo run --example costs

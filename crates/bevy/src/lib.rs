@@ -23,7 +23,7 @@
 //! assert!(app.world().get::<Mesh3d>(armadillo).is_some());
 //! ```
 //!
-//! `docs/game-engines.md` leads from an empty package to a body that is pulled with the mouse, with the parameters, limits and costs.
+//! `docs/book/game-engines.md` leads from an empty package to a body that is pulled with the mouse, with the parameters, limits and costs.
 
 #![deny(missing_docs)]
 

@@ -118,7 +118,10 @@ fn check<T: Real>(scene: &Scene, body: &Body, epsilon: f64) -> Result<Option<Any
     check_instructions().map_err(|problem| scene.refuse("pipeline", &problem))?;
     let law = AnyLaw::<T::Single>::new(&body.material);
     if law.is_none() && !body.material.is_mass_spring() {
-        return Err(refuse(("material", "lacks the parameters of its model; see README.md for them".to_owned())));
+        return Err(refuse((
+            "material",
+            "lacks the parameters of its model; see docs/book/materials.md for them".to_owned(),
+        )));
     }
     let materials = body.regions.iter().map(|region| (&region.name[..], &region.material));
     for (table, material) in std::iter::once(("material", &body.material)).chain(materials) {

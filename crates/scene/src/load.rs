@@ -117,7 +117,7 @@ fn of_line(text: &str, path: &Path, error: &toml::de::Error) -> SceneError {
 }
 
 fn problem_of(error: &toml::de::Error) -> String {
-    format!("{}; correct it as the scene format in README.md says", error.message().trim_end())
+    format!("{}; correct it as the scene format in docs/book/scenes.md says", error.message().trim_end())
 }
 
 /// The error of a field: of the override that sets it, or else of its line in the scene's text.

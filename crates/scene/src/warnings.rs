@@ -36,7 +36,7 @@ fn locking(body: &Body) -> impl Iterator<Item = String> {
     materials.filter_map(warning)
 }
 
-/// Tip displacement of the scene `cantilever`, relative to Timoshenko's; README.md has it for more meshes.
+/// Tip displacement of the scene `cantilever`, relative to Timoshenko's; docs/book/materials.md has it for more meshes.
 const LOCKING: &str = "the tip of a cantilever of 8 × 1 × 1 m with 6 cells per metre moves by 0.89 of the true distance at ν = 0.3, \
                        0.75 at ν = 0.45, 0.45 at ν = 0.49, 0.10 at ν = 0.499 and 0.03 at ν = 0.4999";
 
