@@ -147,7 +147,7 @@ fn every_law_has_a_file_of_its_name_and_a_row_in_the_book() {
 fn every_integrator_solver_and_preconditioner_has_a_row_in_the_book() {
     let (scene, cells) = (sources("crates/scene/src"), first_cells());
     let mut problems = Vec::new();
-    for kind in ["Integrator", "SolverKind", "Preconditioner"] {
+    for (kind, page) in [("Integrator", "integrators"), ("SolverKind", "solvers"), ("Preconditioner", "solvers")] {
         let lines = body(&scene, &format!("pub enum {kind} {{"));
         let is_variant = |line: &&str| line.starts_with(char::is_uppercase);
         let variants: Vec<_> = lines.into_iter().filter(is_variant).map(snake_case).collect();

@@ -47,7 +47,7 @@ fn drift(integrator: Integrator, dt: f64) -> f64 {
     (after - before).norm() / before.norm()
 }
 
-/// The largest drift of each method at a time step, s: README.md shows the figures.
+/// The largest drift of each method at a time step, s: docs/book/integrators.md shows the figures.
 const DRIFTS: &[(Integrator, f64, f64)] = &[
     (Integrator::SemiImplicitEuler, 1e-3, 1e-13),
     (Integrator::Verlet, 1e-3, 1e-13),

@@ -42,7 +42,7 @@ pub fn write_energies(path: &Path, rows: &[(f64, Energies)]) -> Result<(), MeshE
 
 /// The numbers of a run, in the order of the statistics file.
 #[derive(Clone, Debug, Serialize)]
-#[allow(missing_docs)] // the names are the keys of the file; README.md explains them
+#[allow(missing_docs)] // the names are the keys of the file; docs/book/commands.md explains them
 pub struct Stats {
     pub scene: String,
     /// `done`, `interrupted`, or `failed` with the reason.

@@ -28,10 +28,10 @@ const TIGHT: f64 = 1e-5;
 /// at the worst node, and those of several steps partly cancel: 0.6 and 3 were the most on three processors.
 const NEWTON: [f64; 2] = [2.0, 10.0];
 
-/// Tolerances of adaptive steps for each step of the scene: README.md says that the error at the end can be some times their sum.
+/// Tolerances of adaptive steps for each step of the scene: docs/book/integrators.md says that the error at the end can be some times their sum.
 const ADAPTIVE: [f64; 2] = [0.5, 2.0];
 
-/// README.md's error of Newmark's method with β = 1/12 and the largest stable step, in the mean and at the worst node; a tenth after each halving.
+/// The error of Newmark's method with β = 1/12 and the largest stable step (docs/book/studies.md), in the mean and at the worst node; a tenth after each halving.
 const NEWMARK: [f64; 2] = [1e-4, 1e-3];
 
 fn root() -> PathBuf {
