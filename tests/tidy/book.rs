@@ -153,7 +153,7 @@ fn every_integrator_solver_and_preconditioner_has_a_row_in_the_book() {
         let variants: Vec<_> = lines.into_iter().filter(is_variant).map(snake_case).collect();
         assert!(variants.len() > 1, "no enum {kind} with variants in crates/scene/src");
         let missing = variants.into_iter().filter(|name| !cells.contains(&format!("`{name}`")));
-        problems.extend(missing.map(|name| format!("docs/book: add a row for `{name}` to the table of its kind")));
+        problems.extend(missing.map(|name| format!("docs/book/{page}.md: add a row for `{name}`")));
     }
     assert_none(problems);
 }
