@@ -26,15 +26,13 @@ fn the_fine_armadillo_is_made_inside_its_surface_with_the_angles_of_isosurface_s
 }
 
 #[test]
-fn engine_scenes_that_repeat_one_of_the_course_differ_in_name_and_pipeline_alone() {
-    for name in ["arma", "bunny"] {
-        let course = load(name, &data()).unwrap();
-        let mut engine = load(&format!("{name}-engine"), &data()).unwrap();
-        assert_ne!(engine.pipeline, course.pipeline);
-        (engine.name, engine.path, engine.about) = (course.name.clone(), course.path.clone(), course.about.clone());
-        (engine.pipeline, engine.source) = (course.pipeline, course.source.clone());
-        assert_eq!(engine, course);
-    }
+fn the_engine_s_armadillo_differs_from_that_of_the_course_in_name_and_pipeline_alone() {
+    let course = load("arma", &data()).unwrap();
+    let mut engine = load("arma-engine", &data()).unwrap();
+    assert_ne!(engine.pipeline, course.pipeline);
+    (engine.name, engine.path, engine.about) = (course.name.clone(), course.path.clone(), course.about.clone());
+    (engine.pipeline, engine.source) = (course.pipeline, course.source.clone());
+    assert_eq!(engine, course);
 }
 
 fn is_large(name: &str) -> bool {
