@@ -174,10 +174,11 @@ impl AssignmentSetup {
         }
     }
 
-    /// ∂f/∂q of [`force`](Self::force) with projected elements, N/m. The springs of the drag and of the mouse are left out, as in the
-    /// assignment, unless the scene asks for them or has no table `[drag]`: linearly implicit Euler then treats them explicitly and explodes where a spring is
-    /// stiffer than the body, and Newton's line search shortens its steps. A spring of zero rest length has the same stiffness in every
-    /// direction.
+    /// ∂f/∂q of [`force`](Self::force) with projected elements, N/m.
+    ///
+    /// A scene with `[drag]` leaves the springs of the drag and of the mouse out, as the assignment does, unless `drag.in_stiffness` is
+    /// true. Linearly implicit Euler then treats them explicitly, and explodes if a spring is stiffer than the body around its node;
+    /// Newton's line search shortens the step. A spring of zero rest length has the same stiffness in every direction.
     fn stiffness(&self, q: &DVector<f64>, springs: &[AnchorSpring]) -> CsrMatrix<f64> {
         self.profile.count_stiffness_assembly(self.shape.mesh.elements());
         let x = self.constraints.all_coordinates(q);

@@ -1,7 +1,8 @@
 //! Elements of deformable solids: constitutive laws, plastic flow, and the loops over all elements of a body that sum up its energy,
 //! gradient and stiffness.
 //!
-//! What is slow to compile lives here: kernels that are compiled once for each law, kind of element, number type and instruction set.
+//! Kernels are compiled once for each law, kind of element, number type and instruction set. That takes long, so they are a package of
+//! their own.
 //! [`Real::solids`] makes the [`Solids`](solids::Solids) of a body, whose loops are called once per pass, so that nothing else is
 //! compiled for a law.
 

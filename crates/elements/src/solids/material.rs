@@ -18,8 +18,8 @@ pub(super) struct Solid<T: Float> {
     pub(super) numbers: Vec<usize>,
 }
 
-/// The law of a material in the widest lanes of this processor: by reference, so that its kernels are those of this package. The flag
-/// tells whether it allows J = det F ≤ 0.
+/// The law of a material in the widest lanes of this processor, by reference, so that its kernels are those of this package. The flag is
+/// true if the law allows J = det F ≤ 0.
 pub enum LawInLanes<'a, T: Float> {
     /// One element after the other.
     Single(&'a dyn Law<T::Single>, bool),

@@ -236,3 +236,19 @@ fn a_static_scene_may_leave_out_its_time_step_and_no_other_may() {
     moving.time.dt = Some(0.01);
     moving.check().unwrap();
 }
+
+#[test]
+fn a_drag_is_in_the_stiffness_of_the_engine_always_and_in_that_of_the_course_on_request() {
+    let numbers = "stiffness = 1\ndirection = [1, 0, 0]\namplitude = 0.1\nfrequency = 1.0\n";
+    let text = |pipeline: &str, value: &str| {
+        let scene = edit(LEAST, "course", pipeline);
+        format!("{scene}[drag]\nvertex = 1\n{numbers}in_stiffness = {value}\n")
+    };
+    for (pipeline, value) in [("course", "true"), ("course", "false"), ("engine", "true")] {
+        assert_eq!(read(&text(pipeline, value)).drag.unwrap().in_stiffness, Some(value == "true"), "{pipeline}");
+    }
+    let refused = text("engine", "false");
+    assert_refused(&refused, refused.lines().count(), "drag.in_stiffness is false");
+    let refused = text("course", "\"no\"");
+    assert_refused(&refused, refused.lines().count(), "invalid type: string");
+}
