@@ -39,6 +39,10 @@ impl Profile {
         self.count(|counters| counters.steps += 1);
     }
 
+    pub(super) fn count_unconverged_step(&self) {
+        self.count(|counters| counters.unconverged_steps += 1);
+    }
+
     pub(super) fn count_energy_evaluation(&self) {
         let is_backtrack = self.trials.get().is_some_and(|trials| trials > 0);
         self.trials.set(self.trials.get().map(|trials| trials + 1));

@@ -44,10 +44,16 @@ fn the_bunny_survives_both_integrators() {
 #[test]
 fn the_armadillo_survives_ten_seconds_of_implicit_euler() {
     let desk = Desk::new();
-    desk.run_well("arma --headless --steps 1000 --stats s.json");
+    let outcome = desk.run_well("arma --headless --steps 1000 --stats s.json");
     let stats = desk.json("s.json");
     assert_eq!((&stats["status"], stats["steps"].as_u64()), (&"done".into(), Some(1000)));
     assert!(stats["min_J"].as_f64().unwrap() > 0.8, "{stats}");
+    // It survives, but five Newton iterations do not converge, and the run says so.
+    assert!(stats["unconverged_steps"].as_u64().unwrap() > 500, "{stats}");
+    assert!(outcome.stdout.contains("steps ended before Newton's method had converged"), "{}", outcome.stdout);
+    let outcome = desk.run_well("arma --headless --steps 50 --set drag.in_stiffness=true --stats s.json");
+    assert_eq!(desk.json("s.json")["unconverged_steps"], 0);
+    assert!(!outcome.stdout.contains("converged"), "{}", outcome.stdout);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 //! Every integrator runs with a ladder of halved time steps. Explicit integrators start above their stability limit, so that the
 //! failure is shown. Tolerance, solver, projection, precision and mesh vary around one point of the ladder of implicit Euler.
 
-use fem_scene::tables::{AdaptiveTable, NewmarkTable, NewtonTable, SolverTable, TimeTable};
+use fem_scene::tables::{AdaptiveTable, DragTable, NewmarkTable, NewtonTable, SolverTable, TimeTable};
 use fem_scene::{Integrator, Pipeline, Precision, Preconditioner, Projection, Scene, SolverKind};
 
 use super::names::{name, solver_name};
@@ -84,13 +84,8 @@ fn loose(scene: &Scene, implicit: &[usize], extent: Extent) -> Vec<Ladder> {
     }
     scene.time.integrator = Integrator::Newmark;
     scene.newmark = Some(accurate);
-    ladders.push(ladder(
-        "precision",
-        "Newmark, β = 1/12, in f32 to 1e-4",
-        &scene,
-        &[stable, 2 * stable, 4 * stable],
-        extent,
-    ));
+    let steps = [stable, 2 * stable, 4 * stable];
+    ladders.push(ladder("precision", "Newmark, β = 1/12, in f32 to 1e-4", &scene, &steps, extent));
     ladders
 }
 
@@ -109,13 +104,18 @@ fn adaptive(scene: &Scene, extent: Extent) -> Vec<Ladder> {
         .collect()
 }
 
+/// The scene in the course's pipeline, with the spring of its drag in the stiffness, as the engine has it: rows compare methods, and the
+/// course leaves that spring out unless a scene asks for it.
+fn in_course(scene: &Scene) -> Scene {
+    let drag = scene.drag.clone().map(|drag| DragTable { in_stiffness: drag.in_stiffness.or(Some(true)), ..drag });
+    Scene { pipeline: Pipeline::Course, newton: None, solver: None, drag, ..scene.clone() }
+}
+
 /// The same body in the course's pipeline.
 fn course(scene: &Scene, extent: Extent) -> Vec<Ladder> {
-    let mut scene = Scene { pipeline: Pipeline::Course, newton: None, solver: None, ..scene.clone() };
-    let steps: Vec<usize> = if extent.is_quick { vec![0, 2] } else { vec![-1, 0, 1, 2] }
-        .into_iter()
-        .map(|k| scaled(extent.steps, k))
-        .collect();
+    let mut scene = in_course(scene);
+    let halvings: &[i32] = if extent.is_quick { &[0, 2] } else { &[-1, 0, 1, 2] };
+    let steps: Vec<_> = halvings.iter().map(|&k| scaled(extent.steps, k)).collect();
     let of = |integrator: Integrator| {
         scene.time.integrator = integrator;
         ladder("method", &format!("course: {}", name(integrator)), &scene, &steps, extent)
@@ -228,8 +228,8 @@ pub fn orders(scene: &Scene, extent: Extent) -> Vec<Ladder> {
         scene.time.integrator = integrator;
         ladders.push(ladder("order", name(integrator), &scene, &steps(first), extent));
         if matches!(integrator, Integrator::LinearlyImplicitEuler | Integrator::ImplicitEuler) {
-            scene.pipeline = Pipeline::Course;
-            ladders.push(ladder("order", &format!("course: {}", name(integrator)), &scene, &steps(first), extent));
+            let method = format!("course: {}", name(integrator));
+            ladders.push(ladder("order", &method, &in_course(&scene), &steps(first), extent));
         }
     }
     ladders
@@ -292,4 +292,20 @@ fn ladder(group: &'static str, method: &str, scene: &Scene, steps: &[usize], ext
 
 fn newton(scene: &Scene) -> NewtonTable {
     scene.newton.clone().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Extent, Pipeline, dynamic};
+
+    #[test]
+    fn the_course_is_compared_with_the_spring_of_the_drag_in_its_stiffness() {
+        let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data");
+        let scene = fem_scene::load("arma", data.as_ref()).unwrap();
+        let extent = Extent { is_quick: true, horizon: 0.1, steps: 10, fastest: 1e3 };
+        let runs: Vec<_> = dynamic(&scene, extent).into_iter().flatten().collect();
+        let of_course = runs.iter().filter(|run| run.scene.pipeline == Pipeline::Course);
+        let is_in = |run: &&super::PlannedRun| run.scene.drag.as_ref().unwrap().in_stiffness == Some(true);
+        assert_eq!((of_course.clone().count(), of_course.filter(is_in).count()), (4, 4));
+    }
 }
