@@ -301,7 +301,7 @@ mod tests {
     #[test]
     fn the_course_is_compared_with_the_spring_of_the_drag_in_its_stiffness() {
         let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data");
-        let scene = fem_scene::load("arma", data.as_ref()).unwrap();
+        let scene = fem_scene::load("arma-engine", data.as_ref()).unwrap();
         let extent = Extent { is_quick: true, horizon: 0.1, steps: 10, fastest: 1e3 };
         let runs: Vec<_> = dynamic(&scene, extent).into_iter().flatten().collect();
         let of_course = runs.iter().filter(|run| run.scene.pipeline == Pipeline::Course);
