@@ -1,9 +1,9 @@
 //! Elements of deformable solids: constitutive laws, plastic flow, and the loops over all elements of a body that sum up its energy,
 //! gradient and stiffness.
 //!
-//! What is slow to compile lives here: kernels that are compiled once for each law, kind of element, number type and instruction set.
-//! [`Real::solids`] makes the [`Solids`](solids::Solids) of a body, whose loops are called once per pass, so that nothing else is
-//! compiled for a law.
+//! This package holds the code that is slow to compile: kernels that are compiled once for each law, kind of element, number type and
+//! instruction set. [`Real::solids`] makes the [`Solids`](solids::Solids) of a body, whose loops are called once per pass, so that
+//! nothing else is compiled for a law.
 
 #![deny(missing_docs)]
 #![allow(non_snake_case)] // J, F, C and D are the names that the mathematics and the course use

@@ -95,12 +95,12 @@ impl<T: Float> dyn Solids<T> + '_ {
         (0..self.materials()).map(|material| self.law(material))
     }
 
-    /// Whether the stress of every element is a linear function of the displacement gradient.
+    /// Returns true if the stress of every element is a linear function of the displacement gradient.
     pub fn is_linear(&self) -> bool {
         self.laws().all(|law| law.is_linear())
     }
 
-    /// Whether every law allows J = det F ≤ 0.
+    /// Returns true if every law allows J = det F ≤ 0.
     pub fn allow_inversion(&self) -> bool {
         self.laws().all(|law| law.allows_inversion())
     }
