@@ -242,7 +242,7 @@ impl<T: Real> Simulator<T> {
         }
     }
 
-    /// Whether the size of steps follows an estimate of their error.
+    /// Returns true if the size of steps follows an estimate of their error.
     fn is_adaptive(&self) -> bool {
         self.control.is_some() && IntegratorKind::SECOND_ORDER_IMPLICIT.contains(&self.kind)
     }

@@ -143,7 +143,7 @@ impl Batch {
         self.environments.unconverged_steps()
     }
 
-    /// How often something was read from a graphics device: once for each state, and once for the failures after some steps.
+    /// Number of reads from a graphics device: one for each state, and one for the failures after some steps.
     pub fn reads(&self) -> usize {
         self.environments.reads()
     }

@@ -229,7 +229,7 @@ impl Impulse {
     }
 }
 
-/// Whether a node that touches a plane is in the list, of which the first entries are ordered.
+/// Returns true if a node that touches a plane is in the list. The first `ordered` entries of the list are sorted.
 fn is_listed(impulses: &[Impulse], ordered: usize, key: (usize, usize)) -> bool {
     // The list grows in the first pass, which meets each node once.
     if ordered == 0 {

@@ -110,18 +110,18 @@ pub trait Integrator<T: Real>: Send {
         None
     }
 
-    /// Whether no time step lets its motion grow without bound.
+    /// Returns true if the method is stable at every time step.
     fn is_unconditionally_stable(&self) -> bool {
         false
     }
 
-    /// Whether a step may end far from the solution of its equation without a word, because it takes a number of iterations that
+    /// Returns true if a step may end far from the solution of its equation unnoticed, because it takes a number of iterations that
     /// the scene has set.
     fn may_stop_early(&self) -> bool {
         false
     }
 
-    /// Whether its velocities lie half a step behind its displacements, so that their mean over a step is the velocity at its start.
+    /// Returns true if the velocities lie half a step behind the displacements: their mean over a step is the velocity at its start.
     fn has_staggered_velocities(&self) -> bool {
         false
     }
@@ -141,7 +141,7 @@ pub trait Integrator<T: Real>: Send {
         0
     }
 
-    /// Whether it searches along directions, and so evaluates energies.
+    /// Returns true if the method has a line search, and so evaluates energies.
     fn has_line_search(&self) -> bool {
         false
     }

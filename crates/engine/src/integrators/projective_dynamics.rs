@@ -108,7 +108,7 @@ impl<T: Real> ProjectiveDynamics<T> {
         0.0
     }
 
-    /// Whether the energy decreases enough, or, where its change is rounding error, the directional derivative.
+    /// Returns true if the energy decreases enough; where its change is rounding error, the directional derivative decides.
     fn is_lower(
         &mut self,
         potential: &IncrementalPotential<T>,

@@ -50,7 +50,7 @@ impl<T: Real> System<T> {
         self.pattern = Arc::new(pattern);
     }
 
-    /// Whether the pattern of the stiffness matrix is known, or no node has a row in it.
+    /// Returns true if the pattern of the stiffness matrix is known, or no node has a row in it.
     pub fn has_pattern(&self) -> bool {
         self.pattern.rows() == self.free()
     }

@@ -138,12 +138,12 @@ impl<T: Real> System<T> {
         self.numbering.free
     }
 
-    /// Whether no Dirichlet condition applies now.
+    /// Returns true if no Dirichlet condition applies now.
     pub fn is_unconstrained(&self) -> bool {
         self.dirichlet.is_empty()
     }
 
-    /// Whether all energies are quadratic: then one linear solve finds equilibrium.
+    /// Returns true if all energies are quadratic: then one linear solve finds equilibrium.
     pub fn is_linear(&self) -> bool {
         self.elements.is_linear() && self.forces.active().all(|(potential, _)| potential.is_quadratic())
     }

@@ -40,7 +40,7 @@ impl<T: Real> Newton<T> {
         Ok(())
     }
 
-    /// Whether the kept Hessian has about the inertia of this step.
+    /// Returns true if the kept Hessian has about the inertia of this step.
     pub(super) fn serves(&self, potential: &IncrementalPotential<T>) -> bool {
         let inertia = potential.increment.inertia.map(|inertia| inertia.over_dt2);
         self.inertia_of_hessian
@@ -152,7 +152,7 @@ impl<T: Real> Newton<T> {
     }
 }
 
-/// Whether a matrix could be factored; with an error where another matrix could not be either.
+/// Returns true if the matrix could be factored. An error means that no other matrix could be factored either.
 fn is_usable(factored: Result<(), Breakdown>) -> Result<bool, Cause> {
     match factored {
         Err(breakdown) if breakdown.is_of_machine() => Err(Cause::Solver(breakdown)),

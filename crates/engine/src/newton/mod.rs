@@ -28,7 +28,7 @@ use fem_elements::vector::{max_norm, norm};
 use incremental_potential::{IncrementalPotential, Workspace};
 use lbfgs::Lbfgs;
 
-/// Whether the iteration of a step has reached its tolerance. A method without an iteration always converges.
+/// Convergence of the iteration of a step. A method without an iteration always converges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convergence {
     /// The step solves its equations to the tolerance.
@@ -55,9 +55,9 @@ pub struct Newton<T: Real> {
     inertia_of_hessian: Option<T>,
     /// Iterations of the first solve with the kept preconditioner; `None` where it has to be refactored.
     first_iterations: Option<usize>,
-    /// Whether the next solve is the first with a new preconditioner.
+    /// True if the next solve is the first with a new preconditioner.
     is_new_preconditioner: bool,
-    /// Whether an iterative solver's kept matrix converged too slowly in this step to start the next step with.
+    /// True if an iterative solver converged too slowly with the kept matrix in this step to keep it for the next one.
     is_matrix_outdated: bool,
 }
 

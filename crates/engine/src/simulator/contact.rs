@@ -231,7 +231,7 @@ impl<T: Real> Simulator<T> {
         self.system.forces.has_lag().then_some(self.contact.as_ref()?.residual)
     }
 
-    /// Whether the state lies outside all obstacles.
+    /// Checks that the state lies outside all obstacles.
     pub(super) fn check_contact(&self) -> Result<(), Cause> {
         let Some(contact) = &self.contact else { return Ok(()) };
         let time = self.last_good.time + self.substep_dt;

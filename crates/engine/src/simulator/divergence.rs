@@ -1,8 +1,9 @@
 //! Compares the energy of a body with all that loads, prescribed motions and the initial state have supplied.
 //!
-//! Where its kinetic energy exceeds that, its motion grows without bound: an explicit method beyond its critical time step, or a linearized
-//! one on a body that is too stiff for it. Where kinetic and elastic energy exceed it after a number of iterations that the scene has set,
-//! these ended far from the solution of the step: few sweeps over a stiff body leave strains that its loads could never have caused.
+//! If the kinetic energy exceeds that, the motion grows without bound: an explicit method beyond its critical time step, or a linearized
+//! one on a body that is too stiff for it. If kinetic and elastic energy exceed it after a number of iterations that the scene has set,
+//! the iteration ended far from the solution of the step: few sweeps over a stiff body leave strains that its loads could never have
+//! caused.
 
 use fem_scene::simulation::{Cause, History};
 
@@ -30,7 +31,7 @@ pub(super) struct SuppliedEnergy<T> {
     /// Forces on the nodes, N, and changes of their displacements, m.
     force: Vec<[T; 3]>,
     change: Vec<[T; 3]>,
-    /// Whether a motion may diverge, as a study of its growth wants.
+    /// Divergence is not an error, for studies of the growth of a motion.
     pub(super) may_diverge: bool,
 }
 
@@ -204,7 +205,7 @@ impl<T: Real> SuppliedEnergy<T> {
     }
 }
 
-/// Whether the work of a force depends on the displacements at the start and now alone.
+/// Returns true if the work of a force depends only on the displacements at the start and now.
 fn is_steady<T: Real>(potential: &dyn Potential<T>) -> bool {
     potential.is_conservative() && potential.is_steady()
 }

@@ -33,7 +33,7 @@ pub(super) struct Plan {
     is_damped: bool,
     has_drag: bool,
     has_display: bool,
-    /// Why a graphics device cannot assemble the elements.
+    /// Reason why a graphics device cannot assemble the elements; `None` if it can.
     unknown_on_device: Option<String>,
 }
 
@@ -89,7 +89,7 @@ impl Plan {
         parts
     }
 
-    /// Why the matrix is a part, and whether the processor or the graphics device assembles it.
+    /// Says which method needs the matrix, and whether the processor or the graphics device assembles it.
     fn assembly(&self, kind: IntegratorKind, method: &Method, solver: SolverChoice, is_linear: bool) -> String {
         let solves = format!("{} solves with it", kind.name());
         let other_method = device_assembly::other_method(kind, method, is_linear);

@@ -1,4 +1,4 @@
-//! Whether a scene's numbers, and the quantities derived from them, fit into the number type of the simulation.
+//! Checks that a scene's numbers, and the quantities derived from them, fit into the number type of the simulation.
 
 use fem_scene::{Material, Method, Precision};
 
@@ -65,7 +65,7 @@ pub(super) fn check_shear_modulus(table: &Material) -> Result<(), String> {
     Err(format!("has the shear modulus {shear:e} Pa at small strain; give parameters that make it positive"))
 }
 
-/// Whether μ V^(1/3), the stiffness of an element (N/m), is in range.
+/// Returns true if μ V^(1/3), the stiffness of an element (N/m), is in range.
 fn is_stiff<T: Real>(modulus: T, volume: f64) -> bool {
     is_positive(modulus * T::of(volume.cbrt()))
 }

@@ -17,7 +17,7 @@ pub(crate) trait ApproximateInverse<T: Real>: Send + Sync {
     #[cfg(feature = "gpu")]
     fn set_elements(&mut self, _elements: &DeviceElements) {}
 
-    /// Whether it [assembles](Self::assemble) matrices.
+    /// Returns true if the inverse [assembles](Self::assemble) matrices.
     fn assembles(&self) -> bool {
         false
     }

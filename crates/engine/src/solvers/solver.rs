@@ -41,7 +41,7 @@ pub struct Solver<T: Real> {
     /// The parts of the matrix for products.
     parts: Part,
     inverse: Box<dyn ApproximateInverse<T>>,
-    /// Whether the matrix was assembled where it is solved with, and nowhere else.
+    /// True if the matrix was assembled by the inverse itself, and only there.
     has_own_matrix: bool,
     workspace: Workspace<T>,
     counters: SolverCounters,
@@ -109,7 +109,7 @@ impl<T: Real> Solver<T> {
         self.inverse.set_elements(elements);
     }
 
-    /// Whether it [assembles](Self::assemble) matrices.
+    /// Returns true if the solver [assembles](Self::assemble) matrices.
     pub fn assembles(&self) -> bool {
         self.inverse.assembles()
     }
@@ -227,17 +227,17 @@ impl<T: Real> Solver<T> {
         again.map_err(|breakdown| format!("its matrix cannot be factored again: {breakdown}"))
     }
 
-    /// Whether a solve iterates with the matrix that it is given, so that the prepared matrix only preconditions.
+    /// Returns true if a solve iterates with the matrix that it is given, so that the prepared matrix only preconditions.
     pub fn is_iterative(&self) -> bool {
         self.choice.is_iterative()
     }
 
-    /// Whether [`prepare`](Self::prepare) copies the matrix, so that a solve with another matrix is slow.
+    /// Returns true if [`prepare`](Self::prepare) copies the matrix, so that a solve with another matrix is slow.
     pub fn copies_matrix(&self) -> bool {
         self.choice.copies_matrix()
     }
 
-    /// Whether [`prepare`](Self::prepare) computes a preconditioner.
+    /// Returns true if [`prepare`](Self::prepare) computes a preconditioner.
     pub fn has_preconditioner(&self) -> bool {
         self.choice.has_preconditioner()
     }

@@ -19,7 +19,7 @@ const SHORT: f64 = 0.1;
 pub(super) struct Steps<L> {
     /// m
     pub step: [L; 3],
-    /// Whether the energy has to tell how long a step is.
+    /// True in lanes whose step needs a line search on the energy.
     pub is_doubtful: bool,
 }
 

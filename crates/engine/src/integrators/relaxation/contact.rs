@@ -122,7 +122,7 @@ impl PlaneContacts {
         skin(self.length, u)
     }
 
-    /// Whether a plane has a force on a node.
+    /// Returns true if a plane exerts a force on a node.
     pub fn touches(&self, node: usize) -> bool {
         self.multipliers.iter().skip(node).step_by(self.planes.nodes().max(1)).any(|multiplier| multiplier[0] > 0.0)
     }
@@ -136,7 +136,7 @@ impl PlaneContacts {
         (0..self.planes.planes.len()).map(force).sum()
     }
 
-    /// Whether a node may go to `free`: it is in front of all planes there, and none has a force on it.
+    /// Returns true if a node may move to `free`: it is in front of all planes there, and no plane exerts a force on it.
     pub fn is_free<T: Real>(&self, node: usize, step: ContactStep<T>, skin: f64, free: &[T; 3]) -> bool {
         let count = self.planes.nodes();
         (0..self.planes.planes.len()).all(|plane| {

@@ -12,7 +12,7 @@ use fem_elements::vector::axpy;
 pub struct Known<T> {
     /// Acceleration without that of obstacles, m/s²; empty for a method without.
     pub acceleration: Vec<[T; 3]>,
-    /// Whether it is that of the state.
+    /// True if `acceleration` is that of the current state.
     pub has_acceleration: bool,
     /// Displacement increment of the step before, m; empty for a method of one step.
     pub increment: Vec<[T; 3]>,

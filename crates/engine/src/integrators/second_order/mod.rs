@@ -49,8 +49,9 @@ pub struct SecondOrder<T: Real> {
     acceleration: Vec<[T; 3]>,
     /// θ of the last step.
     stage: Option<f64>,
-    /// Whether each step estimates its error, and the estimate of the last one, m.
+    /// True if each step estimates its error.
     estimates: bool,
+    /// Error estimate of the last step, m.
     error: Option<f64>,
     /// Velocities at the start of a step that estimates its error, m/s.
     before: Vec<[T; 3]>,

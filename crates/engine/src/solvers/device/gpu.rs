@@ -32,7 +32,7 @@ pub fn name() -> Result<String, String> {
     device().map(|device| device.adapter().to_owned()).map_err(|error| error.to_string())
 }
 
-/// Why no system can be solved on a device in this precision.
+/// Returns the reason why no system can be solved on a device in this precision.
 pub fn unusable(precision: Precision) -> Option<String> {
     match device() {
         Err(error) => Some(error.to_string()),

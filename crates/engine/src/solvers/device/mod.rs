@@ -26,7 +26,7 @@ mod absent {
 
     const ABSENT: &str = "this program was built without the feature `gpu`";
 
-    /// Why no system can be solved on a device in this precision.
+    /// Returns the reason why no system can be solved on a device in this precision.
     pub fn unusable(_precision: Precision) -> Option<String> {
         Some(ABSENT.to_owned())
     }
