@@ -23,7 +23,7 @@ const KEPT: f64 = 1e-12;
 const CONVERGED: f64 = 1e-10;
 const LOST: f64 = 1e-7;
 
-/// What a method promises.
+/// Momenta that a method conserves.
 #[derive(Clone, Copy, PartialEq)]
 enum Promise {
     Both,

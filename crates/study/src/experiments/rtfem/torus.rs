@@ -134,7 +134,7 @@ fn turned_surface(turn: f64) -> SurfaceMesh {
     SurfaceMesh::new((0..n * m).map(vertex).collect(), triangles.collect())
 }
 
-/// Whether the mesh is one piece whose boundary has the Euler characteristic of a torus, zero: edges are 3/2 of the triangles.
+/// Returns true if the mesh is one piece whose boundary has the Euler characteristic of a torus, zero: edges are 3/2 of the triangles.
 fn is_torus(mesh: &TetrahedralMesh) -> bool {
     let faces = boundary(mesh);
     let mut nodes: Vec<usize> = faces.iter().flatten().copied().collect();

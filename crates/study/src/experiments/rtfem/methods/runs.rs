@@ -46,12 +46,12 @@ pub struct Run {
 }
 
 impl Run {
-    /// Whether it reached its end, with finite positions.
+    /// Returns true if the run reached its end, with finite positions.
     pub fn is_done(&self) -> bool {
         self.total_error.is_some()
     }
 
-    /// Whether it failed: it did not reach its end, or inverted elements, which no converged motion here does.
+    /// Returns true if the run did not reach its end, or inverted elements, which no converged motion here does.
     pub fn has_failed(&self) -> bool {
         !self.is_done() || self.inverted > 0
     }
