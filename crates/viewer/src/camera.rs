@@ -101,7 +101,7 @@ impl Camera {
         bounds.corners().into_iter().map(needed).fold(self.radius, f32::max)
     }
 
-    /// Whether the camera turns around its target.
+    /// Returns true if the camera turns around its target.
     pub fn turns(&self) -> bool {
         self.view == View::Orbit
     }

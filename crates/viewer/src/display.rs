@@ -44,7 +44,7 @@ pub fn without_wayland_message<R>(request: impl FnOnce() -> R) -> R {
 }
 
 thread_local! {
-    /// Whether a panic of this thread becomes an error and is not printed.
+    /// Panics of this thread become errors and are not printed.
     static QUIET: Cell<bool> = const { Cell::new(false) };
 }
 

@@ -14,7 +14,7 @@ const FULL_ARROW: f64 = 1.0 / 3.0;
 pub struct Wanted {
     /// The field that colours the elements.
     pub field: Option<ElementField>,
-    /// Whether contact forces are drawn.
+    /// Draw contact forces.
     pub contact_forces: bool,
 }
 

@@ -20,7 +20,7 @@ pub struct Paint {
     painting: Painting,
     scale: Option<ColorScale>,
     colors: OnceCell<Texture>,
-    /// Whether the picture is shown where no field is.
+    /// The picture is shown wherever no field is.
     shows_picture: bool,
     /// The picture, and its size in pixels; `None` if it cannot be read.
     picture: OnceCell<Option<(Texture, Vec2)>>,

@@ -96,7 +96,7 @@ impl Recorder {
         Ok(Recorder { folder: folder.to_owned(), frames: 0 })
     }
 
-    /// Whether the next frame is due at `time`, in seconds since the start: [`FRAMES_PER_SECOND`].
+    /// Returns true if the next frame is due at `time`, in seconds since the start; there are [`FRAMES_PER_SECOND`].
     pub fn due(&self, time: f64) -> bool {
         time * FRAMES_PER_SECOND >= self.frames as f64 - 1e-6
     }

@@ -27,7 +27,7 @@ pub enum Target {
 pub struct Brush {
     /// Radius of the ball, m; `None` before the first use.
     pub radius: Option<f32>,
-    /// Whether it erases; with the control key it does the other thing.
+    /// The brush erases; the control key reverses this.
     pub erases: bool,
     /// The condition that it paints.
     pub target: Target,
@@ -42,7 +42,7 @@ struct Stroke {
     nodes: BTreeSet<usize>,
     erases: bool,
     is_down: bool,
-    /// Whether a node was under the brush.
+    /// A node was under the brush.
     touches: bool,
 }
 

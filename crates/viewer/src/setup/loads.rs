@@ -30,9 +30,9 @@ pub struct Loads {
     pub current: Option<usize>,
     /// Traction along the outward normal, Pa: positive pulls.
     pub traction: f64,
-    /// Whether the load follows the deformed surface; else it keeps its direction, the mean normal of the undeformed faces.
+    /// The load follows the deformed surface; otherwise it keeps its direction, the mean normal of the undeformed faces.
     pub follows: bool,
-    /// Whether a click picks the smooth part around a face.
+    /// A click picks the smooth part of the surface around a face.
     pub grows: bool,
     /// Largest angle between normals in a smooth part, degrees.
     pub angle: f64,
@@ -49,7 +49,7 @@ struct Pull {
     /// Traction when the drag began, and its growth per metre of the drag, Pa and Pa/m.
     traction: (f64, f64),
     has_moved: bool,
-    /// Whether the press has given a load of the scene other faces.
+    /// The press has changed the faces of a load of the scene.
     has_other_faces: bool,
 }
 
@@ -73,7 +73,7 @@ pub fn range(scene: &SceneSetup) -> f64 {
 }
 
 impl Loads {
-    /// Whether faces are picked.
+    /// Returns true if faces are picked.
     pub fn is_used(&self) -> bool {
         !self.faces.is_empty() || self.current.is_some()
     }
