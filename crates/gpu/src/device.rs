@@ -56,7 +56,7 @@ impl Device {
         &self.adapter
     }
 
-    /// Whether it computes in double precision.
+    /// Returns true if the device computes in double precision.
     pub fn has_double_precision(&self) -> bool {
         self.has_double
     }
@@ -150,7 +150,7 @@ impl Device {
         Ok(numbers)
     }
 
-    /// What has gone wrong so far.
+    /// Returns the first error that the device has reported so far.
     pub(crate) fn check(&self) -> Result<(), DeviceError> {
         match self.trouble.lock().unwrap_or_else(PoisonError::into_inner).clone() {
             Some(message) => Err(self.failed(message)),

@@ -36,7 +36,7 @@ pub enum DeviceError {
     /// An array does not fit.
     #[error("{what} take {bytes} bytes, and {adapter} has room for {limit} in an array")]
     TooLarge {
-        /// What the array holds.
+        /// Content of the array.
         what: &'static str,
         /// Its size.
         bytes: u64,
@@ -50,7 +50,7 @@ pub enum DeviceError {
     Failed {
         /// Name of the adapter.
         adapter: String,
-        /// What it said.
+        /// Message of the device.
         message: String,
     },
 }

@@ -36,7 +36,7 @@ pub enum Law {
 }
 
 impl Law {
-    /// Whether elements may be inverted.
+    /// Returns true if elements may be inverted.
     pub(crate) fn allows_inversion(self) -> bool {
         self != Self::NeoHookean
     }

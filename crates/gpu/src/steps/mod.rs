@@ -24,7 +24,7 @@ const MOST_WORK: usize = 1 << 24;
 /// Most kernels in one submission.
 const MOST_KERNELS: usize = 4096;
 
-/// Why an environment's state is of no use.
+/// Failure of an environment: its step and its cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Trouble {
     /// The step after which it was found, from 1.
@@ -33,7 +33,7 @@ pub struct Trouble {
     pub cause: Cause,
 }
 
-/// The reason for which a state is of no use.
+/// Cause of a failure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
     /// The place or velocity of this node is not finite; it is the first such node.
@@ -201,7 +201,7 @@ impl<N: Number> Bodies<N> {
         Ok((0..self.environments).map(of).collect())
     }
 
-    /// How often something has been read from the device so far.
+    /// Number of reads from the device so far.
     pub fn reads(&self) -> usize {
         self.reads
     }
