@@ -38,7 +38,7 @@ pub struct SoftBodyState {
     pub(crate) written: Option<f64>,
 }
 
-/// What never changes of a body.
+/// Constant data of a body.
 #[derive(Clone)]
 pub struct Model {
     /// The undeformed body.
@@ -47,7 +47,7 @@ pub struct Model {
     pub topology: Arc<Topology>,
 }
 
-/// What a body is doing.
+/// Stage in the life of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SoftBodyPhase {
     /// Its scene and meshes are read and its system is built.
@@ -59,7 +59,7 @@ pub enum SoftBodyPhase {
 }
 
 impl SoftBodyState {
-    /// What the body is doing.
+    /// Returns the stage that the body is in.
     pub fn phase(&self) -> SoftBodyPhase {
         match (&self.failure, &self.model) {
             (Some(_), _) => SoftBodyPhase::Failed,

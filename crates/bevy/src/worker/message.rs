@@ -1,4 +1,4 @@
-//! What the main thread and a worker tell each other.
+//! Messages between the main thread and a worker.
 
 use std::sync::Arc;
 use std::time::Duration;
