@@ -37,14 +37,14 @@ pub type Report = fn(&Summary, &Path) -> io::Result<()>;
 /// Writes the reports of one student into a folder, with the diagnosis or without.
 pub type Write = fn(&Grade, &Path, bool) -> io::Result<()>;
 
-/// How to grade a class.
+/// Options of the grading of a class.
 #[derive(Clone, Debug)]
 pub struct ClassOptions {
     /// Holds the submissions: each sub-folder and each `.zip`, `.tar.gz` or `.tgz` is one; `students.csv` may name students.
     pub folder: PathBuf,
     /// Takes the results, and holds those of earlier runs.
     pub out: PathBuf,
-    /// So many submissions are graded at a time; at least one.
+    /// Number of submissions that are graded at a time; at least one.
     pub jobs: usize,
     /// Part k, from 1, of n: the students whose names fall into it.
     pub shard: Option<(usize, usize)>,
@@ -86,11 +86,11 @@ pub struct Summary {
     pub changes: Vec<Change>,
     /// Remarks for the instructor: other files, students that may be one, conflicts, …
     pub remarks: Vec<String>,
-    /// How many this run graded.
+    /// Number of submissions that this run graded.
     pub graded_now: usize,
-    /// How many were found graded.
+    /// Number of submissions that earlier runs had graded.
     pub kept: usize,
-    /// Whether the run was stopped before it was through.
+    /// The run was interrupted before its end.
     pub interrupted: bool,
 }
 
@@ -108,7 +108,7 @@ pub struct Entry {
 pub enum Outcome {
     /// The grade, and the folder of its reports relative to the output.
     Graded(Box<Grade>, PathBuf),
-    /// Why there is no grade.
+    /// No grade; the reason.
     NotGraded(String),
     /// Its turn has not come.
     Waiting,
@@ -118,7 +118,7 @@ pub enum Outcome {
     NoSubmission(Option<f64>),
 }
 
-/// Why a class could not be graded or joined.
+/// Errors of the grading of a class, and of joining its parts.
 #[derive(Debug, thiserror::Error)]
 pub enum ClassError {
     #[error("{path}: {source}", path = path.display())]

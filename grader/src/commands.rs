@@ -32,7 +32,7 @@ pub const UNUSABLE: u8 = 2;
 /// within its budget; only a grader that hangs itself, or a machine that stands still, reaches this.
 const LONGEST: f64 = 10.0;
 
-/// Why a command did not do its work.
+/// Error of a command: message and exit code.
 pub struct Problem {
     pub message: String,
     pub code: u8,
@@ -124,7 +124,7 @@ fn read(path: &Path) -> Submission {
     })
 }
 
-/// How the grader runs its own compilers.
+/// Sandbox for the grader's own compilers.
 fn tools() -> Result<Sandbox, Problem> {
     Ok(Sandbox::own_tools(&env::current_exe().map_err(failed)?))
 }

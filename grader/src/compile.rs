@@ -29,13 +29,13 @@ pub struct Plan {
     pub own: BTreeMap<&'static str, String>,
     /// A library with right functions for those that are not `own`, and their names.
     pub reference: Option<(PathBuf, BTreeSet<&'static str>)>,
-    /// Texts of the submission that are there for what else they hold: a call of their function goes to the reference.
+    /// Texts of the submission that are compiled only for their other items: a call of their function goes to the reference.
     pub helpers: BTreeMap<&'static str, String>,
-    /// How much processor time rustc may take for one program.
+    /// Limit of rustc's processor time for one program.
     pub limit: Duration,
 }
 
-/// A program, and what could not become part of it.
+/// A program, and the functions that could not become part of it.
 pub struct Built {
     /// The program; `None` if the build failed.
     pub program: Option<PathBuf>,
@@ -43,7 +43,7 @@ pub struct Built {
     pub faults: BTreeMap<&'static str, Fault>,
 }
 
-/// Why a file could not become part of a program.
+/// Reason why a file could not become part of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// It does not compile, is refused, or its time was over.
@@ -52,7 +52,7 @@ pub struct Fault {
     pub message: String,
 }
 
-/// Why nothing was built: trouble of the grader or its machine, never a verdict on a file.
+/// Errors of the grader or its machine during a build. They are never a verdict on a file.
 #[derive(Debug, Error)]
 pub enum BuildError {
     /// Files cannot be written, or rustc cannot be started.

@@ -56,7 +56,7 @@ struct Case {
     observed: Observed,
 }
 
-/// How far, relative to the numbers at hand, a mistake's answer may be from the one that it explains.
+/// Largest relative distance between a mistake's answer and the answer that it explains.
 const PRECISION: f64 = 1e-6;
 
 /// The explanation of a function that fails.
@@ -153,7 +153,7 @@ fn with_factor(candidate: &Candidate, cases: &[&Case]) -> Option<Diagnosis> {
     })
 }
 
-/// Whether the answers are quantities, which a factor may make wrong.
+/// Returns true if the answers are quantities, which may be wrong by a factor.
 fn has_size(input: &Input) -> bool {
     !matches!(
         input,
@@ -161,7 +161,7 @@ fn has_size(input: &Input) -> bool {
     )
 }
 
-/// The trials that are answered. After an answer that never comes, nothing more is asked.
+/// The trials that are answered. They end at the first call without an answer.
 fn cases(function: &str, seed: u64, subject: &dyn Implementation) -> Vec<Case> {
     let mut cases = Vec::new();
     let trials = trials(function, seed);
@@ -194,14 +194,14 @@ fn turned(trial: &Trial) -> Option<Trial> {
     Some(Trial { name: "of the opposite orientation", ..trial })
 }
 
-/// Whether a mistake asks for as many solutions of systems of equations as were asked for.
+/// Returns true if a mistake solves as many systems of equations as the submission did.
 fn solves_as_often(candidate: &Candidate, case: &Case) -> bool {
     let solves = |answer: &Observed| answer.calls.iter().find(|(name, _)| *name == "solve").map(|(_, n)| *n);
     let mistaken = (candidate.answers)(&case.trial, &case.expected);
     mistaken.is_some_and(|answer| solves(&answer).is_none_or(|n| solves(&case.observed) == Some(n)))
 }
 
-/// Whether the answer of a case breaks no rule.
+/// Returns true if the answer of a case breaks no rule.
 fn right(case: &Case) -> bool {
     compare(&case.trial, &case.observed, &case.expected, TOLERANCE).wrongs.is_empty()
 }
@@ -239,7 +239,7 @@ fn size(answer: &Observed) -> f64 {
     answer.numbers.iter().filter(|x| x.is_finite()).fold(0.0, |size: f64, x| size.max(x.abs()))
 }
 
-/// Whether a mistake explains answers that are right within tolerance, by their smallest digits.
+/// Returns true if a mistake explains answers that are right within tolerance, by their smallest digits.
 fn explains_finely(candidate: &Candidate, cases: &[&Case]) -> bool {
     let mut telling = 0;
     for case in cases {

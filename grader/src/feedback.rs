@@ -14,7 +14,7 @@ use crate::new_folder::{self, FolderError};
 /// The files that a student may read.
 pub const FILES: [&str; 4] = ["report.html", "report.md", "results.json", "junit.xml"];
 
-/// Why there is no feedback.
+/// Reasons for which there is no feedback.
 #[derive(Debug, Error)]
 pub enum FeedbackError {
     #[error(transparent)]

@@ -87,7 +87,7 @@ pub struct Run {
     /// `None` if the submission gave no answer.
     pub submission: Option<Outcome>,
     pub reference: Outcome,
-    /// Whether the submission's positions are the reference's. Of another run the time means nothing.
+    /// The submission's positions are those of the reference. If not, the times cannot be compared.
     #[serde(default = "right")]
     pub is_right: bool,
 }
@@ -128,7 +128,7 @@ pub struct FunctionGrade {
     pub seconds: Option<f64>,
     /// The same for the reference on the same machine in the same minute, s.
     pub reference_seconds: Option<f64>,
-    /// How the time of an assembly, of skinning or of picking grows with the mesh, where that was measured.
+    /// Growth of the time of an assembly, of skinning or of picking with the mesh; `None` if it was not measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub growth: Option<Growth>,
     pub checks: Vec<CheckGrade>,
@@ -157,7 +157,7 @@ impl Growth {
     /// A larger exponent than this is neither noise of the clock nor the memory of a larger mesh.
     pub const CLEAR: f64 = 1.6;
 
-    /// Whether the submission clearly grows faster than the reference.
+    /// Returns true if the submission's time clearly grows faster than that of the reference.
     pub fn is_faster(&self) -> bool {
         self.exponent > Self::CLEAR && self.reference_exponent.is_some_and(|reference| reference < self.exponent - 0.5)
     }

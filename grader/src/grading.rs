@@ -62,7 +62,7 @@ pub struct Grading {
     reference: Sandboxed,
     seed: u64,
     workspace: Workspace,
-    /// Whether to run the simulation at several time steps.
+    /// Run the simulation at several time steps.
     studies: bool,
 }
 

@@ -22,7 +22,7 @@ pub use stub::{stub, unmarked};
 /// Files by their path from the root of the students' repository.
 pub type Files = BTreeMap<PathBuf, Vec<u8>>;
 
-/// Why no handout is written.
+/// Reasons for which no handout is written.
 #[derive(Debug, thiserror::Error)]
 pub enum HandoutError {
     #[error("{}: {error}", .path.display())]

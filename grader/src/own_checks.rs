@@ -20,7 +20,7 @@ mod built_in {
     include!(concat!(env!("OUT_DIR"), "/own_checks.rs"));
 }
 
-/// Why the checks cannot be used.
+/// Reasons for which the checks cannot be used.
 #[derive(Debug, Error)]
 pub enum OwnChecksError {
     #[error(transparent)]

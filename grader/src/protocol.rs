@@ -12,7 +12,7 @@ use crate::implementation::Trouble;
 use crate::sandbox::Running;
 use crate::submission::NAMES;
 
-/// How long the end of a process is waited for when its socket has closed.
+/// Time to wait for the end of a process after its socket has closed.
 const END: Duration = Duration::from_millis(500);
 
 /// Most closures that one call may ask for; an honest call of the checks asks for some hundreds.
@@ -86,7 +86,7 @@ fn panicked(message: String, place: String) -> Trouble {
     Trouble::Panicked { message, place }
 }
 
-/// Whether a text is the place of a line in one of the course's files, and nothing more.
+/// Returns true if the whole text is the place of a line in one of the course's files.
 fn is_place(text: &str) -> bool {
     let mut parts = text.split(':');
     let file = parts.next().and_then(|file| file.strip_prefix("src/")?.strip_suffix(".rs"));

@@ -36,7 +36,7 @@ use crate::grade::Grade;
 /// Contents of the reports of one submission.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Whether students read the name of the mistake and the sentence that explains it.
+    /// Students read the name of the mistake and the sentence that explains it.
     pub show_diagnosis: bool,
     /// Origin of the submission in a classroom of Classroom 50; `result.json` is written with it alone.
     pub origin: Option<classroom50::Origin>,

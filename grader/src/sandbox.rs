@@ -97,9 +97,9 @@ pub struct Ended {
     pub code: Option<i32>,
     /// Signal that ended it.
     pub signal: Option<i32>,
-    /// Whether it was killed because its time was over.
+    /// The program was killed because its time was over.
     pub timed_out: bool,
-    /// Whether it was killed because its processes together had too much memory. The limit of one process ends that process without this.
+    /// The program was killed because its processes together had too much memory. The limit of a single process ends that process alone.
     pub out_of_memory: bool,
     /// Processor time of the whole process tree, s. Zero outside a sandbox, which measures it.
     pub seconds: f64,
@@ -168,8 +168,8 @@ impl Sandbox {
         }
     }
 
-    /// What the grader runs for itself, such as cargo: it sees and may do what the grader may, and the whole tree of its processes
-    /// dies with the grader. `launcher` is that of [`Sandbox::probe`].
+    /// Sandbox for the grader's own tools, such as cargo. They have the rights of the grader, and their whole process tree is killed
+    /// when the grader ends. `launcher` is that of [`Sandbox::probe`].
     pub fn own_tools(launcher: &Path) -> Self {
         #[cfg(not(target_os = "linux"))]
         return Self::none();
@@ -190,7 +190,7 @@ impl Sandbox {
         self.layers.clone()
     }
 
-    /// Why the memory of a tree of processes is not limited by a cgroup; `None` if it is. Without a cgroup the resident memory of the
+    /// Reason why the memory of a process tree is not limited by a cgroup; `None` if it is. Without a cgroup the resident memory of the
     /// compiler's processes is summed ten times a second, which counts shared pages more than once.
     pub fn without_cgroup(&self) -> Option<&str> {
         #[cfg(target_os = "linux")]
@@ -205,7 +205,7 @@ impl Sandbox {
         ISOLATIONS.into_iter().filter(|isolation| !isolation.layers.iter().any(holds)).collect()
     }
 
-    /// Whether there is any layer.
+    /// Returns true if the sandbox has a layer.
     pub fn is_some_layer(&self) -> bool {
         self.layers.values().any(|there| *there)
     }

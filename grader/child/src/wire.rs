@@ -1,4 +1,4 @@
-//! How calls and answers travel: frames of bytes, each value as plain little-endian numbers.
+//! Encoding of calls and answers: frames of bytes, each value as plain little-endian numbers.
 //!
 //! A frame is a length (u32), a kind (u8) and that many bytes. Every frame is checked: a submission may write anything.
 

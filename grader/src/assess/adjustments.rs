@@ -18,7 +18,7 @@ pub const ADJUSTMENTS: &str = "adjustments.csv";
 #[derive(Clone, Debug, Default)]
 pub struct Adjustments(Vec<(String, Adjustment)>);
 
-/// Why the table cannot be used.
+/// Errors in the table.
 #[derive(Debug, Error)]
 pub enum AdjustmentsError {
     #[error("{path}: {error}; its columns are student, function, points, reason, comment", path = .0.display(), error = .1)]

@@ -15,7 +15,7 @@ pub struct Metadata {
     pub students: Vec<String>,
 }
 
-/// Why the file cannot be used.
+/// An error in the file.
 #[derive(Debug, Error)]
 #[error("{path}: {problem}; name Gradescope's submission_metadata.json", path = path.display())]
 pub struct MetadataError {

@@ -124,10 +124,10 @@ fn unique_names(submissions: &mut [Submission]) {
     }
 }
 
-/// So many files of one submission are asked for their time.
+/// Largest number of files of a submission whose times are read.
 const MOST_LOOKED_AT: usize = 10_000;
 
-/// When something in `path` was last changed, among the first files that there is room for. Links are not followed.
+/// Time of the last change in `path`. At most `room` files are looked at; links are not followed.
 fn newest(path: &Path, room: &mut usize) -> io::Result<SystemTime> {
     let data = fs::symlink_metadata(path)?;
     let mut time = data.modified()?;
@@ -182,12 +182,12 @@ fn mark_older(submissions: &mut [Submission]) {
 }
 
 impl Submission {
-    /// When it was handed in: by `students.csv`, by its name, or by the newest of its files.
+    /// Time of submission: from `students.csv`, from its name, or from the newest of its files.
     pub fn submitted(&self) -> Option<Timestamp> {
         self.stated_time().or_else(|| Timestamp::try_from(self.modified).ok())
     }
 
-    /// When it was handed in by `students.csv` or by its name.
+    /// Time of submission from `students.csv` or from its name.
     pub fn stated_time(&self) -> Option<Timestamp> {
         self.time.as_ref().and_then(Time::moment)
     }

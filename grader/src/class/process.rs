@@ -13,7 +13,7 @@ pub struct Process {
     reaped: bool,
 }
 
-/// How a process stands.
+/// State of a process.
 pub enum State {
     Running,
     TimedOut,
@@ -105,7 +105,7 @@ impl Interrupt {
         Ok(Self { signals, before })
     }
 
-    /// Whether one has come since it was last asked.
+    /// Returns true if a signal has arrived since the last call.
     pub fn has_come(&mut self) -> io::Result<bool> {
         Ok(self.signals.read_signal()?.is_some())
     }

@@ -16,7 +16,7 @@ use super::{ClassError, ClassOptions, Entry, Identity, Outcome, Summary, at, reg
 use crate::grade::Grade;
 use crate::rubric::{Counts, NoSubmission};
 
-/// How often processes are looked at.
+/// Interval at which processes are polled.
 const TICK: Duration = Duration::from_millis(20);
 /// Tables of a large class are not written more often than that.
 const REFRESH: Duration = Duration::from_secs(3);
@@ -149,7 +149,7 @@ impl<'a> Schedule<'a> {
         Outcome::Waiting
     }
 
-    /// Whether a submission is to be graded again.
+    /// Returns true if a submission is to be graded again.
     fn is_named(&self, submission: &Submission) -> bool {
         let only = &self.options.only;
         only.is_empty() || only.contains(&submission.student) || only.contains(&submission.name)

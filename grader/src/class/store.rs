@@ -52,13 +52,13 @@ pub struct IndexRow {
     pub state: IndexState,
 }
 
-/// How a submission of `class.json` stands.
+/// State of a submission in `class.json`.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum IndexState {
     /// Folder of the grade, relative to the index.
     Graded(PathBuf),
-    /// Why not.
+    /// No grade; the reason.
     NotGraded(String),
     Waiting,
     /// The newer or better one that counts.

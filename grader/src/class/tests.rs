@@ -62,7 +62,7 @@ impl Room {
         run(&options(self.0.path())).unwrap()
     }
 
-    /// Who was graded, in alphabetical order, once for each time.
+    /// Names of the graded students in alphabetical order, one for each time.
     fn calls(&self) -> Vec<String> {
         let text = fs::read_to_string(self.path("calls")).unwrap_or_default();
         let mut calls: Vec<String> = text.lines().map(String::from).collect();

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::paths::without_paths;
 use super::sources::signature;
 
-/// How much of the compiler's text is kept for one function, bytes.
+/// Limit of the compiler's text that is kept for one function, bytes.
 const MOST_TEXT: usize = 4000;
 
 #[derive(Deserialize)]

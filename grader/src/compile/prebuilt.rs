@@ -11,7 +11,7 @@ use thiserror::Error;
 use super::tools::run;
 use crate::sandbox::{Sandbox, system_folders};
 
-/// Why the libraries could not be built: trouble of the machine or of the repository, never of a submission.
+/// Errors in the build of the libraries. They are errors of the machine or of the repository, never of a submission.
 #[derive(Debug, Error)]
 pub enum PrebuildError {
     /// A file cannot be read or written, a program cannot be started.
@@ -19,7 +19,7 @@ pub enum PrebuildError {
     Io {
         /// Which file or program.
         what: String,
-        /// Why.
+        /// The reason.
         error: io::Error,
     },
     /// A compiler says no.
@@ -43,7 +43,7 @@ pub struct Prebuilt {
     pub sysroot: PathBuf,
     /// Output of `rustc --version`.
     pub toolchain: String,
-    /// How the grader's own compilers are run.
+    /// Sandbox for the grader's own compilers.
     pub tools: Sandbox,
 }
 

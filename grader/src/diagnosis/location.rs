@@ -50,7 +50,7 @@ pub fn locate(cases: &[Case], subject: &dyn Implementation) -> Option<String> {
     (!all.is_empty()).then(|| all.join(" "))
 }
 
-/// Whether trials that were wrong are right after this change of their input; false if none can be changed.
+/// Returns true if trials that were wrong are right after this change of their input; false if no trial can be changed.
 fn is_right(trials: &[&Trial], change: probes::Change, subject: &dyn Implementation) -> bool {
     let changed: Vec<_> = trials.iter().filter_map(|trial| changed(trial, change)).collect();
     let is_right = |trial: &Trial| {
@@ -60,7 +60,7 @@ fn is_right(trials: &[&Trial], change: probes::Change, subject: &dyn Implementat
     !changed.is_empty() && changed.iter().all(is_right)
 }
 
-/// Whether a right answer shows that more than nothing is right.
+/// Returns true if the expected answer is not trivial, so that a right answer is evidence.
 fn says_something(expected: &Observed) -> bool {
     let largest = expected.numbers.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     largest > 1e-9

@@ -1,5 +1,5 @@
-//! How the time of an assembly, of skinning and of picking grows with the mesh. One pass over the elements grows as n¹; a search through all of them for each, or a
-//! full matrix on the way, as n². It is told, and costs points only where the rubric says so.
+//! Growth of the time of an assembly, of skinning and of picking with the mesh. A loop over the elements grows as n¹; a search
+//! through all elements for each of them, or a full matrix, as n². Reports show the growth; the rubric decides if it costs points.
 
 use grader::implementation::sandboxed::Sandboxed;
 use grader::implementation::{Answer, Trouble};

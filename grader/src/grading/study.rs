@@ -73,7 +73,7 @@ impl Grading {
     }
 }
 
-/// Whether every run has the positions of the first run of the reference.
+/// Returns true if every run has the positions of the first run of the reference.
 fn agree(runs: &[Positions], expected: &[Positions]) -> bool {
     let Some(expected) = expected.first() else { return false };
     runs.iter().all(|run| distance(run, expected) <= RIGHT)

@@ -30,7 +30,7 @@ pub(super) const LIMIT: Duration = Duration::from_secs(30);
 /// The time step whose answers are compared, s.
 const TIME_STEP: f64 = 0.01;
 
-/// How long the body moves, s.
+/// Simulated time, s.
 const DURATION: f64 = 0.2;
 
 /// Largest distance from the reference's positions, in lengths of the body. Newton's method may end a little earlier or later.

@@ -83,7 +83,7 @@ impl Budget {
             .map(|c| c.allowed)
     }
 
-    /// Whether the submission as a whole has no time left.
+    /// Returns true if the submission as a whole has no time left.
     pub fn is_used_up(&self) -> bool {
         self.left_in_all().is_zero()
     }

@@ -30,7 +30,7 @@ impl Places {
         }
     }
 
-    /// Whether `src/NAME.rs:LINE` or `src/NAME.rs:LINE:COLUMN` is a place in a file.
+    /// Returns true if `src/NAME.rs:LINE` or `src/NAME.rs:LINE:COLUMN` is a place in a file.
     fn hold(&self, place: &str) -> bool {
         let Some(files) = &self.0 else { return true };
         let mut parts = place.split(':');

@@ -24,12 +24,12 @@ pub struct Sandboxed {
     limit: Duration,
     /// Once a process has died or been late, it is not asked again in the same check.
     given_up: Cell<bool>,
-    /// How often the present function has been late.
+    /// Number of time-outs of the present function.
     time_outs: Cell<usize>,
     budget: Rc<Budget>,
     /// The lines at which it can panic.
     places: Places,
-    /// How long answers of the present process were waited for.
+    /// Time spent waiting for answers of the present process.
     waited: Cell<Duration>,
 }
 

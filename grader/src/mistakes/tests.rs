@@ -1,4 +1,4 @@
-//! How many of the wrong functions are named, how many of those are named right, and how many are located.
+//! Counts the wrong functions that are named, those that are named right, and those that are located.
 
 use std::thread;
 

@@ -1,4 +1,4 @@
-//! How a check passes or fails. No comparison trusts an answer: a wrong shape and NaN fail, and nothing panics.
+//! Outcomes of checks. Comparisons are safe for every answer: a wrong shape or NaN makes a check fail, and never panics.
 
 use std::cell::Cell;
 use std::fmt;
@@ -8,7 +8,7 @@ use nalgebra_sparse::CsrMatrix;
 
 use crate::implementation::Trouble;
 
-/// Why a check fails.
+/// Reason why a check fails.
 #[derive(Clone, PartialEq)]
 pub enum Mistake {
     /// The answer is wrong.

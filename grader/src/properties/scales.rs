@@ -1,4 +1,4 @@
-//! How large round-off may be: errors are judged against the terms that were added, not against their sum.
+//! Bounds for round-off: errors are measured relative to the terms that were added, not to their sum.
 
 use nalgebra::Matrix3;
 

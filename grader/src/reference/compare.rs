@@ -32,7 +32,7 @@ pub enum Check {
     Agrees,
     /// The same on limiting cases.
     EdgeCases,
-    /// How often closures are called.
+    /// Numbers of calls of closures.
     Calls,
 }
 
@@ -117,7 +117,7 @@ fn worst(errors: impl Iterator<Item = f64>) -> f64 {
     errors.fold(0.0, |worst, error| if error.is_nan() { f64::INFINITY } else { worst.max(error) })
 }
 
-/// How far a row of weights is from those of the nearest of the tetrahedra that may be chosen.
+/// Distance of a row of weights from the nearest row of weights of a tetrahedron that may be chosen.
 fn skinning_error(V: &[Vector3<f64>], T: &[[usize; 4]], x: &Vector3<f64>, row: &[f64]) -> f64 {
     let phis: Vec<_> =
         T.iter().map(|element| (element, finite_elements_3d::phi_linear_tetrahedron(V, element, x))).collect();
@@ -148,7 +148,7 @@ fn residual(check: Check, observed: &Observed, expected: &Observed) -> Option<Wr
     })
 }
 
-/// Whether a number of calls is right, given the reference's and the most directions allowed.
+/// Returns true if a number of calls is right. Arguments: the number, that of the reference, and the largest number of directions.
 type Holds = fn(usize, usize, Option<usize>) -> bool;
 
 fn calls(trial: &Trial, observed: &Observed, expected: &Observed) -> Vec<Wrong> {

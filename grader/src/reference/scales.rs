@@ -1,4 +1,4 @@
-//! How large the terms are that an answer is added up from: round-off is judged against them, not against their sum.
+//! Sizes of the terms that an answer is the sum of: round-off is measured relative to them, not to the sum.
 
 use nalgebra::{DVector, Matrix3, Matrix4x3, Vector3};
 

@@ -63,12 +63,12 @@ pub fn notes(function: &FunctionGrade, show_diagnosis: bool) -> Vec<String> {
     notes
 }
 
-/// Whether there is something to say of a function beside its figures.
+/// Returns true if a function has notes beside its figures.
 pub fn has_notes(function: &FunctionGrade) -> bool {
     function.status != Status::Passed || function.growth.is_some_and(|growth| growth.is_faster())
 }
 
-/// How many functions pass, out of how many.
+/// Number of functions that pass, and number of all functions.
 pub fn passed(grade: &Grade) -> (usize, usize) {
     (grade.functions.iter().filter(|f| f.status == Status::Passed).count(), grade.functions.len())
 }

@@ -63,10 +63,10 @@ pub struct Extension {
     pub reason: Option<String>,
 }
 
-/// How late a submission is.
+/// Lateness of a submission.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lateness {
-    /// When it came, in UTC.
+    /// Time of submission, in UTC.
     pub submitted: String,
     /// The student's deadline, extension included, in UTC.
     pub deadline: String,

@@ -131,7 +131,7 @@ impl Tree {
         &self.0
     }
 
-    /// Whether the kernel has ended a process for want of memory.
+    /// Returns true if the kernel has killed a process because memory ran out.
     pub fn is_out_of_memory(&self) -> bool {
         let events = fs::read_to_string(self.0.join("memory.events")).unwrap_or_default();
         let killed = events.lines().find_map(|line| line.strip_prefix("oom_kill "));

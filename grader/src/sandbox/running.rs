@@ -14,7 +14,7 @@ use super::Confined;
 #[cfg(target_os = "linux")]
 pub use launch::launched;
 
-/// How long a killed process tree may take to vanish, and a launcher to begin.
+/// Time that a killed process tree may take to end, and a launcher to start.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// A running program. Dropping it kills the whole process tree.
@@ -73,13 +73,13 @@ pub fn plain(confined: &Confined) -> io::Result<Running> {
     }
 }
 
-/// How a program ended.
+/// End of a program.
 #[derive(Clone, Debug)]
 pub struct End {
     pub code: Option<i32>,
     pub signal: Option<i32>,
     pub timed_out: bool,
-    /// Whether the memory of its processes together was used up, where that is told.
+    /// The memory of its processes together was used up, if the system reports that.
     pub out_of_memory: bool,
     pub seconds: f64,
 }
@@ -116,13 +116,13 @@ fn meaning(signal: i32) -> &'static str {
     }
 }
 
-/// A process tree and the way to its end.
+/// A process tree, and the means to kill it.
 pub struct Tree {
     pub child: Child,
     /// The socket to the launcher: when it closes, the launcher kills everything. None for a plain program.
     #[cfg(target_os = "linux")]
     control: Option<io::BufReader<Socket>>,
-    /// When a plain program's time is over.
+    /// Time limit of a plain program.
     deadline: Instant,
     end: Option<End>,
 }

@@ -127,12 +127,12 @@ fn namespaces(spec: &Spec) -> CloneFlags {
     flags.into_iter().filter(|(name, _)| spec.layers.contains(*name)).map(|(_, flag)| flag).collect()
 }
 
-/// Who may kill the program, and why that was done.
+/// The program that may be killed, and the reasons of the kill.
 #[derive(Default)]
 struct Watch {
     /// The program from its start until it is waited for; until then no other process has its number.
     program: Option<Pid>,
-    /// Whether its time is over or the grader gone.
+    /// The program's time is over, or the grader has ended.
     over: bool,
     timed_out: bool,
     out_of_memory: bool,
@@ -144,7 +144,7 @@ impl Watch {
         self.kill_if_over();
     }
 
-    /// Whether its time was over, and whether its memory was used up.
+    /// Returns the reasons of the kill: time over, memory used up.
     fn why(&self) -> (bool, bool) {
         (self.timed_out, self.out_of_memory)
     }
@@ -161,10 +161,10 @@ fn lock(watch: &Mutex<Watch>) -> MutexGuard<'_, Watch> {
     watch.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The memory of the tree is looked at so often at most,
+/// Shortest interval at which the memory of the process tree is polled.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// and looking takes less than one part in so many of the time.
+/// Polling takes less than 1/RARELY of the time.
 const RARELY: u32 = 20;
 
 /// Ends the program when its time is over, its memory is used up or the grader is gone.

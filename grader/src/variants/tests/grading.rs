@@ -16,7 +16,7 @@ use crate::reference::{REFERENCE, TOLERANCE};
 /// Inputs are the same ones in every run.
 const SEEDS: [u64; 3] = [1, 2, 3];
 
-/// How many variants of each function stand beside the right one, one after the other.
+/// Number of variants of each function that are tested, one after the other, beside right functions.
 const TURNS: usize = 4;
 
 /// The share of the mistakes with a name that must be told by it.
