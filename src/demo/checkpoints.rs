@@ -24,7 +24,7 @@ impl<'a> Checkpoints<'a> {
         Some(Self { file, scene, every: arguments.checkpoint_every, last: Instant::now() })
     }
 
-    /// Whether it is time for one.
+    /// Returns true if the next checkpoint is due.
     pub fn is_due(&self) -> bool {
         self.last.elapsed() >= self.every
     }

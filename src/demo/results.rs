@@ -129,7 +129,7 @@ fn end(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
     )))
 }
 
-/// What is told of a run in which the iterations of some steps have not settled.
+/// Warning about a run in which the iterations of some steps have not converged.
 fn not_settled(method: &Method, unconverged_steps: usize, steps: usize) -> String {
     let IterationSettings { count, tolerance, .. } = method.iterations;
     let how = match tolerance {
