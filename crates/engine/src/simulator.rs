@@ -9,8 +9,6 @@ pub(crate) mod device_assembly;
 pub(crate) mod device_elements;
 mod divergence;
 pub mod double;
-#[cfg(feature = "gpu")]
-mod foreign_end;
 mod integrator;
 mod iterated_check;
 mod parts;
@@ -19,6 +17,8 @@ mod plan;
 mod range_check;
 mod simulation;
 mod step;
+#[cfg(feature = "gpu")]
+mod step_from;
 mod substep;
 
 use std::sync::atomic::AtomicUsize;
