@@ -1,10 +1,10 @@
 //! The public checks on a student's own machine: every function of a repository, those that do not compile included.
 
 mod confined;
-mod held;
 mod program;
 mod report;
 mod reset;
+mod run_checks;
 mod watch;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,11 +24,11 @@ use crate::sandbox::{Isolation, Sandbox};
 use crate::status::Status;
 use crate::submission::{LATER, Source, Submission, Unreadable};
 use confined::{own_repository, sandbox, starter};
-use held::{held_to, summary};
 pub use program::{Options, main};
 use report::View;
 pub use report::{Checked, Report};
 pub use reset::{HANDED_OUT, reset};
+use run_checks::{run_checks, summary};
 use watch::watch;
 
 /// Seed of the random inputs; the same in every run, so that a corrected function shows.
@@ -133,7 +133,7 @@ pub fn check_in(sandbox: &Sandbox, folder: &Path, only: Option<&str>) -> Result<
             (_, Some(fault)) => (fault.status, vec![fault.message.clone()]),
             (Some(Source::Written(text)), None) => {
                 let course = Course { subject: &subject, trusted: &trusted, seed: SEED };
-                checked = held_to(checks, &course, &missing_that(text, name, &submission));
+                checked = run_checks(checks, &course, &missing_that(text, name, &submission));
                 summary(name, &checked)
             }
             (Some(Source::Refused { line, reason }), None) => (Status::Refused, vec![refused(*line, reason)]),
@@ -237,7 +237,7 @@ mod tests {
     fn outcome(checks: &[Check]) -> (Status, usize) {
         let nothing = Local(UNWRITTEN);
         let course = Course { subject: &nothing, trusted: &nothing, seed: SEED };
-        let (status, messages) = summary("psi_neo_hookean", &held_to(checks, &course, &[]));
+        let (status, messages) = summary("psi_neo_hookean", &run_checks(checks, &course, &[]));
         (status, messages.len())
     }
 

@@ -1,6 +1,5 @@
 //! Grades one submission: builds its functions level by level, holds each to its checks, and asks which mistake explains a failure.
 
-mod again;
 mod exposure;
 mod groups;
 mod growth;
@@ -8,6 +7,7 @@ mod judge;
 mod level;
 mod load;
 mod programs;
+mod regrade;
 mod study;
 mod timer;
 mod truth;

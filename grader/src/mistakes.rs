@@ -21,18 +21,18 @@ macro_rules! wrong {
     };
 }
 
+mod blind;
 mod by_hand;
-mod first_sight;
-mod held_back;
-mod last;
-mod seen;
+mod final_validation;
 mod tests;
+mod training;
+mod validation;
 
 /// One wrong function.
 pub struct Mistake {
     /// The function that is wrong.
     pub function: &'static str,
-    /// The names that a teacher would agree with.
+    /// Names that a teacher would accept.
     pub names: &'static [&'static str],
     /// The course's solution with this mistake in it.
     pub functions: Functions,

@@ -1,7 +1,7 @@
-//! Wrong functions written before their author had read a rule of the diagnosis or the name of a mistake. The comment above each
-//! one says what the author had in mind; the names are those which say the same.
+//! Blind set: wrong functions by an author who had not read the rules of diagnosis or the names of mistakes. The comment above each
+//! function says what the author had in mind; its names say the same.
 //!
-//! At first sight 88 of 103 were named; the rules that the others suggested name 97.
+//! The rules of that time named 88 of the 103 functions. With the rules that were added for the others, 97 are named.
 
 use super::Mistake;
 

@@ -1,4 +1,4 @@
-//! Wrong functions that were written before the rules of diagnosis; the rules were tried on them.
+//! Training set: wrong functions that were written before the rules of diagnosis. The rules were developed on them.
 
 use super::Mistake;
 

@@ -1,4 +1,4 @@
-//! Wrong functions that were written after the rules of diagnosis, and without a look at what the rules make of them.
+//! Validation set: wrong functions that were written after the rules of diagnosis, without running the rules on them.
 
 use super::Mistake;
 
