@@ -18,7 +18,7 @@ pub fn nodes_under(click: &Click, x: &[Vector3<f64>], shape: &Shape) -> Vec<usiz
     (0..x.len()).filter(|&node| (x[node] - point).norm() <= radius).collect()
 }
 
-/// The line of sight through a pixel: where it begins, and where it leads to at the far plane.
+/// Line of sight through a pixel: its points on the near plane and on the far plane.
 fn ray(click: &Click) -> Option<(Vector3<f64>, Vector3<f64>)> {
     let from_clip = (click.proj.cast::<f64>() * click.view.cast::<f64>()).lu().try_inverse()?;
     let viewport = click.viewport.cast::<f64>();

@@ -161,8 +161,8 @@ impl DirichletConditions {
         }
     }
 
-    /// Overwrites the constrained entries of an increment, m: it leads from the displacements `start` to the prescribed ones at a
-    /// moment. `rest` are the undeformed positions, m.
+    /// Overwrites the constrained entries of an increment with the difference between the prescribed displacements at a moment and the
+    /// displacements `start`, m. `rest` are the undeformed positions, m.
     pub fn prescribe<T: Real>(
         &self,
         rest: &[Vector3<f64>],

@@ -13,8 +13,8 @@ use fem_elements::vector::{axpy, dot};
 /// Accelerations, with the vectors that they need.
 ///
 /// A step is [`begin`](Self::begin), evaluations [`at`](Self::at) its stages, and [`end`](Self::end). In each stage constrained degrees
-/// of freedom have the place, velocity and acceleration of their prescribed motion, and with a consistent mass their acceleration acts on
-/// their neighbours: so methods keep their order.
+/// of freedom have the displacement, velocity and acceleration of their prescribed motion. A consistent mass couples their acceleration to
+/// their neighbours. Methods keep their order in this way.
 #[derive(Clone, Debug)]
 pub struct Accelerations<T: Real> {
     mass: MassInverse<T>,

@@ -80,8 +80,8 @@ impl<T: Real> Impulses<T> {
     /// Corrects the state at the end of a step from `before` that lasts `dt` seconds. Returns whether a node touches a plane, or did
     /// before.
     ///
-    /// The impulses of the step before act in this one as a force, so that its stages have the velocities of nodes at rest. Here they
-    /// are taken back, and those that the step needs take their place.
+    /// During a step the contact impulses of the previous step are applied as a force, so that its stages have the velocities of nodes at
+    /// rest. This function removes them and applies the impulses of this step.
     pub fn apply(
         &mut self,
         system: &mut System<T>,

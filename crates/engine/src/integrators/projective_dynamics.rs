@@ -153,8 +153,8 @@ impl<T: Real> ProjectiveDynamics<T> {
         Ok(if has_settled { Convergence::Converged } else { Convergence::NotConverged })
     }
 
-    /// Starts the rounds where inertia leads, or from the prescribed motion alone where the incremental potential is lower there: otherwise
-    /// few rounds could give a stiff body more energy in each step.
+    /// Sets the initial guess of the rounds: the inertial displacements, or the prescribed motion alone if its incremental potential is
+    /// lower. Otherwise a small number of rounds could give a stiff body more energy in each step.
     fn start(
         &mut self,
         potential: &IncrementalPotential<T>,

@@ -98,7 +98,7 @@ impl<T: Real> IncrementalPotential<'_, T> {
         self.system.own_largest_step(&workspace.u, direction).min(of_obstacles)
     }
 
-    /// The end of the step where it is not that of the increment and obstacles act on the body.
+    /// The end of the step, if it is not that of the increment and the body has obstacles.
     pub(super) fn end_with_obstacles(&self) -> Option<StepEnd> {
         self.increment.step_end().filter(|_| self.system.forces.has_obstacles())
     }

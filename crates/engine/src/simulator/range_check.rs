@@ -75,5 +75,5 @@ fn problem(method: &Method, quantity: &str) -> String {
         Precision::F32 => ("single", ", or remove time.precision"),
         Precision::F64 => ("double", ""),
     };
-    format!("leads to {quantity} out of the range of {name} precision; give a more ordinary number{remedy}")
+    format!("leads to {quantity} out of the range of {name} precision; give a less extreme number{remedy}")
 }

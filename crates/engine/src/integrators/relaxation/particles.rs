@@ -1,4 +1,4 @@
-//! Nodes as particles: inverse masses, places that inertia and loads alone lead to, and velocities from places.
+//! Nodes as particles: inverse masses, displacements from inertia and loads alone, and velocities from displacements.
 
 use crate::forces::{Moment, dead_load};
 use crate::model::state::State;
@@ -59,7 +59,7 @@ impl<T: Real> Particles<T> {
         dt2
     }
 
-    /// Velocities of the step that has led to these displacements: Müller et al. 2007, algorithm 1, line 13.
+    /// Computes the velocities of a step from its displacements: Müller et al. 2007, algorithm 1, line 13.
     pub fn finish(&self, state: &mut State<T>, dt: f64) {
         let over_dt = T::of(1.0 / dt);
         for (v, (u, start)) in state.v.iter_mut().zip(state.u.iter().zip(&self.start)) {

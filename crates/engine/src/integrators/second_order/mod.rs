@@ -1,7 +1,8 @@
 //! Implicit methods of second order. Each is a set of coefficients; a step is one minimization of the incremental potential.
 //!
-//! Prescribed motions enter with their exact velocities and accelerations. Damping takes its stiffness where the velocity at the start
-//! leads to: with that at the start a step would be of first order. Forces of obstacles act at the end of a step, whatever the stage.
+//! Prescribed motions enter with their exact velocities and accelerations. Damping takes its stiffness at displacements
+//! extrapolated with the velocity at the start: with those at the start a step would be of first order. Forces of obstacles act at the
+//! end of a step, whatever the stage.
 
 mod advance;
 mod bdf2;
