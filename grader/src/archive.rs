@@ -112,8 +112,8 @@ impl Unpacked {
     }
 }
 
-/// A path in an archive with `/` between its parts and no `./`. Such as lead out of the archive are refused, together with it:
-/// they are not packed by accident.
+/// A path in an archive with `/` between its parts and no `./`. An archive with a path out of it is refused as a
+/// whole, because such paths are not packed by accident.
 fn inner_path(path: &str) -> Result<String, Unreadable> {
     if path.len() > MAX_PATH_BYTES {
         return Err(unreadable("the archive holds a path of more than 1024 bytes; hand in `src` alone"));

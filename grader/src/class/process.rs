@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-/// A process that leads its own group; the group dies with this value.
+/// The leader of a process group. Dropping it kills the group.
 pub struct Process {
     child: Child,
     deadline: Instant,
@@ -84,7 +84,7 @@ pub fn end_with(_parent: u32) -> io::Result<()> {
     Ok(())
 }
 
-/// Turns Ctrl-C and a polite kill into something that can be asked for, as long as it lives.
+/// Blocks SIGINT (Ctrl-C) and SIGTERM while it lives, and tells on request if one has arrived.
 #[cfg(target_os = "linux")]
 pub struct Interrupt {
     signals: nix::sys::signalfd::SignalFd,
@@ -93,7 +93,7 @@ pub struct Interrupt {
 
 #[cfg(target_os = "linux")]
 impl Interrupt {
-    /// Holds both signals back from this thread; a child starts without that.
+    /// Blocks both signals in this thread. Child processes start with the earlier signal mask.
     pub fn watch() -> io::Result<Self> {
         use nix::sys::signal::{SigSet, SigmaskHow, Signal};
         use nix::sys::signalfd::{SfdFlags, SignalFd};

@@ -52,7 +52,7 @@ fn needs(name: &str, below: &Names, own: &Calls, reference: &Calls) -> Names {
     with_theirs.flatten().collect()
 }
 
-/// A function and all that it leads to.
+/// A function, and all functions that it calls directly or indirectly.
 pub fn closure(name: &'static str, calls: &Calls) -> Names {
     let (mut found, mut next) = (Names::new(), vec![name]);
     while let Some(name) = next.pop() {

@@ -60,8 +60,8 @@ mod tests {
                 other => panic!("{other}"),
             }
         };
-        for held in ["src/psi_neo_hookean.rs:2", "src/psi_neo_hookean.rs:3:2", "src/psi_neo_hookean.rs:2:12"] {
-            assert_eq!(place(held), held);
+        for known in ["src/psi_neo_hookean.rs:2", "src/psi_neo_hookean.rs:3:2", "src/psi_neo_hookean.rs:2:12"] {
+            assert_eq!(place(known), known);
         }
         for (file, rest) in
             [("psi_neo_hookean", "4"), ("psi_neo_hookean", "0"), ("psi_neo_hookean", "2:13"), ("newtons_method", "1")]

@@ -108,8 +108,8 @@ fn a_laxer_tolerance_in_the_rubric_holds_for_every_check() {
         let failures = |tolerance: f64| {
             let judgement = judge(function, 5, &subject, tolerance).expect("the reference answers");
             let compared = judgement.checks(function).into_iter().filter_map(|(check, why)| why.map(|_| check.name()));
-            let held = checks.iter().filter(|check| with_tolerance(tolerance, || (check.run)(&course)).is_err());
-            compared.chain(held.map(|check| check.name)).collect::<Vec<_>>()
+            let failing = checks.iter().filter(|check| with_tolerance(tolerance, || (check.run)(&course)).is_err());
+            compared.chain(failing.map(|check| check.name)).collect::<Vec<_>>()
         };
         assert_eq!(failures(1e-6), [""; 0], "{function}");
         assert!(failures(TOLERANCE).len() > 1, "{function}");

@@ -45,10 +45,10 @@ pub fn markdown(text: &str) -> String {
     while let Some(c) = rest.next() {
         let mark =
             matches!(c, '\\' | '`' | '*' | '_' | '{' | '}' | '[' | ']' | '<' | '>' | '#' | '|' | '~' | '&' | '@' | '!');
-        let leads = escaped.is_empty() && matches!(c, '-' | '+' | '=');
+        let begins_list = escaped.is_empty() && matches!(c, '-' | '+' | '=');
         // Most sites turn a bare address into a link.
         let address = c == ':' && rest.peek() == Some(&'/') || c == '.' && escaped.ends_with("www");
-        if mark || leads || address || matches!(c, '$' | '^') {
+        if mark || begins_list || address || matches!(c, '$' | '^') {
             escaped.push('\\');
         }
         escaped.push(c);

@@ -51,7 +51,7 @@ fn in_order(confined: &Confined) -> BTreeMap<PathBuf, bool> {
 fn show(path: &Path, writable: bool) -> io::Result<()> {
     let before = old(path);
     if fs::symlink_metadata(&before)?.is_symlink() {
-        // A folder such as /bin; where it leads to must be listed too.
+        // A folder such as /bin; the target of the link must be listed too.
         return if fs::symlink_metadata(path).is_ok() { Ok(()) } else { link(&fs::read_link(&before)?, path) };
     }
     bind(path)?;

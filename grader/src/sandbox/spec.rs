@@ -19,7 +19,7 @@ pub struct Spec {
     pub owner: u32,
     /// The cgroup in which that of the tree is made, for `memory_cgroup`.
     pub cgroup: Option<PathBuf>,
-    /// Which descriptor of the launcher leads to the grader.
+    /// File descriptor of the launcher's connection to the grader.
     pub control: Control,
 }
 
