@@ -63,7 +63,7 @@ pub enum CheckError {
     /// A name that no function has.
     #[error("`{0}` is not a function of the course; the README lists the names")]
     Unknown(String),
-    /// The functions are another's, and this machine cannot confine them.
+    /// The folder belongs to another user, and this machine has no sandbox.
     #[error("{0}; add `--without-sandbox` if you trust the functions as you trust yourself")]
     Unconfined(Isolation),
     /// No file as it was handed out.
@@ -108,7 +108,7 @@ pub fn check(folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckErro
 pub fn check_in(sandbox: &Sandbox, folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckError> {
     let submission = usable(folder, only)?;
     let bar = bar();
-    // A sandbox with layers comes from a program that is its launcher.
+    // A sandbox with layers needs a program that can start as its launcher.
     let tools = if sandbox.is_some_layer() { Sandbox::own_tools(&env::current_exe()?) } else { Sandbox::none() };
     let prebuilt = Prebuilt::new(&own_repository(), tools)?;
     bar.set_message("compiling");
@@ -162,7 +162,7 @@ fn usable(folder: &Path, only: Option<&str>) -> Result<Submission, CheckError> {
     Submission::read_folder(folder).map_err(|reason| CheckError::Unreadable { folder: folder.to_owned(), reason })
 }
 
-/// Shows itself on terminals alone, and is gone in the end.
+/// A progress bar, shown on terminals only and removed at the end.
 fn bar() -> ProgressBar {
     let bar = ProgressBar::new(FUNCTIONS.len() as u64 + 1);
     if let Ok(style) = ProgressStyle::with_template("{bar:22} {msg}") {
@@ -181,8 +181,8 @@ fn refused(line: Option<usize>, reason: &str) -> String {
 fn wanted(submission: &Submission, only: Option<&str>) -> BTreeSet<&'static str> {
     let all = FUNCTIONS.iter().map(|(name, _)| *name);
     let Some(only) = only else { return all.collect() };
-    // The derivatives' checks need what they derive, and those of the integrators need whole bodies, so no more is left out than
-    // files that do not compile: those cannot be told from here, and `build` leaves them out anyway.
+    // Checks of derivatives need the function itself, and checks of integrators need whole bodies. So only files that do not compile are
+    // left out. They are not known here; `build` leaves them out.
     all.filter(|name| *name == only || matches!(submission.functions.get(name), Some(Source::Written(_)))).collect()
 }
 

@@ -1,5 +1,5 @@
-//! Turns the files of a submission into a program that answers calls. One call of rustc for many functions; a file that does not
-//! compile costs its own function alone.
+//! Compiles the files of a submission into a program that answers calls, with one call of rustc for many functions. A file that does not
+//! compile affects its own function only.
 
 mod attempt;
 mod diagnostics;
@@ -58,7 +58,7 @@ pub enum BuildError {
     /// Files cannot be written, or rustc cannot be started.
     #[error(transparent)]
     Io(#[from] io::Error),
-    /// The compiler breaks down over files together that it takes apart.
+    /// The compiler crashes on files together that it compiles separately.
     #[error(
         "{0}; it took the files apart, so give it more time (compile_seconds in the rubric) or the machine more memory"
     )]
@@ -112,7 +112,7 @@ pub fn build_within(
             if let Some(why) = gave_up {
                 return Err(BuildError::GaveUp(why));
             }
-            // The compiler fails although each file compiles alone, so all of them are to blame.
+            // The compiler fails although each file compiles alone, so the fault is reported for all of them.
             let sentence = "the files compile one by one, but not together";
             found = plan.own.keys().map(|name| (*name, does_not_compile(sentence.to_owned()))).collect();
         }

@@ -77,7 +77,7 @@ pub fn explain(function: &str, seed: u64, subject: &dyn Implementation, variants
 }
 
 fn diagnose(function: &str, mut cases: Vec<Case>, variants: &[Variant]) -> Option<Diagnosis> {
-    // Wrong answers tell most, so that most candidates need no second look.
+    // Wrong answers come first, because they rule out most candidates.
     cases.sort_by_cached_key(right);
     // A second mistake in a limiting case must not hide the first.
     let (ordinary, edges): (Vec<_>, Vec<_>) = cases.iter().partition(|case| !case.trial.edge);
@@ -95,7 +95,7 @@ fn diagnose(function: &str, mut cases: Vec<Case>, variants: &[Variant]) -> Optio
         .collect();
     let explained = |cases: &[&Case]| {
         let wrong = cases.iter().any(|case| !right(case));
-        // Of several explanations the first that also makes as many calls of the closures.
+        // Of several explanations, the first that also makes the same number of calls of the closures.
         let mut all = candidates.iter().filter(|candidate| wrong && explains(candidate, cases));
         let first = all.next()?;
         let counts = cases.iter().any(|case| !case.observed.calls.is_empty());
@@ -103,12 +103,12 @@ fn diagnose(function: &str, mut cases: Vec<Case>, variants: &[Variant]) -> Optio
         if !counts || same(&first) { Some(first) } else { all.find(same).or(Some(first)) }
     };
     let diagnosis = |of: &Candidate| Diagnosis { name: of.name.clone(), sentence: of.sentence.clone() };
-    // Where no answer is right, too much explains numbers that are none.
+    // If no answer is right, answers that are not finite have too many explanations.
     let nothing = kinds::not_a_number(&ordinary);
     if let Some(nothing) = nothing.clone().filter(|_| !cases.iter().any(right)) {
         return Some(nothing);
     }
-    // At a vertex or on an edge a display vertex may follow any of several elements, and with wrong weights it matters which.
+    // At a vertex or on an edge a display vertex may follow any of several elements, and the choice changes wrong weights.
     let inside: Vec<_> =
         ordinary.iter().copied().filter(|case| !["at vertices", "on edges"].contains(&case.trial.name)).collect();
     let found = explained(&all).or_else(|| explained(&ordinary));
@@ -125,7 +125,7 @@ fn diagnose(function: &str, mut cases: Vec<Case>, variants: &[Variant]) -> Optio
     kinds::limiting_case(&all).or_else(scaled).or_else(|| kinds::inexact(&all))
 }
 
-/// A candidate's answers times a constant, where that explains what the candidate alone does not.
+/// A candidate's answers times a constant, if that explains the observed answers.
 fn with_factor(candidate: &Candidate, cases: &[&Case]) -> Option<Diagnosis> {
     let first = cases.first().filter(|case| has_size(&case.trial.input))?;
     let mistaken = (candidate.answers)(&first.trial, &first.expected)?;
@@ -141,7 +141,7 @@ fn with_factor(candidate: &Candidate, cases: &[&Case]) -> Option<Diagnosis> {
         Some(Observed { numbers: answer.numbers.iter().map(|x| x * factor).collect(), ..answer })
     });
     let by = answers::written(factor);
-    // A factor that nobody would write explains nothing.
+    // An implausible factor is no explanation.
     (!by.contains('.') || by.len() < 6).then_some(())?;
     let (name, sentence) = match by == "-1" {
         true => ("negated".to_owned(), "Besides, every entry has the opposite sign.".to_owned()),
@@ -216,11 +216,11 @@ fn explains(candidate: &Candidate, cases: &[&Case]) -> bool {
     for case in cases {
         let Some(mistaken) = (candidate.answers)(&case.trial, &case.expected) else { return false };
         let size = size(&mistaken);
-        // Their scales allow for what a line search does to round-off, which hides mistakes.
+        // The scales of iterative methods allow for round-off that a line search amplifies. This would hide mistakes.
         let iterates = matches!(case.trial.input, Input::Step(_) | Input::Minimum { .. });
         let scale = |i| if iterates { size.max(f64::MIN_POSITIVE) } else { case.trial.scale(i) };
         let shows = distance(&mistaken, &case.expected, scale) > PRECISION;
-        // Where the mistake shows, its own size counts: it may be far larger or smaller than the right answer.
+        // If the mistake changes the answer, differences are relative to its own size, which may differ much from that of the right answer.
         let off = match shows {
             true if iterates => distance(&case.observed, &mistaken, scale),
             true => distance(&case.observed, &mistaken, |i| size + 1e-3 * scale(i)),

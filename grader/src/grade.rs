@@ -35,17 +35,17 @@ pub struct Grade {
     pub functions: Vec<FunctionGrade>,
     /// The whole simulation with the submission's functions alone.
     pub simulation: FunctionGrade,
-    /// Points by hand and lateness, where they have been taken into account.
+    /// Points by hand and lateness, if they have been applied.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub account: Option<Account>,
     /// The whole simulation at several time steps, with `--report`; it does not count for points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub study: Option<Study>,
-    /// Processor time of this grading with all its processes, s; on a system that does not tell it, the time that passed.
+    /// Processor time of this grading with all its processes, s; on a system without that counter, the wall-clock time.
     pub seconds: f64,
 }
 
-/// From the points of the checks to the score that counts.
+/// Steps from the points of the checks to the final score.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Account {
     pub student: String,
@@ -92,7 +92,7 @@ pub struct Run {
     pub is_right: bool,
 }
 
-/// Records of before do not say.
+/// Missing in records of earlier versions.
 fn right() -> bool {
     true
 }
@@ -154,7 +154,7 @@ impl FunctionGrade {
 }
 
 impl Growth {
-    /// A larger exponent than this is neither noise of the clock nor the memory of a larger mesh.
+    /// Smallest exponent that cannot be explained by noise of the clock or the memory of a larger mesh.
     pub const CLEAR: f64 = 1.6;
 
     /// Returns true if the submission's time clearly grows faster than that of the reference.
@@ -197,7 +197,7 @@ impl Grade {
         self
     }
 
-    /// Cuts every text that can hold words of a submission to so many bytes.
+    /// Cuts every text that a submission can influence to this number of bytes.
     fn cut(&mut self, most: usize) {
         self.remarks.iter_mut().for_each(|remark| cut(remark, most));
         for part in self.functions.iter_mut().chain([&mut self.simulation]) {

@@ -1,9 +1,9 @@
 //! Wrong functions as students write them, each with the names that a teacher would give to the mistake. They measure the
-//! diagnosis and take no part in it.
+//! quality of the diagnosis, which does not use them.
 
 use grader_child::Functions;
 
-/// Calls one of the 22 functions as the course's solution has it.
+/// Calls one of the 22 functions of the course's solution.
 macro_rules! right {
     ($name:ident($($argument:expr),* $(,)?)) => {
         ($crate::reference::REFERENCE.$name)($($argument),*)

@@ -122,7 +122,7 @@ pub struct Simulation {
 #[serde(deny_unknown_fields)]
 pub struct Function {
     pub name: Spanned<String>,
-    /// With those of the instructor's own checks, once the rubric is loaded.
+    /// Points of the function. Those of the instructor's own checks are added when the rubric is loaded.
     pub points: Spanned<f64>,
     pub level: Spanned<u32>,
     pub hint: Option<String>,

@@ -8,7 +8,7 @@ use jiff::Timestamp;
 use serde::Deserialize;
 use thiserror::Error;
 
-/// Whose a submission is, and when it came.
+/// Students and time of a submission.
 pub struct Metadata {
     pub submitted: Timestamp,
     /// Addresses, numbers and names of the student, or of the students of a group.

@@ -1,4 +1,4 @@
-//! The report of the checks for a student: a line for each function, and more of the one that comes next.
+//! The report of the checks for a student: a line for each function, and details of the next one to work on.
 
 use std::fmt::Write;
 use std::fs;

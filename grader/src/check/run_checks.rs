@@ -65,11 +65,11 @@ pub fn summary(name: &str, checked: &[CheckResult]) -> (Status, Vec<String>) {
     let (mut status, mut messages) = (Status::Passed, Vec::new());
     for (check, mistake) in checked {
         let Some((mistake, found)) = mistake else { continue };
-        // What made it give up has been told.
+        // The reason for giving up is in the messages already.
         if *mistake == Mistake::Trouble(Trouble::GivenUp) && status != Status::Passed {
             continue;
         }
-        // A wrong answer says more than a check that has to wait.
+        // A wrong answer comes before a check that waits for another function.
         status = if status == Status::Passed { *found } else { status.min(*found) };
         let message = match mistake {
             Mistake::Wrong { .. } => message_of(name, mistake),

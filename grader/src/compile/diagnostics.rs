@@ -33,7 +33,7 @@ struct Expansion {
 /// Messages for the functions with an error in their file or in the line that calls them, by function.
 pub fn faults(messages: &str) -> BTreeMap<&'static str, String> {
     let mut found: BTreeMap<&'static str, String> = BTreeMap::new();
-    // Lines that are no message come from a linker or a panicking compiler; they blame no file.
+    // Lines that are not messages come from a linker or a panicking compiler, and concern no file.
     for message in messages.lines().filter_map(|line| serde_json::from_str::<Message>(line).ok()) {
         if message.level != "error" {
             continue;

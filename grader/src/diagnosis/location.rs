@@ -1,5 +1,5 @@
-//! Says where a function is right and where it is wrong: for which inputs, in which entries, up to which call. No input and no
-//! expected value is told.
+//! Locates an error: the inputs, entries and calls for which a function is right or wrong. The sentences contain no inputs and no
+//! expected values.
 
 mod calls;
 mod probes;
@@ -93,7 +93,7 @@ fn entries(wrong: &[&Case]) -> Option<String> {
             for (k, place) in places(case.expected.shape).enumerate() {
                 let off = (case.observed.numbers[k] - case.expected.numbers[k]).abs() / case.trial.scale(k);
                 let is_right = off <= TOLERANCE || case.observed.numbers[k] == case.expected.numbers[k];
-                // A zero that is right says little.
+                // A right zero is weak evidence.
                 let says_something = !is_right || case.expected.numbers[k] != 0.0;
                 let side = &mut counts[usize::from(contains(&place))];
                 side[0] += usize::from(!is_right);

@@ -1,12 +1,12 @@
-//! Places at which a submission says that it panicked. Students read them, and a submission can forge them to carry inputs out, so only
-//! lines count that its files have.
+//! Places at which a submission says that it panicked. Students read them, and a submission can forge them to reveal inputs, so only
+//! lines that exist in its files are kept.
 
 use std::collections::BTreeMap;
 
 use super::Trouble;
 use crate::submission::{Source, Submission};
 
-/// Characters of each line of each file; `None` where any place is believed.
+/// Number of characters of each line of each file; `None` if every place is accepted.
 #[derive(Clone, Debug, Default)]
 pub struct Places(Option<BTreeMap<&'static str, Vec<usize>>>);
 

@@ -9,7 +9,7 @@ pub fn energy_terms(F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
     C * (shape + 3.0) + D * (J * J + 1.0)
 }
 
-/// The least singular value: to within a fraction of it F may be moved before it turns inside out.
+/// The smallest singular value of F, its distance from a singular matrix.
 pub fn smallest_stretch(F: &Matrix3<f64>) -> f64 {
     F.singular_values().min()
 }

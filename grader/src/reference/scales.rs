@@ -13,7 +13,7 @@ pub fn energy(F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
     C * (F.norm_squared() / J.cbrt().powi(2) + 3.0) + D * (J * J + 1.0)
 }
 
-/// Size of the terms of the stress, Pa: the energy changes by all of itself as the least stretch does.
+/// Size of the terms of the stress, Pa: the energy over the smallest principal stretch.
 pub fn stress(F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
     energy(F, C, D) / F.singular_values().min()
 }

@@ -148,7 +148,7 @@ fn wrong_values_and_values_that_are_none_fail() {
 
 #[test]
 fn any_tetrahedron_that_holds_a_point_will_do() {
-    // With the elements in the opposite order another one is the first that holds it.
+    // With the elements in the opposite order, another one is the first that contains the point.
     let last = Functions {
         build_skinning_matrix: |V, T, S| {
             let reversed: Vec<_> = T.iter().rev().copied().collect();

@@ -116,7 +116,7 @@ pub struct Observed {
     pub residual: Option<f64>,
 }
 
-/// Far more than any right answer has.
+/// Limit of the size of an answer, far above that of any right one.
 const MOST_ENTRIES: usize = 1 << 20;
 
 impl Observed {

@@ -28,7 +28,7 @@ impl TryFrom<toml::Value> for Time {
 #[serde(deny_unknown_fields)]
 pub struct Deadline {
     pub at: Time,
-    /// A submission so many minutes after the deadline is not late.
+    /// Minutes after the deadline within which a submission is not late.
     #[serde(default)]
     pub grace_minutes: f64,
     /// Days, begun ones included, that cost nothing.

@@ -1,4 +1,4 @@
-//! The processes below the launcher and the memory that they hold together. Each process has a limit of its own besides.
+//! The descendants of the launcher and their total memory. In addition each process has a limit of its own.
 
 use std::collections::HashMap;
 use std::fs::File;

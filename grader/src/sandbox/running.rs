@@ -136,7 +136,7 @@ impl Tree {
         if cfg!(target_os = "linux") {
             command.env_clear().envs(confined.environment.iter().map(|(name, value)| (name, value)));
         }
-        // In our own group of processes, so that Ctrl-C at a terminal ends an endless loop along with us.
+        // In the grader's own process group, so that Ctrl-C at a terminal also ends an endless loop.
         let child = wire(&mut command).spawn()?;
         Ok(Self {
             child,
@@ -205,7 +205,7 @@ impl Tree {
 
     /// Kills what was started: a launcher with its group; a plain program has none of its own.
     fn kill_plain(&mut self) {
-        // The process may be gone already, which is what is wanted.
+        // An error means that the process has ended already.
         #[cfg(target_os = "linux")]
         if matches!(self.child.try_wait(), Ok(None)) {
             let group = nix::unistd::Pid::from_raw(self.child.id().cast_signed());

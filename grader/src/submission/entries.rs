@@ -1,4 +1,4 @@
-//! From the files of a folder or an archive to a submission.
+//! Selects the files of a submission from a folder or an archive.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,7 +14,7 @@ pub enum Content {
     Unread,
     /// A symbolic or hard link.
     Link,
-    /// A file that the system or the archive does not give; why.
+    /// A file that cannot be read; the reason.
     Broken(String),
 }
 
@@ -71,7 +71,7 @@ impl Submission {
     }
 }
 
-/// So many remarks on ignored files are made.
+/// Largest number of remarks on ignored files.
 const MOST_REMARKS: usize = 20;
 
 /// The first remarks, and how many more there would be.

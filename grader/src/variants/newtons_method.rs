@@ -117,7 +117,7 @@ const USUAL: Habits = Habits {
     first_step: |_| 1.0,
 };
 
-/// Newton's method with these habits.
+/// Newton's method with these settings.
 fn newton(
     habits: &Habits,
     x0: &mut DVector<f64>,

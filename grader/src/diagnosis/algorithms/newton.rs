@@ -36,7 +36,7 @@ pub struct Settings {
     /// Returns true if the gradient is small. Arguments: its norm, and that at the start.
     small: fn(f64, f64) -> bool,
     pub most: fn(usize) -> usize,
-    /// The next step length where no step is good enough; 0 gives up, NaN goes on without a step.
+    /// The step length after a line search without an acceptable step. 0: give up. NaN: continue without a step.
     last: fn(f64) -> f64,
     carries_over: bool,
     left_behind: bool,

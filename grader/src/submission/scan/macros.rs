@@ -65,7 +65,7 @@ impl Macros {
                 found.collect(tokens);
                 found
             };
-            // What our tokeniser cannot read the compiler may read after all.
+            // The compiler may accept a text that this tokeniser cannot read.
             let found = super::with_tokens(text, find).unwrap_or(Self { own: BTreeSet::new(), is_any: true });
             macros.own.extend(found.own);
             macros.is_any |= found.is_any;

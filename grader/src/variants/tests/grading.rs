@@ -1,4 +1,4 @@
-//! The grader, graded: a mistake costs marks in its own function and in no other, and most mistakes are named.
+//! Tests of grading: a mistake costs marks only in its own function, and most mistakes are named.
 
 use std::panic::{self, AssertUnwindSafe};
 use std::thread;
@@ -19,7 +19,7 @@ const SEEDS: [u64; 3] = [1, 2, 3];
 /// Number of variants of each function that are tested, one after the other, beside right functions.
 const TURNS: usize = 4;
 
-/// The share of the mistakes with a name that must be told by it.
+/// Smallest share of the mistakes with a name that the diagnosis must name.
 const NAMED: f64 = 0.8;
 
 /// The check that a function fails, as a grade would list it; `None` if it passes all.
