@@ -63,7 +63,7 @@ impl DirichletConditions {
         new
     }
 
-    /// Lets each condition apply or not as it does at a time, s. Returns whether that has changed any.
+    /// Updates the conditions that apply at a time, s. Returns whether any of them has changed.
     pub fn apply_at(&mut self, time: f64, nodes: usize) -> bool {
         let applies = |condition: &DirichletCondition| condition.until.is_none_or(|until| is_before(time, until));
         // A step without a release allocates nothing.

@@ -23,7 +23,7 @@ pub trait Potential<T: Real>: Send + Sync {
     /// Key in the statistics.
     fn name(&self) -> &'static str;
 
-    /// One line for `--explain`: the table that asks for it, and what it comes to.
+    /// One line for `--explain`: the table of the scene, and the resulting quantity.
     fn description(&self) -> String;
 
     /// Memory of its data, bytes.
@@ -83,8 +83,8 @@ pub trait Potential<T: Real>: Send + Sync {
         false
     }
 
-    /// Evaluates again what it keeps fixed in a step, at the displacements of its end, and takes over this part of the change (1 for all
-    /// of it). Returns the whole relative change.
+    /// Evaluates the lagged quantity again, at the displacements of the end of the step, and applies this part of its change (1 for all of
+    /// it). Returns the whole relative change.
     fn update_lag(&mut self, _u: &[[T; 3]], _relaxation: f64) -> f64 {
         0.0
     }
@@ -147,7 +147,7 @@ pub trait Potential<T: Real>: Send + Sync {
         None
     }
 
-    /// The scene's field and the quantity that do not fit into the number type, where that happens.
+    /// The scene's field and the quantity that are out of range of the number type; `None` if all are in range.
     fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
         None
     }
@@ -158,7 +158,7 @@ pub trait Potential<T: Real>: Send + Sync {
 pub struct Moment {
     /// s
     pub time: f64,
-    /// Load factor of a load step, 0 to 1: it scales loads and prescribed motions. `None` in dynamics, where loads act in full and
+    /// Load factor of a load step, 0 to 1: it scales loads and prescribed motions. `None` in dynamics, where loads have their full size and
     /// prescribed motions follow the time.
     pub load_factor: Option<f64>,
 }
@@ -175,16 +175,16 @@ impl Moment {
     }
 }
 
-/// Which Hessian is asked for.
+/// Kind of a Hessian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HessianKind {
     /// The second derivative as it is.
     Exact,
-    /// Each element's and each force's part projected to positive semi-definite.
+    /// The part of each element and of each force is projected to a positive semi-definite matrix.
     Projected,
 }
 
-/// A force that is ready to be built where the scene asks for it.
+/// A kind of force, which is built if the scene asks for it.
 pub struct Kind<T: Real> {
     /// Key in the statistics.
     pub name: &'static str,
@@ -197,7 +197,7 @@ pub struct Kind<T: Real> {
 /// Builds a force of a body.
 pub type Builder<T> = fn(&Body, &Numbering) -> Option<Box<dyn Potential<T>>>;
 
-/// Every force that a scene can ask for; `[drag]` and the pull of a user are [`Anchors`].
+/// Every force that a scene can ask for; `[drag]` and the user's interaction are [`Anchors`].
 pub fn kinds<T: Real>() -> [Kind<T>; 6] {
     [
         Kind { name: mass_spring::NAME, tables: "[material] with model \"mass_spring\"", build: mass_spring::build },
@@ -212,7 +212,7 @@ pub fn kinds<T: Real>() -> [Kind<T>; 6] {
 /// All forces of a body, each with its timer.
 pub struct Forces<T: Real> {
     potentials: Vec<(Box<dyn Potential<T>>, Timer)>,
-    /// Springs from nodes to points in space: `[drag]`, or the pull of a user.
+    /// Anchor springs from nodes to points in space: `[drag]`, or the user's interaction.
     pub anchors: Anchors,
     /// Uses and time of these.
     pub anchors_timer: Timer,
@@ -271,7 +271,7 @@ impl<T: Real> Forces<T> {
         self.active().any(|(potential, _)| potential.has_lag())
     }
 
-    /// Evaluates again what forces keep fixed in a step, and takes over this part of the change. Returns the largest relative change.
+    /// Evaluates the lagged quantities of forces again, and applies this part of their change. Returns the largest relative change.
     pub fn update_lag(&mut self, u: &[[T; 3]], relaxation: f64) -> f64 {
         self.potentials.iter_mut().map(|(potential, _)| potential.update_lag(u, relaxation)).fold(0.0, f64::max)
     }

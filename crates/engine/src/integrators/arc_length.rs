@@ -27,7 +27,7 @@ const LARGEST: f64 = 4.0;
 /// Largest number of times that an arc length is halved in a step.
 const HALVINGS: usize = 12;
 
-/// The method with its solver, which must not need a positive definite matrix, and its vectors.
+/// The method with its vectors and its solver, which must be able to solve indefinite systems.
 pub struct ArcLength<T: Real> {
     pub solver: Solver<T>,
     limits: NewtonLimits,
