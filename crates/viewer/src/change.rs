@@ -18,7 +18,7 @@ pub enum Change {
 /// Other tables of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edit {
-    /// The table that it concerns, such as `traction.0`: a later edit of it takes the place of one that waits.
+    /// The table that it changes, such as `traction.0`. A later edit of the same table replaces one that waits.
     pub table: String,
     /// The keys that it sets and removes.
     pub overrides: Vec<Override>,

@@ -1,4 +1,4 @@
-//! Everything of a state that a picture shows.
+//! The parts of a state that a picture shows.
 
 use fem_scene::output::ElementField;
 use fem_scene::simulation::{Plane, Simulation};

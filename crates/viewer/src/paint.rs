@@ -14,7 +14,7 @@ use crate::shader::Painting;
 use crate::surface::Surface;
 use crate::texture::{Texture, place_of_color};
 
-/// The paint of a body, and what it needs once it is used.
+/// The paint of a body, with data that are computed on first use.
 #[derive(Default)]
 pub struct Paint {
     painting: Painting,

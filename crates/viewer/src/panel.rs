@@ -216,7 +216,7 @@ fn contact_force(force: f64, weight: Option<f64>) -> String {
     format!("{} N{}", plot::short(force), beside.unwrap_or_default())
 }
 
-/// Describes the speed of simulated time, or why it does not run.
+/// Describes the speed of simulated time, or the reason why the simulation does not run.
 fn speed(snapshot: &Snapshot) -> String {
     match snapshot.rate {
         _ if snapshot.stop.is_some() => "stopped".into(),

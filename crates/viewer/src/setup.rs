@@ -23,12 +23,12 @@ use loads::Loads;
 /// Use of the left mouse button on the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// It pulls the body.
+    /// It drags the body.
     #[default]
     Pull,
     /// It paints constrained nodes.
     Fix,
-    /// It picks faces and pulls a traction.
+    /// It picks faces, and sets a traction by dragging.
     Load,
 }
 
@@ -149,7 +149,7 @@ impl Setup {
         }
     }
 
-    /// The change that gives the picked faces their traction; a message tells why there is none.
+    /// The change that gives the picked faces their traction; a message gives the reason if there is none.
     pub fn load(&mut self, shape: &Shape, scene: &SceneSetup) -> Option<Change> {
         let body = self.body.get_or_init(|| Body::of(shape));
         match self.loads.change(body, scene) {

@@ -129,7 +129,7 @@ pub struct Snapshot {
     pub object: Option<PathBuf>,
     /// The scene with the user's changes and the parts of the body that it names, if it may be changed.
     pub setup: Option<Arc<SceneSetup>>,
-    /// The last command [`Command::Save`]: the path of the file, or why it was not written.
+    /// The last command [`Command::Save`]: the path of the file, or the reason why it was not written.
     pub saved: Option<Result<PathBuf, String>>,
     /// The parts of a step and their times.
     pub timers: Vec<StepTimer>,

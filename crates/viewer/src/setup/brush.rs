@@ -101,7 +101,7 @@ impl Brush {
         }
     }
 
-    /// Ends a stroke: the change of the scene, or why there is none; `None` if no stroke was begun.
+    /// Ends a stroke: the change of the scene, or the reason why there is none; `None` if no stroke was begun.
     pub(super) fn release(&mut self, scene: &SceneSetup) -> Option<Result<Change, String>> {
         let stroke = self.stroke.as_mut().filter(|stroke| stroke.is_down)?;
         stroke.is_down = false;
