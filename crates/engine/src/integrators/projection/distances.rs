@@ -7,7 +7,7 @@ use crate::forces::springs::Spring;
 use fem_elements::Real;
 use fem_elements::vector::{dot3, triple};
 
-/// Distance constraints in the order of their colours, each with what it adds up in a step.
+/// Distance constraints in the order of their colours, each with its multiplier.
 pub(super) struct Distances<T> {
     springs: Vec<Spring<T>>,
     /// The force of a spring on its second node, N; or in the first entry a multiplier, m.

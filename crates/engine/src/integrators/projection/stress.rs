@@ -59,7 +59,7 @@ pub(super) fn change_of_stress<L: Lanes>(
             replace(&mut H);
         }
         (A, is_definite) = factorized(&H, factors);
-        // Not a number where the displacements are none: the check of the state ends the step.
+        // NaN if the displacements are not finite: the check of the state ends the step.
         let _ = is_definite;
     }
     let y = substitute(&A, &to_coordinates(factors, &residual));

@@ -1,6 +1,6 @@
-//! The step of methods that relax a body in sweeps: PBD, XPBD and vertex block descent. Nodes move where inertia and dead loads alone
-//! would take them, sweeps correct their places, and velocities follow from the places: Müller, Heidelberger, Hennix and Ratcliff,
-//! Position based dynamics (2007), algorithm 1. What one sweep does is the method's [`Relaxation`].
+//! The step of methods that relax a body in sweeps: PBD, XPBD and vertex block descent. Nodes move to the positions of inertia and dead
+//! loads alone, sweeps correct these positions, and velocities follow from them: Müller, Heidelberger, Hennix and Ratcliff,
+//! Position based dynamics (2007), algorithm 1. A method implements its sweep in [`Relaxation`].
 
 mod contact;
 mod particles;

@@ -36,8 +36,9 @@ impl<T: Real> Particles<T> {
         system.dirichlet.clear_constrained(&mut self.inverse_masses);
     }
 
-    /// Moves the nodes to where inertia and dead loads would take them at the end of a step of `dt` seconds, constrained ones to their
-    /// prescribed places. Returns the square of the time that forces have to move them, s²: with damping α M it is dt²/(1 + α dt).
+    /// Moves the nodes to the displacements of inertia and dead loads alone at the end of a step of `dt` seconds, constrained nodes to
+    /// their prescribed displacements. Returns the square of the time that forces have to move them, s²: with damping α M it is dt²/(1
+    /// + α dt).
     pub fn predict(&mut self, system: &System<T>, state: &mut State<T>, dt: f64) -> f64 {
         let end = Moment::at(state.time + dt);
         let damped = 1.0 / (1.0 + system.damping.map_or(0.0, |damping| damping.alpha * dt));

@@ -37,7 +37,7 @@ pub struct SecondOrder<T: Real> {
     newton: Newton<T>,
     followers: Followers<T>,
     start: Start<T>,
-    /// State of earlier steps that the next step needs, and that which it will leave.
+    /// State of earlier steps that this step needs, and the state for the next step.
     known: Known<T>,
     next: Known<T>,
     inertial: Vec<[T; 3]>,
@@ -123,7 +123,7 @@ impl<T: Real> SecondOrder<T> {
         let end = Moment::at(time + dt);
         let first = self.advance(system, state, (part, end), &bdf2::first_stage(dt), counters)?;
         std::mem::swap(&mut self.known, &mut self.next);
-        // What the error is estimated from is that of the whole step.
+        // The error is estimated from the mean acceleration of the whole step.
         std::mem::swap(&mut self.known.mean, &mut self.next.mean);
         self.known.age = self.next.age;
         state.time = time + part;
@@ -206,7 +206,8 @@ impl<T: Real> Integrator<T> for SecondOrder<T> {
         self.error
     }
 
-    /// Their numerical damping ends what grows. The other two keep or multiply the energy of a motion with large deformations.
+    /// The numerical damping of these methods bounds the energy. The other two keep or multiply the energy of motions with large
+    /// deformations.
     fn is_unconditionally_stable(&self) -> bool {
         matches!(self.scheme, Scheme::GeneralizedAlpha(_) | Scheme::Bdf2)
     }
