@@ -9,7 +9,7 @@ pub struct NewtonLimits {
     pub max_iterations: usize,
     /// Largest change of a coordinate in the last iteration, as a part of the body's length.
     pub tolerance: f64,
-    /// Projection of element stiffnesses to positive semi-definite ones.
+    /// Projection of element Hessians to positive semi-definite ones.
     pub projection: Projection,
     /// Largest relative residual of an iterative linear solver.
     pub solver_tolerance: f64,

@@ -124,7 +124,7 @@ impl<T: Real> Newton<T> {
         self.lbfgs.clear();
     }
 
-    /// Adds the kept factor and what decides how long it is kept.
+    /// Adds the kept factor and the data that decide how long it is kept.
     pub fn save(&self, history: &mut History) {
         let (is_kept, first_iterations) = (self.factor != Factor::Stale, self.first_iterations);
         put_flag(history, "newton.is_matrix_kept", is_kept);
@@ -140,7 +140,7 @@ impl<T: Real> Newton<T> {
         }
     }
 
-    /// Takes over what [`save`](Self::save) has added.
+    /// Restores the data that [`save`](Self::save) has added.
     pub fn restore(&mut self, history: &History) -> Result<(), String> {
         self.forget();
         let is_kept = take_flag(history, "newton.is_matrix_kept")?;
@@ -276,7 +276,8 @@ impl<T: Real> Newton<T> {
         }
     }
 
-    /// No direction decreases the energy: the iterate is the minimum to rounding error, or Newton's method has failed.
+    /// Ends the iteration if no direction decreases the energy: the iterate is the minimum to rounding error, or Newton's method has
+    /// failed.
     fn check_stationary(&self, potential: &IncrementalPotential<T>, at: &Iterate) -> Result<bool, Cause> {
         if max_norm(&self.direction) <= self.limits.tolerance * potential.system.length {
             return Ok(false);

@@ -9,7 +9,7 @@ use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
 use fem_elements::number::is_positive;
 
-/// Refuses a tolerance of Newton's method that rounding error does not let it reach: it would iterate to its limit in every step.
+/// Refuses a tolerance of Newton's method below rounding error: it would iterate to its limit in every step.
 pub(super) fn check_tolerance(method: &Method, epsilon: f64) -> Result<(), Refusal> {
     let least = SMALLEST_TOLERANCE * epsilon;
     match method.newton.tolerance {
@@ -51,10 +51,10 @@ pub(super) fn check<T: Real>(method: &Method, system: &System<T>) -> Result<(), 
     }
 }
 
-/// Refuses parameters whose signs make the material unstable at rest. In double precision none that a scene may give is rounded to
+/// Refuses parameters whose signs make the material unstable at rest. Double precision rounds no allowed parameter to
 /// zero.
 pub(super) fn check_shear_modulus(table: &Material) -> Result<(), String> {
-    // Springs are stiff along themselves alone.
+    // Springs are stiff only along their direction.
     if table.is_mass_spring() {
         return Ok(());
     }

@@ -103,7 +103,7 @@ impl<T: Real> Solver<T> {
         preparing.time(|| inverse.prepare(values))
     }
 
-    /// Takes over the elements whose matrices a graphics device then assembles; other solvers have no use for them.
+    /// Receives the elements whose matrices a graphics device then assembles; other solvers ignore them.
     #[cfg(feature = "gpu")]
     pub(crate) fn set_elements(&mut self, elements: &DeviceElements) {
         self.inverse.set_elements(elements);
@@ -205,8 +205,8 @@ impl<T: Real> Solver<T> {
         solving.time(|| inverse.apply(&r[..pattern.rows()], &mut z[..pattern.rows()]));
     }
 
-    /// Adds what the next preparation takes from earlier matrices, and, if the factor or preconditioner `is_kept`, what it takes
-    /// from them.
+    /// Adds the data of earlier matrices that the next preparation needs, and, if the factor or preconditioner `is_kept`, those that it
+    /// depends on.
     pub fn save(&self, is_kept: bool, history: &mut History) {
         if self.inverse.assembles() {
             put_flag(history, "solver.has_own_matrix", self.has_own_matrix);
@@ -214,7 +214,7 @@ impl<T: Real> Solver<T> {
         self.inverse.save(is_kept, history);
     }
 
-    /// Takes over what [`save`](Self::save) has added.
+    /// Restores the data that [`save`](Self::save) has added.
     pub fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String> {
         self.has_own_matrix = self.inverse.assembles() && take_flag(history, "solver.has_own_matrix")?;
         self.inverse.restore(is_kept, history)
@@ -257,7 +257,7 @@ impl<T: Real> Solver<T> {
         self.inverse.bytes()
     }
 
-    /// Allocated bytes without the pattern. The factors of an LU factorisation are not counted: faer does not tell their size.
+    /// Allocated bytes without the pattern. The factors of an LU factorisation are not counted: faer does not report their size.
     pub fn bytes(&self) -> usize {
         self.inverse.bytes() + self.workspace.bytes()
     }

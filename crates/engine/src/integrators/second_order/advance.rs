@@ -122,8 +122,8 @@ impl<T: Real> SecondOrder<T> {
     }
 }
 
-/// The increment with this acceleration, or none where it would be long: vibrations much faster than the step change their accelerations
-/// within it, and would be thrown far away.
+/// The increment with this acceleration; zero if it would be long, because vibrations much faster than the step change their accelerations
+/// within the step.
 fn extrapolate<T: Real>(step: &mut [[T; 3]], inertial: &[[T; 3]], acceleration: &[[T; 3]], square: f64, length: f64) {
     step.copy_from_slice(inertial);
     axpy(square, acceleration, step);

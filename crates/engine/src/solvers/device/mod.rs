@@ -19,7 +19,7 @@ mod absent {
     use fem_elements::Real;
     use fem_elements::sparse::Pattern;
 
-    /// Name of the graphics device, or why there is none.
+    /// Name of the graphics device, or the reason why there is none.
     pub fn name() -> Result<String, String> {
         Err(ABSENT.to_owned())
     }
