@@ -100,7 +100,7 @@ pub enum Terms<T> {
     Entries,
 }
 
-/// A law that scene files name, and the facts that methods ask for.
+/// A law that scene files name, with the properties that methods need.
 pub trait NamedLaw<T: Number>: Law<T> + Copy {
     /// The name in scene files.
     const NAME: &'static str;
