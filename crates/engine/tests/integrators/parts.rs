@@ -1,4 +1,4 @@
-//! A part that a scene leaves out costs nothing: its counter stays zero, and rises with the part.
+//! The counter of a part that a scene leaves out stays zero, and rises in a scene with the part.
 
 use fem_scene::simulation::{Part, Simulation};
 

@@ -14,7 +14,7 @@ time = { dt = 0.01, integrator = "implicit_euler" }
 solver.kind = "gpu"
 "#;
 
-/// Two laws: the device assembles the matrices of the first, and the processor those of the second.
+/// Runs two laws: the device assembles the matrices of the first law, and the processor those of the second.
 #[test]
 fn a_run_whose_device_is_lost_ends_with_its_last_state_and_says_so() {
     let device = match device() {
