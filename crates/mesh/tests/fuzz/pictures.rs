@@ -12,7 +12,8 @@ use tempfile::tempdir;
 use super::mutation::fuzz;
 use super::write_anew;
 
-/// Most bytes of pixels for a byte of a file: deflate packs 1032 bytes into one, and those of one bit become four bytes for a pixel.
+/// Largest number of bytes of pixels for a byte of a file: deflate packs 1032 bytes into one, and those of one bit become four bytes
+/// for a pixel.
 const UNPACKED: u64 = 1032 * 8 * 4;
 
 /// Returns true if a pixel lies inside of a ring.

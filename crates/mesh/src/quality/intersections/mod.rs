@@ -12,7 +12,7 @@ use crate::boxes::{Bounds, BoxTree};
 pub(crate) use predicates::{Triangle, meet, segment_meets};
 use predicates::{meet_beyond_corner, meet_beyond_edge};
 
-/// Most pairs that are counted, and most that are looked at: all triangles of a surface may cross all others.
+/// Largest numbers of pairs that are counted, and that are tested: all triangles of a surface may cross all others.
 const MOST: [usize; 2] = [1_000_000, 200_000_000];
 
 /// The pairs of crossing triangles of a surface.

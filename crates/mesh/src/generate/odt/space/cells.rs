@@ -17,7 +17,7 @@ const REMOVED: [u32; 4] = [u32::MAX; 4];
 pub enum Freedom {
     /// Stays: the boundary, and the parts that sets name.
     Fixed,
-    /// Moves on the surface that the caller knows.
+    /// Moves on the surface that the caller gives.
     OnSurface,
     /// Moves freely.
     Inside,
