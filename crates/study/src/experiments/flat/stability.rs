@@ -9,7 +9,7 @@ use fem_scene::simulation::Simulation;
 use super::object::{LAME, OBJECTS, disturb, meshed, picture, simulator};
 use crate::experiments::{Mark, Part, Table};
 
-/// Frames in a second, frames of a run that lives, and frames after which growth must show.
+/// Frames in a second, frames of a stable run, and frames after which growth must show.
 const FRAMES: f64 = 60.0;
 const RUN: usize = 20;
 const LONG_RUN: usize = 60;

@@ -73,7 +73,7 @@ impl Setting<'_> {
     /// The tables `[material]` and `[mass]`, and those of the method.
     pub fn text(&self) -> String {
         let Self { law, young, poisson, precision, integrator, tables } = self;
-        // One solve is exact for a linear body; the thesis' tolerance spares a second one that tells so.
+        // One solve is exact for a linear body; the thesis' tolerance avoids a second one that would confirm it.
         let newton = match (*law, *integrator) {
             ("linear", "implicit_euler") => "[newton]\ntolerance = 1e-5\n",
             _ => "",

@@ -1,4 +1,4 @@
-//! The methods that are compared, with what of each is swept and tuned.
+//! The methods that are compared, with the parameters that are swept and tuned.
 
 use super::case::{LAW, SPRINGS};
 

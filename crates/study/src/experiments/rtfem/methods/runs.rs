@@ -15,7 +15,7 @@ const ITERATED: [usize; 12] = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5
 /// Iterations with which the tuned key is tried.
 const TUNED_AT: usize = 20;
 
-/// Solver error and time of a step (ms) at which a method has shown what it does.
+/// Solver error and time of a step (ms) at which the sweep of a method ends.
 const CONVERGED: f64 = 1e-8;
 
 /// Limits of a sweep.
