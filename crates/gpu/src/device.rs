@@ -1,4 +1,4 @@
-//! A graphics device: it is opened, holds arrays, runs commands, and tells what went wrong.
+//! A graphics device: opening, arrays, commands, and errors.
 
 use std::sync::{Arc, Mutex, PoisonError};
 

@@ -1,8 +1,8 @@
 //! Linear systems and time steps on a graphics device, through wgpu's compute shaders.
 //!
 //! [`Device`] is a card, or a program that stands in for one. [`ConjugateGradients`] solves systems of 3×3 blocks on it, [`Stiffness`]
-//! assembles their matrix there, and [`Bodies`] are many bodies of one mesh that step there. This crate knows arrays of numbers, and
-//! nothing of scenes.
+//! assembles their matrix there, and [`Bodies`] are many bodies of one mesh that step there. This crate works on arrays of numbers,
+//! and is independent of scenes.
 
 mod conjugate_gradients;
 mod device;
