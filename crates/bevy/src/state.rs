@@ -1,4 +1,4 @@
-//! The component [`SoftBodyState`]: what the simulation has computed so far.
+//! The component [`SoftBodyState`]: the results of the simulation so far.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -123,7 +123,7 @@ impl SoftBodyState {
         self.frames.back()
     }
 
-    /// Takes out the states that lie before what is shown.
+    /// Removes the states before the displayed one.
     pub(crate) fn outdated(&mut self) -> impl Iterator<Item = Frame> + '_ {
         let shown = self.clock.shown_steps();
         let is_outdated = move |frames: &VecDeque<Frame>| frames.get(1).is_some_and(|next| next.step as f64 <= shown);

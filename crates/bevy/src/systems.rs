@@ -73,7 +73,7 @@ pub fn build_bodies(
     }
 }
 
-/// Takes what the workers have sent.
+/// Receives the messages of the workers.
 pub fn receive_news(
     mut bodies: Query<&mut SoftBodyState>,
     mut workers: ResMut<Workers>,

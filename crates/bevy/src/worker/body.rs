@@ -38,7 +38,7 @@ struct Built {
 
 /// An order to a body.
 pub enum Order {
-    /// Do steps until there are so many in all.
+    /// Do steps up to this total number.
     Advance(usize),
     /// Pull, or let go.
     Pull(Option<SoftBodyPull>),
