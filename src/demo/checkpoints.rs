@@ -18,7 +18,7 @@ pub struct Checkpoints<'a> {
 }
 
 impl<'a> Checkpoints<'a> {
-    /// The checkpoints that the options ask for, if they do.
+    /// The checkpoints that the options ask for; `None` without them.
     pub fn new(arguments: &'a RunArguments, scene: &'a Scene) -> Option<Self> {
         let file = arguments.checkpoint.as_deref()?;
         Some(Self { file, scene, every: arguments.checkpoint_every, last: Instant::now() })

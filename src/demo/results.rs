@@ -144,7 +144,7 @@ fn not_settled(method: &Method, unconverged_steps: usize, steps: usize) -> Strin
     )
 }
 
-/// Warns of a result that is not what it seems: inverted elements, or loads that are not fully on.
+/// Warns of a misleading result: inverted elements, or loads that are not fully applied.
 fn warn(simulation: &dyn Simulation) {
     let (name, inverted) = (simulation.name(), simulation.inverted_elements());
     if inverted > 0 {
