@@ -20,7 +20,7 @@ fn main() {
     let key = env::var("GRADER_CHECKS_KEY").unwrap_or_default();
     let code = format!(
         "{modules}/// The checks, each with its function.\npub const OWN: &[(&str, Check)] = &[\n{rows}];\n\
-         /// What they were built from.\npub const KEY: &str = {key:?};\n"
+         /// Key of the sources that they were built from.\npub const KEY: &str = {key:?};\n"
     );
     let folder = PathBuf::from(env::var_os("OUT_DIR").expect("cargo names a folder"));
     fs::write(folder.join("own_checks.rs"), code).expect("the folder can be written to");

@@ -13,7 +13,7 @@ pub enum End {
 }
 
 impl End {
-    /// An error of the arguments or of what they name.
+    /// An error in the arguments or in the files that they name.
     pub fn unusable(error: impl fmt::Display) -> Self {
         Self::Unusable(error.to_string())
     }

@@ -112,8 +112,8 @@ impl Unpacked {
     }
 }
 
-/// A path in an archive with `/` between its parts and no `./`. Such as lead out of the archive are refused, together with it:
-/// they are not packed by accident.
+/// A path in an archive with `/` between its parts and no `./`. An archive with a path out of it is refused as a
+/// whole, because such paths are not packed by accident.
 fn inner_path(path: &str) -> Result<String, Unreadable> {
     if path.len() > MAX_PATH_BYTES {
         return Err(unreadable("the archive holds a path of more than 1024 bytes; hand in `src` alone"));
@@ -131,7 +131,7 @@ fn inner_path(path: &str) -> Result<String, Unreadable> {
 fn zip_entries(file: File) -> Result<Vec<Entry>, Unreadable> {
     let mut archive = zip::ZipArchive::new(io::BufReader::new(file)).map_err(broken)?;
     if archive.has_duplicate_names() {
-        // The library shows the last one of each alone; others would show the first.
+        // Of several entries with one name, this library shows only the last; other programs show the first.
         return Err(unreadable("the archive holds a file twice under one path; pack it again from the folder itself"));
     }
     let mut unpacked = Unpacked::new();
@@ -157,7 +157,7 @@ fn zip_entries(file: File) -> Result<Vec<Entry>, Unreadable> {
 }
 
 fn tar_entries(stream: impl Read) -> Result<Vec<Entry>, Unreadable> {
-    // Everything between the files of a submission must be unpacked to get past it, so the stream itself has an end.
+    // All data between the files of a submission must be unpacked, so the stream itself is limited.
     let mut archive = tar::Archive::new(stream.take(MAX_BYTES));
     let mut unpacked = Unpacked::new();
     for entry in archive.entries().map_err(broken)? {

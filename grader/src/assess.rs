@@ -1,5 +1,5 @@
-//! From what the checks of a submission found to the score that counts: the rubric's points, adjustments by hand, lateness. A change of
-//! any of these needs no new grading.
+//! Computes the score of a submission from the results of its checks: the rubric's points, adjustments by hand, lateness. A change of any
+//! of these needs no new grading.
 
 mod adjustments;
 mod metadata;
@@ -15,8 +15,8 @@ use crate::rubric::Rubric;
 pub use adjustments::{ADJUSTMENTS, Adjustments};
 pub use metadata::Metadata;
 
-/// The points of a function in which the checks `own` have points of their own. Where one of these fails, the points of the function
-/// are those of its other checks.
+/// The points of a function in which the checks `own` have points of their own. If one of them fails, the function keeps the points of
+/// its other checks.
 pub fn points(max_score: f64, partial_credit: bool, part: (Status, &[CheckGrade]), own: &[(&str, f64)]) -> f64 {
     let (status, checks) = part;
     if status == Status::Passed || own.is_empty() {
@@ -30,7 +30,7 @@ pub fn points(max_score: f64, partial_credit: bool, part: (Status, &[CheckGrade]
     shared(rest, partial_credit, status, &others) + earned
 }
 
-/// The points that checks share. A part of them is kept where the answers agree with the reference and other checks fail.
+/// The points that checks share. A part of them is kept if the answers agree with the reference and other checks fail.
 fn shared(max_score: f64, partial_credit: bool, status: Status, checks: &[CheckGrade]) -> f64 {
     if status == Status::Passed {
         return max_score;
@@ -45,7 +45,7 @@ fn shared(max_score: f64, partial_credit: bool, status: Status, checks: &[CheckG
     (max_score * share * 100.0).floor() / 100.0
 }
 
-/// All that decides about points, once a submission is graded.
+/// The rules that turn the results of a graded submission into points.
 #[derive(Clone, Debug)]
 pub struct Accounts {
     rubric: Rubric,
@@ -106,7 +106,7 @@ impl Accounts {
         grade
     }
 
-    /// Takes points and hints from the rubric as it is now.
+    /// Updates points and hints from the present rubric.
     fn recount(&self, grade: &mut Grade) {
         let Rubric { partial_credit, growth_costs, students, functions, simulation, .. } = &self.rubric;
         let mut change = (0.0, 0.0);

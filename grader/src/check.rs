@@ -1,10 +1,10 @@
 //! The public checks on a student's own machine: every function of a repository, those that do not compile included.
 
 mod confined;
-mod held;
 mod program;
 mod report;
 mod reset;
+mod run_checks;
 mod watch;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,11 +24,11 @@ use crate::sandbox::{Isolation, Sandbox};
 use crate::status::Status;
 use crate::submission::{LATER, Source, Submission, Unreadable};
 use confined::{own_repository, sandbox, starter};
-use held::{held_to, summary};
 pub use program::{Options, main};
 use report::View;
 pub use report::{Checked, Report};
 pub use reset::{HANDED_OUT, reset};
+use run_checks::{run_checks, summary};
 use watch::watch;
 
 /// Seed of the random inputs; the same in every run, so that a corrected function shows.
@@ -63,7 +63,7 @@ pub enum CheckError {
     /// A name that no function has.
     #[error("`{0}` is not a function of the course; the README lists the names")]
     Unknown(String),
-    /// The functions are another's, and this machine cannot confine them.
+    /// The folder belongs to another user, and this machine has no sandbox.
     #[error("{0}; add `--without-sandbox` if you trust the functions as you trust yourself")]
     Unconfined(Isolation),
     /// No file as it was handed out.
@@ -108,7 +108,7 @@ pub fn check(folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckErro
 pub fn check_in(sandbox: &Sandbox, folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckError> {
     let submission = usable(folder, only)?;
     let bar = bar();
-    // A sandbox with layers comes from a program that is its launcher.
+    // A sandbox with layers needs a program that can start as its launcher.
     let tools = if sandbox.is_some_layer() { Sandbox::own_tools(&env::current_exe()?) } else { Sandbox::none() };
     let prebuilt = Prebuilt::new(&own_repository(), tools)?;
     bar.set_message("compiling");
@@ -133,7 +133,7 @@ pub fn check_in(sandbox: &Sandbox, folder: &Path, only: Option<&str>) -> Result<
             (_, Some(fault)) => (fault.status, vec![fault.message.clone()]),
             (Some(Source::Written(text)), None) => {
                 let course = Course { subject: &subject, trusted: &trusted, seed: SEED };
-                checked = held_to(checks, &course, &missing_that(text, name, &submission));
+                checked = run_checks(checks, &course, &missing_that(text, name, &submission));
                 summary(name, &checked)
             }
             (Some(Source::Refused { line, reason }), None) => (Status::Refused, vec![refused(*line, reason)]),
@@ -162,7 +162,7 @@ fn usable(folder: &Path, only: Option<&str>) -> Result<Submission, CheckError> {
     Submission::read_folder(folder).map_err(|reason| CheckError::Unreadable { folder: folder.to_owned(), reason })
 }
 
-/// Shows itself on terminals alone, and is gone in the end.
+/// A progress bar, shown on terminals only and removed at the end.
 fn bar() -> ProgressBar {
     let bar = ProgressBar::new(FUNCTIONS.len() as u64 + 1);
     if let Ok(style) = ProgressStyle::with_template("{bar:22} {msg}") {
@@ -181,8 +181,8 @@ fn refused(line: Option<usize>, reason: &str) -> String {
 fn wanted(submission: &Submission, only: Option<&str>) -> BTreeSet<&'static str> {
     let all = FUNCTIONS.iter().map(|(name, _)| *name);
     let Some(only) = only else { return all.collect() };
-    // The derivatives' checks need what they derive, and those of the integrators need whole bodies, so no more is left out than
-    // files that do not compile: those cannot be told from here, and `build` leaves them out anyway.
+    // Checks of derivatives need the function itself, and checks of integrators need whole bodies. So only files that do not compile are
+    // left out. They are not known here; `build` leaves them out.
     all.filter(|name| *name == only || matches!(submission.functions.get(name), Some(Source::Written(_)))).collect()
 }
 
@@ -237,7 +237,7 @@ mod tests {
     fn outcome(checks: &[Check]) -> (Status, usize) {
         let nothing = Local(UNWRITTEN);
         let course = Course { subject: &nothing, trusted: &nothing, seed: SEED };
-        let (status, messages) = summary("psi_neo_hookean", &held_to(checks, &course, &[]));
+        let (status, messages) = summary("psi_neo_hookean", &run_checks(checks, &course, &[]));
         (status, messages.len())
     }
 

@@ -1,4 +1,4 @@
-//! Grades a whole class: every submission of a folder, each by its own process, again only where it must be.
+//! Grades a whole class: every submission of a folder, each in its own process. Grades that are still valid are kept.
 //!
 //! A finished grade lies complete in `OUT/grades/KEY`, so that grading may be killed at any time and started again.
 
@@ -37,23 +37,23 @@ pub type Report = fn(&Summary, &Path) -> io::Result<()>;
 /// Writes the reports of one student into a folder, with the diagnosis or without.
 pub type Write = fn(&Grade, &Path, bool) -> io::Result<()>;
 
-/// How to grade a class.
+/// Options of the grading of a class.
 #[derive(Clone, Debug)]
 pub struct ClassOptions {
-    /// Holds the submissions: each sub-folder and each `.zip`, `.tar.gz` or `.tgz` is one; `students.csv` may name students.
+    /// Folder of the submissions: each sub-folder and each `.zip`, `.tar.gz` or `.tgz` is one; `students.csv` may name students.
     pub folder: PathBuf,
-    /// Takes the results, and holds those of earlier runs.
+    /// Folder of the results, those of earlier runs included.
     pub out: PathBuf,
-    /// So many submissions are graded at a time; at least one.
+    /// Number of submissions that are graded at a time; at least one.
     pub jobs: usize,
     /// Part k, from 1, of n: the students whose names fall into it.
     pub shard: Option<(usize, usize)>,
     pub seed: u64,
     /// Called as `GRADER grade SUBMISSION --out DIR --seed N --ends-with PID EXTRA…`, PID being this process.
     pub grader: PathBuf,
-    /// A submission that takes longer, by the clock on the wall, is given up.
+    /// Limit of wall-clock time for a submission, after which it is given up.
     pub time_limit: Duration,
-    /// Handed on as `--rubric FILE`.
+    /// Passed to the grader as `--rubric FILE`.
     pub rubric: Option<PathBuf>,
     /// The rubric with adjustments by hand. The part of it that judges decides whether an earlier grade still counts.
     pub accounts: Accounts,
@@ -82,15 +82,15 @@ pub struct Summary {
     pub max_score: f64,
     /// Time from which on students may have their reports, in UTC.
     pub release: Option<String>,
-    /// Points that are others than after the run before.
+    /// Points that differ from those of the previous run.
     pub changes: Vec<Change>,
     /// Remarks for the instructor: other files, students that may be one, conflicts, …
     pub remarks: Vec<String>,
-    /// How many this run graded.
+    /// Number of submissions that this run graded.
     pub graded_now: usize,
-    /// How many were found graded.
+    /// Number of submissions that earlier runs had graded.
     pub kept: usize,
-    /// Whether the run was stopped before it was through.
+    /// The run was interrupted before its end.
     pub interrupted: bool,
 }
 
@@ -108,9 +108,9 @@ pub struct Entry {
 pub enum Outcome {
     /// The grade, and the folder of its reports relative to the output.
     Graded(Box<Grade>, PathBuf),
-    /// Why there is no grade.
+    /// No grade; the reason.
     NotGraded(String),
-    /// Its turn has not come.
+    /// Not graded yet.
     Waiting,
     /// Another submission of the same student counts: a newer one, or a better one.
     Older { newer: String },
@@ -118,7 +118,7 @@ pub enum Outcome {
     NoSubmission(Option<f64>),
 }
 
-/// Why a class could not be graded or joined.
+/// Errors of the grading of a class, and of joining its parts.
 #[derive(Debug, thiserror::Error)]
 pub enum ClassError {
     #[error("{path}: {source}", path = path.display())]
@@ -153,7 +153,7 @@ fn at(path: &Path) -> impl FnOnce(io::Error) -> ClassError {
     move |source| ClassError::File { path, source }
 }
 
-/// The part of a class that a run was given.
+/// The shard of a class that a run grades.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shard {
@@ -200,7 +200,7 @@ pub fn list(folder: &Path) -> Result<(Vec<Listed>, Vec<String>), ClassError> {
     Ok((listed, class.remarks))
 }
 
-/// Folders of what the graded students of a class may have back, and when they may have it.
+/// Folders of the reports for the graded students of a class, and their release time.
 pub fn handed_back(results: &Path) -> Result<(Vec<PathBuf>, Option<String>), ClassError> {
     let index = store::Index::read(results)?;
     let graded = index.submissions.into_iter().filter(|row| matches!(row.state, store::IndexState::Graded(_)));

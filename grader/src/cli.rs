@@ -1,4 +1,4 @@
-//! The command line: arguments as types. What they ask for is done elsewhere.
+//! The command line: arguments as types, without the work of the commands.
 
 use std::path::PathBuf;
 

@@ -28,11 +28,11 @@ pub const GRADER_FAILED: u8 = 1;
 /// An argument, the rubric or a path cannot be used.
 pub const UNUSABLE: u8 = 2;
 
-/// Time for one submission of a class by the clock on the wall, in budgets of the rubric. The grader ends every submission
-/// within its budget; only a grader that hangs itself, or a machine that stands still, reaches this.
+/// Limit of wall-clock time for one submission of a class, in budgets of the rubric. The grader ends every submission
+/// within its budget, so this limit is reached only if the grader hangs or the machine stalls.
 const LONGEST: f64 = 10.0;
 
-/// Why a command did not do its work.
+/// Error of a command: message and exit code.
 pub struct Problem {
     pub message: String,
     pub code: u8,
@@ -114,7 +114,7 @@ fn writable(out: &Path) -> Done {
     tried.map(drop).map_err(|error| unusable(unwritable(out, &error)))
 }
 
-/// A submission that cannot be read is graded all the same: nothing in it counts, and the report says why.
+/// Reads a submission. One that cannot be read is graded without any function, and the report gives the reason.
 fn read(path: &Path) -> Submission {
     let read = if path.is_dir() { Submission::read_folder(path) } else { archive::read_submission(path) };
     read.unwrap_or_else(|error| {
@@ -124,7 +124,7 @@ fn read(path: &Path) -> Submission {
     })
 }
 
-/// How the grader runs its own compilers.
+/// Sandbox for the grader's own compilers.
 fn tools() -> Result<Sandbox, Problem> {
     Ok(Sandbox::own_tools(&env::current_exe().map_err(failed)?))
 }
@@ -178,7 +178,7 @@ pub fn class(
     let longest = Duration::from_secs_f64(LONGEST * rubric.submission_seconds.max(60.0));
     class::apart(folder, &options.out).map_err(unusable)?;
     writable(&options.out)?;
-    // What all submissions share is built before the first one, and the sandbox is looked at once.
+    // The libraries of all submissions are built before the first one, and the sandbox is probed once.
     let seed = seed::of_class(&options.out, options.seed, shard.is_some()).map_err(unusable)?;
     let _ = Grading::new(&repository(), rubric, (sandbox(options)?, tools()?), seed).map_err(failed)?;
     let flags = [(options.without_sandbox, "--without-sandbox"), (options.report, "--report")];
@@ -241,7 +241,7 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Done {
     told(class::merge(folders, out, reports::write_class), out)
 }
 
-/// Prints what became of a class.
+/// Prints the summary of a class.
 fn told(summary: Result<class::Summary, class::ClassError>, out: &Path) -> Done {
     let summary = summary.map_err(unusable)?;
     let count = |wanted: fn(&Outcome) -> bool| summary.entries.iter().filter(|entry| wanted(&entry.outcome)).count();

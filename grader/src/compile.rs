@@ -1,5 +1,5 @@
-//! Turns the files of a submission into a program that answers calls. One call of rustc for many functions; a file that does not
-//! compile costs its own function alone.
+//! Compiles the files of a submission into a program that answers calls, with one call of rustc for many functions. A file that does not
+//! compile affects its own function only.
 
 mod attempt;
 mod diagnostics;
@@ -29,13 +29,13 @@ pub struct Plan {
     pub own: BTreeMap<&'static str, String>,
     /// A library with right functions for those that are not `own`, and their names.
     pub reference: Option<(PathBuf, BTreeSet<&'static str>)>,
-    /// Texts of the submission that are there for what else they hold: a call of their function goes to the reference.
+    /// Texts of the submission that are compiled only for their other items: a call of their function goes to the reference.
     pub helpers: BTreeMap<&'static str, String>,
-    /// How much processor time rustc may take for one program.
+    /// Limit of rustc's processor time for one program.
     pub limit: Duration,
 }
 
-/// A program, and what could not become part of it.
+/// A program, and the functions that could not become part of it.
 pub struct Built {
     /// The program; `None` if the build failed.
     pub program: Option<PathBuf>,
@@ -43,7 +43,7 @@ pub struct Built {
     pub faults: BTreeMap<&'static str, Fault>,
 }
 
-/// Why a file could not become part of a program.
+/// Reason why a file could not become part of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// It does not compile, is refused, or its time was over.
@@ -52,13 +52,13 @@ pub struct Fault {
     pub message: String,
 }
 
-/// Why nothing was built: trouble of the grader or its machine, never a verdict on a file.
+/// Errors of the grader or its machine during a build. They are never a verdict on a file.
 #[derive(Debug, Error)]
 pub enum BuildError {
     /// Files cannot be written, or rustc cannot be started.
     #[error(transparent)]
     Io(#[from] io::Error),
-    /// The compiler breaks down over files together that it takes apart.
+    /// The compiler crashes on files together that it compiles separately.
     #[error(
         "{0}; it took the files apart, so give it more time (compile_seconds in the rubric) or the machine more memory"
     )]
@@ -112,7 +112,7 @@ pub fn build_within(
             if let Some(why) = gave_up {
                 return Err(BuildError::GaveUp(why));
             }
-            // The compiler fails although each file compiles alone, so all of them are to blame.
+            // The compiler fails although each file compiles alone, so the fault is reported for all of them.
             let sentence = "the files compile one by one, but not together";
             found = plan.own.keys().map(|name| (*name, does_not_compile(sentence.to_owned()))).collect();
         }

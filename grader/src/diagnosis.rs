@@ -56,7 +56,7 @@ struct Case {
     observed: Observed,
 }
 
-/// How far, relative to the numbers at hand, a mistake's answer may be from the one that it explains.
+/// Largest relative distance between a mistake's answer and the answer that it explains.
 const PRECISION: f64 = 1e-6;
 
 /// The explanation of a function that fails.
@@ -77,7 +77,7 @@ pub fn explain(function: &str, seed: u64, subject: &dyn Implementation, variants
 }
 
 fn diagnose(function: &str, mut cases: Vec<Case>, variants: &[Variant]) -> Option<Diagnosis> {
-    // Wrong answers tell most, so that most candidates need no second look.
+    // Wrong answers come first, because they rule out most candidates.
     cases.sort_by_cached_key(right);
     // A second mistake in a limiting case must not hide the first.
     let (ordinary, edges): (Vec<_>, Vec<_>) = cases.iter().partition(|case| !case.trial.edge);
@@ -95,7 +95,7 @@ fn diagnose(function: &str, mut cases: Vec<Case>, variants: &[Variant]) -> Optio
         .collect();
     let explained = |cases: &[&Case]| {
         let wrong = cases.iter().any(|case| !right(case));
-        // Of several explanations the first that also makes as many calls of the closures.
+        // Of several explanations, the first that also makes the same number of calls of the closures.
         let mut all = candidates.iter().filter(|candidate| wrong && explains(candidate, cases));
         let first = all.next()?;
         let counts = cases.iter().any(|case| !case.observed.calls.is_empty());
@@ -103,12 +103,12 @@ fn diagnose(function: &str, mut cases: Vec<Case>, variants: &[Variant]) -> Optio
         if !counts || same(&first) { Some(first) } else { all.find(same).or(Some(first)) }
     };
     let diagnosis = |of: &Candidate| Diagnosis { name: of.name.clone(), sentence: of.sentence.clone() };
-    // Where no answer is right, too much explains numbers that are none.
+    // If no answer is right, answers that are not finite have too many explanations.
     let nothing = kinds::not_a_number(&ordinary);
     if let Some(nothing) = nothing.clone().filter(|_| !cases.iter().any(right)) {
         return Some(nothing);
     }
-    // At a vertex or on an edge a display vertex may follow any of several elements, and with wrong weights it matters which.
+    // At a vertex or on an edge a display vertex may follow any of several elements, and the choice changes wrong weights.
     let inside: Vec<_> =
         ordinary.iter().copied().filter(|case| !["at vertices", "on edges"].contains(&case.trial.name)).collect();
     let found = explained(&all).or_else(|| explained(&ordinary));
@@ -125,7 +125,7 @@ fn diagnose(function: &str, mut cases: Vec<Case>, variants: &[Variant]) -> Optio
     kinds::limiting_case(&all).or_else(scaled).or_else(|| kinds::inexact(&all))
 }
 
-/// A candidate's answers times a constant, where that explains what the candidate alone does not.
+/// A candidate's answers times a constant, if that explains the observed answers.
 fn with_factor(candidate: &Candidate, cases: &[&Case]) -> Option<Diagnosis> {
     let first = cases.first().filter(|case| has_size(&case.trial.input))?;
     let mistaken = (candidate.answers)(&first.trial, &first.expected)?;
@@ -141,7 +141,7 @@ fn with_factor(candidate: &Candidate, cases: &[&Case]) -> Option<Diagnosis> {
         Some(Observed { numbers: answer.numbers.iter().map(|x| x * factor).collect(), ..answer })
     });
     let by = answers::written(factor);
-    // A factor that nobody would write explains nothing.
+    // An implausible factor is no explanation.
     (!by.contains('.') || by.len() < 6).then_some(())?;
     let (name, sentence) = match by == "-1" {
         true => ("negated".to_owned(), "Besides, every entry has the opposite sign.".to_owned()),
@@ -153,7 +153,7 @@ fn with_factor(candidate: &Candidate, cases: &[&Case]) -> Option<Diagnosis> {
     })
 }
 
-/// Whether the answers are quantities, which a factor may make wrong.
+/// Returns true if the answers are quantities, which may be wrong by a factor.
 fn has_size(input: &Input) -> bool {
     !matches!(
         input,
@@ -161,7 +161,7 @@ fn has_size(input: &Input) -> bool {
     )
 }
 
-/// The trials that are answered. After an answer that never comes, nothing more is asked.
+/// The trials that are answered. They end at the first call without an answer.
 fn cases(function: &str, seed: u64, subject: &dyn Implementation) -> Vec<Case> {
     let mut cases = Vec::new();
     let trials = trials(function, seed);
@@ -194,14 +194,14 @@ fn turned(trial: &Trial) -> Option<Trial> {
     Some(Trial { name: "of the opposite orientation", ..trial })
 }
 
-/// Whether a mistake asks for as many solutions of systems of equations as were asked for.
+/// Returns true if a mistake solves as many systems of equations as the submission did.
 fn solves_as_often(candidate: &Candidate, case: &Case) -> bool {
     let solves = |answer: &Observed| answer.calls.iter().find(|(name, _)| *name == "solve").map(|(_, n)| *n);
     let mistaken = (candidate.answers)(&case.trial, &case.expected);
     mistaken.is_some_and(|answer| solves(&answer).is_none_or(|n| solves(&case.observed) == Some(n)))
 }
 
-/// Whether the answer of a case breaks no rule.
+/// Returns true if the answer of a case breaks no rule.
 fn right(case: &Case) -> bool {
     compare(&case.trial, &case.observed, &case.expected, TOLERANCE).wrongs.is_empty()
 }
@@ -216,11 +216,11 @@ fn explains(candidate: &Candidate, cases: &[&Case]) -> bool {
     for case in cases {
         let Some(mistaken) = (candidate.answers)(&case.trial, &case.expected) else { return false };
         let size = size(&mistaken);
-        // Their scales allow for what a line search does to round-off, which hides mistakes.
+        // The scales of iterative methods allow for round-off that a line search amplifies. This would hide mistakes.
         let iterates = matches!(case.trial.input, Input::Step(_) | Input::Minimum { .. });
         let scale = |i| if iterates { size.max(f64::MIN_POSITIVE) } else { case.trial.scale(i) };
         let shows = distance(&mistaken, &case.expected, scale) > PRECISION;
-        // Where the mistake shows, its own size counts: it may be far larger or smaller than the right answer.
+        // If the mistake changes the answer, differences are relative to its own size, which may differ much from that of the right answer.
         let off = match shows {
             true if iterates => distance(&case.observed, &mistaken, scale),
             true => distance(&case.observed, &mistaken, |i| size + 1e-3 * scale(i)),
@@ -239,7 +239,7 @@ fn size(answer: &Observed) -> f64 {
     answer.numbers.iter().filter(|x| x.is_finite()).fold(0.0, |size: f64, x| size.max(x.abs()))
 }
 
-/// Whether a mistake explains answers that are right within tolerance, by their smallest digits.
+/// Returns true if a mistake explains answers that are right within tolerance, by their smallest digits.
 fn explains_finely(candidate: &Candidate, cases: &[&Case]) -> bool {
     let mut telling = 0;
     for case in cases {

@@ -1,4 +1,4 @@
-//! Feedback for students: their reports without the instructor's, a folder each, or all in one archive.
+//! Feedback for students: their reports without the instructor's, in a folder for each student, or in one archive.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -14,7 +14,7 @@ use crate::new_folder::{self, FolderError};
 /// The files that a student may read.
 pub const FILES: [&str; 4] = ["report.html", "report.md", "results.json", "junit.xml"];
 
-/// Why there is no feedback.
+/// Reasons for which there is no feedback.
 #[derive(Debug, Error)]
 pub enum FeedbackError {
     #[error(transparent)]
@@ -59,7 +59,7 @@ pub fn write(results: &Path, to: &Path, archive: Option<&Path>, now: Timestamp) 
     Ok(folders.len())
 }
 
-/// Writes the archive beside its place and moves it there.
+/// Writes the archive to a temporary file and renames it.
 fn pack(folders: &[PathBuf], archive: &Path) -> io::Result<()> {
     let beside = archive.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let file = tempfile::NamedTempFile::new_in(beside)?;

@@ -35,17 +35,17 @@ pub struct Grade {
     pub functions: Vec<FunctionGrade>,
     /// The whole simulation with the submission's functions alone.
     pub simulation: FunctionGrade,
-    /// Points by hand and lateness, where they have been taken into account.
+    /// Points by hand and lateness, if they have been applied.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub account: Option<Account>,
     /// The whole simulation at several time steps, with `--report`; it does not count for points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub study: Option<Study>,
-    /// Processor time of this grading with all its processes, s; on a system that does not tell it, the time that passed.
+    /// Processor time of this grading with all its processes, s; on a system without that counter, the wall-clock time.
     pub seconds: f64,
 }
 
-/// From the points of the checks to the score that counts.
+/// Steps from the points of the checks to the final score.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Account {
     pub student: String,
@@ -87,12 +87,12 @@ pub struct Run {
     /// `None` if the submission gave no answer.
     pub submission: Option<Outcome>,
     pub reference: Outcome,
-    /// Whether the submission's positions are the reference's. Of another run the time means nothing.
+    /// The submission's positions are those of the reference. If not, the times cannot be compared.
     #[serde(default = "right")]
     pub is_right: bool,
 }
 
-/// Records of before do not say.
+/// Missing in records of earlier versions.
 fn right() -> bool {
     true
 }
@@ -128,7 +128,7 @@ pub struct FunctionGrade {
     pub seconds: Option<f64>,
     /// The same for the reference on the same machine in the same minute, s.
     pub reference_seconds: Option<f64>,
-    /// How the time of an assembly, of skinning or of picking grows with the mesh, where that was measured.
+    /// Growth of the time of an assembly, of skinning or of picking with the mesh; `None` if it was not measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub growth: Option<Growth>,
     pub checks: Vec<CheckGrade>,
@@ -154,10 +154,10 @@ impl FunctionGrade {
 }
 
 impl Growth {
-    /// A larger exponent than this is neither noise of the clock nor the memory of a larger mesh.
+    /// Smallest exponent that cannot be explained by noise of the clock or the memory of a larger mesh.
     pub const CLEAR: f64 = 1.6;
 
-    /// Whether the submission clearly grows faster than the reference.
+    /// Returns true if the submission's time clearly grows faster than that of the reference.
     pub fn is_faster(&self) -> bool {
         self.exponent > Self::CLEAR && self.reference_exponent.is_some_and(|reference| reference < self.exponent - 0.5)
     }
@@ -197,7 +197,7 @@ impl Grade {
         self
     }
 
-    /// Cuts every text that can hold words of a submission to so many bytes.
+    /// Cuts every text that a submission can influence to this number of bytes.
     fn cut(&mut self, most: usize) {
         self.remarks.iter_mut().for_each(|remark| cut(remark, most));
         for part in self.functions.iter_mut().chain([&mut self.simulation]) {

@@ -1,6 +1,5 @@
-//! Grades one submission: builds its functions level by level, holds each to its checks, and asks which mistake explains a failure.
+//! Grades one submission: builds its functions level by level, runs the checks of each, and looks for a mistake that explains a failure.
 
-mod again;
 mod exposure;
 mod groups;
 mod growth;
@@ -8,6 +7,7 @@ mod judge;
 mod level;
 mod load;
 mod programs;
+mod regrade;
 mod study;
 mod timer;
 mod truth;
@@ -37,7 +37,7 @@ use programs::Programs;
 use timer::CpuTimer;
 use workspace::Workspace;
 
-/// Trouble of the grader or its machine; never a grade.
+/// Errors of the grader or its machine, in place of a grade.
 #[derive(Debug, Error)]
 pub enum GradingError {
     #[error(transparent)]
@@ -52,7 +52,7 @@ pub enum GradingError {
     Reference(String),
 }
 
-/// Everything that is prepared once, for all submissions.
+/// Data that are prepared once for all submissions.
 pub struct Grading {
     rubric: Rubric,
     prebuilt: Prebuilt,
@@ -62,7 +62,7 @@ pub struct Grading {
     reference: Sandboxed,
     seed: u64,
     workspace: Workspace,
-    /// Whether to run the simulation at several time steps.
+    /// Run the simulation at several time steps.
     studies: bool,
 }
 
@@ -90,7 +90,7 @@ impl Grading {
         Ok(Self { rubric, prebuilt, sandbox, programs, reference, seed, workspace: Workspace::new()?, studies: false })
     }
 
-    /// The same, and each grade holds a study of error against run time.
+    /// The same, with a study of error against run time in each grade.
     pub fn with_study(self) -> Self {
         Self { studies: true, ..self }
     }
@@ -98,7 +98,7 @@ impl Grading {
     /// Grades a submission.
     ///
     /// # Errors
-    /// Trouble of the grader, not of the submission.
+    /// An error of the grader, never of the submission.
     pub fn grade(&self, submission: &Submission) -> Result<Grade, GradingError> {
         let timer = CpuTimer::start();
         let hash = submission.hash();
@@ -109,8 +109,8 @@ impl Grading {
                 graded.insert(function.name.get_ref().clone(), grade);
             }
         }
-        // From the top: the lowest level, which calls nothing, is judged in the program of the whole simulation, and that is
-        // worth building only where everything above compiles.
+        // From the top level down: functions of the lowest level, which call no others, are judged in the program of the whole
+        // simulation. That program is built only if all levels above compile.
         let levels = self.rubric.levels();
         let budget = Rc::new(self.budget());
         for level in levels.iter().skip(1).rev() {
@@ -185,7 +185,7 @@ impl Grading {
     }
 }
 
-/// A function that is not there or not allowed needs no program.
+/// The grade of a function that is missing or not allowed, for which no program is built.
 fn without_running(function: &Function, submission: &Submission) -> Option<FunctionGrade> {
     match submission.functions.get(function.name.get_ref().as_str()) {
         Some(Source::Written(_)) => None,

@@ -1,7 +1,7 @@
 //! Writes the students' repository from this one: the same layout, the functions of the assignment empty, and no solution of them
 //! anywhere.
 //!
-//! Everything is put together in memory and looked through for leaks before the first file is written.
+//! All files are collected in memory and searched for solutions before the first one is written.
 
 mod collect;
 mod leak;
@@ -22,7 +22,7 @@ pub use stub::{stub, unmarked};
 /// Files by their path from the root of the students' repository.
 pub type Files = BTreeMap<PathBuf, Vec<u8>>;
 
-/// Why no handout is written.
+/// Reasons for which no handout is written.
 #[derive(Debug, thiserror::Error)]
 pub enum HandoutError {
     #[error("{}: {error}", .path.display())]
@@ -71,7 +71,7 @@ pub fn write(root: &Path, rubric: &Rubric, to: &Path) -> Result<(), HandoutError
     })
 }
 
-/// Refuses folders that hold something, and such in the repository other than in its build products.
+/// Refuses folders that are not empty, and folders inside the repository other than in its build products.
 fn check_place(root: &Path, to: &Path) -> Result<(), HandoutError> {
     new_folder::check(to)?;
     let root = root.canonicalize().map_err(HandoutError::io(root))?;

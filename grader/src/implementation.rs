@@ -1,5 +1,5 @@
 //! Implementations of the 22 functions: in this process, in a sandboxed child, deliberately wrong ones. A property is written once
-//! and judges all of them.
+//! and applied to all of them.
 
 pub mod budget;
 mod local;
@@ -59,7 +59,7 @@ macro_rules! methods {
         /// The 22 functions as the grader calls them. The generic `quadrature_single_point` is called with vectors.
         #[allow(clippy::too_many_arguments)] // the course's signatures
         pub trait Implementation {
-            /// Begins a check: an earlier panic, crash or time-out costs the check in which it happened, and no other.
+            /// Begins a check: an earlier panic, crash or time-out affects only the check in which it happened.
             fn begin_check(&self) {}
 
             $(

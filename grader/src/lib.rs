@@ -1,4 +1,4 @@
-//! Judges implementations of the 22 functions: what a student can run on their own machine.
+//! Judges implementations of the 22 functions: the part that students can run on their own machines.
 //!
 //! The instructor's part (the reference, diagnoses, classes, reports) belongs to the program, `main.rs`.
 

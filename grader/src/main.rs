@@ -34,13 +34,13 @@ use cli::{Arguments, Command};
 use pack::PackOptions;
 
 fn main() -> ExitCode {
-    // A name that is no Unicode may be asked to be graded like any other.
+    // File names that are not valid Unicode are graded like others.
     let words: Vec<String> = env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
     if words.first().is_some_and(|word| word == "confine") {
         return grader::sandbox::confine(&words[1..]);
     }
     let arguments = Arguments::parse();
-    // Checks catch panics of what they judge; those are part of the result and not to be printed.
+    // Checks catch the panics of the functions that they judge. These are part of the result and are not printed.
     panic::set_hook(Box::new(|_| {}));
     let done = panic::catch_unwind(|| match arguments.command {
         Command::Handout { to, rubric } => commands::handout(&to, rubric.as_deref()),

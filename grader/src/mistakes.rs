@@ -1,9 +1,9 @@
 //! Wrong functions as students write them, each with the names that a teacher would give to the mistake. They measure the
-//! diagnosis and take no part in it.
+//! quality of the diagnosis, which does not use them.
 
 use grader_child::Functions;
 
-/// Calls one of the 22 functions as the course's solution has it.
+/// Calls one of the 22 functions of the course's solution.
 macro_rules! right {
     ($name:ident($($argument:expr),* $(,)?)) => {
         ($crate::reference::REFERENCE.$name)($($argument),*)
@@ -21,18 +21,18 @@ macro_rules! wrong {
     };
 }
 
+mod blind;
 mod by_hand;
-mod first_sight;
-mod held_back;
-mod last;
-mod seen;
+mod final_validation;
 mod tests;
+mod training;
+mod validation;
 
 /// One wrong function.
 pub struct Mistake {
     /// The function that is wrong.
     pub function: &'static str,
-    /// The names that a teacher would agree with.
+    /// Names that a teacher would accept.
     pub names: &'static [&'static str],
     /// The course's solution with this mistake in it.
     pub functions: Functions,

@@ -1,4 +1,4 @@
-//! New folders that appear complete or not at all.
+//! New folders that are created atomically.
 
 use std::fs;
 use std::io;
@@ -41,7 +41,7 @@ pub fn create<E: From<FolderError>>(to: &Path, fill: impl FnOnce(&Path) -> Resul
     let to = &absolute(to).map_err(at(to))?;
     let beside = to.parent().unwrap_or(to);
     fs::create_dir_all(beside).map_err(at(to))?;
-    // The folder that vanishes is its owner's alone; the one in it has the rights of any other.
+    // Only the owner may read the temporary folder; the folder inside has the usual rights.
     let partial = tempfile::Builder::new().prefix(".grader-").tempdir_in(beside).map_err(at(to))?;
     let folder = partial.path().join("new");
     fs::create_dir(&folder).map_err(at(to))?;

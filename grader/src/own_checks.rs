@@ -1,5 +1,5 @@
-//! Checks of an instructor, as Rust files beside the rubric: `[[check]]` names them. The grader builds itself anew with them and goes on
-//! as that program. They run where its own checks do, in the process that no submission is linked with.
+//! Checks of an instructor, as Rust files beside the rubric: `[[check]]` names them. The grader builds itself again with them and continues
+//! as that program. They run where its own checks run, in the process that is never linked with a submission.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -20,7 +20,7 @@ mod built_in {
     include!(concat!(env!("OUT_DIR"), "/own_checks.rs"));
 }
 
-/// Why the checks cannot be used.
+/// Reasons for which the checks cannot be used.
 #[derive(Debug, Error)]
 pub enum OwnChecksError {
     #[error(transparent)]
@@ -125,7 +125,7 @@ fn build(
     fs::copy(&built, program).map(drop).map_err(at(&built))
 }
 
-/// Goes on as another program with the same arguments.
+/// Replaces this process by another program with the same arguments.
 fn run_instead(program: &Path) -> Result<(), OwnChecksError> {
     let mut command = Command::new(program);
     command.args(env::args_os().skip(1));

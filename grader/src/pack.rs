@@ -32,15 +32,15 @@ pub struct PackOptions {
     pub seed: u64,
     /// The assignment, in place of the grader's own rubric.
     pub rubric: Option<PathBuf>,
-    /// How many functions the assignment asks for.
+    /// Number of functions that the assignment asks for.
     pub functions: usize,
     /// The files of the rubric's own checks, in its folder or below.
     pub checks: Vec<PathBuf>,
-    /// Whether to pack the sources of all dependencies too, so that setting up needs no crates from the network.
+    /// Pack the sources of all dependencies too, so that the setup needs no crates from the network.
     pub vendor: bool,
 }
 
-/// Why nothing was packed.
+/// Reasons for which no package was written.
 #[derive(Debug, thiserror::Error)]
 pub enum PackError {
     #[error("{path}: {source}", path = .path.display())]
@@ -215,6 +215,6 @@ fn mode(path: &Path) -> io::Result<u32> {
 
 #[cfg(not(unix))]
 fn mode(path: &Path) -> io::Result<u32> {
-    // Gradescope's scripts have no ending that Windows knows; all that lies at the top may as well be run.
+    // Windows has no executable flag, so all files at the top are marked as executable.
     Ok(if path.extension().is_none_or(|ending| ending == "sh") { 0o755 } else { 0o644 })
 }

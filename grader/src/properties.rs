@@ -60,11 +60,11 @@ pub struct Course<'a> {
 pub struct Check {
     /// The property as a sentence, in snake case.
     pub name: &'static str,
-    /// Holds an implementation to it.
+    /// Checks an implementation.
     pub run: fn(&Course) -> Outcome,
 }
 
-/// The name of a check as people read it: `it_ends_at_1e_10` is "it ends at 1e-10".
+/// The name of a check as a sentence: `it_ends_at_1e_10` is "it ends at 1e-10".
 pub fn sentence(check: &str) -> String {
     check.replace("_1e_", " 1e-").replace('_', " ")
 }

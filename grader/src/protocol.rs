@@ -1,5 +1,5 @@
-//! The parent's end of the socket to a submission: sends a call, answers the closures that it asks for, waits no longer than
-//! agreed. Nothing that arrives is trusted to be complete, in time or of the promised type.
+//! The parent's end of the socket to a submission: sends a call, answers the calls of its closures, and waits for a limited time. Frames
+//! may be incomplete, late, or of a wrong type.
 
 use std::io::{self, Read};
 use std::panic::{self, AssertUnwindSafe};
@@ -12,19 +12,19 @@ use crate::implementation::Trouble;
 use crate::sandbox::Running;
 use crate::submission::NAMES;
 
-/// How long the end of a process is waited for when its socket has closed.
+/// Time to wait for the end of a process after its socket has closed.
 const END: Duration = Duration::from_millis(500);
 
-/// Most closures that one call may ask for; an honest call of the checks asks for some hundreds.
+/// Largest number of calls of closures in one call. Right functions make some hundreds in the checks.
 const MOST_CLOSURES: usize = 100_000;
 
-/// Answers what a function asks of the closures that it was given: a number and a body to a body; `None` if they make no sense.
+/// Answers calls of closures: from the closure's number and a body to a body; `None` if the call is malformed.
 pub type Closures<'a> = &'a mut dyn FnMut(u8, &[u8]) -> Option<Vec<u8>>;
 
-/// Asks a submission one thing and waits for the answer.
+/// Sends a call to a submission and waits for the answer.
 ///
 /// # Errors
-/// The trouble that came instead of an answer; after any but a panic the process is of no more use.
+/// The trouble in place of an answer. After any trouble but a panic the process cannot be used any more.
 pub fn call(
     running: &mut Running,
     frames: &[(u8, Vec<u8>)],
@@ -75,18 +75,18 @@ pub fn greet(running: &mut Running, limit: Duration) -> Result<(), Trouble> {
 }
 
 fn panicked(message: String, place: String) -> Trouble {
-    // The handout's bodies say so; they stand in for what is not written.
+    // This is the message of the handout's bodies, which stand for functions that are not written.
     if message.starts_with("not yet implemented") {
         return Trouble::Missing;
     }
     // The child cuts its messages, and a submission can send others in its name.
     let message = wire::start(&message, LONGEST_MESSAGE).to_owned();
-    // Students read the place, and a submission can forge it to carry inputs out.
+    // Students read the place, and a submission can forge it to reveal inputs.
     let place = if is_place(&place) { place } else { String::new() };
     Trouble::Panicked { message, place }
 }
 
-/// Whether a text is the place of a line in one of the course's files, and nothing more.
+/// Returns true if the whole text is the place of a line in one of the course's files.
 fn is_place(text: &str) -> bool {
     let mut parts = text.split(':');
     let file = parts.next().and_then(|file| file.strip_prefix("src/")?.strip_suffix(".rs"));
@@ -108,7 +108,7 @@ fn lost(running: &mut Running, error: &io::Error, limit: Duration) -> Trouble {
     Trouble::Crashed(running.ended(END).unwrap_or_else(|| "it closed the connection".to_owned()))
 }
 
-/// Reads until a point in time, however the bytes trickle.
+/// Reads until a point in time, even if the bytes arrive slowly.
 struct Timed<'a> {
     socket: &'a Socket,
     deadline: Instant,

@@ -1,4 +1,4 @@
-//! The reference: our own solution, linked with the grader's own process and with no process that holds student code.
+//! The reference: the course's solution, linked with the grader's own process, and never with a process that runs student code.
 
 mod calls;
 pub mod compare;
@@ -20,8 +20,8 @@ use grader_child::{Functions, functions_of};
 pub use compare::compare;
 pub use judge::trials;
 
-/// Relative error that round-off alone does not reach, and that no student should fear.
+/// Relative error of the comparison, well above round-off in any right function.
 pub const TOLERANCE: f64 = 1e-9;
 
-/// Our own solution as a table.
+/// The course's solution as a table.
 pub const REFERENCE: Functions = functions_of!(solved);

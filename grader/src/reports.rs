@@ -36,14 +36,14 @@ use crate::grade::Grade;
 /// Contents of the reports of one submission.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Whether students read the name of the mistake and the sentence that explains it.
+    /// Students read the name of the mistake and the sentence that explains it.
     pub show_diagnosis: bool,
     /// Origin of the submission in a classroom of Classroom 50; `result.json` is written with it alone.
     pub origin: Option<classroom50::Origin>,
 }
 
 /// Writes `grade.json`, `results.json`, `junit.xml`, `report.md` and `report.html` into `folder`, and with an origin
-/// `result.json`. `grade.json` comes last: where it stands, everything does.
+/// `result.json`. `grade.json` is written last: if it exists, all files do.
 pub fn write_all(grade: &Grade, folder: &Path, options: &Options) -> io::Result<()> {
     let record = json::render(grade)?;
     fs::create_dir_all(folder)?;
@@ -78,7 +78,7 @@ pub fn write_class(summary: &Summary, folder: &Path) -> io::Result<()> {
     write_file(folder, "class.html", &class_html::render(&rows))
 }
 
-/// Writes a file beside its place and moves it there, so that a reader meets the whole file or the one before.
+/// Replaces a file atomically, so that a reader sees either the whole new file or the old one.
 fn write_file(folder: &Path, name: &str, text: &str) -> io::Result<()> {
     let explain = |error: io::Error| {
         io::Error::new(error.kind(), format!("cannot write {}: {error}", folder.join(name).display()))

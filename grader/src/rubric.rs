@@ -20,11 +20,11 @@ const OURS: &str = include_str!("../rubric.toml");
 /// Size of the largest rubric, bytes: the tree of a text takes about a hundred times its memory.
 const MOST_BYTES: u64 = 1 << 20;
 
-/// How submissions are judged.
+/// Rules by which submissions are graded.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rubric {
-    /// Whether a function that is right on ordinary inputs keeps the share of checks that it passes.
+    /// A function that is right on ordinary inputs keeps the share of checks that it passes.
     pub partial_credit: bool,
     /// Share of its points that a right assembly loses if its time clearly grows faster with the mesh than the reference's.
     #[serde(default)]
@@ -122,7 +122,7 @@ pub struct Simulation {
 #[serde(deny_unknown_fields)]
 pub struct Function {
     pub name: Spanned<String>,
-    /// With those of the instructor's own checks, once the rubric is loaded.
+    /// Points of the function. Those of the instructor's own checks are added when the rubric is loaded.
     pub points: Spanned<f64>,
     pub level: Spanned<u32>,
     pub hint: Option<String>,
@@ -144,7 +144,7 @@ pub struct OwnCheck {
     pub points: Option<f64>,
 }
 
-/// Why a rubric cannot be used.
+/// Errors in a rubric.
 #[derive(Debug, Error)]
 pub enum RubricError {
     #[error("{0}: {1}; name a rubric that can be read")]

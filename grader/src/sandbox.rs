@@ -1,8 +1,8 @@
-//! Runs the compiler and programs with a submission's code where they can do no harm.
+//! Runs the compiler and programs with a submission's code in a sandbox.
 //!
 //! On Linux the grader starts itself a second time as a *launcher* (the hidden subcommand `confine`). The launcher makes the
 //! namespaces and keeps the process tree; a third process gives up its rights one after the other and becomes the program.
-//! Every layer is tried out beforehand ([`Sandbox::probe`]), and those that the machine has must all hold, or nothing is run.
+//! Every layer is tried out beforehand ([`Sandbox::probe`]). If a layer that the machine has fails, the program is not started.
 //! On other systems there are no layers, and a program runs plainly.
 
 #[cfg(target_os = "linux")]
@@ -76,7 +76,7 @@ pub struct Confined {
     pub program: PathBuf,
     /// Its arguments.
     pub arguments: Vec<String>,
-    /// Its whole environment; nothing of the grader's is handed on.
+    /// Its whole environment. The grader's environment is not inherited.
     pub environment: Vec<(String, String)>,
     /// The folder in which it starts, one of `writable` or `readable` or below.
     pub folder: PathBuf,
@@ -90,16 +90,16 @@ pub struct Confined {
     pub limits: Limits,
 }
 
-/// The end of a program that ran to its end.
+/// The end of a program, with its output.
 #[derive(Clone, Debug)]
 pub struct Ended {
     /// Exit code; `None` if a signal ended it.
     pub code: Option<i32>,
     /// Signal that ended it.
     pub signal: Option<i32>,
-    /// Whether it was killed because its time was over.
+    /// The program was killed because its time was over.
     pub timed_out: bool,
-    /// Whether it was killed because its processes together had too much memory. The limit of one process ends that process without this.
+    /// The program was killed because its processes together had too much memory. The limit of a single process ends that process alone.
     pub out_of_memory: bool,
     /// Processor time of the whole process tree, s. Zero outside a sandbox, which measures it.
     pub seconds: f64,
@@ -109,7 +109,7 @@ pub struct Ended {
     pub stderr: Vec<u8>,
 }
 
-/// Something that a submission is kept from, and the layers each of which does that.
+/// A resource that submissions must not reach, and the layers that isolate it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Isolation {
     /// The resources out of reach: the files of others, the network.
@@ -118,7 +118,7 @@ pub struct Isolation {
     pub layers: [&'static str; 2],
 }
 
-/// The isolations without which a submission could read the solutions or send out what it is asked.
+/// The isolations without which a submission could read the solutions or send out the inputs of checks.
 const ISOLATIONS: [Isolation; 2] = [
     Isolation { from: "the files of others", layers: ["mount_namespace", "landlock"] },
     Isolation { from: "the network", layers: ["network_namespace", "seccomp"] },
@@ -168,8 +168,8 @@ impl Sandbox {
         }
     }
 
-    /// What the grader runs for itself, such as cargo: it sees and may do what the grader may, and the whole tree of its processes
-    /// dies with the grader. `launcher` is that of [`Sandbox::probe`].
+    /// Sandbox for the grader's own tools, such as cargo. They have the rights of the grader, and their whole process tree is killed
+    /// when the grader ends. `launcher` is that of [`Sandbox::probe`].
     pub fn own_tools(launcher: &Path) -> Self {
         #[cfg(not(target_os = "linux"))]
         return Self::none();
@@ -184,13 +184,13 @@ impl Sandbox {
     /// The layers by name, and whether this machine has them.
     ///
     /// `user_namespace` is what an ordinary user needs for the other namespaces; where root does without it, it is not listed.
-    /// `memory_cgroup` holds where a tree's memory is limited by a cgroup ([`Sandbox::without_cgroup`] says why it is not).
-    /// `own_user` holds only if the program runs as a user that owns nothing else, which takes root.
+    /// `memory_cgroup` is true if a tree's memory is limited by a cgroup ([`Sandbox::without_cgroup`] gives the reason if not).
+    /// `own_user` is true if the program runs as a user that owns no other files, which needs root.
     pub fn layers(&self) -> BTreeMap<String, bool> {
         self.layers.clone()
     }
 
-    /// Why the memory of a tree of processes is not limited by a cgroup; `None` if it is. Without a cgroup the resident memory of the
+    /// Reason why the memory of a process tree is not limited by a cgroup; `None` if it is. Without a cgroup the resident memory of the
     /// compiler's processes is summed ten times a second, which counts shared pages more than once.
     pub fn without_cgroup(&self) -> Option<&str> {
         #[cfg(target_os = "linux")]
@@ -205,15 +205,14 @@ impl Sandbox {
         ISOLATIONS.into_iter().filter(|isolation| !isolation.layers.iter().any(holds)).collect()
     }
 
-    /// Whether there is any layer.
+    /// Returns true if the sandbox has a layer.
     pub fn is_some_layer(&self) -> bool {
         self.layers.values().any(|there| *there)
     }
 
     /// Runs a program to its end, with nothing to read on its standard input.
     ///
-    /// An error says that the program was not started, or that it cannot be said how it ended: it is the grader's, not the
-    /// program's.
+    /// An error is the grader's, not the program's: the program was not started, or its end is not known.
     pub fn run(&self, confined: &Confined) -> io::Result<Ended> {
         #[cfg(target_os = "linux")]
         if self.launcher.is_some() {
@@ -234,7 +233,7 @@ impl Sandbox {
 
 /// Folders with a C linker and what rustc and its linker load. Beside them, the toolchain must be readable
 /// (`rustc --print sysroot`), and `LD_LIBRARY_PATH` must name its `lib`, and on x86-64 rustc takes
-/// `-Clinker-features=-lld`: without `/proc`, neither rustc nor its own linker finds what belongs to it.
+/// `-Clinker-features=-lld`: without `/proc`, neither rustc nor its own linker finds its files.
 pub fn system_folders() -> Vec<PathBuf> {
     present(&["/usr", "/bin", "/lib", "/lib64", "/etc/alternatives", "/etc/ld.so.cache"])
 }

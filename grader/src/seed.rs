@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::class;
 
-/// A seed that nobody can know beforehand. It is short enough for people and for every reader of JSON.
+/// An unpredictable seed, short enough for people and for every reader of JSON.
 pub fn drawn() -> u64 {
     // The keys of a hash map's hasher come from the system's random numbers.
     RandomState::new().build_hasher().finish() % 1_000_000_000 + 1

@@ -1,4 +1,4 @@
-//! Compares the submissions of a class with each other. Nothing in them is run.
+//! Compares the texts of the submissions of a class with each other, without running them.
 
 pub mod fingerprints;
 pub mod pairs;
@@ -27,8 +27,8 @@ pub fn given(handout: &Files) -> HashSet<u64> {
     texts.flat_map(|text| all_pieces(&text)).collect()
 }
 
-/// The functions of a submission that are compared: those that are written, whether they compile or not. None of a submission with
-/// more text than anyone writes.
+/// The functions of a submission that are compared: those that are written, whether they compile or not. A submission with
+/// an implausible amount of text is left out.
 pub fn texts(submission: &Submission) -> Vec<(&'static str, String)> {
     let written = submission.functions.iter().filter_map(|(name, source)| match source {
         Source::Written(text) => Some((*name, text.clone())),

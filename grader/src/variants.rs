@@ -1,5 +1,5 @@
-//! Wrong implementations of every function, as students write them. The grader is tested with them, and answers are compared
-//! with theirs to find out which mistake was made.
+//! Wrong implementations of every function, as students write them. They test the grader, and the diagnosis compares answers with
+//! theirs.
 
 use grader_child::Functions;
 

@@ -1,4 +1,4 @@
-//! Submissions that attack the grader. Each attack costs its own function, and nothing else.
+//! Submissions that attack the grader. Each attack costs only the points of its own function.
 #![cfg(target_os = "linux")]
 
 mod attacks {
@@ -37,7 +37,7 @@ fn attacks_at_run_time_cost_their_own_function_alone() {
     assert!(listener.accept().is_err(), "no program called");
 }
 
-/// Puts an attack into every function but a few, each with what must become of it.
+/// Puts an attack into every function but a few, each with its expected result.
 fn spoil(room: &mut Classroom, reach: &str) {
     let deep = "fn deep(x: u64) -> f64 { let a = [x; 99]; if x == 0 { 0.0 } else { deep(std::hint::black_box(a)[7] + 1) + 1.0 } }";
     let flood = "let line = \"passed \".repeat(1000); loop { println!(\"{line}\"); eprintln!(\"{line}\"); }";
@@ -100,7 +100,7 @@ fn refused(room: &mut Classroom) {
 fn not_compiling(room: &mut Classroom) {
     let before = |line: &str, text: String| format!("{line}\n{text}");
     room.change("V_spring_particle_particle", "did_not_compile", |text| text.replace("q1: &Vector3<f64>, ", ""));
-    // Notes of the compiler point into the standard library, nalgebra and what the course gives.
+    // Notes of the compiler point into the standard library, nalgebra and the course's library.
     room.change("mass_matrix_mesh", "did_not_compile", |text| {
         let notes = "let _ = \"\".parse::<CsrMatrix<f64>>(); crate::given::solve(1); CsrMatrix::<f64>::identity(); }";
         format!("{text}\nfn notes() {{ {notes}")

@@ -1,4 +1,4 @@
-//! The whole course: what is handed out holds nothing yet, every step counts for itself, and right work has full marks.
+//! The whole course: the handout has no points, every solved function counts, and right solutions have full marks.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -158,7 +158,7 @@ mod grades {
         assert!(grade["score"].as_f64() > Some(0.0) && grade["score"] == grade["max_score"], "{}", grade["score"]);
     }
 
-    /// One after the other: the first one builds what the others share.
+    /// The gradings run one after the other, because the first one builds the shared libraries.
     #[test]
     fn right_work_has_full_marks_with_any_seed_and_in_any_style() {
         for seed in [1, 2, 20_260_101] {

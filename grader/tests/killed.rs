@@ -52,7 +52,7 @@ fn at_work(folder: &Path) -> Vec<String> {
     lines.filter(|line| line.contains(&*folder.to_string_lossy())).collect()
 }
 
-/// Waits until what works in a folder is as wanted.
+/// Waits until the processes that work in a folder satisfy a condition.
 fn wait(folder: &Path, limit: Duration, is_wanted: impl Fn(&[String]) -> bool) {
     let begun = Instant::now();
     loop {

@@ -1,4 +1,4 @@
-//! Right submissions in styles of their own, written from the pages alone, have full marks.
+//! Right submissions in different styles, written from the pages alone, have full marks.
 #![cfg(target_os = "linux")]
 
 use std::fs;

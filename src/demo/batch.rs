@@ -54,7 +54,7 @@ pub fn run(scene: &Scene, arguments: &RunArguments) -> Result<(), End> {
     }
 }
 
-/// Refuses options that a batch does not know.
+/// Refuses options that a batch does not support.
 fn check(arguments: &RunArguments) -> Result<(), End> {
     let unknown = [
         ("--resume", arguments.resume.is_some()),

@@ -52,7 +52,7 @@ pub fn rebuild(scene: &Scene, shape: Option<&fem_scene::simulation::Shape>) -> R
     engine::build(scene, body.map_err(|error| error.problem())?).map_err(|end| end.message())
 }
 
-/// Reads the meshes of a scene, with warnings of what is seldom meant.
+/// Reads the meshes of a scene, with warnings of probable mistakes.
 pub fn body(scene: &Scene) -> Result<Body, End> {
     let body =
         progress::during("reading the body", || fem_scene::body(scene, &data::folder())).map_err(End::unusable)?;
@@ -60,7 +60,7 @@ pub fn body(scene: &Scene) -> Result<Body, End> {
         eprintln!("warning: {warning}");
     }
     let integrator = scene.time.integrator;
-    // Methods that move nodes one by one know no other mass.
+    // Methods that move nodes one by one support only a lumped mass.
     if body.lumped_mass && scene.mass.lumped.is_none() && !integrator.needs_node_masses() {
         eprintln!(
             "note: {} lumps the mass of so large a body at its nodes; mass.lumped = false keeps it consistent",

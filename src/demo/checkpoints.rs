@@ -18,13 +18,13 @@ pub struct Checkpoints<'a> {
 }
 
 impl<'a> Checkpoints<'a> {
-    /// The checkpoints that the options ask for, if they do.
+    /// The checkpoints that the options ask for; `None` without them.
     pub fn new(arguments: &'a RunArguments, scene: &'a Scene) -> Option<Self> {
         let file = arguments.checkpoint.as_deref()?;
         Some(Self { file, scene, every: arguments.checkpoint_every, last: Instant::now() })
     }
 
-    /// Whether it is time for one.
+    /// Returns true if the next checkpoint is due.
     pub fn is_due(&self) -> bool {
         self.last.elapsed() >= self.every
     }

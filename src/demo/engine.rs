@@ -58,7 +58,7 @@ pub fn print_tip(simulation: &dyn Simulation, expected: &Vector3<f64>) {
     say!("tip displacement {along:.6e} m, by Timoshenko's theory {size:.6e} m{ratio}");
 }
 
-/// Prints the extreme eigenvalues of the stiffness that a mesh leads to.
+/// Prints the extreme eigenvalues of the stiffness matrix of a mesh.
 pub fn print_conditioning(mesh: &TetrahedralMesh) -> Result<(), End> {
     let found = conditioning(mesh).map_err(|problem| End::unusable(format!("--stiffness: {problem}")))?;
     let axis = ["x", "y", "z"][found.axis];

@@ -53,7 +53,7 @@ pub fn print(scene: &Scene) -> Result<(), End> {
     Ok(())
 }
 
-/// Whether Newmark's parameters leave the method a critical time step.
+/// Returns true if Newmark's method has a critical time step with these parameters.
 fn is_conditional_newmark(scene: &Scene) -> bool {
     scene.time.integrator == Integrator::Newmark && !scene.method().newmark.is_unconditionally_stable()
 }
@@ -105,7 +105,7 @@ pub fn least_stable(scene: &Scene, body: &Body) -> Result<Box<dyn Simulation>, E
     Ok(simulation)
 }
 
-/// Whether a step is shorter than the critical one, s, and the remedy.
+/// Says whether a step is shorter than the critical one, s, and names the remedy.
 pub fn verdict(critical: f64, simulation: &dyn Simulation) -> String {
     let substeps = simulation.substeps();
     let (dt, step) = (simulation.dt() / substeps as f64, if substeps == 1 { "dt" } else { "a substep" });

@@ -42,7 +42,7 @@ pub fn run(ready: Ready, scene: &Scene, arguments: &RunArguments) -> Result<(), 
     })?;
     bar.finish_and_clear();
 
-    // After a failure the last checkpoint stays: it is what a run with shorter steps would go on from.
+    // After a failure the last checkpoint is kept, so that a run with shorter steps can continue from it.
     if let Some(checkpoints) = checkpoints.as_mut().filter(|_| run.failure.is_none()) {
         checkpoints.write(&*simulation);
     }

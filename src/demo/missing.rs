@@ -23,7 +23,7 @@ pub fn caught(run: impl FnOnce() -> Result<(), End>) -> Result<(), End> {
         }
     }));
     match panic::catch_unwind(AssertUnwindSafe(run)) {
-        // The window catches panics itself and hands on what they said.
+        // The window catches panics itself and passes their messages on.
         Ok(Err(End::Stopped(message))) if message.contains(NOT_WRITTEN) => Err(explained(&message)),
         Ok(result) => result,
         Err(payload) if text(&*payload).starts_with(NOT_WRITTEN) => Err(explained(text(&*payload))),

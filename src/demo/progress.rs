@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Work that is done before this time shows nothing.
+/// Time before which no progress is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Time between two states of the line.

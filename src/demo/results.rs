@@ -138,7 +138,7 @@ fn end(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
     )))
 }
 
-/// What is told of a run in which the iterations of some steps have not settled.
+/// Warning about a run in which the iterations of some steps have not converged.
 fn not_settled(method: &Method, unconverged_steps: usize, steps: usize) -> String {
     let IterationSettings { count, tolerance, .. } = method.iterations;
     let how = match tolerance {
@@ -153,7 +153,7 @@ fn not_settled(method: &Method, unconverged_steps: usize, steps: usize) -> Strin
     )
 }
 
-/// Warns of a result that is not what it seems: inverted elements, or loads that are not fully on.
+/// Warns of a misleading result: inverted elements, or loads that are not fully applied.
 fn warn(simulation: &dyn Simulation) {
     let (name, inverted) = (simulation.name(), simulation.inverted_elements());
     if inverted > 0 {

@@ -6,7 +6,7 @@ use super::build::Ready;
 use super::cli::RunArguments;
 use super::end::End;
 
-/// Checks whether a window can be opened; the error says why not.
+/// Checks whether a window can be opened; the error is the reason why not.
 #[cfg(feature = "viewer")]
 pub fn available() -> Result<(), String> {
     fem_viewer::display_available()

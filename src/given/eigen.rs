@@ -1,7 +1,7 @@
 //! Negative eigenvalues of small symmetric matrices, with their eigenvectors.
 //!
 //! The general method (Householder's tridiagonal form, then the QL method: B. Parlett, The Symmetric Eigenvalue Problem,
-//! SIAM 1998, chapters 7 and 8), cut down to what a projection needs: arrays on the stack, no ordering, and eigenvectors of
+//! SIAM 1998, chapters 7 and 8), reduced to the needs of a projection: arrays on the stack, no ordering, and eigenvectors of
 //! negative eigenvalues only. It is several times faster than a general routine, and a simulation calls it for every
 //! element of every Newton step.
 

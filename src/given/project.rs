@@ -4,7 +4,7 @@ use nalgebra::SMatrix;
 
 use super::eigen::visit_negative;
 
-/// An eigenvalue counts as negative below this part of the largest one; what is nearer to zero is round-off.
+/// An eigenvalue counts as negative below this part of the largest one; values nearer to zero are round-off.
 const TOLERANCE: f64 = 1e-14;
 
 /// The positive semi-definite matrix nearest to a symmetric one (in the Frobenius norm): negative eigenvalues become zero,

@@ -1,7 +1,7 @@
 //! The checks of the 22 functions; they are written in grader/src/properties.
 //!
 //! `cargo test --no-default-features --test functions psi_neo_hookean` runs those of one function and of the functions
-//! whose names contain its name. A message says what is wrong and which page to read.
+//! whose names contain its name. A message names the error and the page to read.
 
 #![allow(non_snake_case)] // V, T, F, C and D are the names that the mathematics and the course use
 

@@ -102,7 +102,7 @@ fn next_integrator_cycles_through_both_integrators() {
     }
 }
 
-/// A click into a picture of 800 × 600 pixels, taken from (½, ½, 5) towards −z.
+/// A click in a picture of 800 × 600 pixels, taken from (½, ½, 5) towards −z.
 fn click(x: f64, y: f64) -> Click {
     let (eye, target) = (Point3::new(0.5, 0.5, 5.0), Point3::new(0.5, 0.5, 0.0));
     let perspective = Perspective3::new(800.0 / 600.0, 0.6, 0.1, 100.0);

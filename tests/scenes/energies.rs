@@ -55,8 +55,8 @@ fn implicit_euler_gains_no_more_energy_than_the_work_of_the_drag() {
     }
 }
 
-/// When the target jumps to its place at the end of a step, the energy of the spring changes by the work of the drag; the step
-/// itself can only lose energy.
+/// Asserts that the energy grows by no more than the work of the drag. The target of the spring jumps to its place at the end of a step,
+/// which changes the energy of the spring by that work; the step itself can only lose energy.
 fn assert_gains_no_more_than_work(scene: &Scene) {
     let drag = body(scene, &data()).unwrap().drag.unwrap();
     let mut simulation = build(scene);

@@ -85,7 +85,7 @@ fn a_pull_replaces_the_drag_and_its_end_brings_the_drag_back() {
         }
         assert_eq!(pulled.positions(), alone.positions(), "{}", integrator.name());
 
-        // An empty pull leaves the cube to its weight alone, which moves no node along x.
+        // An interaction without nodes leaves only the weight, which moves no node along x.
         pulled.reset();
         pulled.pull(Some(Pull { anchors: vec![], offset: Vector3::zeros() }));
         (0..3).for_each(|_| pulled.step().unwrap());

@@ -1,4 +1,4 @@
-//! The repository holds together: files that belong to each other exist and agree, and nothing untidy has crept in.
+//! Consistency of the repository: files that belong together exist and agree, and there are no stray files.
 //!
 //! Needs no feature: `cargo test --no-default-features --test tidy`. Every message ends with what to do.
 

@@ -13,7 +13,7 @@ use crate::race::{Contestant, Time, race};
 /// Numbers of environments of `arma-batch`.
 const COUNTS: [usize; 3] = [64, 512, 2048];
 
-/// An explicit method, and one whose sweeps go from colour to colour, with what they change in the scene.
+/// An explicit method, and one with sweeps over colours, with their changes of the scene.
 const METHODS: [(&str, &[&str]); 2] = [
     ("`semi_implicit_euler`", &[]),
     (

@@ -68,7 +68,7 @@ fn pair(name: &str, value: f64) -> [String; 2] {
     [name.to_owned(), format!("{value:?}")]
 }
 
-/// Mesh and material. The program wants E and ν, of which it takes C = μ/2 and D = λ/2.
+/// Mesh and material. The program reads E and ν, from which it computes C = μ/2 and D = λ/2.
 fn body(scene: &Scene, data: &Path) -> Option<Vec<String>> {
     let node = data.join(scene.mesh.file.as_ref()?);
     let is_whole = scene.mesh.scale == 1.0 && scene.mesh.refine == 0 && scene.mass.lumped != Some(true);

@@ -111,7 +111,7 @@ fn quantile(sorted: &[Duration], part: f64) -> Duration {
     sorted[((part * sorted.len() as f64) as usize).min(sorted.len() - 1)]
 }
 
-/// Resident memory of this process, MiB; zero where the system does not tell.
+/// Resident memory of this process, MiB; zero if the system does not report it.
 fn resident() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find(|line| line.starts_with("VmRSS:"));

@@ -45,7 +45,7 @@ impl Blueprint {
         Ok(fem_engine::simulator::build(&scene, body)?)
     }
 
-    /// The scene with what the components change.
+    /// The scene with the changes of the components.
     fn scene(&self) -> Result<Scene, SoftBodyError> {
         let mut scene = match &self.body.source {
             Source::File(name) => fem_scene::load(name, &self.body.data)?,

@@ -42,7 +42,7 @@ pub enum SoftBodyError {
 }
 
 impl SoftBodyError {
-    /// Whether the body goes on.
+    /// Returns true if the body continues to move after this error.
     pub(crate) fn is_harmless(&self) -> bool {
         matches!(self, Self::Pull(_))
     }

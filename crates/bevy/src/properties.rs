@@ -1,4 +1,4 @@
-//! Components beside a [`SoftBody`](crate::SoftBody) that change what its scene says.
+//! Components beside a [`SoftBody`](crate::SoftBody) that change its scene.
 
 use bevy::ecs::component::Component;
 use bevy::math::DVec3;

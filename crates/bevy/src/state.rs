@@ -1,4 +1,4 @@
-//! The component [`SoftBodyState`]: what the simulation has computed so far.
+//! The component [`SoftBodyState`]: the results of the simulation so far.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -38,7 +38,7 @@ pub struct SoftBodyState {
     pub(crate) written: Option<f64>,
 }
 
-/// What never changes of a body.
+/// Constant data of a body.
 #[derive(Clone)]
 pub struct Model {
     /// The undeformed body.
@@ -47,7 +47,7 @@ pub struct Model {
     pub topology: Arc<Topology>,
 }
 
-/// What a body is doing.
+/// Stage in the life of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SoftBodyPhase {
     /// Its scene and meshes are read and its system is built.
@@ -59,7 +59,7 @@ pub enum SoftBodyPhase {
 }
 
 impl SoftBodyState {
-    /// What the body is doing.
+    /// Returns the stage that the body is in.
     pub fn phase(&self) -> SoftBodyPhase {
         match (&self.failure, &self.model) {
             (Some(_), _) => SoftBodyPhase::Failed,
@@ -123,7 +123,7 @@ impl SoftBodyState {
         self.frames.back()
     }
 
-    /// Takes out the states that lie before what is shown.
+    /// Removes the states before the displayed one.
     pub(crate) fn outdated(&mut self) -> impl Iterator<Item = Frame> + '_ {
         let shown = self.clock.shown_steps();
         let is_outdated = move |frames: &VecDeque<Frame>| frames.get(1).is_some_and(|next| next.step as f64 <= shown);

@@ -1,4 +1,4 @@
-//! What the plugin does in a frame: it sends commands, takes what has arrived, and writes meshes. It never waits.
+//! Systems of the plugin. In each frame they send commands, receive results, and write meshes. They never wait.
 
 use std::time::Duration;
 
@@ -73,7 +73,7 @@ pub fn build_bodies(
     }
 }
 
-/// Takes what the workers have sent.
+/// Receives the messages of the workers.
 pub fn receive_news(
     mut bodies: Query<&mut SoftBodyState>,
     mut workers: ResMut<Workers>,

@@ -1,4 +1,4 @@
-//! How long the plugin holds up a frame.
+//! Time that the plugin takes in a frame.
 
 use std::time::{Duration, Instant};
 

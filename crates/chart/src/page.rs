@@ -61,7 +61,7 @@ pub fn table<R: Render>(head: &[&str], rows: &[Vec<R>]) -> Markup {
     }
 }
 
-/// A part that opens when the reader asks for it, and is always open on paper.
+/// A part that the reader can open, and that is always open on paper.
 pub fn details(summary: &str, contents: Markup) -> Markup {
     html! { details { summary { (summary) } "\n" (contents) } "\n" }
 }

@@ -17,7 +17,7 @@ const RASTER: usize = 1024;
 /// Shades between the darkest and the lightest triangle.
 const SHADES: usize = 32;
 
-/// Most triangles that are drawn: more of them are smaller than a pixel and would make a file of many megabytes.
+/// Largest number of triangles that are drawn: more triangles would be smaller than a pixel and would make a file of many megabytes.
 const MOST: usize = 60_000;
 
 /// Triangles in space with their edges, seen from above and the right; if all lie in one plane of constant z, seen from above. A depth

@@ -1,8 +1,8 @@
 //! Elements of deformable solids: constitutive laws, plastic flow, and the loops over all elements of a body that sum up its energy,
 //! gradient and stiffness.
 //!
-//! Kernels are compiled once for each law, kind of element, number type and instruction set. That takes long, so they are a package of
-//! their own.
+//! Kernels are compiled once for each law, kind of element, number type and instruction set. This takes long, so that they are a
+//! package of their own.
 //! [`Real::solids`] makes the [`Solids`](solids::Solids) of a body, whose loops are called once per pass, so that nothing else is
 //! compiled for a law.
 

@@ -1,7 +1,7 @@
 //! The apparent elastic moduli of a mass-spring body at small strain, measured on its undeformed springs.
 //!
 //! The nodes of the boundary follow a uniform strain and the others are in equilibrium: kinematic uniform boundary conditions, Huet,
-//! Application of variational concepts to size effects in elastic heterogeneous bodies (1990). The energy of so many strains makes up a
+//! Application of variational concepts to size effects in elastic heterogeneous bodies (1990). Their energies give a
 //! stiffness tensor. It lies below that of springs which all follow the strain, as these would have Cauchy's symmetry, and above that of
 //! an infinite body of the same springs.
 

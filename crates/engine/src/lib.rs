@@ -2,8 +2,8 @@
 //!
 //! A [`Body`](fem_scene::Body) becomes a [`System`](model::system::System), which never changes in a run, and a
 //! [`State`](model::state::State), which an [`Integrator`](integrators::Integrator) advances. A
-//! [`Simulator`](simulator::Simulator) holds both and implements [`Simulation`](fem_scene::simulation::Simulation), all that the
-//! window, the headless loop and the reports see.
+//! [`Simulator`](simulator::Simulator) has both and implements [`Simulation`](fem_scene::simulation::Simulation), the interface for the
+//! window, the headless loop and the reports.
 //!
 //! ```
 //! let text = r#"
@@ -37,7 +37,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The programs in `examples/` show more: an own potential, an own integrator, stresses, a study.
+//! The programs in `examples/` show more: a potential and an integrator of one's own, stresses, a study.
 
 #![deny(missing_docs)]
 #![allow(non_snake_case)] // J, F, C and D are the names that the mathematics and the course use

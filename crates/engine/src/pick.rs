@@ -18,7 +18,7 @@ pub fn nodes_under(click: &Click, x: &[Vector3<f64>], shape: &Shape) -> Vec<usiz
     (0..x.len()).filter(|&node| (x[node] - point).norm() <= radius).collect()
 }
 
-/// The line of sight through a pixel: where it begins, and where it leads to at the far plane.
+/// Line of sight through a pixel: its points on the near plane and on the far plane.
 fn ray(click: &Click) -> Option<(Vector3<f64>, Vector3<f64>)> {
     let from_clip = (click.proj.cast::<f64>() * click.view.cast::<f64>()).lu().try_inverse()?;
     let viewport = click.viewport.cast::<f64>();
@@ -36,7 +36,7 @@ fn hit(origin: &Vector3<f64>, direction: &Vector3<f64>, [a, b, c]: [Vector3<f64>
     let (p, q) = (direction.cross(&ac), to_origin.cross(&ab));
     let determinant = ab.dot(&p);
     let (u, v, t) = (to_origin.dot(&p) / determinant, direction.dot(&q) / determinant, ac.dot(&q) / determinant);
-    // Slack, so that no ray slips through between two triangles; NaN, of a ray in the triangle's plane, fails.
+    // A tolerance, so that there are no gaps between triangles. NaN, of a ray in the triangle's plane, fails.
     let slack = 1e-12;
     (u >= -slack && v >= -slack && u + v <= 1.0 + slack && t >= 0.0 && t.is_finite()).then_some(t)
 }

@@ -9,8 +9,6 @@ pub(crate) mod device_assembly;
 pub(crate) mod device_elements;
 mod divergence;
 pub mod double;
-#[cfg(feature = "gpu")]
-mod foreign_end;
 mod integrator;
 mod iterated_check;
 mod parts;
@@ -19,6 +17,8 @@ mod plan;
 mod range_check;
 mod simulation;
 mod step;
+#[cfg(feature = "gpu")]
+mod step_from;
 mod substep;
 
 use std::sync::atomic::AtomicUsize;
@@ -74,7 +74,7 @@ pub struct Simulator<T: Real> {
     control: Option<Control>,
     skinning: Option<Skinning>,
     counters: Counters,
-    /// Display vertices that were computed; pictures are asked for through `&self`.
+    /// Display vertices that were computed; they are counted through `&self`.
     skinned_rows: AtomicUsize,
     skinning_timer: Timer,
     reactions_timer: Timer,
@@ -138,7 +138,7 @@ fn check<T: Real>(scene: &Scene, body: &Body, epsilon: f64) -> Result<Option<Any
 }
 
 impl<T: Compiled> Simulator<T> {
-    /// Builds what the scene names, and nothing else, in the scene's initial state.
+    /// Builds the parts that the scene names, in the scene's initial state.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
         Self::with_forces(scene, body, &|_| Vec::new())
     }
@@ -227,7 +227,7 @@ impl<T: Real> Simulator<T> {
         self.forget();
     }
 
-    /// Lets a motion grow without bound, so that its growth can be measured, or ends it again at the step in which it shows.
+    /// Switches the check for divergence off, so that the growth of a motion can be measured, or on again.
     pub fn accept_divergence(&mut self, is_accepted: bool) {
         self.supplied.forget();
         self.supplied.may_diverge = is_accepted;
@@ -245,14 +245,14 @@ impl<T: Real> Simulator<T> {
         }
     }
 
-    /// Whether the size of steps follows an estimate of their error.
+    /// Returns true if the size of steps follows an estimate of their error.
     fn is_adaptive(&self) -> bool {
         self.control.is_some() && IntegratorKind::SECOND_ORDER_IMPLICIT.contains(&self.kind)
     }
 
-    /// Lets the Dirichlet conditions apply that apply in a step from this time, s. Returns whether these are others than before.
+    /// Updates the Dirichlet conditions that apply in a step from this time, s. Returns whether they have changed.
     fn apply_conditions_at(&mut self, time: f64) -> bool {
-        // Times are sums of steps, so the release may lie a rounding error beyond the one that was meant.
+        // Times are sums of steps, so the time of the release may be wrong by a rounding error.
         self.system.apply_conditions_at(time + ROUNDING * self.substep_dt)
     }
 }

@@ -1,4 +1,4 @@
-//! A graphics device: it is opened, holds arrays, runs commands, and tells what went wrong.
+//! A graphics device: opening, arrays, commands, and errors.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -63,7 +63,7 @@ impl Device {
         self.is_software
     }
 
-    /// Whether it computes in double precision.
+    /// Returns true if the device computes in double precision.
     pub fn has_double_precision(&self) -> bool {
         self.has_double
     }
@@ -157,7 +157,7 @@ impl Device {
         Ok(numbers)
     }
 
-    /// What has gone wrong so far.
+    /// Returns the first error that the device has reported so far.
     pub(crate) fn check(&self) -> Result<(), DeviceError> {
         match self.trouble.lock().unwrap_or_else(PoisonError::into_inner).clone() {
             Some(message) => Err(self.failed(message)),

@@ -1,8 +1,8 @@
 //! Linear systems and time steps on a graphics device, through wgpu's compute shaders.
 //!
 //! [`Device`] is a card, or a program that stands in for one. [`ConjugateGradients`] solves systems of 3×3 blocks on it, [`Stiffness`]
-//! assembles their matrix there, and [`Bodies`] are many bodies of one mesh that step there. This crate knows arrays of numbers, and
-//! nothing of scenes.
+//! assembles their matrix there, and [`Bodies`] are many bodies of one mesh that step there. This crate works on arrays of numbers,
+//! and is independent of scenes.
 
 mod conjugate_gradients;
 mod device;
@@ -36,7 +36,7 @@ pub enum DeviceError {
     /// An array does not fit.
     #[error("{what} take {bytes} bytes, and {adapter} has room for {limit} in an array")]
     TooLarge {
-        /// What the array holds.
+        /// Content of the array.
         what: &'static str,
         /// Its size.
         bytes: u64,
@@ -50,7 +50,7 @@ pub enum DeviceError {
     Failed {
         /// Name of the adapter.
         adapter: String,
-        /// What it said.
+        /// Message of the device.
         message: String,
     },
 }

@@ -16,7 +16,7 @@ pub struct BlockPattern {
     pub columns: Vec<u32>,
 }
 
-/// Where the blocks of a pattern lie in slices.
+/// Places of the blocks of a pattern in slices.
 pub(crate) struct Slices {
     /// First layer of each slice, and the number of layers. A layer has a block of each row of its slice.
     pub(crate) starts: Vec<u32>,

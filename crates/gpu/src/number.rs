@@ -6,7 +6,7 @@ use bytemuck::Pod;
 pub trait Number: Pod + Send + Sync {
     /// Its name in WGSL.
     const WGSL: &'static str;
-    /// Whether a device needs a feature for it.
+    /// True if the number type needs the device's feature for double precision.
     const IS_DOUBLE: bool;
 
     /// The nearest number.

@@ -20,7 +20,7 @@ pub(crate) struct Kernel {
     groups: [u32; 2],
 }
 
-/// Most groups in a row that every device runs.
+/// Largest number of groups in a row that every device supports.
 const LONGEST_ROW: usize = 65_535;
 
 /// Rows and columns of groups for so many invocations. Those beyond the last are idle.

@@ -21,7 +21,7 @@ impl Bounds {
         points.iter().fold(empty, |all, x| Self { least: all.least.inf(x), largest: all.largest.sup(x) })
     }
 
-    /// Whether two boxes have a common point.
+    /// Returns true if two boxes have a common point.
     pub(crate) fn touches(&self, other: &Self) -> bool {
         (0..3).all(|i| self.least[i] <= other.largest[i] && other.least[i] <= self.largest[i])
     }

@@ -151,7 +151,7 @@ pub enum Problem {
     Frame { frame: usize, reason: String },
 }
 
-/// The first characters of what a file says, which may be long or no text at all, in one line that a terminal can show.
+/// The first characters of a file's content, which may be long or binary, in one line that a terminal can show.
 fn short(text: &str, most: usize) -> String {
     let shown = text.chars().take(most).map(|c| if c.is_control() { '\u{fffd}' } else { c });
     let more = if text.chars().nth(most).is_some() { "…" } else { "" };

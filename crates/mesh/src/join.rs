@@ -20,7 +20,7 @@ pub fn join(meshes: impl IntoIterator<Item = (String, TetrahedralMesh)>) -> Tetr
     joined
 }
 
-/// The set behind so many other nodes and elements.
+/// The set with its numbers shifted by these numbers of nodes and elements.
 fn shifted(set: MeshSet, nodes: usize, elements: usize) -> MeshSet {
     MeshSet {
         elements: set.elements.into_iter().map(|element| elements + element).collect(),

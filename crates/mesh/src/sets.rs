@@ -23,7 +23,8 @@ pub struct MeshSet {
 }
 
 impl MeshSet {
-    /// The nodes of its triangles, edges and points; those of its elements if it has nothing else. Ascending, without repeats.
+    /// The nodes of its triangles, edges and points; those of its elements if it has no triangles, edges or points. Ascending, without
+    /// repeats.
     ///
     /// A file without names numbers its groups of every dimension from 1, so a surface and a volume can share a name; the nodes
     /// of the surface are meant then.

@@ -225,7 +225,7 @@ fn part(scene: &Scene, body: Body, dt: Option<f64>, quick: bool) -> Result<Part,
     })
 }
 
-/// Whether an iteration is in the table and in the picture: the first fifty, and then twenty in each decade.
+/// Returns true if an iteration is shown in the table and in the picture: the first fifty, and then twenty in each decade.
 fn is_shown(i: usize) -> bool {
     let place = |i: usize| (20.0 * (i as f64).log10()).floor();
     i < 50 || place(i) > place(i - 1)

@@ -35,7 +35,7 @@ pub struct SweptRun {
 }
 
 impl SweptRun {
-    /// Whether the run reached its end and converged.
+    /// Returns true if the run reached its end and converged.
     pub fn is_done(&self) -> bool {
         self.status == "done"
     }

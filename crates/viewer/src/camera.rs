@@ -14,7 +14,7 @@ use crate::geometry::{Bounds, level_axes};
 const FIELD_OF_VIEW: f32 = 0.6; // rad, vertical
 const FIRST_YAW: f32 = 0.45; // rad, a little from the side: shows depth
 const FIRST_PITCH: f32 = 0.22; // rad, a little from above
-const STEEPEST_PITCH: f32 = 1.5; // rad, short of straight up, where "right" would lose its meaning
+const STEEPEST_PITCH: f32 = 1.5; // rad, less than straight up, where the direction to the right is not defined
 const MARGIN: f32 = 1.12; // body to picture edge, as a factor on the distance
 const RADIANS_PER_PIXEL: f32 = 0.006;
 
@@ -101,7 +101,7 @@ impl Camera {
         bounds.corners().into_iter().map(needed).fold(self.radius, f32::max)
     }
 
-    /// Whether the camera turns around its target.
+    /// Returns true if the camera turns around its target.
     pub fn turns(&self) -> bool {
         self.view == View::Orbit
     }
@@ -150,7 +150,7 @@ impl Camera {
         level * self.pitch.cos() + self.up * self.pitch.sin()
     }
 
-    /// A point moved towards the eye by a part of its distance, so that what lies there hides it no longer.
+    /// A point moved towards the eye by a part of its distance, so that the surface at the point does not hide it.
     pub fn nearer(&self, point: Vec3, part: f32) -> Vec3 {
         match self.view {
             View::Orbit => point + (self.eye() - point) * part,

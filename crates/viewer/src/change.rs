@@ -18,11 +18,11 @@ pub enum Change {
 /// Other tables of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edit {
-    /// The table that it concerns, such as `traction.0`: a later edit of it takes the place of one that waits.
+    /// The table that it changes, such as `traction.0`. A later edit of the same table replaces one that waits.
     pub table: String,
     /// The keys that it sets and removes.
     pub overrides: Vec<Override>,
-    /// What becomes of the motion and the method.
+    /// Its effect on the motion and the method.
     pub effect: Effect,
 }
 
@@ -38,7 +38,7 @@ pub enum Effect {
 }
 
 impl Change {
-    /// Whether a later change makes this one without effect.
+    /// Returns true if a later change supersedes this one.
     pub fn is_replaced_by(&self, later: &Self) -> bool {
         match (self, later) {
             (Self::Number(a, _), Self::Number(b, _)) => a == b,

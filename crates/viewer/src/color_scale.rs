@@ -18,10 +18,10 @@ const VIRIDIS: [[u8; 3]; 11] = [
     [0xfd, 0xe7, 0x25],
 ];
 
-/// Part of the upper end below which the largest value lets it fall.
+/// The upper end is lowered when the largest value falls below this part of it.
 const FALLS_BELOW: f64 = 0.3;
 
-/// The worst circumradius over edge that has a colour of its own.
+/// Ratio of circumradius to edge at the end of the scale; worse elements have the same colour.
 const WORST: f64 = 1.5;
 
 /// A colour of the scale, sRGB; `share` lies between 0 and 1.

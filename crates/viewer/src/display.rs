@@ -16,7 +16,7 @@ pub fn display_available() -> Result<(), String> {
 
 /// Checks whether wgpu finds a graphics adapter, hardware or software; the error says why not.
 pub fn adapter_available() -> Result<(), String> {
-    // Asking for OpenGL makes some drivers print complaints; it is asked for last.
+    // OpenGL is tried last, because some drivers print complaints then.
     has_adapter(wgpu::Backends::PRIMARY)
         .or_else(|_| has_adapter(wgpu::Backends::all()))
         .map_err(|why| format!("no graphics adapter: {why}"))
@@ -44,7 +44,7 @@ pub fn without_wayland_message<R>(request: impl FnOnce() -> R) -> R {
 }
 
 thread_local! {
-    /// Whether a panic of this thread becomes an error and is not printed.
+    /// Panics of this thread become errors and are not printed.
     static QUIET: Cell<bool> = const { Cell::new(false) };
 }
 

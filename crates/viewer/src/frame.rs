@@ -1,4 +1,4 @@
-//! Everything of a state that a picture shows.
+//! The parts of a state that a picture shows.
 
 use fem_scene::output::ElementField;
 use fem_scene::simulation::{Plane, Simulation};
@@ -14,7 +14,7 @@ const FULL_ARROW: f64 = 1.0 / 3.0;
 pub struct Wanted {
     /// The field that colours the elements.
     pub field: Option<ElementField>,
-    /// Whether contact forces are drawn.
+    /// Draw contact forces.
     pub contact_forces: bool,
 }
 

@@ -107,7 +107,7 @@ pub fn first_hit(origin: Vec3, ray: Vec3, points: &[Vec3], triangles: &[[usize; 
     triangles.iter().enumerate().filter_map(hit).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Barycentric coordinate beyond an edge up to which a ray still meets a triangle, so that rounding lets none pass between two triangles.
+/// Barycentric coordinate beyond an edge up to which a ray still meets a triangle, so that rounding errors leave no gaps between triangles.
 const BEYOND_EDGE: f32 = -1e-5;
 
 /// Möller and Trumbore's intersection test, from either side of the triangle.

@@ -24,7 +24,7 @@ pub struct History {
 }
 
 impl History {
-    /// Whether a sample at `time` is due. Asked before the energies are computed, which costs a pass over the elements.
+    /// Returns true if a sample at `time` is due. To be called before the energies are computed, which costs a loop over the elements.
     pub fn wants(&self, time: f64) -> bool {
         self.samples.back().is_none_or(|last| time - last.time >= 0.999 * SPAN / SAMPLES || time < last.time)
     }

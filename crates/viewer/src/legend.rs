@@ -11,7 +11,8 @@ const BAR: [f32; 2] = [240.0, 14.0];
 const MARGIN: f32 = 14.0;
 const TICKS: usize = 4; // intervals between numbers
 
-/// Paints the legend of a scale at the upper right. It is no widget, which would take a frame to find its size: a picture has one frame.
+/// Paints the legend of a scale at the upper right. It is not a widget, because a widget needs a frame to find its size, and a picture
+/// has only one frame.
 pub fn show(context: &Context, scale: &ColorScale) {
     let painter = context.layer_painter(LayerId::new(Order::Middle, Id::new("legend")));
     let window = context.content_rect();

@@ -12,7 +12,7 @@
 //! use fem_scene::simulation::Simulation;
 //! use fem_viewer::{DisplayedSurface, OffscreenRenderer, WindowOptions};
 //!
-//! /// `simulation` is such as `fem_engine::simulator::build` returns.
+//! /// `simulation` comes, for example, from `fem_engine::simulator::build`.
 //! fn show(mut simulation: Box<dyn Simulation>) -> Result<(), Box<dyn Error>> {
 //!     let mut renderer = OffscreenRenderer::new(1280, 800)?;
 //!     simulation.step()?;

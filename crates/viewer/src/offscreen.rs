@@ -23,7 +23,7 @@ use crate::{legend, obstacles, theme};
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("cannot take pictures: {reason}")]
 pub struct NoAdapter {
-    /// Why, in one line.
+    /// The reason, in one line.
     pub reason: String,
 }
 
@@ -120,7 +120,7 @@ struct SceneSurface {
     // The view holds resources of the surface's device, so it is dropped first: fields are dropped in order.
     view: Option<Viewed>,
     surface: OffscreenSurface,
-    /// Whether a legend was drawn. The first one does not show in its frame, in which egui prepares its fonts.
+    /// A legend was drawn before. The first one is not visible in its frame, because egui prepares its fonts there.
     had_legend: bool,
 }
 

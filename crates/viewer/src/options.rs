@@ -64,7 +64,7 @@ pub struct WindowOptions {
     pub record: Option<PathBuf>,
     /// Number of steps after which the window closes; it closes earlier if the simulation fails.
     pub quit_after_steps: Option<usize>,
-    /// Whether the energies of every step are kept for [`Outcome::energies`](crate::Outcome::energies).
+    /// Keep the energies of every step for [`Outcome::energies`](crate::Outcome::energies).
     pub log_energies: bool,
     /// The scene, for a panel that changes it; `None` for one with the parameters of the simulation alone.
     pub editing: Option<Editing>,

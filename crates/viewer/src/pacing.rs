@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-const LARGEST_LAG: f64 = 0.05; // s behind the wall clock that is caught up
+const LARGEST_LAG: f64 = 0.05; // s, largest lag behind the wall clock that is caught up
 const RATE_WINDOW: f64 = 1.0; // s of wall clock over which the rate is measured
 
 /// Keeps simulated time from running faster than the wall clock.

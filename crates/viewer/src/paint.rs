@@ -14,13 +14,13 @@ use crate::shader::Painting;
 use crate::surface::Surface;
 use crate::texture::{Texture, place_of_color};
 
-/// The paint of a body, and what it needs once it is used.
+/// The paint of a body, with data that are computed on first use.
 #[derive(Default)]
 pub struct Paint {
     painting: Painting,
     scale: Option<ColorScale>,
     colors: OnceCell<Texture>,
-    /// Whether the picture is shown where no field is.
+    /// The picture is shown wherever no field is.
     shows_picture: bool,
     /// The picture, and its size in pixels; `None` if it cannot be read.
     picture: OnceCell<Option<(Texture, Vec2)>>,

@@ -45,9 +45,9 @@ pub struct ViewState<'a> {
     pub objects: &'a [PathBuf],
     /// The displayed surface.
     pub shown: DisplayedSurface,
-    /// Whether the body has a display surface beside its simulation mesh.
+    /// The body has a display surface beside its simulation mesh.
     pub has_skin: bool,
-    /// Whether the camera turns around the body.
+    /// The camera turns around the body.
     pub turns: bool,
     /// Running mean of the time per frame, s.
     pub frame_seconds: f64,
@@ -63,7 +63,7 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// Whether the panel or the banner covers `point`, logical pixels.
+    /// Returns true if the panel or the banner covers `point`, logical pixels.
     pub fn covers(&self, point: Pos2) -> bool {
         self.places.iter().any(|place| place.contains(point))
     }
@@ -216,7 +216,7 @@ fn contact_force(force: f64, weight: Option<f64>) -> String {
     format!("{} N{}", plot::short(force), beside.unwrap_or_default())
 }
 
-/// Describes the speed of simulated time, or why it does not run.
+/// Describes the speed of simulated time, or the reason why the simulation does not run.
 fn speed(snapshot: &Snapshot) -> String {
     match snapshot.rate {
         _ if snapshot.stop.is_some() => "stopped".into(),

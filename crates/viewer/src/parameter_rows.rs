@@ -79,7 +79,7 @@ pub struct ParameterRows {
 }
 
 impl ParameterRows {
-    /// Whether a section has rows.
+    /// Returns true if a section has rows.
     pub fn has(section: Section, snapshot: &Snapshot) -> bool {
         let mut keys = snapshot.scene_parameters.iter().chain(&snapshot.parameters).map(|parameter| parameter.key);
         keys.any(|key| Section::of(key) == section) || section == Section::Meshing && snapshot.object.is_some()

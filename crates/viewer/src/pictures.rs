@@ -37,7 +37,7 @@ impl Picture {
         self.image.as_raw()
     }
 
-    /// Writes a PNG file, whatever the extension of the path: complete or not at all.
+    /// Writes a PNG file, whatever the extension of the path. No file is left if writing fails.
     pub fn save(&self, path: &Path) -> Result<(), NotWritten> {
         let not_written = |cause: String| NotWritten { path: path.to_owned(), cause };
         let mut png = Cursor::new(Vec::new());
@@ -66,7 +66,7 @@ pub struct NotWritten {
     pub cause: String,
 }
 
-/// Fails before the run if a picture could not be written after it: its folder is missing, read-only or not a folder.
+/// Checks before a run that a picture can be written after it: its folder exists and is writable.
 pub fn check_writable(path: &Path) -> Result<(), NotWritten> {
     let refuse = |cause: String| Err(NotWritten { path: path.to_owned(), cause });
     if path.is_dir() {
@@ -96,7 +96,7 @@ impl Recorder {
         Ok(Recorder { folder: folder.to_owned(), frames: 0 })
     }
 
-    /// Whether the next frame is due at `time`, in seconds since the start: [`FRAMES_PER_SECOND`].
+    /// Returns true if the next frame is due at `time`, in seconds since the start; there are [`FRAMES_PER_SECOND`].
     pub fn due(&self, time: f64) -> bool {
         time * FRAMES_PER_SECOND >= self.frames as f64 - 1e-6
     }

@@ -26,12 +26,12 @@ impl SceneChanges {
         Some(std::mem::take(&mut self.waiting))
     }
 
-    /// Whether no change waits or is under way.
+    /// Returns true if no change waits or is under way.
     pub fn is_done(&self, done: usize) -> bool {
         self.waiting.is_empty() && !self.is_under_way(done)
     }
 
-    /// Whether changes that were sent are not done.
+    /// Returns true if changes that were sent are not yet done.
     pub fn is_under_way(&self, done: usize) -> bool {
         self.sent != done
     }

@@ -12,8 +12,8 @@ use crate::change::Change;
 /// Factor between the value of the scene and the ends of the range of a logarithmic slider.
 const DECADES: f64 = 100.0;
 
-/// The parameters of a scene. `initial` is the scene before all changes, whose values decide on the sliders' ranges; a range does not bound
-/// what can be typed, which the scene's own checks do.
+/// The parameters of a scene. `initial` is the scene before all changes, whose values set the ranges of the sliders. Typed
+/// values may lie outside; the scene's own checks apply to them.
 pub fn parameters(scene: &Scene, initial: &Scene) -> Vec<Parameter> {
     let of = |scene: &Scene| values(scene);
     let ranges = of(initial);

@@ -104,7 +104,7 @@ impl SceneView {
         &self.bounds
     }
 
-    /// Whether the body has a display surface beside its simulation mesh.
+    /// Returns true if the body has a display surface beside its simulation mesh.
     pub fn has_skin(&self) -> bool {
         self.skin.is_some()
     }

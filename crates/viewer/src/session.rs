@@ -44,7 +44,7 @@ pub struct Session {
     worker: Worker,
     snapshot: Snapshot,
     wanted: Wanted,
-    /// Whether the picture that the body was made from is shown on it.
+    /// The picture that the body was made from is shown on it.
     shows_picture: bool,
     /// Pictures that the body can be made from.
     objects: Vec<PathBuf>,
@@ -154,7 +154,7 @@ impl Session {
         (self.worker, self.not_written)
     }
 
-    /// Whether the next frame would equal the last one.
+    /// Returns true if the next frame would equal the last one.
     fn is_idle(&self) -> bool {
         let is_building = self.changes.is_under_way(self.snapshot.changes);
         !is_building && self.last_input.elapsed() > AFTER_INPUT && self.last_frame.elapsed() < LONGEST_IDLE

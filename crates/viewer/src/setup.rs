@@ -20,15 +20,15 @@ use crate::worker::scene_editor::SceneSetup;
 use brush::Brush;
 use loads::Loads;
 
-/// What the left mouse button does on the body.
+/// Use of the left mouse button on the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// It pulls the body.
+    /// It drags the body.
     #[default]
     Pull,
     /// It paints constrained nodes.
     Fix,
-    /// It picks faces and pulls a traction.
+    /// It picks faces, and sets a traction by dragging.
     Load,
 }
 
@@ -41,7 +41,7 @@ pub struct Setup {
     pub brush: Brush,
     /// The picked faces and their load.
     pub loads: Loads,
-    /// Why the last use of a tool had no effect.
+    /// The reason why the last use of a tool had no effect.
     pub message: Option<String>,
     body: OnceCell<Body>,
 }
@@ -78,7 +78,7 @@ impl Body {
 pub struct Pointer<'a> {
     /// Physical pixels from the upper left.
     pub cursor: Vec2,
-    /// Whether the control key is down, which erases or adds.
+    /// The control key is down: it swaps painting and erasing, and adds to a selection.
     pub control: bool,
     /// The camera.
     pub camera: &'a Camera,
@@ -149,7 +149,7 @@ impl Setup {
         }
     }
 
-    /// The change that gives the picked faces their traction; a message tells why there is none.
+    /// The change that gives the picked faces their traction; a message gives the reason if there is none.
     pub fn load(&mut self, shape: &Shape, scene: &SceneSetup) -> Option<Change> {
         let body = self.body.get_or_init(|| Body::of(shape));
         match self.loads.change(body, scene) {

@@ -61,7 +61,7 @@ pub struct Environment {
 /// The picture on the body, if there is one.
 pub type Painting = Rc<RefCell<Option<Texture>>>;
 
-/// A shader as kiss3d holds it.
+/// A shader in the form that kiss3d shares.
 pub type Shared = Rc<RefCell<Box<dyn Material3d>>>;
 
 /// The shader of one kind of object. It reads `environment` and `painting` at each frame; only bodies have a picture.

@@ -68,7 +68,7 @@ impl Surface {
         self.node.set_color(color);
     }
 
-    /// Takes the surface out of the scene graph.
+    /// Removes the surface from the scene graph.
     pub fn remove(mut self) {
         self.node.detach();
         if let Some(mut shadow) = self.shadow {

@@ -33,7 +33,7 @@ pub struct Outcome {
     pub not_written: Option<NotWritten>,
 }
 
-/// Why no window was opened.
+/// Errors on opening a window.
 #[derive(Debug, Error)]
 pub enum WindowError {
     /// The machine has no display or no graphics adapter.
@@ -48,7 +48,7 @@ pub enum WindowError {
 #[derive(Error)]
 #[error("cannot open a window: {reason}")]
 pub struct NoWindow {
-    /// Why, in one line.
+    /// The reason, in one line.
     pub reason: String,
     /// The simulation, not yet stepped.
     pub simulation: Box<dyn Simulation>,

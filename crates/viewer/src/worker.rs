@@ -94,7 +94,7 @@ pub struct LoopOptions {
     pub stepping: Stepping,
     /// Number of steps after which the simulation is finished.
     pub steps: Option<usize>,
-    /// Whether the energies of every step are kept.
+    /// Keep the energies of every step.
     pub log_energies: bool,
 }
 
@@ -129,11 +129,11 @@ pub struct Snapshot {
     pub object: Option<PathBuf>,
     /// The scene with the user's changes and the parts of the body that it names, if it may be changed.
     pub setup: Option<Arc<SceneSetup>>,
-    /// The last command [`Command::Save`]: the path of the file, or why it was not written.
+    /// The last command [`Command::Save`]: the path of the file, or the reason why it was not written.
     pub saved: Option<Result<PathBuf, String>>,
     /// The parts of a step and their times.
     pub timers: Vec<StepTimer>,
-    /// Whether a changed scene is being built.
+    /// A changed scene is being built.
     pub is_building: bool,
     /// Number of commands [`Command::Change`] that were executed or refused.
     pub changes: usize,
@@ -143,9 +143,9 @@ pub struct Snapshot {
     pub critical_time_step: Option<f64>,
     /// Energies of the last simulated seconds.
     pub history: Vec<Sample>,
-    /// Whether the simulation is paused.
+    /// The simulation is paused.
     pub paused: bool,
-    /// Whether [`LoopOptions::steps`] has been reached.
+    /// [`LoopOptions::steps`] has been reached.
     pub finished: bool,
     /// The failure that stopped the simulation.
     pub stop: Option<Stop>,

@@ -1,4 +1,4 @@
-//! The 22 functions of the course: one list of their names, order and signatures, from which every other list is made.
+//! The 22 functions of the course: one list of their names, order and signatures, which generates every other list.
 
 use nalgebra::{DVector, Matrix3, Matrix4, Matrix4x3, SMatrix, SVector, Vector3, Vector4};
 use nalgebra_sparse::CsrMatrix;
@@ -57,7 +57,7 @@ macro_rules! course_functions {
 
 macro_rules! define {
     ($($kind:ident $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
-        /// One of the functions. Its value is its place in teaching order and the number under which calls of it travel.
+        /// One of the functions. Its value is its index in teaching order, which identifies it in calls.
         #[allow(non_camel_case_types)]
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Exercise {

@@ -1,4 +1,4 @@
-//! The loop in which a submission is asked: one call, one answer, until the other side closes.
+//! The loop that calls a submission's functions: one call, one answer, until the other side closes.
 
 use std::any::Any;
 use std::cell::RefCell;
@@ -18,7 +18,7 @@ use crate::{Exercise, Functions, GivenSolve, course_functions};
 
 /// Answers calls that arrive on the parent's socket until the parent closes it.
 ///
-/// The answers leave through the same socket; nothing that a submission prints goes there.
+/// The answers are sent through the same socket, which is separate from the submission's standard output.
 pub fn serve(functions: &Functions, solve: GivenSolve) {
     let Ok(socket) = socket::parent() else { process::exit(3) };
     let parent = Parent(RefCell::new(socket));
@@ -40,7 +40,7 @@ pub fn serve(functions: &Functions, solve: GivenSolve) {
     }
 }
 
-/// The other end of the socket. Without it there is nothing left to do, so the process ends.
+/// The other end of the socket. The process ends when it closes.
 struct Parent(RefCell<Socket>);
 
 impl Parent {
@@ -114,7 +114,7 @@ macro_rules! calls {
 }
 course_functions!(calls);
 
-/// The function that travels under this number.
+/// The function with this number.
 fn exercise(number: u8) -> Option<Exercise> {
     Exercise::ALL.get(usize::from(number)).copied()
 }
@@ -162,7 +162,7 @@ fn step(input: &mut &[u8]) -> Option<Step> {
     Some((Wire::get(input)?, Wire::get(input)?, Wire::get(input)?, Wire::get(input)?))
 }
 
-/// Makes the call that follows many times, so that the way to the parent and back does not count. Functions that take closures
+/// Makes the call that follows many times, so that the time of communication does not count. Functions that take closures
 /// work on a problem of their own here.
 fn repeat(functions: &Functions, parent: &Parent, body: &[u8]) -> Option<Vec<u8>> {
     let times: u64 = read(body)?;

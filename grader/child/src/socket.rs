@@ -23,7 +23,7 @@ pub(crate) fn parent() -> io::Result<Socket> {
 pub(crate) fn parent() -> io::Result<Socket> {
     let port: u16 = std::env::args().nth(1).and_then(|port| port.parse().ok()).ok_or(io::ErrorKind::InvalidInput)?;
     let socket = Socket::connect((std::net::Ipv4Addr::LOCALHOST, port))?;
-    // Each frame is waited for, so none may wait for the next.
+    // Each frame is waited for, so it must be sent at once.
     socket.set_nodelay(true)?;
     Ok(socket)
 }

@@ -88,7 +88,7 @@ fn tridiagonal(size: usize, beside: impl Fn(usize) -> f64, diagonal: impl Fn(usi
     CsrMatrix::from(&entries)
 }
 
-/// Solves a tridiagonal system; what stands elsewhere in A is not read.
+/// Solves a tridiagonal system. Entries of A outside the three diagonals are not read.
 fn sweep(A: &CsrMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
     let entry = |i: usize, j: usize| A.get_entry(i, j).map_or(0.0, |entry| entry.into_value());
     let (n, mut x) = (b.len(), b.clone());

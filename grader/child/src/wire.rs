@@ -1,4 +1,4 @@
-//! How calls and answers travel: frames of bytes, each value as plain little-endian numbers.
+//! Encoding of calls and answers: frames of bytes, each value as plain little-endian numbers.
 //!
 //! A frame is a length (u32), a kind (u8) and that many bytes. Every frame is checked: a submission may write anything.
 
@@ -61,7 +61,7 @@ pub fn receive(from: &mut impl Read) -> io::Result<(u8, Vec<u8>)> {
     if length > LONGEST_FRAME {
         return Err(io::Error::new(io::ErrorKind::InvalidData, format!("a frame of {length} bytes")));
     }
-    // Read as it comes: room for a length that is only claimed is never set aside.
+    // Read in pieces: memory is never allocated for a length that a frame only claims.
     let mut body = Vec::new();
     from.take(length as u64).read_to_end(&mut body)?;
     if body.len() < length {
@@ -70,7 +70,7 @@ pub fn receive(from: &mut impl Read) -> io::Result<(u8, Vec<u8>)> {
     Ok((head[4], body))
 }
 
-/// A value that travels.
+/// A value that can be encoded.
 pub trait Wire: Sized {
     /// Appends the value.
     fn put(&self, out: &mut Vec<u8>);
@@ -224,7 +224,7 @@ impl<A: Wire, B: Wire> Wire for (A, B) {
     }
 }
 
-/// An argument as functions take it, and what is kept of it on the other side.
+/// An argument as functions take it, and the value that it is decoded to.
 pub trait Argument<'a> {
     /// The value that the argument borrows or is.
     type Stored: Wire;

@@ -95,7 +95,7 @@ fn a_path_that_leads_out_is_refused() {
 #[test]
 fn two_files_of_one_path_are_refused() {
     let (first, second) = ("src/psi_neo_hookean.rs", "src/psi_neo_hookeaN.rs");
-    // The writer refuses such a path, so it is made of another one.
+    // The writer refuses such a path, so another path is overwritten with it.
     let mut zip = zip_of(&[(first, BODY.as_bytes()), (second, BODY.as_bytes())]);
     let wrong = second.as_bytes();
     while let Some(at) = zip.windows(wrong.len()).position(|bytes| bytes == wrong) {

@@ -1,7 +1,7 @@
 //! `adjustments.csv`: points and comments by hand, with the columns `student`, `function`, `points`, `reason` and `comment`.
 //!
-//! Points replace what the checks gave: of the function, or, where `function` is empty, of the whole after the penalty for lateness. They
-//! need a reason, which stays with the instructor. A comment is for the student, and may stand without points.
+//! Points replace those of the checks: the points of the function, or, if `function` is empty, the score after the penalty for lateness.
+//! They need a reason, which only the instructor sees. A comment is shown to the student, with or without points.
 
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,7 @@ pub const ADJUSTMENTS: &str = "adjustments.csv";
 #[derive(Clone, Debug, Default)]
 pub struct Adjustments(Vec<(String, Adjustment)>);
 
-/// Why the table cannot be used.
+/// Errors in the table.
 #[derive(Debug, Error)]
 pub enum AdjustmentsError {
     #[error("{path}: {error}; its columns are student, function, points, reason, comment", path = .0.display(), error = .1)]

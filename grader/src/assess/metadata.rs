@@ -8,14 +8,14 @@ use jiff::Timestamp;
 use serde::Deserialize;
 use thiserror::Error;
 
-/// Whose a submission is, and when it came.
+/// Students and time of a submission.
 pub struct Metadata {
     pub submitted: Timestamp,
     /// Addresses, numbers and names of the student, or of the students of a group.
     pub students: Vec<String>,
 }
 
-/// Why the file cannot be used.
+/// An error in the file.
 #[derive(Debug, Error)]
 #[error("{path}: {problem}; name Gradescope's submission_metadata.json", path = path.display())]
 pub struct MetadataError {

@@ -28,7 +28,7 @@ pub fn own_repository() -> PathBuf {
     own.parent().unwrap_or(own).to_owned()
 }
 
-/// How the functions' program is started: it sees the system's libraries and itself.
+/// Returns a function that starts the functions' program, which sees only the system's libraries and itself.
 pub fn starter(
     sandbox: &Sandbox,
     program: Option<PathBuf>,

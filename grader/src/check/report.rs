@@ -1,4 +1,4 @@
-//! The report of the checks for a student: a line for each function, and more of the one that comes next.
+//! The report of the checks for a student: a line for each function, and details of the next one to work on.
 
 use std::fmt::Write;
 use std::fs;
@@ -26,7 +26,7 @@ pub struct Report {
 pub struct Checked {
     /// Its name as a sentence.
     pub name: String,
-    /// Whether it passes.
+    /// The check passes.
     pub passed: bool,
     /// The broken rule, or why there is no answer; empty if it passes.
     pub rule: String,
@@ -34,13 +34,13 @@ pub struct Checked {
     pub details: String,
 }
 
-/// How much is told of failing checks, and how.
+/// Level of detail and format of the report.
 #[derive(Clone, Copy)]
 pub struct View<'a> {
     /// 0: the names of the failing checks, and the rule of the first. 1: all rules, with figures and inputs. 2: what the page says of
     /// common mistakes as well.
     pub hints: u8,
-    /// Whether to use colours.
+    /// Print in colours.
     pub colour: bool,
     /// The repository, for its pages.
     pub folder: &'a Path,

@@ -13,7 +13,7 @@ use crate::properties::FUNCTIONS;
 use crate::sandbox::Sandbox;
 use crate::status::Status;
 
-/// Editors save in several strokes; this long without another one counts as saved.
+/// Editors save a file in several events. A file counts as saved after this time without another event.
 const QUIET: Duration = Duration::from_millis(200);
 
 /// Checks all functions, then those whose file in `src` changes, until the program is stopped.
@@ -47,7 +47,7 @@ pub fn watch(sandbox: &Sandbox, options: &Options) -> Result<(), CheckError> {
     }
 }
 
-/// Checks the function that has changed, and all of them where more has, or where others may have waited for this one.
+/// Checks the function that has changed; all functions if several files have changed, or if others may have waited for this function.
 fn checked_again(
     check: impl Fn(Option<&str>) -> Result<Vec<Report>, CheckError>,
     only: Option<&str>,
@@ -68,7 +68,7 @@ fn checked_again(
     Ok(())
 }
 
-/// The files that are saved next; `None` where there will be no more.
+/// The files that are saved next; `None` when watching ends.
 fn saved(changes: &Receiver<Vec<PathBuf>>) -> Option<BTreeSet<PathBuf>> {
     let mut paths = BTreeSet::from_iter(changes.recv().ok()?);
     while let Ok(more) = changes.recv_timeout(QUIET) {

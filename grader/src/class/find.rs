@@ -1,7 +1,7 @@
 //! Finds the submissions of a folder and whose they are.
 //!
-//! `students.csv` decides where it names a submission; see [`students`]. Elsewhere the student is the name up to the first `__` or `@`,
-//! or all of it, and what follows may be the time. Nothing else is guessed: two students taken for one would cost one of them the
+//! `students.csv` decides where it names a submission; see [`students`]. Otherwise the student is the name up to the first `__` or `@`,
+//! or all of it, and the rest may be the time. No other rule is used, because two students taken for one would cost one of them the
 //! grade. Of a student's submissions the newest counts: by its time where there is one, else by the newest modification, else by name;
 //! or the best, if the rubric says so.
 
@@ -25,7 +25,7 @@ const ENDINGS: [&str; 3] = [".tar.gz", ".tgz", ".zip"];
 
 /// Contents of a class folder.
 pub struct Class {
-    /// A group's submission stands here once for each of its students.
+    /// Submissions; that of a group is listed once for each of its students.
     pub submissions: Vec<Submission>,
     /// The students that `students.csv` names.
     pub people: Vec<Person>,
@@ -75,7 +75,7 @@ fn list(folder: &Path) -> Result<(Vec<Submission>, Vec<String>), ClassError> {
             remarks.push(format!("{name}: left aside, it is neither a folder nor a .zip, .tar.gz or .tgz"));
             continue;
         }
-        // Grading will tell what cannot be read; here it must not keep the others from being graded.
+        // Grading reports unreadable submissions. Here they must not prevent the grading of others.
         let modified = newest(&path, &mut MOST_LOOKED_AT.clone()).unwrap_or(SystemTime::UNIX_EPOCH);
         let (student, time) = student(&name);
         submissions.push(Submission { student, name, path, newer: None, time, modified });
@@ -84,8 +84,8 @@ fn list(folder: &Path) -> Result<(Vec<Submission>, Vec<String>), ClassError> {
     Ok((submissions, remarks))
 }
 
-/// A file's name as it may stand in tables and names of files: what is invisible or no Unicode is written out, and two names
-/// that differ stay two.
+/// A file's name for use in tables and names of files. Invisible characters and invalid Unicode are escaped, so that different names
+/// stay different.
 fn shown(name: &OsStr) -> String {
     let visible = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
     match name.to_str() {
@@ -109,7 +109,7 @@ fn student(name: &str) -> (String, Option<Time>) {
     (student.to_string(), Time::in_name(rest.trim_start_matches(['_', '@'])))
 }
 
-/// Takes off the endings, except where `anna.zip` and `anna` would then bear one name.
+/// Removes the endings, except where `anna.zip` and `anna` would then have the same name.
 fn unique_names(submissions: &mut [Submission]) {
     let mut counts: HashMap<String, usize> = HashMap::new();
     for submission in &*submissions {
@@ -124,15 +124,15 @@ fn unique_names(submissions: &mut [Submission]) {
     }
 }
 
-/// So many files of one submission are asked for their time.
+/// Largest number of files of a submission whose times are read.
 const MOST_LOOKED_AT: usize = 10_000;
 
-/// When something in `path` was last changed, among the first files that there is room for. Links are not followed.
+/// Time of the last change in `path`. At most `room` files are looked at; links are not followed.
 fn newest(path: &Path, room: &mut usize) -> io::Result<SystemTime> {
     let data = fs::symlink_metadata(path)?;
     let mut time = data.modified()?;
     if data.is_dir() {
-        // A folder's own time is that of unpacking; its files tell when the student worked.
+        // A folder's own time is that of unpacking; its files have the times of the student's work.
         let mut files = Vec::new();
         for entry in fs::read_dir(path)? {
             let Some(less) = room.checked_sub(1) else { break };
@@ -155,7 +155,7 @@ fn lookalikes(submissions: &[Submission]) -> Vec<String> {
             students.push(student);
         }
     }
-    // `submission_1`, `submission_2` … share a first word and are no relations: one of them must be that word alone.
+    // `submission_1`, `submission_2` … share a first word and are different students: one name must be that word alone.
     alike.retain(|word, students| students.len() > 1 && students.iter().any(|student| student.to_lowercase() == *word));
     let tell = |students: &mut Vec<&str>| {
         students.sort_unstable();
@@ -182,12 +182,12 @@ fn mark_older(submissions: &mut [Submission]) {
 }
 
 impl Submission {
-    /// When it was handed in: by `students.csv`, by its name, or by the newest of its files.
+    /// Time of submission: from `students.csv`, from its name, or from the newest of its files.
     pub fn submitted(&self) -> Option<Timestamp> {
         self.stated_time().or_else(|| Timestamp::try_from(self.modified).ok())
     }
 
-    /// When it was handed in by `students.csv` or by its name.
+    /// Time of submission from `students.csv` or from its name.
     pub fn stated_time(&self) -> Option<Timestamp> {
         self.time.as_ref().and_then(Time::moment)
     }

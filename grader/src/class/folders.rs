@@ -8,8 +8,8 @@ use super::{ClassError, at};
 /// Folders that hold results, in the folder of the results.
 pub const FOLDERS: [&str; 4] = ["grades", "failed", "submissions", "students"];
 
-/// Refuses results among the submissions, where the next run would take them for one, and submissions where results are
-/// written, which would overwrite them.
+/// Refuses a folder of results inside that of the submissions, because the next run would take it for a submission, and a folder of
+/// submissions inside that of the results, because results would overwrite it.
 pub fn apart(folder: &Path, out: &Path) -> Result<(), ClassError> {
     let no_class = |source| ClassError::NoClass { path: folder.to_owned(), source };
     let submissions = folder.canonicalize().map_err(no_class)?;

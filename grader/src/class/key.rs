@@ -70,7 +70,7 @@ fn toolchain() -> Result<String, ClassError> {
     Ok(String::from_utf8_lossy(&output.stdout).trim().to_string())
 }
 
-/// Adds bytes with their length, so that no two lists of texts look alike.
+/// Adds bytes with their length, so that different lists of texts have different hashes.
 fn add(hash: &mut Sha256, bytes: &[u8]) {
     hash.update((bytes.len() as u64).to_le_bytes());
     hash.update(bytes);
@@ -96,7 +96,7 @@ const DEPTH: usize = 3;
 const MOST_ENTRIES: usize = 10_000;
 
 /// Adds the files below `path` that a grader may look at, by name; of those that are larger than it reads, the size alone.
-/// Links count as the path that they hold: following one could lead anywhere.
+/// Of a link its path is hashed: links are not followed, because their targets may be outside the submission.
 fn add_path(hash: &mut Sha256, path: &Path, depth: usize, largest: u64) -> io::Result<()> {
     let metadata = fs::symlink_metadata(path)?;
     let kind = metadata.file_type();
@@ -112,7 +112,7 @@ fn add_path(hash: &mut Sha256, path: &Path, depth: usize, largest: u64) -> io::R
             add(hash, b"too many");
             return Ok(());
         }
-        // What cargo and git keep is large and never graded.
+        // Folders of cargo and git are large and never graded.
         names.retain(|name| name != "target" && name != ".git");
         names.sort();
         hash.update((names.len() as u64).to_le_bytes());
@@ -128,7 +128,7 @@ fn add_path(hash: &mut Sha256, path: &Path, depth: usize, largest: u64) -> io::R
             add_file(hash, path)?;
         }
     } else {
-        // A pipe or a device never ends, and is no answer.
+        // Reading a pipe or a device could never end, and it is no submission.
         add(hash, b"other");
     }
     Ok(())

@@ -113,7 +113,7 @@ fn outcome(state: IndexState, (name, student): (&str, &str), dir: &Path, store: 
     }
 }
 
-/// Copies a grade, and what is handed back to the student, which may have changed since an earlier merge.
+/// Copies a grade, and the student's reports, which may have changed since an earlier merge.
 fn copy_all(from: &Path, to: &Path, grade: &Path, student: &str) -> io::Result<()> {
     copy(&from.join(grade), &to.join(grade))?;
     let own = store::student_folder(student);
@@ -169,7 +169,7 @@ fn one_of(name: &str, before: Outcome, after: Outcome, remarks: &mut Vec<String>
             remarks.push(format!("{name}: {conflict}"));
             Outcome::NotGraded(conflict)
         }
-        // A conflict remains, also with a third grade.
+        // A conflict stays one with a third grade.
         (Outcome::NotGraded(reason), _) if reason.starts_with("conflict") => Outcome::NotGraded(reason),
         (graded @ Outcome::Graded(..), _) | (_, graded @ Outcome::Graded(..)) => graded,
         (Outcome::Waiting, other) | (other, _) => other,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A student of the roster. What gradebooks know them by is empty where `students.csv` does not tell.
+/// A student of the roster. Identifiers in gradebooks are empty if `students.csv` does not give them.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Person {
@@ -15,7 +15,7 @@ pub struct Person {
 }
 
 impl Person {
-    /// Fills in what another row tells.
+    /// Fills in the identifiers of another row.
     pub fn complete(&mut self, other: Self) {
         let Self { name, id, login, email, section, .. } = other;
         let own = [&mut self.name, &mut self.id, &mut self.login, &mut self.email, &mut self.section];

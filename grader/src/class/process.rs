@@ -1,4 +1,4 @@
-//! One grader's process with all that it starts, and the wish of the user to stop.
+//! A grader's process tree, and the signals by which a user stops a run.
 
 use std::fs::File;
 use std::io;
@@ -6,14 +6,14 @@ use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-/// A process that leads its own group; the group dies with this value.
+/// The leader of a process group. Dropping it kills the group.
 pub struct Process {
     child: Child,
     deadline: Instant,
     reaped: bool,
 }
 
-/// How a process stands.
+/// State of a process.
 pub enum State {
     Running,
     TimedOut,
@@ -33,7 +33,7 @@ impl Process {
         Ok(Self { child, deadline, reaped: false })
     }
 
-    /// Looks without waiting.
+    /// Returns the state without waiting.
     pub fn state(&mut self) -> io::Result<State> {
         if let Some(status) = self.child.try_wait()? {
             self.reaped = true;
@@ -45,8 +45,8 @@ impl Process {
 
 impl Drop for Process {
     fn drop(&mut self) {
-        // Also after a regular end: what the grader left behind must not slow down the others. A group that is gone
-        // already, and a child that cannot be waited for, are what is wanted here.
+        // Also after a regular end: processes that the grader left running must not slow down others. Errors mean that the group or
+        // the child has ended already.
         kill_group(self.child.id());
         if !self.reaped {
             let _ = self.child.kill();
@@ -66,8 +66,8 @@ fn kill_group(leader: u32) {
 #[cfg(not(target_os = "linux"))]
 fn kill_group(_leader: u32) {}
 
-/// Has the kernel kill this process when `parent` ends, which started it: killing a class leaves no grader behind that
-/// goes on computing and writing.
+/// Has the kernel kill this process when its parent process `parent` ends, so that no grader continues to run after the run of a class
+/// is killed.
 #[cfg(target_os = "linux")]
 pub fn end_with(parent: u32) -> io::Result<()> {
     nix::sys::prctl::set_pdeathsig(nix::sys::signal::Signal::SIGKILL)?;
@@ -78,13 +78,13 @@ pub fn end_with(parent: u32) -> io::Result<()> {
     Err(io::Error::other("the process that this one was to end with has ended already"))
 }
 
-/// Elsewhere a grader that outlives its class ends by itself; its folder is gone by then.
+/// On other systems a grader that outlives the run of its class ends with an error, because its folder has been removed.
 #[cfg(not(target_os = "linux"))]
 pub fn end_with(_parent: u32) -> io::Result<()> {
     Ok(())
 }
 
-/// Turns Ctrl-C and a polite kill into something that can be asked for, as long as it lives.
+/// Blocks SIGINT (Ctrl-C) and SIGTERM while it lives, and tells on request if one has arrived.
 #[cfg(target_os = "linux")]
 pub struct Interrupt {
     signals: nix::sys::signalfd::SignalFd,
@@ -93,7 +93,7 @@ pub struct Interrupt {
 
 #[cfg(target_os = "linux")]
 impl Interrupt {
-    /// Holds both signals back from this thread; a child starts without that.
+    /// Blocks both signals in this thread. Child processes start with the earlier signal mask.
     pub fn watch() -> io::Result<Self> {
         use nix::sys::signal::{SigSet, SigmaskHow, Signal};
         use nix::sys::signalfd::{SfdFlags, SignalFd};
@@ -105,7 +105,7 @@ impl Interrupt {
         Ok(Self { signals, before })
     }
 
-    /// Whether one has come since it was last asked.
+    /// Returns true if a signal has arrived since the last call.
     pub fn has_come(&mut self) -> io::Result<bool> {
         Ok(self.signals.read_signal()?.is_some())
     }
@@ -119,7 +119,7 @@ impl Drop for Interrupt {
     }
 }
 
-/// Elsewhere the signals end the program, which loses nothing that was finished.
+/// On other systems the signals end the program. Finished grades are kept.
 #[cfg(not(target_os = "linux"))]
 pub struct Interrupt;
 

@@ -1,4 +1,4 @@
-//! Changes of points since the run before: `points.json` keeps those of the last complete run.
+//! Changes of points since the previous run: `points.json` keeps those of the last complete run.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -32,7 +32,7 @@ pub struct Change {
 }
 
 impl Change {
-    /// Functions whose points are others than before: old and new points; `None` where one was not graded.
+    /// Functions whose points have changed: old and new points; `None` for a function that was not graded.
     pub fn functions(&self) -> Vec<(&str, Option<f64>, Option<f64>)> {
         let (before, after) = (&self.before.functions, &self.after.functions);
         let mut names: Vec<&String> = before.keys().chain(after.keys()).collect();
@@ -58,7 +58,7 @@ pub fn table(entries: &[Entry]) -> Table {
 
 /// The table of the last complete run; empty before the first.
 pub fn read(out: &Path) -> Table {
-    // A file that cannot be read tells of no change, which is better than no grades.
+    // If the file cannot be read, no changes are reported, and the grades are still written.
     fs::read(out.join(POINTS)).ok().and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default()
 }
 
@@ -67,7 +67,7 @@ pub fn write(out: &Path, table: &Table) -> io::Result<()> {
     super::store::replace(&out.join(POINTS), &serde_json::to_vec_pretty(table)?)
 }
 
-/// The students whose points changed; such as are new have no change.
+/// Returns the students whose points have changed. New students are not among them.
 pub fn changes(before: &Table, after: &Table) -> Vec<Change> {
     let pairs = after.iter().filter_map(|(student, after)| Some((student, before.get(student)?, after)));
     let changed = pairs.filter(|(_, before, after)| {

@@ -1,4 +1,4 @@
-//! The students of a class: who has handed in nothing, who is unknown, and which of a student's submissions counts.
+//! The students of a class: those without a submission, those unknown, and the submission of a student that counts.
 
 use super::find::Class;
 use super::{ClassError, ClassOptions, Entry, Outcome};
@@ -14,7 +14,7 @@ pub fn without_a_submission(class: &Class, score: Option<f64>) -> impl Iterator<
     })
 }
 
-/// Of a student's graded submissions the best counts, of equal ones the first in the table; the others name it.
+/// Lets the best of a student's graded submissions count, the first of equal ones. The others are marked as superseded by it.
 pub fn keep_the_best(entries: &mut [Entry], student: &str) {
     let score = |entry: &Entry| match &entry.outcome {
         Outcome::Graded(grade, _) if entry.student == student => Some(grade.score),
@@ -33,7 +33,7 @@ pub fn keep_the_best(entries: &mut [Entry], student: &str) {
     }
 }
 
-/// Refuses to grade again what does not exist, and remarks on adjustments and extensions of students that no one is.
+/// Refuses to regrade unknown students, and remarks on adjustments and extensions for students that are not in the class.
 pub fn strangers(options: &ClassOptions, class: &Class) -> Result<Vec<String>, ClassError> {
     let is_there = |name: &&String| {
         !class.submissions.iter().any(|submission| submission.student == **name || submission.name == **name)

@@ -16,9 +16,9 @@ use super::{ClassError, ClassOptions, Entry, Identity, Outcome, Summary, at, reg
 use crate::grade::Grade;
 use crate::rubric::{Counts, NoSubmission};
 
-/// How often processes are looked at.
+/// Interval at which processes are polled.
 const TICK: Duration = Duration::from_millis(20);
-/// Tables of a large class are not written more often than that.
+/// Shortest interval at which the tables of a large class are written.
 const REFRESH: Duration = Duration::from_secs(3);
 
 /// State of the grading of a class.
@@ -41,7 +41,7 @@ struct Job {
     process: Process,
 }
 
-/// Grades until nothing waits or the user stops it.
+/// Grades until no submission waits or the user stops the run.
 pub fn grade(options: &ClassOptions, class: Class, identity: Identity, store: &Store) -> Result<Summary, ClassError> {
     let mut interrupt = Interrupt::watch().map_err(at(&options.out))?;
     let before = regrade::read(&options.out);
@@ -149,7 +149,7 @@ impl<'a> Schedule<'a> {
         Outcome::Waiting
     }
 
-    /// Whether a submission is to be graded again.
+    /// Returns true if a submission is to be graded again.
     fn is_named(&self, submission: &Submission) -> bool {
         let only = &self.options.only;
         only.is_empty() || only.contains(&submission.student) || only.contains(&submission.name)
@@ -207,7 +207,7 @@ impl<'a> Schedule<'a> {
                 Err(error) => Err(format!("the grader could not be watched: {error}")),
             };
             let Job { index, key, partial, process } = job;
-            drop(process); // what it left behind must not write on
+            drop(process); // processes that it left running must not write any more
             let result = ended.and_then(|()| self.accept(index, &key, &partial));
             let result = result.map_err(|reason| self.reject(index, &partial, reason));
             self.settle(index, result);

@@ -1,6 +1,6 @@
 //! The output folder: complete grades by key, an index, and logs of failures.
 //!
-//! A folder of grades appears under its key by one renaming, when it is complete. The index is written beside its place and renamed.
+//! A complete folder of grades is renamed to its key. The index is written to a temporary file and renamed.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -24,7 +24,7 @@ pub struct Store {
     _lock: File,
 }
 
-/// `class.json`: the contents of a class, for `merge`.
+/// Contents of `class.json`, which `merge` reads.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Index {
@@ -52,13 +52,13 @@ pub struct IndexRow {
     pub state: IndexState,
 }
 
-/// How a submission of `class.json` stands.
+/// State of a submission in `class.json`.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum IndexState {
     /// Folder of the grade, relative to the index.
     Graded(PathBuf),
-    /// Why not.
+    /// No grade; the reason.
     NotGraded(String),
     Waiting,
     /// The newer or better one that counts.
@@ -68,7 +68,7 @@ pub enum IndexState {
 }
 
 impl Store {
-    /// Makes the folder where needed, locks it and clears away what a killed run left unfinished.
+    /// Makes the folder if needed, locks it, and removes the unfinished files of a killed run.
     pub fn open(out: &Path) -> Result<Self, ClassError> {
         for folder in FOLDERS {
             let folder = out.join(folder);
@@ -97,19 +97,19 @@ impl Store {
         Ok(())
     }
 
-    /// A new empty folder for a grader to write into. It bears this process's number: one that outlives a killed run
-    /// cannot write into it.
+    /// A new empty folder for a grader to write into. Its name contains the number of this process, so that a grader of a killed
+    /// run cannot write into it.
     pub fn begin(&self, key: &str) -> io::Result<PathBuf> {
         let path = self.out.join("grades").join(format!("{PARTIAL}{}-{key}", std::process::id()));
         fs::create_dir(&path)?;
         Ok(path)
     }
 
-    /// Makes a complete folder count, and forgets an earlier failure.
+    /// Moves a complete folder to its place, and removes the log of an earlier failure.
     pub fn finish(&self, partial: &Path, name: &str, key: &str) -> io::Result<()> {
         let place = self.out.join(folder(key));
         if place.exists() {
-            // The folder is there and could not be read, so the submission was graded again.
+            // The folder existed but could not be read, so the submission was graded again.
             fs::remove_dir_all(&place)?;
         }
         fs::rename(partial, place)?;
@@ -117,7 +117,7 @@ impl Store {
         remove_if_there(&log(&self.out, name))
     }
 
-    /// Keeps the log of a grader that failed, and clears its folder away.
+    /// Keeps the log of a grader that failed, and removes its folder.
     pub fn fail(&self, partial: &Path, name: &str) -> io::Result<()> {
         fs::rename(partial.join("log.txt"), log(&self.out, name))?;
         fs::remove_dir_all(partial)
@@ -134,7 +134,7 @@ impl Store {
         Some((read_grade(&folder).ok()?, folder.file_name()?.to_string_lossy().into_owned()))
     }
 
-    /// Leads from a submission's name to its reports.
+    /// Links a submission's name to its reports.
     pub fn point(&self, name: &str, key: &str) -> io::Result<()> {
         let target = Path::new("..").join(folder(key));
         let place = self.out.join("submissions").join(name);
@@ -164,7 +164,7 @@ pub fn folder(key: &str) -> PathBuf {
     Path::new("grades").join(key)
 }
 
-/// Path of what is handed back to a student, in the output folder. The name is safe for a folder, and two students have two.
+/// Path of a student's reports in the output folder. Its name is safe for a folder and unique to the student.
 pub fn student_folder(student: &str) -> PathBuf {
     let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.' | '@' | '+' | ' ');
     let mut name: String = student.chars().map(|c| if is_plain(c) { c } else { '_' }).take(80).collect();
@@ -215,7 +215,7 @@ fn remove_if_there(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Puts a file in its place as a whole: a reader sees the old one or the new one.
+/// Replaces a file atomically: a reader sees either the old file or the new one.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let mut file = tempfile::NamedTempFile::new_in(folder)?;

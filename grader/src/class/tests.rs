@@ -1,4 +1,4 @@
-//! Classes graded by a grader that obeys its submissions: each holds a `do.sh` that tells it what to do.
+//! Classes graded by a stand-in for the grader, which runs the script `do.sh` of each submission.
 
 mod fuzz;
 mod limits;
@@ -20,7 +20,7 @@ mod shards;
 
 const OURS: &str = include_str!("../../rubric.toml");
 
-/// Notes the call and obeys; `base` is the folder of the test, `out` where the grade belongs.
+/// Records the call and runs the script. `base` is the folder of the test, `out` that of the grade.
 const GRADER: &str = r#"#!/bin/sh
 base=$(dirname "$0")
 out=$4
@@ -43,7 +43,7 @@ impl Room {
         }
         fs::write(room.path("grade.json"), grade(7)).unwrap();
         fs::write(room.path("grader.txt"), GRADER).unwrap();
-        // Another process writes it: while this one had it open, no thread of it could start any program from it.
+        // Another process writes it: while this process had the file open for writing, its threads could not execute it.
         let script = r#"cp "$1/grader.txt" "$1/grader" && chmod +x "$1/grader""#;
         assert!(Command::new("sh").args(["-c", script, "sh"]).arg(room.0.path()).status().unwrap().success());
         room
@@ -62,7 +62,7 @@ impl Room {
         run(&options(self.0.path())).unwrap()
     }
 
-    /// Who was graded, in alphabetical order, once for each time.
+    /// Names of the graded students in alphabetical order, one for each time.
     fn calls(&self) -> Vec<String> {
         let text = fs::read_to_string(self.path("calls")).unwrap_or_default();
         let mut calls: Vec<String> = text.lines().map(String::from).collect();
@@ -79,7 +79,7 @@ impl Room {
     }
 
     fn start(&self) -> Child {
-        // The harness has further threads, which a signal would end: here it is left to the one that watches for it.
+        // The test harness has further threads, which a signal would end, so only the watching thread receives it.
         Command::new("env")
             .arg("--block-signal=INT")
             .arg(std::env::current_exe().unwrap())

@@ -12,11 +12,11 @@ use super::{Plan, read, sources};
 use crate::implementation::budget::Budget;
 use crate::sandbox::{Confined, Limits, Profile, Sandbox};
 
-/// By the clock on the wall, rustc may take so many times its limit: a busy machine is no fault of a submission.
+/// Limit of rustc's wall-clock time, in limits of its processor time. The factor allows for a busy machine.
 const PATIENCE: u32 = 6;
 
-/// Part of its limit after which a compiler that was killed is one that did not finish: the kernel counts processor time in two ways,
-/// which differ on a busy machine.
+/// Part of the limit after which a killed compiler counts as timed out. It is less than 1 because the kernel counts processor time in
+/// two ways, which differ on a busy machine.
 const ALMOST: f64 = 0.7;
 
 /// File in which rustc lists the files that it has read.
@@ -28,9 +28,9 @@ pub enum Attempt {
     Built(PathBuf),
     /// Messages for the authors of the functions with errors; empty if the compiler names no file.
     Failed(BTreeMap<&'static str, String>),
-    /// The file reads others while it is compiled; what it reads, in words.
+    /// The file reads others while it is compiled; the description of these.
     Refused(String),
-    /// The compiler itself broke down; its end in words.
+    /// The compiler itself crashed; the description of its end.
     GaveUp(String),
     /// The submission has no time left, so the compiler was not started.
     OutOfTime,
@@ -93,7 +93,7 @@ pub fn attempt(
     let used = Duration::try_from_secs_f64(ended.seconds).unwrap_or_default();
     budget.spend_apart(used.max(begin.elapsed() / PATIENCE));
     Ok(if ended.code == Some(0) && program.exists() {
-        // Without its list, nobody knows what the compiler has read.
+        // Without this list, the files that the compiler has read are not known.
         match fs::read_to_string(&list).map_or(Some("unknown files".to_owned()), |list| read::first_stray(&list)) {
             None => Attempt::Built(program),
             Some(what) => Attempt::Refused(what),

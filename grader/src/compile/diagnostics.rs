@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::paths::without_paths;
 use super::sources::signature;
 
-/// How much of the compiler's text is kept for one function, bytes.
+/// Limit of the compiler's text that is kept for one function, bytes.
 const MOST_TEXT: usize = 4000;
 
 #[derive(Deserialize)]
@@ -33,7 +33,7 @@ struct Expansion {
 /// Messages for the functions with an error in their file or in the line that calls them, by function.
 pub fn faults(messages: &str) -> BTreeMap<&'static str, String> {
     let mut found: BTreeMap<&'static str, String> = BTreeMap::new();
-    // Lines that are no message come from a linker or a panicking compiler; they blame no file.
+    // Lines that are not messages come from a linker or a panicking compiler, and concern no file.
     for message in messages.lines().filter_map(|line| serde_json::from_str::<Message>(line).ok()) {
         if message.level != "error" {
             continue;

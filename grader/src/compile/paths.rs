@@ -1,4 +1,4 @@
-//! The compiler's text without paths outside of `src`, which are those of the instructor's machine.
+//! Removes paths outside of `src` from the compiler's text, because they are paths of the instructor's machine.
 
 /// Lines of one message that are kept.
 const MOST_LINES: usize = 60;
@@ -15,7 +15,7 @@ pub fn without_paths(text: &str) -> String {
     lines.join("\n")
 }
 
-/// A line, of which the compiler writes those that point to a place as `--> src/x.rs:1:2`.
+/// Cleans a line. The compiler writes the location of a message as `--> src/x.rs:1:2`.
 fn line(line: &str) -> String {
     let place = [" --> ", " ::: "].into_iter().find_map(|arrow| Some((line.find(arrow)? + arrow.len(), arrow)));
     match place {

@@ -11,7 +11,7 @@ use thiserror::Error;
 use super::tools::run;
 use crate::sandbox::{Sandbox, system_folders};
 
-/// Why the libraries could not be built: trouble of the machine or of the repository, never of a submission.
+/// Errors in the build of the libraries. They are errors of the machine or of the repository, never of a submission.
 #[derive(Debug, Error)]
 pub enum PrebuildError {
     /// A file cannot be read or written, a program cannot be started.
@@ -19,10 +19,10 @@ pub enum PrebuildError {
     Io {
         /// Which file or program.
         what: String,
-        /// Why.
+        /// The reason.
         error: io::Error,
     },
-    /// A compiler says no.
+    /// A compiler reports errors.
     #[error("{what} failed while the grader's libraries were prepared:\n{output}")]
     Failed {
         /// Which step.
@@ -43,7 +43,7 @@ pub struct Prebuilt {
     pub sysroot: PathBuf,
     /// Output of `rustc --version`.
     pub toolchain: String,
-    /// How the grader's own compilers are run.
+    /// Sandbox for the grader's own compilers.
     pub tools: Sandbox,
 }
 
@@ -57,7 +57,7 @@ impl Prebuilt {
     /// # Errors
     /// The reason if a compiler or a file is missing or a library does not compile.
     pub fn new(root: &Path, tools: Sandbox) -> Result<Self, PrebuildError> {
-        // Linkers on Windows do not read what that system calls a canonical path.
+        // Linkers on Windows do not accept canonical paths of that system.
         let whole = if cfg!(windows) { path::absolute(root) } else { fs::canonicalize(root) };
         let root = &whole.map_err(io_error(root))?;
         let sysroot = PathBuf::from(output(Command::new("rustc").current_dir(root).args(["--print", "sysroot"]))?);
@@ -82,9 +82,9 @@ impl Prebuilt {
             "-Ccodegen-units=1".to_owned(),
             // No program is optimised again after linking.
             "-Cembed-bitcode=no".to_owned(),
-            // What std brings along for debuggers takes the linker longer than the rest of its work.
+            // Linking std's debug information takes longer than the rest of the linker's work.
             "-Cstrip=debuginfo".to_owned(),
-            // The linker that comes with Rust wants /proc. Elsewhere rustc takes the system's, and knows no such option.
+            // The linker of the Rust toolchain needs /proc. On other systems rustc uses the system's linker, and has no such option.
             #[cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
             "-Clinker-features=-lld".to_owned(),
             format!("-Ldependency={}", deps.display()),
@@ -117,7 +117,7 @@ impl Prebuilt {
             cargo.env("CARGO_TARGET_DIR", &target).env_remove("RUSTFLAGS").env("RUSTC", &self.rustc);
             cargo
         };
-        // What the grader itself was built with is on this machine already, so the network is the second choice.
+        // The crates that the grader itself was built with are on this machine already, so the network is tried second.
         let build = |cargo: &mut Command| succeeded(cargo, run(cargo, &self.tools));
         build(cargo().arg("--offline")).or_else(|_| build(&mut cargo()))?;
         self.collect(&target.join("release/deps"), &deps)?;
@@ -157,7 +157,7 @@ impl Prebuilt {
     }
 }
 
-/// Has `build` fill a folder unless that is done. Shards of a class start together and share the folder: one of them works, the
+/// Has `build` fill a folder unless it is complete. Shards of a class start together and share the folder: one of them builds, and the
 /// others wait.
 ///
 /// # Errors
@@ -170,7 +170,7 @@ pub fn once<E: From<PrebuildError>>(folder: &Path, build: impl FnOnce() -> Resul
     fs::create_dir_all(folder).map_err(io_error(folder))?;
     let path = folder.join(".lock");
     let lock = fs::File::create(&path).map_err(io_error(&path))?;
-    // Some network file systems know no locks; there it must not be started twice at the same time, and works all the same.
+    // Some network file systems have no locks. There the build works, but must not be started twice at the same time.
     let _ = lock.lock();
     if !complete.exists() {
         build()?;

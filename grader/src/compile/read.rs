@@ -11,7 +11,7 @@ pub fn first_stray(list: &str) -> Option<String> {
         return Some(format!("the environment variable {}", shown(name)));
     }
     let (_, read) = list.lines().find_map(|line| line.split_once(": "))?;
-    // A blank in a path is written `\ `, and then the path is none of ours.
+    // A space in a path is written `\ `; paths of the program have no spaces.
     read.split(' ').filter(|path| !path.is_empty()).find(|path| !is_own(path)).map(|_| "another file".to_owned())
 }
 

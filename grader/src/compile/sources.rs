@@ -1,4 +1,4 @@
-//! The source text around a submission's files: the crate's root, the calls, and bodies for what is not there.
+//! The source text around a submission's files: the crate's root, the calls, and bodies for missing functions.
 
 use std::path::Path;
 use std::{fs, io};
@@ -83,7 +83,7 @@ pub fn write(plan: &Plan, folder: &Path) -> io::Result<()> {
             let absent = || format!("{IMPORTS}\n{} {{\n    panic!(\"not yet implemented\")\n}}\n", signature(function));
             fs::write(folder.join(format!("{name}.rs")), plan.own.get(name).cloned().unwrap_or_else(absent))?;
         } else if let Some(text) = plan.helpers.get(name) {
-            // The function is a value and the module is not, so the two can stand side by side under one name.
+            // Functions and modules have different namespaces, so both can have the same name.
             root.push_str(&format!("pub mod {name};\npub use course_below::{name}::{name};\n"));
             fs::write(folder.join(format!("{name}.rs")), text)?;
         } else {

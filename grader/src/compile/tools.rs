@@ -1,4 +1,4 @@
-//! The grader's own compilers: cargo and rustc, for what no submission has written.
+//! The grader's own compilers: cargo and rustc, for sources that are not a submission's.
 
 use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
@@ -42,7 +42,7 @@ pub fn run(command: &Command, tools: &Sandbox) -> io::Result<(Option<i32>, Strin
             output: 1 << 20,
         },
     };
-    // A machine on which the launcher cannot work grades without a sandbox, if at all, and there without this as well.
+    // If the launcher does not work on a machine, the tools run without it.
     let ended = tools.run(&confined).or_else(|_| Sandbox::none().run(&confined))?;
     Ok((ended.code, String::from_utf8_lossy(&ended.stderr).into_owned()))
 }

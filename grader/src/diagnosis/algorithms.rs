@@ -1,4 +1,4 @@
-//! The functions that are algorithms rather than formulas, written with switches for what students get wrong.
+//! The functions that are algorithms rather than formulas, written with switches for the mistakes of students.
 
 mod assembly;
 mod constraints;

@@ -1,4 +1,4 @@
-//! Mistakes that change the right answer as a whole: its sign, its size, the order of its entries.
+//! Mistakes that change the whole answer: its sign, its size, the order of its entries.
 
 use super::{Candidate, Case};
 use crate::reference::trial::{Input, Observed, Trial};
@@ -22,9 +22,9 @@ pub fn candidates<'a>(cases: &[&Case]) -> Vec<Candidate<'a>> {
 }
 
 fn scaled(trial: &Trial, answer: &Observed, factor: f64) -> Option<Observed> {
-    // Vertex numbers have no size, and a matrix that selects has none either.
+    // Vertex numbers and selection matrices have no scale.
     let countable = matches!(trial.input, Input::Pick(_));
-    // 0 · ∞ is NaN, but a function that returns 0 returns 0.
+    // 0 · ∞ is NaN, but this mistake is a function that returns 0.
     let times = |x: &f64| if factor == 0.0 { 0.0 } else { x * factor };
     (!countable).then(|| Observed { numbers: answer.numbers.iter().map(times).collect(), ..answer.clone() })
 }

@@ -179,12 +179,12 @@ fn factor(cases: &[&Case], contains: impl Fn(&Place) -> bool) -> Option<f64> {
 pub fn exchanged<'a>(cases: &[&Case]) -> Option<Candidate<'a>> {
     let first = cases.first()?;
     let shape = first.expected.shape;
-    // Where all entries are multiples of one number, an exchange says nothing.
+    // If all entries are multiples of one number, an exchange cannot be recognised.
     if matches!(first.trial.input, Input::ElementMass { .. } | Input::Step(_) | Input::Minimum { .. }) {
         return None;
     }
     let fits = |case: &Case| case.expected.shape == shape && case.observed.shape == shape;
-    // A permutation is told by many numbers only, and only where all trials have the same shape.
+    // A permutation can be recognised only from many numbers, and only if all trials have the same shape.
     if shape == [1, 1] || !cases.iter().all(|case| fits(case)) {
         return None;
     }

@@ -28,7 +28,7 @@ pub const OTHER: &str = "another term";
 /// Small beside the ones on the diagonal, and no smaller than their round-off.
 const SMALL: f64 = 1e-14;
 
-/// Cases that decide whether a formula is worth a closer look.
+/// Number of cases in a first, quick test of a formula.
 const FIRST: usize = 4;
 
 /// The mistake that explains the answers by these terms in the entries that are `among` them; `None` if none does or if too many of its coefficients are wrong.
@@ -58,7 +58,7 @@ fn fitted(formula: &Formula, cases: &[&Case], among: &[bool]) -> Option<Vec<f64>
         for k in (0..case.observed.numbers.len()).filter(|&k| among[k]) {
             let size: f64 = terms.iter().map(|term| term[k].abs()).sum();
             let observed = case.observed.numbers[k];
-            // What is no number must come from the terms as well, which the comparison of answers shows.
+            // Entries that are not finite are left out of the fit; the comparison of answers tests them.
             if !observed.is_finite() || !size.is_finite() {
                 continue;
             }
@@ -103,7 +103,7 @@ fn told(formula: &Formula, coefficients: &[f64]) -> Option<(String, String)> {
             format!("{sentence} Besides, every entry is {factor} times as large as it should be."),
         ));
     }
-    // Where no term is right, the terms explain nothing.
+    // If no term is right, the fit is no explanation.
     let explains = wrong.len() <= 2 && (own.is_none() || wrong.len() < 2) && (own.is_some() || !wrong.is_empty());
     let all: Vec<_> = own.into_iter().chain(wrong).collect();
     let (names, sentences): (Vec<_>, Vec<_>) = all.into_iter().unzip();

@@ -1,4 +1,4 @@
-//! Mistakes that take one input for another: the right formula, fed with the wrong thing.
+//! Mistakes that take one input for another: the right formula with a wrong argument.
 
 mod parts;
 
@@ -12,7 +12,7 @@ use parts::{flattened, of_constants, off_by_one, one_less, still};
 
 type Change = fn(&Input) -> Option<Input>;
 
-/// Name, sentence and what the mistake makes of the input.
+/// Name, sentence and the changed input of a mistake.
 const CHANGES: &[(&str, &str, Change)] = &[
     (
         "C and D swapped",

@@ -1,4 +1,4 @@
-//! Mistakes that are told by the kind of trial they show in, and by how much.
+//! Mistakes that are recognised by the kind of trials that they affect, and by the size of the error.
 
 use std::cell::RefCell;
 
@@ -65,7 +65,7 @@ const NEARLY_RIGHT: f64 = 2e-3;
 
 /// The mistake of a function that is nearly right in every trial.
 pub fn inexact(cases: &[&Case]) -> Option<Diagnosis> {
-    // Where a method iterates, the scales allow for more than small errors.
+    // The scales of iterative methods allow for more than small errors.
     if cases.iter().any(|case| matches!(case.trial.input, Input::Step(_) | Input::Minimum { .. })) {
         return None;
     }

@@ -1,5 +1,5 @@
-//! Says where a function is right and where it is wrong: for which inputs, in which entries, up to which call. No input and no
-//! expected value is told.
+//! Locates an error: the inputs, entries and calls for which a function is right or wrong. The sentences contain no inputs and no
+//! expected values.
 
 mod calls;
 mod probes;
@@ -50,7 +50,7 @@ pub fn locate(cases: &[Case], subject: &dyn Implementation) -> Option<String> {
     (!all.is_empty()).then(|| all.join(" "))
 }
 
-/// Whether trials that were wrong are right after this change of their input; false if none can be changed.
+/// Returns true if trials that were wrong are right after this change of their input; false if no trial can be changed.
 fn is_right(trials: &[&Trial], change: probes::Change, subject: &dyn Implementation) -> bool {
     let changed: Vec<_> = trials.iter().filter_map(|trial| changed(trial, change)).collect();
     let is_right = |trial: &Trial| {
@@ -60,7 +60,7 @@ fn is_right(trials: &[&Trial], change: probes::Change, subject: &dyn Implementat
     !changed.is_empty() && changed.iter().all(is_right)
 }
 
-/// Whether a right answer shows that more than nothing is right.
+/// Returns true if the expected answer is not trivial, so that a right answer is evidence.
 fn says_something(expected: &Observed) -> bool {
     let largest = expected.numbers.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     largest > 1e-9
@@ -93,7 +93,7 @@ fn entries(wrong: &[&Case]) -> Option<String> {
             for (k, place) in places(case.expected.shape).enumerate() {
                 let off = (case.observed.numbers[k] - case.expected.numbers[k]).abs() / case.trial.scale(k);
                 let is_right = off <= TOLERANCE || case.observed.numbers[k] == case.expected.numbers[k];
-                // A zero that is right says little.
+                // A right zero is weak evidence.
                 let says_something = !is_right || case.expected.numbers[k] != 0.0;
                 let side = &mut counts[usize::from(contains(&place))];
                 side[0] += usize::from(!is_right);

@@ -1,4 +1,4 @@
-//! The terms of the formulas, and of formulas that are taken for them.
+//! The terms of the formulas, and of wrong formulas in their place.
 
 mod densities;
 mod hessians;

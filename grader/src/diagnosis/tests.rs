@@ -1,4 +1,4 @@
-//! Known mistakes are named, right answers are not, and what no mistake explains stays unexplained.
+//! Known mistakes are named. Right answers, and answers that no mistake explains, get no name.
 
 mod mistakes;
 

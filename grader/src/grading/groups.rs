@@ -1,5 +1,5 @@
-//! Divides the functions of a level among programs. A function that calls another one of its own level must not lose marks for the
-//! mistakes in it, so it is judged in a second program, where the reference answers that call.
+//! Divides the functions of a level among programs. A function that calls another one of its level must not lose marks for the
+//! mistakes in that one. It is judged in a second program, in which the reference answers that call.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,8 +18,8 @@ pub struct Group {
     pub reference: Names,
 }
 
-/// Parts the `judged` functions of a level into as few programs as a look from left to right finds: one for all, where none
-/// calls another. `below` are those of the levels below; `own` and `reference` tell who calls whom.
+/// Divides the `judged` functions of a level among a small number of programs, by a greedy search: one program if no function calls
+/// another. `below` are the functions of lower levels; `own` and `reference` give the calls of each function.
 pub fn groups(judged: &[&'static str], below: &Names, own: &Calls, reference: &Calls) -> Vec<Group> {
     let mut wanted: Vec<_> = judged.iter().map(|name| (*name, needs(name, below, own, reference))).collect();
     // First the functions that call no other: they may all stay together.
@@ -52,7 +52,7 @@ fn needs(name: &str, below: &Names, own: &Calls, reference: &Calls) -> Names {
     with_theirs.flatten().collect()
 }
 
-/// A function and all that it leads to.
+/// A function, and all functions that it calls directly or indirectly.
 pub fn closure(name: &'static str, calls: &Calls) -> Names {
     let (mut found, mut next) = (Names::new(), vec![name]);
     while let Some(name) = next.pop() {

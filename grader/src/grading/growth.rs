@@ -1,5 +1,5 @@
-//! How the time of an assembly, of skinning and of picking grows with the mesh. One pass over the elements grows as n¹; a search through all of them for each, or a
-//! full matrix on the way, as n². It is told, and costs points only where the rubric says so.
+//! Growth of the time of an assembly, of skinning and of picking with the mesh. A loop over the elements grows as n¹; a search
+//! through all elements for each of them, or a full matrix, as n². Reports show the growth; the rubric decides if it costs points.
 
 use grader::implementation::sandboxed::Sandboxed;
 use grader::implementation::{Answer, Trouble};
@@ -9,7 +9,7 @@ use super::Grading;
 use super::load::load_of;
 use crate::grade::Growth;
 
-/// The functions whose reference grows as n¹, and how often each is called in a row, so that the way to the program does not count.
+/// The functions whose reference grows as n¹, each with its number of calls in a row, which makes the time of communication negligible.
 const FUNCTIONS: [(&str, u64); 6] = [
     ("mass_matrix_mesh", 1),
     ("assemble_forces", 5),
@@ -19,7 +19,7 @@ const FUNCTIONS: [(&str, u64); 6] = [
     ("pick_nearest_vertices", 5),
 ];
 
-/// More calls in a row than this are not made.
+/// Largest number of calls in a row.
 const MOST_CALLS: f64 = 50_000.0;
 
 /// Cells along a side of the cubes that are measured: 384, 3 072, 10 368 and 24 576 elements.
@@ -34,11 +34,10 @@ const ENOUGH: f64 = 0.02;
 /// Processor time of a series of calls that outweighs the start of a process, s.
 const WORK: f64 = 0.05;
 
-/// Fewer elements than this say nothing of large meshes.
+/// Smallest number of elements from which the growth for large meshes can be judged.
 const LARGE: usize = 3000;
 
-/// Above this exponent over all sizes the last two sizes are looked at by themselves: in a small mesh the work for each element hides
-/// the rest.
+/// Exponent over all sizes above which the last two sizes are measured alone, because in small meshes the work per element dominates.
 const STEEP: f64 = 1.3;
 
 /// Time of a call on a mesh of so many elements.
@@ -55,8 +54,8 @@ impl Grading {
         let (mut found, elements) = exponent(&by_the_clock)?;
         let mut reference = None;
         if found > Growth::CLEAR {
-            // Other programs may have kept the machine busy, so processor time decides, of the reference as well. A reference that does
-            // not answer makes nothing clear, and is no failure of the grading.
+            // Other programs may have kept the machine busy, so processor time decides, for the reference too. If the reference does not
+            // answer, the growth is left out, and grading continues.
             let again = exponent(&precise(name, subject)).map(|(exponent, _)| exponent);
             found = again.map_or(found, |again| again.min(found));
             if again.is_some() && found > Growth::CLEAR {
@@ -77,7 +76,7 @@ fn precise(name: &str, subject: &Sandboxed) -> Vec<Measured> {
         // The first call waits for the start of a process.
         let once = subject.seconds(function, body, 1)?.min(subject.seconds(function, body, 1)?);
         let mut times = (WORK / once).clamp(1.0, MOST_CALLS).ceil();
-        // A busy machine makes one call look longer than it is.
+        // On a busy machine a single call can appear longer than it is.
         for _ in 0..5 {
             let work = subject.processor_seconds(function, body, times as u64)? - start;
             if work > WORK / 2.0 {

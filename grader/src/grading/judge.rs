@@ -1,4 +1,4 @@
-//! One function: its comparison with the reference, its properties, its time, and what explains a failure.
+//! Judges one function: comparison with the reference, properties, time, and the explanation of a failure.
 
 use std::panic::{self, AssertUnwindSafe};
 
@@ -21,13 +21,13 @@ use crate::reference::judge::{Reason, judge};
 use crate::rubric::Function;
 use crate::variants;
 
-/// Series of calls, the fastest of which counts: so many at least,
+/// Smallest number of series of calls, of which the fastest counts.
 const LEAST_TURNS: usize = 3;
 
-/// so many at most,
+/// Largest number of series.
 const MOST_TURNS: usize = 10;
 
-/// and between them as many as take so long without being disturbed, s.
+/// Time of the series between these limits, without disturbances, s.
 const ENOUGH: f64 = 0.03;
 
 impl Grading {
@@ -43,7 +43,7 @@ impl Grading {
         let properties = FUNCTIONS.iter().find(|(found, _)| *found == name).map_or(&[][..], |(_, checks)| checks);
         for check in properties.iter().chain(own_checks::of(name, &self.rubric)) {
             subject.next_check();
-            // A check may stumble over an answer that makes no sense; that is the answer's fault.
+            // A check may panic on a malformed answer.
             let outcome = panic::catch_unwind(AssertUnwindSafe(|| with_tolerance(tolerance, || (check.run)(&course))));
             let stumbled = || Err(Mistake::Trouble(Trouble::Malformed));
             grade.checks.push(check_grade(check.name, outcome.unwrap_or_else(|_| stumbled())));
@@ -115,7 +115,7 @@ impl Grading {
         let own = || subject.seconds(function, &body, times).ok();
         let reference = || self.reference_seconds(function, &body, times);
         let mut best = (own(), reference()?);
-        // Turn by turn: what else the machine does is to delay both alike.
+        // Alternately, so that other load on the machine delays both alike.
         for turn in 1..MOST_TURNS {
             let spent = turn as f64 * best.1.max(best.0.unwrap_or(0.0));
             if turn >= LEAST_TURNS && spent > ENOUGH {
@@ -171,7 +171,7 @@ fn status_of(trouble: &Trouble) -> Status {
     match trouble {
         Trouble::Missing | Trouble::Panicked { .. } | Trouble::Crashed(_) => Status::Crashed,
         Trouble::TimedOut(_) => Status::TimedOut,
-        // The trouble that came before giving up is no milder, so it decides how the function fared.
+        // The first trouble, before giving up, decides the status of the function.
         Trouble::Malformed | Trouble::GivenUp => Status::Failed,
     }
 }

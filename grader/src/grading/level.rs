@@ -1,5 +1,5 @@
-//! One level: its functions in as few programs as possible, and once more, each alone, those that do not compile for want of
-//! something in the student's other files.
+//! Grades one level: its functions in as few programs as possible. Functions that do not compile because they need an item of the
+//! student's other files are compiled again, each alone.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -42,7 +42,7 @@ impl Grading {
                 }
                 continue;
             }
-            // Not one folder: the student's program may read its own, and no reference lies there.
+            // Two folders: the student's program may read its own folder, which must not contain the reference.
             let (folder, beside) = (self.workspace.folder()?, self.workspace.folder()?);
             let library = if group.reference == below {
                 self.programs.below(level)
@@ -121,7 +121,7 @@ impl Grading {
     }
 
     /// A file that does not compile may only miss a private function or type in another file of its author, in whose place the
-    /// reference stands. With that file beside the reference it gets a second chance.
+    /// reference stands. It is compiled once more with that file beside the reference.
     fn judge_with_helpers(
         &self,
         function: &Function,

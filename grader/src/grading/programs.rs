@@ -73,7 +73,7 @@ impl Programs {
         self.folder.join("whole")
     }
 
-    /// How the reference is started, in a process of its own like a submission's, so that times can be compared.
+    /// Returns a function that starts the reference in a process like that of a submission, so that times can be compared.
     pub fn start_reference(&self, sandbox: &Sandbox) -> impl Fn() -> io::Result<Running> + use<> {
         let folder = self.whole();
         start(sandbox, Some(folder.join(format!("program{}", env::consts::EXE_SUFFIX))), &folder)
@@ -127,7 +127,7 @@ fn level(name: &'static str, rubric: &Rubric, calls: &Calls) -> u32 {
     }
 }
 
-/// How a program in `folder` is started: it sees the system's libraries and itself, and may write nothing.
+/// Returns a function that starts a program in `folder`. The program sees only the system's libraries and itself, and cannot write files.
 pub fn start(sandbox: &Sandbox, program: Option<PathBuf>, folder: &Path) -> impl Fn() -> io::Result<Running> + use<> {
     let sandbox = sandbox.clone();
     let folder = folder.to_owned();

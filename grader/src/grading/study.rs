@@ -55,7 +55,7 @@ impl Grading {
                 let scene = scene(number, dt);
                 let expected = outcome(&reference, &scene, &truth);
                 let silent = || GradingError::Reference(format!("{integrator} with a time step of {dt} s"));
-                // One time-out is waited for, and no second one.
+                // After one time-out no further run is started.
                 let found = if answers { outcome(&subject, &scene, &truth) } else { None };
                 answers = found.is_some();
                 let (reference, expected) = expected.ok_or_else(silent)?;
@@ -73,7 +73,7 @@ impl Grading {
     }
 }
 
-/// Whether every run has the positions of the first run of the reference.
+/// Returns true if every run has the positions of the first run of the reference.
 fn agree(runs: &[Positions], expected: &[Positions]) -> bool {
     let Some(expected) = expected.first() else { return false };
     runs.iter().all(|run| distance(run, expected) <= RIGHT)
@@ -103,7 +103,7 @@ fn outcome(program: &Sandboxed, scene: &Scene, truth: &Truth) -> Option<(Outcome
 fn error(positions: &[DVector<f64>], scene: &Scene, truth: &Truth) -> Option<f64> {
     let last = positions.get(scene.steps.checked_sub(1)?)?;
     let error = (last.len() == truth.positions.len()).then(|| (last - &truth.positions).amax())?;
-    // The largest of entries one of which is no number may be any.
+    // The largest of entries is not defined if one of them is NaN.
     last.iter().all(|x| x.is_finite()).then_some(error)
 }
 
@@ -129,7 +129,7 @@ mod tests {
         let run = |x: f64| vec![DVector::repeat(3, x), DVector::repeat(6, x)];
         let expected = [run(1.0), run(1.0)];
         assert!(agree(&[run(1.0), run(1.0 + 1e-7)], &expected));
-        // One that answers wrongly once gains time by it.
+        // A program that answers wrongly once would be faster.
         assert!(!agree(&[run(1.0), run(1.0 + 1e-3)], &expected));
         assert!(!agree(&[run(f64::NAN)], &expected) && !agree(&[run(1.0)[..1].to_vec()], &expected));
         assert!(!agree(&[run(1.0)], &[]));

@@ -15,7 +15,7 @@ impl CpuTimer {
     }
 
     /// Processor time since the start, of this process and of those that it has started and that have ended, s. On a system
-    /// that does not tell, the time that has passed.
+    /// without that counter, the wall-clock time.
     pub fn seconds(&self) -> f64 {
         match (self.used_before, cpu_seconds()) {
             (Some(before), Some(now)) => now - before,

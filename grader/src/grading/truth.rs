@@ -1,5 +1,5 @@
 //! The motion that a whole simulation approximates, computed by a method that is not among those of the course: the classical
-//! fourth-order method of Runge and Kutta, with a step so small that halving it changes nothing that matters.
+//! fourth-order method of Runge and Kutta, with a step so small that halving it changes the positions by less than [`ALLOWED`].
 //! (W. Kutta, Beitrag zur näherungsweisen Integration totaler Differentialgleichungen, Zeitschrift für Mathematik und Physik 46, 1901.)
 
 use grader_child::simulation::Scene;
@@ -10,7 +10,7 @@ use crate::reference::REFERENCE;
 /// Steps, and then twice as many.
 const STEPS: usize = 200;
 
-/// The change by the second half of the steps that still counts as none, m.
+/// Largest change of the positions by halving the step that counts as converged, m.
 const ALLOWED: f64 = 1e-6;
 
 /// Final positions of a body.

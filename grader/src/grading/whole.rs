@@ -30,7 +30,7 @@ pub(super) const LIMIT: Duration = Duration::from_secs(30);
 /// The time step whose answers are compared, s.
 const TIME_STEP: f64 = 0.01;
 
-/// How long the body moves, s.
+/// Simulated time, s.
 const DURATION: f64 = 0.2;
 
 /// Largest distance from the reference's positions, in lengths of the body. Newton's method may end a little earlier or later.
@@ -54,7 +54,7 @@ impl Whole {
 }
 
 impl Grading {
-    /// Builds the program, unless it is known already of a function that it cannot be in it.
+    /// Builds the program, unless a function of it is already known not to compile.
     pub(super) fn whole(
         &self,
         submission: &Submission,
@@ -75,7 +75,7 @@ impl Grading {
         Ok(Some(Whole { attempt, folder, places: Places::of(submission) }))
     }
 
-    /// Grades the simulation; where a function is missing it cannot run, which costs nothing more by itself.
+    /// Grades the simulation. If a function is missing, the simulation cannot run, and no further points are lost.
     pub(super) fn grade_simulation(
         &self,
         whole: Option<&Whole>,
@@ -107,7 +107,7 @@ impl Grading {
         };
         let program = match attempt {
             Attempt::Built(program) => program,
-            // The parts have been compiled on this machine, so it is the submission as a whole that is too much.
+            // All parts have been compiled on this machine, so the fault is in their combination.
             Attempt::GaveUp(why) => {
                 grade.status = Status::DidNotCompile;
                 grade.message = Some(format!("the files compile one by one, but not together: {why}"));

@@ -9,10 +9,10 @@ use tempfile::TempDir;
 
 const PREFIX: &str = "grader-";
 
-/// As long as a grader lives it holds a lock on this file in its folder.
+/// File in the folder that a grader locks for its lifetime.
 const LOCK: &str = "lock";
 
-/// Holds a folder for each program.
+/// Parent of the folders of the programs.
 pub struct Workspace {
     folder: TempDir,
     /// Released by the system when this process ends, however it ends.
@@ -29,7 +29,7 @@ impl Workspace {
 
     fn new_in(place: &Path) -> io::Result<Self> {
         let folder = passable(tempfile::Builder::new().prefix(PREFIX)).tempdir_in(place)?;
-        // Under its name there is never a file that its owner has not locked yet.
+        // The file gets its name only after its owner has locked it.
         let early = folder.path().join("early");
         let lock = File::create(&early)?;
         // Some network file systems have no locks; there no grader removes the folder of another.
@@ -55,7 +55,7 @@ fn passable<'a, 'b>(builder: &'a mut tempfile::Builder<'b, 'b>) -> &'a tempfile:
     builder
 }
 
-/// Removes what killed graders of this user have left in a place. What cannot be removed is left to the next grader.
+/// Removes the folders of killed graders of this user in a place. The next grader tries again to remove those that remain.
 fn sweep(place: &Path) {
     for entry in fs::read_dir(place).into_iter().flatten().flatten() {
         let path = entry.path();
@@ -70,7 +70,7 @@ fn is_abandoned(folder: &Path) -> bool {
     File::open(folder.join(LOCK)).is_ok_and(|lock| lock.try_lock().is_ok())
 }
 
-/// The lock goes last, so that a folder which is removed in part is found again.
+/// Removes the lock last, so that a folder which was removed in part is found again.
 fn remove(folder: &Path) -> io::Result<()> {
     for entry in fs::read_dir(folder)?.flatten().filter(|entry| entry.file_name() != LOCK) {
         fs::remove_dir_all(entry.path())?;
@@ -81,7 +81,7 @@ fn remove(folder: &Path) -> io::Result<()> {
 #[cfg(unix)]
 fn is_own_folder(path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
-    // Only this user's locks are waited for, and no link is followed.
+    // Only locks of this user are opened, and links are not followed.
     fs::symlink_metadata(path).is_ok_and(|found| found.is_dir() && found.uid() == nix::unistd::geteuid().as_raw())
 }
 

@@ -55,7 +55,7 @@ pub fn collect(root: &Path, rubric: &Rubric) -> Result<Files, HandoutError> {
         })?;
     }
     for name in NAMES {
-        // What `reset` puts back.
+        // The files that `reset` restores.
         if let Some(text) = files.get(Path::new(&format!("src/{name}.rs"))).cloned() {
             files.insert(format!("{HANDED_OUT}/{name}.rs").into(), text);
         }

@@ -1,4 +1,4 @@
-//! Looks for solutions in what is handed out.
+//! Searches the files of the handout for solutions.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt;
@@ -14,9 +14,9 @@ use syn::visit::Visit;
 use super::{Files, HandoutError};
 use crate::rubric::{Role, Rubric};
 
-/// So many words and signs of a body in a row are no coincidence. Every sign counts by itself – `::` is two, `2.0` three – so
-/// this is about a line, and the smallest number without a false alarm. With 23, three lines of the checks that say in Rust what
-/// a page says in a formula would be solutions, such as `… - 3.0) + D * (J - 1.0).powi(2);`; with 16, twelve files, for
+/// Number of consecutive tokens of a body that count as a piece of the solution. Every sign counts by itself – `::` is two, `2.0`
+/// three – so this is about a line. It is the smallest number without a false alarm. With 23, three lines of the checks that say in
+/// Rust what a page says in a formula would be solutions, such as `… - 3.0) + D * (J - 1.0).powi(2);`; with 16, twelve files, for
 /// `let mut f = DVector::zeros(q.len());` and other idioms; with 12, thirty-five.
 const WINDOW: usize = 24;
 
@@ -37,8 +37,8 @@ impl fmt::Display for Leak {
     }
 }
 
-/// Pieces of the bodies in the repository `root` that these files contain; the first of each function in each file. A piece that a
-/// given function has too is no secret.
+/// Pieces of the bodies in the repository `root` that these files contain; the first of each function in each file. A piece that is
+/// also in a given function is no solution.
 pub fn leaks(root: &Path, rubric: &Rubric, files: &Files) -> Result<Vec<Leak>, HandoutError> {
     let is_given = |name: &str| rubric.role(name) == Role::Given;
     let mut pieces: HashMap<Vec<String>, &'static str> = HashMap::new();

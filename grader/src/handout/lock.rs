@@ -1,5 +1,5 @@
-//! The lock file of the students' repository: ours without what is no longer needed, all versions as they are; and the profiles of
-//! what is left in it.
+//! The lock file of the students' repository: ours without the packages that are no longer needed, with all versions unchanged; and the
+//! profiles of the remaining packages.
 
 use std::env;
 use std::fs;
@@ -8,8 +8,8 @@ use std::process::Command;
 
 use super::{HandoutError, manifest};
 
-/// Lets cargo drop from `Cargo.lock` in `folder` what the manifests there do not ask for. Cargo alone knows which features are
-/// left, and so which optional dependencies; a lock file that it would change breaks `--locked` and needs the registry.
+/// Lets cargo remove from `Cargo.lock` in `folder` the packages that the manifests there do not ask for. Cargo alone knows which
+/// features are left, and so which optional dependencies; a lock file that it would change breaks `--locked` and needs the registry.
 pub fn settle(folder: &Path) -> Result<(), HandoutError> {
     let failed = |problem: String| HandoutError::unusable("Cargo.lock", problem);
     let update = |more: &[&str]| {
@@ -24,7 +24,7 @@ pub fn settle(folder: &Path) -> Result<(), HandoutError> {
             Err(error) => Err(failed(format!("cargo does not start: {error}"))),
         }
     };
-    // What this program was built with is known on this machine already, so the network is the second choice.
+    // The packages that this program was built with are on this machine already, so the network is tried second.
     update(&["--offline"]).or_else(|_| update(&[]))?;
     let read = |name: &str| fs::read_to_string(folder.join(name)).map_err(HandoutError::io(&folder.join(name)));
     let root = manifest::with_locked_profiles(&read("Cargo.toml")?, &read("Cargo.lock")?).map_err(failed)?;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use proc_macro2::{TokenStream, TokenTree};
 use toml_edit::{DocumentMut, Item, TableLike, TomlError};
 
-/// The package that no source names: it asks for features alone.
+/// A package that is not named in any source: it is a dependency for its features only.
 const FEATURES: &str = "fem-features";
 
 /// A package's manifest with only those dependencies that its `sources` name.
@@ -20,7 +20,7 @@ pub fn with_used_dependencies<'a>(
     }
     if let Some(dependencies) = manifest["dependencies"].as_table_mut() {
         dependencies.retain(|name, _| name == FEATURES || used.contains(&name.replace('-', "_")));
-        // The comment above the list is about its whole.
+        // The comment above the list is about the whole list.
         dependencies.decor_mut().set_prefix("\n");
     }
     Ok(manifest.to_string())

@@ -1,4 +1,4 @@
-//! From a solved function to the one that a student is given.
+//! Turns a solved function into the one that students receive.
 
 use std::collections::BTreeSet;
 use std::ops::Range;

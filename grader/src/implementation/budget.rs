@@ -37,7 +37,7 @@ impl Budget {
         Self { check: Clock::new(check), function: Clock::new(function), submission: Clock::new(submission) }
     }
 
-    /// A budget for code that is trusted to come to an end.
+    /// A budget without limits, for trusted code.
     pub fn unlimited() -> Self {
         Self::new(Duration::MAX, Duration::MAX, Duration::MAX)
     }
@@ -53,14 +53,14 @@ impl Budget {
         self.check.spent.set(Duration::ZERO);
     }
 
-    /// Takes time off all clocks.
+    /// Subtracts time from all clocks.
     pub fn spend(&self, time: Duration) {
         self.check.spend(time);
         self.function.spend(time);
         self.submission.spend(time);
     }
 
-    /// Takes time off that of the submission alone, such as the compiler's.
+    /// Subtracts time, such as that of the compiler, from the clock of the submission alone.
     pub fn spend_apart(&self, time: Duration) {
         self.submission.spend(time);
     }
@@ -70,7 +70,7 @@ impl Budget {
         self.submission.left()
     }
 
-    /// The least that is left on a clock.
+    /// The shortest remaining time of the clocks.
     pub fn left(&self) -> Duration {
         self.check.left().min(self.function.left()).min(self.submission.left())
     }
@@ -83,7 +83,7 @@ impl Budget {
             .map(|c| c.allowed)
     }
 
-    /// Whether the submission as a whole has no time left.
+    /// Returns true if the submission as a whole has no time left.
     pub fn is_used_up(&self) -> bool {
         self.left_in_all().is_zero()
     }

@@ -1,12 +1,12 @@
-//! Places at which a submission says that it panicked. Students read them, and a submission can forge them to carry inputs out, so only
-//! lines count that its files have.
+//! Places at which a submission says that it panicked. Students read them, and a submission can forge them to reveal inputs, so only
+//! lines that exist in its files are kept.
 
 use std::collections::BTreeMap;
 
 use super::Trouble;
 use crate::submission::{Source, Submission};
 
-/// Characters of each line of each file; `None` where any place is believed.
+/// Number of characters of each line of each file; `None` if every place is accepted.
 #[derive(Clone, Debug, Default)]
 pub struct Places(Option<BTreeMap<&'static str, Vec<usize>>>);
 
@@ -30,7 +30,7 @@ impl Places {
         }
     }
 
-    /// Whether `src/NAME.rs:LINE` or `src/NAME.rs:LINE:COLUMN` is a place in a file.
+    /// Returns true if `src/NAME.rs:LINE` or `src/NAME.rs:LINE:COLUMN` is a place in a file.
     fn hold(&self, place: &str) -> bool {
         let Some(files) = &self.0 else { return true };
         let mut parts = place.split(':');
@@ -60,8 +60,8 @@ mod tests {
                 other => panic!("{other}"),
             }
         };
-        for held in ["src/psi_neo_hookean.rs:2", "src/psi_neo_hookean.rs:3:2", "src/psi_neo_hookean.rs:2:12"] {
-            assert_eq!(place(held), held);
+        for known in ["src/psi_neo_hookean.rs:2", "src/psi_neo_hookean.rs:3:2", "src/psi_neo_hookean.rs:2:12"] {
+            assert_eq!(place(known), known);
         }
         for (file, rest) in
             [("psi_neo_hookean", "4"), ("psi_neo_hookean", "0"), ("psi_neo_hookean", "2:13"), ("newtons_method", "1")]

@@ -17,19 +17,19 @@ use super::{Answer, Implementation, Trouble};
 use crate::protocol::{self, Closures};
 use crate::sandbox::Running;
 
-/// A program with a submission's functions. It is started when it is first asked, and again after it has died.
+/// A program with a submission's functions. It is started for its first call, and again after it has ended.
 pub struct Sandboxed {
     start: Box<dyn Fn() -> io::Result<Running>>,
     running: RefCell<Option<Running>>,
     limit: Duration,
-    /// Once a process has died or been late, it is not asked again in the same check.
+    /// True once a process has ended or timed out in this check: it is not called again in the same check.
     given_up: Cell<bool>,
-    /// How often the present function has been late.
+    /// Number of time-outs of the present function.
     time_outs: Cell<usize>,
     budget: Rc<Budget>,
     /// The lines at which it can panic.
     places: Places,
-    /// How long answers of the present process were waited for.
+    /// Time spent waiting for answers of the present process.
     waited: Cell<Duration>,
 }
 
@@ -51,13 +51,13 @@ impl Sandboxed {
         }
     }
 
-    /// The same, and all its calls together stay within a budget, and its panics at the lines of its files.
+    /// The same, with a budget for all calls together, and with places of panics restricted to the lines of its files.
     pub fn within(self, budget: Rc<Budget>, places: Places) -> Self {
         Self { budget, places, ..self }
     }
 
-    /// Forgets earlier trouble: the next function is asked afresh, in a process of its own, where no thread and no panic hook of
-    /// the one before can speak for it.
+    /// Forgets earlier trouble. The next function is called in a new process, so that threads and panic hooks of the previous function
+    /// cannot answer for it.
     pub fn next_function(&self) {
         self.end(&mut self.running.borrow_mut());
         self.time_outs.set(0);
@@ -65,7 +65,7 @@ impl Sandboxed {
         self.next_check();
     }
 
-    /// Lets a function that has died or been late answer the next check, unless it has been late too often.
+    /// Lets a function that has ended its process or timed out answer the next check, unless it has timed out too often.
     pub fn next_check(&self) {
         self.given_up.set(self.time_outs.get() >= MOST_TIME_OUTS);
         self.budget.next_check();
@@ -94,7 +94,7 @@ impl Sandboxed {
         Ok(if used.is_zero() { passed } else { used.as_secs_f64() })
     }
 
-    /// Positions of a whole simulation and how long it took, s.
+    /// Positions of a whole simulation, and its run time, s.
     ///
     /// # Errors
     /// The reason if no answer comes within `limit`.
@@ -275,7 +275,7 @@ fn step(q: &DVector<f64>, qdot: &DVector<f64>, dt: f64, mass: &CsrMatrix<f64>) -
     bytes(&((q.clone(), qdot.clone()), (dt, mass.clone())))
 }
 
-/// A submission may call a closure with vectors of any length; what the closure cannot take is not answered.
+/// A submission may call a closure with vectors of any length. A call with a wrong length is not answered.
 fn integrator(
     which: u8,
     input: &[u8],

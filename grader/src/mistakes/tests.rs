@@ -1,17 +1,17 @@
-//! How many of the wrong functions are named, how many of those are named right, and how many are located.
+//! Counts the wrong functions that are named, those that are named right, and those that are located.
 
 use std::thread;
 
 use grader::implementation::Local;
 
-use super::{Mistake, first_sight, held_back, last, seen};
+use super::{Mistake, blind, final_validation, training, validation};
 use crate::diagnosis::{Explanation, explain};
 use crate::variants;
 
 /// Inputs are the same ones in every run.
 const SEED: u64 = 11;
 
-/// A wrong function and what is said about it.
+/// A wrong function and its diagnosis.
 struct Told {
     mistake: &'static Mistake,
     name: Option<String>,
@@ -44,8 +44,8 @@ fn told(mistakes: &[&'static [Mistake]]) -> Vec<Told> {
     })
 }
 
-/// Holds shares of the mistakes: those named right, and those named right or located.
-fn hold(mistakes: &[&'static [Mistake]], named: f64, named_or_located: f64) {
+/// Asserts the smallest shares of the mistakes that are named right, and that are named right or located.
+fn assert_shares(mistakes: &[&'static [Mistake]], named: f64, named_or_located: f64) {
     let all = told(mistakes);
     let share = |counts: fn(&Told) -> bool| all.iter().filter(|told| counts(told)).count() as f64 / all.len() as f64;
     let (right, either) =
@@ -63,21 +63,21 @@ fn hold(mistakes: &[&'static [Mistake]], named: f64, named_or_located: f64) {
 }
 
 #[test]
-fn mistakes_of_before_the_rules_are_named() {
-    hold(&seen::ALL, 0.97, 0.98);
+fn mistakes_of_the_training_set_are_named() {
+    assert_shares(&training::ALL, 0.97, 0.98);
 }
 
 #[test]
-fn mistakes_of_after_the_rules_are_named() {
-    hold(&held_back::ALL, 0.9, 0.94);
+fn mistakes_of_the_validation_set_are_named() {
+    assert_shares(&validation::ALL, 0.9, 0.94);
 }
 
 #[test]
-fn mistakes_of_after_the_last_change_are_named() {
-    hold(&last::ALL, 0.9, 0.94);
+fn mistakes_of_the_final_validation_set_are_named() {
+    assert_shares(&final_validation::ALL, 0.9, 0.94);
 }
 
 #[test]
-fn mistakes_of_one_who_had_not_read_the_rules_are_named() {
-    hold(&first_sight::ALL, 0.93, 0.93);
+fn mistakes_of_the_blind_set_are_named() {
+    assert_shares(&blind::ALL, 0.93, 0.93);
 }

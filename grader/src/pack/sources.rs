@@ -1,5 +1,5 @@
-//! The sources in a package: the library, its pages and the grader. Of the demo, the engine and the window it holds nothing:
-//! they would make the package six times as large, and grading never asks for them.
+//! The sources in a package: the library, its pages and the grader. The demo, the engine and the window are left out:
+//! they would make the package six times as large, and grading does not need them.
 
 use std::fs;
 use std::path::Path;
@@ -66,7 +66,7 @@ fn copy_one(from: &Path, to: &Path) -> Result<(), PackError> {
 /// The root's manifest without programs, tests, optional dependencies and the members that are not there.
 fn lean(manifest: &str, is_there: impl Fn(&str) -> bool) -> Result<String, String> {
     let mut table: Table = manifest.parse().map_err(|error: toml::de::Error| error.to_string())?;
-    // What is patched belongs to the window.
+    // Patched packages belong to the window.
     for kind in ["bin", "test", "bench", "example", "dev-dependencies", "patch"] {
         table.remove(kind);
     }
@@ -79,7 +79,7 @@ fn lean(manifest: &str, is_there: impl Fn(&str) -> bool) -> Result<String, Strin
     if let Some(Value::Table(dependencies)) = table.get_mut("dependencies") {
         dependencies.retain(|_, dependency| dependency.get("optional") != Some(&Value::Boolean(true)));
     }
-    // Their names stay, since the code asks for them; what they switch on is not here.
+    // The names of features stay, since the code tests them; the packages that they enable are left out.
     if let Some(Value::Table(features)) = table.get_mut("features") {
         features.iter_mut().for_each(|(_, feature)| *feature = Value::Array(Vec::new()));
     }
@@ -90,7 +90,7 @@ fn lean(manifest: &str, is_there: impl Fn(&str) -> bool) -> Result<String, Strin
     toml::to_string(&table).map_err(|error| error.to_string())
 }
 
-/// Drops from the lock file what is no longer asked for; all versions stay as they are.
+/// Removes from the lock file the packages that are no longer needed; all versions stay the same.
 fn prune(files: &Path) -> Result<(), PackError> {
     let cargo = |more: &[&str]| {
         let mut command = Command::new("cargo");

@@ -1,4 +1,4 @@
-//! Packages as their platforms would use them, with a grader that does what a test wants.
+//! Packages used as on their platforms, with a stand-in for the grader.
 
 use std::process::Output;
 
@@ -144,7 +144,7 @@ fn locked(path: &Path) -> Vec<String> {
     text.lines().filter_map(|line| line.strip_prefix("name = ")).map(|name| name.trim_matches('"').to_owned()).collect()
 }
 
-/// Asks cargo whether it can build the grader of a package as its lock file stands.
+/// Checks with cargo that the grader of a package can be built with the lock file unchanged.
 fn is_whole(files: &Path) -> bool {
     let mut cargo = Command::new("cargo");
     cargo

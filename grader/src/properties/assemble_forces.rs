@@ -89,7 +89,7 @@ fn internal_forces_and_torques_balance(course: &Course) -> Outcome {
 }
 
 fn an_affine_deformation_leaves_interior_vertices_in_equilibrium(course: &Course) -> Outcome {
-    // The patch test: the same stress everywhere, so nothing pulls at a vertex inside. Two cells a side have one.
+    // The patch test: the same stress everywhere, so the force on an inner vertex is zero. Two cells a side have one.
     let mesh = Mesh::uneven_box([2, 2, 2], 1.0);
     let F = Matrix3::new(1.2, 0.4, 0.0, -0.2, 0.8, 0.1, 0.1, 0.0, 1.5);
     let f = force(course, &mesh, &mesh.placed(|X| F * X))?;

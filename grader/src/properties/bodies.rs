@@ -1,4 +1,4 @@
-//! A free elastic body for the integrators, and dense linear algebra that owes nothing to what the course gives.
+//! A free elastic body for the integrators, and dense linear algebra that is independent of the course's library.
 
 use std::cell::RefCell;
 
@@ -15,7 +15,7 @@ pub fn sparse(dense: &DMatrix<f64>) -> CsrMatrix<f64> {
     CsrMatrix::from(dense)
 }
 
-/// No check has more; who asks for more would only be waited for.
+/// Limit of the number of unknowns. Checks have fewer, and larger systems would take too long.
 const MOST_UNKNOWNS: usize = 300;
 
 /// Gaussian elimination with pivots; NaN where the matrix is singular, large, or does not fit b.
@@ -31,14 +31,14 @@ pub fn by_elimination(A: &CsrMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
 /// The nearest symmetric matrix without negative eigenvalues; NaN where H is not finite.
 pub fn without_negative_eigenvalues(H: &SMatrix<f64, 12, 12>) -> SMatrix<f64, 12, 12> {
     if !H.iter().all(|entry| entry.is_finite()) {
-        return SMatrix::repeat(f64::NAN); // a search for eigenvalues would not end
+        return SMatrix::repeat(f64::NAN); // the eigenvalue iteration would not end
     }
     let eigen = H.symmetric_eigen();
     let kept = eigen.eigenvalues.map(|value| value.max(0.0));
     eigen.eigenvectors * SMatrix::<f64, 12, 12>::from_diagonal(&kept) * eigen.eigenvectors.transpose()
 }
 
-/// A soft box that nothing holds, flying, turning and wobbling, without gravity.
+/// A soft box without constraints and gravity that translates, rotates and vibrates.
 pub struct FreeBody<'a> {
     course: &'a Course<'a>,
     mesh: Mesh,
@@ -190,7 +190,7 @@ impl<'a> FreeBody<'a> {
     }
 
     fn moved_to(&mut self, done: Result<(), Trouble>, q: DVector<f64>, qdot: DVector<f64>) -> Outcome {
-        // The noted reason explains every result of the step.
+        // The recorded reason explains every result of the step.
         if let Some(mistake) = self.trouble.take() {
             return Err(mistake);
         }

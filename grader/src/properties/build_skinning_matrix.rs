@@ -39,7 +39,7 @@ pub fn row(vertices: usize, element: [usize; 4], weights: [f64; 4]) -> DMatrix<f
     row
 }
 
-/// Holds one row to the weights of any element that holds the point; where none does, to those of the least wrong one.
+/// Compares one row with the weights of every element that contains the point; if no element does, with those of the nearest one.
 fn is_right(course: &Course, rule: &str, found: &DMatrix<f64>, mesh: &Mesh, x: &Vector3<f64>) -> Outcome {
     let mut weights: Vec<([usize; 4], Vector4<f64>)> = Vec::new();
     for element in &mesh.T {
@@ -151,7 +151,7 @@ pub fn overlapping() -> (Vec<Vector3<f64>>, [[usize; 4]; 2]) {
 fn a_point_in_no_element_goes_to_the_one_with_the_largest_smallest_weight(course: &Course) -> Outcome {
     let V = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z(), Vector3::new(2.0, 2.0, 2.0)];
     let (near_origin, far) = ([0, 1, 2, 3], [1, 2, 3, 4]);
-    // Shape functions by hand; the second point is misjudged by who compares distances.
+    // Shape functions by hand. A comparison of distances chooses a wrong element for the second point.
     let missed_by_first = (Vector3::new(-0.1, 0.2, 0.3), row(5, near_origin, [0.6, -0.1, 0.2, 0.3]));
     let missed_by_far = (Vector3::new(-0.1, 0.2, -0.3), row(5, far, [0.38, 0.68, 0.18, -0.24]));
     let orders = [[near_origin, far], [far, near_origin]];

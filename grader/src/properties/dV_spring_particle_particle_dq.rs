@@ -18,7 +18,7 @@ pub const CHECKS: &[Check] = checks![
 ];
 
 fn a_spring_agrees_with_a_calculation_by_hand(course: &Course) -> Outcome {
-    // 7 m apart along (2, 3, 6)/7, rest length 5 m: pulled at with 20 N/m · 2 m.
+    // 7 m apart along (2, 3, 6)/7, rest length 5 m: a tension of 20 N/m · 2 m.
     let (q0, q1) = (Vector3::new(1.0, 2.0, 3.0), Vector3::new(3.0, 5.0, 9.0));
     let pull = Vector3::new(2.0, 3.0, 6.0) / 7.0 * 40.0;
     let expected = SVector::<f64, 6>::from([-pull.x, -pull.y, -pull.z, pull.x, pull.y, pull.z]);
@@ -65,7 +65,7 @@ fn a_very_short_spring_still_pushes(course: &Course) -> Outcome {
         let gradient = |length: f64, l0: f64| {
             course.subject.dV_spring_particle_particle_dq(&Vector3::zeros(), &(direction * length), l0, 3.0)
         };
-        // A spring of ordinary length that is as far from its rest length.
+        // A spring of ordinary length with the same elongation.
         let (found, expected) = (gradient(length, l0)?, gradient(1.0, l0 + (1.0 - length))?);
         near("only a length of exactly zero has no direction", &found, &expected, 1e-14 * (1.0 + l0) * 10.0)
     })

@@ -1,4 +1,4 @@
-//! No answer of an implementation makes a check panic or pass by mistake.
+//! Malformed answers never make a check panic or pass.
 
 use grader_child::{
     Force, Functions, Gradient, Hessian, Integrand, Objective, Solve, Stiffness, UNWRITTEN, course_functions,
@@ -10,7 +10,7 @@ use super::outcome::{Mistake, message_of};
 use super::{Check, Course, FUNCTIONS};
 use crate::implementation::{Local, Trouble};
 
-/// Answers that make no sense, of several kinds.
+/// Kinds of malformed answers.
 trait Garbage {
     fn garbage(kind: u8) -> Self;
 }
@@ -112,7 +112,7 @@ fn whatever_is_answered_no_check_panics() {
         [answering_garbage::<0>(), answering_garbage::<1>(), answering_garbage::<2>(), answering_garbage::<3>()];
     for functions in kinds {
         for (function, checks) in FUNCTIONS {
-            // These functions do not panic, so whatever did is a closure of a check.
+            // These functions do not panic, so a panic comes from a closure of a check.
             let panicked = |mistake: &Mistake| matches!(mistake, Mistake::Trouble(Trouble::Panicked { .. }));
             assert!(!mistakes(function, checks, functions).iter().any(panicked), "{function}");
         }

@@ -47,7 +47,7 @@ struct Solved {
     A: CsrMatrix<f64>,
     b: DVector<f64>,
     solution: DVector<f64>,
-    /// How many forces and stiffnesses had been evaluated by then.
+    /// Numbers of forces and of stiffnesses that had been evaluated by then.
     after: [usize; 2],
 }
 

@@ -26,7 +26,7 @@ fn dense(course: &Course, q_size: usize, T: &[[usize; 4]], v0: &[f64]) -> Result
 
 type OfElement = SMatrix<f64, 12, 12>;
 
-/// uᵀ M v as the elements have it, each of which knows what its four vertices do.
+/// uᵀ M v as a sum over elements, from the velocities of their four vertices.
 fn of_all(elements: &[OfElement], mesh: &Mesh, u: &[Vector3<f64>], v: &[Vector3<f64>]) -> f64 {
     let felt = elements.iter().zip(&mesh.T).map(|(of_element, element)| {
         let [u, v] = [u, v].map(|all| stacked(&element.map(|vertex| all[vertex])));
@@ -47,7 +47,7 @@ fn elements_add_up_where_they_share_vertices(course: &Course) -> Outcome {
         let found = stacked(&u).dot(&(&M * stacked(&v)));
         near_number("uᵀ M v, summed over the elements", found, expected, 1e-13 * expected)
     })?;
-    // One wrong entry among many would hide in such sums; between two vertices alone it cannot.
+    // One wrong entry among many can be lost in such sums, but not if only two vertices move.
     let at = |vertex: usize, axis: Vector3<f64>| {
         let mut all = vec![Vector3::zeros(); mesh.V.len()];
         all[vertex] = axis;

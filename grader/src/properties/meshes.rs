@@ -1,4 +1,4 @@
-//! Elements and meshes to check with. Vertices that belong to no element lie far away, so that reading them shows.
+//! Elements and meshes to check with. Vertices of no element lie far away, so that an answer which uses them is wrong.
 
 use nalgebra::{DVector, Matrix3, Vector3};
 
@@ -34,12 +34,12 @@ impl Tetrahedron {
         self.element.map(|vertex| self.V[vertex])
     }
 
-    /// A length that stands for the element's: the side of the cube with its volume.
+    /// Characteristic length of the element: the side of the cube with its volume.
     pub fn size(&self) -> f64 {
         self.volume.cbrt()
     }
 
-    /// The lowest height over a face: over less than this do the shape functions vary by one.
+    /// The smallest height over a face, the shortest length over which a shape function varies by one.
     pub fn height(&self) -> f64 {
         let X = self.X();
         let area = |a: usize, b: usize, c: usize| (X[b] - X[a]).cross(&(X[c] - X[a])).norm() / 2.0;

@@ -99,7 +99,7 @@ fn the_value_returned_is_f_at_the_x_that_is_left(course: &Course) -> Outcome {
     Ok(())
 }
 
-/// To round-off: the point may have been reached by another order of additions than the one at which f was evaluated.
+/// Tolerance for round-off: the final point and the point at which f was evaluated may differ in the order of additions.
 fn is_f_at_x(run: &NewtonRun, objective: &Objective) -> Outcome {
     let expected = (objective.f)(&run.x);
     near_number("the returned f", run.f, expected, 1e-12 * (1.0 + expected.abs()))

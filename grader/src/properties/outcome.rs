@@ -1,4 +1,4 @@
-//! How a check passes or fails. No comparison trusts an answer: a wrong shape and NaN fail, and nothing panics.
+//! Outcomes of checks. Comparisons are safe for every answer: a wrong shape or NaN makes a check fail, and never panics.
 
 use std::cell::Cell;
 use std::fmt;
@@ -8,12 +8,12 @@ use nalgebra_sparse::CsrMatrix;
 
 use crate::implementation::Trouble;
 
-/// Why a check fails.
+/// Reason why a check fails.
 #[derive(Clone, PartialEq)]
 pub enum Mistake {
     /// The answer is wrong.
     Wrong {
-        /// The broken rule as a sentence; anyone may read it, so it holds no input and no expected value.
+        /// The broken rule as a sentence. Students may read it, so it contains no input and no expected value.
         rule: String,
         /// The observed and the expected figures; may be empty. Students do not see them in a grade.
         figures: String,
@@ -31,7 +31,7 @@ pub enum Mistake {
     },
 }
 
-/// Passed, or why not.
+/// Outcome of a check: passed, or the mistake.
 pub type Outcome = Result<(), Mistake>;
 
 impl From<Trouble> for Mistake {
@@ -40,7 +40,7 @@ impl From<Trouble> for Mistake {
     }
 }
 
-// A test that returns an error prints its `Debug` form, so that is the whole story.
+// A test that returns an error prints its `Debug` form, so this contains the whole message.
 impl fmt::Debug for Mistake {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -116,7 +116,7 @@ pub fn with_tolerance<T>(tolerance: f64, run: impl FnOnce() -> T) -> T {
     run()
 }
 
-/// A tolerance of a check as the rubric wants it.
+/// A tolerance of a check, adjusted to the rubric.
 pub fn slack(allowed: f64) -> f64 {
     allowed * (TOLERANCE.get() / ROUND_OFF)
 }
@@ -179,7 +179,7 @@ fn has_shape(rule: &str, actual: (usize, usize), expected: (usize, usize)) -> Ou
     if actual == expected { Ok(()) } else { Err(wrong(rule, format!("got shape {actual:?}, expected {expected:?}"))) }
 }
 
-/// A vector of this length, which what follows may rely on.
+/// Returns the answer as a vector of this length.
 ///
 /// # Errors
 /// The mistake, where the length is another one.
@@ -188,10 +188,10 @@ pub fn long(length: usize, answer: DVector<f64>) -> Result<DVector<f64>, Mistake
     Ok(answer)
 }
 
-/// The sparse answer as a dense matrix of this shape, which what follows may rely on.
+/// Returns the sparse answer as a dense matrix of this shape.
 ///
 /// # Errors
-/// The mistake, where the shape is another one; then no room is set aside for it.
+/// The mistake if the shape is another one. The dense matrix is not allocated then.
 pub fn dense_of(shape: (usize, usize), answer: &CsrMatrix<f64>) -> Result<DMatrix<f64>, Mistake> {
     has_shape("the answer has the shape that the page promises", (answer.nrows(), answer.ncols()), shape)?;
     Ok(DMatrix::from(answer))

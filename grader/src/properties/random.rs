@@ -14,7 +14,7 @@ const CASES: usize = 100;
 const FEW_CASES: usize = 20;
 const SHRINKING_STEPS: usize = 100;
 
-/// Holds a property to random inputs; where an answer is wrong, a simpler input that also fails is looked for and shown.
+/// Checks a property for random inputs. After a wrong answer, a simpler input that also fails is searched for and shown.
 ///
 /// # Errors
 /// The mistake, with the input.
@@ -34,11 +34,11 @@ fn for_cases<S: Strategy>(cases: usize, seed: u64, inputs: &S, property: &impl F
     let config = Config { rng_seed: RngSeed::Fixed(seed), failure_persistence: None, ..Config::default() };
     let mut runner = TestRunner::new(config);
     for _ in 0..cases {
-        // A strategy that filters may find nothing; none here does.
+        // Only strategies that filter can fail to generate a value, and these do not filter.
         let Ok(tree) = inputs.new_tree(&mut runner) else { continue };
         match property(tree.current()) {
             Err(Mistake::Wrong { rule, figures, .. }) => return Err(simplest(tree, rule, figures, seed, property)),
-            // What panics or ends a program is not asked for again and again.
+            // Inputs that make a program panic or end are not shrunk.
             other => other?,
         }
     }

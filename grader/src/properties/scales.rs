@@ -1,4 +1,4 @@
-//! How large round-off may be: errors are judged against the terms that were added, not against their sum.
+//! Bounds for round-off: errors are measured relative to the terms that were added, not to their sum.
 
 use nalgebra::Matrix3;
 
@@ -9,7 +9,7 @@ pub fn energy_terms(F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
     C * (shape + 3.0) + D * (J * J + 1.0)
 }
 
-/// The least singular value: to within a fraction of it F may be moved before it turns inside out.
+/// The smallest singular value of F, its distance from a singular matrix.
 pub fn smallest_stretch(F: &Matrix3<f64>) -> f64 {
     F.singular_values().min()
 }

@@ -1,4 +1,4 @@
-//! From input to answer: which function takes which input, and how its answer becomes numbers.
+//! Calls functions: the input of each function, and the conversion of its answer to numbers.
 
 use std::cell::Cell;
 
@@ -162,7 +162,7 @@ fn implicit(who: &dyn Implementation, step: &Step) -> Answer<Observed> {
         &|A, b| solves.count(solve(A, b)),
     )?;
     let gradient = |v: &DVector<f64>| &system.mass * (v - &step.qdot) - system.force(&(&step.q + v * dt), v) * dt;
-    // A velocity of the wrong size is told by the shape.
+    // The shape shows a velocity of the wrong size.
     let fits = v.len() == step.qdot.len();
     let residual = fits.then(|| relative(gradient(&v).norm(), gradient(&step.qdot).norm()));
     let calls = vec![("stiffness", stiffnesses.0.get()), ("solve", solves.0.get())];

@@ -1,5 +1,5 @@
-//! Compares answers with the reference's in what the course promises: values, shapes and numbers of calls, neither storage nor
-//! iterates.
+//! Compares answers with those of the reference: values, shapes and numbers of calls, as far as the course specifies them. Storage and
+//! iterates are not compared.
 
 use nalgebra::Vector3;
 
@@ -32,7 +32,7 @@ pub enum Check {
     Agrees,
     /// The same on limiting cases.
     EdgeCases,
-    /// How often closures are called.
+    /// Numbers of calls of closures.
     Calls,
 }
 
@@ -77,7 +77,7 @@ pub fn compare(trial: &Trial, observed: &Observed, expected: &Observed, toleranc
         ),
     };
     verdict.error = error.is_finite().then_some(error);
-    // NaN is above no tolerance, so the question is whether the error is small.
+    // NaN does not exceed a tolerance, so the condition is that the error is small.
     let small = error <= tolerance;
     if !small {
         verdict.wrongs.push(Wrong { check, rule, figures: figures(trial, observed, expected, error) });
@@ -117,12 +117,12 @@ fn worst(errors: impl Iterator<Item = f64>) -> f64 {
     errors.fold(0.0, |worst, error| if error.is_nan() { f64::INFINITY } else { worst.max(error) })
 }
 
-/// How far a row of weights is from those of the nearest of the tetrahedra that may be chosen.
+/// Distance of a row of weights from the nearest row of weights of a tetrahedron that may be chosen.
 fn skinning_error(V: &[Vector3<f64>], T: &[[usize; 4]], x: &Vector3<f64>, row: &[f64]) -> f64 {
     let phis: Vec<_> =
         T.iter().map(|element| (element, finite_elements_3d::phi_linear_tetrahedron(V, element, x))).collect();
     let best = phis.iter().map(|(_, phi)| phi.min()).fold(f64::NEG_INFINITY, f64::max);
-    // Inside any that holds the point will do; outside the one whose smallest weight is largest, or one as good.
+    // Any element that contains the point is right. Outside the mesh it is the element whose smallest weight is largest, or an equal one.
     let least = if best >= -1e-6 { -1.0001e-6 } else { best - 1e-9 };
     let allowed = phis.iter().filter(|(_, phi)| phi.min() >= least);
     let distance = |element: &[usize; 4], phi: &nalgebra::Vector4<f64>| {
@@ -137,7 +137,7 @@ fn skinning_error(V: &[Vector3<f64>], T: &[[usize; 4]], x: &Vector3<f64>, row: &
 /// Relative to the gradient at the start. The line search may refuse the last step for the round-off of the energy.
 const SMALL_GRADIENT: f64 = 1e-6;
 
-/// Newton's method must have come as close as the reference, or close enough.
+/// Newton's method must have reached the accuracy of the reference, or the tolerance.
 fn residual(check: Check, observed: &Observed, expected: &Observed) -> Option<Wrong> {
     let (left, wanted) = (observed.residual?, expected.residual?);
     let small = left <= (10.0 * wanted).max(SMALL_GRADIENT) || left == wanted || wanted.is_nan();
@@ -148,7 +148,7 @@ fn residual(check: Check, observed: &Observed, expected: &Observed) -> Option<Wr
     })
 }
 
-/// Whether a number of calls is right, given the reference's and the most directions allowed.
+/// Returns true if a number of calls is right. Arguments: the number, that of the reference, and the largest number of directions.
 type Holds = fn(usize, usize, Option<usize>) -> bool;
 
 fn calls(trial: &Trial, observed: &Observed, expected: &Observed) -> Vec<Wrong> {
@@ -158,12 +158,12 @@ fn calls(trial: &Trial, observed: &Observed, expected: &Observed) -> Vec<Wrong> 
             ("one force, one stiffness and one solve in each step", |n, wanted, _| n == wanted)
         }
         "implicit_euler" => ("at most five directions in each step", |n, _, _| n <= 5),
-        // Round-off may ask for a few more; nothing may be asked where the start is the solution.
+        // Round-off may require a few more directions. If the start is the solution, no direction is allowed.
         _ => ("at most max_steps directions, and none where the gradient at the start is zero", |n, wanted, most| {
             n == wanted || wanted != 0 && n <= (wanted + 3).min(most.unwrap_or(usize::MAX))
         }),
     };
-    // A direction is a solve; how often its matrix is evaluated is left open, but for a start that needs none.
+    // A direction is a solve. The number of evaluations of its matrix is free, unless the start is the solution.
     let counts = |name: &str, wanted: usize| {
         let is_at_rest = wanted == 0 && most != Some(0);
         trial.function == "linearly_implicit_euler" || name == "solve" || name == "H" && is_at_rest

@@ -18,7 +18,7 @@ pub struct Judgement {
     pub worst_error: Option<f64>,
     /// Failures in the order of the trials.
     pub failures: Vec<Failure>,
-    /// Why the function did not answer, in the check of the trial; the first reason of each check.
+    /// Reasons why the function did not answer, by the check of the trial; the first reason of each check.
     pub troubles: BTreeMap<Check, Trouble>,
     /// Number of calls that were answered.
     pub answers: usize,
@@ -39,7 +39,7 @@ pub struct Failure {
     pub input: String,
 }
 
-/// Why a check of the comparison fails.
+/// Reason why a check of the comparison fails.
 #[derive(Clone, Copy, Debug)]
 pub enum Reason<'a> {
     /// The function did not answer in one of its trials.

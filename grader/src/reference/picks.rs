@@ -69,7 +69,7 @@ fn answer(pick: &Pick) -> Vec<usize> {
     finite_elements_3d::pick_nearest_vertices(win, view, proj, viewport, V, F, *radius)
 }
 
-/// Whether the answer stays the same if the pixel moves a little and the radius changes a little.
+/// Returns true if the answer stays the same if the pixel moves a little and the radius changes a little.
 fn certain(pick: &Pick, found: &[usize]) -> bool {
     let moves =
         [(0.5, 0.0, 1.0), (-0.5, 0.0, 1.0), (0.0, 0.5, 1.0), (0.0, -0.5, 1.0), (0.0, 0.0, 1.01), (0.0, 0.0, 0.99)];

@@ -1,4 +1,4 @@
-//! How large the terms are that an answer is added up from: round-off is judged against them, not against their sum.
+//! Sizes of the terms that an answer is the sum of: round-off is measured relative to them, not to the sum.
 
 use nalgebra::{DVector, Matrix3, Matrix4x3, Vector3};
 
@@ -13,7 +13,7 @@ pub fn energy(F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
     C * (F.norm_squared() / J.cbrt().powi(2) + 3.0) + D * (J * J + 1.0)
 }
 
-/// Size of the terms of the stress, Pa: the energy changes by all of itself as the least stretch does.
+/// Size of the terms of the stress, Pa: the energy over the smallest principal stretch.
 pub fn stress(F: &Matrix3<f64>, C: f64, D: f64) -> f64 {
     energy(F, C, D) / F.singular_values().min()
 }

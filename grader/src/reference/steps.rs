@@ -129,7 +129,7 @@ pub fn minima(function: &'static str, random: &mut Random) -> Vec<Trial> {
 /// A bowl with curvatures between 1 and about 30.
 fn quadratic(random: &mut Random, size: usize) -> Objective {
     let A = DMatrix::from_fn(size, size, |_, _| random.number(-2.0..2.0));
-    // Round numbers, so that the gradient at the bottom is zero and not nearly so.
+    // Round numbers, so that the gradient at the minimum is exactly zero.
     let bottom = random.numbers(size, -4.0..4.0).map(f64::round);
     Objective::Quadratic { H: &A * A.transpose() + DMatrix::identity(size, size), bottom }
 }

@@ -108,8 +108,8 @@ fn a_laxer_tolerance_in_the_rubric_holds_for_every_check() {
         let failures = |tolerance: f64| {
             let judgement = judge(function, 5, &subject, tolerance).expect("the reference answers");
             let compared = judgement.checks(function).into_iter().filter_map(|(check, why)| why.map(|_| check.name()));
-            let held = checks.iter().filter(|check| with_tolerance(tolerance, || (check.run)(&course)).is_err());
-            compared.chain(held.map(|check| check.name)).collect::<Vec<_>>()
+            let failing = checks.iter().filter(|check| with_tolerance(tolerance, || (check.run)(&course)).is_err());
+            compared.chain(failing.map(|check| check.name)).collect::<Vec<_>>()
         };
         assert_eq!(failures(1e-6), [""; 0], "{function}");
         assert!(failures(TOLERANCE).len() > 1, "{function}");
@@ -148,7 +148,7 @@ fn wrong_values_and_values_that_are_none_fail() {
 
 #[test]
 fn any_tetrahedron_that_holds_a_point_will_do() {
-    // With the elements in the opposite order another one is the first that holds it.
+    // With the elements in the opposite order, another one is the first that contains the point.
     let last = Functions {
         build_skinning_matrix: |V, T, S| {
             let reversed: Vec<_> = T.iter().rev().copied().collect();

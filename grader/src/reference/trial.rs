@@ -95,7 +95,7 @@ pub struct Trial {
     pub function: &'static str,
     /// Name of the kind of input.
     pub name: &'static str,
-    /// Whether the input is a limiting case, which a formula alone does not cover.
+    /// The input is a limiting case, which a formula alone does not cover.
     pub edge: bool,
     /// The arguments.
     pub input: Input,
@@ -110,13 +110,13 @@ pub struct Observed {
     pub shape: [usize; 2],
     /// Row by row.
     pub numbers: Vec<f64>,
-    /// How often each closure was called.
+    /// Number of calls of each closure.
     pub calls: Vec<(&'static str, usize)>,
     /// Norm of the gradient that is left, relative to that at the start.
     pub residual: Option<f64>,
 }
 
-/// Far more than any right answer has.
+/// Limit of the size of an answer, far above that of any right one.
 const MOST_ENTRIES: usize = 1 << 20;
 
 impl Observed {

@@ -16,7 +16,7 @@ use crate::grade::{FunctionGrade, Grade};
 /// Hundredths. The same in every submission, so that the figures of a class compare.
 pub const UNITS_PER_POINT: f64 = 100.0;
 
-/// Whose submission this is. Classroom 50's runner tells an autograder so in its environment.
+/// Origin of a submission. The runner of Classroom 50 passes it to an autograder in the environment.
 #[derive(Clone, Debug)]
 pub struct Origin {
     classroom: String,
@@ -118,7 +118,7 @@ fn units(points: f64, max_points: f64) -> u64 {
 
 /// A time as `2026-06-01T14:32:01Z`.
 fn utc(time: SystemTime) -> String {
-    // A clock beyond the year 9999 is wrong; 1970 says so.
+    // A clock beyond the year 9999 is wrong; 1970 is written in its place.
     Timestamp::try_from(time).unwrap_or_default().strftime("%FT%TZ").to_string()
 }
 

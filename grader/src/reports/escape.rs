@@ -1,4 +1,4 @@
-//! Text that comes from a submission, made harmless for each format.
+//! Escapes text from a submission for each output format.
 
 /// Text without control sequences, control characters, marks that reverse the reading order and characters that XML
 /// forbids. Line ends and tabs stay.
@@ -23,7 +23,7 @@ pub fn line(text: &str) -> String {
     plain(text).split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// A relative link: no part of it can name another site or a script.
+/// Escapes a path as a relative link, so that no part of it can name another site or a script.
 pub fn link(path: &str) -> String {
     let mut escaped = String::from("./");
     for &byte in path.trim_start_matches('/').as_bytes() {
@@ -37,7 +37,7 @@ pub fn link(path: &str) -> String {
     escaped
 }
 
-/// For Markdown, on one line: shown as it is, whatever Markdown, HTML, mentions or links it spells.
+/// Escapes text for Markdown and puts it on one line. Markdown, HTML, mentions and links in it have no effect.
 pub fn markdown(text: &str) -> String {
     let text = line(text);
     let mut escaped = String::with_capacity(text.len());
@@ -45,10 +45,10 @@ pub fn markdown(text: &str) -> String {
     while let Some(c) = rest.next() {
         let mark =
             matches!(c, '\\' | '`' | '*' | '_' | '{' | '}' | '[' | ']' | '<' | '>' | '#' | '|' | '~' | '&' | '@' | '!');
-        let leads = escaped.is_empty() && matches!(c, '-' | '+' | '=');
+        let begins_list = escaped.is_empty() && matches!(c, '-' | '+' | '=');
         // Most sites turn a bare address into a link.
         let address = c == ':' && rest.peek() == Some(&'/') || c == '.' && escaped.ends_with("www");
-        if mark || leads || address || matches!(c, '$' | '^') {
+        if mark || begins_list || address || matches!(c, '$' | '^') {
             escaped.push('\\');
         }
         escaped.push(c);
@@ -64,7 +64,7 @@ pub fn fenced(text: &str) -> String {
     format!("{fence}text\n{}\n{fence}\n", text.trim_end())
 }
 
-/// For a cell of a spreadsheet, on one line: never run as a formula.
+/// Escapes text for a cell of a spreadsheet and puts it on one line, so that no program runs it as a formula.
 pub fn cell(text: &str) -> String {
     let text = line(text);
     // The last four are the same signs at full width, which some spreadsheets read alike.
@@ -77,7 +77,7 @@ fn is_invisible(c: char) -> bool {
     reverses || matches!(c, '\u{feff}' | '\u{fffe}' | '\u{ffff}')
 }
 
-/// Skips what follows an escape character: a terminal would obey it.
+/// Skips the control sequence after an escape character, which a terminal would execute.
 fn skip_sequence(rest: &mut std::iter::Peekable<std::str::Chars>) {
     match rest.next() {
         Some('[') => {

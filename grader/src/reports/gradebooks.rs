@@ -25,7 +25,7 @@ pub fn canvas(rows: &[Row], summary: &Summary) -> io::Result<String> {
     let possible = possible.chain([view::points(summary.max_score)]).collect();
     let students = students(rows, summary).into_iter().map(|(person, row)| {
         let name = if person.name.is_empty() { &person.student } else { &person.name };
-        // Canvas' own number of a student is never asked for: the other two do as well.
+        // Canvas' own number of a student is left empty: the other two identifiers suffice.
         let cells = [name, "", &person.id, &person.login, &person.section].map(escape::cell);
         cells.into_iter().chain([score(row)]).collect()
     });

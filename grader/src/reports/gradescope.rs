@@ -1,7 +1,7 @@
 //! `results.json`, as Gradescope's autograder specification asks for it
 //! (<https://gradescope-autograders.readthedocs.io/en/latest/specs/>).
 //!
-//! All texts are marked `text`: Gradescope shows them as they are, so nothing in them can be taken for markup.
+//! All texts are marked `text`: Gradescope shows them verbatim and interprets no markup.
 
 use std::io;
 
@@ -14,7 +14,7 @@ use crate::grade::{FunctionGrade, Grade};
 #[derive(Serialize)]
 struct Results {
     score: f64,
-    /// Left out where it is no number: Gradescope takes no null.
+    /// Left out if it is not finite: Gradescope does not accept null.
     #[serde(skip_serializing_if = "Option::is_none")]
     execution_time: Option<f64>,
     output: String,
@@ -95,10 +95,10 @@ pub(super) fn story(part: &FunctionGrade, show_diagnosis: bool) -> String {
     lines.join("\n")
 }
 
-/// Smaller is better in both columns. A column without a figure is left out: Gradescope takes no null.
+/// Smaller is better in both columns. A column without a figure is left out: Gradescope does not accept null.
 fn standings(grade: &Grade) -> Vec<Standing> {
     let error = view::worst_error(grade).map(|value| Standing { name: "Error", value, order: "asc" });
-    // A sum over fewer functions is smaller, and no merit.
+    // Sums over fewer functions are smaller and cannot be compared.
     let (seconds, right) = view::total_seconds(grade);
     let time = seconds.filter(|_| right == grade.functions.len()).map(|value| Standing {
         name: "Run time (s)",

@@ -67,7 +67,7 @@ fn inside(part: &FunctionGrade, show_diagnosis: bool) -> Markup {
         div class="inside" {
             @for note in view::notes(part, show_diagnosis) {
                 @let note = escape::plain(note.trim_end());
-                // The columns of a compiler's message carry its meaning.
+                // A compiler's message needs a font of constant width.
                 @if note.contains('\n') { pre { (note) } } @else { p { (note) } }
             }
             @if !part.checks.is_empty() {

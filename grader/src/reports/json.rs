@@ -1,4 +1,4 @@
-//! `grade.json`: everything that is known of a submission, for the instructor and for later commands.
+//! `grade.json`: all results of a submission, for the instructor and for later commands.
 
 use std::fs;
 use std::io;

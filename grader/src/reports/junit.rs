@@ -33,7 +33,7 @@ fn suite(part: &FunctionGrade, show_diagnosis: bool) -> TestSuite {
     for check in &part.checks {
         suite.add_test_case(case(&name, &check.name, check.status, &check.message));
     }
-    // A function that never came to its checks, or whose checks do not say why it failed, still counts as a case.
+    // A function without checks, or whose checks give no reason for its failure, counts as a case itself.
     if part.checks.iter().all(|check| check.status == Status::Passed)
         && (part.status != Status::Passed || part.checks.is_empty())
     {

@@ -63,7 +63,7 @@ fn item(text: &str) -> String {
     format!("- {}\n", escape::markdown(text))
 }
 
-/// One line as a sentence, several as they are: a compiler's message lives from its columns.
+/// One line as a sentence; several lines verbatim, because a compiler's message needs its columns.
 fn paragraph(text: &str) -> String {
     if text.trim().contains('\n') { escape::fenced(text) + "\n" } else { escape::markdown(text) + "\n\n" }
 }

@@ -41,7 +41,7 @@ impl Row<'_> {
         }
     }
 
-    /// Whether the student has handed in something.
+    /// Returns true if the student has a submission.
     pub fn has_submission(&self) -> bool {
         !matches!(self.entry.outcome, Outcome::NoSubmission(_))
     }

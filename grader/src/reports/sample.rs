@@ -9,10 +9,10 @@ use grader::submission::NAMES;
 use crate::class::{Entry, Identity, Outcome, Summary};
 use crate::grade::{CheckGrade, FORMAT_VERSION, FunctionGrade, Grade, Growth, Outcome as Ended, Run, Study};
 
-/// Text that only the instructor may read; no student's file may hold it.
+/// Text that only the instructor may read, and that must not be in a student's file.
 pub const SECRET: &str = "SECRET-INPUT-0.4711";
 
-/// Text that tries every format at once.
+/// Text with markup of every format.
 pub const HOSTILE: &str = "=cmd|'/C calc'!A0 </title><script>alert(1)</script> ``` `x` | ]]> \
     \u{1b}[2J\u{1b}]0;owned\u{7}\u{0}\u{8}\u{ffff}\u{202e} \"q\" & 'a' [l](http://x)";
 

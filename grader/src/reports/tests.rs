@@ -1,4 +1,4 @@
-//! Each format keeps its shape, whatever a submission's texts and figures are.
+//! Every format stays valid for all texts and figures of a submission.
 
 mod formats;
 mod study;

@@ -44,7 +44,7 @@ pub fn sentence(check: &str) -> String {
 pub fn notes(function: &FunctionGrade, show_diagnosis: bool) -> Vec<String> {
     let mut notes = Vec::new();
     match &function.diagnosis {
-        // The message explains the diagnosis: hidden together.
+        // The message explains the diagnosis, so both are hidden together.
         Some(_) if !show_diagnosis => {}
         Some(diagnosis) => {
             notes.push(format!("Looks like: {diagnosis}"));
@@ -63,12 +63,12 @@ pub fn notes(function: &FunctionGrade, show_diagnosis: bool) -> Vec<String> {
     notes
 }
 
-/// Whether there is something to say of a function beside its figures.
+/// Returns true if a function has notes beside its figures.
 pub fn has_notes(function: &FunctionGrade) -> bool {
     function.status != Status::Passed || function.growth.is_some_and(|growth| growth.is_faster())
 }
 
-/// How many functions pass, out of how many.
+/// Number of functions that pass, and number of all functions.
 pub fn passed(grade: &Grade) -> (usize, usize) {
     (grade.functions.iter().filter(|f| f.status == Status::Passed).count(), grade.functions.len())
 }
@@ -84,7 +84,7 @@ pub fn rounded(points: f64) -> f64 {
     (points * 1e4).round() / 1e4
 }
 
-/// The score between nothing and everything, 0 to 1.
+/// The score as a fraction, 0 to 1.
 pub fn fraction(score: f64, max_score: f64) -> f64 {
     if max_score > 0.0 && score.is_finite() { (score / max_score).clamp(0.0, 1.0) } else { 0.0 }
 }

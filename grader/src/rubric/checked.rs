@@ -1,4 +1,4 @@
-//! Refuses rubrics that make no sense, with the line and the remedy.
+//! Refuses inconsistent rubrics, and names the line and the remedy.
 
 use std::ops::Range;
 use std::path::Path;
@@ -7,7 +7,7 @@ use grader::submission::NAMES;
 
 use super::{OwnCheck, Role, Rubric, RubricError};
 
-/// More than any exercise is worth, so that sums stay numbers.
+/// Largest number of points, so that sums stay finite.
 const MOST_POINTS: f64 = 1e6;
 
 fn is_points(points: f64) -> bool {

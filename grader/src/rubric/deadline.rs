@@ -28,7 +28,7 @@ impl TryFrom<toml::Value> for Time {
 #[serde(deny_unknown_fields)]
 pub struct Deadline {
     pub at: Time,
-    /// A submission so many minutes after the deadline is not late.
+    /// Minutes after the deadline within which a submission is not late.
     #[serde(default)]
     pub grace_minutes: f64,
     /// Days, begun ones included, that cost nothing.
@@ -63,10 +63,10 @@ pub struct Extension {
     pub reason: Option<String>,
 }
 
-/// How late a submission is.
+/// Lateness of a submission.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lateness {
-    /// When it came, in UTC.
+    /// Time of submission, in UTC.
     pub submitted: String,
     /// The student's deadline, extension included, in UTC.
     pub deadline: String,

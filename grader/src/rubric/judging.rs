@@ -1,4 +1,4 @@
-//! The part of a rubric that decides what a check finds. The rest turns what was found into points, without grading again.
+//! The part of a rubric that decides the results of checks. The rest converts results into points, without a new grading.
 
 use toml::Spanned;
 
@@ -17,7 +17,7 @@ impl Rubric {
         let later = |name: &Spanned<String>| Spanned::new(0..0, name.get_ref().clone());
         let check = |check: &OwnCheck| OwnCheck {
             function: Spanned::new(0..0, check.function.get_ref().clone()),
-            // Where the file lies makes no difference; what is in it is part of the grader.
+            // The path of the file does not matter; its content is part of the grader.
             file: Default::default(),
             points: None,
             ..check.clone()

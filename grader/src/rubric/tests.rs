@@ -1,4 +1,4 @@
-//! Mistakes in rubrics, and what a change of one asks to be graded again.
+//! Mistakes in rubrics, and the gradings that a change of a rubric requires.
 
 use std::fs;
 

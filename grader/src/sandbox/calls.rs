@@ -83,7 +83,7 @@ const NEVER: &[i64] = &[
     libc::SYS_modify_ldt,
 ];
 
-/// System calls that are refused to a submission as well: other processes, and ways to leave something behind in memory.
+/// System calls that are refused to a submission as well: other processes, and shared memory that outlives a process.
 const NOT_FOR_SUBMISSIONS: &[i64] = &[
     #[cfg(target_arch = "x86_64")]
     libc::SYS_fork,
@@ -130,7 +130,7 @@ pub fn restrict(profile: Profile) -> Result<(), String> {
         }
     }
     apply(rules, forbidden)?;
-    // Its flags are in memory, where no filter sees them. Libraries turn to `clone` when there is no such call.
+    // Its flags are in memory, which filters cannot read. Libraries use `clone` if this call fails.
     apply(Rules::from([(libc::SYS_clone3, Vec::new())]), u64::from(libc::ENOSYS.cast_unsigned()))?;
     if cfg!(target_arch = "x86_64") { install(&no_x32()) } else { Ok(()) }
 }

@@ -74,12 +74,12 @@ fn move_down(base: &Path, processes: &str, pid: u32) -> Result<(), String> {
 
 /// Undoes [`move_down`].
 fn move_up(base: &Path, pid: u32) {
-    // Where this fails, the process stays in the child, in which it is as well off.
+    // If this fails, the process stays in the child, which has no disadvantage.
     let _ = write(&base.join("cgroup.procs"), &pid.to_string());
     let _ = fs::remove_dir(base.join(GRADER));
 }
 
-/// Removes what a grader has left behind that was killed. A cgroup with processes cannot be removed.
+/// Removes the cgroups of a killed grader. A cgroup with processes cannot be removed.
 fn remove_empty(base: &Path) {
     let entries = fs::read_dir(base).into_iter().flatten().flatten();
     for entry in entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(TREE)) {
@@ -121,7 +121,7 @@ impl Tree {
         // A kernel may have been built without swap, and the controller of processes may be another's.
         let _ = write(&tree.0.join("memory.swap.max"), "0");
         let _ = write(&tree.0.join("pids.max"), &limits.processes.to_string());
-        // One process without memory ends all of them, not one of the kernel's choice.
+        // If memory runs out, the kernel kills all processes of the group, and not one of its choice.
         let _ = write(&tree.0.join("memory.oom.group"), "1");
         Ok(tree)
     }
@@ -131,7 +131,7 @@ impl Tree {
         &self.0
     }
 
-    /// Whether the kernel has ended a process for want of memory.
+    /// Returns true if the kernel has killed a process because memory ran out.
     pub fn is_out_of_memory(&self) -> bool {
         let events = fs::read_to_string(self.0.join("memory.events")).unwrap_or_default();
         let killed = events.lines().find_map(|line| line.strip_prefix("oom_kill "));
@@ -141,15 +141,15 @@ impl Tree {
 
 impl Drop for Tree {
     fn drop(&mut self) {
-        // Before Linux 5.14 there is no such file; its processes have been waited for in any case.
+        // Before Linux 5.14 this file does not exist; the processes have been waited for already.
         if self.0.join("cgroup.kill").exists() {
             let _ = write(&self.0.join("cgroup.kill"), "1");
         }
         for _ in 0..100 {
             match fs::remove_dir(&self.0) {
-                // A process that has ended is counted a moment longer.
+                // A process is still counted for a moment after its end.
                 Err(error) if error.kind() == io::ErrorKind::ResourceBusy => thread::sleep(Duration::from_millis(5)),
-                // Where it cannot be removed, the next grader does it.
+                // If it cannot be removed, the next grader removes it.
                 _ => return,
             }
         }
@@ -161,7 +161,7 @@ impl Drop for Tree {
 /// # Errors
 /// The file that cannot be written.
 pub fn join(tree: &Path) -> Result<(), String> {
-    // Zero is the process that writes.
+    // Zero stands for the writing process.
     write(&tree.join("cgroup.procs"), "0")
 }
 

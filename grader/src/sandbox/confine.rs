@@ -7,7 +7,7 @@ use super::{enter, supervise};
 
 /// The arguments of `confine`.
 ///
-/// `keep SPEC` is how the grader calls it, `enter PIPE SPEC` how it calls itself, and `nothing` is the program of a trial.
+/// The grader calls it with `keep SPEC`; it calls itself with `enter PIPE SPEC`; `nothing` is the program of a trial.
 pub fn confine(arguments: &[String]) -> ExitCode {
     let outcome = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["nothing"] => Ok(()),

@@ -1,4 +1,4 @@
-//! The process that becomes the program: gives up one right after the other, the right to give up rights last.
+//! The process that becomes the program. It drops its rights one by one before it executes the program.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
@@ -15,7 +15,7 @@ use nix::unistd::setsid;
 use super::spec::Spec;
 use super::{calls, cgroup, files, owner, root};
 
-/// Bytes of the main thread's stack. Elsewhere `ulimit` decides, and a result must not depend on it.
+/// Size of the main thread's stack, bytes. It is fixed so that results do not depend on `ulimit`.
 const STACK: u64 = 8 << 20;
 
 /// Becomes the program. Returns only on failure, which the keeper learns through its pipe.
@@ -81,7 +81,7 @@ fn limit(spec: &Spec) -> nix::Result<()> {
     let limits = &spec.confined.limits;
     let cpu = limits.cpu.as_secs() + u64::from(limits.cpu.subsec_nanos() > 0);
     let mut values = vec![
-        // Zero would still let a system with a collector of cores have one; one byte is too little for either.
+        // With zero, a system that pipes core dumps to a program would still write one; with one byte it does not.
         (Resource::RLIMIT_CORE, 1),
         (Resource::RLIMIT_CPU, cpu),
         (Resource::RLIMIT_AS, limits.memory),
@@ -103,7 +103,7 @@ fn detach() -> nix::Result<()> {
     set_no_new_privs()
 }
 
-/// Becomes the program, or says why not.
+/// Becomes the program, or returns the reason for the failure.
 fn begin(spec: &Spec) -> String {
     let confined = &spec.confined;
     let mut command = Command::new(&confined.program);

@@ -1,4 +1,4 @@
-//! Landlock: which files the program reaches, and that it reaches no network and no other process.
+//! Landlock: restricts the program to some files, without network and without access to other processes.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use landlock::{
 
 use super::{Confined, Profile};
 
-/// The newest version of which this code makes use. Older kernels hold what they know.
+/// The newest version that this code uses. Older kernels enforce the rules that they know.
 const VERSION: ABI = ABI::V6;
 
 const DEVICES: [&str; 3] = ["/dev/null", "/dev/zero", "/dev/urandom"];
@@ -52,7 +52,7 @@ pub fn restrict(confined: &Confined) -> Result<(), String> {
 
 fn rule(path: &Path, access: BitFlags<AccessFs>) -> Result<PathBeneath<PathFd>, String> {
     let opened = PathFd::new(path).map_err(|error| error.to_string())?;
-    // Rights over folders make no sense for a file.
+    // Rights over folders are invalid for a file.
     let access = if path.is_dir() { access } else { access & AccessFs::from_file(VERSION) };
     Ok(PathBeneath::new(opened, access))
 }

@@ -1,4 +1,4 @@
-//! The processes below the launcher and the memory that they hold together. Each process has a limit of its own besides.
+//! The descendants of the launcher and their total memory. In addition each process has a limit of its own.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -20,21 +20,21 @@ impl Processes {
         File::open("/proc").map(Self)
     }
 
-    /// Memory that the processes below this one hold, bytes.
+    /// Resident memory of all descendants of this process, bytes.
     pub fn memory_below(&self) -> u64 {
         let mut families: HashMap<u32, Vec<u32>> = HashMap::new();
         for (child, parent) in self.all() {
             families.entry(parent).or_default().push(child);
         }
-        let (mut next, mut held) = (vec![std::process::id()], 0);
+        let (mut next, mut bytes) = (vec![std::process::id()], 0);
         while let Some(parent) = next.pop() {
-            // Taken out, so that a number which is used again meanwhile makes no circle.
+            // Removed, so that a process number that is used again makes no cycle.
             for child in families.remove(&parent).unwrap_or_default() {
-                held += self.resident(child);
+                bytes += self.resident(child);
                 next.push(child);
             }
         }
-        held
+        bytes
     }
 
     /// The processes whose parent is this one.

@@ -13,7 +13,7 @@ use super::{Confined, Ended};
 #[cfg(target_os = "linux")]
 use super::{Sandbox, spec::Control};
 
-/// How long after its time a program may take to end.
+/// Time that a program may take to end after its time is over.
 const GRACE: Duration = Duration::from_secs(10);
 
 /// Runs a program without any layer to its end.

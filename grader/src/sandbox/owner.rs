@@ -35,7 +35,7 @@ pub fn change(spec: &Spec, itself: &File) -> Result<(), String> {
     Ok(())
 }
 
-/// Says who the one user and the one group of a new user namespace are: (inside, outside).
+/// Maps the one user and the one group of a new user namespace: (inside, outside).
 pub fn map(itself: &File, user: (u32, u32), group: (u32, u32)) -> io::Result<()> {
     let lines = [
         ("setgroups", "deny".to_string()),
@@ -56,7 +56,7 @@ pub fn map(itself: &File, user: (u32, u32), group: (u32, u32)) -> io::Result<()>
 /// Gives a folder and what is in it to the user of the program.
 pub fn give(path: &Path, owner: u32) -> io::Result<()> {
     let metadata = fs::symlink_metadata(path)?;
-    // A file with a second name may stand elsewhere too, where it is not the program's.
+    // A file with several hard links may also be outside this folder, where it does not belong to the program.
     if metadata.uid() != owner && (metadata.is_dir() || metadata.nlink() == 1) {
         lchown(path, Some(owner), Some(owner))?;
     }

@@ -24,7 +24,7 @@ const LAYERS: [&str; 9] = [
 /// The layer that is tried last, where there is a cgroup for it.
 const CGROUP: &str = "memory_cgroup";
 
-/// The sandbox with each layer, and whether it holds beside those before it.
+/// The sandbox with each layer, and whether the layer works together with the previous ones.
 pub fn probe(launcher: &Path) -> Sandbox {
     let mut sandbox =
         Sandbox { launcher: Some(launcher.to_path_buf()), cgroup: cgroup::prepare(), layers: BTreeMap::new() };
@@ -54,7 +54,7 @@ pub fn probe(launcher: &Path) -> Sandbox {
     sandbox
 }
 
-/// The launcher as the program, asked to do nothing.
+/// The launcher as a program that does nothing.
 fn nothing(launcher: &Path) -> Confined {
     let mut readable = library_folders();
     readable.push(launcher.to_path_buf());

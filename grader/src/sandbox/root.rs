@@ -1,4 +1,4 @@
-//! A root folder that holds nothing but what the program may see.
+//! A root folder with only the files that the program may see.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -22,7 +22,7 @@ const DEVICES: [&str; 3] = ["/dev/null", "/dev/zero", "/dev/urandom"];
 pub fn build(confined: &Confined) -> io::Result<()> {
     const NONE: Option<&str> = None;
     mount(NONE, "/", NONE, MsFlags::MS_REC | MsFlags::MS_PRIVATE, NONE)?;
-    // Any folder does: the new root moves away from here at once.
+    // Any folder is suitable, because the new root is moved at once.
     let place = "/proc";
     mount(Some("tmpfs"), place, Some("tmpfs"), MsFlags::MS_NOSUID | MsFlags::MS_NODEV, Some("size=1m,mode=755"))?;
     chdir(place)?;
@@ -51,7 +51,7 @@ fn in_order(confined: &Confined) -> BTreeMap<PathBuf, bool> {
 fn show(path: &Path, writable: bool) -> io::Result<()> {
     let before = old(path);
     if fs::symlink_metadata(&before)?.is_symlink() {
-        // A folder such as /bin; where it leads to must be listed too.
+        // A folder such as /bin; the target of the link must be listed too.
         return if fs::symlink_metadata(path).is_ok() { Ok(()) } else { link(&fs::read_link(&before)?, path) };
     }
     bind(path)?;
@@ -87,7 +87,7 @@ fn bind(path: &Path) -> io::Result<()> {
 /// Makes a mount read-only or not, without devices and programs of other users' rights.
 fn seal(path: &Path, writable: bool) -> io::Result<()> {
     let mut flags = MsFlags::MS_REMOUNT | MsFlags::MS_BIND | MsFlags::MS_NOSUID | MsFlags::MS_NODEV;
-    // In a user namespace, what a mount forbids already must stay forbidden.
+    // In a user namespace, restrictions of a mount cannot be removed.
     let kept = [
         (FsFlags::ST_RDONLY, MsFlags::MS_RDONLY),
         (FsFlags::ST_NOEXEC, MsFlags::MS_NOEXEC),

@@ -14,7 +14,7 @@ use super::Confined;
 #[cfg(target_os = "linux")]
 pub use launch::launched;
 
-/// How long a killed process tree may take to vanish, and a launcher to begin.
+/// Time that a killed process tree may take to end, and a launcher to start.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// A running program. Dropping it kills the whole process tree.
@@ -73,13 +73,13 @@ pub fn plain(confined: &Confined) -> io::Result<Running> {
     }
 }
 
-/// How a program ended.
+/// End of a program.
 #[derive(Clone, Debug)]
 pub struct End {
     pub code: Option<i32>,
     pub signal: Option<i32>,
     pub timed_out: bool,
-    /// Whether the memory of its processes together was used up, where that is told.
+    /// The memory of its processes together was used up, if the system reports that.
     pub out_of_memory: bool,
     pub seconds: f64,
 }
@@ -116,13 +116,13 @@ fn meaning(signal: i32) -> &'static str {
     }
 }
 
-/// A process tree and the way to its end.
+/// A process tree, and the means to kill it.
 pub struct Tree {
     pub child: Child,
     /// The socket to the launcher: when it closes, the launcher kills everything. None for a plain program.
     #[cfg(target_os = "linux")]
     control: Option<io::BufReader<Socket>>,
-    /// When a plain program's time is over.
+    /// Time limit of a plain program.
     deadline: Instant,
     end: Option<End>,
 }
@@ -136,7 +136,7 @@ impl Tree {
         if cfg!(target_os = "linux") {
             command.env_clear().envs(confined.environment.iter().map(|(name, value)| (name, value)));
         }
-        // In our own group of processes, so that Ctrl-C at a terminal ends an endless loop along with us.
+        // In the grader's own process group, so that Ctrl-C at a terminal also ends an endless loop.
         let child = wire(&mut command).spawn()?;
         Ok(Self {
             child,
@@ -205,7 +205,7 @@ impl Tree {
 
     /// Kills what was started: a launcher with its group; a plain program has none of its own.
     fn kill_plain(&mut self) {
-        // The process may be gone already, which is what is wanted.
+        // An error means that the process has ended already.
         #[cfg(target_os = "linux")]
         if matches!(self.child.try_wait(), Ok(None)) {
             let group = nix::unistd::Pid::from_raw(self.child.id().cast_signed());

@@ -19,7 +19,7 @@ pub struct Spec {
     pub owner: u32,
     /// The cgroup in which that of the tree is made, for `memory_cgroup`.
     pub cgroup: Option<PathBuf>,
-    /// Which descriptor of the launcher leads to the grader.
+    /// File descriptor of the launcher's connection to the grader.
     pub control: Control,
 }
 
@@ -45,9 +45,9 @@ pub enum News {
         code: Option<i32>,
         /// Signal.
         signal: Option<i32>,
-        /// Whether its time was over.
+        /// The program's time was over.
         timed_out: bool,
-        /// Whether the memory of its processes was used up.
+        /// The memory of its processes was used up.
         out_of_memory: bool,
         /// Processor time, s.
         seconds: f64,

@@ -39,7 +39,7 @@ pub fn supervise(spec: Spec) -> Result<(), String> {
             sweep(&spec, &processes);
             let (timed_out, out_of_memory) = lock(&watch).why();
             let out_of_memory = out_of_memory || tree.as_ref().is_some_and(cgroup::Tree::is_out_of_memory);
-            // The grader may exit as soon as it has heard.
+            // The grader may exit as soon as it has read this.
             drop(tree);
             tell(&control, &ended(status, timed_out, out_of_memory)?)
         }
@@ -58,7 +58,7 @@ fn control(place: Control) -> io::Result<UnixStream> {
 fn tell(mut control: &UnixStream, news: &News) -> Result<(), String> {
     let mut line = serde_json::to_string(news).map_err(|error| error.to_string())?;
     line.push('\n');
-    // The grader may have lost interest, which is no failure.
+    // The grader may have closed the socket, which is no failure.
     match control.write_all(line.as_bytes()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.to_string()),
         _ => Ok(()),
@@ -91,7 +91,7 @@ fn separate(spec: &Spec) -> Result<(), String> {
 /// Starts the program; an error is what its launcher says.
 fn begin(spec: &Spec, watch: &Mutex<Watch>) -> Result<Child, String> {
     if spec.layers.contains("pid_namespace") {
-        // From here on, no more thread can be started.
+        // After this call no thread can be started.
         unshare(CloneFlags::CLONE_NEWPID).map_err(|error| format!("pid_namespace: {error}"))?;
     }
     set_child_subreaper(true).map_err(|error| format!("process_tree: {error}"))?;
@@ -112,7 +112,7 @@ fn begin(spec: &Spec, watch: &Mutex<Watch>) -> Result<Child, String> {
     if report.is_empty() {
         return Ok(child);
     }
-    // What is left of the process says nothing more.
+    // The process reports no more.
     let _ = { child }.wait();
     Err(report)
 }
@@ -127,12 +127,12 @@ fn namespaces(spec: &Spec) -> CloneFlags {
     flags.into_iter().filter(|(name, _)| spec.layers.contains(*name)).map(|(_, flag)| flag).collect()
 }
 
-/// Who may kill the program, and why that was done.
+/// The program that may be killed, and the reasons of the kill.
 #[derive(Default)]
 struct Watch {
     /// The program from its start until it is waited for; until then no other process has its number.
     program: Option<Pid>,
-    /// Whether its time is over or the grader gone.
+    /// The program's time is over, or the grader has ended.
     over: bool,
     timed_out: bool,
     out_of_memory: bool,
@@ -144,7 +144,7 @@ impl Watch {
         self.kill_if_over();
     }
 
-    /// Whether its time was over, and whether its memory was used up.
+    /// Returns the reasons of the kill: time over, memory used up.
     fn why(&self) -> (bool, bool) {
         (self.timed_out, self.out_of_memory)
     }
@@ -161,10 +161,10 @@ fn lock(watch: &Mutex<Watch>) -> MutexGuard<'_, Watch> {
     watch.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The memory of the tree is looked at so often at most,
+/// Shortest interval at which the memory of the process tree is polled.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// and looking takes less than one part in so many of the time.
+/// Polling takes less than 1/RARELY of the time.
 const RARELY: u32 = 20;
 
 /// Ends the program when its time is over, its memory is used up or the grader is gone.
@@ -182,7 +182,7 @@ fn watch(spec: &Spec, control: &UnixStream, processes: Arc<Processes>) -> io::Re
     thread::Builder::new().spawn(move || {
         let (timed_out, out_of_memory) = loop {
             let left = until.saturating_duration_since(Instant::now());
-            // The grader says nothing: a read returns when it closes the socket or dies, or when it is time to look.
+            // The grader sends no data: a read returns when it closes the socket or ends, or when the next poll is due.
             let heard = ear.set_read_timeout(Some(left.min(pause).max(Duration::from_millis(1))));
             let heard = heard.and_then(|()| (&ear).read(&mut [0]));
             if left.is_zero() && heard.is_err() {
@@ -229,7 +229,7 @@ fn retry<T>(mut call: impl FnMut() -> nix::Result<T>) -> nix::Result<T> {
     }
 }
 
-/// Kills what the program has left behind. In a namespace of its own, the kernel has done so.
+/// Kills processes that the program has left running. In a namespace of its own, the kernel has done so.
 fn sweep(spec: &Spec, processes: &Processes) {
     // Orphans become children of this process, generation by generation.
     loop {

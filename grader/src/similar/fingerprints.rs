@@ -16,7 +16,7 @@ pub struct File {
     pub name: &'static str,
     pub text: String,
     pub tokens: Vec<Token>,
-    /// Whether a token is the author's: it is in no piece that the handout has too.
+    /// True for each token of the author: a token in no piece that the handout has too.
     pub is_own: Vec<bool>,
 }
 

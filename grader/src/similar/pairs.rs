@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::fingerprints::{Document, PIECE};
 
-/// Places of one piece in one submission that are looked at: what repeats more often is a habit of the language.
+/// Largest number of places of a piece in one submission. A piece that repeats more often is an idiom of the language.
 const MOST_PLACES: usize = 4;
 
 /// A piece in more than half of a class is left out, where the class has so many submissions at least.
@@ -68,7 +68,7 @@ fn pair(class: &[Document], members: [usize; 2], hashes: &[u64]) -> Pair {
             let is_new = place.iter().any(|covered| !covered);
             (is_new, start, file)
         });
-        // A run whose tokens are all in longer ones tells nothing new.
+        // A run whose tokens are all in longer runs is redundant.
         if news.iter().all(|(is_new, ..)| *is_new) {
             for (side, (_, start, file)) in news.into_iter().enumerate() {
                 covered[side][file][start..start + run.length].fill(true);
@@ -87,8 +87,8 @@ fn pair(class: &[Document], members: [usize; 2], hashes: &[u64]) -> Pair {
     Pair { members, runs, shared, share: share(0).max(share(1)) }
 }
 
-/// All runs around shared pieces. Pieces within a run that is known already are passed over, so that long texts cost no more than
-/// they hold.
+/// All runs around shared pieces. Pieces within a known run are skipped, so that the time is proportional to the length of the
+/// texts.
 fn found_runs(documents: [&Document; 2], hashes: &[u64]) -> Vec<Run> {
     let mut places: Vec<[(usize, usize); 2]> = Vec::new();
     for hash in hashes {
@@ -113,7 +113,7 @@ fn found_runs(documents: [&Document; 2], hashes: &[u64]) -> Vec<Run> {
     runs
 }
 
-/// The whole run around a shared piece; `None` if the hash deceives.
+/// The whole run around a shared piece; `None` if two different pieces have the same hash.
 fn extended(documents: [&Document; 2], places: [(usize, usize); 2]) -> Option<Run> {
     let kinds = [0, 1].map(|side| &documents[side].files[places[side].0].tokens);
     let [a, b] = places.map(|(_, start)| start);

@@ -52,7 +52,7 @@ fn map_idents(tokens: TokenStream, change: &impl Fn(String) -> String) -> TokenS
     tokens.into_iter().map(one).collect()
 }
 
-/// Another name for everything that the file's own `let`, closures and arguments name: for simplicity, for each short word.
+/// Renames the variables and arguments of the file. For simplicity it renames every short word.
 fn renamed(text: &str) -> String {
     let is_kept = |word: &str| syn::parse_str::<syn::Ident>(word).is_err() || word == "f64" || word.len() > 5;
     let change = |word: String| if is_kept(&word) { word } else { format!("my_{word}") };

@@ -1,4 +1,4 @@
-//! A text as the kinds of its tokens: names and literals are all alike, comments and attributes are gone.
+//! A text as the kinds of its tokens. All names are equal, all literals are equal, and comments and attributes are left out.
 
 use grader::submission::with_tokens;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};

@@ -1,4 +1,4 @@
-//! From the files of a folder or an archive to a submission.
+//! Selects the files of a submission from a folder or an archive.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,14 +14,14 @@ pub enum Content {
     Unread,
     /// A symbolic or hard link.
     Link,
-    /// A file that the system or the archive does not give; why.
+    /// A file that cannot be read; the reason.
     Broken(String),
 }
 
 /// One entry: its path from the top with `/` between its parts, and what is there.
 pub type Entry = (String, Content);
 
-/// Why nothing can be taken of a submission.
+/// Reason why a submission cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Unreadable(pub String);
@@ -29,7 +29,7 @@ pub struct Unreadable(pub String);
 /// Files of a repository that decide how code is built; an author who changed them is told that they are ignored.
 const IGNORED: [&str; 5] = ["build.rs", ".cargo", "rust-toolchain.toml", "rust-toolchain", "src/build.rs"];
 
-/// Whether a path is that of one of the 22 files, in `src` or in `TOP/src`: what a reader of archives must keep.
+/// Returns true if a path is that of one of the 22 files, in `src` or in `TOP/src`. A reader of archives must keep these.
 pub fn may_be_taken(path: &str) -> bool {
     let parts: Vec<_> = path.split('/').collect();
     let file = match parts[..] {
@@ -71,7 +71,7 @@ impl Submission {
     }
 }
 
-/// So many remarks on ignored files are made.
+/// Largest number of remarks on ignored files.
 const MOST_REMARKS: usize = 20;
 
 /// The first remarks, and how many more there would be.

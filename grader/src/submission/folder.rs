@@ -1,4 +1,4 @@
-//! The entries of a folder. Looks into `src` alone, so that build products and meshes cost nothing.
+//! The entries of a folder. Only `src` is read, so that build products and meshes take no time.
 
 use std::fs;
 use std::io::{self, Read};
@@ -19,7 +19,7 @@ pub fn entries(folder: &Path) -> Result<Vec<Entry>, Unreadable> {
         if name == "src" {
             found.extend(source_files("src/", &path, &mut room).map_err(unreadable)?);
         } else if is_folder(&path) && !name.starts_with('.') && name != "target" {
-            // A wrapping folder, perhaps; what else is in it is left alone.
+            // Possibly a wrapping folder; only its `src` is read.
             let src = path.join("src");
             if is_folder(&src) {
                 found.extend(source_files(&format!("{name}/src/"), &src, &mut room).map_err(unreadable)?);
@@ -68,7 +68,7 @@ fn source_files(prefix: &str, folder: &Path, room: &mut usize) -> io::Result<Vec
     Ok(files.collect())
 }
 
-/// Opens nothing but a plain file, and reads no more of it than may be taken.
+/// Reads a plain file up to the limit of its size. Other kinds of files are not opened.
 fn content(path: &Path) -> Content {
     let metadata = match fs::symlink_metadata(path) {
         Ok(metadata) => metadata,

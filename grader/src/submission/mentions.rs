@@ -1,4 +1,4 @@
-//! Which functions of the course a file speaks of.
+//! Finds the functions of the course that a file names.
 
 use std::collections::BTreeSet;
 
@@ -6,8 +6,8 @@ use proc_macro2::{TokenStream, TokenTree};
 
 use super::{NAMES, scan};
 
-/// The functions whose names stand in the code of a file, its own among them; comments and texts do not count. None for a
-/// file that is no Rust, which will not compile either.
+/// The functions whose names stand in the code of a file, its own among them; comments and texts do not count. Empty for a
+/// file that is not Rust.
 pub fn mentions(text: &str) -> BTreeSet<&'static str> {
     let find = |tokens: TokenStream| {
         let mut found = BTreeSet::new();

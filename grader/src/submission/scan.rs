@@ -152,19 +152,19 @@ struct Place {
     in_arguments: bool,
 }
 
-/// Whether `#` or `#!` stands last.
+/// Returns true if the last token is `#` or `#!`.
 fn follows_hash(before: &[TokenTree]) -> bool {
     let is = |token: Option<&TokenTree>, c| matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == c);
     let before_last = before.len().checked_sub(2).map(|at| &before[at]);
     is(before.last(), '#') || is(before.last(), '!') && is(before_last, '#')
 }
 
-/// Whether a name and a pair of braces come next.
+/// Returns true if a name and a pair of braces come next.
 fn has_body(after: &[TokenTree]) -> bool {
     matches!(after, [TokenTree::Ident(_), TokenTree::Group(group), ..] if group.delimiter() == Delimiter::Brace)
 }
 
-/// Whether `!` and brackets come next.
+/// Returns true if `!` and brackets come next.
 fn is_called(after: &[TokenTree]) -> bool {
     matches!(after, [TokenTree::Punct(mark), TokenTree::Group(_), ..] if mark.as_char() == '!')
 }

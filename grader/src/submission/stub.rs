@@ -1,12 +1,12 @@
-//! Tells a function that was never written.
+//! Recognises a function whose body is still that of the stub.
 
 use proc_macro2::{Delimiter, TokenTree};
 
 use super::scan;
 
-/// Whether the function `name` of this text has a body that only says that it is still to be written.
+/// Returns true if the function `name` of this text still has the body of a stub.
 ///
-/// Looks at tokens alone: a parser's stack is as deep as a hostile text makes it.
+/// It looks at tokens only, because a hostile text could overflow the stack of a parser.
 pub fn is_stub(name: &str, text: &str) -> bool {
     scan::with_tokens(text, |tokens| {
         let tokens: Vec<_> = tokens.into_iter().collect();

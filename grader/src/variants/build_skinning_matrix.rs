@@ -111,7 +111,7 @@ fn push(entries: &mut CooMatrix<f64>, row: usize, element: &[usize; 4], phi: &Ve
     element.iter().zip(phi).for_each(|(&column, &weight)| entries.push(row, column, weight));
 }
 
-/// The element whose smallest weight is largest; that is one that holds the point, where there is one.
+/// The element whose smallest weight is largest. It contains the point if any element does.
 fn best(V: &[Vector3<f64>], T: &[[usize; 4]], x: &Vector3<f64>) -> Option<Place> {
     let places = T.iter().map(|element| (*element, solved::phi_linear_tetrahedron(V, element, x)));
     places.max_by(|(_, a), (_, b)| a.min().total_cmp(&b.min()))

@@ -111,7 +111,7 @@ fn moved(q: &DVector<f64>, v: &DVector<f64>, dt: f64) -> DVector<f64> {
     q + v * dt
 }
 
-/// The step without a mistake; the mistakes are in what goes into it.
+/// The right step; the mistakes are in its arguments.
 fn step(
     q: &mut DVector<f64>,
     qdot: &mut DVector<f64>,

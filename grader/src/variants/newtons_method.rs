@@ -104,7 +104,7 @@ struct Habits {
     accepts: fn(f64, f64) -> bool,
     /// Takes the norms of the gradient here and at the start.
     small: fn(f64, f64) -> bool,
-    /// How much of the way to a point that is refused stays in x0.
+    /// Fraction of the way to a rejected point that stays in x0.
     left_behind: fn(f64) -> f64,
     /// The first step of a line search, from the last one of the search before.
     first_step: fn(f64) -> f64,
@@ -117,7 +117,7 @@ const USUAL: Habits = Habits {
     first_step: |_| 1.0,
 };
 
-/// Newton's method with these habits.
+/// Newton's method with these settings.
 fn newton(
     habits: &Habits,
     x0: &mut DVector<f64>,

@@ -17,7 +17,7 @@ const LIMIT: Duration = Duration::from_secs(400);
 /// Files that students may read.
 pub const OPEN: [&str; 4] = ["results.json", "report.md", "report.html", "junit.xml"];
 
-/// The first grading prepares libraries, which two at a time must not do.
+/// The first grading prepares the libraries; only one process may do so at a time.
 pub static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 /// A submission before it is graded.
@@ -61,7 +61,7 @@ impl Classroom {
         fs::write(path, text).expect("a file");
     }
 
-    /// Changes a function's file, and tells what it must come to.
+    /// Changes a function's file, and records its expected result.
     pub fn change(&mut self, name: &'static str, status: &'static str, change: impl FnOnce(String) -> String) {
         self.expected.insert(name, status);
         self.add(&format!("src/{name}.rs"), &change(self.solutions[name].clone()));
@@ -123,7 +123,7 @@ impl Attacked {
         functions.iter().find(|function| function["name"] == name).expect("all 22 are there")
     }
 
-    /// Each function has the status that it should have, full marks where it is honest and none where it is not.
+    /// Asserts that each function has its expected status: full marks if that is `passed`, no marks otherwise.
     pub fn is_as_expected(&self) {
         let mut wrong = Vec::new();
         for (name, status) in &self.expected {

@@ -69,7 +69,7 @@ fn the_libraries_that_a_compiler_sees_hold_no_line_of_a_solution() {
         assert_eq!(beside.len(), 1, "{beside:?}");
         let bytes = fs::read(&library).expect("a library");
         let text = String::from_utf8_lossy(&bytes);
-        // What a panic says is in any program.
+        // Messages of panics are in every program.
         for line in lines.iter().filter(|line| line.len() > 30 && !line.contains('"')) {
             assert!(!text.contains(line.as_str()), "{} holds {line}", library.display());
         }

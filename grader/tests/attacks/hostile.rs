@@ -1,4 +1,4 @@
-//! Bodies of functions that do harm instead of their work. Each starts with what `given` holds and ends in a wrong answer.
+//! Hostile bodies of functions. Each starts with the imports from `given` and ends in a wrong answer.
 
 /// Frames that look like answers, and as many forged results on the standard output.
 pub const FORGED_FRAMES: &str = r#"

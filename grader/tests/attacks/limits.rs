@@ -1,4 +1,4 @@
-//! Submissions that take all the time, or say more than anyone would read.
+//! Submissions that use up all their time, or produce too much output.
 
 use super::classroom::{Classroom, OPEN};
 use grader::submission::NAMES;

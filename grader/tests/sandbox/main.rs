@@ -1,4 +1,4 @@
-//! Programs that try to do harm, and what becomes of them.
+//! Hostile programs in the sandbox, and their ends.
 #![cfg(target_os = "linux")]
 
 mod program;
@@ -127,7 +127,7 @@ fn the_memory_of_a_tree_of_processes_is_limited() {
     program.confined.limits.memory = 512 << 20;
     program.confined.limits.processes = 64;
     program.confined.limits.wall = Duration::from_secs(60);
-    // Six processes, each of which may have what it holds.
+    // Six processes, each within its own limit.
     let script = "for i in 1 2 3 4 5 6; do head -c 120000000 /dev/zero | tail -c 110000000 | sleep 20 & done; wait";
     program.confined.arguments = vec!["-c".into(), script.into()];
     let ended = program.run();

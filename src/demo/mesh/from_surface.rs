@@ -18,7 +18,7 @@ pub struct Arguments {
     /// Mean length of an edge, m
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     edge: f64,
-    /// How often edges may double towards the inside
+    /// Number of times that edges may double towards the inside
     #[arg(long, value_name = "N", default_value_t = 0)]
     grading: usize,
     /// Keeps edges and corners of the surface where normals differ by more than this angle, degrees

@@ -21,7 +21,7 @@ pub fn spawn(
     };
     commands.spawn((
         SoftBody::scene("arma-engine", DATA),
-        // Softer than the scene says, so that it wobbles.
+        // Softer than in the scene, so that it vibrates visibly.
         SoftBodyMaterial { model: "neo_hookean".to_owned(), young: 1.5e5, ..default() },
         SoftBodyMeshSync::default(),
         of_color(Srgba::rgb(0.45, 0.62, 0.35)),

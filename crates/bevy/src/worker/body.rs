@@ -38,7 +38,7 @@ struct Built {
 
 /// An order to a body.
 pub enum Order {
-    /// Do steps until there are so many in all.
+    /// Do steps up to this total number.
     Advance(usize),
     /// Pull, or let go.
     Pull(Option<SoftBodyPull>),
@@ -58,12 +58,12 @@ impl Body {
         }
     }
 
-    /// Whether a thread is building it.
+    /// Returns true if a thread is building the simulation.
     pub fn is_building(&self) -> bool {
         matches!(self.stage, Stage::Building(_))
     }
 
-    /// Whether it can do something now.
+    /// Returns true if the worker can make progress on this body now.
     pub fn has_work(&self) -> bool {
         match &self.stage {
             Stage::Waiting(_) => true,
@@ -90,7 +90,7 @@ impl Body {
         None
     }
 
-    /// Whether it waits to be built.
+    /// Returns true if the body is still to be built.
     pub fn is_waiting(&self) -> bool {
         matches!(self.stage, Stage::Waiting(_))
     }

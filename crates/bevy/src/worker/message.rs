@@ -1,4 +1,4 @@
-//! What the main thread and a worker tell each other.
+//! Messages between the main thread and a worker.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -17,7 +17,7 @@ use crate::surface::Topology;
 pub enum Command {
     /// Build a body.
     Add(BodyId, Box<Blueprint>),
-    /// Do steps until the body has done so many in all.
+    /// Do steps up to this total number.
     Advance(BodyId, usize),
     /// Pull the body, or let it go, in the steps that are requested afterwards.
     Pull(BodyId, Option<SoftBodyPull>),

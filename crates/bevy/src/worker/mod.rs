@@ -35,7 +35,7 @@ struct Worker {
 }
 
 impl Workers {
-    /// Starts so many threads, at least one.
+    /// Starts this number of threads, at least one.
     pub fn start(threads: usize) -> Self {
         let (sender, news) = channel();
         let mut workers = Self {

@@ -36,7 +36,7 @@ impl Thread {
         }
     }
 
-    /// Executes all commands that have arrived, and waits for one if there is nothing to do. Returns false at the end of the channel.
+    /// Executes all commands that have arrived, and waits for a command if no work is left. Returns false at the end of the channel.
     fn take_commands(&mut self) -> bool {
         if !self.has_work() {
             let is_building = self.bodies.values().any(Body::is_building);
@@ -93,7 +93,7 @@ impl Thread {
                 false => body.work(),
             };
             if let Some(news) = news {
-                // The main thread has gone if this fails, and the channel of commands tells so.
+                // If this fails, the main thread has ended, and the channel of commands is closed.
                 let _ = self.news.send((id, news));
             }
         }

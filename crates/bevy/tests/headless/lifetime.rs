@@ -10,7 +10,7 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, Stats, StatsAlloc};
 
 use crate::app::{DATA, app, state, wait_for_bodies, wait_until};
 
-/// Counts what is allocated and not freed.
+/// Counts the bytes that are allocated and not freed.
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 

@@ -8,7 +8,7 @@ pub trait BatchLaws<T: Number>: Copy + Sync {
     /// The law of a batch.
     type Law: Law<T>;
 
-    /// Whether loops are compiled for the law itself. Such a loop has its widest registers on every processor; around calls by reference
+    /// True if loops are compiled for the law itself. Such a loop uses the widest registers on every processor; around calls by reference
     /// they make no difference.
     const IS_INLINED: bool;
 

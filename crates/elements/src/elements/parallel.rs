@@ -3,7 +3,7 @@
 use super::Chunk;
 use crate::number::Float;
 
-/// The work on one chunk and its part of the output. One call per chunk: it costs nothing, and the loop is compiled once.
+/// The work on one chunk and its part of the output. One call per chunk takes no measurable time, and the loop is compiled once.
 pub(super) type Work<'a, T, X, const D: usize, const E: usize, const N: usize> =
     &'a (dyn Fn(&Chunk<T, D, E, N>, &mut [X]) -> f64 + Sync);
 

@@ -7,7 +7,7 @@ use crate::number::Lanes;
 use crate::sparse::Block;
 use crate::tensor::transpose;
 
-/// Adds what the corners of a batch contribute to the nodes of its chunk.
+/// Adds the contributions of the corners of a batch to the nodes of its chunk.
 #[inline(always)]
 pub(super) fn scatter<L: Lanes, const D: usize, const E: usize, const N: usize>(
     chunk: &Chunk<L::Element, D, E, N>,

@@ -80,14 +80,14 @@ macro_rules! laws {
                 }
             }
 
-            /// Whether the stress is a linear function of the displacement gradient.
+            /// Returns true if the stress is a linear function of the displacement gradient.
             pub fn is_linear(&self) -> bool {
                 match self {
                     $(Self::$Law(_) => $Law::<T>::IS_LINEAR,)*
                 }
             }
 
-            /// Whether the energy is finite for J = det F ≤ 0 too. If it is not, a step must keep J > 0 in every element.
+            /// Returns true if the energy is finite for J = det F ≤ 0 too. If not, a step must keep J > 0 in every element.
             pub fn allows_inversion(&self) -> bool {
                 match self {
                     $(Self::$Law(_) => $Law::<T>::ALLOWS_INVERSION,)*

@@ -1,4 +1,4 @@
-//! Cauchy stress: force per deformed area, as files and users want it. A linear law does not distinguish deformed from undeformed area, so
+//! Cauchy stress: force per deformed area, for files and users. A linear law does not distinguish deformed from undeformed area, so
 //! that its first Piola–Kirchhoff stress is its Cauchy stress.
 
 use crate::number::{Number, constant};

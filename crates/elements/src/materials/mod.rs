@@ -100,15 +100,15 @@ pub enum Terms<T> {
     Entries,
 }
 
-/// A law that scene files name, and the facts that methods ask for.
+/// A law that scene files name, with the properties that methods need.
 pub trait NamedLaw<T: Number>: Law<T> + Copy {
     /// The name in scene files.
     const NAME: &'static str;
 
-    /// Whether the stress is a linear function of the displacement gradient.
+    /// True if the stress is a linear function of the displacement gradient.
     const IS_LINEAR: bool = false;
 
-    /// Whether the energy is finite for J = det F ≤ 0 too. If it is not, a step must keep J > 0 in every element.
+    /// True if the energy is finite for J = det F ≤ 0 too. If not, a step must keep J > 0 in every element.
     const ALLOWS_INVERSION: bool = true;
 
     /// The law with a scene's parameters; `None` if the table lacks them, as a checked table never does.

@@ -103,7 +103,7 @@ pub trait Number:
     /// x = y
     fn eq(self, other: Self) -> Self::Mask;
 
-    /// Whether a mask is true in every lane.
+    /// Returns true if a mask is true in every lane.
     fn all(mask: Self::Mask) -> bool;
 
     /// x ≤ y
@@ -195,7 +195,7 @@ pub trait Float: RealField + Packed + Default + std::iter::Sum {
     /// The numbers of all lanes, mutable.
     fn each_mut(lanes: &mut Self::Lanes) -> &mut [Self];
 
-    /// Whether kernels are run with the instructions of [`Fast`](Self::Fast).
+    /// Returns true if kernels are run with the instructions of [`Fast`](Self::Fast).
     fn has_fast() -> bool;
 
     /// The nearest number of this type.

@@ -35,7 +35,7 @@ fn unproven() -> ! {
     panic!("these lanes are for processors with AVX2: ask `Float::has_fast` first")
 }
 
-/// Whether kernels are run with AVX2.
+/// Returns true if kernels are run with AVX2.
 pub(super) fn is_available() -> bool {
     let simd = avx2();
     if let Some(simd) = simd {

@@ -8,7 +8,7 @@ pub fn constant<T: Number>(x: f64) -> T {
     T::splat(T::Element::of(x))
 }
 
-/// Whether x is positive, finite and no subnormal number.
+/// Returns true if x is positive, finite and not subnormal.
 pub fn is_positive<T: Float>(x: T) -> bool {
     let x = x.as_f64();
     // A number that is subnormal in single precision is normal in double.

@@ -1,6 +1,6 @@
 //! Additive plasticity of the corotated law: with F = R S and ε = S − 1, ψ = μ |ε − εᵖ|² + λ/2 tr(ε − εᵖ)².
 //!
-//! Where the elastic strain εᵉ = ε − εᵖ is larger than the yield strain y in the Frobenius norm, εᵖ flows at the rate
+//! If the elastic strain εᵉ = ε − εᵖ is larger than the yield strain y in the Frobenius norm, εᵖ flows at the rate
 //! c (|εᵉ| − y) εᵉ/|εᵉ|, c in 1/s. At fixed ε this gives |εᵉ| = y + (|εᵉ₀| − y) e^(−c t). O'Brien, Bargteil and Hodgins, Graphical
 //! Modeling and Animation of Ductile Fracture (2002), have a flow of this kind in Green's strain. εᵖ belongs to the undeformed
 //! body and may change its volume; in the plane strain of a flat body it has no part along z.
@@ -23,7 +23,7 @@ pub struct Additive<T> {
     pub lambda: T,
     /// Plastic strain εᵖ.
     pub plastic: Tensor<T>,
-    /// Whether the body is flat, so that inverted elements are turned back within the plane.
+    /// The body is flat: inverted elements are turned back within the plane.
     pub is_flat: bool,
 }
 

@@ -52,7 +52,7 @@ impl<T: Float> Plasticity<T> {
         self.model
     }
 
-    /// Whether the body is flat.
+    /// Returns true if the body is flat.
     pub fn is_flat(&self) -> bool {
         self.is_flat
     }

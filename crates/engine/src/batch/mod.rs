@@ -1,7 +1,7 @@
 //! Batches: many environments of one scene, `[batch]`, which step together.
 //!
 //! On the processor each environment is a [`Simulator`](crate::simulator::Simulator) of its own, spread over the threads. With
-//! `solver.kind = "gpu"` whole steps run on a graphics device, and a state comes back when it is asked for.
+//! `solver.kind = "gpu"` whole steps run on a graphics device, and states are read on request.
 
 #[cfg(feature = "gpu")]
 mod device;
@@ -23,7 +23,7 @@ pub struct EnvironmentState {
     pub velocities: Vec<[f64; 3]>,
 }
 
-/// An environment that has failed. It stands still, and the others go on.
+/// An environment that has failed. Its motion ends, and the others continue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnvironmentFailure {
     /// Number of the environment, from 0.
@@ -43,7 +43,7 @@ trait Environments: Send {
     /// The environments that have failed so far.
     fn failures(&mut self) -> Result<Vec<EnvironmentFailure>, String>;
 
-    /// Judges the states now, where steps are not judged one by one.
+    /// Checks the present states, if steps are not checked one by one.
     fn check_ends(&mut self) -> Result<(), String> {
         Ok(())
     }
@@ -53,7 +53,7 @@ trait Environments: Send {
         0
     }
 
-    /// Reads from a device so far.
+    /// Number of reads from a device so far.
     fn reads(&self) -> usize {
         0
     }
@@ -104,7 +104,7 @@ impl Batch {
         self.steps as f64 * self.dt
     }
 
-    /// Advances all environments. One that fails stands still from then on, see [`failures`](Self::failures). Returns an error if the
+    /// Advances all environments. The motion of one that fails ends, see [`failures`](Self::failures). Returns an error if the
     /// device is lost.
     pub fn advance(&mut self, steps: usize) -> Result<(), String> {
         self.failures = None;
@@ -129,10 +129,10 @@ impl Batch {
         Ok(self.failures.as_deref().unwrap_or_default())
     }
 
-    /// Judges the end of a run. On the processor each step has been judged. A device looks for no energies: here all its states are read, and
-    /// each is taken through one more step on the processor, which compares the energy with what loads and the start have supplied. A
-    /// motion that has grown without bound is then among the [`failures`](Self::failures), and a step that ends far from its solution
-    /// among the [`unconverged_steps`](Self::unconverged_steps). Returns an error if the device is lost.
+    /// Checks the end of a run. On the processor each step has been checked. A device computes no energies: here all its states are
+    /// read, and one more step of each is taken on the processor, which compares the energy with the supplied energy of loads and
+    /// initial state. A motion that has grown without bound is then among the [`failures`](Self::failures), and a step that ends far
+    /// from its solution among the [`unconverged_steps`](Self::unconverged_steps). Returns an error if the device is lost.
     pub fn check_ends(&mut self) -> Result<(), String> {
         self.failures = None;
         self.environments.check_ends()
@@ -143,7 +143,7 @@ impl Batch {
         self.environments.unconverged_steps()
     }
 
-    /// How often something was read from a graphics device: once for each state, and once for the failures after some steps.
+    /// Number of reads from a graphics device: one for each state, and one for the failures after some steps.
     pub fn reads(&self) -> usize {
         self.environments.reads()
     }

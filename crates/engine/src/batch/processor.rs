@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::{EnvironmentFailure, EnvironmentState, Environments, body_of};
 use crate::simulator;
 
-/// Most elements of all environments together, of which each takes a few hundred bytes.
+/// Largest number of elements of all environments together; an element takes a few hundred bytes.
 const MOST_ELEMENTS: usize = 1 << 24;
 
 /// The environments with their simulations.

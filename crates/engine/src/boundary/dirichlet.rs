@@ -23,11 +23,11 @@ pub struct DirichletConditions {
     /// Directions in which every node is constrained: z for a flat body.
     everywhere: [bool; 3],
     conditions: Vec<DirichletCondition>,
-    /// Whether each condition applies now.
+    /// True for each condition that applies now.
     applies: Vec<bool>,
 }
 
-/// Whether each node of the mesh is constrained in all directions at all times.
+/// Returns for each node of the mesh whether it is constrained in all directions at all times.
 pub fn fully_constrained_nodes(body: &Body) -> Vec<bool> {
     let mut directions = vec![everywhere(body); body.shape.mesh.vertices().len()];
     constrain(body.dirichlet.iter().filter(|condition| condition.until.is_none()), &mut directions);
@@ -63,7 +63,7 @@ impl DirichletConditions {
         new
     }
 
-    /// Lets each condition apply or not as it does at a time, s. Returns whether that has changed any.
+    /// Updates the conditions that apply at a time, s. Returns whether any of them has changed.
     pub fn apply_at(&mut self, time: f64, nodes: usize) -> bool {
         let applies = |condition: &DirichletCondition| condition.until.is_none_or(|until| is_before(time, until));
         // A step without a release allocates nothing.
@@ -88,7 +88,7 @@ impl DirichletConditions {
         self.conditions.iter().zip(&self.applies).filter_map(|(condition, applies)| applies.then_some(condition))
     }
 
-    /// Whether no condition constrains a node now. A flat body without conditions is free in its plane.
+    /// Returns true if no node is constrained now. A flat body without conditions is free in its plane.
     pub fn is_empty(&self) -> bool {
         self.applying().all(|condition| condition.nodes.is_empty())
     }
@@ -101,7 +101,7 @@ impl DirichletConditions {
         }
     }
 
-    /// Whether every node is constrained in a direction.
+    /// Returns true if every node is constrained in a direction.
     pub fn is_constrained_everywhere(&self, direction: usize) -> bool {
         self.everywhere[direction]
     }
@@ -116,7 +116,7 @@ impl DirichletConditions {
         self.applying().filter_map(|condition| Some((condition, condition.motion.as_ref()?)))
     }
 
-    /// Whether a motion is prescribed.
+    /// Returns true if a condition prescribes a motion.
     pub fn has_motion(&self) -> bool {
         self.motions().next().is_some()
     }
@@ -161,8 +161,8 @@ impl DirichletConditions {
         }
     }
 
-    /// Overwrites the constrained entries of an increment, m: it leads from the displacements `start` to the prescribed ones at a
-    /// moment. `rest` are the undeformed positions, m.
+    /// Overwrites the constrained entries of an increment with the difference between the prescribed displacements at a moment and the
+    /// displacements `start`, m. `rest` are the undeformed positions, m.
     pub fn prescribe<T: Real>(
         &self,
         rest: &[Vector3<f64>],

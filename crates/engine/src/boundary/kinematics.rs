@@ -9,9 +9,9 @@ use super::dirichlet::DirichletConditions;
 use fem_elements::Real;
 
 impl DirichletConditions {
-    /// Overwrites the constrained entries with velocities (m/s) and accelerations (m/s²) of the prescribed motions at a time, s. Where a
-    /// motion has a kink then, they are those of the side on which `inside`, a time beside it, lies. A motion that jumps, and a fixed
-    /// node, have neither. `rest` are the undeformed positions, m.
+    /// Overwrites the constrained entries with velocities (m/s) and accelerations (m/s²) of the prescribed motions at a time, s. At a
+    /// kink they are the one-sided values on the side of `inside`, a time beside the kink. They are zero for a motion that jumps, and for
+    /// a fixed node. `rest` are the undeformed positions, m.
     pub fn write_rates<T: Real>(
         &self,
         rest: &[Vector3<f64>],

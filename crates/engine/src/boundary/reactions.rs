@@ -1,4 +1,5 @@
-//! Reactions: the forces of the constraints on the body, M a − f over the constrained degrees of freedom. A free node has none.
+//! Reactions: the forces of the constraints on the body, M a − f over the constrained degrees of freedom. The reaction of a free node
+//! is zero.
 
 use fem_scene::DirichletCondition;
 use fem_scene::simulation::Reaction;
@@ -9,13 +10,13 @@ use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::vector::triple;
 
-/// One for each Dirichlet condition, zero where its nodes are free by now. The acceleration is the mean of the last step, which began at `before`; Rayleigh damping takes
-/// its stiffness there too.
+/// One for each Dirichlet condition, zero if its nodes have been released. The acceleration is the mean of the last step, which began at
+/// `before`; Rayleigh damping takes its stiffness there too.
 pub fn reactions<T: Real>(system: &System<T>, before: &State<T>, state: &State<T>, moment: Moment) -> Vec<Reaction> {
     of_unbalanced(system, &unbalanced(system, before, state, moment))
 }
 
-/// Reactions at a stage of the last step, of which `part` lies before it, with the accelerations there (m/s²).
+/// Reactions at the stage after the fraction `part` of the last step, with the accelerations there (m/s²).
 pub fn reactions_at<T: Real>(
     system: &System<T>,
     before: &State<T>,

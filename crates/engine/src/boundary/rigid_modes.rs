@@ -1,4 +1,4 @@
-//! Rigid modes: whether a body can move without deforming, in which case it has no static equilibrium.
+//! Rigid modes: a body that can move without deforming has no unique static equilibrium.
 
 use fem_scene::Body;
 use nalgebra::{Matrix6, Vector3, Vector6};
@@ -10,7 +10,7 @@ use fem_elements::vector::triple;
 /// A rigid motion is constrained if its stiffness is more than this part of the largest.
 const LEAST: f64 = 1e-9;
 
-/// Refuses a body of which a connected part can move or rotate without deforming. Parts that springs join are left to the solver.
+/// Refuses a body of which a connected part can move or rotate without deforming. Parts that are joined by springs are left to the solver.
 pub(crate) fn check(body: &Body) -> Result<(), Refusal> {
     let part = body.shape.mesh.parts();
     let grams = gram_matrices(body.shape.mesh.vertices(), &part, &constrained_directions(body));

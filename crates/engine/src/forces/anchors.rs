@@ -1,5 +1,5 @@
-//! Springs of zero rest length from nodes to points in space: ½ k |u − target|². `[drag]` moves its point along a sine; a user's
-//! pull takes its place.
+//! Springs of zero rest length from nodes to points in space: ½ k |u − target|². `[drag]` moves its target along a sine; a user's
+//! interaction replaces it.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ pub const NAME: &str = "drag";
 
 /// The anchor springs of a body.
 pub struct Anchors {
-    /// The scene's drag and the user's pull.
+    /// Anchor springs of the scene's drag and of the user's interaction.
     pub interaction: Interaction,
     shape: Arc<Shape>,
     engine_node: Vec<u32>,
@@ -107,7 +107,7 @@ impl<T: Real> Potential<T> for Anchors {
     }
 }
 
-/// Modulus of a user's pull, Pa: times the body's length it deforms the body visibly without tearing it.
+/// Modulus of the anchor springs of a user's interaction, Pa. Times the body's length it gives a stiffness that deforms the body visibly.
 pub fn pull_modulus(body: &Body) -> f64 {
     body.material.C.or(body.material.young.map(|young| young / 5.0)).unwrap_or(1e5)
 }

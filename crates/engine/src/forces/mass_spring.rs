@@ -1,7 +1,7 @@
 //! Mass-spring bodies: every edge of the mesh is a spring with a damper beside it, and no element is elastic.
 //!
 //! With `young` an edge of length l has k = E Σ V / l², summed over its elements: Van Gelder, Approximate simulation of elastic membranes by
-//! triangulated spring meshes (1998), eq. 20, whose triangles are these of a flat body with V = area times thickness.
+//! triangulated spring meshes (1998), eq. 20. His triangles are those of a flat body with V = area times thickness.
 //!
 //! Springs transmit central forces, so the stiffness tensor C = Σ k l² n⊗n⊗n⊗n / V of an affine deformation has Cauchy's symmetry: an
 //! isotropic lattice has λ = μ, which is ν = 1/4 in space and ν = 1/3 in the plane (Love, Mathematical Theory of Elasticity, 1927, note B).

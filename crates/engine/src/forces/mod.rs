@@ -23,29 +23,29 @@ pub trait Potential<T: Real>: Send + Sync {
     /// Key in the statistics.
     fn name(&self) -> &'static str;
 
-    /// One line for `--explain`: the table that asks for it, and what it comes to.
+    /// One line for `--explain`: the table of the scene, and the resulting quantity.
     fn description(&self) -> String;
 
     /// Memory of its data, bytes.
     fn bytes(&self) -> usize;
 
-    /// Whether it has any effect now. An inactive force is skipped.
+    /// Returns true if the force has an effect now. An inactive force is skipped.
     fn is_active(&self) -> bool {
         true
     }
 
-    /// Whether it belongs to the body itself: then its Hessian is part of the stiffness K in Rayleigh damping.
+    /// Returns true for an internal force of the body: its Hessian is part of the stiffness K in Rayleigh damping.
     fn is_internal(&self) -> bool {
         false
     }
 
-    /// Whether the force is minus the gradient of [`energy`](Self::energy). A follower load is not conservative: implicit methods
+    /// Returns true if the force is minus the gradient of [`energy`](Self::energy). A follower load is not conservative: implicit methods
     /// keep its force fixed while Newton's method runs, and evaluate it again until it no longer changes.
     fn is_conservative(&self) -> bool {
         true
     }
 
-    /// Whether its energy depends on the displacements alone, and not on the time.
+    /// Returns true if the energy depends on the displacements alone, and not on the time.
     fn is_steady(&self) -> bool {
         true
     }
@@ -58,17 +58,17 @@ pub trait Potential<T: Real>: Send + Sync {
     /// Finds where its Hessian adds to matrices with a pattern, before any of them is assembled.
     fn set_pattern(&mut self, _pattern: &Pattern) {}
 
-    /// Whether its energy is at most quadratic in the displacements, so that one linear solve finds equilibrium.
+    /// Returns true if the energy is at most quadratic in the displacements: one linear solve then finds equilibrium.
     fn is_quadratic(&self) -> bool {
         self.is_conservative() && !self.is_internal()
     }
 
-    /// Whether its energy is a potential of one step alone, whose gradient is a friction force: no energy of the body contains it.
+    /// Returns true for a friction potential: it belongs to a single step, and the energy of the body does not contain it.
     fn is_dissipative(&self) -> bool {
         false
     }
 
-    /// Whether it is that of an obstacle: then it acts at the end of a step, whatever the stage at which a method takes the other
+    /// Returns true for the contact force of an obstacle. It is evaluated at the end of a step, whatever the stage of the other
     /// forces, so that the body ends outside of it.
     fn is_obstacle(&self) -> bool {
         false
@@ -77,14 +77,14 @@ pub trait Potential<T: Real>: Send + Sync {
     /// Called once before each step of `dt` seconds, with the displacements at its start.
     fn begin_step(&mut self, _u: &[[T; 3]], _start: Moment, _dt: f64) {}
 
-    /// Whether it keeps something fixed in a step that depends on the displacements at its end: then the step is repeated until
-    /// [`update_lag`](Self::update_lag) no longer changes it.
+    /// Returns true if the force keeps a quantity fixed within a step that depends on the displacements at its end. The step is
+    /// repeated until [`update_lag`](Self::update_lag) no longer changes it.
     fn has_lag(&self) -> bool {
         false
     }
 
-    /// Evaluates again what it keeps fixed in a step, at the displacements of its end, and takes over this part of the change (1 for all
-    /// of it). Returns the whole relative change.
+    /// Evaluates the lagged quantity again, at the displacements of the end of the step, and applies this part of its change (1 for all of
+    /// it). Returns the whole relative change.
     fn update_lag(&mut self, _u: &[[T; 3]], _relaxation: f64) -> f64 {
         0.0
     }
@@ -124,8 +124,9 @@ pub trait Potential<T: Real>: Send + Sync {
     /// Adds `factor` times the exact Hessian times `d`, N.
     fn add_hessian_times(&self, _factor: T, _u: &[[T; 3]], _d: &[[T; 3]], _product: &mut [[T; 3]]) {}
 
-    /// Whether it damps motions by −D(u) v, with a damping matrix D that is positive semi-definite. Implicit methods take D at the
-    /// displacements at which Rayleigh damping takes its stiffness, fixed within a step, so that ½ ẋᵀ D ẋ is a dissipation potential.
+    /// Returns true if the force damps motions by −D(u) v, with a damping matrix D that is positive semi-definite. Implicit methods
+    /// take D at the displacements at which Rayleigh damping takes its stiffness, fixed within a step, so that ½ ẋᵀ D ẋ is a
+    /// dissipation potential.
     fn has_damping(&self) -> bool {
         false
     }
@@ -146,7 +147,7 @@ pub trait Potential<T: Real>: Send + Sync {
         None
     }
 
-    /// The scene's field and the quantity that do not fit into the number type, where that happens.
+    /// The scene's field and the quantity that are out of range of the number type; `None` if all are in range.
     fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
         None
     }
@@ -157,7 +158,7 @@ pub trait Potential<T: Real>: Send + Sync {
 pub struct Moment {
     /// s
     pub time: f64,
-    /// Load factor of a load step, 0 to 1: it scales loads and prescribed motions. `None` in dynamics, where loads act in full and
+    /// Load factor of a load step, 0 to 1: it scales loads and prescribed motions. `None` in dynamics, where loads have their full size and
     /// prescribed motions follow the time.
     pub load_factor: Option<f64>,
 }
@@ -174,16 +175,16 @@ impl Moment {
     }
 }
 
-/// Which Hessian is asked for.
+/// Kind of a Hessian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HessianKind {
     /// The second derivative as it is.
     Exact,
-    /// Each element's and each force's part projected to positive semi-definite.
+    /// The part of each element and of each force is projected to a positive semi-definite matrix.
     Projected,
 }
 
-/// A force that is ready to be built where the scene asks for it.
+/// A kind of force, which is built if the scene asks for it.
 pub struct Kind<T: Real> {
     /// Key in the statistics.
     pub name: &'static str,
@@ -196,7 +197,7 @@ pub struct Kind<T: Real> {
 /// Builds a force of a body.
 pub type Builder<T> = fn(&Body, &Numbering) -> Option<Box<dyn Potential<T>>>;
 
-/// Every force that a scene can ask for; `[drag]` and the pull of a user are [`Anchors`].
+/// Every force that a scene can ask for; `[drag]` and the user's interaction are [`Anchors`].
 pub fn kinds<T: Real>() -> [Kind<T>; 6] {
     [
         Kind { name: mass_spring::NAME, tables: "[material] with model \"mass_spring\"", build: mass_spring::build },
@@ -211,7 +212,7 @@ pub fn kinds<T: Real>() -> [Kind<T>; 6] {
 /// All forces of a body, each with its timer.
 pub struct Forces<T: Real> {
     potentials: Vec<(Box<dyn Potential<T>>, Timer)>,
-    /// Springs from nodes to points in space: `[drag]`, or the pull of a user.
+    /// Anchor springs from nodes to points in space: `[drag]`, or the user's interaction.
     pub anchors: Anchors,
     /// Uses and time of these.
     pub anchors_timer: Timer,
@@ -250,12 +251,12 @@ impl<T: Real> Forces<T> {
         self.potentials.iter_mut().for_each(|(potential, _)| potential.set_pattern(pattern));
     }
 
-    /// Whether the body has obstacles.
+    /// Returns true if the body has obstacles.
     pub fn has_obstacles(&self) -> bool {
         self.active().any(|(potential, _)| potential.is_obstacle())
     }
 
-    /// Whether a follower load acts.
+    /// Returns true if the body has a follower load.
     pub fn has_followers(&self) -> bool {
         self.active().any(|(potential, _)| !potential.is_conservative())
     }
@@ -265,12 +266,12 @@ impl<T: Real> Forces<T> {
         self.potentials.iter_mut().for_each(|(potential, _)| potential.begin_step(u, start, dt));
     }
 
-    /// Whether a force keeps something fixed in a step that depends on its end.
+    /// Returns true if a force keeps a quantity fixed within a step that depends on the displacements at its end.
     pub fn has_lag(&self) -> bool {
         self.active().any(|(potential, _)| potential.has_lag())
     }
 
-    /// Evaluates again what forces keep fixed in a step, and takes over this part of the change. Returns the largest relative change.
+    /// Evaluates the lagged quantities of forces again, and applies this part of their change. Returns the largest relative change.
     pub fn update_lag(&mut self, u: &[[T; 3]], relaxation: f64) -> f64 {
         self.potentials.iter_mut().map(|(potential, _)| potential.update_lag(u, relaxation)).fold(0.0, f64::max)
     }

@@ -26,10 +26,10 @@ struct Pressure<T> {
     pressure: T,
     curve: Option<LoadCurve>,
     surface: Surface<T>,
-    /// Whether the pressure has a potential.
+    /// True if the pressure has a potential.
     ///
-    /// A pressure is p times the gradient of the volume behind its surface. Where the surface has an edge that moves, that volume
-    /// depends on how the surface is closed, and the work of the pressure along a closed path need not be zero.
+    /// A pressure is p times the gradient of the volume behind its surface. If the surface has an edge that moves, that volume depends on
+    /// the closure of the surface, and the work of the pressure along a closed path need not be zero.
     has_potential: bool,
 }
 
@@ -124,7 +124,7 @@ impl<T: Real> Potential<T> for Pressures<T> {
     }
 }
 
-/// Tables of the same pressure and curve as one: six sides of a box together have a potential that none of them has alone.
+/// Tables of the same pressure and curve as one: the six sides of a box have a potential together, but not alone.
 fn joined(tables: &[fem_scene::Pressure]) -> Vec<fem_scene::Pressure> {
     let mut joined: Vec<fem_scene::Pressure> = Vec::new();
     for table in tables {
@@ -136,7 +136,7 @@ fn joined(tables: &[fem_scene::Pressure]) -> Vec<fem_scene::Pressure> {
     joined
 }
 
-/// Whether all these nodes are fixed at all times.
+/// Returns true if all these nodes are fixed at all times.
 fn are_fixed(body: &Body, nodes: &[usize]) -> bool {
     let always = body.dirichlet.iter().filter(|condition| condition.motion.is_none() && condition.until.is_none());
     let fixed: HashSet<usize> = always.flat_map(|condition| &condition.nodes).copied().collect();

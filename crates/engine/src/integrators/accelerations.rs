@@ -13,8 +13,8 @@ use fem_elements::vector::{axpy, dot};
 /// Accelerations, with the vectors that they need.
 ///
 /// A step is [`begin`](Self::begin), evaluations [`at`](Self::at) its stages, and [`end`](Self::end). In each stage constrained degrees
-/// of freedom have the place, velocity and acceleration of their prescribed motion, and with a consistent mass their acceleration acts on
-/// their neighbours: so methods keep their order.
+/// of freedom have the displacement, velocity and acceleration of their prescribed motion. A consistent mass couples their acceleration to
+/// their neighbours. Methods keep their order in this way.
 #[derive(Clone, Debug)]
 pub struct Accelerations<T: Real> {
     mass: MassInverse<T>,
@@ -44,8 +44,8 @@ impl<T: Real> Accelerations<T> {
         Self { mass, force, motion, time: 0.0, dt: 0.0, work: 0.0 }
     }
 
-    /// Starts a step. Where a prescribed velocity jumps, through a consistent mass an impulse changes the velocities of the neighbours:
-    /// M_ff Δv_f = −M_fp Δv_p. `a` is overwritten then. Returns whether one jumps.
+    /// Starts a step. A jump of a prescribed velocity changes the velocities of the neighbours through a consistent mass:
+    /// M_ff Δv_f = −M_fp Δv_p. `a` is overwritten then. Returns whether a velocity jumps.
     pub fn begin(
         &mut self,
         system: &System<T>,
@@ -101,7 +101,7 @@ impl<T: Real> Accelerations<T> {
         Ok(())
     }
 
-    /// Ends a step: constrained degrees of freedom have the place and the velocity that are prescribed there.
+    /// Ends a step: constrained degrees of freedom have their prescribed displacement and velocity.
     pub fn end(&mut self, system: &System<T>, state: &mut State<T>) {
         if system.dirichlet.has_motion() {
             system.profile.prescribed.time(|| self.motion.place(system, 1.0, &mut state.u, &mut state.v));
@@ -114,7 +114,7 @@ impl<T: Real> Accelerations<T> {
     }
 }
 
-/// Gives free nodes the velocities that the jump of the prescribed ones, m/s, leaves them with. Returns the work of the impulses on the
+/// Gives free nodes their velocities after a jump of the prescribed ones, m/s. Returns the work of the impulses on the
 /// constrained nodes: each times the mean of the velocities before and after, J.
 fn impulse<T: Real>(
     system: &System<T>,
@@ -147,7 +147,7 @@ fn product<T: Real>(system: &System<T>, x: &[[T; 3]], y: &[[T; 3]], product: &mu
     dot(product, y)
 }
 
-/// Sets accelerations to zero that are smaller than the largest by more than the arithmetic resolves. An elastic wave travels one
+/// Sets accelerations to zero that are negligible beside the largest one in this precision. An elastic wave travels one
 /// element in a step, and ahead of it motion fades within a few elements to numbers whose squares are subnormal in single precision,
 /// with which a step takes several times as long.
 fn flush_to_zero<T: Real>(a: &mut [[T; 3]]) {

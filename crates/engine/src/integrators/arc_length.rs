@@ -18,7 +18,7 @@ use fem_elements::history::{put, put_option, take, take_option};
 use fem_elements::sparse::Block;
 use fem_elements::vector::{axpy, dot, max_norm, norm};
 
-/// Largest number of iterations of a step, and the number with which the arc length stays as it is.
+/// Largest number of iterations of a step, and the number with which the arc length is kept.
 const ITERATIONS: (usize, usize) = (16, 4);
 
 /// Largest arc length, in arc lengths of the first step.
@@ -27,7 +27,7 @@ const LARGEST: f64 = 4.0;
 /// Largest number of times that an arc length is halved in a step.
 const HALVINGS: usize = 12;
 
-/// The method with its solver, which must not need a positive definite matrix, and its vectors.
+/// The method with its vectors and its solver, which must be able to solve indefinite systems.
 pub struct ArcLength<T: Real> {
     pub solver: Solver<T>,
     limits: NewtonLimits,
@@ -217,7 +217,7 @@ impl<T: Real> ArcLength<T> {
         max_norm(of_unbalanced)
     }
 
-    /// Evaluates the loads and what is unbalanced at the iterate. Loads are proportional to the load factor.
+    /// Evaluates the loads and the residual at the iterate. Loads are proportional to the load factor.
     fn evaluate(&mut self, system: &System<T>, time: f64, load_factor: f64, counters: &mut Counters) {
         let Vectors { u, load, unbalanced, .. } = &mut self.vectors;
         let moment = |load_factor: f64| Moment { time, load_factor: Some(load_factor) };
@@ -251,7 +251,7 @@ impl<T: Real> ArcLength<T> {
         solver.prepare(values)
     }
 
-    /// Adds the place on the path and the direction in which it goes on.
+    /// Adds the position on the path and its direction.
     pub fn save(&self, history: &mut History) {
         put(history, "arc_length.last", self.last.as_flattened());
         put_option(history, "arc_length.load_factor", Some(self.load_factor));
@@ -259,7 +259,7 @@ impl<T: Real> ArcLength<T> {
         put_option(history, "arc_length.first", self.lengths.map(|lengths| lengths[1]));
     }
 
-    /// Takes over what [`save`](Self::save) has added.
+    /// Restores the quantities that [`save`](Self::save) has added.
     pub fn restore(&mut self, history: &History) -> Result<(), String> {
         take(history, "arc_length.last", self.last.as_flattened_mut())?;
         self.load_factor = take_option(history, "arc_length.load_factor")?.unwrap_or(0.0);

@@ -11,7 +11,7 @@ use fem_elements::vector::{axpy, dot, triple};
 /// Relative change of an eigenvalue within [`BLOCK`] iterations at which Lanczos's method ends, and its largest number of iterations.
 const ACCURACY: (f64, usize) = (1e-5, 96);
 
-/// Iterations between two looks at the eigenvalues.
+/// Iterations between two evaluations of the eigenvalues.
 const BLOCK: usize = 8;
 
 /// The longest stable time step of a method for small vibrations about the undeformed body, s; a lower bound of it where dampers
@@ -140,7 +140,7 @@ fn largest_ratio<T: Real>(system: &System<T>, add_times: impl Fn(&[[T; 3]], &[[T
         std::mem::swap(&mut before, &mut x);
         std::mem::swap(&mut x, &mut next);
     }
-    // NaN and zero fail the comparison: all nodes are constrained, or nothing is stiff.
+    // NaN and zero fail the comparison: all nodes are constrained, or the stiffness is zero.
     (square > 0.0 && square.is_finite()).then_some(square)
 }
 
@@ -157,7 +157,7 @@ fn largest_eigenvalue(diagonal: &[f64], beside: &[f64]) -> f64 {
     matrix.symmetric_eigenvalues().max()
 }
 
-/// A vector in which every vibration takes part: multiples of the golden ratio, modulo 1.
+/// A start vector with a component along every vibration: multiples of the golden ratio, modulo 1.
 fn irregular<T: Real>(nodes: usize) -> Vec<[T; 3]> {
     let entry = |k: usize| T::of((k as f64 * 0.618_033_988_749_894_9).fract() - 0.5);
     (0..nodes).map(|node| triple(|i| entry(3 * node + i + 1))).collect()

@@ -65,7 +65,7 @@ impl<T: Real> Followers<T> {
                 return Ok(outcome);
             }
             let change = self.evaluate_again(system, &increment, w);
-            // Rounding error may keep the last digits changing.
+            // Rounding errors may change the last digits in every iteration.
             if change <= newton.limits().tolerance || (change < 1e-8 && change >= before) {
                 return Ok(Convergence::Converged);
             }

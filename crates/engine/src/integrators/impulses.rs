@@ -3,8 +3,8 @@
 //!
 //! A node that touches a plane loses its normal velocity towards it (inelastic), and as much of its tangential velocity as Coulomb's
 //! bound μ P allows for the normal impulse P. So friction depends on the impulses in a time, and not on the number of steps. Velocities
-//! change by impulses alone, which therefore add up to the change of momentum; places are put onto the plane. An impact is of first
-//! order in the time step, whatever the method; a body that rests or slides keeps the method's order.
+//! change by impulses alone, which therefore add up to the change of momentum; positions are projected onto the plane. An impact is of
+//! first order in the time step, whatever the method; a body that rests or slides keeps the method's order.
 
 use fem_scene::simulation::History;
 use fem_scene::{ContactPlane, ContactTreatment, Integrator as IntegratorKind};
@@ -21,10 +21,10 @@ use fem_elements::vector::triple;
 const SKIN: f64 = 1e-9;
 const ROUNDING: f64 = 32.0;
 
-/// A node nearer than so many of these distances touches the plane.
+/// Number of these distances within which a node touches the plane.
 const TOUCHING: f64 = 1.5;
 
-/// Most passes over the planes that move a node out of all of them, and that stop it in a corner between them.
+/// Largest number of loops over the planes that move a node out of all of them, and that stop it in a corner between them.
 const PASSES: usize = 50;
 
 /// Change of an impulse, in rounding errors of the largest, that needs no further pass.
@@ -80,8 +80,8 @@ impl<T: Real> Impulses<T> {
     /// Corrects the state at the end of a step from `before` that lasts `dt` seconds. Returns whether a node touches a plane, or did
     /// before.
     ///
-    /// The impulses of the step before act in this one as a force, so that its stages have the velocities of nodes at rest. Here they
-    /// are taken back, and those that the step needs take their place.
+    /// During a step the contact impulses of the previous step are applied as a force, so that its stages have the velocities of nodes at
+    /// rest. This function removes them and applies the impulses of this step.
     pub fn apply(
         &mut self,
         system: &mut System<T>,
@@ -151,7 +151,7 @@ impl<T: Real> Impulses<T> {
             for &Near { plane, node, .. } in &*near {
                 let n = planes.planes[plane].normal;
                 let free_normal = free(system, node).component_mul(&n);
-                // A node that cannot give way takes no part; the check of the state tells if it is behind the plane.
+                // A node that cannot move along the normal is skipped; the check of the state finds it if it is behind the plane.
                 if free_normal.norm_squared() < 1e-12 {
                     continue;
                 }
@@ -194,7 +194,7 @@ impl<T: Real> Impulses<T> {
         put(history, "contact.impulses", all.as_flattened());
     }
 
-    /// Takes over what [`save`](Self::save) has added.
+    /// Restores the quantities that [`save`](Self::save) has added.
     pub fn restore(&mut self, history: &History) -> Result<(), String> {
         let (numbers, _) = history.get("contact.impulses")?.as_chunks::<6>();
         let impulse = |&[plane, node, normal, x, y, z]: &[f64; 6]| Impulse {
@@ -229,9 +229,9 @@ impl Impulse {
     }
 }
 
-/// Whether a node that touches a plane is in the list, of which the first entries are ordered.
+/// Returns true if a node that touches a plane is in the list. The first `ordered` entries of the list are sorted.
 fn is_listed(impulses: &[Impulse], ordered: usize, key: (usize, usize)) -> bool {
-    // The list grows in the first pass, which meets each node once.
+    // The list grows in the first pass, which visits each node once.
     if ordered == 0 {
         return false;
     }
@@ -248,7 +248,7 @@ struct Node {
 }
 
 impl Node {
-    /// Changes an impulse so that the node neither approaches the plane nor slides more than Coulomb allows, and its velocity with it.
+    /// Changes an impulse, and the velocity of its node, so that the node does not approach the plane and satisfies Coulomb's law.
     /// Returns the largest change, N s.
     fn stop<T: Real>(
         &self,

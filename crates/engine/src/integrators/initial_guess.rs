@@ -27,8 +27,8 @@ pub struct InitialGuess<'a, T: Real> {
 const SMALLEST_PART: f64 = 1.0 / 1024.0;
 
 impl<T: Real> InitialGuess<'_, T> {
-    /// Replaces `step`, an extrapolation, by the minimum of the incremental potential. Where Newton's method finds no way on from the first
-    /// feasible candidate, which may be far from the state, it starts again from the state itself with the prescribed increments.
+    /// Replaces `step`, an extrapolation, by the minimum of the incremental potential. If Newton's method fails from the first feasible
+    /// candidate, which may be far from the state, it starts again from the state itself with the prescribed increments.
     pub fn minimize(&mut self, step: &mut [[T; 3]], counters: &mut Counters) -> Result<Convergence, Cause> {
         let start = self.find(step, counters)?;
         let outcome = self.descend(start, step, counters);
@@ -66,7 +66,7 @@ impl<T: Real> InitialGuess<'_, T> {
         // The rest is rare, and allocates only then.
         let mut prescribed = vec![[T::default(); 3]; self.system.nodes()];
         self.prescribe(&mut prescribed);
-        // Where the linear body has no stiffness, the other candidates remain.
+        // If the linear body has no stiffness, the other candidates are tried.
         if self.system.dirichlet.has_motion()
             && self.predict(self.increment, &prescribed, step, counters)
             && let Some(start) = self.start(step, counters)
@@ -109,8 +109,8 @@ impl<T: Real> InitialGuess<'_, T> {
         Err(infeasible(system, self.increment.start, prescribed))
     }
 
-    /// From equilibrium at one part of the motion to a feasible increment at the next: the body follows as a linear one, or else only
-    /// the constrained degrees of freedom move. Returns `None` if neither is feasible.
+    /// Finds a feasible increment from equilibrium at one part of the motion to the next part: the increment of a linear body, or else
+    /// that of the constrained degrees of freedom alone. Returns `None` if neither is feasible.
     fn continue_from(
         &mut self,
         found: &[[T; 3]],

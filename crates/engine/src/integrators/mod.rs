@@ -1,4 +1,4 @@
-//! Time integration methods, one file each, behind the trait [`Integrator`]. Which to take for what, with figures:
+//! Time integration methods, one file each, behind the trait [`Integrator`]. For the choice of a method, with figures, see
 //! `include-docs/methods.md` in the repository.
 
 mod accelerations;
@@ -79,13 +79,13 @@ pub trait Integrator<T: Real>: Send {
     /// Drops everything kept from earlier steps: the state or a parameter has changed.
     fn forget(&mut self) {}
 
-    /// Drops what depends on the external forces at the end of the last step: a user's pull has changed them.
+    /// Drops what depends on the external forces at the end of the last step: a user's interaction has changed them.
     fn forget_forces(&mut self) {}
 
     /// Adds what it keeps from step to step to a history.
     fn save(&self, _history: &mut History) {}
 
-    /// Takes over what [`save`](Self::save) has added, so that steps go on bit for bit as they would have.
+    /// Restores the quantities that [`save`](Self::save) has added, so that later steps are equal bit for bit.
     fn restore(&mut self, _history: &History) -> Result<(), String> {
         Ok(())
     }
@@ -100,7 +100,7 @@ pub trait Integrator<T: Real>: Send {
         None
     }
 
-    /// Estimate of the largest error of a displacement that the last step has made, m; `None` for a method without one.
+    /// Estimate of the largest error of a displacement in the last step, m; `None` for a method without one.
     fn estimated_error(&self) -> Option<f64> {
         None
     }
@@ -110,18 +110,18 @@ pub trait Integrator<T: Real>: Send {
         None
     }
 
-    /// Whether no time step lets its motion grow without bound.
+    /// Returns true if the method is stable at every time step.
     fn is_unconditionally_stable(&self) -> bool {
         false
     }
 
-    /// Whether a step may end far from the solution of its equation without a word, because it takes a number of iterations that
+    /// Returns true if a step may end far from the solution of its equation unnoticed, because it takes a number of iterations that
     /// the scene has set.
     fn may_stop_early(&self) -> bool {
         false
     }
 
-    /// Whether its velocities lie half a step behind its displacements, so that their mean over a step is the velocity at its start.
+    /// Returns true if the velocities lie half a step behind the displacements: their mean over a step is the velocity at its start.
     fn has_staggered_velocities(&self) -> bool {
         false
     }
@@ -131,7 +131,7 @@ pub trait Integrator<T: Real>: Send {
         None
     }
 
-    /// Contacts with planes of a method that puts nodes onto them as its iterations go on.
+    /// Contacts with planes of a method that projects nodes onto them in its iterations.
     fn plane_contacts(&self) -> Option<&PlaneContacts> {
         None
     }
@@ -141,7 +141,7 @@ pub trait Integrator<T: Real>: Send {
         0
     }
 
-    /// Whether it searches along directions, and so evaluates energies.
+    /// Returns true if the method has a line search, and so evaluates energies.
     fn has_line_search(&self) -> bool {
         false
     }

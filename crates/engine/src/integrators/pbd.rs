@@ -10,7 +10,7 @@ use crate::model::system::System;
 use fem_elements::Real;
 
 /// PBD: each sweep brings the volume of every element (the area of a triangle) and the length of every edge nearer to that at rest. The
-/// moduli of the material play no part: the stiffness comes from the time step and the number of sweeps.
+/// moduli of the material have no effect: the stiffness depends on the time step and the number of sweeps.
 pub type Pbd<T> = Relaxed<T, Constraints<T>>;
 
 /// PBD for the elements and edges of a body. A stiffness k in \[0, 1\] becomes 1 − (1 − k)^(1/n) in each of n sweeps: section 3.3.

@@ -1,16 +1,17 @@
-//! Prescribed motions within a step of an explicit method: places, velocities and accelerations of the constrained degrees of freedom.
+//! Prescribed motions within a step of an explicit method: displacements, velocities and accelerations of the constrained degrees of
+//! freedom.
 
 use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
 
-/// Rounding errors of places and velocities, in units of the machine epsilon, that are no jump.
+/// Largest change of displacements and velocities, in units of the machine epsilon, that counts as rounding error and not as a jump.
 const ROUNDING: f64 = 64.0;
 
 /// The constrained degrees of freedom of a body during one step.
 ///
-/// They follow the motion itself, with its derivatives in closed form. Where they are elsewhere at the start of the step (a motion that
-/// applies in full from the first step on, a curve that jumps), the distance is covered at constant speed until its end.
+/// They follow the motion itself, with its derivatives in closed form. If they differ from it at the start of the step (a motion that
+/// applies in full from the first step on, a curve that jumps), the difference decreases to zero at constant speed until its end.
 #[derive(Clone, Debug, Default)]
 pub struct PrescribedMotion<T> {
     /// Velocities, m/s, and accelerations, m/s², of the constrained degrees of freedom at the last stage; zero elsewhere. Empty without a

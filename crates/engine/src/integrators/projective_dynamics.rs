@@ -3,8 +3,8 @@
 //!
 //! A round is w ← w − A⁻¹ ∇E(w) with the incremental potential E of the body's own law and the constant A = M/dt² + Σ V k ∇φ·∇φ,
 //! k = 2μ + λ, which is factored once. For the corotated law with λ = 0 this is a local step (the rotation nearest to F) and a global step
-//! of the method of 2014, equations 8 to 10. For other laws a line search keeps E falling (2017, section 4), and rounds converge to the
-//! same step of implicit Euler.
+//! of the method of 2014, equations 8 to 10. For other laws a line search decreases E in every round (2017, section 4), and rounds
+//! converge to the same step of implicit Euler.
 
 use fem_scene::IterationSettings;
 use fem_scene::simulation::{Breakdown, Cause, Counters};
@@ -26,7 +26,7 @@ const DECREASE: f64 = 1e-4;
 const ROUND_OFF: f64 = 32.0;
 const SHORTEST: f64 = 1e-8;
 
-/// Projective dynamics with the factor that serves all rounds of all steps.
+/// Projective dynamics with the factor for all rounds of all steps.
 pub struct ProjectiveDynamics<T: Real> {
     settings: IterationSettings,
     solver: Solver<T>,
@@ -108,7 +108,7 @@ impl<T: Real> ProjectiveDynamics<T> {
         0.0
     }
 
-    /// Whether the energy decreases enough, or, where its change is rounding error, the directional derivative.
+    /// Returns true if the energy decreases enough; where its change is rounding error, the directional derivative decides.
     fn is_lower(
         &mut self,
         potential: &IncrementalPotential<T>,
@@ -153,8 +153,8 @@ impl<T: Real> ProjectiveDynamics<T> {
         Ok(if has_settled { Convergence::Converged } else { Convergence::NotConverged })
     }
 
-    /// Starts the rounds where inertia leads, or from the prescribed motion alone where the incremental potential is lower there: otherwise
-    /// few rounds could give a stiff body more energy in each step.
+    /// Sets the initial guess of the rounds: the inertial displacements, or the prescribed motion alone if its incremental potential is
+    /// lower. Otherwise a small number of rounds could give a stiff body more energy in each step.
     fn start(
         &mut self,
         potential: &IncrementalPotential<T>,

@@ -8,9 +8,9 @@ use crate::forces::contact::planes::Planes;
 use crate::model::system::System;
 use fem_elements::Real;
 
-/// VBD: each sweep moves every node to where the incremental potential of implicit Euler is least for it alone, by one step of Newton's
-/// method. Sweeps converge to implicit Euler. Before that the forces between nodes are not equal and opposite, so that a step of few sweeps
-/// does not conserve momentum.
+/// VBD: each sweep minimises the incremental potential of implicit Euler over the displacement of each node in turn, by one step of
+/// Newton's method. Sweeps converge to implicit Euler. Before that the forces between nodes are not equal and opposite, so that a step
+/// of few sweeps does not conserve momentum.
 pub type Vbd<T> = Relaxed<T, Descent<T>>;
 
 /// VBD for the nodes of a body.

@@ -15,7 +15,7 @@ pub struct Verlet<T: Real> {
     accelerations: Accelerations<T>,
     a: Vec<[T; 3]>,
     v: Vec<[T; 3]>,
-    /// Whether `a` is still the acceleration at the start of the next step.
+    /// True if `a` is still the acceleration at the start of the next step.
     is_known: bool,
 }
 

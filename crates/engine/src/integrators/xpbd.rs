@@ -15,7 +15,7 @@ use fem_elements::Real;
 /// With the residual of the equation of motion, the stress of each element is an unknown, and sweeps converge to implicit Euler: the second
 /// remedy (FP-PXPBD) of Chen, Han, Chen, Ma, Fedkiw and Teran, Primal residual reduction with extended position based dynamics and
 /// hyperelasticity (2024). Without it each element has the one constraint C = √(2ψ) of the original method, whose sweeps converge
-/// elsewhere wherever ∇C turns in the course of them.
+/// to another motion if ∇C rotates during the sweeps.
 pub type Xpbd<T> = Relaxed<T, Constraints<T>>;
 
 /// XPBD for the elements and springs of a body.

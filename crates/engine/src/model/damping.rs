@@ -27,12 +27,12 @@ impl<T: Real> DampingRates<T> {
 }
 
 impl<T: Real> System<T> {
-    /// Whether motions are damped.
+    /// Returns true if motions are damped.
     pub fn is_damped(&self) -> bool {
         self.damping.is_some() || self.has_dampers()
     }
 
-    /// Whether a force damps motions.
+    /// Returns true if a force has a damping matrix.
     pub fn has_dampers(&self) -> bool {
         self.forces.active().any(|(potential, _)| potential.has_damping())
     }

@@ -137,7 +137,7 @@ impl<T: Real> Mass<T> {
         }
     }
 
-    /// Whether the mass is lumped.
+    /// Returns true if the mass is lumped.
     pub fn is_lumped(&self) -> bool {
         matches!(self, Self::Lumped(_))
     }

@@ -1,4 +1,4 @@
-//! A body as the engine computes with it: what never changes in a run ([`system`]), and what does ([`state`]).
+//! A body in the engine's form: the data that are constant in a run ([`system`]), and the state ([`state`]).
 
 pub mod damping;
 pub mod mass;

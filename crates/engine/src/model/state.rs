@@ -5,7 +5,7 @@ use fem_elements::vector::max_norm;
 
 /// Displacements and velocities of all nodes, in the engine's numbering.
 ///
-/// Displacements keep their digits far from the origin, where positions would lose them, and most of them in single precision.
+/// Displacements are exact far from the origin, where positions lose digits, and they need fewer digits in single precision.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<T> {
     /// Displacement of each node, m.

@@ -12,7 +12,7 @@ use fem_elements::materials::AnyLaw;
 use fem_elements::sparse::{Pattern, Stored};
 
 impl<T: Real> System<T> {
-    /// Builds what the scene names, and nothing else; rows and blocks as the solver wants them.
+    /// Builds the parts that the scene names, with rows and blocks in the form of the solver.
     /// `law` is that of the body's material, `None` for a mass-spring body.
     pub fn new(body: Body, law: impl Into<Option<AnyLaw<T::Single>>>, choice: SolverChoice) -> Self {
         Self::with_forces(body, law, choice, &|_| Vec::new())
@@ -35,8 +35,8 @@ impl<T: Real> System<T> {
         Self::of_body(body, law.into(), Ordering::Parts, own)
     }
 
-    /// Finds the pattern of the stiffness matrix, with the blocks that a solver wants, and where each element adds to it. The numbering
-    /// stays: that of a body without matrix suits sweeps, and a factor of it has more fill-in.
+    /// Finds the pattern of the stiffness matrix, with the blocks that a solver needs, and the places to which each element adds. The
+    /// numbering stays: that of a body without matrix suits sweeps, and a factor of it has more fill-in.
     pub fn prepare_matrix(&mut self, choice: SolverChoice) {
         let couplings: Vec<[u32; 2]> = self.forces.all().flat_map(|(potential, _)| potential.couplings()).collect();
         let (numbering, stored) = (&self.numbering, choice.stored());
@@ -50,7 +50,7 @@ impl<T: Real> System<T> {
         self.pattern = Arc::new(pattern);
     }
 
-    /// Whether the pattern of the stiffness matrix is known, or no node has a row in it.
+    /// Returns true if the pattern of the stiffness matrix is known, or no node has a row in it.
     pub fn has_pattern(&self) -> bool {
         self.pattern.rows() == self.free()
     }

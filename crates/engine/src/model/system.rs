@@ -1,5 +1,5 @@
-//! A body as the engine computes with it: the undeformed body, its material, its constraints and the forces on it. None of this
-//! changes in a run, apart from a user's pull, the release of nodes and the internal variables of plastic elements.
+//! A body in the engine's form: the undeformed body, its material, its constraints and the forces on it. These are constant in
+//! a run, apart from a user's interaction, the release of nodes and the internal variables of plastic elements.
 
 use std::sync::Arc;
 
@@ -46,7 +46,7 @@ pub struct System<T: Real> {
     pub forces: Forces<T>,
     /// Mean force of the obstacles on each node in the last step of an explicit method, N; empty without.
     pub contact_force: Vec<[T; 3]>,
-    /// Shear modulus that the springs of a mass-spring body amount to, Pa; zero for a body of elastic elements.
+    /// Effective shear modulus of the springs of a mass-spring body, Pa; zero for a body of elastic elements.
     pub spring_modulus: f64,
     /// Rayleigh damping, where the scene asks for some.
     pub damping: Option<RayleighDamping>,
@@ -60,7 +60,7 @@ pub struct System<T: Real> {
 pub type OwnForces<'a, T> = &'a dyn Fn(&Numbering) -> Vec<Box<dyn Potential<T>>>;
 
 impl<T: Real> System<T> {
-    /// Builds what the scene names, and nothing else, without a matrix.
+    /// Builds the parts that the scene names, without a matrix.
     pub(super) fn of_body(body: &Body, law: Option<AnyLaw<T::Single>>, ordering: Ordering, own: OwnForces<T>) -> Self {
         match &body.shape.mesh {
             BodyMesh::Solid(mesh) => {
@@ -119,7 +119,7 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// Lets the Dirichlet conditions apply that apply at a time, s. Returns whether these are others than before.
+    /// Updates the Dirichlet conditions that apply at a time, s. Returns whether they have changed.
     pub fn apply_conditions_at(&mut self, time: f64) -> bool {
         let has_changed = self.dirichlet.apply_at(time, self.rest.len());
         if has_changed {
@@ -138,12 +138,12 @@ impl<T: Real> System<T> {
         self.numbering.free
     }
 
-    /// Whether no Dirichlet condition applies now.
+    /// Returns true if no Dirichlet condition applies now.
     pub fn is_unconstrained(&self) -> bool {
         self.dirichlet.is_empty()
     }
 
-    /// Whether all energies are quadratic: then one linear solve finds equilibrium.
+    /// Returns true if all energies are quadratic: then one linear solve finds equilibrium.
     pub fn is_linear(&self) -> bool {
         self.elements.is_linear() && self.forces.active().all(|(potential, _)| potential.is_quadratic())
     }
@@ -238,8 +238,8 @@ impl<T: Real> System<T> {
         self.profile.mass.time(|| self.mass.add_times(factor, x, product));
     }
 
-    /// Overwrites the constrained entries of an increment, m: the distance from `start` to the prescribed places at a moment. Free
-    /// entries stay.
+    /// Overwrites the constrained entries of an increment, m, with the difference from `start` to the prescribed displacements at a moment.
+    /// Free entries stay.
     pub fn prescribe(&self, start: &[[T; 3]], moment: Moment, step: &mut [[T; 3]]) {
         if self.dirichlet.has_motion() {
             self.profile.prescribed.time(|| self.dirichlet.prescribe(&self.rest, moment, start, step));

@@ -1,4 +1,4 @@
-//! Forcing terms: the residual to which an iterative solver solves for a direction, and when its matrix is assembled again.
+//! Forcing terms: the relative residual of an iterative solver's direction, and the condition for a new assembly of its matrix.
 
 use super::{Factor, Iterate, Newton};
 use fem_elements::Real;
@@ -17,7 +17,7 @@ const COARSE: f64 = 0.01;
 const SLOW: f64 = 0.2;
 
 impl Iterate {
-    /// Estimate of the size of the next update, m. What an obstacle has cut off from the last one is still to come.
+    /// Estimate of the size of the next update, m. It includes the part of the last update that an obstacle has cut off.
     pub(super) fn remaining_update(&self) -> f64 {
         let update = self.size * self.rate.unwrap_or(1.0).max(self.forcing).min(1.0);
         update.max(self.left_out)
@@ -64,7 +64,7 @@ impl<T: Real> Newton<T> {
         }
     }
 
-    /// Keeps the matrix for one more direction if that needs no small residual; else it is assembled again.
+    /// Keeps the matrix for one more direction if this direction may have a large residual; otherwise assembles it again.
     pub(super) fn review_matrix(&mut self, at: &Iterate, tolerance: f64) {
         self.is_matrix_outdated |= at.rate.is_some_and(|rate| !(rate <= SLOW));
         if !at.final_forcing(tolerance).is_some_and(|forcing| forcing >= COARSE) {

@@ -18,7 +18,7 @@ const SMOOTHED: f64 = 0.05;
 
 impl<T: Real> Newton<T> {
     /// Writes into `w` the minimum of the energy to second order about w = 0 with the prescribed increments of the constrained
-    /// degrees of freedom: a good initial guess, because it does not squash the elements beside them.
+    /// degrees of freedom: a good initial guess, because it does not compress the elements at the constrained nodes.
     pub fn predict(
         &mut self,
         potential: &IncrementalPotential<T>,
@@ -40,7 +40,7 @@ impl<T: Real> Newton<T> {
         Ok(())
     }
 
-    /// Whether the kept Hessian has about the inertia of this step.
+    /// Returns true if the kept Hessian has about the inertia of this step.
     pub(super) fn serves(&self, potential: &IncrementalPotential<T>) -> bool {
         let inertia = potential.increment.inertia.map(|inertia| inertia.over_dt2);
         self.inertia_of_hessian
@@ -49,7 +49,7 @@ impl<T: Real> Newton<T> {
     }
 
     /// Replaces x by H⁻¹ M x/τ² with the kept Hessian H of an earlier iterate and its τ, to a few digits: the part of x that varies
-    /// slowly stays. Leaves it as it is if there is none. Overwrites `right`.
+    /// slowly stays. Does not change x without such a Hessian. Overwrites `right`.
     pub fn smooth(&mut self, system: &System<T>, right: &mut [[T; 3]], x: &mut [[T; 3]]) {
         let Some(over_dt2) = self.inertia_of_hessian else { return };
         right.fill([T::default(); 3]);
@@ -118,7 +118,7 @@ impl<T: Real> Newton<T> {
         Some(assembled)
     }
 
-    /// Factors the assembled values, or makes a preconditioner for them unless the kept one still serves.
+    /// Factors the assembled values, or makes a preconditioner for them unless the kept one is still good enough.
     fn factor_values(&mut self, potential: &IncrementalPotential<T>, counters: &mut Counters) -> Result<(), Breakdown> {
         self.inertia_of_hessian = potential.increment.inertia.map(|inertia| inertia.over_dt2);
         if self.solver.is_iterative() && !self.solver.copies_matrix() && self.first_iterations.is_some() {
@@ -152,7 +152,7 @@ impl<T: Real> Newton<T> {
     }
 }
 
-/// Whether a matrix could be factored; with an error where another matrix could not be either.
+/// Returns true if the matrix could be factored. An error means that no other matrix could be factored either.
 fn is_usable(factored: Result<(), Breakdown>) -> Result<bool, Cause> {
     match factored {
         Err(breakdown) if breakdown.is_of_machine() => Err(Cause::Solver(breakdown)),

@@ -30,11 +30,11 @@ pub struct Inertia<'a, T> {
     pub still: Option<&'a [[T; 3]]>,
     /// Displacements at which damping takes its matrices, m; `None` for those at the start.
     pub stiffness_at: Option<&'a [[T; 3]]>,
-    /// The end of the step where the increment leads to a stage within it.
+    /// The end of the step; `None` if the increment already ends there, and not at a stage.
     pub step_end: Option<StepEnd>,
 }
 
-/// The end of a step whose increment w leads to a stage within it.
+/// The end of a step whose increment w ends at a stage within the step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepEnd {
     /// The moment, at which obstacles are evaluated, and prescribed motions where `ratio` is not 1.

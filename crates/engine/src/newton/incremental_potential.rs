@@ -15,7 +15,7 @@ use fem_elements::vector::{axpy, clear, dot, subtract_from, triple};
 /// V is the energy of the body and of its loads, W that of the obstacles. In a method of second order w is the increment up to a stage
 /// within the step, and s w the one up to its end.
 ///
-/// The unknown is the increment instead of the new displacement, so that velocities w/dt keep their digits in single precision.
+/// The unknown is the increment instead of the new displacement, so that velocities w/dt are exact in single precision.
 #[derive(Clone, Copy)]
 pub struct IncrementalPotential<'a, T: Real> {
     /// The body.
@@ -98,7 +98,7 @@ impl<T: Real> IncrementalPotential<'_, T> {
         self.system.own_largest_step(&workspace.u, direction).min(of_obstacles)
     }
 
-    /// The end of the step where it is not that of the increment and obstacles act on the body.
+    /// The end of the step, if it is not that of the increment and the body has obstacles.
     pub(super) fn end_with_obstacles(&self) -> Option<StepEnd> {
         self.increment.step_end().filter(|_| self.system.forces.has_obstacles())
     }

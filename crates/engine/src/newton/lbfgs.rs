@@ -67,7 +67,7 @@ impl<T: Real> Lbfgs<T> {
         history.put("lbfgs.curvatures", self.pairs.iter().map(|pair| pair.curvature));
     }
 
-    /// Takes over the pairs that [`save`](Self::save) has added.
+    /// Restores the pairs that [`save`](Self::save) has added.
     pub fn restore(&mut self, history: &History) -> Result<(), String> {
         self.clear();
         let curvatures = history.get("lbfgs.curvatures")?;

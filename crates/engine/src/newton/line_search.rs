@@ -27,7 +27,7 @@ const SHORTEST: f64 = 1e-8;
 const SAFETY: f64 = 0.9;
 
 impl<T: Real> Newton<T> {
-    /// Returns the largest step length 1, ½, ¼ … of the direction that decreases the energy, and leaves the point it leads to in
+    /// Returns the largest step length 1, ½, ¼ … of the direction that decreases the energy, and leaves the new point in
     /// `next` and its gradient in `next_gradient`. `derivative` is the directional derivative.
     pub(super) fn line_search(
         &mut self,

@@ -28,7 +28,7 @@ use fem_elements::vector::{max_norm, norm};
 use incremental_potential::{IncrementalPotential, Workspace};
 use lbfgs::Lbfgs;
 
-/// Whether the iteration of a step has reached its tolerance. A method without an iteration always converges.
+/// Convergence of the iteration of a step. A method without an iteration always converges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Convergence {
     /// The step solves its equations to the tolerance.
@@ -55,9 +55,9 @@ pub struct Newton<T: Real> {
     inertia_of_hessian: Option<T>,
     /// Iterations of the first solve with the kept preconditioner; `None` where it has to be refactored.
     first_iterations: Option<usize>,
-    /// Whether the next solve is the first with a new preconditioner.
+    /// True if the next solve is the first with a new preconditioner.
     is_new_preconditioner: bool,
-    /// Whether an iterative solver's kept matrix converged too slowly in this step to start the next step with.
+    /// True if an iterative solver converged too slowly with the kept matrix in this step to keep it for the next one.
     is_matrix_outdated: bool,
 }
 
@@ -124,7 +124,7 @@ impl<T: Real> Newton<T> {
         self.lbfgs.clear();
     }
 
-    /// Adds the kept factor and what decides how long it is kept.
+    /// Adds the kept factor and the data that decide how long it is kept.
     pub fn save(&self, history: &mut History) {
         let (is_kept, first_iterations) = (self.factor != Factor::Stale, self.first_iterations);
         put_flag(history, "newton.is_matrix_kept", is_kept);
@@ -140,7 +140,7 @@ impl<T: Real> Newton<T> {
         }
     }
 
-    /// Takes over what [`save`](Self::save) has added.
+    /// Restores the data that [`save`](Self::save) has added.
     pub fn restore(&mut self, history: &History) -> Result<(), String> {
         self.forget();
         let is_kept = take_flag(history, "newton.is_matrix_kept")?;
@@ -276,7 +276,8 @@ impl<T: Real> Newton<T> {
         }
     }
 
-    /// No direction decreases the energy: the iterate is the minimum to rounding error, or Newton's method has failed.
+    /// Ends the iteration if no direction decreases the energy: the iterate is the minimum to rounding error, or Newton's method has
+    /// failed.
     fn check_stationary(&self, potential: &IncrementalPotential<T>, at: &Iterate) -> Result<bool, Cause> {
         if max_norm(&self.direction) <= self.limits.tolerance * potential.system.length {
             return Ok(false);

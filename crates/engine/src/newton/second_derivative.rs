@@ -24,7 +24,7 @@ impl<T: Real> IncrementalPotential<'_, T> {
         system.dirichlet.eliminate(&system.pattern, values);
     }
 
-    /// Hands the parts of ∂²E/∂w² to `work`, which assembles them where the matrix is solved with. `values` is scratch space.
+    /// Passes the parts of ∂²E/∂w² to `work`, which assembles them on the device of the solver. `values` is scratch space.
     pub fn with_sum<R>(
         &self,
         w: &[[T; 3]],

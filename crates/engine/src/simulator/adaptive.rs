@@ -19,7 +19,7 @@ const SAFETY: f64 = 0.9;
 const EXPONENTS: [f64; 2] = [0.35, 0.2];
 const REJECTED: f64 = 0.5;
 
-/// Smallest and largest change of a step, and the growth up to which it stays: a matrix that has not changed is kept.
+/// Smallest and largest change of a step, and the growth up to which the step is kept, so that its matrix is kept too.
 const CHANGES: [f64; 2] = [0.2, 2.0];
 const STAYS: f64 = 1.15;
 
@@ -58,7 +58,7 @@ impl Control {
         history.put("adaptive.ratio", [self.ratio]);
     }
 
-    /// Takes over what [`save`](Self::save) has added.
+    /// Restores the size that [`save`](Self::save) has added.
     pub(super) fn restore(&mut self, history: &History) -> Result<(), String> {
         self.dt = take_option(history, "adaptive.dt")?;
         take(history, "adaptive.ratio", std::slice::from_mut(&mut self.ratio))
@@ -75,7 +75,7 @@ impl Control {
         self.ratio = ratio;
     }
 
-    /// Takes a rejected part into account.
+    /// Updates the step size after a rejected part.
     fn reject(&mut self, h: f64, ratio: f64) {
         self.dt = Some(h * (SAFETY * ratio.powf(-REJECTED)).clamp(CHANGES[0], SAFETY));
     }

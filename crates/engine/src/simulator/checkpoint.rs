@@ -1,4 +1,4 @@
-//! Checkpoints of a simulator: its state, and what its integrator keeps from step to step.
+//! Checkpoints of a simulator: its state, and the data that its integrator keeps from step to step.
 
 use fem_scene::simulation::{Checkpoint, History, Simulation};
 
@@ -10,7 +10,7 @@ use fem_elements::history::{put, take};
 pub(super) fn of<T: Compiled>(simulator: &Simulator<T>) -> Checkpoint {
     let u = simulator.system.numbering.to_mesh(&simulator.state.u);
     let mut history = History::default();
-    // Reactions take their accelerations from the state before the last step, and a release shows by its time.
+    // Reactions take their accelerations from the state before the last step, and its time shows a release.
     put(&mut history, "before.time", &[simulator.last_good.time]);
     put(&mut history, "before.u", simulator.last_good.u.as_flattened());
     put(&mut history, "before.v", simulator.last_good.v.as_flattened());
@@ -37,7 +37,7 @@ pub(super) fn of<T: Compiled>(simulator: &Simulator<T>) -> Checkpoint {
     }
 }
 
-/// Takes over a checkpoint of the same scene. After an error the simulator must be reset.
+/// Restores a checkpoint of the same scene. After an error the simulator must be reset.
 pub(super) fn restore<T: Compiled>(simulator: &mut Simulator<T>, checkpoint: &Checkpoint) -> Result<(), String> {
     let Checkpoint { displacements, velocities, .. } = checkpoint;
     let coordinates = 3 * simulator.system.nodes();
@@ -84,7 +84,7 @@ pub(super) fn restore<T: Compiled>(simulator: &mut Simulator<T>, checkpoint: &Ch
     simulator.integrator.restore(history)
 }
 
-/// A number that another order of the nodes changes: Fowler, Noll and Vo's hash, of which a float has 53 bits.
+/// A hash of the order of the nodes, by Fowler, Noll and Vo, with the 53 bits that a float can store.
 fn fingerprint(nodes: &[u32]) -> f64 {
     let step = |hash: u64, &node: &u32| (hash ^ u64::from(node)).wrapping_mul(0x0000_0100_0000_01b3);
     (nodes.iter().fold(0xcbf2_9ce4_8422_2325, step) >> 11) as f64

@@ -1,7 +1,7 @@
 //! The number types in which simulations are compiled.
 //!
-//! A generic function is compiled anew in each crate that calls it, and a simulation holds all elements, laws and solvers. So what
-//! is large is reached through a trait with an implementation for each type, which is compiled here, once.
+//! A generic function is compiled anew in each crate that calls it, and a simulation holds all elements, laws and solvers. Large
+//! functions are therefore called through a trait with an implementation for each type, which is compiled once, here.
 
 use fem_scene::simulation::{Energies, Failure, Reaction};
 use fem_scene::{Body, Scene, SceneError};

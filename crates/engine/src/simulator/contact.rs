@@ -18,13 +18,13 @@ use fem_elements::vector::triple;
 const CONVERGED: f64 = 1e-6;
 const ROUNDING: f64 = 1e-3;
 
-/// Most repetitions of a step.
+/// Largest number of repetitions of a step.
 const REPETITIONS: usize = 100;
 
-/// Most of them in which Newton's method may end early; the next one goes on where it has ended.
+/// Largest number of repetitions in which Newton's method may end early; the next one continues from its result.
 const UNCONVERGED: usize = 5;
 
-/// Repetitions after which lagged forces take over half of their change, then a quarter, and so on: some go to and fro.
+/// Repetitions after which half of the change of lagged forces is applied, then a quarter, and so on, because some oscillate.
 const PATIENCE: usize = 15;
 
 /// Depth of a node behind a plane that is rounding error, in lengths of the body.
@@ -36,7 +36,7 @@ pub(super) struct Contacts<T: Real> {
     barrier: Barrier,
     /// m/s
     transition_speed: f64,
-    /// In place of the barrier, in explicit methods.
+    /// Impulses in place of the barrier, for explicit methods.
     impulses: Option<Impulses<T>>,
     /// Largest relative change that lagged forces were left with in a step.
     residual: f64,
@@ -80,7 +80,7 @@ impl<T: Real> Contacts<T> {
         self.planes.bytes() + self.barrier.bytes() + impulses
     }
 
-    /// Adds what reports take from the last steps.
+    /// Adds the data of the last steps that reports need.
     pub(super) fn save(&self, history: &mut History) {
         put(history, "contact.residual", &[self.residual]);
         if let Some(impulses) = &self.impulses {
@@ -88,7 +88,7 @@ impl<T: Real> Contacts<T> {
         }
     }
 
-    /// Takes over what [`save`](Self::save) has added; steps last `dt` seconds.
+    /// Restores the data that [`save`](Self::save) has added; steps last `dt` seconds.
     pub(super) fn restore(&mut self, history: &History, system: &mut System<T>, dt: f64) -> Result<(), String> {
         take(history, "contact.residual", std::slice::from_mut(&mut self.residual))?;
         let Some(impulses) = &mut self.impulses else { return Ok(()) };
@@ -231,7 +231,7 @@ impl<T: Real> Simulator<T> {
         self.system.forces.has_lag().then_some(self.contact.as_ref()?.residual)
     }
 
-    /// Whether the state lies outside all obstacles.
+    /// Checks that the state lies outside all obstacles.
     pub(super) fn check_contact(&self) -> Result<(), Cause> {
         let Some(contact) = &self.contact else { return Ok(()) };
         let time = self.last_good.time + self.substep_dt;

@@ -1,4 +1,4 @@
-//! Whether a graphics device that solves also assembles the matrix.
+//! Decides whether a graphics device that solves also assembles the matrix.
 
 use fem_scene::{Body, Integrator as IntegratorKind, Method, Projection};
 
@@ -8,7 +8,7 @@ use fem_elements::Real;
 /// The laws that the device knows.
 pub(crate) const LAWS: [&str; 5] = ["linear", "corotated", "st_venant_kirchhoff", "neo_hookean", "stable_neo_hookean"];
 
-/// Why the device cannot assemble the elements of a body; `None` if it can.
+/// Returns the reason why the device cannot assemble the elements of a body; `None` if it can.
 pub(super) fn unknown_elements(is_solid: bool, flows: bool, laws: &[&str]) -> Option<String> {
     let unknown = laws.iter().find(|law| !LAWS.contains(law));
     match (laws, unknown) {
@@ -31,7 +31,7 @@ pub(super) fn unknown_in_body(body: &Body) -> Option<String> {
     unknown_elements(body.shape.mesh.solid().is_some(), body.plasticity.is_some(), &laws)
 }
 
-/// Why a method leaves the assembly to the processor; `None` if it does not.
+/// Returns the reason why a method leaves the assembly to the processor; `None` if it does not.
 pub(super) fn other_method(kind: IntegratorKind, method: &Method, is_linear: bool) -> Option<&'static str> {
     match method.newton.projection {
         _ if !kind.has_newton() => Some("this method solves once, to the last digit"),
@@ -43,7 +43,7 @@ pub(super) fn other_method(kind: IntegratorKind, method: &Method, is_linear: boo
     }
 }
 
-/// Whether the device assembles the matrices of a method.
+/// Returns true if the device assembles the matrices of a method.
 pub(super) fn is_possible<T: Real>(kind: IntegratorKind, method: &Method, system: &System<T>) -> bool {
     let elements = &system.elements;
     let laws: Vec<&str> = elements.laws().map(|law| law.name()).collect();

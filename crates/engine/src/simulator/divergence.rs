@@ -1,8 +1,9 @@
-//! Compares the energy of a body with all that loads, prescribed motions and the initial state have supplied.
+//! Compares the energy of a body with the energy supplied by loads, prescribed motions and the initial state.
 //!
-//! Where its kinetic energy exceeds that, its motion grows without bound: an explicit method beyond its critical time step, or a linearized
-//! one on a body that is too stiff for it. Where kinetic and elastic energy exceed it after a number of iterations that the scene has set,
-//! these ended far from the solution of the step: few sweeps over a stiff body leave strains that its loads could never have caused.
+//! If the kinetic energy exceeds that, the motion grows without bound: an explicit method beyond its critical time step, or a linearized
+//! one on a body that is too stiff for it. If kinetic and elastic energy exceed it after a number of iterations that the scene has set,
+//! the iteration ended far from the solution of the step: a small number of sweeps over a stiff body leaves strains that its loads cannot
+//! cause.
 
 use fem_scene::simulation::{Cause, History};
 
@@ -18,7 +19,7 @@ use fem_elements::vector::{dot, triple};
 /// a rule of first order.
 const LIMIT: f64 = 10.0;
 
-/// The energy that a body has been supplied with.
+/// The energy supplied to a body.
 #[derive(Default)]
 pub(super) struct SuppliedEnergy<T> {
     /// Kinetic and elastic energy at the start, and the potential of the steady loads then; `None` before the first step.
@@ -30,7 +31,7 @@ pub(super) struct SuppliedEnergy<T> {
     /// Forces on the nodes, N, and changes of their displacements, m.
     force: Vec<[T; 3]>,
     change: Vec<[T; 3]>,
-    /// Whether a motion may diverge, as a study of its growth wants.
+    /// Divergence is not an error, for studies of the growth of a motion.
     pub(super) may_diverge: bool,
 }
 
@@ -45,7 +46,7 @@ impl<T: Real> SuppliedEnergy<T> {
         self.work += work;
     }
 
-    /// Its sums, which a step that is rejected must not change.
+    /// Returns the sums, to be restored after a rejected step.
     pub(super) fn sums(&self) -> [f64; 2] {
         [self.work, self.largest]
     }
@@ -63,7 +64,7 @@ impl<T: Real> SuppliedEnergy<T> {
         history.put("supplied.sums", [self.work, self.largest]);
     }
 
-    /// Takes over what [`save`](Self::save) has added.
+    /// Restores the sums that [`save`](Self::save) has added.
     pub(super) fn restore(&mut self, history: &History) -> Result<(), String> {
         let (energy, potential) =
             (take_option(history, "supplied.energy")?, take_option(history, "supplied.potential")?);
@@ -116,7 +117,7 @@ impl<T: Real> SuppliedEnergy<T> {
         let moment = Moment::at(before.time + dt);
         self.add_work(system, integrator, before, state, dt);
         self.raise_largest(system, state, dt, moment);
-        // An energy that is not a number is one too much.
+        // NaN counts as too much energy.
         let is_supplied = energy(system, state, moment) <= LIMIT * self.largest + round_off(system);
         !is_supplied
     }
@@ -151,7 +152,7 @@ impl<T: Real> SuppliedEnergy<T> {
     fn raise_largest(&mut self, system: &System<T>, state: &State<T>, dt: f64, moment: Moment) {
         let (start, potential) = self.start.expect("the energies at the start were taken");
         self.make_room(system.nodes());
-        // In the first step of explicit Euler velocities change and displacements do not: look one step ahead.
+        // In the first step of explicit Euler velocities change and displacements do not, so the next displacements are used.
         add_scaled(&state.u, dt, &state.v, &mut self.change);
         let work = |u: &[[T; 3]]| potential - steady_potential(system, u, moment);
         let steady = f64::max(work(&state.u), work(&self.change));
@@ -204,7 +205,7 @@ impl<T: Real> SuppliedEnergy<T> {
     }
 }
 
-/// Whether the work of a force depends on the displacements at the start and now alone.
+/// Returns true if the work of a force depends only on the displacements at the start and now.
 fn is_steady<T: Real>(potential: &dyn Potential<T>) -> bool {
     potential.is_conservative() && potential.is_steady()
 }

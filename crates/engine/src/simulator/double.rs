@@ -17,7 +17,7 @@ use fem_elements::tensor::{Tensor, Tensor4};
 /// A body in double precision.
 pub type System = system::System<f64>;
 
-/// Builds what a body has, and the pattern of its stiffness matrix.
+/// Builds the parts of a body, and the pattern of its stiffness matrix.
 pub fn system(body: Body, choice: SolverChoice) -> System {
     let law = AnyLaw::new(&body.material);
     System::new(body, law, choice)

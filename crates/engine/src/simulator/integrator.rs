@@ -75,7 +75,7 @@ pub fn integrators(kind: IntegratorKind) -> &'static [IntegratorKind] {
             Kind::GeneralizedAlpha,
             Kind::Bdf2,
         ],
-        // Where one explicit method is meant to be stable, all are.
+        // The time step of an explicit scene suits all explicit methods.
         Kind::ExplicitEuler | Kind::SemiImplicitEuler | Kind::Rk2 | Kind::Rk4 | Kind::Verlet => &[
             Kind::ExplicitEuler,
             Kind::SemiImplicitEuler,
@@ -96,13 +96,13 @@ pub fn integrators(kind: IntegratorKind) -> &'static [IntegratorKind] {
 pub(super) fn solver_choice(method: &Method, nodes: usize) -> SolverChoice {
     let is_static = method.integrator == IntegratorKind::Static;
     match &method.solver {
-        // Its one matrix serves every round of every step.
+        // All rounds of all steps have the same matrix.
         _ if method.integrator == IntegratorKind::ProjectiveDynamics => SolverChoice::Cholesky,
         Some(settings) => settings.into(),
         // Beyond a limit point the matrix is not positive definite.
         None if is_static && method.arc_length => SolverChoice::Lu,
         None if nodes <= if is_static { DIRECT.1 } else { DIRECT.0 } => SolverChoice::Cholesky,
-        // Inertia keeps the iterations of the cheapest preconditioner few; in equilibrium only multigrid does.
+        // With inertia the cheapest preconditioner needs few iterations; in equilibrium only multigrid does.
         None if is_static => SolverChoice::Pcg(Preconditioner::Multigrid),
         None => SolverChoice::Pcg(Preconditioner::Ssor),
     }
@@ -142,7 +142,7 @@ pub(super) fn switched<T: Real>(
     build(kind, method, system, choice, planes)
 }
 
-/// Builds an integrator with what it needs, and nothing else.
+/// Builds an integrator with the parts that it needs.
 pub(super) fn build<T: Real>(
     kind: IntegratorKind,
     method: &Method,

@@ -9,7 +9,7 @@ use fem_elements::Real;
 /// Bytes, and uses with their seconds.
 type Cost = (usize, (usize, f64));
 
-/// The planned parts, with what they cost so far.
+/// The planned parts, with their costs so far.
 pub(super) fn parts<T: Real>(simulator: &Simulator<T>) -> Vec<Part> {
     let Simulator { system, method, kind, solver, plan, .. } = simulator;
     let mut parts = plan.parts(*kind, method, *solver, system.is_linear());

@@ -1,4 +1,4 @@
-//! The parts of a scene as its body and its method decide them, before anything is built: which there are, which are left out, why.
+//! Plans the parts of a simulation from its body and its method, before they are built: the parts, those left out, and the reasons.
 
 use fem_scene::simulation::Part;
 use fem_scene::{
@@ -33,7 +33,7 @@ pub(super) struct Plan {
     is_damped: bool,
     has_drag: bool,
     has_display: bool,
-    /// Why a graphics device cannot assemble the elements.
+    /// Reason why a graphics device cannot assemble the elements; `None` if it can.
     unknown_on_device: Option<String>,
 }
 
@@ -76,7 +76,7 @@ impl Plan {
         let mut parts = self.body(kind, method.precision).to_vec();
         parts.extend(self.constraints());
         parts.extend(self.forces());
-        // Along a path there is nothing to minimise.
+        // The arc-length method does not minimise an energy.
         let is_minimized = !(kind == IntegratorKind::Static && (is_linear || method.arc_length));
         let assembly = self.assembly(kind, method, solver, is_linear);
         parts.extend(of_method(kind, method.newton.projection, solver, is_minimized, &assembly));
@@ -89,7 +89,7 @@ impl Plan {
         parts
     }
 
-    /// Why the matrix is a part, and whether the processor or the graphics device assembles it.
+    /// Says which method needs the matrix, and whether the processor or the graphics device assembles it.
     fn assembly(&self, kind: IntegratorKind, method: &Method, solver: SolverChoice, is_linear: bool) -> String {
         let solves = format!("{} solves with it", kind.name());
         let other_method = device_assembly::other_method(kind, method, is_linear);

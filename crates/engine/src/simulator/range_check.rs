@@ -1,4 +1,4 @@
-//! Whether a scene's numbers, and the quantities derived from them, fit into the number type of the simulation.
+//! Checks that a scene's numbers, and the quantities derived from them, fit into the number type of the simulation.
 
 use fem_scene::{Material, Method, Precision};
 
@@ -9,7 +9,7 @@ use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
 use fem_elements::number::is_positive;
 
-/// Refuses a tolerance of Newton's method that rounding error does not let it reach: it would iterate to its limit in every step.
+/// Refuses a tolerance of Newton's method below rounding error: it would iterate to its limit in every step.
 pub(super) fn check_tolerance(method: &Method, epsilon: f64) -> Result<(), Refusal> {
     let least = SMALLEST_TOLERANCE * epsilon;
     match method.newton.tolerance {
@@ -51,10 +51,10 @@ pub(super) fn check<T: Real>(method: &Method, system: &System<T>) -> Result<(), 
     }
 }
 
-/// Refuses parameters whose signs make the material unstable at rest. In double precision none that a scene may give is rounded to
+/// Refuses parameters whose signs make the material unstable at rest. Double precision rounds no allowed parameter to
 /// zero.
 pub(super) fn check_shear_modulus(table: &Material) -> Result<(), String> {
-    // Springs are stiff along themselves alone.
+    // Springs are stiff only along their direction.
     if table.is_mass_spring() {
         return Ok(());
     }
@@ -65,7 +65,7 @@ pub(super) fn check_shear_modulus(table: &Material) -> Result<(), String> {
     Err(format!("has the shear modulus {shear:e} Pa at small strain; give parameters that make it positive"))
 }
 
-/// Whether μ V^(1/3), the stiffness of an element (N/m), is in range.
+/// Returns true if μ V^(1/3), the stiffness of an element (N/m), is in range.
 fn is_stiff<T: Real>(modulus: T, volume: f64) -> bool {
     is_positive(modulus * T::of(volume.cbrt()))
 }
@@ -75,5 +75,5 @@ fn problem(method: &Method, quantity: &str) -> String {
         Precision::F32 => ("single", ", or remove time.precision"),
         Precision::F64 => ("double", ""),
     };
-    format!("leads to {quantity} out of the range of {name} precision; give a more ordinary number{remedy}")
+    format!("leads to {quantity} out of the range of {name} precision; give a less extreme number{remedy}")
 }

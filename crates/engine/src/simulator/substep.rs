@@ -30,7 +30,7 @@ impl<T: Real> Simulator<T> {
         Ok(convergence)
     }
 
-    /// Whether a step has failed for elements that are inverted at its end, which a method does not see that takes its forces within.
+    /// Returns true if a step failed because of elements that are inverted at its end, and the method evaluates its forces before the end.
     fn is_inverted_beyond_the_stage(&self, cause: Cause) -> bool {
         let is_within = self.integrator.last_stage().is_some_and(|stage| stage.part < 1.0);
         is_within && matches!(cause, Cause::Inverted { .. })
@@ -97,7 +97,7 @@ impl<T: Real> Simulator<T> {
         self.failure(cause)
     }
 
-    /// Whether the state that a step has reached is finite, has no inverted element, unless the law allows that, and no more energy
+    /// Checks that the state after a step is finite, has no inverted element unless the law allows that, and no more energy
     /// than it can have.
     fn check_state(&mut self) -> Result<(), Cause> {
         if let Some(node) = self.state.first_not_finite() {

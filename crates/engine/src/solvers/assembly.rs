@@ -1,4 +1,4 @@
-//! A matrix as a sum, for solvers that assemble it where they solve with it.
+//! A matrix as a sum of terms, for solvers that assemble it on their own device.
 
 #[cfg(feature = "gpu")]
 use fem_gpu::{Law, Tetrahedra};

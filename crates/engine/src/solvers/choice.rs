@@ -48,17 +48,17 @@ impl SolverChoice {
         }
     }
 
-    /// Whether a solve iterates with the matrix that it is given.
+    /// Returns true if a solve iterates with the matrix that it is given.
     pub fn is_iterative(self) -> bool {
         !matches!(self, Self::Cholesky | Self::Lu)
     }
 
-    /// Whether it prepares a preconditioner.
+    /// Returns true if the solver prepares a preconditioner.
     pub fn has_preconditioner(self) -> bool {
         matches!(self, Self::Pcg(_) | Self::Gpu(_))
     }
 
-    /// Whether its iteration runs on a copy of the matrix, mostly in single precision, inside an iterative refinement.
+    /// Returns true if the iteration runs on a copy of the matrix, mostly in single precision, inside an iterative refinement.
     pub(crate) fn copies_matrix(self) -> bool {
         matches!(self, Self::Pcg(Preconditioner::Ssor) | Self::Gpu(_))
     }

@@ -13,17 +13,17 @@ pub(crate) trait ApproximateInverse<T: Real>: Send + Sync {
     /// Computes P for the values of a matrix. After an error P must be prepared again before it is applied.
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown>;
 
-    /// Takes over the elements whose matrices it then assembles itself.
+    /// Receives the elements whose matrices it assembles itself from then on.
     #[cfg(feature = "gpu")]
     fn set_elements(&mut self, _elements: &DeviceElements) {}
 
-    /// Whether it [assembles](Self::assemble) matrices.
+    /// Returns true if the inverse [assembles](Self::assemble) matrices.
     fn assembles(&self) -> bool {
         false
     }
 
-    /// Assembles a matrix and computes P for it. The matrix stays where it is solved with: [`correct`](Self::correct) is all that can
-    /// be done with it.
+    /// Assembles a matrix and computes P for it. The matrix stays on the solver's device, and only [`correct`](Self::correct)
+    /// uses it.
     fn assemble(&mut self, _matrix: &Assembly<T>) -> Result<(), Breakdown> {
         Err(Breakdown::Singular)
     }
@@ -47,11 +47,11 @@ pub(crate) trait ApproximateInverse<T: Real>: Send + Sync {
         1e-4
     }
 
-    /// Adds what the next [`prepare`](Self::prepare) takes from earlier matrices, and, if P `is_kept`, what P takes from them. A
-    /// factor takes nothing.
+    /// Adds the data of earlier matrices that the next [`prepare`](Self::prepare) needs, and, if P `is_kept`, those that P depends on. A
+    /// factor needs no such data.
     fn save(&self, _is_kept: bool, _history: &mut History) {}
 
-    /// Takes over what [`save`](Self::save) has added.
+    /// Restores the data that [`save`](Self::save) has added.
     fn restore(&mut self, _is_kept: bool, _history: &History) -> Result<(), String> {
         Ok(())
     }

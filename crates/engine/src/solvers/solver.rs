@@ -41,7 +41,7 @@ pub struct Solver<T: Real> {
     /// The parts of the matrix for products.
     parts: Part,
     inverse: Box<dyn ApproximateInverse<T>>,
-    /// Whether the matrix was assembled where it is solved with, and nowhere else.
+    /// True if the matrix was assembled by the inverse itself, and only there.
     has_own_matrix: bool,
     workspace: Workspace<T>,
     counters: SolverCounters,
@@ -103,13 +103,13 @@ impl<T: Real> Solver<T> {
         preparing.time(|| inverse.prepare(values))
     }
 
-    /// Takes over the elements whose matrices a graphics device then assembles; other solvers have no use for them.
+    /// Receives the elements whose matrices a graphics device then assembles; other solvers ignore them.
     #[cfg(feature = "gpu")]
     pub(crate) fn set_elements(&mut self, elements: &DeviceElements) {
         self.inverse.set_elements(elements);
     }
 
-    /// Whether it [assembles](Self::assemble) matrices.
+    /// Returns true if the solver [assembles](Self::assemble) matrices.
     pub fn assembles(&self) -> bool {
         self.inverse.assembles()
     }
@@ -205,8 +205,8 @@ impl<T: Real> Solver<T> {
         solving.time(|| inverse.apply(&r[..pattern.rows()], &mut z[..pattern.rows()]));
     }
 
-    /// Adds what the next preparation takes from earlier matrices, and, if the factor or preconditioner `is_kept`, what it takes
-    /// from them.
+    /// Adds the data of earlier matrices that the next preparation needs, and, if the factor or preconditioner `is_kept`, those that it
+    /// depends on.
     pub fn save(&self, is_kept: bool, history: &mut History) {
         if self.inverse.assembles() {
             put_flag(history, "solver.has_own_matrix", self.has_own_matrix);
@@ -214,7 +214,7 @@ impl<T: Real> Solver<T> {
         self.inverse.save(is_kept, history);
     }
 
-    /// Takes over what [`save`](Self::save) has added.
+    /// Restores the data that [`save`](Self::save) has added.
     pub fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String> {
         self.has_own_matrix = self.inverse.assembles() && take_flag(history, "solver.has_own_matrix")?;
         self.inverse.restore(is_kept, history)
@@ -227,17 +227,17 @@ impl<T: Real> Solver<T> {
         again.map_err(|breakdown| format!("its matrix cannot be factored again: {breakdown}"))
     }
 
-    /// Whether a solve iterates with the matrix that it is given, so that the prepared matrix only preconditions.
+    /// Returns true if a solve iterates with the matrix that it is given, so that the prepared matrix only preconditions.
     pub fn is_iterative(&self) -> bool {
         self.choice.is_iterative()
     }
 
-    /// Whether [`prepare`](Self::prepare) copies the matrix, so that a solve with another matrix is slow.
+    /// Returns true if [`prepare`](Self::prepare) copies the matrix, so that a solve with another matrix is slow.
     pub fn copies_matrix(&self) -> bool {
         self.choice.copies_matrix()
     }
 
-    /// Whether [`prepare`](Self::prepare) computes a preconditioner.
+    /// Returns true if [`prepare`](Self::prepare) computes a preconditioner.
     pub fn has_preconditioner(&self) -> bool {
         self.choice.has_preconditioner()
     }
@@ -257,7 +257,7 @@ impl<T: Real> Solver<T> {
         self.inverse.bytes()
     }
 
-    /// Allocated bytes without the pattern. The factors of an LU factorisation are not counted: faer does not tell their size.
+    /// Allocated bytes without the pattern. The factors of an LU factorisation are not counted: faer does not report their size.
     pub fn bytes(&self) -> usize {
         self.inverse.bytes() + self.workspace.bytes()
     }

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::beam::{Beam, random};
 use super::{Solver, SolverChoice};
 
-/// The matrix of a beam with all its entries, the condition number of that, and a right-hand side.
+/// The matrix of a beam with all its entries, its condition number, and a right-hand side.
 struct System {
     beam: Beam,
     matrix: DMatrix<f64>,

@@ -1,4 +1,4 @@
-//! The engine against programs that share nothing with it: their answers are stored beside this file, each with the program,
+//! The engine against programs that share no code with it: their answers are stored beside this file, each with the program,
 //! its version, the command and the date.
 
 #![allow(non_snake_case)] // V is the name that the mathematics uses

@@ -1,4 +1,4 @@
-//! A scene without planes pays nothing for contact, and one with them tells what it builds.
+//! A scene without planes has no costs for contact, and the plan of a scene with planes lists its parts.
 
 use fem_scene::simulation::{Part, Simulation};
 

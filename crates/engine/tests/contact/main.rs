@@ -36,7 +36,7 @@ fn dissipative() -> impl Iterator<Item = &'static str> {
     METHODS.into_iter().filter(|method| !["implicit_midpoint", "newmark", "generalized_alpha"].contains(method))
 }
 
-/// Whether a method keeps the body outside by a barrier.
+/// Returns true if a method keeps the body outside by a barrier.
 fn is_implicit(method: &str) -> bool {
     METHODS[5..].contains(&method)
 }

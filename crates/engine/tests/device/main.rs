@@ -3,7 +3,7 @@
 #![allow(non_snake_case)] // E, G and J are the names that the mathematics uses
 
 mod batch;
-mod ends;
+mod failures;
 mod forces;
 mod stiffness;
 

@@ -124,7 +124,7 @@ fn matrices_of_every_law_are_those_of_the_processor() {
 
 const GPU: &str = "solver={kind=\"gpu\"}";
 
-/// Why the matrix is a part of a scene on the device; `None`, after one line, without one.
+/// The plan's remark on the matrix of a scene on the device. Prints one line and returns `None` without a device.
 fn place_of_assembly(scene: &str, keys: &[&str]) -> Option<String> {
     let simulation = on_device(scene, &[keys, &[GPU]].concat())?;
     simulation.parts().iter().find(|part| part.name == "stiffness").map(|part| part.why.to_string())

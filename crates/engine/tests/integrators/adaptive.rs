@@ -1,4 +1,4 @@
-//! Adaptive steps: errors in proportion to the tolerance, honest estimates, what is saved, and typed failures.
+//! Adaptive steps: errors in proportion to the tolerance, accurate estimates, saved steps, and typed failures.
 
 use fem_engine::simulator::Simulator;
 use fem_scene::simulation::{Cause, Simulation};

@@ -14,7 +14,7 @@ use crate::{block, scene};
 /// A body of 1 m³ whose inner nodes are where chance has put them.
 struct Patch {
     system: System<f64>,
-    /// Whether each of the engine's nodes lies inside.
+    /// True for each of the engine's nodes that lies inside.
     inner: Vec<bool>,
 }
 

@@ -88,7 +88,7 @@ fn the_released_bar_keeps_its_momentum_and_loses_energy() {
     let (mass, _, before, _) = momenta(&*simulation);
     let mut energy = simulation.energies().total();
     assert!(energy > 100.0, "{energy} J");
-    // Nothing acts across the pull, so the momentum there is zero at all times.
+    // The external force has no component across its direction, so the momentum there is zero at all times.
     assert!(before.yz().norm() < 1e-9 * mass, "{before}");
     for step in 0..125 {
         run(&mut *simulation, 1);

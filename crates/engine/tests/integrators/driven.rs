@@ -14,7 +14,8 @@ use nalgebra::DVector;
 
 use crate::{build, distance, run, scene, soft};
 
-/// One end of the box is fixed and the other turns and moves to and fro, of which lumped masses know nothing and consistent ones much.
+/// One end of the box is fixed, and the other turns and moves to and fro. A consistent mass couples this motion to the other nodes; a
+/// lumped mass does not.
 const SWUNG: &str = r#"[fixed]
 plane = { axis = "x", below = 1e-9 }
 [[prescribed]]

@@ -11,7 +11,7 @@ pub fn flat(text: &str) -> String {
         .replace("[material]\n", "[material]\nthickness = 0.3\n")
 }
 
-/// Prescribes x and y of all nodes on the edges by the gradient G, and nothing inside.
+/// Prescribes x and y of all nodes on the edges by the gradient G; inner nodes are free.
 pub fn affine<const N: usize>(mesh: &Mesh<3, N>, G: [[f64; 2]; 2]) -> String {
     let (mut tables, size) = (String::new(), [2.0, 1.0]);
     for (node, x) in mesh.vertices.iter().enumerate() {

@@ -37,7 +37,7 @@ mod statics;
 mod substeps;
 mod surface_loads;
 mod twists;
-mod unsettled;
+mod unconverged;
 mod vertex_block_descent;
 mod vibrations;
 mod work;

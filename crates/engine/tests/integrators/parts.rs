@@ -1,4 +1,4 @@
-//! A part that a scene leaves out costs nothing: its counter stays zero, and rises with the part.
+//! The counter of a part that a scene leaves out stays zero, and rises in a scene with the part.
 
 use fem_scene::simulation::{Part, Simulation};
 
@@ -8,7 +8,7 @@ const CLAMP: &str = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n";
 const WEIGHT: &str = "[gravity]\nacceleration = [0, -20, 0]\n";
 const TRACTION: &str = "[[traction]]\non = { axis = \"x\", side = \"max\", within = 1e-9 }\n";
 
-/// The parts after three steps, and after somebody has looked at the body and at what holds it.
+/// The parts after three steps, and after queries of the display mesh and the reactions.
 fn parts(text: &str) -> Vec<Part> {
     let mut simulation = build(text);
     run(&mut *simulation, 3);

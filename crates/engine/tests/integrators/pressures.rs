@@ -65,7 +65,7 @@ fn a_pressure_whose_surface_has_a_moving_edge_has_no_potential_and_the_list_of_p
         simulation.energies().potential
     };
     let clamp = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n";
-    // What is stored in the body is all there is, and it is positive; a potential at equilibrium is negative.
+    // The energy consists of the stored energy alone and is positive; with a potential of the load it would be negative at equilibrium.
     assert!(energy(&format!("{clamp}{}", pressed(&[("x", "max")], 1e3))) > 0.0);
     assert!(energy(&format!("{clamp}{}", closed(1e3))) < 0.0);
 }

@@ -39,7 +39,7 @@ fn is_large(name: &str) -> bool {
     ["arma-large", "armadillo-fine"].contains(&name)
 }
 
-/// Whether the engine alone can build a scene: pictures need a feature of the program.
+/// Returns true if the engine alone can build a scene: pictures need a feature of the program.
 fn is_built_here(scene: &Scene) -> bool {
     scene.pipeline == Pipeline::Engine && scene.mesh.picture.is_none() && !is_large(&scene.name)
 }

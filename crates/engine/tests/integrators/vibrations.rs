@@ -2,7 +2,7 @@
 
 use crate::{build, node_masses};
 
-/// All nodes of the box but one are fixed, its material is too soft to matter, and a spring along x holds that node.
+/// A box with one free node. Its material is so soft that only an anchor spring along x acts on that node.
 pub fn oscillator(integrator: &str, dt: f64, damping: &str) -> String {
     format!(
         r#"pipeline = "engine"

@@ -1,4 +1,4 @@
-//! The work that each method does, and what it says when it cannot go on.
+//! The work of each method, and its message when it cannot continue.
 
 use fem_scene::simulation::Cause;
 

@@ -35,7 +35,7 @@ pub struct CoarseGrid {
     pub weights: Vec<[f32; 8]>,
 }
 
-/// How a solve has ended.
+/// Outcome of a solve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// The residual is small enough.
@@ -51,7 +51,7 @@ pub enum Outcome {
 /// The end of a solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solved {
-    /// How it has ended.
+    /// Outcome of the solve.
     pub outcome: Outcome,
     /// Iterations.
     pub iterations: usize,
@@ -89,7 +89,7 @@ struct Arrays {
     q: Buffer,
     numbers: Buffer,
     counts: Buffer,
-    /// Whether a diagonal block is not positive definite.
+    /// Flag: a diagonal block is not positive definite.
     is_indefinite: Buffer,
     free: Buffer,
     coarse_inverse: Buffer,

@@ -24,7 +24,7 @@ impl Tetrahedra {
     }
 }
 
-/// The constitutive laws that a device knows. Their parameters are μ and λ, or C and D of the neo-Hookean law, Pa.
+/// The constitutive laws that are implemented on a device. Their parameters are μ and λ, or C and D of the neo-Hookean law, Pa.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)] // the names are those of the laws
 pub enum Law {
@@ -36,7 +36,7 @@ pub enum Law {
 }
 
 impl Law {
-    /// Whether elements may be inverted.
+    /// Returns true if elements may be inverted.
     pub(crate) fn allows_inversion(self) -> bool {
         self != Self::NeoHookean
     }

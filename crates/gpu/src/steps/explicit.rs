@@ -84,7 +84,7 @@ fn of_stage(
     program.kernel_of(entry, &constants, &bound, arrays.all_nodes())
 }
 
-/// The arrays of an entry that takes accelerations; `checks` where it looks at the state that it leads to.
+/// Arrays of an entry point that computes accelerations. With `checks` it also checks the new state.
 fn with_forces(arrays: &Arrays, checks: bool) -> Vec<(u32, &Buffer)> {
     let Arrays { sizes, factors, u, v, forces, starts, around, nodal, numbers, found, records, .. } = arrays;
     let of_forces = [(0, sizes), (3, factors), (4, u), (5, v), (6, forces), (7, starts), (8, around), (9, nodal)];

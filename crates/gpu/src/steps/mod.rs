@@ -1,6 +1,6 @@
 //! Many bodies of one mesh on a device, which step together: environments that differ in stiffness, density and weight.
 //!
-//! A step is a list of kernels, and many steps are sent at once. Nothing comes back before a state, or the troubles, are asked for.
+//! A step is a list of kernels, and many steps are sent at once. The device is read only when a state, or the failures, are requested.
 
 mod arrays;
 mod body;
@@ -18,13 +18,13 @@ use arrays::Arrays;
 
 pub use body::{Body, Environment, Method, Scheme};
 
-/// Most evaluations of an element in one submission: about a tenth of a second on a slow card, so that no watchdog ends it.
+/// Largest number of evaluations of elements in one submission: about a tenth of a second on a slow card, less than a watchdog's limit.
 const MOST_WORK: usize = 1 << 24;
 
-/// Most kernels in one submission.
+/// Largest number of kernels in one submission.
 const MOST_KERNELS: usize = 4096;
 
-/// Why an environment's state is of no use.
+/// Failure of an environment: its step and its cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Trouble {
     /// The step after which it was found, from 1.
@@ -33,7 +33,7 @@ pub struct Trouble {
     pub cause: Cause,
 }
 
-/// The reason for which a state is of no use.
+/// Cause of a failure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
     /// The place or velocity of this node is not finite; it is the first such node.
@@ -160,7 +160,7 @@ impl<N: Number> Bodies<N> {
         before.replace(sent).map_or(Ok(()), |index| self.device.wait(index))
     }
 
-    /// Displacements (m) and velocities (m/s) of the nodes of an environment now. They mean nothing for one with a trouble.
+    /// Displacements (m) and velocities (m/s) of the nodes of an environment now. They are invalid for an environment that has failed.
     pub fn state(&mut self, environment: usize) -> Result<[Vec<[N; 3]>; 2], DeviceError> {
         self.device.write(&self.arrays.chosen, &[environment as u32, 0, 0, 0]);
         let numbers = self.read_one(&[&self.read_state])?;
@@ -201,7 +201,7 @@ impl<N: Number> Bodies<N> {
         Ok((0..self.environments).map(of).collect())
     }
 
-    /// How often something has been read from the device so far.
+    /// Number of reads from the device so far.
     pub fn reads(&self) -> usize {
         self.reads
     }

@@ -99,7 +99,7 @@ pub struct OnCurve {
     pub curve: usize,
     /// Arc length, m.
     pub s: f64,
-    /// Whether the vertex stays where it is.
+    /// The vertex must not be moved.
     pub is_fixed: bool,
 }
 

@@ -1,4 +1,4 @@
-//! The measures of shape whose distribution tells how good a mesh is.
+//! The measures of shape whose distributions describe the quality of a mesh.
 
 use super::Distribution;
 use super::tetrahedra::shape;

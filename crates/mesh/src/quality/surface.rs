@@ -40,12 +40,12 @@ pub struct SurfaceQuality {
 }
 
 impl SurfaceQuality {
-    /// Whether every edge has one or two triangles and every vertex one fan of them.
+    /// Returns true if every edge has one or two triangles and every vertex one fan of them.
     pub fn is_manifold(&self) -> bool {
         self.branching_edges == 0 && self.branching_vertices == 0
     }
 
-    /// Whether the surface encloses a volume: no open, branching or flipped edge.
+    /// Returns true if the surface encloses a volume: no open, branching or flipped edge.
     pub fn is_closed(&self) -> bool {
         self.triangles > 0
             && [self.open_edges, self.branching_edges, self.flipped_edges].iter().all(|&edges| edges == 0)
@@ -101,7 +101,7 @@ pub(crate) fn branching_places(mesh: &SurfaceMesh) -> Vec<usize> {
 /// The triangles at an edge.
 struct Edge {
     triangles: usize,
-    /// How many of them run from the smaller to the larger vertex, less those that run back.
+    /// Number of triangles that run from the smaller to the larger vertex, less the number of those that run back.
     direction: i32,
     /// The first of them.
     first: usize,

@@ -74,7 +74,7 @@ fn polygons(path: &Path) -> Result<SurfaceMesh, MeshError> {
     }
 }
 
-/// Whether a path has the extension of a file that holds surfaces alone.
+/// Returns true if a path has the extension of a file that holds surfaces alone.
 pub fn is_surface(path: &Path) -> bool {
     ["obj", "ply", "stl"].contains(&extension(path).as_str())
 }
@@ -85,7 +85,7 @@ pub(super) fn extension(path: &Path) -> String {
     plain.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
-/// Whether a path ends in `.gz`.
+/// Returns true if a path ends in `.gz`.
 pub(super) fn is_packed(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"))
 }

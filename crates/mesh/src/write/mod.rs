@@ -103,7 +103,7 @@ fn check_place(path: &Path) -> Result<(), MeshError> {
     Err(MeshError::in_file(path, Problem::Unwritable { reason: reason.to_owned() }))
 }
 
-/// Whether a file of this extension keeps the named sets of a mesh.
+/// Returns true if a file of this extension keeps the named sets of a mesh.
 pub fn keeps_sets(path: &Path) -> bool {
     extension(path) == "msh"
 }

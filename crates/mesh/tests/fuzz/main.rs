@@ -67,7 +67,7 @@ fn read(path: &Path) -> Result<AnyMesh, MeshError> {
     read_mesh(path)
 }
 
-/// Asserts what a reader promises of a mesh, and uses it.
+/// Asserts the guarantees of a reader for a mesh, and uses the mesh.
 fn go_on(found: Result<AnyMesh, MeshError>) {
     match found {
         Ok(AnyMesh::Tetrahedra(mesh)) => {

@@ -12,10 +12,11 @@ use tempfile::tempdir;
 use super::mutation::fuzz;
 use super::write_anew;
 
-/// Most bytes of pixels for a byte of a file: deflate packs 1032 bytes into one, and those of one bit become four bytes for a pixel.
+/// Largest number of bytes of pixels for a byte of a file: deflate packs 1032 bytes into one, and those of one bit become four bytes
+/// for a pixel.
 const UNPACKED: u64 = 1032 * 8 * 4;
 
-/// Whether a pixel lies inside of a ring.
+/// Returns true if a pixel lies inside of a ring.
 fn ring(x: u32, y: u32) -> bool {
     let squared = (x as i32 - 20).pow(2) + (y as i32 - 15).pow(2);
     (20..170).contains(&squared)

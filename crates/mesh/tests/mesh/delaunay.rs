@@ -120,7 +120,7 @@ fn is_in_space(points: &[Point]) -> bool {
     tetrahedralize(&coordinates).is_ok()
 }
 
-/// How many cases a property is tested with; `DELAUNAY_CASES` asks for more.
+/// Number of cases of a property test; `DELAUNAY_CASES` sets another.
 fn cases(usual: u32) -> u32 {
     std::env::var("DELAUNAY_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
 }

@@ -112,7 +112,7 @@ fn sphere() -> Vec<Point> {
     pairs.flat_map(heights).collect()
 }
 
-/// Whether no four of the points span a volume.
+/// Returns true if no four of the points span a volume.
 fn is_flat(points: &[Point]) -> bool {
     let Some(&a) = points.first() else { return true };
     let Some(&b) = points.iter().find(|&&b| b != a) else { return true };

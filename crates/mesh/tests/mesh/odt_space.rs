@@ -47,7 +47,7 @@ fn faces(mesh: &TetrahedralMesh) -> BTreeSet<[usize; 3]> {
     boundary(mesh).into_iter().map(sorted).collect()
 }
 
-/// Panics unless an improvement holds what is promised of all.
+/// Panics unless an improvement satisfies the guarantees of the method.
 fn is_sound(before: &TetrahedralMesh, improved: &Improved) {
     let mesh = &improved.mesh;
     check(mesh, "improved".as_ref()).unwrap();

@@ -1,4 +1,4 @@
-//! Tetrahedra inside surfaces: clean ones against closed forms, dirty ones against what they enclose.
+//! Tetrahedra inside surfaces: clean ones against closed forms, dirty ones against the volumes that they enclose.
 
 use std::collections::{BTreeSet, HashMap};
 use std::f64::consts::PI;
@@ -60,7 +60,8 @@ fn every(surface: &SurfaceMesh, n: usize, k: usize) -> impl Iterator<Item = usiz
     (k..surface.elements.len()).step_by(n)
 }
 
-/// Panics unless a mesh holds what is promised of all: valid, angles within the bounds, closed. Returns its volume and Euler characteristic.
+/// Panics unless a mesh satisfies the guarantees of the method: valid, angles within the bounds, closed. Returns its volume and Euler
+/// characteristic.
 fn is_sound(mesh: &TetrahedralMesh) -> (f64, i64) {
     check(mesh, "stuffed".as_ref()).unwrap();
     assert_eq!(coincident_nodes(mesh), None);

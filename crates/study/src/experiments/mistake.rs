@@ -1,4 +1,4 @@
-//! Mistakes of a thesis: the figure that its rule leads to, ours, and the true one.
+//! Mistakes of a thesis, each with three figures: by the thesis' rule, ours, and the true one.
 
 use super::{Mark, Table};
 

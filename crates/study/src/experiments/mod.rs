@@ -14,13 +14,13 @@ pub use output::write;
 /// A statement that must be true of an experiment's outcome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
-    /// What must be true.
+    /// The statement.
     pub statement: String,
     /// The figure of the thesis; empty where it has none.
     pub theirs: String,
     /// Our figure.
     pub ours: String,
-    /// Whether it is true; `None` where a short run cannot tell.
+    /// True if the statement holds; `None` where a short run cannot tell.
     pub holds: Option<bool>,
 }
 
@@ -67,7 +67,7 @@ pub struct Part {
     pub title: &'static str,
     /// A paragraph: the setting, the thesis' figure, the mistake behind it.
     pub text: String,
-    /// What must be true of it.
+    /// Statements that must be true of it.
     pub marks: Vec<Mark>,
     /// Its numbers.
     pub tables: Vec<Table>,
@@ -76,7 +76,7 @@ pub struct Part {
 }
 
 impl Part {
-    /// Whether no mark fails.
+    /// Returns true if no mark fails.
     pub fn passes(&self) -> bool {
         self.marks.iter().all(|mark| mark.holds != Some(false))
     }
@@ -93,7 +93,7 @@ pub struct Experiment {
     pub text: &'static str,
     /// The machine and the program.
     pub machine: Machine,
-    /// Whether it was shortened.
+    /// The runs were shortened.
     pub quick: bool,
     /// Its parts.
     pub parts: Vec<Part>,

@@ -36,7 +36,7 @@ pub struct Scratch {
 }
 
 impl Equations {
-    /// Builds the equations of a scene. The error says why the scene has none.
+    /// Builds the equations of a scene. The error is the reason why the scene has none.
     pub fn new(body: Body) -> Result<Self, String> {
         if body.dirichlet.iter().any(|condition| condition.until.is_some()) {
             return Err("nodes become free at a time, which the reference in time does not compute".to_owned());

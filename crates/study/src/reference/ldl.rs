@@ -1,7 +1,7 @@
 //! A sparse factorization A = L D Lᵀ for references: up-looking, row by row, by the elimination tree. T. A. Davis, "Algorithm 849: a
 //! concise sparse Cholesky factorization package", ACM Transactions on Mathematical Software 31, 2005.
 //!
-//! It shares nothing with the solvers that are under test.
+//! It shares no code with the solvers under test.
 
 /// No parent in the tree.
 const ROOT: usize = usize::MAX;

@@ -1,4 +1,4 @@
-//! Condition number of the stiffness that a mesh leads to.
+//! Condition number of the stiffness matrix of a mesh.
 //!
 //! One bad tetrahedron raises the largest eigenvalue without bound, and the smallest belongs to the body and hardly depends on shapes: Shewchuk,
 //! What Is a Good Linear Finite Element? (2002), §3. Iterative solvers need as many more iterations as the root of the condition number grows,
@@ -41,7 +41,7 @@ impl Conditioning {
     }
 }
 
-/// Conditioning of the stiffness that a mesh leads to which has passed the check. The smallest eigenvalue comes from a Cholesky factor.
+/// Conditioning of the stiffness matrix of a mesh that has passed the check. The smallest eigenvalue comes from a Cholesky factor.
 ///
 /// # Errors
 /// A mesh whose stiffness cannot be assembled or factored, as a sentence.

@@ -31,7 +31,7 @@ pub const SECOND_ORDER: [&str; 4] = ["implicit_midpoint", "newmark", "generalize
 /// The iterated methods.
 pub const ITERATED: [&str; 4] = ["pbd", "xpbd", "vbd", "projective_dynamics"];
 
-/// Whether an integrator minimizes an energy in each step.
+/// Returns true if an integrator minimizes an energy in each step.
 pub fn has_newton(integrator: &str) -> bool {
     ["implicit_euler", "static"].contains(&integrator) || SECOND_ORDER.contains(&integrator)
 }

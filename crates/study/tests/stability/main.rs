@@ -44,8 +44,8 @@ fn every_case_ends_as_expected_and_as_stored() {
     assert!(changes.is_empty() && lost.is_empty(), "\n{}\nlost: {:#?}\n", changes.join("\n"), lost.keys());
 }
 
-/// What the case decides on every processor. Round-off decides which equilibrium an untangled or a buckled body reaches, and how small
-/// an error is that should be zero.
+/// Columns of a case that are equal on every processor. Round-off decides which equilibrium an untangled or a buckled body reaches, and
+/// how small an error is that should be zero.
 fn determined(row: &CaseRow) -> [String; 9] {
     let is_one_of_many = row.expected == Outcome::Untangles || row.case.starts_with("compressed to 2 %");
     let is_steady = !row.margin_is.contains("round-off") && !is_one_of_many;

@@ -1,4 +1,4 @@
-//! The section of the panel for Dirichlet conditions: the brush and what it paints.
+//! The section of the panel for Dirichlet conditions: the brush and the painted condition.
 
 use kiss3d::egui::{DragValue, RichText, Slider, Ui};
 

@@ -1,4 +1,4 @@
-//! The tools that set up a scene, in the hands of the user.
+//! The tools with which the user sets up a scene.
 
 use kiss3d::event::Modifiers;
 

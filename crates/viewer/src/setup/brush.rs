@@ -27,7 +27,7 @@ pub enum Target {
 pub struct Brush {
     /// Radius of the ball, m; `None` before the first use.
     pub radius: Option<f32>,
-    /// Whether it erases; with the control key it does the other thing.
+    /// The brush erases; the control key reverses this.
     pub erases: bool,
     /// The condition that it paints.
     pub target: Target,
@@ -42,7 +42,7 @@ struct Stroke {
     nodes: BTreeSet<usize>,
     erases: bool,
     is_down: bool,
-    /// Whether a node was under the brush.
+    /// A node was under the brush.
     touches: bool,
 }
 
@@ -101,7 +101,7 @@ impl Brush {
         }
     }
 
-    /// Ends a stroke: the change of the scene, or why there is none; `None` if no stroke was begun.
+    /// Ends a stroke: the change of the scene, or the reason why there is none; `None` if no stroke was begun.
     pub(super) fn release(&mut self, scene: &SceneSetup) -> Option<Result<Change, String>> {
         let stroke = self.stroke.as_mut().filter(|stroke| stroke.is_down)?;
         stroke.is_down = false;

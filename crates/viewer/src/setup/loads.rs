@@ -28,11 +28,11 @@ pub struct Loads {
     pub faces: BTreeSet<usize>,
     /// The `[[traction]]` with these faces; `None` for faces that are not loaded yet.
     pub current: Option<usize>,
-    /// Traction along the outward normal, Pa: positive pulls.
+    /// Traction along the outward normal, Pa; positive in tension.
     pub traction: f64,
-    /// Whether the load follows the deformed surface; else it keeps its direction, the mean normal of the undeformed faces.
+    /// The load follows the deformed surface; otherwise it keeps its direction, the mean normal of the undeformed faces.
     pub follows: bool,
-    /// Whether a click picks the smooth part around a face.
+    /// A click picks the smooth part of the surface around a face.
     pub grows: bool,
     /// Largest angle between normals in a smooth part, degrees.
     pub angle: f64,
@@ -49,7 +49,7 @@ struct Pull {
     /// Traction when the drag began, and its growth per metre of the drag, Pa and Pa/m.
     traction: (f64, f64),
     has_moved: bool,
-    /// Whether the press has given a load of the scene other faces.
+    /// The press has changed the faces of a load of the scene.
     has_other_faces: bool,
 }
 
@@ -73,7 +73,7 @@ pub fn range(scene: &SceneSetup) -> f64 {
 }
 
 impl Loads {
-    /// Whether faces are picked.
+    /// Returns true if faces are picked.
     pub fn is_used(&self) -> bool {
         !self.faces.is_empty() || self.current.is_some()
     }
@@ -102,7 +102,7 @@ impl Loads {
             cursor: pointer.cursor,
             grip,
             direction: in_picture(normal, pointer),
-            // A bar of the body's length that is pulled at its end follows the mouse.
+            // With this scale, the end of a loaded bar of the body's length would follow the mouse.
             traction: (self.traction, 10.0 * range(pointer.scene) / f64::from(2.0 * body.radius)),
             has_moved: false,
             has_other_faces: pointer.control && self.current.is_some(),
@@ -146,7 +146,7 @@ impl Loads {
         self.pull.take().is_some_and(|pull| pull.has_other_faces)
     }
 
-    /// The change of the scene that gives the picked faces their traction, or why there is none.
+    /// The change of the scene that gives the picked faces their traction, or the reason why there is none.
     pub(super) fn change(&mut self, body: &Body, scene: &SceneSetup) -> Result<Change, String> {
         if self.faces.is_empty() && self.current.is_none() {
             return Err("no face is picked; click on the surface first".to_owned());

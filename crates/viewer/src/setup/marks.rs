@@ -87,7 +87,7 @@ impl Setup {
     }
 }
 
-/// Arrows of a load that leave the surface where it pulls, and end on it where it pushes.
+/// Arrows of a load, which start at the surface in tension, and end on it in compression.
 fn draw_arrows(
     window: &mut Window,
     body: &Body,
@@ -106,7 +106,7 @@ fn draw_arrows(
         let length = (LONGEST_ARROW * body.radius * (force.norm() / range).sqrt() as f32).min(body.radius);
         let shaft = single(&force.try_normalize(0.0).unwrap_or_default()) * length;
         let outward = camera.nearer(centre, 0.01);
-        // A push is drawn outside too: inside the body would hide it.
+        // Compression is drawn outside too, because the body would hide arrows inside.
         let (tail, tip) = if normal.dot(shaft) < 0.0 { (outward - shaft, outward) } else { (outward, outward + shaft) };
         let side = shaft.cross(camera.direction()).normalize_or_zero();
         let head = shaft.normalize_or_zero() * (0.35 * shaft.length()).min(0.06 * body.radius);

@@ -13,7 +13,7 @@ use crate::options::{Builder, Editing};
 use crate::panics::panic_message;
 use crate::{scene_edits, scene_parameters};
 
-/// A scene, and what builds its simulation anew.
+/// A scene, and the builder of its simulation.
 pub struct SceneEditor {
     scene: Scene,
     /// The scene before all changes.

@@ -224,7 +224,7 @@ impl SimulationLoop {
         self.sample();
     }
 
-    /// Whether the time of the next frame has been reached; if so, the following frame has to be requested.
+    /// Returns true if the time of the next frame has been reached; if so, the following frame has to be requested.
     fn is_frame(&mut self, interval: f64) -> bool {
         let time = self.simulation.time();
         let due = time >= self.last_frame + interval - 1e-9;

@@ -20,7 +20,7 @@ pub struct StepTimer {
 /// The parts of the last steps.
 #[derive(Default)]
 pub struct StepTimers {
-    /// When the times were read, the number of steps then, and the uses and seconds of each part.
+    /// The last reading: its time, the number of steps then, and the uses and seconds of each part.
     last: Option<(Instant, usize, Vec<Reading>)>,
     rows: Vec<StepTimer>,
 }

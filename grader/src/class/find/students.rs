@@ -1,4 +1,4 @@
-//! `students.csv`: whose the submissions are, when they came, and who is on the roster.
+//! `students.csv`: students and times of the submissions, and the roster.
 //!
 //! Columns: `student`; `submission`, its file name with or without the ending, empty for a student who has handed in nothing; `time`; and
 //! for gradebooks `name`, `id`, `login`, `email`, `section`. All but `student` may be left out. A group has a row for each student, with one
@@ -44,7 +44,7 @@ struct Row {
     section: String,
 }
 
-/// Gives the submissions the students of the table, and returns these.
+/// Assigns the students of the table to the submissions, and returns the students.
 pub fn apply(
     path: &Path,
     submissions: &mut Vec<Submission>,
@@ -73,7 +73,7 @@ pub fn apply(
 }
 
 impl Row {
-    /// Makes the student's the submission of this row, beside those of earlier rows; false if there is no such submission.
+    /// Assigns the submission of this row to its student, beside those of earlier rows. Returns false if there is no such submission.
     fn assign(&self, submissions: &mut Vec<Submission>, given: &mut Vec<(String, String)>) -> bool {
         let is_it = |submission: &&mut Submission| {
             submission.name == self.submission

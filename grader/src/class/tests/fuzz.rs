@@ -76,7 +76,7 @@ fn fuzz_text<R>(name: &str, text: &str, read: impl Fn(&Path) -> R, go_on: impl F
     );
 }
 
-/// Writes a file that is no longer the one before: a file system may wait for its disk when a file is emptied and written again.
+/// Writes a new file in place of the old one, because some file systems wait for the disk when a file is truncated and rewritten.
 fn write_anew(path: &Path, bytes: &[u8]) {
     let _ = fs::remove_file(path);
     fs::write(path, bytes).unwrap();
@@ -182,7 +182,7 @@ fn gzip(bytes: &[u8]) -> Vec<u8> {
     gzip.finish().unwrap()
 }
 
-/// Sets the check sums of all headers, without which a reader would look at no mutation of them.
+/// Sets the check sums of all headers, so that readers do not reject every mutation of them.
 fn with_check_sums(tar: &mut [u8]) {
     for block in tar.as_chunks_mut::<512>().0.iter_mut().filter(|block| block[257..262] == *b"ustar") {
         block[148..156].fill(b' ');

@@ -1,4 +1,4 @@
-//! Shards of a class, and what joining them makes of them.
+//! Shards of a class, and their joined results.
 
 use super::*;
 

@@ -24,7 +24,7 @@ pub struct Settings {
     place: fn(&[usize; 4], usize, usize) -> usize,
     /// From the element's Hessian to what is added.
     projection: fn(&SMatrix<f64, 12, 12>) -> SMatrix<f64, 12, 12>,
-    /// The entries of an element's answer that are added, and as what.
+    /// The entries of an element's answer that are added, with their values.
     entry: fn(&Block, usize, usize) -> f64,
     put: fn(f64, f64) -> f64,
     divided_by_valence: bool,

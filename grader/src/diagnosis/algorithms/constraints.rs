@@ -90,7 +90,7 @@ pub const SWITCHES: &[Switch<Settings>] = &[
     ("taken for sorted", "Right where the indices ascend. May they come in any order?", |s| {
         s.indices = |indices| {
             let mut seen = Vec::new();
-            // A single walk along the vertices passes by an index that is smaller than the one before.
+            // A single pass over the vertices misses an index that is smaller than the previous one.
             indices.iter().for_each(|i| {
                 if seen.iter().all(|last| i >= last) {
                     seen.push(*i)

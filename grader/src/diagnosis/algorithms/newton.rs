@@ -19,7 +19,7 @@ type Vector = DVector<f64>;
 pub struct Settings {
     /// The direction, from the gradient and the Hessian's solution for minus the gradient.
     direction: fn(&Vector, Vector) -> Vector,
-    /// Whether value, gradient, Hessian are evaluated anew for each direction.
+    /// True for each of value, gradient and Hessian that is evaluated anew for each direction.
     pub anew: [bool; 3],
     first: f64,
     shorter: f64,
@@ -30,13 +30,13 @@ pub struct Settings {
     bound: fn(f64, f64) -> f64,
     /// The share of the decrease that is asked for at a step length.
     share: fn(f64) -> f64,
-    /// Whether to stop after a step, from the decrease of f, the length of the step and α.
+    /// Returns true to stop after a step. Arguments: the decrease of f, the length of the step, and α.
     done: fn(f64, f64, f64) -> bool,
     accepts: fn(f64, f64) -> bool,
-    /// Whether the gradient is small, from its norm and that at the start.
+    /// Returns true if the gradient is small. Arguments: its norm, and that at the start.
     small: fn(f64, f64) -> bool,
     pub most: fn(usize) -> usize,
-    /// The next step length where no step is good enough; 0 gives up, NaN goes on without a step.
+    /// The step length after a line search without an acceptable step. 0: give up. NaN: continue without a step.
     last: fn(f64) -> f64,
     carries_over: bool,
     left_behind: bool,
@@ -82,7 +82,7 @@ pub struct Problem<'a> {
     pub value: &'a dyn Fn(&Vector) -> f64,
     pub gradient: &'a dyn Fn(&Vector) -> Vector,
     pub hessian: &'a dyn Fn(&Vector) -> DMatrix<f64>,
-    /// How many systems of equations were solved.
+    /// Number of systems of equations that were solved.
     pub solves: Cell<usize>,
 }
 

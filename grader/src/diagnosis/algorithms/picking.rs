@@ -22,13 +22,13 @@ pub struct Settings {
     divided: fn(Vector4<f64>) -> Point,
     inside: fn(f64, f64) -> bool,
     ahead: fn(f64) -> bool,
-    /// Whether a triangle counts, from its normal's part along the line of sight.
+    /// Returns true if a triangle counts. Argument: the component of its normal along the line of sight.
     side: fn(f64) -> bool,
     hit: Hit,
     from: From,
     /// The distance of two points that differ by this.
     norm: fn(&Point) -> f64,
-    /// Whether a vertex is near, from its distance and the radius.
+    /// Returns true if a vertex is near. Arguments: its distance, and the radius.
     near: fn(f64, f64) -> bool,
     among: Among,
     order: Order,

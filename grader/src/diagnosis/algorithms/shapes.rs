@@ -23,7 +23,7 @@ pub struct Settings {
     /// gradient likewise.
     rest: fn(f64, f64) -> f64,
     gradient_of_rest: fn(&Point, &Point) -> Point,
-    /// Whether the gradient of the rest adds up rows of the inverse in place of columns.
+    /// The gradient of the remaining shape function adds up rows of the inverse in place of columns.
     sums_rows: bool,
     place_of_rest: usize,
     /// The change of a finished shape function.

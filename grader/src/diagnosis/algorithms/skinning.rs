@@ -21,20 +21,20 @@ pub struct Settings {
     shares: Shares,
 }
 
-/// Who has weights.
+/// Vertices that get weights.
 #[derive(Clone, Copy)]
 enum Shares {
     /// The vertices of one element.
     One,
-    /// Those of each element that holds the vertex.
+    /// The vertices of each element that contains the display vertex.
     All,
-    /// Those of each, divided by their number.
+    /// The same, with weights divided by the number of these elements.
     Mean,
     /// The nearest vertex of the mesh.
     NearestVertex,
 }
 
-/// The way of the course. Of several elements that hold a vertex any will do, and with wrong weights it matters which.
+/// Right settings. Any of several elements that contain a vertex is right, but with wrong weights the choice changes the answer.
 pub const RIGHT: [Settings; 4] = [
     BEST,
     Settings { element: |phis, _| phis.iter().position(|phi| phi.min() >= -1e-6), ..BEST },

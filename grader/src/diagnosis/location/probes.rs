@@ -1,4 +1,4 @@
-//! Simpler inputs: a function that is right on one of them is wrong in what the simplification takes away.
+//! Simpler inputs. If a function is right on one of them, the error is in the part of the input that the simplification removes.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 

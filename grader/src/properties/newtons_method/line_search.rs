@@ -6,13 +6,13 @@ use super::super::Course;
 use super::super::outcome::{Mistake, Outcome, holds, near, near_number};
 use super::objectives::{NewtonRun, Objective, bowl, line, log_barrier, overshooting, rosenbrock};
 
-/// Two questions about the same point, but for round-off.
+/// Returns true if two evaluations are at the same point, up to round-off.
 fn is_same(a: &DVector<f64>, b: &DVector<f64>) -> bool {
     (a - b).norm() <= 1e-14 * b.norm()
 }
 
-/// The α at which f was asked along each direction. Questions about the point that is left do not count, nor do those that ask
-/// again about the point that was reached.
+/// The values of α at which f was evaluated along each direction. Evaluations at the start of the search, and repeated evaluations at
+/// its end, are left out.
 fn alphas(run: &NewtonRun, start: &[f64]) -> Result<Vec<Vec<f64>>, Mistake> {
     let mut x = DVector::from_column_slice(start);
     let mut all = Vec::new();
@@ -94,7 +94,7 @@ pub(super) fn it_gives_up_below_1e_8_and_leaves_x_as_it_was(course: &Course) -> 
     near("x0 stays where no step decreases f", &run.x, &dvector![0.0], MOVED_BACK)?;
     let alphas = alphas(&run, &[0.0])?;
     let tried = alphas.first().map_or(0, Vec::len);
-    // 27 of them are not below 1e-8; who looks at α after the trial makes one more.
+    // 27 of them are not below 1e-8. A function that tests α after the trial makes one more.
     holds("every halving of α down to 1e-8 is tried, and then no more than one", tried == 27 || tried == 28)
 }
 

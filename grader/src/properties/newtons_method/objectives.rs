@@ -1,4 +1,4 @@
-//! Functions to minimise, and a record of what Newton's method asks of them.
+//! Functions to minimise, with a record of their evaluations by Newton's method.
 
 use std::cell::{Cell, RefCell};
 
@@ -76,7 +76,7 @@ impl Objective {
         Self::new(f, move |x| &H_of_g * (x - &bottom), move |_| H.clone())
     }
 
-    /// Newton's method from `start`. What it asks is kept up to a number of questions that no check comes near.
+    /// Runs Newton's method from `start`. Evaluations are recorded up to a number far above that of any check.
     pub fn minimise(&self, course: &Course, start: &[f64], max_steps: usize) -> Result<NewtonRun, Mistake> {
         let (n, asked, misfits) = (start.len(), RefCell::new(Vec::new()), Cell::new(0));
         let note = |what| {

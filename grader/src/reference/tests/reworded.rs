@@ -1,11 +1,11 @@
-//! The functions in other words than the reference's.
+//! Functions with other formulations than those of the reference.
 
 use grader_child::Functions;
 use nalgebra::{Matrix3, SVector, Vector4};
 
 use crate::reference::REFERENCE;
 
-/// Right in other words, so with other round-off.
+/// Right functions in other formulations, so with other round-off.
 pub const REWORDED: Functions = Functions {
     phi_linear_tetrahedron: |V, e, x| {
         let T = Matrix3::from_columns(&[V[e[1]] - V[e[0]], V[e[2]] - V[e[0]], V[e[3]] - V[e[0]]]);

@@ -1,4 +1,4 @@
-//! Each format keeps to what its readers have published.
+//! Every format follows the published specification of its readers.
 
 use super::*;
 
@@ -108,7 +108,7 @@ fn tags(xml: &str) -> Vec<(&str, Vec<&str>)> {
     let parts = opening.map(|tag| {
         let inside = &tag[..tag.rfind('>').unwrap()];
         let name = inside.split([' ', '/', '>']).next().unwrap();
-        // Before every value stands its name.
+        // Every value follows its name.
         let outside = inside[name.len()..].split('"').step_by(2).filter_map(|text| text.trim().strip_suffix('='));
         (name, outside.collect())
     });

@@ -82,7 +82,7 @@ fn a_tree_has_its_limits_tells_of_a_want_of_memory_and_goes_with_its_owner() {
     assert!(tree.is_out_of_memory());
     fs::write(tree.folder().join("memory.events"), "oom 1\noom_kill 0\noom_group_kill 0\n").unwrap();
     assert!(!tree.is_out_of_memory());
-    // The kernel's files go with the folder; these must be taken out first.
+    // The kernel removes its files with the folder; these must be removed first.
     let folder = tree.folder().to_owned();
     fs::read_dir(&folder).unwrap().flatten().for_each(|file| fs::remove_file(file.path()).unwrap());
     drop(tree);

@@ -1,4 +1,4 @@
-//! Programs that the launcher confines, and what it tells about them.
+//! Programs that the launcher confines, and its reports about them.
 
 use std::io::{self, BufRead, BufReader};
 use std::net::Shutdown;
@@ -70,10 +70,10 @@ impl Tree {
         }
     }
 
-    /// Tells the launcher to end the program and waits for its last words, which hold the processor time.
+    /// Tells the launcher to end the program, and waits for its last report, which contains the processor time.
     pub(super) fn launcher_ends_it(&mut self) -> bool {
         let Some(control) = &self.control else { return false };
-        // The launcher may be gone, which the next line finds out.
+        // If the launcher has ended, the next line fails.
         let _ = control.get_ref().shutdown(Shutdown::Write);
         if self.end.is_none() {
             self.end = match self.news(PATIENCE) {
@@ -93,7 +93,7 @@ impl Tree {
                 Some(End { code, signal, timed_out, out_of_memory, seconds })
             }
             Ok(None) => None,
-            // The launcher is gone or talks nonsense, so what it kept is dead, or about to be.
+            // The launcher has ended or sends invalid lines. Its processes have been killed, or will be.
             Ok(Some(_)) | Err(_) => {
                 self.kill();
                 Some(End { code: None, signal: None, timed_out: false, out_of_memory: false, seconds: 0.0 })
@@ -102,7 +102,7 @@ impl Tree {
     }
 }
 
-/// One of the user numbers that neither distributions nor systemd give to anyone, another one for each start.
+/// One of the user numbers that neither distributions nor systemd give to anyone, a different one for each start.
 fn unused_user() -> u32 {
     static NEXT: AtomicU32 = AtomicU32::new(0);
     61_000 + (std::process::id().wrapping_add(NEXT.fetch_add(1, Ordering::Relaxed))) % 184

@@ -65,7 +65,7 @@ impl Macros {
                 found.collect(tokens);
                 found
             };
-            // What our tokeniser cannot read the compiler may read after all.
+            // The compiler may accept a text that this tokeniser cannot read.
             let found = super::with_tokens(text, find).unwrap_or(Self { own: BTreeSet::new(), is_any: true });
             macros.own.extend(found.own);
             macros.is_any |= found.is_any;
@@ -100,7 +100,7 @@ impl Macros {
         self.is_any || !KNOWN.contains(&name) || self.own.contains(name)
     }
 
-    /// Whether a group after these tokens is what a macro gets, from which it may make anything.
+    /// Returns true if a group after these tokens is the argument of a macro, which may turn it into anything.
     pub fn gets(&self, before: &[TokenTree]) -> bool {
         match before {
             [.., TokenTree::Ident(name), TokenTree::Punct(mark)] if mark.as_char() == '!' => {
@@ -112,7 +112,7 @@ impl Macros {
     }
 }
 
-/// Whether a group after these tokens defines a macro.
+/// Returns true if a group after these tokens defines a macro.
 pub fn defines(before: &[TokenTree]) -> bool {
     let is = |token: &TokenTree| matches!(token, TokenTree::Ident(word) if word == "macro_rules");
     // `macro_rules ! name`, or `macro_rules ! $ name` in another macro.

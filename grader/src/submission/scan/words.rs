@@ -35,7 +35,7 @@ pub const AS_MACROS: [&str; 3] = ["asm", "env", "include"];
 /// Refused in attributes.
 pub const IN_ATTRIBUTES: [&str; 4] = ["feature", "link", "path", "used"];
 
-/// The first refused word in a text that is not Rust. A compiler that reads it otherwise than our tokeniser must not get it.
+/// The first refused word in a text that is not Rust. The compiler could read such a text differently from this tokeniser.
 pub fn as_text(text: &str) -> Option<Found> {
     let has_attributes = text.contains('#');
     let is_refused = |word: &&str| {

@@ -1,4 +1,4 @@
-//! The grader, graded: a mistake costs marks in its own function and in no other, and most mistakes are named.
+//! Tests of grading: a mistake costs marks only in its own function, and most mistakes are named.
 
 use std::panic::{self, AssertUnwindSafe};
 use std::thread;
@@ -16,10 +16,10 @@ use crate::reference::{REFERENCE, TOLERANCE};
 /// Inputs are the same ones in every run.
 const SEEDS: [u64; 3] = [1, 2, 3];
 
-/// How many variants of each function stand beside the right one, one after the other.
+/// Number of variants of each function that are tested, one after the other, beside right functions.
 const TURNS: usize = 4;
 
-/// The share of the mistakes with a name that must be told by it.
+/// Smallest share of the mistakes with a name that the diagnosis must name.
 const NAMED: f64 = 0.8;
 
 /// The check that a function fails, as a grade would list it; `None` if it passes all.

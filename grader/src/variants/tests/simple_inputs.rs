@@ -214,7 +214,7 @@ type Curve = [fn(f64) -> f64; 3];
 
 const ARCTANGENT: Curve = [|x| x * x.atan() - 0.5 * (1.0 + x * x).ln(), f64::atan, |x| 1.0 / (1.0 + x * x)];
 const LOGARITHM: Curve = [|x| x - x.ln(), |x| 1.0 - 1.0 / x, |x| 1.0 / (x * x)];
-/// Its slope lies, so every step leads uphill.
+/// The gradient has the wrong sign, so every step increases the value.
 const UPHILL: Curve = [|x| x * x, |x| -2.0 * x, |_| 2.0];
 const TINY: Curve = [|x| 1e-9 * x.exp() - 1e-9 * x, |x| 1e-9 * x.exp_m1(), |x| 1e-9 * x.exp()];
 

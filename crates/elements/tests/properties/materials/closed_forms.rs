@@ -75,9 +75,9 @@ fn the_stress_of_a_neo_hookean_bar_pulled_along_x() {
             if lateral(middle) < 0.0 { low = middle } else { high = middle }
         }
         let J: f64 = stretch * low * low;
-        let pull = 2.0 * law.C / stretch * J.powf(-2.0 / 3.0) * (stretch * stretch - low * low);
+        let P11 = 2.0 * law.C / stretch * J.powf(-2.0 / 3.0) * (stretch * stretch - low * low);
         let P = law.stress(&diagonal([stretch - 1.0, low - 1.0, low - 1.0]));
-        assert!(distance(&P, &diagonal([pull, 0.0, 0.0])) < 1e-12, "{P:?}");
+        assert!(distance(&P, &diagonal([P11, 0.0, 0.0])) < 1e-12, "{P:?}");
     }
 }
 

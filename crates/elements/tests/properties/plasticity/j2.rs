@@ -106,7 +106,7 @@ fn every_path_dissipates_energy_or_keeps_it_and_its_volume_and_ends_within_the_y
                 let (next, dissipated) = after(&of, &G);
                 flows += usize::from(dissipated > 0.0);
                 assert!(dissipated >= 0.0 && next.strain >= of.strain, "seed {seed}: {G:?}");
-                // The energy of the step is what is stored after it and what it has dissipated.
+                // The energy of the step is the stored energy after it plus the dissipated energy.
                 assert!((energy - next.energy(&G) - dissipated).abs() < 1e-12 * (1.0 + energy), "seed {seed}: {G:?}");
                 assert!(difference(&stress, &next.stress(&G)) < 1e-11, "seed {seed}: {G:?}");
                 let limit = next.yield_stress + next.hardening * next.strain;

@@ -38,7 +38,7 @@ struct OnDevice<N: Number> {
     method: Method,
     /// Steps so far.
     steps: usize,
-    /// The end of each environment, if it was judged after the last step.
+    /// Result of the check of each environment's end, if it was made after the last step.
     ends: Vec<Option<Result<bool, Failure>>>,
 }
 

@@ -1,4 +1,4 @@
-//! Scenes that steps on a device do not know.
+//! Refusals of scenes that steps on a device do not support.
 
 use fem_gpu::{Law, Scheme};
 use fem_scene::{Body, Integrator, LoadCurve, Scene};
@@ -42,7 +42,7 @@ fn scheme(scene: &Scene) -> Result<Scheme, Refusal> {
     }
 }
 
-/// A key, what is wrong with it, and the remedy.
+/// A key, its problem, and the remedy.
 type Unknown = (&'static str, &'static str, &'static str);
 
 fn unknown(scene: &Scene, body: &Body) -> Option<Unknown> {

@@ -17,8 +17,8 @@ pub struct Barrier {
     pub distance: f64,
     /// κ, Pa.
     pub stiffness: f64,
-    /// Area of each node, m²: its share of the boundary, or of a section through its elements inside the body; zero where a node
-    /// cannot give way to the plane. Those of all nodes for the first plane come first.
+    /// Area of each node, m²: its share of the boundary, or of a section through its elements inside the body; zero for a node
+    /// that cannot move away from the plane. Those of all nodes for the first plane come first.
     areas: Vec<f64>,
     nodes: usize,
 }
@@ -46,7 +46,7 @@ impl Barrier {
         })
     }
 
-    /// Area of a node, m²; zero where it cannot give way to the plane.
+    /// Area of a node, m²; zero if it cannot move away from the plane.
     pub fn area(&self, plane: usize, node: usize) -> f64 {
         self.areas[plane * self.nodes + node]
     }
@@ -56,7 +56,7 @@ impl Barrier {
         self.stiffness * area * self.distance * b(gap / self.distance)
     }
 
-    /// Force away from the plane on a node at a distance (m), N; zero behind it, where there is no energy to be the gradient of.
+    /// Force away from the plane on a node at a distance (m), N; zero behind it, where the energy is infinite.
     pub fn force(&self, area: f64, gap: f64) -> f64 {
         -self.stiffness * area * slope(gap / self.distance)
     }
@@ -122,7 +122,7 @@ fn areas(body: &Body) -> Vec<f64> {
         let area = mesh.area(face);
         face.iter().zip(mesh.face_shares()).for_each(|(&node, share)| areas[node] += share * area);
     }
-    // A law that allows inversion lets nodes of the inside come to the front.
+    // With a law that allows inversion, inner nodes can reach the plane.
     let mut volumes = vec![0.0; areas.len()];
     for (corners, volume) in mesh.corners().zip(mesh.volumes()) {
         corners.iter().for_each(|&node| volumes[node] += volume / corners.len() as f64);

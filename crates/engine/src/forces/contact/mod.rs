@@ -36,7 +36,7 @@ pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Pote
 const FROM_AFAR: f64 = 0.5;
 const FROM_NEAR: f64 = 0.1;
 
-/// Most passes over the planes that move a node out of all of them.
+/// Largest number of loops over the planes that move a node out of all of them.
 const PASSES: usize = 50;
 
 impl Contact {
@@ -140,7 +140,7 @@ impl<T: Real> Potential<T> for Contact {
                     let now = before + planes::along(n, &increment[node]);
                     let is_near = before > 0.0 && before < self.barrier.distance;
                     let least = if is_near { FROM_NEAR * before } else { FROM_AFAR * self.barrier.distance };
-                    // Rounding must not ask for another pass.
+                    // Rounding errors must not cause another pass.
                     if now < 0.999 * least && self.barrier.area(plane, node) > 0.0 {
                         for i in 0..3 {
                             increment[node][i] += T::of((least - now) * n[i]);

@@ -5,7 +5,7 @@ use fem_scene::{Body, ContactPlane};
 use crate::model::numbering::Numbering;
 use fem_elements::Real;
 
-/// The obstacles of a body, with what the distances of its nodes need. Nodes have the engine's numbers.
+/// The obstacles of a body, with data for the distances of its nodes. Nodes have the engine's numbers.
 #[derive(Clone, Debug)]
 pub struct Planes {
     /// The planes, in the scene's order.

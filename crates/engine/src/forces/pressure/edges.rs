@@ -14,7 +14,7 @@ use fem_elements::Real;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edges<T> {
     edges: Vec<Edge<T>>,
-    /// Undeformed nodes of each edge, relative to a point of the outline, m: they keep their digits far from the origin.
+    /// Undeformed nodes of each edge, relative to a point of the outline, m, so that they are exact far from the origin.
     places: Vec<Vec<Vector2<f64>>>,
     /// m
     thickness: f64,

@@ -11,7 +11,7 @@ use fem_elements::vector::triple;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Triangles<T> {
     triangles: Vec<Triangle<T>>,
-    /// Undeformed corners of each triangle, relative to a point of the surface, m: they keep their digits far from the origin.
+    /// Undeformed corners of each triangle, relative to a point of the surface, m, so that they are exact far from the origin.
     corners: Vec<[Vector3<f64>; 3]>,
 }
 

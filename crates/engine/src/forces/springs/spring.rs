@@ -67,7 +67,7 @@ impl<T: Real> Spring<T> {
         }
     }
 
-    /// Energy, J. Its terms include what rounding leaves of a stretch whose terms cancel, as those of a turned spring do.
+    /// Energy, J. Its terms include the rounding error of a stretch whose terms cancel, as in a rotated spring.
     pub(super) fn energy(&self, u: &[[T; 3]]) -> Energy {
         let Now { stretch, cancelled, .. } = self.now(u);
         let (stretch, k) = (stretch.as_f64(), self.stiffness.as_f64());
@@ -94,7 +94,7 @@ impl<T: Real> Spring<T> {
     pub fn hessian(&self, u: &[[T; 3]], kind: HessianKind) -> Block<T, 3> {
         let Now { d, length, stretch, .. } = self.now(u);
         let (n, mut across) = if length == T::zero() {
-            // Without a direction to be stiff along, the spring is equally stiff in all of them.
+            // A spring of length zero has no direction, and is equally stiff in all directions.
             ([T::zero(); 3], T::one())
         } else {
             (d.map(|d| d / length), stretch / length)

@@ -1,6 +1,6 @@
 //! Chebyshev's semi-iterative method over the sweeps of a step: Wang, A Chebyshev semi-iterative approach for accelerating projective and
 //! position-based dynamics (2015), algorithm 1, as Chen et al. 2024, section 3.8, have it: x_k = ω_k (x̂_k − x_(k−2)) + x_(k−2), where x̂_k
-//! is what the sweep leads to.
+//! is the result of the sweep.
 
 use fem_elements::Real;
 

@@ -1,4 +1,4 @@
-//! Colours of nodes: those of one colour share no element and no spring.
+//! Colours of nodes: nodes of one colour have no common element or spring.
 
 /// Groups the nodes by colour: each node has the first colour that none of its neighbours has. Nodes of a colour ascend.
 pub(crate) fn color_nodes(nodes: usize, cliques: &[&[u32]]) -> Vec<Vec<u32>> {

@@ -63,8 +63,8 @@ impl<T: Real> Links<T> {
             let mut gradient = [T::default(); 3];
             let mut sharpness = T::default();
             if now.length > T::default() {
-                let pull = T::of(sign) * spring.stiffness * now.stretch / now.length;
-                gradient = now.d.map(|d| pull * d);
+                let tension = T::of(sign) * spring.stiffness * now.stretch / now.length;
+                gradient = now.d.map(|d| tension * d);
                 sharpness = T::one() / (now.length * now.length);
             }
             add(&mut sums[batch - range.start], lane, gradient, |i, k| H[i][k], sharpness);

@@ -27,7 +27,7 @@ pub struct Descent<T: Real> {
     /// Of the batches of one colour.
     sums: Vec<Sums<T::Lanes>>,
     steps: Vec<Steps<T::Lanes>>,
-    /// Batches of which the energy is asked, and their steps.
+    /// Batches whose energy is evaluated, and their steps.
     doubtful: (Vec<usize>, Vec<Change<T>>),
 }
 
@@ -60,7 +60,7 @@ impl<T: Real> Descent<T> {
     fn accelerate(&mut self, system: &System<T>, contacts: Option<&PlaneContacts>, u: &mut [[T; 3]]) {
         let Some(acceleration) = &mut self.acceleration else { return };
         let has_barriers = !system.elements.allow_inversion();
-        // Contact makes the sweep another one: Chen et al. 2024, section 3.8.
+        // Contact changes the sweep: Chen et al. 2024, section 3.8.
         let stays = |node: usize| contacts.is_some_and(|contacts| contacts.touches(node));
         let is_feasible = |u: &[[T; 3]]| !has_barriers || system.elements.min_det_F_of_barriers(u).0 > T::default();
         acceleration.accelerate(u, stays, is_feasible);
@@ -89,7 +89,7 @@ impl<T: Real> Descent<T> {
         }
     }
 
-    /// Lets the steps of a colour end outside the planes, at whose surface nodes rest at the distance `skin`, m.
+    /// Ends the steps of a colour outside the planes. Nodes rest at the distance `skin` from a plane, m.
     fn settle_contacts(
         &mut self,
         step: StepOf<T>,
@@ -116,7 +116,7 @@ impl<T: Real> Descent<T> {
         }
     }
 
-    /// Shortens the steps of a colour with which the energy around their nodes would rise, where Newton's method is in doubt.
+    /// Line search: shortens the steps of a colour that would increase the energy around their nodes, in lanes that need it.
     fn shorten_steps(&mut self, step: StepOf<T>, color: usize, contacts: Option<&PlaneContacts>, u: &mut [[T; 3]]) {
         let Self { nodes, groups, links, steps, doubtful: (batches, changes), inertial, .. } = self;
         let range = nodes.colors[color].clone();

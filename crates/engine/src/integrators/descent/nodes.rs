@@ -13,7 +13,7 @@ pub(super) const BATCHES_FOR_THREADS: usize = 4 * CHUNK;
 
 /// Batches of nodes without a common element, colour after colour.
 pub(super) struct NodeBatches<T: Real> {
-    /// Node of each lane. Lanes without a node of their own repeat the first of their batch, and move nothing.
+    /// Node of each lane. Lanes without a node of their own repeat the first of their batch, and move no node.
     pub lanes: Vec<u32>,
     /// Number of nodes in each batch.
     pub filled: Vec<usize>,

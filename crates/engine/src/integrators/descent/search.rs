@@ -1,10 +1,10 @@
-//! Lengths of steps that Newton's method for one node does not vouch for: the energy around the node must not rise.
+//! Line search for a node: its step must not increase the energy around it.
 
 use super::solve::Inertia;
 use fem_elements::number::Float;
 use fem_elements::number::Number;
 
-/// Most halvings of a step; a node that needs more stays in this sweep.
+/// Largest number of halvings of a step; a node that needs more is not moved in this sweep.
 pub(super) const HALVINGS: usize = 16;
 
 /// Rounding errors of an energy, in units of the machine epsilon.
@@ -62,12 +62,12 @@ impl<T: Float> Change<T> {
         }
     }
 
-    /// Halves the steps with which the energy rises beyond rounding, or takes them back. Returns whether it has changed one.
+    /// Halves the steps that increase the energy by more than rounding errors, or cancels them. Returns whether a step has changed.
     pub fn shorten(&mut self, is_last: bool) -> bool {
         let mut has_changed = false;
         for lane in 0..T::WIDTH {
             let allowed = T::of(ROUNDING) * T::EPSILON * self.size.lane(lane);
-            // Not a number fails the comparison. The terms of an infinite change are infinite, too, and allow it nothing.
+            // NaN fails the comparison. An infinite change has infinite terms, which must not excuse it.
             let energy = self.energy.lane(lane);
             let is_allowed = energy <= allowed && energy.as_f64() < f64::INFINITY;
             if is_allowed || self.in_lane(lane) == [T::default(); 3] {

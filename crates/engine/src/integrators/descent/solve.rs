@@ -11,7 +11,7 @@ use fem_elements::tensor::inverse;
 /// Smallest pivot of a block that is solved as it is, as a part of its diagonal entry.
 const SMALLEST_PIVOT: f64 = 1e-5;
 
-/// Length of a step beside the elements, as a change of their strain, up to which it needs no look at the energy.
+/// Change of the strain of the elements up to which a step needs no line search.
 const SHORT: f64 = 0.1;
 
 /// Steps of the nodes of a batch.
@@ -19,7 +19,7 @@ const SHORT: f64 = 0.1;
 pub(super) struct Steps<L> {
     /// m
     pub step: [L; 3],
-    /// Whether the energy has to tell how long a step is.
+    /// True in lanes whose step needs a line search on the energy.
     pub is_doubtful: bool,
 }
 
@@ -124,7 +124,7 @@ fn make_definite<L: Lanes>(weights: &[L; 3], sums: &mut Sums<L>) {
         let entry = |k: usize| sums.block[k].lane(lane).as_f64();
         let [a, d, f, b, c, e] = [0, 1, 2, 3, 4, 5].map(entry);
         let A = Matrix3::new(a, b, c, b, d, e, c, e, f);
-        // Not a number where the displacements are none: the check of the state ends the step.
+        // NaN if the displacements are not finite: the check of the state ends the step.
         if !A.iter().all(|entry| entry.is_finite()) {
             continue;
         }

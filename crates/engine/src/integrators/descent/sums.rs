@@ -13,7 +13,7 @@ pub(super) struct Sums<L> {
     pub gradient: [L; 3],
     /// Entries of the symmetric block in the order of [`UPPER`], N/m.
     pub block: [L; 6],
-    /// Square of the largest change of an element's shape with the node, 1/m²: of F, and where its law has a barrier of det F over itself.
+    /// Square of the largest change of an element's shape with the node, 1/m²: of F, and for a law with a barrier of det F over itself.
     pub sharpness: L,
 }
 

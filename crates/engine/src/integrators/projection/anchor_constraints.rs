@@ -1,4 +1,4 @@
-//! Constraints of anchor springs, `[drag]` and the pull of a user: a node to a point in space, with the compliance 1/k.
+//! Constraints of anchor springs, `[drag]` and the user's interaction: a node to a point in space, with the compliance 1/k.
 
 use crate::forces::anchors::Anchors;
 use fem_elements::Real;

@@ -15,9 +15,9 @@ pub(super) struct Batch<T: Float, const N: usize> {
     pub volume: T::Lanes,
     /// Inverse masses of the nodes, 1/kg.
     pub inverse_masses: [[T::Lanes; 3]; N],
-    /// For each coordinate the factor L of L Lᵀ = V Σ_a m_a⁻¹ ∇φ_a⊗∇φ_a, √(m/kg).
+    /// Factor L for each coordinate, of L Lᵀ = V Σ_a m_a⁻¹ ∇φ_a⊗∇φ_a, √(m/kg).
     pub factors: [Tensor<T::Lanes>; 3],
-    /// What the constraint adds up in a step: the first Piola–Kirchhoff stress (Pa), or in the first entry a multiplier (√Pa).
+    /// Multiplier accumulated over a step: the first Piola–Kirchhoff stress (Pa), or a scalar in the first entry (√Pa).
     pub multiplier: Tensor<T::Lanes>,
 }
 

@@ -1,4 +1,4 @@
-//! Colours of constraints: those of one colour share no node, so that their corrections do not depend on each other.
+//! Colours of constraints: constraints of one colour have no common node, so that their corrections are independent.
 
 use std::ops::Range;
 

@@ -7,7 +7,7 @@ use crate::forces::springs::Spring;
 use fem_elements::Real;
 use fem_elements::vector::{dot3, triple};
 
-/// Distance constraints in the order of their colours, each with what it adds up in a step.
+/// Distance constraints in the order of their colours, each with its multiplier.
 pub(super) struct Distances<T> {
     springs: Vec<Spring<T>>,
     /// The force of a spring on its second node, N; or in the first entry a multiplier, m.
@@ -52,17 +52,17 @@ impl<T: Real> Distances<T> {
     }
 }
 
-/// The change z of the force p that pulls the ends together, so that p + z is the spring's force after it: with w the inverse masses
+/// Computes the change z of the tensile force p, so that p + z is the spring's force after the change: with w the inverse masses
 /// times Δt² of each coordinate, (1 + H W) z = f − p, written as (1 + √W H √W) y = √W (f − p), z = f − p − H √W y.
 fn by_force<T: Real>(spring: &Spring<T>, force: &mut [T; 3], w: [T; 3], u: &[[T; 3]]) -> [T; 3] {
     let now = spring.now(u);
     if now.length == T::default() {
         return [T::default(); 3];
     }
-    let pull = spring.stiffness * now.stretch / now.length;
+    let tension = spring.stiffness * now.stretch / now.length;
     let H = spring.hessian(u, HessianKind::Projected);
     let root = w.map(|w| w.sqrt());
-    let residual: [T; 3] = triple(|i| pull * now.d[i] - force[i]);
+    let residual: [T; 3] = triple(|i| tension * now.d[i] - force[i]);
     let A =
         nalgebra::Matrix3::from_fn(|i, j| root[i] * H[i][j] * root[j] + if i == j { T::one() } else { T::default() });
     let right = nalgebra::Vector3::from_fn(|i, _| root[i] * residual[i]);

@@ -50,7 +50,7 @@ impl<T: Real, const N: usize> Elements<T, N> {
                 };
                 let shapes: Vec<_> = (0..T::WIDTH).map(shape).collect();
                 new.batches.push(batch::<T, N>(&shapes));
-                // Lanes without an element repeat the first and move nothing.
+                // Lanes without an element repeat the first one, with zero volume.
                 new.corners.extend((0..T::WIDTH).map(|lane| corners[of_lane(lane).unwrap_or(chosen[0] as usize)]));
             }
             new.colors.push(first..new.batches.len());

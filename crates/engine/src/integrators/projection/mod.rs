@@ -1,8 +1,8 @@
-//! Position-based methods: a sweep corrects the places of the nodes one constraint at a time.
+//! Position-based methods: a sweep corrects the positions of the nodes one constraint at a time.
 //!
 //! Constraints are those of Müller, Heidelberger, Hennix and Ratcliff, Position based dynamics (2007), with the multipliers of Macklin,
-//! Müller and Chentanez, XPBD: position-based simulation of compliant constrained dynamics (2016). [`Rule`] is what tells the methods
-//! apart. Constraints of elements are coloured, so that the result does not depend on the number of threads.
+//! Müller and Chentanez, XPBD: position-based simulation of compliant constrained dynamics (2016). [`Rule`] is the difference between the
+//! methods. Constraints of elements are coloured, so that the result does not depend on the number of threads.
 
 mod anchor_constraints;
 mod batch;

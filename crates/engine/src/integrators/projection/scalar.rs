@@ -7,7 +7,7 @@ use fem_elements::tensor::{Tensor, cofactor, dot, map, plus_identity, volume_cha
 /// Part of the moduli below which an energy density is rounding error and has no direction.
 const NO_ENERGY: f64 = 1e-28;
 
-/// Energy densities beyond this one are infinite, J/m³: the law does not allow the deformation.
+/// Largest energy density of a deformation that the law allows, J/m³.
 const LARGEST: f64 = 1e38;
 
 /// a · b
@@ -16,7 +16,7 @@ pub(super) fn inner<L: Number>(a: &[L; 3], b: &[L; 3]) -> L {
     a[2].times_plus(b[2], a[1].times_plus(b[1], a[0] * b[0]))
 }
 
-/// Σ_a Σ_i m_a⁻¹ (X ∇φ_a)_i²: the inverse mass that a correction along X feels.
+/// Σ_a Σ_i m_a⁻¹ (X ∇φ_a)_i²: the inverse mass of a correction along X.
 #[inline(always)]
 fn inverse_mass<L: Number, const N: usize>(X: &Tensor<L>, gradients: &[[L; 3]; N], masses: &[[L; 3]; N]) -> L {
     let mut sum = L::zero();

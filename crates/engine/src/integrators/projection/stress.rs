@@ -1,11 +1,11 @@
 //! The stress of an element as the unknown of a constraint.
 //!
-//! With M/Δt² (x − x̃) = −Σ_e V_e Π_e ∇φ, where x̃ is where inertia and loads alone lead, the unknowns of a step of implicit Euler are the
-//! stresses Π_e, which have to be those of the material, Π_e = P(F_e(x)). A Gauss–Seidel sweep over these equations corrects one element
-//! after the other and the places of its nodes with it, so that the equation of motion holds at all times: Chaudhary, Pokhariya and Narain,
-//! Towards Generalized Position-Based Dynamics (2025); for a material with a linear stress it is XPBD with the strain as constraint.
-//! Newton's method for one element, ΔΠ = P(F) − Π + H ΔF with ΔF_i = −L_i L_iᵀ ΔΠ_i for each coordinate i, is symmetric in y = Lᵀ ΔΠ:
-//! (1 + Lᵀ H L) y = Lᵀ (P − Π), ΔΠ = P − Π − H L y.
+//! With M/Δt² (x − x̃) = −Σ_e V_e Π_e ∇φ, with the positions x̃ of inertia and loads alone, the unknowns of a step of implicit Euler
+//! are the stresses Π_e, which have to be those of the material, Π_e = P(F_e(x)). A Gauss–Seidel sweep over these equations corrects
+//! one element after the other, and the positions of its nodes with it, so that the equation of motion holds at all times: Chaudhary,
+//! Pokhariya and Narain, Towards Generalized Position-Based Dynamics (2025); for a material with a linear stress it is XPBD with the
+//! strain as constraint. Newton's method for one element, ΔΠ = P(F) − Π + H ΔF with ΔF_i = −L_i L_iᵀ ΔΠ_i for each coordinate i, is
+//! symmetric in y = Lᵀ ΔΠ: (1 + Lᵀ H L) y = Lᵀ (P − Π), ΔΠ = P − Π − H L y.
 
 use fem_elements::materials::Law;
 use fem_elements::number::{Lanes, Number, constant};
@@ -59,7 +59,7 @@ pub(super) fn change_of_stress<L: Lanes>(
             replace(&mut H);
         }
         (A, is_definite) = factorized(&H, factors);
-        // Not a number where the displacements are none: the check of the state ends the step.
+        // NaN if the displacements are not finite: the check of the state ends the step.
         let _ = is_definite;
     }
     let y = substitute(&A, &to_coordinates(factors, &residual));

@@ -1,4 +1,4 @@
-//! Contact in sweeps: each sweep ends with nodes put onto the planes that they are behind, with Coulomb's bound on the way along them.
+//! Contact in sweeps: each sweep ends with a projection of nodes behind a plane onto it, with Coulomb's bound on their sliding.
 //!
 //! The multipliers λ = Δt² f of normal and friction forces are accumulated over the sweeps of a step, λ_n ≥ 0 and |λ_t| ≤ μ λ_n, so that
 //! the sweeps converge to a step of implicit Euler with Signorini's and Coulomb's conditions: Macklin, Müller and Chentanez 2016,
@@ -18,10 +18,10 @@ use fem_elements::vector::max_norm;
 const SKIN: f64 = 1e-9;
 const ROUNDING: f64 = 32.0;
 
-/// Most passes over the planes that end a step: a node in a corner takes several.
+/// Largest number of loops over the planes at the end of a step: a node in a corner takes several.
 const PASSES: usize = 50;
 
-/// The obstacles of a body, with what they add up in a step.
+/// The obstacles of a body, with the multipliers of a step.
 pub struct PlaneContacts {
     planes: Planes,
     /// m
@@ -122,7 +122,7 @@ impl PlaneContacts {
         skin(self.length, u)
     }
 
-    /// Whether a plane has a force on a node.
+    /// Returns true if a plane exerts a force on a node.
     pub fn touches(&self, node: usize) -> bool {
         self.multipliers.iter().skip(node).step_by(self.planes.nodes().max(1)).any(|multiplier| multiplier[0] > 0.0)
     }
@@ -136,7 +136,7 @@ impl PlaneContacts {
         (0..self.planes.planes.len()).map(force).sum()
     }
 
-    /// Whether a node may go to `free`: it is in front of all planes there, and none has a force on it.
+    /// Returns true if a node may move to `free`: it is in front of all planes there, and no plane exerts a force on it.
     pub fn is_free<T: Real>(&self, node: usize, step: ContactStep<T>, skin: f64, free: &[T; 3]) -> bool {
         let count = self.planes.nodes();
         (0..self.planes.planes.len()).all(|plane| {
@@ -183,7 +183,7 @@ impl PlaneContacts {
         put(history, "contact.projection", &numbers);
     }
 
-    /// Takes over what [`save`](Self::save) has added.
+    /// Restores the multipliers that [`save`](Self::save) has added.
     pub fn restore(&mut self, history: &History) -> Result<(), String> {
         take(history, "contact.projection_dt2", std::slice::from_mut(&mut self.dt2))?;
         self.multipliers.fill([0.0; 4]);
@@ -216,7 +216,7 @@ fn correct<T: Real>(
     let of_normal = inverse * normal;
     let along_normal = of_normal.dot(&normal);
     let largest = inverse.diagonal().amax();
-    // A node that cannot give way takes no part; the check of the state tells if it is behind the plane.
+    // A node that cannot move along the normal is skipped; the check of the state finds it if it is behind the plane.
     if along_normal <= 1e-12 * largest {
         return;
     }

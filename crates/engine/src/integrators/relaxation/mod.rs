@@ -1,6 +1,6 @@
-//! The step of methods that relax a body in sweeps: PBD, XPBD and vertex block descent. Nodes move where inertia and dead loads alone
-//! would take them, sweeps correct their places, and velocities follow from the places: Müller, Heidelberger, Hennix and Ratcliff,
-//! Position based dynamics (2007), algorithm 1. What one sweep does is the method's [`Relaxation`].
+//! The step of methods that relax a body in sweeps: PBD, XPBD and vertex block descent. Nodes move to the positions of inertia and dead
+//! loads alone, sweeps correct these positions, and velocities follow from them: Müller, Heidelberger, Hennix and Ratcliff,
+//! Position based dynamics (2007), algorithm 1. A method implements its sweep in [`Relaxation`].
 
 mod contact;
 mod particles;
@@ -17,15 +17,15 @@ use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
 
-/// What a method does with the nodes of a body, once in each sweep.
+/// A relaxation method: each sweep moves every node of a body once.
 pub trait Relaxation<T: Real>: Send {
-    /// Whether its motion is that of the material, so that the energy of its elements tells how far its sweeps have come.
+    /// Returns true if the motion is that of the material, so that the energy of the elements measures the convergence of the sweeps.
     fn has_material(&self) -> bool;
 
     /// Takes the inverse masses of the nodes, 1/kg, zero in directions that are constrained now.
     fn set_masses(&mut self, inverse_masses: &[[T; 3]]);
 
-    /// A step starts, from the displacements that inertia and dead loads alone would give.
+    /// Starts a step from the displacements that inertia and dead loads alone would give.
     fn begin_step(&mut self, step: StepOf<T>, u: &[[T; 3]]);
 
     /// Moves every node once.
@@ -73,7 +73,7 @@ pub struct Relaxed<T: Real, R> {
     contacts: Option<PlaneContacts>,
     /// Displacements before a sweep, m; empty where no tolerance is asked for.
     before: Vec<[T; 3]>,
-    /// Whether the masses are those of the Dirichlet conditions that apply now.
+    /// True if the masses are those of the Dirichlet conditions that apply now.
     has_masses: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Nodes as particles: inverse masses, places that inertia and loads alone lead to, and velocities from places.
+//! Nodes as particles: inverse masses, displacements from inertia and loads alone, and velocities from displacements.
 
 use crate::forces::{Moment, dead_load};
 use crate::model::state::State;
@@ -36,8 +36,9 @@ impl<T: Real> Particles<T> {
         system.dirichlet.clear_constrained(&mut self.inverse_masses);
     }
 
-    /// Moves the nodes to where inertia and dead loads would take them at the end of a step of `dt` seconds, constrained ones to their
-    /// prescribed places. Returns the square of the time that forces have to move them, s²: with damping α M it is dt²/(1 + α dt).
+    /// Moves the nodes to the displacements of inertia and dead loads alone at the end of a step of `dt` seconds, constrained nodes to
+    /// their prescribed displacements. Returns the square of the time that forces have to move them, s²: with damping α M it is dt²/(1
+    /// + α dt).
     pub fn predict(&mut self, system: &System<T>, state: &mut State<T>, dt: f64) -> f64 {
         let end = Moment::at(state.time + dt);
         let damped = 1.0 / (1.0 + system.damping.map_or(0.0, |damping| damping.alpha * dt));
@@ -59,7 +60,7 @@ impl<T: Real> Particles<T> {
         dt2
     }
 
-    /// Velocities of the step that has led to these displacements: Müller et al. 2007, algorithm 1, line 13.
+    /// Computes the velocities of a step from its displacements: Müller et al. 2007, algorithm 1, line 13.
     pub fn finish(&self, state: &mut State<T>, dt: f64) {
         let over_dt = T::of(1.0 / dt);
         for (v, (u, start)) in state.v.iter_mut().zip(state.u.iter().zip(&self.start)) {

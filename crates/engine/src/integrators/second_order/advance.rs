@@ -49,7 +49,7 @@ impl<T: Real> SecondOrder<T> {
         Ok(convergence)
     }
 
-    /// Writes what the step's equation takes from the start: ẑ, ž, and where damping takes its stiffness.
+    /// Writes the data of the step's equation from the start: ẑ, ž, and the displacements at which damping takes its stiffness.
     fn predict(&mut self, system: &System<T>, state: &State<T>, dt: f64, of: &Coefficients) {
         let Self { start, known, inertial, still, stiffness_at, velocity, step, .. } = self;
         let is_moving = system.dirichlet.has_motion();
@@ -85,7 +85,7 @@ impl<T: Real> SecondOrder<T> {
         }
     }
 
-    /// Moves the state to the end of the step, and keeps what the next one needs.
+    /// Moves the state to the end of the step, and keeps the data for the next step.
     fn finish(&mut self, system: &System<T>, state: &mut State<T>, dt: f64, of: &Coefficients) -> Result<(), Cause> {
         let Self { start, known, next, inertial, step, velocity, acceleration, .. } = self;
         let over_square = T::of(1.0 / (of.tau * of.tau));
@@ -122,8 +122,8 @@ impl<T: Real> SecondOrder<T> {
     }
 }
 
-/// The increment with this acceleration, or none where it would be long: vibrations much faster than the step change their accelerations
-/// within it, and would be thrown far away.
+/// The increment with this acceleration; zero if it would be long, because vibrations much faster than the step change their accelerations
+/// within the step.
 fn extrapolate<T: Real>(step: &mut [[T; 3]], inertial: &[[T; 3]], acceleration: &[[T; 3]], square: f64, length: f64) {
     step.copy_from_slice(inertial);
     axpy(square, acceleration, step);

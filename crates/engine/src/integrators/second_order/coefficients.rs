@@ -1,6 +1,6 @@
-//! The coefficients of a step: what a method of this family is made of.
+//! The coefficients of a step, which define a method of this family.
 
-/// A linear combination of what a step knows at its start.
+/// A linear combination of the quantities at the start of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Combination {
     /// Factor of the velocity.

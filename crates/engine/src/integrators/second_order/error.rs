@@ -31,8 +31,8 @@ impl Scheme {
 }
 
 impl<T: Real> SecondOrder<T> {
-    /// Keeps the mean acceleration of the step for the estimate of the next one, without that of obstacles: their shocks have no third
-    /// derivative, and are of first order anyway.
+    /// Keeps the mean acceleration of the step for the estimate of the next one, without that of obstacles: impacts have no third
+    /// derivative, and are of first order in any case.
     pub(super) fn keep_mean(&mut self, system: &System<T>, state: &State<T>, dt: f64) -> Result<(), Cause> {
         let Self { start, next, before, .. } = self;
         let over_dt = T::of(1.0 / dt);

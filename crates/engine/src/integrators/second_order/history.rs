@@ -12,7 +12,7 @@ use fem_elements::vector::axpy;
 pub struct Known<T> {
     /// Acceleration without that of obstacles, m/s²; empty for a method without.
     pub acceleration: Vec<[T; 3]>,
-    /// Whether it is that of the state.
+    /// True if `acceleration` is that of the current state.
     pub has_acceleration: bool,
     /// Displacement increment of the step before, m; empty for a method of one step.
     pub increment: Vec<[T; 3]>,
@@ -27,7 +27,7 @@ pub struct Known<T> {
 }
 
 impl<T: Real> Known<T> {
-    /// Allocates what a method keeps of a body of so many nodes: an acceleration, the step before, its mean acceleration.
+    /// Allocates the vectors of a method for so many nodes: an acceleration, the previous increment, its mean acceleration.
     pub fn new(nodes: usize, [has_acceleration, has_step, has_mean]: [bool; 3]) -> Self {
         let zero = |is_kept: bool| vec![[T::default(); 3]; if is_kept { nodes } else { 0 }];
         Self {
@@ -41,7 +41,7 @@ impl<T: Real> Known<T> {
         }
     }
 
-    /// The state has changed otherwise than by a step.
+    /// Drops the history, because the state was not changed by a step.
     pub fn forget(&mut self) {
         (self.has_acceleration, self.dt, self.age) = (false, None, None);
     }
@@ -72,7 +72,7 @@ impl<T: Real> Known<T> {
         put_option(history, "second_order.age", self.age);
     }
 
-    /// Takes over what [`save`](Self::save) has added.
+    /// Restores the quantities that [`save`](Self::save) has added.
     pub fn restore(&mut self, history: &History) -> Result<(), String> {
         self.has_acceleration = !history.get("second_order.acceleration")?.is_empty();
         if self.has_acceleration {

@@ -1,7 +1,8 @@
 //! Implicit methods of second order. Each is a set of coefficients; a step is one minimization of the incremental potential.
 //!
-//! Prescribed motions enter with their exact velocities and accelerations. Damping takes its stiffness where the velocity at the start
-//! leads to: with that at the start a step would be of first order. Forces of obstacles act at the end of a step, whatever the stage.
+//! Prescribed motions enter with their exact velocities and accelerations. Damping takes its stiffness at displacements
+//! extrapolated with the velocity at the start: with those at the start a step would be of first order. Forces of obstacles act at the
+//! end of a step, whatever the stage.
 
 mod advance;
 mod bdf2;
@@ -36,7 +37,7 @@ pub struct SecondOrder<T: Real> {
     newton: Newton<T>,
     followers: Followers<T>,
     start: Start<T>,
-    /// State of earlier steps that the next step needs, and that which it will leave.
+    /// State of earlier steps that this step needs, and the state for the next step.
     known: Known<T>,
     next: Known<T>,
     inertial: Vec<[T; 3]>,
@@ -49,8 +50,9 @@ pub struct SecondOrder<T: Real> {
     acceleration: Vec<[T; 3]>,
     /// θ of the last step.
     stage: Option<f64>,
-    /// Whether each step estimates its error, and the estimate of the last one, m.
+    /// True if each step estimates its error.
     estimates: bool,
+    /// Error estimate of the last step, m.
     error: Option<f64>,
     /// Velocities at the start of a step that estimates its error, m/s.
     before: Vec<[T; 3]>,
@@ -121,7 +123,7 @@ impl<T: Real> SecondOrder<T> {
         let end = Moment::at(time + dt);
         let first = self.advance(system, state, (part, end), &bdf2::first_stage(dt), counters)?;
         std::mem::swap(&mut self.known, &mut self.next);
-        // What the error is estimated from is that of the whole step.
+        // The error is estimated from the mean acceleration of the whole step.
         std::mem::swap(&mut self.known.mean, &mut self.next.mean);
         self.known.age = self.next.age;
         state.time = time + part;
@@ -204,7 +206,8 @@ impl<T: Real> Integrator<T> for SecondOrder<T> {
         self.error
     }
 
-    /// Their numerical damping ends what grows. The other two keep or multiply the energy of a motion with large deformations.
+    /// The numerical damping of these methods bounds the energy. The other two keep or multiply the energy of motions with large
+    /// deformations.
     fn is_unconditionally_stable(&self) -> bool {
         matches!(self.scheme, Scheme::GeneralizedAlpha(_) | Scheme::Bdf2)
     }

@@ -30,8 +30,8 @@ impl Scheme {
         }
     }
 
-    /// Coefficients of a step of `dt` seconds after one of `before` seconds; `None` for the first step of a method that has two stages
-    /// in it.
+    /// Coefficients of a step of `dt` seconds after one of `before` seconds; `None` for a first step that has
+    /// two stages.
     pub(super) fn coefficients(self, dt: f64, before: Option<f64>) -> Option<Coefficients> {
         match self {
             Self::ImplicitMidpoint => Some(implicit_midpoint::coefficients(dt)),

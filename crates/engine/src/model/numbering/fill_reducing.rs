@@ -82,7 +82,7 @@ fn dissect(nodes: &mut [u32], bisection: &mut Bisection) {
     if nodes.len() <= LEAF {
         return;
     }
-    // A half that holds all nodes would be cut in the same way again, without end.
+    // A half with all nodes would be divided in the same way again, in an endless recursion.
     if let Some(halves) = bisection.cut(nodes) {
         dissect(halves.left, bisection);
         dissect(halves.right, bisection);

@@ -18,7 +18,7 @@ use fem_elements::vector::norm;
 /// The largest number of iterations of one correction.
 const MAX_ITERATIONS: usize = 2000;
 
-/// Most corners of the coarse grid, whose matrix is inverted.
+/// Largest number of corners of the coarse grid, whose matrix is inverted.
 const MOST_CORNERS: usize = 400;
 
 /// The device of this process, opened when a scene first asks for it.
@@ -27,7 +27,7 @@ pub fn device() -> Result<&'static Arc<Device>, &'static DeviceError> {
     DEVICE.get_or_init(Device::open).as_ref()
 }
 
-/// Name of the graphics device, or why there is none.
+/// Name of the graphics device, or the reason why there is none.
 pub fn name() -> Result<String, String> {
     device().map(|device| device.adapter().to_owned()).map_err(|error| error.to_string())
 }
@@ -37,7 +37,7 @@ pub fn is_software() -> bool {
     device().is_ok_and(|device| device.is_software())
 }
 
-/// Why no system can be solved on a device in this precision.
+/// Returns the reason why no system can be solved on a device in this precision.
 pub fn unusable(precision: Precision) -> Option<String> {
     match device() {
         Err(error) => Some(error.to_string()),
@@ -112,7 +112,7 @@ impl<N: Number> OnDevice<N> {
         solver.set_matrix(|block| values[block].map(|row| row.map(|entry| entry.as_f64() * *scale)))
     }
 
-    /// Sends the coarse grid, whose factor is another one or not.
+    /// Sends the coarse grid, whose factor may have changed.
     fn send_coarse(&mut self, is_new: bool) -> Result<(), DeviceError> {
         let Self { solver, coarse, .. } = self;
         let solver = solver.as_mut().map_err(|error| error.clone())?;
@@ -124,7 +124,7 @@ impl<N: Number> OnDevice<N> {
         Ok(())
     }
 
-    /// Builds what the device needs to assemble matrices.
+    /// Builds the data that the device needs to assemble matrices.
     fn build_elements(&self, elements: &DeviceElements) -> Result<Elements<N>, DeviceError> {
         let solver = self.solver.as_ref().map_err(|error| error.clone())?;
         let DeviceElements { nodes, tetrahedra, law, moduli, masses, largest } = elements;

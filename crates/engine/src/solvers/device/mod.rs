@@ -19,7 +19,7 @@ mod absent {
     use fem_elements::Real;
     use fem_elements::sparse::Pattern;
 
-    /// Name of the graphics device, or why there is none.
+    /// Name of the graphics device, or the reason why there is none.
     pub fn name() -> Result<String, String> {
         Err(ABSENT.to_owned())
     }
@@ -31,7 +31,7 @@ mod absent {
 
     const ABSENT: &str = "this program was built without the feature `gpu`";
 
-    /// Why no system can be solved on a device in this precision.
+    /// Returns the reason why no system can be solved on a device in this precision.
     pub fn unusable(_precision: Precision) -> Option<String> {
         Some(ABSENT.to_owned())
     }

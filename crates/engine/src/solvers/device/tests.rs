@@ -14,7 +14,7 @@ time = { dt = 0.01, integrator = "implicit_euler" }
 solver.kind = "gpu"
 "#;
 
-/// Of the two laws the device assembles the matrices, and the processor does.
+/// Runs two laws: the device assembles the matrices of the first law, and the processor those of the second.
 #[test]
 fn a_run_whose_device_is_lost_ends_with_its_last_state_and_says_so() {
     let device = match device() {

@@ -11,7 +11,7 @@ pub(super) struct CscMatrix<T> {
     values: Vec<T>,
     /// Index in `values` of the first entry of each column of a block.
     targets: Vec<[u32; 3]>,
-    /// Whether each block is on the diagonal.
+    /// True for each block on the diagonal.
     is_diagonal: Vec<bool>,
     stored: Stored,
 }

@@ -79,7 +79,7 @@ impl<T: Real> ApproximateInverse<T> for Lu {
         }
     }
 
-    /// Bytes without the numeric factors, whose size faer does not tell.
+    /// Bytes without the numeric factors, whose size faer does not report.
     fn bytes(&self) -> usize {
         self.matrix.bytes() + size_of_val(self.solution.as_slice()) + self.workspace_bytes
     }

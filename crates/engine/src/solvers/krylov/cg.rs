@@ -75,7 +75,7 @@ pub(crate) fn conjugate_gradients<T: Real>(
     Err(progress.failure())
 }
 
-/// How the next iteration begins.
+/// State between two iterations.
 #[derive(Clone, Copy)]
 enum State {
     /// With the residual by its definition and the preconditioned residual as direction.

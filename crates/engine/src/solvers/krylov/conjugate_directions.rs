@@ -36,7 +36,8 @@ pub(crate) fn conjugate_directions<T: Real>(
     let mut is_small = true;
     observe(x);
     for iterations in 0..=max_iterations(b.len()) {
-        // As many directions as unknowns are a basis: what remains is rounding error, for which they are found anew.
+        // As many directions as unknowns are a basis: the remaining residual is rounding error, and the directions are computed anew
+        // for it.
         if kept.len() == 3 * b.len() {
             (kept, is_small) = (Vec::new(), true);
         }

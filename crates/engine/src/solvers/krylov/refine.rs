@@ -10,7 +10,7 @@ use fem_scene::simulation::Breakdown;
 pub(crate) struct Refined {
     /// Iterations of all corrections.
     pub(crate) iterations: usize,
-    /// Whether ‖b − A x‖ ≤ tolerance ‖b‖.
+    /// True if ‖b − A x‖ ≤ tolerance ‖b‖.
     pub(crate) converged: bool,
 }
 

@@ -36,7 +36,7 @@ pub(crate) fn steepest_descent<T: Real>(
             A(x, r);
             subtract_from(b, r);
         }
-        // A recurrence that says too soon that it has converged goes on from the true residual.
+        // If the recurrence appears converged too early, the iteration continues from the true residual.
         if is_small && progress.true_residual(norm(r), || T::EPSILON.as_f64() * largest_entry() * norm(x))? {
             return Ok(iterations);
         }

@@ -109,7 +109,7 @@ impl<'a> Coarsened<'a> {
         true
     }
 
-    /// Whether an element may come to be in place of the elements `own`.
+    /// Returns true if an element may replace the elements `own`.
     fn is_good(&self, element: &[usize; 4], own: &HashSet<usize>) -> bool {
         if let Some(place) = element.iter().position(|&vertex| vertex == BEYOND) {
             let face: Vec<usize> = (0..4).filter(|&i| i != place).map(|i| element[i]).collect();
@@ -124,7 +124,7 @@ impl<'a> Coarsened<'a> {
             && longest.fold(0.0, f64::max) <= LONGEST * self.edge
     }
 
-    /// Whether a boundary triangle meets neither the walls nor, away from its own corners, the boundary.
+    /// Returns true if a boundary triangle meets neither the walls nor, away from its own corners, the boundary.
     fn is_free(&self, face: [usize; 3], own: &HashSet<usize>) -> bool {
         let corners = face.map(|vertex| self.vertices[vertex]);
         let Some(triangle) = Triangle::new(corners) else { return false };

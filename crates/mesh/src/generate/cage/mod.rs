@@ -144,7 +144,7 @@ fn fill_around(triangles: &[[Vector3<f64>; 3]], lattice: &Lattice, filled: &mut 
     added.len()
 }
 
-/// Whether a triangle has a point of a tetrahedron.
+/// Returns true if a triangle and a tetrahedron have a common point.
 fn touches(tetrahedron: [Vector3<f64>; 4], triangle: &[Vector3<f64>; 3]) -> bool {
     let whole = signed_volume(tetrahedron);
     let is_inside = (0..4).all(|i| {

@@ -19,7 +19,7 @@ impl Walls {
         Self { tree: BoxTree::new(bounds.collect()), triangles: solid.iter().map(|(_, triangle)| *triangle).collect() }
     }
 
-    /// Whether a triangle has a point of one of them.
+    /// Returns true if a triangle has a common point with one of the walls.
     pub fn meet(&self, corners: [Vector3<f64>; 3]) -> bool {
         let own = Triangle::new(corners);
         let mut is_met = false;
@@ -30,7 +30,7 @@ impl Walls {
     }
 }
 
-/// Whether a triangle, or the segments that it is if it has no area, meets another.
+/// Returns true if a triangle, or its edges if it has no area, meets another triangle.
 pub fn meets(own: Option<&Triangle>, [a, b, c]: &[Vector3<f64>; 3], other: &Triangle) -> bool {
     match own {
         Some(own) => meet(own, other),

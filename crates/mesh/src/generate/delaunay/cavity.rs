@@ -207,8 +207,8 @@ impl<'a> Growing<'a> {
         self.cells.len() as u32 - 1
     }
 
-    /// Whether the sphere of a cell contains a point strictly. That of a ghost is the half-space beyond its face, and within the face's
-    /// plane the disc of its circle.
+    /// Returns true if the sphere of a cell contains a point strictly. That of a ghost is the half-space beyond its face, and within
+    /// the face's plane the disc of its circle.
     fn is_in_sphere(&self, cell: u32, point: u32) -> bool {
         let Cell { vertices, neighbours } = self.cells[cell as usize];
         let Some(infinite) = ghost_corner(&self.cells[cell as usize]) else { return self.in_sphere(vertices, point) };

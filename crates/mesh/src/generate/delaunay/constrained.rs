@@ -94,7 +94,7 @@ fn constrain(
     Ok(())
 }
 
-/// Whether each face is reached from outside across an odd number of constrained edges.
+/// True for each face that is reached from outside across an odd number of constrained edges.
 fn inside(triangulation: &Constrained) -> Vec<bool> {
     let mut known: Vec<Option<bool>> = vec![None; triangulation.num_all_faces()];
     let mut queue: VecDeque<(FixedFaceHandle<InnerTag>, bool)> = VecDeque::new();

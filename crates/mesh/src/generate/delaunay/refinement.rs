@@ -57,7 +57,7 @@ pub fn refine(mesh: &mut Triangulation, outline: &mut Outline, size: impl Fn(Vec
 }
 
 impl<S: Fn(Vector2<f64>) -> f64> Refinement<'_, S> {
-    /// Whether a triangle is small enough and well-shaped.
+    /// Returns true if a triangle is small enough and well-shaped.
     fn is_fine(&self, triangle: u32) -> bool {
         let [a, b, c] = self.mesh.corners(triangle);
         let squares = [(c - b).norm_squared(), (a - c).norm_squared(), (b - a).norm_squared()];

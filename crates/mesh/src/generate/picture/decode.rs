@@ -12,7 +12,7 @@ use super::Picture;
 
 /// Largest number of pixels.
 const MOST_PIXELS: u64 = 1 << 26;
-/// Most pixels that a byte of a file stands for: deflate packs 1032 bytes into one, each of eight pixels.
+/// Largest number of pixels per byte of a file: deflate packs 1032 bytes into one, each of eight pixels.
 const PNG_PIXELS: u64 = 8 * 1032;
 /// The same for JPEG, where each block of 8 × 8 pixels has a bit at least.
 const JPEG_PIXELS: u64 = 8 * 64;
@@ -29,9 +29,9 @@ pub struct PictureError {
     pub problem: String,
 }
 
-/// Reads a PNG or JPEG file, told by its content. If a pixel is transparent, the region is what is opaque; otherwise it is what is dark: the
-/// threshold of Otsu, A Threshold Selection Method from Gray-Level Histograms (1979), parts the pixels, and the coverage is linear in the
-/// luminance from the median of the light ones to that of the dark ones.
+/// Reads a PNG or JPEG file, recognised by its content. If a pixel is transparent, the region is the opaque part; otherwise the dark
+/// part: the threshold of Otsu, A Threshold Selection Method from Gray-Level Histograms (1979), parts the pixels, and the coverage is
+/// linear in the luminance from the median of the light ones to that of the dark ones.
 ///
 /// # Errors
 /// A file that cannot be read or is no such picture, one of more than 2²⁶ pixels or of more than its bytes can stand for, and a picture of one

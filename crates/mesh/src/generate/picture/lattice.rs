@@ -92,7 +92,7 @@ impl Lattice {
         }
     }
 
-    /// Whether a point lies in a triangle of the lattice.
+    /// Returns true if a point lies in a triangle of the lattice.
     fn covers(&self, x: Vector2<f64>) -> bool {
         let up = x.y / (row_height() * self.spacing) - 0.5;
         if !(up >= 0.0) {

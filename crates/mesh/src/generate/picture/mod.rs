@@ -16,7 +16,7 @@ pub use contour::contours;
 pub use decode::{PictureError, Pixels, read_picture, read_pixels};
 pub use mesh::{FromPicture, PictureMesh, PictureMeshError, mesh_picture};
 
-/// How far each pixel lies inside a region.
+/// Coverage of each pixel by a region.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// Number of columns.

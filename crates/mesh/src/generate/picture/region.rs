@@ -197,7 +197,7 @@ impl<'a> Region<'a> {
     }
 }
 
-/// Whether the contours pass mostly between pixels that are wholly inside and wholly outside.
+/// Returns true if the contours pass mostly between pixels that are wholly inside and wholly outside.
 fn is_not_antialiased(picture: &Picture, contours: &[Vec<Vector2<f64>>]) -> bool {
     let is_whole = |x: &&Vector2<f64>| {
         let [i, j] = [x.x - 0.5, x.y - 0.5].map(|x| (x.floor() as isize, x.ceil() as isize));

@@ -66,12 +66,12 @@ impl Solid {
         self.nodes.first().map_or([Vector3::zeros(); 2], |node| [node.least, node.largest])
     }
 
-    /// Whether a point lies inside.
+    /// Returns true if a point lies inside.
     pub fn contains(&self, point: &Vector3<f64>) -> bool {
         self.nodes.first().is_some_and(|root| is_in_box(root, point)) && self.winding_number(point) > 0.5
     }
 
-    /// How often the surface winds around a point: 1 inside and 0 outside of a closed surface.
+    /// Winding number of the surface around a point: 1 inside and 0 outside of a closed surface.
     pub fn winding_number(&self, point: &Vector3<f64>) -> f64 {
         let (mut sum, mut open) = (0.0, vec![0]);
         while let Some(at) = open.pop() {

@@ -18,7 +18,7 @@ pub struct Lattice {
     cubes: [i32; 3],
     /// 1 inside, −1 outside, 0 on the surface.
     pub signs: Vec<i8>,
-    /// Whether the surface has cut an edge of each node.
+    /// True for each node that has an edge cut by the surface.
     is_at_cut: Vec<bool>,
     /// Nodes that have been moved onto the surface.
     moved: HashMap<u32, Vector3<f64>>,

@@ -72,7 +72,7 @@ pub enum StuffingError {
         /// m
         edge: f64,
     },
-    /// The surface encloses nothing that the lattice sees.
+    /// The lattice has no node inside the surface.
     #[error(
         "with edges of {edge} m no point of the lattice lies inside the surface; take shorter edges (the surface measures {} × {} × {} m), or close it", size[0], size[1], size[2]
     )]

@@ -13,7 +13,7 @@ type Cube = [i32; 3];
 pub struct Octree {
     /// Number of the smallest cubes in each direction.
     cubes: Cube,
-    /// Whether each cube is split, level by level from the one above the smallest cubes.
+    /// True for each cube that is split; level by level, from the one above the smallest cubes.
     split: Vec<Vec<bool>>,
 }
 
@@ -97,7 +97,7 @@ impl Octree {
         self.place(level, cube).is_some_and(|place| self.split[level - 1][place])
     }
 
-    /// Whether a cube is in the octree and not split.
+    /// Returns true if a cube is in the octree and not split.
     fn is_leaf(&self, level: usize, cube: Cube) -> bool {
         let is_within = (0..3).all(|i| (0..size(self.cubes, level)[i]).contains(&cube[i]));
         let is_there = level == self.split.len() || self.is_split(level + 1, cube.map(|x| x >> 1));

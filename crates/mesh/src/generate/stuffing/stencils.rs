@@ -152,7 +152,7 @@ fn tetrahedra_of_prism(columns: [[usize; 2]; 3], [before_01, before_02, before_1
     [[a1, b1, c1, c2], [a1, b1, c2, b2], [a1, a2, b2, c2]]
 }
 
-/// Whether the diagonal of the quadrilateral that is left of a face touches the first of its two corners inside, by a rule that both
+/// Returns true if the diagonal of the quadrilateral that remains of a face touches the first of its two inner corners, by a rule that both
 /// tetrahedra at the face see alike.
 fn touches_first(a: Corner, b: Corner, outside: Corner) -> bool {
     let is_centre = |corner: Corner| corner.place[0].rem_euclid(2) == 1;

@@ -110,12 +110,12 @@ impl Triangulation {
         if b == triangle { 1 } else { 2 * usize::from(c == triangle) }
     }
 
-    /// Whether no flip may remove the edge opposite corner `i`.
+    /// Returns true if flips must keep the edge opposite corner `i`.
     pub fn is_kept(&self, triangle: u32, i: usize) -> bool {
         self.neighbours[triangle as usize][i] == OUTSIDE || self.constrained[triangle as usize] >> i & 1 == 1
     }
 
-    /// Whether the vertex beyond the edge opposite corner `i` lies inside the circumscribed circle, by an exact sign.
+    /// Returns true if the vertex beyond the edge opposite corner `i` lies inside the circumscribed circle, by an exact sign.
     pub fn violates_delaunay(&self, triangle: u32, i: usize) -> bool {
         let neighbour = self.neighbours[triangle as usize][i];
         let beyond = self.triangles[neighbour as usize][self.corner_beyond(neighbour, triangle)];

@@ -12,7 +12,7 @@ use crate::boxes::{Bounds, BoxTree};
 pub(crate) use predicates::{Triangle, meet, segment_meets};
 use predicates::{meet_beyond_corner, meet_beyond_edge};
 
-/// Most pairs that are counted, and most that are looked at: all triangles of a surface may cross all others.
+/// Largest numbers of pairs that are counted, and that are tested: all triangles of a surface may cross all others.
 const MOST: [usize; 2] = [1_000_000, 200_000_000];
 
 /// The pairs of crossing triangles of a surface.
@@ -22,7 +22,7 @@ pub struct SelfIntersections {
     pub count: usize,
     /// The first pair: smallest first triangle, then smallest second one, counted from 0.
     pub first: Option<[usize; 2]>,
-    /// Whether the search ended early because of too many pairs; there may be more then.
+    /// The search ended early because of too many pairs; there may be more.
     pub has_more: bool,
 }
 
@@ -65,7 +65,7 @@ fn corners_by_place(mesh: &SurfaceMesh) -> Vec<[usize; 3]> {
     mesh.elements.iter().map(|element| element.map(|i| first[i])).collect()
 }
 
-/// Whether two triangles, with the places of their corners, cross.
+/// Returns true if two triangles, with the places of their corners, cross.
 fn cross((a, corners): (&Triangle, [usize; 3]), (b, others): (&Triangle, [usize; 3])) -> bool {
     let is_shared = corners.map(|corner| others.contains(&corner));
     let other = |is_wanted: bool| (0..3).find(|&j| corners.contains(&others[j]) == is_wanted);

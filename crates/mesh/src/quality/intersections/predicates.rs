@@ -1,4 +1,4 @@
-//! Whether two triangles in space have a common point, by exact signs of determinants: Shewchuk, Adaptive Precision Floating-Point
+//! Tests whether two triangles in space have a common point, by exact signs of determinants: Shewchuk, Adaptive Precision Floating-Point
 //! Arithmetic and Fast Robust Geometric Predicates (1997).
 
 use nalgebra::Vector3;
@@ -32,7 +32,7 @@ impl Triangle {
         [[0, 1], [1, 2], [2, 0]]
     }
 
-    /// Whether the segment between two points, whose sides are given, has a point of the triangle.
+    /// Returns true if the segment between two points, whose sides are given, meets the triangle.
     fn meets(&self, [p, q]: [&Point; 2], sides: [i8; 2]) -> bool {
         match sides {
             [0, 0] => self.meets_in_plane([p, q]),
@@ -57,7 +57,7 @@ impl Triangle {
     }
 }
 
-/// Whether two triangles without a common corner have a common point.
+/// Returns true if two triangles without a common corner have a common point.
 pub fn meet(a: &Triangle, b: &Triangle) -> bool {
     let sides = b.corners.map(|x| a.side(&x));
     if is_apart(sides) {
@@ -74,12 +74,12 @@ pub fn meet(a: &Triangle, b: &Triangle) -> bool {
     edge(b, sides, a) || edge(a, others, b)
 }
 
-/// Whether a segment between two points has a point of a triangle.
+/// Returns true if the segment between two points meets a triangle.
 pub fn segment_meets([p, q]: [&Point; 2], triangle: &Triangle) -> bool {
     triangle.meets([p, q], [triangle.side(p), triangle.side(q)])
 }
 
-/// Whether two triangles whose corners `i` and `j` are one point have another common point.
+/// Returns true if two triangles whose corners `i` and `j` are one point have another common point.
 pub fn meet_beyond_corner(a: &Triangle, i: usize, b: &Triangle, j: usize) -> bool {
     // From the common corner to another common point and on, one leaves the first of the two through the opposite edge.
     let opposite = |of: &Triangle, k: usize, on: &Triangle| {
@@ -89,8 +89,8 @@ pub fn meet_beyond_corner(a: &Triangle, i: usize, b: &Triangle, j: usize) -> boo
     opposite(a, i, b) || opposite(b, j, a)
 }
 
-/// Whether two triangles with a common edge have a common point off it: they lie in one plane, on one side of the edge. `i` and `j` are
-/// the corners opposite to the edge.
+/// Returns true if two triangles with a common edge have a common point off it: they lie in one plane, on one side of the edge. `i` and
+/// `j` are the corners opposite to the edge.
 pub fn meet_beyond_edge(a: &Triangle, i: usize, b: &Triangle, j: usize) -> bool {
     let [p, q] = [a.corners[(i + 1) % 3], a.corners[(i + 2) % 3]];
     let of = |apex: Point| turn([p, q, apex], a.axis);
@@ -101,7 +101,7 @@ fn is_apart(sides: [i8; 3]) -> bool {
     sides[0] != 0 && sides[0] == sides[1] && sides[1] == sides[2]
 }
 
-/// Whether two segments of one plane have a common point, seen along an axis that the plane does not contain.
+/// Returns true if two segments of one plane have a common point, seen along an axis that the plane does not contain.
 fn segments_meet([p, q]: [&Point; 2], [a, b]: [&Point; 2], axis: usize) -> bool {
     let of = |x: &Point, y: &Point, z: &Point| turn([*x, *y, *z], axis);
     let (pa, pb, ap, aq) = (of(p, q, a), of(p, q, b), of(a, b, p), of(a, b, q));
@@ -120,7 +120,7 @@ fn side([a, b, c]: [&Point; 3], d: &Point) -> i8 {
     sign(orient3d(place(a), place(b), place(c), place(d)))
 }
 
-/// Whether three points turn left (1) or right (−1) seen along an axis, or lie on one line (0).
+/// Returns whether three points turn left (1) or right (−1) seen along an axis, or lie on one line (0).
 fn turn(corners: [Point; 3], axis: usize) -> i8 {
     let [a, b, c] = corners.map(|p| Coord { x: p[(axis + 1) % 3], y: p[(axis + 2) % 3] });
     sign(orient2d(a, b, c))

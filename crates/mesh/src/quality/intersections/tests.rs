@@ -44,7 +44,7 @@ mod brute_force {
         a.map(|x| x * by)
     }
 
-    /// Whether a point lies in a triangle.
+    /// Returns true if a point lies in a triangle.
     fn contains(triangle: [Place; 3], (point, denominator): Fraction) -> bool {
         let n = normal(triangle);
         let away = |i: usize| minus(point, scaled(triangle[i], denominator));
@@ -76,7 +76,7 @@ mod brute_force {
         found.extend(points.into_iter().filter(|&point| contains(triangle, point)));
     }
 
-    /// Whether two triangles have a common point that is none of the shared corners, nor on a shared edge.
+    /// Returns true if two triangles have a common point off their shared corners and edges.
     pub fn cross_each_other(a: [Place; 3], b: [Place; 3]) -> bool {
         let shared: Vec<Place> = a.into_iter().filter(|x| b.contains(x)).collect();
         let mut found = Vec::new();

@@ -18,7 +18,7 @@ pub(super) trait Numbers {
     /// Begins the row after the first `found` of `announced` rows.
     fn row(&mut self, what: &'static str, announced: usize, found: usize) -> Result<(), MeshError>;
 
-    /// Whether no number is left in the row.
+    /// Returns true if no number is left in the row.
     fn is_row_over(&self) -> bool;
 
     /// An integer, of 4 bytes in a binary file.

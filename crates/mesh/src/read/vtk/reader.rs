@@ -104,7 +104,7 @@ impl<'a> Reader<'a> {
     }
 
     fn words<T: std::str::FromStr>(&mut self, count: usize, expected: &'static str) -> Result<Vec<T>, MeshError> {
-        // Twice the rest of the file at most, whatever the count says.
+        // At most twice the rest of the file, independent of the count.
         let mut values = Vec::with_capacity(count.min(self.rest().len() / 4));
         for _ in 0..count {
             let word = self.expected(expected)?;

@@ -37,11 +37,11 @@ fn find(bytes: &[u8], pattern: &[u8]) -> Option<usize> {
     bytes.windows(pattern.len()).position(|window| window == pattern)
 }
 
-/// How a file stores its arrays.
+/// Storage of the arrays of a file.
 pub(super) struct Arrays<'a> {
     file: &'a Path,
     appended: Appended<'a>,
-    /// Whether the appended data is text in base64.
+    /// The appended data is text in base64.
     appended_base64: bool,
     /// Offsets of the arrays in the appended data, ascending.
     starts: Vec<usize>,

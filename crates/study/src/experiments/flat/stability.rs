@@ -9,7 +9,7 @@ use fem_scene::simulation::Simulation;
 use super::object::{LAME, OBJECTS, disturb, meshed, picture, simulator};
 use crate::experiments::{Mark, Part, Table};
 
-/// Frames in a second, frames of a run that lives, and frames after which growth must show.
+/// Frames in a second, frames of a stable run, and frames after which growth must show.
 const FRAMES: f64 = 60.0;
 const RUN: usize = 20;
 const LONG_RUN: usize = 60;
@@ -109,7 +109,8 @@ fn limit(mesh: &PictureMesh, lame: f64, damping: &str) -> Result<f64, String> {
     simulation.critical_time_step().ok_or_else(|| "the body has no stiffness".to_owned())
 }
 
-/// Whether a vibration with this frequency, 1/s, and damping ratio grows visibly within a run: λ² − (2 − z² − 2ξz) λ + 1 − 2ξz = 0, z = ω dt.
+/// Returns true if a vibration with this frequency, 1/s, and damping ratio grows visibly within a run: λ² − (2 − z² − 2ξz) λ + 1 − 2ξz
+/// = 0, z = ω dt.
 fn grows(omega: f64, ratio: f64, substeps: usize) -> bool {
     let z = omega / FRAMES / substeps as f64;
     let (trace, determinant) = (2.0 - z * z - 2.0 * ratio * z, 1.0 - 2.0 * ratio * z);
@@ -118,7 +119,7 @@ fn grows(omega: f64, ratio: f64, substeps: usize) -> bool {
     discriminant > 0.0 && largest.ln() * (LONG_RUN * substeps) as f64 > SHOWN
 }
 
-/// Whether a disturbed body stays near its undeformed shape for a number of frames with so many substeps.
+/// Returns true if a disturbed body stays near its undeformed shape for a number of frames with so many substeps.
 fn lives(
     mesh: &PictureMesh,
     lame: f64,

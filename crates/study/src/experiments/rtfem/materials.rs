@@ -107,7 +107,7 @@ fn blocks() -> Result<(Vec<Vec<String>>, Vec<Mark>), String> {
     Ok((rows, marks))
 }
 
-/// For each modulus: E, the approach of the loaded sides by each law (m), E times that of the linear law.
+/// Rows, one per modulus: E, the approach of the loaded sides by each law (m), E times that of the linear law.
 fn by_young(torus: &Torus) -> Result<(Vec<[f64; 5]>, Vec<Mark>), String> {
     let mut rows = Vec::new();
     for young in YOUNGS {
@@ -134,7 +134,7 @@ fn by_young(torus: &Torus) -> Result<(Vec<[f64; 5]>, Vec<Mark>), String> {
     Ok((rows, marks))
 }
 
-/// For each ratio: ν, the linear approach (m), those of the other laws over it, and the error of the linear flexibility against a mesh
+/// Rows, one per ratio: ν, the linear approach (m), those of the other laws over it, and the error of the linear flexibility against a mesh
 /// whose edges are `finer` times shorter, %.
 fn by_poisson(torus: &Torus, finer: f64) -> Result<(Vec<[f64; 5]>, Vec<Mark>), String> {
     let reference = Torus::of_edge(torus.edge / finer)?;

@@ -83,7 +83,7 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     })
 }
 
-/// What is swept.
+/// Ranges of the sweep.
 struct Ranges {
     /// Young's moduli, Pa, each with numbers of iterations.
     youngs: Vec<(f64, &'static [usize])>,

@@ -1,4 +1,4 @@
-//! Momentum and angular momentum of a free body, and what each method promises of them.
+//! Momentum and angular momentum of a free body, and their conservation by each method.
 
 use std::path::Path;
 
@@ -17,13 +17,13 @@ const EDGE: f64 = 0.5;
 const STEPS: usize = 100;
 const RATE: usize = 100;
 
-/// Largest relative change of what a method promises to keep; for a method that iterates until nothing changes; smallest change of a
-/// momentum that is not kept.
+/// Largest relative change of a momentum that a method conserves; the same for a method that iterates to convergence; smallest change of a
+/// momentum that is not conserved.
 const KEPT: f64 = 1e-12;
 const CONVERGED: f64 = 1e-10;
 const LOST: f64 = 1e-7;
 
-/// What a method promises.
+/// Momenta that a method conserves.
 #[derive(Clone, Copy, PartialEq)]
 enum Promise {
     Both,

@@ -40,7 +40,7 @@ pub const SOLVERS: &[(&str, &str)] = &[
     ("pcg, ssor", "[solver]\nkind = \"pcg\"\npreconditioner = \"ssor\"\n"),
 ];
 
-/// What a run of the torus may have in place of the thesis' numbers.
+/// Parameters of a run of the torus. The default is the thesis' numbers.
 #[derive(Clone, Debug)]
 pub struct Setting<'a> {
     /// Constitutive law.
@@ -73,7 +73,7 @@ impl Setting<'_> {
     /// The tables `[material]` and `[mass]`, and those of the method.
     pub fn text(&self) -> String {
         let Self { law, young, poisson, precision, integrator, tables } = self;
-        // One solve is exact for a linear body; the thesis' tolerance spares a second one that tells so.
+        // One solve is exact for a linear body; the thesis' tolerance avoids a second one that would confirm it.
         let newton = match (*law, *integrator) {
             ("linear", "implicit_euler") => "[newton]\ntolerance = 1e-5\n",
             _ => "",
@@ -108,7 +108,7 @@ impl Setting<'_> {
     }
 }
 
-/// For each axis the nodes next to the plane of symmetry across it, whose displacement along it is zero. The body cannot turn away under the
+/// Nodes for each axis, next to the plane of symmetry across it, whose displacement along it is zero. The body cannot turn away under the
 /// load, as it would on three single nodes: two opposite dead loads that push inwards turn a free body over.
 pub fn supports(mesh: &TetrahedralMesh) -> [Vec<usize>; 3] {
     [0, 1, 2].map(|axis| {

@@ -104,7 +104,7 @@ pub fn run(_: &Path, quick: bool) -> Result<Part, String> {
     })
 }
 
-/// Rows, and what the marks are about.
+/// Rows, and the figures of the marks.
 #[derive(Default)]
 struct Found {
     counts: Vec<(usize, usize)>,

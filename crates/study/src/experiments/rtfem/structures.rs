@@ -99,7 +99,7 @@ fn donut(data: &Path) -> Result<BodyMesh, String> {
     Ok(BodyMesh::Flat { triangles: SurfaceMesh::new(vertices, found.mesh.elements), thickness: 1.0 })
 }
 
-/// What pressing a body gives.
+/// Results of pressing a body.
 struct Pressed {
     milliseconds: f64,
     p95: f64,

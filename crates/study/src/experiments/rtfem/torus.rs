@@ -37,7 +37,7 @@ pub const ACCEPTED: f64 = 0.05;
 pub struct Torus {
     /// Tetrahedra, with the sets `left` and `right`: triangles whose centroid is farther than the ring's radius from the plane x = 0.
     pub mesh: TetrahedralMesh,
-    /// Mean edge that was asked for, m.
+    /// Requested mean edge, m.
     pub edge: f64,
 }
 
@@ -46,7 +46,7 @@ impl Torus {
     /// symmetric as a torus, so the lattice is also turned about the axis x.
     ///
     /// # Errors
-    /// No edge leads to such a number.
+    /// The requested number of elements cannot be reached with any edge.
     pub fn of_size(wanted: usize) -> Result<Self, String> {
         let mut best: Option<(f64, Self)> = None;
         for turn in [0.0, 0.3, 0.6, 0.9, 1.2, 1.5] {
@@ -134,7 +134,7 @@ fn turned_surface(turn: f64) -> SurfaceMesh {
     SurfaceMesh::new((0..n * m).map(vertex).collect(), triangles.collect())
 }
 
-/// Whether the mesh is one piece whose boundary has the Euler characteristic of a torus, zero: edges are 3/2 of the triangles.
+/// Returns true if the mesh is one piece whose boundary has the Euler characteristic of a torus, zero: edges are 3/2 of the triangles.
 fn is_torus(mesh: &TetrahedralMesh) -> bool {
     let faces = boundary(mesh);
     let mut nodes: Vec<usize> = faces.iter().flatten().copied().collect();

@@ -55,7 +55,7 @@ pub fn hit(text: SceneText, body: &str, friction: f64, part: f64) -> Case {
     );
     Case {
         expected: match text.integrator {
-            // Its line search would need the barrier, and says so.
+            // Its line search would need the barrier, so the method refuses contact.
             "projective_dynamics" => Outcome::Refused,
             _ => Outcome::Survives,
         },

@@ -173,7 +173,7 @@ fn degenerate(body: &Body, integrator: &'static str, steps: usize) -> Case {
     })
 }
 
-/// What no step of these methods knows: text to replace, its replacement, and the words that the error must contain.
+/// Settings that these methods do not support: text to replace, its replacement, and the words that the error must contain.
 const UNKNOWN: [(&str, &str, &str, &str); 4] = [
     (
         "a mass-spring body",

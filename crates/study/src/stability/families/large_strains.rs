@@ -107,8 +107,8 @@ fn prescribed(motion: &EndMotion, model: &'static str, integrator: &'static str)
     }
 }
 
-/// Whether a method keeps the waves of the motion that steps do not resolve, until they invert elements of a material with a barrier, or
-/// their energy grows: the end of the run names the element or the energy.
+/// Returns true if a method keeps the waves of the motion that its steps do not resolve, until they invert elements of a material with
+/// a barrier, or their energy grows: the end of the run names the element or the energy.
 fn keeps_shocks(motion: &EndMotion, model: &str, integrator: &str) -> bool {
     match integrator {
         "implicit_midpoint" | "newmark" => is_twist(motion) || model == "neo_hookean",

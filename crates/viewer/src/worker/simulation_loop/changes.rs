@@ -1,4 +1,4 @@
-//! Commands that change the scene or pull at the body.
+//! Commands that change the scene or drag the body.
 
 use std::path::PathBuf;
 
@@ -13,7 +13,7 @@ use crate::worker::scene_editor::Motion;
 const MOST_NODES: usize = 5000;
 
 impl SimulationLoop {
-    /// Finds out what the panel shows of a simulation and its method.
+    /// Updates the values that the panel shows of a simulation and its method.
     pub(super) fn inspect(&mut self) {
         self.fields = ElementField::of(&*self.simulation);
         let is_small = self.simulation.shape().mesh.vertices().len() <= MOST_NODES;
@@ -26,7 +26,7 @@ impl SimulationLoop {
         };
     }
 
-    /// Pulls nodes. Those of a mesh that has been replaced since they were picked may not exist.
+    /// Moves the anchor springs of dragged nodes. Nodes of a mesh that was replaced after the pick may not exist.
     pub(super) fn pull(&mut self, pull: Option<Pull>) {
         let nodes = self.simulation.shape().mesh.vertices().len();
         let exists = |pull: &Pull| pull.anchors.iter().all(|(node, _)| *node < nodes);

@@ -30,7 +30,7 @@ pub fn import_slice<S: AsRef<[u8]>>(_bytes: S) -> Result<Import, Error> {
 #[derive(Clone, Copy)]
 enum Never {}
 
-/// Types without a value, and their methods, which nobody can call.
+/// Types without a value, and their methods, which cannot be called.
 macro_rules! never {
     ($($type:ident { $($method:ident $(<$lifetime:lifetime>)? ($($argument:ty),*) -> $result:ty,)* })*) => {
         $(

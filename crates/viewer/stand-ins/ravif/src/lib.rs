@@ -43,7 +43,7 @@ pub struct EncodedImage {
     pub avif_file: Vec<u8>,
 }
 
-/// The encoder, of which every setting changes nothing.
+/// The encoder. Its settings have no effect.
 #[derive(Default)]
 pub struct Encoder<'a>(std::marker::PhantomData<&'a ()>);
 

@@ -37,7 +37,7 @@ pub struct Products<'a, T> {
     pub columns: usize,
     /// Row of the first column's diagonal entry.
     pub diagonal: usize,
-    /// Whether C = −A Bᵀ, so that C is not read.
+    /// C = −A Bᵀ is computed: C is not read.
     pub fresh: bool,
 }
 

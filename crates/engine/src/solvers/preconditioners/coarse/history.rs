@@ -7,7 +7,7 @@ use crate::solvers::ApproximateInverse;
 use fem_elements::history::{put, put_flag, put_option, take, take_flag, take_option};
 
 impl Coarse {
-    /// Adds the coarse matrix and what decides when it is assembled again.
+    /// Adds the coarse matrix and the data that decide on its next assembly.
     pub fn save(&self, history: &mut History) {
         put(history, "coarse.free", self.free.as_flattened());
         put(history, "coarse.weight", &[self.weight]);
@@ -19,7 +19,7 @@ impl Coarse {
         put_flag(history, "coarse.is_outdated", self.is_outdated);
     }
 
-    /// Takes over what [`save`](Self::save) has added, and factorises the coarse matrix again.
+    /// Restores the data that [`save`](Self::save) has added, and factorises the coarse matrix again.
     pub fn restore(&mut self, history: &History) -> Result<(), String> {
         take(history, "coarse.free", self.free.as_flattened_mut())?;
         take(history, "coarse.weight", std::slice::from_mut(&mut self.weight))?;

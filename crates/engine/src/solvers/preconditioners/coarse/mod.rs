@@ -48,7 +48,7 @@ pub struct Coarse {
     scale: Option<f64>,
     /// Iterations per factor e of the residual in the first solve with this factor.
     effort: Option<f64>,
-    /// Whether the next preparation must factorise again.
+    /// True if the next preparation must factorise again.
     is_outdated: bool,
     /// Weight of the correction, for the scale of the present matrix.
     pub weight: f32,
@@ -127,7 +127,7 @@ impl Coarse {
         is_new
     }
 
-    /// Whether the next preparation assembles and factorises.
+    /// Returns true if the next preparation assembles and factorises.
     pub fn needs_factor(&self) -> bool {
         self.is_outdated || self.scale.is_none()
     }

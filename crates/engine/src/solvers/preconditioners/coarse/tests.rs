@@ -1,4 +1,4 @@
-//! The coarse matrix, its effect on the number of iterations, and when it is factorised again.
+//! The coarse matrix, its effect on the number of iterations, and its next factorisation.
 
 use super::super::Ssor;
 use crate::solvers::ApproximateInverse;

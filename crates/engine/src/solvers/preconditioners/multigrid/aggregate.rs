@@ -35,7 +35,7 @@ pub fn aggregate<const D: usize>(A: &Blocks<D, D>, positions: &[[f32; 3]]) -> (V
     (aggregates, count as usize)
 }
 
-/// The node and the nodes that an aggregate takes with it: all adjacent ones on the finest level, the nearest on the others.
+/// The node and the nodes that join its aggregate: all adjacent ones on the finest level, the nearest on the others.
 fn neighbours<const D: usize>(A: &Blocks<D, D>, node: usize, positions: &[[f32; 3]]) -> Vec<u32> {
     let mut neighbours = A.row(node).0.to_vec();
     if D > 3 && neighbours.len() > COARSE_NEIGHBOURS {

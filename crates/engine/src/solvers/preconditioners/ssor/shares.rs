@@ -3,8 +3,8 @@
 use super::super::coarse::{Grid, Row};
 use crate::solvers::parts::Part;
 
-/// Each part sums up what its own rows contribute to the corners of their cells, so that threads write to places of their own; then
-/// the parts' sums are added, in the same order with any number of threads.
+/// Each part sums the contributions of its own rows to the corners of their cells, so that every thread writes to its own memory. Then
+/// the sums of the parts are added, in the same order with any number of threads.
 pub struct Shares {
     /// The cell of each row, among `cells`.
     cell_of_row: Vec<u32>,

@@ -269,7 +269,7 @@ impl<'a, S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'a, S> {
 /// Squared circumradius over shortest edge up to which a move may make the worst triangle around its vertex worse.
 const ACCEPTED: f64 = 0.5;
 
-/// Whether a flip lowers the energy, and makes neither triangle worse than the worst. For a constant density every Delaunay flip
+/// Returns true if a flip lowers the energy, and makes neither triangle worse than the worst. For a constant density every Delaunay flip
 /// lowers it.
 fn flip_lowers_energy(mesh: &Triangulation, sizes: &[f64], worst: f64, triangle: u32, i: usize) -> bool {
     let neighbour = mesh.neighbours[triangle as usize][i];

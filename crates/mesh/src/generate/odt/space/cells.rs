@@ -17,7 +17,7 @@ const REMOVED: [u32; 4] = [u32::MAX; 4];
 pub enum Freedom {
     /// Stays: the boundary, and the parts that sets name.
     Fixed,
-    /// Moves on the surface that the caller knows.
+    /// Moves on the surface that the caller gives.
     OnSurface,
     /// Moves freely.
     Inside,
@@ -31,7 +31,7 @@ pub struct Cells {
     pub corners: Vec<[u32; 4]>,
     /// Elements around each vertex.
     pub stars: Vec<Vec<u32>>,
-    /// How each vertex may move.
+    /// Freedom of each vertex to move.
     pub freedom: Vec<Freedom>,
     /// The combination of sets that each element belongs to.
     regions: Vec<u32>,
@@ -96,7 +96,7 @@ impl Cells {
         self.kept_points.iter().for_each(|&vertex| self.freedom[vertex as usize] = Freedom::Fixed);
     }
 
-    /// Whether sets name a vertex, or a face or an edge with it.
+    /// Returns true if a set names the vertex, or a face or an edge with it.
     pub fn is_kept(&self, vertex: u32) -> bool {
         self.kept_points.contains(&vertex)
     }
@@ -120,7 +120,7 @@ impl Cells {
         (0..self.corners.len() as u32).filter(|&cell| self.is_alive(cell))
     }
 
-    /// Whether an element has not been removed.
+    /// Returns true if an element has not been removed.
     pub fn is_alive(&self, cell: u32) -> bool {
         self.corners[cell as usize] != REMOVED
     }
@@ -156,12 +156,12 @@ impl Cells {
         star.iter().copied().filter(|&cell| self.corners[cell as usize].contains(&b)).collect()
     }
 
-    /// Whether a face may vanish.
+    /// Returns true if the face may be removed.
     pub fn is_removable_face(&self, face: [u32; 3]) -> bool {
         self.kept_faces.is_empty() || !self.kept_faces.contains(&sorted(face))
     }
 
-    /// Whether an edge and the faces around it may vanish.
+    /// Returns true if the edge and the faces around it may be removed.
     pub fn is_removable_edge(&self, edge: [u32; 2], ring: &[u32]) -> bool {
         (self.kept_edges.is_empty() || !self.kept_edges.contains(&sorted(edge)))
             && ring.iter().all(|&other| self.is_removable_face([edge[0], edge[1], other]))

@@ -81,7 +81,7 @@ impl Floor {
         })
     }
 
-    /// Whether an element is everywhere better than the worst, by more than rounding.
+    /// Returns true if every quality measure of the element is better than the worst one, by more than rounding.
     pub fn admits(&self, shape: &Shape) -> bool {
         shape.sine > 0.0
             && shape.cosines[0] < self.cosines[0] - MARGIN

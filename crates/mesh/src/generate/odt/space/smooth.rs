@@ -115,7 +115,7 @@ fn flip(cells: &mut Cells, cell: u32, side: usize, objective: &Objective) -> boo
         || [[a, b], [b, c], [c, a]].into_iter().any(|edge| remove_edge(cells, edge, objective))
 }
 
-/// Whether the vertex beyond a face lies inside the circumscribed sphere by more than rounding.
+/// Returns true if the vertex beyond a face lies inside the circumscribed sphere by more than rounding.
 fn is_not_delaunay(cells: &Cells, cell: u32, side: usize) -> bool {
     let Some(other) = cells.neighbour(cell, side) else { return false };
     let face = cells.face(cell, side);

@@ -1,4 +1,4 @@
-//! The mistakes of the thesis, each with the figure that its rule leads to, ours, and the true one.
+//! Mistakes of the thesis, each with three figures: by the thesis' rule, ours, and the true one.
 
 mod contact;
 mod elasticity;

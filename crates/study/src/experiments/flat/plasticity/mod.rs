@@ -1,4 +1,4 @@
-//! Plastic flow: the additive model of the thesis, mended, and von Mises plasticity beside it.
+//! Plastic flow: the additive model of the thesis, corrected, and von Mises plasticity beside it.
 
 pub mod cylinder;
 pub mod motion;

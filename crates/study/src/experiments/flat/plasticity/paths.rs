@@ -23,9 +23,9 @@ pub struct Found {
     pub steps: usize,
     /// Steps in which the plastic strain changes.
     pub flows: usize,
-    /// Least energy that the model says a step has dissipated.
+    /// Smallest dissipation of a step by the model.
     pub least_dissipation: f64,
-    /// Least loss of free energy by the flow of a step at its constant strain, less the dissipation that is told, over 1 plus the energy.
+    /// Smallest loss of free energy by the flow of a step at its constant strain, less the model's dissipation, over 1 plus the energy.
     pub least_loss: f64,
 }
 
@@ -43,7 +43,7 @@ impl Found {
         }
     }
 
-    /// A step with the free energy before and after its flow, and the dissipation that the model tells.
+    /// A step with the free energy before and after its flow, and the model's dissipation.
     fn of_step(has_flowed: bool, [before, after]: [f64; 2], dissipated: f64) -> Self {
         let loss = (before - after - dissipated) / (1.0 + before);
         Self { steps: 1, flows: usize::from(has_flowed), least_dissipation: dissipated, least_loss: loss }
@@ -63,7 +63,7 @@ pub fn j2(paths: usize) -> Found {
     })
 }
 
-/// The additive model with the yield strain 0.05 and the maximum 0.6; between nothing and all of the excess flows in a step.
+/// The additive model with the yield strain 0.05 and the maximum 0.6; a fraction of the excess, from 0 to 1, flows in a step.
 pub fn additive(paths: usize) -> Found {
     let start = Additive { mu: SHEAR, lambda: SHEAR, plastic: zero(), is_flat: true };
     all_paths(paths, start, |of, G, random| {

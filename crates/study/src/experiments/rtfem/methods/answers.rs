@@ -1,4 +1,4 @@
-//! What the runs answer: errors within a budget of time, times to an error, and whether Newton's method is the first there.
+//! Evaluation of the runs: errors within a budget of time, times to an error, and whether Newton's method is the fastest.
 
 use super::case::Case;
 use super::contenders::{ALL, Contender};
@@ -68,7 +68,7 @@ impl Compared {
             .collect()
     }
 
-    /// Whether Newton's method reaches [`FIRST_AT`].
+    /// Returns true if Newton's method reaches [`FIRST_AT`].
     pub fn newton_arrives(&self) -> bool {
         self.methods.iter().any(|swept| swept.contender.name == ALL[0].name && swept.time_to(FIRST_AT).is_some())
     }

@@ -21,7 +21,7 @@ pub const SPRINGS: &str = "mass_spring";
 /// Longest time of a reference, s.
 const PATIENCE: f64 = 60.0;
 
-/// A body that falls into its bend.
+/// A body that bends under its weight from rest.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// Its shape, and its cells across.

@@ -1,4 +1,4 @@
-//! The methods that are compared, with what of each is swept and tuned.
+//! The methods that are compared, with the parameters that are swept and tuned.
 
 use super::case::{LAW, SPRINGS};
 
@@ -11,7 +11,7 @@ pub struct Contender {
     pub model: &'static str,
     /// The name in scenes.
     pub integrator: &'static str,
-    /// What its iterations are.
+    /// Kind of its iterations.
     pub sweep: Sweep,
     /// A key of `[iterations]`, and the values from which the best is taken for each case.
     pub tuned: Option<(&'static str, &'static [f64])>,
@@ -72,12 +72,12 @@ impl Contender {
         }
     }
 
-    /// Whether its steps converge to those of implicit Euler for the elements, so that it has a solver error.
+    /// Returns true if the steps converge to those of implicit Euler for the elements, so that a solver error is defined.
     pub fn has_solver_error(&self) -> bool {
         self.model == LAW && !["bdf2", "pbd"].contains(&self.integrator)
     }
 
-    /// Whether it takes as many iterations as it is told.
+    /// Returns true if the number of iterations is a parameter of the method.
     pub fn is_iterated(&self) -> bool {
         self.sweep == Sweep::Iterations
     }

@@ -1,5 +1,5 @@
-//! Which method for what: Newton's method and its kin, position-based methods and springs on the same bodies, with the errors of the solver,
-//! of the time step and of the model apart.
+//! Comparison of methods: Newton's method and its variants, position-based methods and springs on the same bodies, with separate errors
+//! of the solver, of the time step and of the model.
 
 mod answers;
 mod bodies;
@@ -61,7 +61,7 @@ const TEXT: &str = "A beam of 4 × 1 × 1 m (body-centred cubic lattice) and a s
     The two parameters without a rule for their choice, the spectral radius of Chebyshev's acceleration and the stiffness of PBD, are the best of five values for each case. \
     Times to an error are interpolated between the runs of iterated methods, and not between Newton iterations.";
 
-/// The cases: where springs are fair, at two time steps, and where they are not.
+/// The cases: Poisson's ratios at which springs are fair, at two time steps, and others.
 fn cases(quick: bool) -> Vec<Case> {
     let case = |shape, poisson, rate: usize| {
         move |&young: &f64| Case {
@@ -106,7 +106,7 @@ fn springs_where_they_are_fair(found: &[Compared]) -> Option<Mark> {
     (!pairs.is_empty()).then(|| Mark::new(statement, shown.join(", "), holds))
 }
 
-/// A mark that tells how many runs have failed: each has its row.
+/// A mark with the number of failed runs, each of which has a row.
 fn every_run_is_counted(found: &[Compared]) -> Mark {
     let runs = || found.iter().flat_map(|of| &of.methods).flat_map(|swept| &swept.runs);
     let failed = runs().filter(|run| run.has_failed()).count();

@@ -15,7 +15,7 @@ const ITERATED: [usize; 12] = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5
 /// Iterations with which the tuned key is tried.
 const TUNED_AT: usize = 20;
 
-/// Solver error and time of a step (ms) at which a method has shown what it does.
+/// Solver error and time of a step (ms) at which the sweep of a method ends.
 const CONVERGED: f64 = 1e-8;
 
 /// Limits of a sweep.
@@ -46,12 +46,12 @@ pub struct Run {
 }
 
 impl Run {
-    /// Whether it reached its end, with finite positions.
+    /// Returns true if the run reached its end, with finite positions.
     pub fn is_done(&self) -> bool {
         self.total_error.is_some()
     }
 
-    /// Whether it failed: it did not reach its end, or inverted elements, which no converged motion here does.
+    /// Returns true if the run did not reach its end, or inverted elements, which no converged motion here does.
     pub fn has_failed(&self) -> bool {
         !self.is_done() || self.inverted > 0
     }

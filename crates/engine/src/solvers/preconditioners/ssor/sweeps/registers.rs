@@ -1,5 +1,5 @@
-//! Registers of four numbers, and of the eight of a pair, for kernels in which the compiler does not find them: a row of three numbers
-//! leaves one out.
+//! Registers of four numbers, and of the eight of a pair, for kernels that the compiler does not vectorise: a row has three
+//! numbers.
 
 #[cfg(target_arch = "x86_64")]
 use pulp::NullaryFnOnce;

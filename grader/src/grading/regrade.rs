@@ -1,4 +1,4 @@
-//! Grades some functions of a submission again and keeps what is known of the others.
+//! Grades some functions of a submission again, and keeps the results of the others.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -10,11 +10,11 @@ use super::{Grading, GradingError, without_running};
 use crate::grade::{FunctionGrade, Grade};
 
 impl Grading {
-    /// The grade with these functions judged anew; with all, where the submission or the assignment is another one than in the
-    /// `earlier` grade.
+    /// Returns the grade with these functions judged again. All functions are judged again if the submission or the assignment differs
+    /// from that of the `earlier` grade.
     ///
     /// # Errors
-    /// Trouble of the grader, not of the submission.
+    /// An error of the grader, never of the submission.
     pub fn grade_again(
         &self,
         submission: &Submission,

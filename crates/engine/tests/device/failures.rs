@@ -1,4 +1,4 @@
-//! Ends of batches on a graphics device that are not to be trusted.
+//! Batches on a graphics device that diverge or do not converge.
 
 use fem_scene::simulation::Cause;
 

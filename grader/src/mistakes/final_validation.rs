@@ -1,4 +1,4 @@
-//! Wrong functions that were written after the rules had been tried on both of the other sets.
+//! Final validation set: wrong functions that were written after the rules had been run on the training and validation sets.
 
 use super::Mistake;
 

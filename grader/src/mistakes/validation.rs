@@ -1,4 +1,4 @@
-//! Wrong functions that were written before the rules of diagnosis; the rules were tried on them.
+//! Validation set: wrong functions that were written after the rules of diagnosis, without running the rules on them.
 
 use super::Mistake;
 

@@ -1,4 +1,4 @@
-//! Wrong functions that were written after the rules of diagnosis, and without a look at what the rules make of them.
+//! Training set: wrong functions that were written before the rules of diagnosis. The rules were developed on them.
 
 use super::Mistake;
 

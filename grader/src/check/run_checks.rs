@@ -1,4 +1,4 @@
-//! Holds a function to its checks, and tells what each comes to.
+//! Runs the checks of a function, and summarises the results.
 
 use std::panic::{self, AssertUnwindSafe};
 
@@ -11,15 +11,15 @@ use crate::status::Status;
 /// Number of failing checks of one function whose messages are kept.
 const MOST_MESSAGES: usize = 3;
 
-/// A check and why it fails, with the status that follows from it.
-pub type Held = (Checked, Option<(Mistake, Status)>);
+/// A check, and the mistake and the status if it fails.
+pub type CheckResult = (Checked, Option<(Mistake, Status)>);
 
-/// Holds a function to its checks; `missing` are those that its text names and that are not written.
-pub fn held_to(checks: &[Check], course: &Course, missing: &[&str]) -> Vec<Held> {
+/// Runs the checks of a function. `missing` are the functions that its text names and that are not written.
+pub fn run_checks(checks: &[Check], course: &Course, missing: &[&str]) -> Vec<CheckResult> {
     let one = |check: &Check| {
         course.subject.begin_check();
         course.trusted.begin_check();
-        // A check may stumble over an answer that makes no sense; that is the answer's fault.
+        // A check may panic on a malformed answer.
         let outcome = panic::catch_unwind(AssertUnwindSafe(|| (check.run)(course)));
         let mistake = outcome.unwrap_or(Err(Mistake::Trouble(Trouble::Malformed))).err();
         let (rule, details) = mistake.as_ref().map(|mistake| told(mistake, missing)).unwrap_or_default();
@@ -34,7 +34,7 @@ fn status_of(mistake: &Mistake, missing: &[&str]) -> Status {
     match mistake {
         Mistake::Wrong { .. } | Mistake::Trouble(Trouble::Malformed) => Status::Failed,
         Mistake::Trouble(Trouble::TimedOut(_)) => Status::TimedOut,
-        // A `todo!` that is not another function's stands in a branch of this one.
+        // If no other function is missing, the `todo!` is in a branch of this one.
         Mistake::Trouble(Trouble::Missing) if missing.is_empty() => Status::Crashed,
         Mistake::Trouble(Trouble::Missing) | Mistake::Waits { .. } => Status::Missing,
         Mistake::Trouble(_) => Status::Crashed,
@@ -54,22 +54,22 @@ fn told(mistake: &Mistake, missing: &[&str]) -> (String, String) {
         Mistake::Trouble(Trouble::Missing) => {
             ("the function comes to a `todo!`; write what is missing there".to_owned(), String::new())
         }
-        // The message of one's own panic is no secret on one's own machine.
+        // Students may read the messages of their own panics on their own machines.
         Mistake::Trouble(Trouble::Panicked { message, .. }) => (format!("{mistake:?}: {message}"), String::new()),
         other => (format!("{other:?}"), String::new()),
     }
 }
 
 /// The status of a function, and messages of its first failing checks.
-pub fn summary(name: &str, checked: &[Held]) -> (Status, Vec<String>) {
+pub fn summary(name: &str, checked: &[CheckResult]) -> (Status, Vec<String>) {
     let (mut status, mut messages) = (Status::Passed, Vec::new());
     for (check, mistake) in checked {
         let Some((mistake, found)) = mistake else { continue };
-        // What made it give up has been told.
+        // The reason for giving up is in the messages already.
         if *mistake == Mistake::Trouble(Trouble::GivenUp) && status != Status::Passed {
             continue;
         }
-        // A wrong answer says more than a check that has to wait.
+        // A wrong answer comes before a check that waits for another function.
         status = if status == Status::Passed { *found } else { status.min(*found) };
         let message = match mistake {
             Mistake::Wrong { .. } => message_of(name, mistake),

@@ -24,7 +24,7 @@ fn unconverged(scene: &str) -> usize {
 fn a_sweep_over_a_stiff_body_stores_more_energy_than_its_weight_can_give() {
     for method in METHODS {
         let stiff = unconverged(&block(method, "1e12", "[iterations]\ncount = 1\n"));
-        // The matrix of projective dynamics knows how stiff the body is: one round is a good step.
+        // The matrix of projective dynamics contains the stiffness of the body, so that one round is a good step.
         assert_eq!(stiff > 5, method != "projective_dynamics", "{method}: {stiff} of 10 steps");
         let soft = unconverged(&block(method, "1e6", "[iterations]\ncount = 50\n"));
         assert_eq!(soft, 0, "{method}");
@@ -39,7 +39,7 @@ fn a_tolerance_that_is_missed_within_the_count_is_a_step_that_has_not_converged(
             unconverged(&block(method, "1e5", &text))
         };
         assert_eq!(of(2, "1e-12"), 10, "{method}");
-        // Volumes and edges of an element cannot all be as PBD wants them.
+        // The volume and the edges of an element cannot satisfy all constraints of PBD.
         assert!(method == "pbd" || of(5000, "1e-4") == 0, "{method}");
     }
 }

@@ -1,4 +1,4 @@
-//! A state that was computed elsewhere, judged as one of the simulator's own.
+//! Checks of a state that a graphics device has computed.
 
 use fem_scene::simulation::{Failure, Simulation};
 
@@ -7,7 +7,7 @@ use super::compiled::Compiled;
 
 impl<T: Compiled> Simulator<T> {
     /// Takes one step from a state that a device has reached from the state now, by `steps` steps under loads whose work depends on the
-    /// displacements alone. The step is judged as all of them: a motion that has grown without bound is a failure. Displacements (m) and
+    /// displacements alone. The step is checked like any other: a motion that has grown without bound is a failure. Displacements (m) and
     /// velocities (m/s) are in the mesh's numbering. Returns whether it has converged.
     pub(crate) fn step_from(&mut self, steps: usize, u: &[[f64; 3]], v: &[[f64; 3]]) -> Result<bool, Failure> {
         let start = self.state.clone();
