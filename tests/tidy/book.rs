@@ -1,6 +1,4 @@
-//! The book's tables of scene keys, materials, integrators and solvers agree with the code.
-
-use std::collections::{BTreeMap, BTreeSet};
+//! The book's tables of materials, integrators and solvers agree with the code.
 
 use super::{assert_none, files, read, stem};
 
@@ -26,101 +24,6 @@ fn sources(folder: &str) -> String {
 fn body<'a>(text: &'a str, head: &str) -> Vec<&'a str> {
     let lines = text.lines().skip_while(|line| *line != head).skip(1);
     lines.take_while(|line| !line.starts_with('}')).map(str::trim).collect()
-}
-
-/// The keys of a table of scene files, each with its type.
-fn keys(scene: &str, table: &str) -> BTreeMap<String, String> {
-    let (mut keys, mut attribute) = (BTreeMap::new(), "");
-    for line in body(scene, &format!("pub struct {table} {{")) {
-        if line.starts_with("#[serde") {
-            attribute = line;
-        } else if let Some((name, kind)) = line.strip_prefix("pub ").and_then(|field| field.split_once(": ")) {
-            let renamed = attribute.split("rename = \"").nth(1).and_then(|rest| rest.split('"').next());
-            if !attribute.contains("skip") {
-                let kind = kind.trim_start_matches("Option<").trim_start_matches("Vec<").trim_end_matches([',', '>']);
-                keys.insert(renamed.unwrap_or(name).to_owned(), kind.to_owned());
-            }
-            attribute = "";
-        }
-    }
-    keys
-}
-
-#[test]
-fn every_scene_key_is_in_the_book_and_every_key_there_is_one() {
-    let scene = sources("crates/scene/src");
-    let cells = first_cells();
-    // A cell names a table and one key or several: `[fixed]` `plane` or `nodes`.
-    let words = |cell: &String| -> Vec<String> { cell.split('`').skip(1).step_by(2).map(str::to_owned).collect() };
-    let is_table = |word: &str, table: &str| word == format!("[{table}]") || word == format!("[[{table}]]");
-    let told = |table: &str| -> BTreeSet<String> {
-        let rows = cells.iter().filter(|cell| words(cell).first().is_some_and(|word| is_table(word, table)));
-        rows.flat_map(|cell| if cell.ends_with('…') { vec!["…".to_owned()] } else { words(cell)[1..].to_vec() })
-            .collect()
-    };
-    let mut problems = Vec::new();
-    let tables = keys(&scene, "Scene");
-    assert!(tables.contains_key("mesh"), "no struct Scene with a table mesh in crates/scene/src");
-    for (table, kind) in tables {
-        let (known, told) = (keys(&scene, &kind), told(&table));
-        if told.contains("…") {
-            // The laws' own keys.
-        } else if known.is_empty() {
-            // A key without a table.
-            if !cells.contains(&format!("`{table}`")) {
-                problems.push(format!("docs/book/scene-keys.md: add a row for the key `{table}` of scene files"));
-            }
-        } else {
-            let missing = known.keys().filter(|key| !told.contains(*key));
-            problems
-                .extend(missing.map(|key| {
-                    format!("docs/book/scene-keys.md: add a row `[{table}]` `{key}` to the keys of scenes")
-                }));
-            let unknown = told.iter().filter(|key| !known.contains_key(*key));
-            problems.extend(
-                unknown.map(|key| format!("docs/book/scene-keys.md: scene files have no key `{key}` in [{table}]")),
-            );
-        }
-    }
-    assert_none(problems);
-}
-
-/// The words in code of the book.
-fn words_of_the_book() -> BTreeSet<String> {
-    let text = book();
-    let code = text.split('`').skip(1).step_by(2);
-    let words = code.flat_map(|code| code.split(|c: char| !c.is_alphanumeric() && c != '_'));
-    words.map(str::to_owned).collect()
-}
-
-#[test]
-fn every_key_of_every_table_and_every_parameter_of_a_law_is_named_in_the_scene_format() {
-    let words = words_of_the_book();
-    let (mut problems, mut count) = (Vec::new(), 0);
-    let folder = "crates/scene/src";
-    let is_table = |path: &std::path::PathBuf| {
-        path.starts_with(format!("{folder}/tables")) || path.ends_with(format!("{folder}/curve.rs"))
-    };
-    for path in files("rs").into_iter().filter(is_table) {
-        let text = read(&path);
-        let structs = text.lines().filter_map(|line| line.strip_prefix("pub struct ")?.strip_suffix(" {"));
-        let is_read = |name: &&str| {
-            text.split(&format!("pub struct {name} {{")).next().is_some_and(|before| {
-                before.rsplit("\n\n").next().is_some_and(|attributes| attributes.contains("Deserialize"))
-            })
-        };
-        let of_tables = structs.filter(is_read).flat_map(|name| keys(&text, name).into_keys());
-        let parameters = body(&text, "material! {").into_iter().filter(|line| !line.starts_with("///"));
-        let parameters = parameters.filter_map(|line| Some(line.split_once(':')?.0.to_owned()));
-        for key in of_tables.chain(parameters) {
-            count += 1;
-            if !words.contains(&key) {
-                problems.push(format!("{}: name its key `{key}` in docs/book/scene-keys.md", path.display()));
-            }
-        }
-    }
-    assert!(count > 80, "only {count} keys are found in {folder}");
-    assert_none(problems);
 }
 
 #[test]

@@ -6,29 +6,34 @@ use serde::Deserialize;
 
 use crate::check::numbers::{Problem, check_finite, check_positive, problem};
 
-/// `curve`: one of the four kinds. `on` and `off` belong together, and either may be left out.
+/// `curve`: a factor of time on a load or on a prescribed motion, of one of four kinds: `ramp`, `table`, `sine`, or `on` and `off`, either of
+/// which may be left out. Engine only, and not with `static`, whose loads grow with the load steps.
+///
+/// Implicit methods evaluate the factor at the end of a step (`implicit_midpoint` and `generalized_alpha` within it), explicit methods at
+/// the time of each stage.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct CurveTable {
-    /// Seconds in which the factor grows linearly from 0 to 1.
+    /// Time in which the factor grows linearly from 0 to 1, s; positive. The factor is 1 afterwards.
     pub ramp: Option<f64>,
-    /// Times (s) and factors between which the factor is linear.
+    /// Pairs of time (s) and factor, such as `[[0, 0], [2, 1]]`, whose times increase. The factor is linear between them, and constant
+    /// before the first and after the last.
     pub table: Option<Vec<Vec<f64>>>,
     /// A harmonic oscillation.
     pub sine: Option<SineTable>,
-    /// Time from which the factor is 1, s; before it the factor is 0.
+    /// Time from which the factor is 1, s; before it the factor is 0. Default: the start, if `off` is given.
     pub on: Option<f64>,
-    /// Time from which the factor is 0 again, s.
+    /// Time from which the factor is 0 again, s; later than `on`. Default: never, if `on` is given.
     pub off: Option<f64>,
 }
 
-/// sin(2π · frequency · t + phase)
+/// `sine`: the factor sin(2π · frequency · t + phase).
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct SineTable {
-    /// Hz
+    /// Frequency, Hz; positive.
     pub frequency: f64,
-    /// Radians.
+    /// Phase, rad.
     #[serde(default)]
     pub phase: f64,
 }

@@ -5,23 +5,38 @@ use serde::Deserialize;
 /// Time integration methods, as scene files and the command line spell them.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
-#[allow(missing_docs)] // the names are the field's
 pub enum Integrator {
+    /// Explicit Euler, first order. Motions grow without damping at any step.
     ExplicitEuler,
+    /// Semi-implicit Euler: explicit, symplectic, first order.
     SemiImplicitEuler,
+    /// Explicit midpoint rule, second order. Motions grow slowly.
     Rk2,
+    /// Classical Runge–Kutta method: explicit, fourth order.
     Rk4,
+    /// Verlet: explicit, symplectic, second order.
     Verlet,
+    /// Implicit Euler, linearized: one linear solve per step, first order.
     LinearlyImplicitEuler,
+    /// Implicit Euler with Newton's method, first order. Stable at any step.
     ImplicitEuler,
+    /// Implicit midpoint rule: symplectic, second order.
     ImplicitMidpoint,
+    /// Newmark's method, second order; by default the trapezoidal rule.
     Newmark,
+    /// Generalized-α method, second order: damps vibrations faster than the step.
     GeneralizedAlpha,
+    /// Backward differentiation formula of two steps, second order: ends vibrations faster than the step.
     Bdf2,
+    /// Position-based dynamics: lengths of edges and volumes of elements, without moduli; first order.
     Pbd,
+    /// Extended position-based dynamics, first order; sweeps over the elements converge to `implicit_euler`.
     Xpbd,
+    /// Vertex block descent, first order; sweeps over the nodes converge to `implicit_euler`.
     Vbd,
+    /// Projective dynamics, first order; local–global rounds converge to `implicit_euler`.
     ProjectiveDynamics,
+    /// Equilibrium by load steps.
     Static,
 }
 

@@ -32,8 +32,9 @@ const WHOLE: [&str; 17] = [
     "tests/functions",
 ];
 
-/// Parts of these folders that show what the engine computes.
-const ENGINES_OWN: [&str; 2] = ["src/demo/study", "include-docs/methods.md"];
+/// Parts of these folders that show what the engine computes, or write and compare pages that students do not receive.
+const LEFT_OUT: [&str; 4] =
+    ["src/demo/study", "include-docs/methods.md", "crates/scene/examples", "crates/scene/tests/reference.rs"];
 
 const ENGINE: &str = include_str!("../../handout/engine.rs");
 const BATCH: &str = include_str!("../../handout/batch.rs");
@@ -82,7 +83,7 @@ fn leave_out_the_engine(files: &mut Files) {
     let needs_it = |path: &Path, text: &[u8]| {
         path.starts_with("data/scenes") && String::from_utf8_lossy(text).contains("pipeline = \"engine\"")
     };
-    files.retain(|path, text| !ENGINES_OWN.iter().any(|own| path.starts_with(own)) && !needs_it(path, text));
+    files.retain(|path, text| !LEFT_OUT.iter().any(|own| path.starts_with(own)) && !needs_it(path, text));
     files.insert("src/demo/engine.rs".into(), ENGINE.into());
     files.insert("src/demo/batch.rs".into(), BATCH.into());
     files.insert("src/demo/study.rs".into(), STUDY.into());

@@ -2,13 +2,15 @@
 
 use serde::Deserialize;
 
-/// `[batch]`: many environments of one scene, which step together.
+/// `[batch]`: many environments of one scene, which step together. Engine only, and not with `static`.
+///
+/// Environment i of n has the value at i/(n − 1) of each range in `[batch.vary]`.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct BatchTable {
-    /// Number of environments.
+    /// Number of environments, 1 to 65 536.
     pub count: usize,
-    /// `[batch.vary]`
+    /// The quantities that differ from environment to environment.
     #[serde(default)]
     pub vary: VaryTable,
 }
@@ -17,13 +19,13 @@ pub struct BatchTable {
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct VaryTable {
-    /// `material.young`, Pa.
+    /// Range of `material.young`, Pa.
     pub young: Option<RangeTable>,
-    /// `material.poisson`.
+    /// Range of `material.poisson`.
     pub poisson: Option<RangeTable>,
-    /// `material.density`, kg/m³.
+    /// Range of `material.density`, kg/m³; not with `[[materials]]`.
     pub density: Option<RangeTable>,
-    /// Factor on `gravity.acceleration`.
+    /// Range of a factor on `gravity.acceleration`.
     pub gravity: Option<RangeTable>,
 }
 
@@ -31,11 +33,11 @@ pub struct VaryTable {
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct RangeTable {
-    /// Value of the first environment.
+    /// Value of the first environment, and of a single one.
     pub from: f64,
-    /// Value of the last.
+    /// Value of the last environment.
     pub to: f64,
-    /// How the values between are spaced; [`Spacing::Even`] by default.
+    /// Spacing of the values between.
     #[serde(default)]
     pub spacing: Spacing,
 }
@@ -47,6 +49,6 @@ pub enum Spacing {
     /// Equal differences.
     #[default]
     Even,
-    /// Equal ratios.
+    /// Equal ratios of positive values.
     Geometric,
 }

@@ -6,40 +6,43 @@ use serde::de::{Error, Visitor};
 use super::vectors::{edges_if_any, three_numbers, three_numbers_if_any, triangles_if_any, two_nodes};
 use super::{BoxTable, CurveTable, On, Selector, SphereTable};
 
-/// `[gravity]`
+/// `[gravity]`: the weight of every node.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct GravityTable {
-    /// m/s²
+    /// Acceleration, m/s².
     #[serde(deserialize_with = "three_numbers")]
     pub acceleration: [f64; 3],
-    /// Factor of time on it.
+    /// Factor of time on it. Engine only. Default: constant.
     pub curve: Option<CurveTable>,
 }
 
-/// `[body_force]`: a force on every part of the body, independent of its density.
+/// `[body_force]`: a force on every part of the body, independent of its density. Engine only.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct BodyForceTable {
     /// Force per undeformed volume, N/m³.
     #[serde(deserialize_with = "three_numbers")]
     pub density: [f64; 3],
-    /// Factor of time on it.
+    /// Factor of time on it. Default: constant.
     pub curve: Option<CurveTable>,
 }
 
-/// `[[traction]]`: a force on a part of the surface, spread evenly over it. One selector, and one kind of force.
+/// `[[traction]]`: a force on a part of the surface, spread evenly over it. One selector, and either `force_per_area` or `pressure`. Engine
+/// only.
+///
+/// A flat body is loaded on edges of its outline, `thickness` times their length.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct TractionTable {
-    /// All boundary triangles on one side of the mesh, or the whole boundary.
+    /// All boundary triangles near one side of the mesh, or the whole boundary.
     pub on: Option<On>,
     /// All boundary triangles in a box.
     #[serde(rename = "box")]
     pub cuboid: Option<BoxTable>,
     /// All boundary triangles in a sphere.
     pub sphere: Option<SphereTable>,
-    /// The triangles of a named set.
+    /// The triangles of a named set of the mesh.
     pub set: Option<String>,
     /// These boundary triangles, each by its three nodes in any order.
     #[serde(default, deserialize_with = "triangles_if_any")]
@@ -50,9 +53,9 @@ pub struct TractionTable {
     /// Dead load: force per undeformed area, Pa. It keeps its direction and its sum.
     #[serde(default, deserialize_with = "three_numbers_if_any")]
     pub force_per_area: Option<[f64; 3]>,
-    /// Follower load: pressure against the deformed surface, Pa; positive pushes inward.
+    /// Follower load: pressure against the deformed surface, Pa; positive pushes inwards.
     pub pressure: Option<f64>,
-    /// Factor of time on it.
+    /// Factor of time on it. Default: constant.
     pub curve: Option<CurveTable>,
 }
 
@@ -66,48 +69,52 @@ impl TractionTable {
     }
 }
 
-/// `[[springs]]`: a spring between two nodes, ½ k (|x_b − x_a| − l)².
+/// `[[springs]]`: a spring between two nodes with the energy ½ k (|x_b − x_a| − l)². Engine only.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct SpringTable {
-    /// The nodes a and b at its ends.
+    /// The nodes a and b at its ends, two different ones.
     #[serde(deserialize_with = "two_nodes")]
     pub nodes: [usize; 2],
-    /// k, N/m.
+    /// Stiffness k, N/m; positive.
     pub stiffness: f64,
-    /// l, m; by default the undeformed distance of the nodes.
+    /// Rest length l, m; at least 0. Default: the undeformed distance of the nodes.
     pub rest_length: Option<f64>,
-    /// c of the force c (v_b − v_a)·n along the spring, N s/m.
+    /// Coefficient c of a damper beside the spring with the force c (v_b − v_a)·n along it, N s/m; at least 0.
     #[serde(default)]
     pub damping: f64,
 }
 
-/// `[drag]`: a spring of zero rest length from a vertex to a target that oscillates about the vertex's undeformed position.
+/// `[drag]`: a spring of zero rest length that pulls a node towards a moving target: its undeformed position
+/// + direction · amplitude · sin(2π · frequency · t).
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct DragTable {
-    /// The vertex that the spring pulls.
+    /// The node that the spring pulls.
     pub vertex: DragVertex,
-    /// N/m
+    /// Stiffness of the spring, N/m; positive.
     pub stiffness: f64,
-    /// Used as given, not normalised.
+    /// Direction of the target's motion, not zero; used as given, not normalised.
     #[serde(deserialize_with = "three_numbers")]
     pub direction: [f64; 3],
-    /// m
+    /// Amplitude of the target's motion, m.
     pub amplitude: f64,
-    /// Hz
+    /// Frequency of the target's motion, Hz; at least 0.
     pub frequency: f64,
-    /// True if the stiffness contains the spring of the drag, or of the mouse in its place. In the course's pipeline it does not by default, as
-    /// in the assignment: linearly implicit Euler then treats the spring explicitly. Without `[drag]` it contains the mouse's spring. The engine's stiffness always contains it.
+    /// True if the stiffness contains the spring of the drag, or that of the mouse. In the assignment it does not, and
+    /// linearly implicit Euler treats the spring explicitly. The engine's stiffness always contains it; `false` is for
+    /// `pipeline = "course"`. Without `[drag]` the stiffness contains the spring of the mouse.
+    ///
+    /// Default: `false` in the pipeline `"course"`, `true` in `"engine"`.
     pub in_stiffness: Option<bool>,
 }
 
-/// The vertex of a drag.
+/// The node of a drag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DragVertex {
-    /// The first vertex of largest y.
+    /// `"highest"`: the first node of largest y.
     Highest,
-    /// The vertex of this index.
+    /// an index: the node of this index, from 0.
     Index(usize),
 }
 

@@ -38,10 +38,11 @@ pub(crate) const IN_PLANE_STRESS: [&str; 2] = ["linear", "corotated"];
 #[derive(Clone, Copy, Debug, Default, serde::Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum PlaneState {
-    /// The thickness stays as it is.
+    /// Plane strain: the thickness stays as it is, and a stress acts across the plane.
     #[default]
     Strain,
-    /// No stress acts across the plane, and the thickness changes.
+    /// Plane stress: no stress acts across the plane, and the thickness changes, as in a thin sheet. The laws `linear` and `corotated` have
+    /// it, without plastic flow.
     Stress,
 }
 
@@ -51,22 +52,23 @@ const ELASTIC: &[&str] = &["young", "poisson"];
 /// The table as a struct, with a list of its parameters: `name: range`, where `range` is a function that checks a number.
 macro_rules! material {
     ($($(#[$doc:meta])* $name:ident: $range:ident),* $(,)?) => {
-        /// `[[materials]]`: the material of a part of the body, named by one selector.
+        /// `[[materials]]`: another material than `[material]` for a part of the body, named by one selector. The last table that names an
+        /// element counts. Engine only, and not with `mass_spring`.
         #[derive(Clone, Debug, serde::Deserialize, PartialEq)]
         #[serde(deny_unknown_fields)]
         pub struct MaterialsTable {
-            /// All elements, or those near one side of the mesh.
+            /// All elements, or those whose centroid lies near one side of the mesh.
             pub on: Option<On>,
             /// The elements whose centroid lies in a box.
             #[serde(rename = "box")]
             pub cuboid: Option<BoxTable>,
             /// The elements whose centroid lies in a sphere.
             pub sphere: Option<SphereTable>,
-            /// The elements of a named set.
+            /// The elements of a named set of the mesh.
             pub set: Option<String>,
-            /// Name of the law, one of [`MODELS`], or `mass_spring`.
+            /// Constitutive law, by its name.
             pub model: String,
-            /// Density, kg/m³.
+            /// Density, kg/m³: mass per undeformed volume; positive.
             pub density: f64,
             $($(#[$doc])* pub $name: Option<f64>,)*
         }
@@ -78,17 +80,18 @@ macro_rules! material {
             }
         }
 
-        /// `[material]`
+        /// `[material]`: the constitutive law of the body, the parameters of that law and no others, and the density.
         #[derive(Clone, Debug, serde::Deserialize, PartialEq)]
         #[serde(deny_unknown_fields)]
         pub struct Material {
-            /// Name of the law, one of [`MODELS`], or `mass_spring`.
+            /// Constitutive law, by its name, or `"mass_spring"` for springs in place of elastic elements. The pipeline `"course"` has
+            /// `"neo_hookean"` alone.
             pub model: String,
-            /// Density, kg/m³.
+            /// Density, kg/m³: mass per undeformed volume; positive.
             pub density: f64,
-            /// Thickness of a flat body, m; 1 by default.
+            /// Thickness of a flat body, m; positive. Engine only. Default: 1.
             pub thickness: Option<f64>,
-            /// State of a flat body across its plane; plane strain by default.
+            /// State of a flat body across its plane. Engine only. Default: `"strain"`.
             pub plane: Option<PlaneState>,
             $($(#[$doc])* pub $name: Option<f64>,)*
         }
@@ -111,27 +114,28 @@ macro_rules! material {
 }
 
 material! {
-    /// Young's modulus at small strain, Pa.
+    /// Young's modulus at small strain, Pa; positive.
     young: positive,
-    /// Poisson's ratio at small strain.
+    /// Poisson's ratio at small strain, above −1 and below 0.5. Linear tetrahedra lock above 0.45, and a warning says so.
     poisson: poissons_ratio,
-    /// Neo-Hookean: half the shear modulus at small strain, Pa.
+    /// Neo-Hookean: half the shear modulus at small strain, Pa; positive.
     C: positive,
     /// Mooney–Rivlin: factor of Ī1 − 3, Pa.
     C10: finite,
     /// Mooney–Rivlin: factor of Ī2 − 3, Pa.
     C01: finite,
-    /// Yeoh: half the shear modulus at small strain, Pa.
+    /// Yeoh: half the shear modulus at small strain, Pa; positive.
     C1: positive,
     /// Yeoh: factor of (Ī1 − 3)², Pa.
     C2: finite,
     /// Yeoh: factor of (Ī1 − 3)³, Pa.
     C3: finite,
-    /// Half the bulk modulus at small strain, Pa.
+    /// Half the bulk modulus at small strain, Pa; positive.
     D: positive,
-    /// Mass-spring: stiffness of every edge, N/m.
+    /// Mass-spring: stiffness of every edge, N/m; positive. With `young` in its place an edge of length l has the stiffness E ΣV/l², summed
+    /// over its elements.
     stiffness: spring_stiffness,
-    /// Mass-spring: damping along every edge, N s/m.
+    /// Mass-spring: damping along every edge, N s/m; at least 0. Default: 0.
     damping: spring_damping,
 }
 

@@ -4,30 +4,32 @@ use serde::Deserialize;
 
 use crate::Integrator;
 
-/// `[time]`
+/// `[time]`: the time integration method and its steps.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct TimeTable {
-    /// Time step, s; optional for `static`.
+    /// Time step, s; positive. Required by every method but `static`. Default: 1 with `static`, so that the time counts the load steps.
     pub dt: Option<f64>,
-    /// Time integration method.
+    /// Time integration method. The pipeline `"course"` has `"linearly_implicit_euler"` and `"implicit_euler"`.
     pub integrator: Integrator,
-    /// Number of steps of a run without a window.
+    /// Number of steps of a run without a window, at least 1. Default: 100; with `static` the number of load steps.
     pub steps: Option<usize>,
-    /// Number of equal substeps in which each step is computed; 1 by default.
+    /// Number of equal substeps in which each step is computed, 1 to 100 000; not with `static` and `adaptive`. Statistics, tables, exports
+    /// and pictures are those of whole steps. Engine only. Default: 1.
     pub substeps: Option<usize>,
-    /// Computes each step in parts whose size follows an estimate of their error.
+    /// Adaptive steps: each step is computed in parts whose size follows an estimate of their error. Implicit methods of second order
+    /// only, and `newmark` with `gamma = 0.5`. Engine only. Default: none.
     pub adaptive: Option<AdaptiveTable>,
-    /// Number type of the engine's computations.
+    /// Number type of the engine's computations. Engine only.
     #[serde(default)]
     pub precision: Precision,
 }
 
-/// `adaptive` of `[time]`.
+/// `adaptive`: adaptive steps.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct AdaptiveTable {
-    /// Largest estimated error of a displacement that one time step `dt` adds, as a part of the body's length.
+    /// Largest estimated error of a displacement that one time step `dt` adds, as a part of the body's longest edge; above 0 and below 1.
     pub tolerance: f64,
 }
 
@@ -49,17 +51,17 @@ pub enum Precision {
     F32,
 }
 
-/// `[newton]`
+/// `[newton]`: Newton's method of `implicit_euler`, of the implicit methods of second order, and of `static`. Engine only.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct NewtonTable {
-    /// Largest number of iterations in a step.
+    /// Largest number of iterations in a step, at least 1. Default: 200; 2000 with `static`.
     pub max_iterations: Option<usize>,
-    /// Relative tolerance on the velocity update.
+    /// Relative tolerance on the update, above 0 and below 1. Default: 1e-10; 1e-6 in single precision.
     pub tolerance: Option<f64>,
-    /// Projection of element stiffnesses; [`Projection::WhenNeeded`] by default.
+    /// Projection of element stiffnesses to positive semi-definite ones. Default: `"when_needed"`.
     pub projection: Option<Projection>,
-    /// Whether steps that end before Newton's method has converged are good enough.
+    /// True if a run ends with exit code 0 although Newton's method has not converged in some of its steps.
     #[serde(default)]
     pub accept_unconverged: bool,
 }
@@ -68,59 +70,70 @@ pub struct NewtonTable {
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Projection {
-    /// Those whose exact matrix is not positive definite. Newton's method keeps its quadratic convergence.
+    /// The iterations whose exact matrix is not positive definite. Newton's method keeps its quadratic convergence.
     #[default]
     WhenNeeded,
-    /// All. Every direction is a descent direction, and convergence is linear.
+    /// All iterations. Every direction is a descent direction, and convergence is linear.
     Always,
-    /// None. A matrix that is not positive definite ends the step with an error.
+    /// No iteration. A matrix that is not positive definite ends the step with an error.
     Never,
 }
 
-/// `[iterations]`: the integrators `pbd`, `xpbd`, `vbd` and `projective_dynamics`.
+/// `[iterations]`: the iterations of the integrators `pbd`, `xpbd`, `vbd` and `projective_dynamics`. Engine only.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct IterationsTable {
-    /// Sweeps, or local–global rounds, in a step; 20 by default.
+    /// Number of sweeps, or of local–global rounds, in a step, 1 to 1 000 000. Default: 20.
     pub count: Option<usize>,
-    /// Relative change of the velocity in an iteration below which a step ends before `count` of them.
+    /// Relative change of the velocity in an iteration below which a step ends before `count` of them; above 0 and below 1. Default: none.
     pub tolerance: Option<f64>,
-    /// Spectral radius of Chebyshev acceleration; none by default.
+    /// Spectral radius of Chebyshev acceleration of `vbd`, from 0 to below 1. Default: none.
     pub acceleration: Option<f64>,
-    /// Stiffness of the constraints of `pbd`, 0 to 1; 1 by default.
+    /// Stiffness of the constraints of `pbd`, 0 to 1. Default: 1.
     pub stiffness: Option<f64>,
-    /// Whether `xpbd` keeps the residual of the equation of motion, so that its iterations converge to implicit Euler; `true` by default.
+    /// True if `xpbd` keeps the residual of the equation of motion, so that its iterations converge to implicit Euler; without it sweeps are
+    /// cheaper and converge elsewhere. Default: `true`.
     pub residual: Option<bool>,
-    /// Whether steps that end before the iterations have settled are good enough.
+    /// True if a run ends with exit code 0 although the iterations of some of its steps have not settled.
     #[serde(default)]
     pub accept_unconverged: bool,
 }
 
-/// `[solver]`
+/// `[solver]`: the linear solver of implicit methods and of `static`. Engine only.
+///
+/// Without the table the engine takes `cholesky` up to 2000 nodes (`static`: 5000), and beyond them `pcg` with `ssor` (`static`:
+/// `multigrid`).
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct SolverTable {
-    /// The solver.
+    /// Linear solver.
     pub kind: SolverKind,
-    /// Relative residual of the iterative solvers.
+    /// Relative residual at which the iterative solvers end, above 0 and below 1. Default: 1e-12.
     pub tolerance: Option<f64>,
-    /// Preconditioner of `pcg`; [`Preconditioner::BlockJacobi`] by default.
+    /// Preconditioner of `pcg`; with this kind only. Default: `"block_jacobi"`.
     pub preconditioner: Option<Preconditioner>,
-    /// Number type on the graphics device of `gpu`; [`Precision::F32`] by default.
+    /// Number type on the graphics device of `gpu`; with this kind only. Default: `"f32"`.
     pub precision: Option<Precision>,
 }
 
 /// Linear solvers.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
-#[allow(missing_docs)] // the names are the field's
 pub enum SolverKind {
+    /// Sparse Cholesky factorization of a symmetric positive definite matrix.
     Cholesky,
+    /// Sparse LU factorization.
     Lu,
+    /// Conjugate gradients.
     Cg,
+    /// Preconditioned conjugate gradients.
     Pcg,
+    /// Steepest descent, for teaching.
     SteepestDescent,
+    /// Conjugate directions, for teaching: the iterates of `cg` by Gram–Schmidt's method; it keeps every direction, and is refused for more
+    /// than 1000 nodes.
     ConjugateDirections,
+    /// Conjugate gradients on the graphics device.
     Gpu,
 }
 
@@ -139,44 +152,51 @@ pub enum Preconditioner {
     Ssor,
 }
 
-/// `[damping]`: Rayleigh damping, the force −(α M + β K) v.
+/// `[damping]`: Rayleigh damping, the force −(α M + β K) v. Engine only, and not with `static`.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct DampingTable {
-    /// α of the mass, 1/s. It damps low frequencies most.
+    /// Factor α of the mass, 1/s; at least 0. It damps low frequencies most.
     #[serde(default)]
     pub alpha: f64,
-    /// β of the stiffness, s. It damps high frequencies most.
+    /// Factor β of the stiffness, s; at least 0. It damps high frequencies most.
     #[serde(default)]
     pub beta: f64,
 }
 
-/// `[static]`: equilibrium by the integrator `static`.
+/// `[static]`: the load steps of the integrator `static`. Engine only.
+///
+/// Without the table there is one load step.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct StaticTable {
-    /// Number of equal load steps in which loads and prescribed motions are applied.
+    /// Number of equal load steps in which loads and prescribed motions grow, one per step; at least 1.
     pub load_steps: usize,
-    /// Whether the load factor is an unknown, so that the equilibrium path is followed through its limit points.
+    /// True if the load factor is an unknown, so that the equilibrium path goes on through its limit points; `load_steps` then sets the
+    /// length of the first step.
     #[serde(default)]
     pub arc_length: bool,
 }
 
-/// `[newmark]`: parameters of the integrator `newmark`.
+/// `[newmark]`: parameters of the integrator `newmark`. Engine only.
+///
+/// The defaults are the trapezoidal rule. With 2 `beta` < `gamma` the method has a critical time step.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct NewmarkTable {
-    /// β, part of the acceleration at the end of a step in its displacement; ¼ by default.
+    /// Part β of the acceleration at the end of a step in its displacement, 1/12 to 1; `0.083333333333` has the most accurate periods.
+    /// Default: 0.25.
     pub beta: Option<f64>,
-    /// γ, the same in its velocity; ½ by default.
+    /// Part γ of that acceleration in the velocity, 0.5 to 1. Default: 0.5.
     pub gamma: Option<f64>,
 }
 
-/// `[generalized_alpha]`: the parameter of the integrator `generalized_alpha`.
+/// `[generalized_alpha]`: the parameter of the integrator `generalized_alpha`. Engine only.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct GeneralizedAlphaTable {
-    /// ρ∞, the factor by which a step changes the amplitude of infinitely fast vibrations; 0.8 by default.
+    /// Spectral radius ρ∞, 0 to 1: the part of the amplitude that a step leaves of infinitely fast vibrations. Older scenes
+    /// call it `rho_inf`. Default: 0.8.
     #[serde(alias = "rho_inf")]
     pub spectral_radius: Option<f64>,
 }

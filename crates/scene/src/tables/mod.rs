@@ -53,7 +53,7 @@ pub struct Scene {
     /// One line about the scene.
     #[serde(default)]
     pub about: String,
-    /// The pipeline that runs the scene.
+    /// The implementation that simulates the scene.
     pub pipeline: Pipeline,
     /// `[mesh]`
     pub mesh: MeshTable,
@@ -117,38 +117,45 @@ pub struct Scene {
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Pipeline {
-    /// The functions of the assignment.
+    /// The 22 functions of the course. It has the integrators `linearly_implicit_euler` and `implicit_euler` and the law `neo_hookean`.
     Course,
-    /// The fast engine.
+    /// The engine, which has every key.
     Engine,
 }
 
-/// `[mesh]`: exactly one source of elements.
+/// `[mesh]`: the elements of the body. Exactly one of `file`, `files`, `box`, `surface`, `picture` and `rectangle` is their source.
+///
+/// Paths are those of files beside the scene or in `data`.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct MeshTable {
-    /// A file of tetrahedra.
+    /// A file of tetrahedra, or of the triangles of a flat body: `.node` with `.ele`, `.mesh` (Medit), `.msh` (Gmsh 2 and 4, text and
+    /// binary), `.vtu` or `.vtk`, each also compressed as `.gz`.
     pub file: Option<PathBuf>,
-    /// Several files of tetrahedra; all tetrahedra of each are a set of the file's name without its extension.
+    /// Several such files, at least one: the bodies of one scene. All tetrahedra of a file are a set of the file's name without its
+    /// extension. Bodies do not touch each other, unless `[[springs]]` connect them.
     pub files: Option<Vec<PathBuf>>,
-    /// A box.
+    /// A box that is cut into tetrahedra.
     #[serde(rename = "box")]
     pub cuboid: Option<Cuboid>,
-    /// The inside of a surface.
+    /// The inside of a surface, filled with tetrahedra when the scene is loaded.
     pub surface: Option<SurfaceTable>,
-    /// A flat body: the region of a picture.
+    /// A flat body: the region of a picture, filled with triangles when the scene is loaded, as `mesh from-picture` does. Engine only.
     pub picture: Option<PictureTable>,
-    /// A flat body: a rectangle.
+    /// A flat body: a rectangle that is cut into triangles. Engine only.
     pub rectangle: Option<RectangleTable>,
-    /// A surface file to display instead of the boundary of the tetrahedra.
+    /// A surface (`.obj`, `.ply`, `.stl`) that is drawn in place of the boundary of the tetrahedra and follows their motion; not with a
+    /// flat body. Default: none, the boundary is drawn.
     pub display: Option<PathBuf>,
-    /// Factor on all coordinates of the tetrahedra and the display surface.
+    /// Factor on all coordinates of the elements and of the display surface; positive.
     #[serde(default = "one")]
     pub scale: f64,
-    /// Number of uniform refinements, each of which cuts every tetrahedron into eight, or every triangle of a flat body into four.
+    /// Number of uniform refinements, 0 to 4. Each of them cuts every tetrahedron into eight, or every triangle of a flat body into four.
+    /// Engine only.
     #[serde(default)]
     pub refine: u32,
-    /// Polynomial order of the elements: 1, or 2 for the quadratic triangles of a flat body.
+    /// Polynomial order of the elements: 1, or 2 for the quadratic triangles of a flat body, which have a node on the middle of every
+    /// edge. Engine only.
     #[serde(default = "first")]
     pub order: u32,
 }
@@ -161,29 +168,29 @@ fn first() -> u32 {
     1
 }
 
-/// A box from the origin, cut into cubes of six tetrahedra each.
+/// `box`: a box from the origin, cut into cubes of six tetrahedra each.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Cuboid {
     /// Edge lengths, m.
     #[serde(deserialize_with = "vectors::three_numbers")]
     pub size: [f64; 3],
-    /// Cubes per metre.
+    /// Number of cubes per metre.
     pub cells_per_unit: usize,
 }
 
-/// `picture`: triangles are made inside the region of a picture.
+/// `picture`: the region of a picture, filled with triangles.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct PictureTable {
     /// A PNG or JPEG file.
     pub file: PathBuf,
-    /// Height of the region, m unless `scale` changes it.
+    /// Height of the region, m unless `scale` changes it; positive.
     #[serde(default = "one")]
     pub height: f64,
     /// Mean edge of the triangles, in the unit of `height`.
     pub edge: f64,
-    /// Iterations of optimal Delaunay triangulation.
+    /// Number of iterations of optimal Delaunay triangulation, which improve the shapes of the triangles.
     #[serde(default = "five")]
     pub improve: usize,
 }
@@ -192,47 +199,49 @@ fn five() -> usize {
     5
 }
 
-/// A rectangle in the plane z = 0 from the origin, cut into squares of two triangles each.
+/// `rectangle`: a rectangle in the plane z = 0 from the origin, cut into squares of two triangles each.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct RectangleTable {
     /// Edge lengths, m.
     pub size: [f64; 2],
-    /// Squares per metre.
+    /// Number of squares per metre.
     pub cells_per_unit: usize,
 }
 
-/// `surface`: tetrahedra are made inside a surface.
+/// `surface`: the inside of a surface, filled with tetrahedra.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceTable {
-    /// A file of triangles.
+    /// A file of triangles: `.obj`, `.ply` or `.stl`.
     pub file: PathBuf,
     /// Mean edge of the tetrahedra in the file's unit of length, m unless `scale` changes it.
     pub edge: f64,
-    /// How often the edges may double towards the inside.
+    /// Number of times that the edges may double in length towards the inside.
     #[serde(default)]
     pub grading: usize,
-    /// Passes of improvement, in which the nodes of the boundary slide on the surface.
+    /// Number of passes of improvement, in which the nodes of the boundary slide on the surface.
     #[serde(default)]
     pub improve: usize,
 }
 
-/// `[mass]`
+/// `[mass]`: the mass matrix. Engine only.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct MassTable {
-    /// Whether the mass matrix is lumped: each row is summed on the diagonal. By default it is for explicit methods and large bodies,
-    /// see [`Body::lumped_mass`](crate::Body::lumped_mass).
+    /// True if the mass is lumped at the nodes: each row of the mass matrix is summed on the diagonal. Default: `true` for `pbd`, `xpbd`
+    /// and `vbd`, and for explicit methods with more than 2000 nodes or with obstacles.
     pub lumped: Option<bool>,
 }
 
 /// A coordinate axis; its number is the index of the coordinate.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
-#[allow(missing_docs)]
 pub enum Axis {
+    /// The x axis.
     X,
+    /// The y axis.
     Y,
+    /// The z axis.
     Z,
 }

@@ -2,21 +2,22 @@
 
 use serde::Deserialize;
 
-/// `[plasticity]`
+/// `[plasticity]`: plastic flow of every element. Every material has the law of the model: `corotated` for `additive`, `hencky` for `j2`.
+/// Engine only.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct PlasticityTable {
-    /// The model.
+    /// Model of plastic flow.
     pub model: PlasticModel,
-    /// Additive: elastic strain beyond which the material flows.
+    /// `additive`, which requires it: elastic strain beyond which the material flows; positive.
     pub yield_strain: Option<f64>,
-    /// Additive: rate of the flow, 1/s.
+    /// `additive`, which requires it: rate of the flow, 1/s; positive.
     pub creep: Option<f64>,
-    /// Additive: bound of the plastic strain; unbounded by default.
+    /// `additive`: bound of the plastic strain; positive. Default: unbounded.
     pub maximum: Option<f64>,
-    /// J2: yield stress in tension, Pa.
+    /// `j2`, which requires it: yield stress in tension, Pa; positive.
     pub yield_stress: Option<f64>,
-    /// J2: growth of the yield stress with the equivalent plastic strain, Pa; 0 by default.
+    /// `j2`: growth of the yield stress with the equivalent plastic strain, Pa; at least 0. Default: 0.
     pub hardening: Option<f64>,
 }
 
@@ -24,7 +25,7 @@ pub struct PlasticityTable {
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum PlasticModel {
-    /// Strain is the sum of an elastic and a plastic one; the flow has a rate.
+    /// Strain is the sum of an elastic and a plastic one; the flow has a rate, and `static` is refused.
     Additive,
     /// Von Mises plasticity: the deformation gradient is the product of an elastic and a plastic one; the flow has no rate.
     J2,

@@ -7,18 +7,23 @@ use serde::de::{Deserializer, Error, MapAccess, Unexpected, Visitor};
 use super::vectors::three_numbers;
 use super::{Axis, Side};
 
-/// A part of the mesh, by the one key that a table gives.
+/// A part of the mesh, by the one key that a table gives. A selection without a node, an element or a triangle is an error.
+///
+/// A triangle is selected if all of its corners are, an element if its centroid is, an edge of a flat body's outline if its two ends are.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Selector {
     /// `on`, `plane`, `box` or `sphere`: a region of space.
     Region(Region),
-    /// `set`: a named set of the mesh.
+    /// `set`: a named set of the mesh: a physical group of a Gmsh file by its name, or by its number if it has no name (`"7"`); a file of
+    /// `[mesh] files` by its name without extension. A set gives the nodes of its triangles, lines and points, or those of its tetrahedra
+    /// if it has nothing else; a traction takes its triangles. `mesh info FILE` lists the sets of a file;
+    /// `scale` and `refine` keep them.
     Set(String),
-    /// `nodes`: these nodes.
+    /// `nodes`: nodes by their index from 0, such as `[0, 4, 7]`.
     Nodes(Vec<usize>),
-    /// `faces`: these triangles of the boundary.
+    /// `faces`: triangles of the boundary by their nodes, such as `[[4, 0, 1], [4, 1, 5]]`.
     Faces(Vec<[usize; 3]>),
-    /// `edges`: these edges of a flat body's outline.
+    /// `edges`: edges of a flat body's outline by their two ends, such as `[[0, 1], [1, 2]]`.
     Edges(Vec<[usize; 2]>),
 }
 
@@ -69,12 +74,12 @@ impl Selector {
     }
 }
 
-/// The key `on`: everything, or one side.
+/// `on`: the whole mesh, or everything near one side.
 #[derive(Clone, Debug, PartialEq)]
 pub enum On {
-    /// `"all"`
+    /// `"all"`: all nodes or elements, or the whole boundary.
     All,
-    /// `{ axis, side, within }`
+    /// `{ axis, side, within }`: everything within a distance of one side, such as `{ axis = "x", side = "max", within = 1e-9 }`.
     Side(SidePlane),
 }
 
@@ -88,48 +93,48 @@ impl On {
     }
 }
 
-/// All nodes within a distance of one side of the mesh's bounding box.
+/// `on = { … }`: everything within a distance of one side of the mesh's bounding box.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct SidePlane {
     /// The coordinate that is constant on the side.
     pub axis: Axis,
-    /// The side of its smallest or of its largest value.
+    /// The side of the smallest or of the largest value of this coordinate.
     pub side: Side,
-    /// Largest distance from that value, m.
+    /// Largest distance from that value, m; at least 0.
     pub within: f64,
 }
 
-/// All nodes whose coordinate is at most the mesh's smallest plus `below`.
+/// `plane`: all nodes whose coordinate is at most the mesh's smallest plus `below`.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Plane {
     /// The coordinate that is constant on the plane.
     pub axis: Axis,
-    /// Distance from the smallest coordinate of the mesh, m.
+    /// Distance from the smallest coordinate of the mesh, m; at least 0.
     pub below: f64,
 }
 
-/// A box parallel to the axes, its surface included.
+/// `box`: a box parallel to the axes, its surface included.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct BoxTable {
     /// Smallest coordinates, m.
     #[serde(deserialize_with = "three_numbers")]
     pub min: [f64; 3],
-    /// Largest coordinates, m.
+    /// Largest coordinates, m; at least those of `min`.
     #[serde(deserialize_with = "three_numbers")]
     pub max: [f64; 3],
 }
 
-/// A ball, its surface included.
+/// `sphere`: a ball, its surface included.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct SphereTable {
-    /// m
+    /// Centre, m.
     #[serde(deserialize_with = "three_numbers")]
     pub center: [f64; 3],
-    /// m
+    /// Radius, m; positive.
     pub radius: f64,
 }
 
