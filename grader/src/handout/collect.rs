@@ -12,7 +12,7 @@ use super::{Files, HandoutError, manifest, stub};
 use crate::rubric::{Role, Rubric};
 
 /// Files and folders that are handed out whole. The tests of the repository, its map and its history are not.
-const WHOLE: [&str; 17] = [
+const WHOLE: [&str; 16] = [
     ".gitignore",
     "LICENSE-APACHE",
     "LICENSE-MIT",
@@ -25,7 +25,6 @@ const WHOLE: [&str; 17] = [
     "crates/scene",
     "crates/viewer",
     "data",
-    "docs/armadillo.png",
     "grader/child",
     "include-docs",
     "src",
