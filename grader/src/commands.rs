@@ -251,8 +251,8 @@ fn told(summary: Result<class::Summary, class::ClassError>, out: &Path) -> Done 
     println!("{} graded: {} now, {} before", summary.graded_now + summary.kept, summary.graded_now, summary.kept);
     match count(|outcome| matches!(outcome, Outcome::NoSubmission(_))) {
         0 => {}
-        1 => println!("1 student of students.csv has submitted nothing"),
-        several => println!("{several} students of students.csv have submitted nothing"),
+        1 => println!("1 student of the roster has submitted nothing"),
+        several => println!("{several} students of the roster have submitted nothing"),
     }
     print!("{}", reports::regrade::text(&summary.changes));
     for entry in &summary.entries {

@@ -14,7 +14,7 @@ use fingerprints::{Document, Given, all_pieces};
 use origin::Origin;
 use pairs::Pair;
 
-/// Pairs that share less of their own text have no page: independent solutions share up to 0.15, and whole copies in disguise at least
+/// Pairs that share less of their own text have no page: independent solutions share up to 0.21, and whole copies in disguise at least
 /// 0.7.
 pub const LEAST_SHARE: f64 = 0.25;
 

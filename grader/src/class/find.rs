@@ -33,6 +33,9 @@ use parts::Part;
 use rosters::Listed;
 use students::{STUDENTS, Time, apply};
 
+/// Folder that macOS adds to archives.
+const PACKED_BY_MACOS: &str = "__MACOSX";
+
 /// Contents of a class folder.
 pub struct Class {
     /// Submissions; that of a group is listed once for each of its students.
@@ -93,15 +96,16 @@ pub fn class(folder: &Path, roster: Option<&Path>, counts: Counts) -> Result<Cla
     Ok(Class { submissions, people, remarks, gathered })
 }
 
-/// The folder of an export of Gradescope inside of the one into which it was unpacked, or the folder itself.
+/// The folder `assignment_…_export` of Gradescope, if nothing else is in the one into which it was unpacked; or the folder itself.
 fn exported(folder: &Path) -> io::Result<PathBuf> {
-    if folder.join(gradescope::METADATA).exists() {
-        return Ok(folder.to_owned());
-    }
-    let inner = fs::read_dir(folder)?.flatten().map(|entry| entry.path().join(gradescope::METADATA));
-    let inner: Vec<PathBuf> = inner.filter(|metadata| metadata.is_file()).collect();
-    match &inner[..] {
-        [one] => Ok(one.parent().unwrap_or(folder).to_owned()),
+    let entries = fs::read_dir(folder)?.collect::<io::Result<Vec<_>>>()?;
+    let is_visible = |name: &str| !name.starts_with('.') && name != PACKED_BY_MACOS;
+    let visible: Vec<_> = entries.iter().filter(|entry| is_visible(&entry.file_name().to_string_lossy())).collect();
+    let is_export = |name: &str| name.starts_with("assignment_") && name.ends_with("_export");
+    match &visible[..] {
+        [one] if is_export(&one.file_name().to_string_lossy()) && one.path().join(gradescope::METADATA).is_file() => {
+            Ok(one.path())
+        }
         _ => Ok(folder.to_owned()),
     }
 }
@@ -135,7 +139,9 @@ fn list(folder: &Path) -> Result<Found, ClassError> {
             found.rosters.push((name, gradescope::read(&text)));
             continue;
         }
+        // A table that a student has handed in is no roster, whatever it says.
         if name.to_lowercase().ends_with(".csv")
+            && !names::is_of_a_platform(&name)
             && let Some(rows) = rosters::read(&path)?
         {
             found.rosters.push((name, rows));
@@ -154,7 +160,7 @@ impl Found {
     fn add(&mut self, name: String, path: PathBuf, read: Name) {
         if let Some(part) = Part::of(&read, &path).filter(|_| path.is_file()) {
             self.parts.push(part);
-        } else if name.starts_with('.') || !(path.is_dir() || stem(&name).is_some()) {
+        } else if name.starts_with('.') || name == PACKED_BY_MACOS || !(path.is_dir() || stem(&name).is_some()) {
             let remark = "left aside, it is neither a folder nor a .zip, .tar, .tar.gz or .tgz";
             self.remarks.push(format!("{name}: {remark}"));
         } else if name.contains("_assignsubmission_onlinetext") {

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::collections::{BTreeSet, HashMap};
 
 use super::names::repeated;
-use super::owners::unlisted;
+use super::owners::{further, unlisted};
 use super::{Person, Submission};
 
 /// Gives the further attempts of a listed author, such as `anna (1)` or `anna-1` beside `anna`, to the students of the listed
@@ -19,20 +19,30 @@ pub fn join(
     let (mut listed, others): (Vec<_>, Vec<_>) = submissions.drain(..).partition(is_given);
     for submission in others {
         let author = submission.author.student();
-        let first = [author.as_str(), repeated(&author).0];
-        let of_first = listed.iter().filter(|listed| first.contains(&listed.author.student().as_str()));
-        let students: BTreeSet<String> = of_first.map(|listed| listed.student.clone()).collect();
         let known = |name: &str| people.iter().any(|person| person.student == name);
         if known(&author) {
             listed.push(submission);
-        } else if !students.is_empty() {
-            listed.extend(students.into_iter().map(|student| Submission { student, ..submission.clone() }));
-        } else if known(first[1]) {
-            listed.push(Submission { student: first[1].to_owned(), ..submission });
-        } else {
+            continue;
+        }
+        let students = |of: &str| -> BTreeSet<String> {
+            let of_author = listed.iter().filter(|listed| listed.author.student() == of);
+            let itself = known(of).then(|| of.to_owned());
+            of_author.map(|listed| listed.student.clone()).chain(itself).collect()
+        };
+        let (first, number) = repeated(&author);
+        let (students, attempt) = match students(&author) {
+            own if own.is_empty() => (students(first), number),
+            own => (own, submission.attempt),
+        };
+        if students.is_empty() {
             remarks.push(unlisted(&submission, "students.csv"));
             listed.push(submission);
+            continue;
         }
+        if attempt != submission.attempt {
+            remarks.push(further(&submission, first));
+        }
+        listed.extend(students.into_iter().map(|student| Submission { student, attempt, ..submission.clone() }));
     }
     *submissions = listed;
 }

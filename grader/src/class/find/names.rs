@@ -65,6 +65,11 @@ impl Name {
     }
 }
 
+/// Returns true for a name that a platform gave to a student's file.
+pub fn is_of_a_platform(name: &str) -> bool {
+    moodle(name).is_some() || canvas(name).is_some()
+}
+
 /// Returns true if most names are those of Canvas. A single one may look so by chance.
 pub fn are_of_canvas<'a>(names: impl Iterator<Item = &'a str>) -> bool {
     let (mut of_canvas, mut others) = (0, 0);

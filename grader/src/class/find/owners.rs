@@ -53,7 +53,6 @@ fn owners<'a>(students: &'a [Listed], submission: &Submission) -> Vec<&'a Listed
             let by_group = all(&|listed| listed.groups.iter().any(|group| letters(group) == letters(name)));
             let by_name = all(&|listed| is_named(listed) && (listed.participant.is_empty() || number.is_empty()));
             let found = [by_number, by_group, by_name];
-            // Two students of one name are told apart by nothing else.
             let is_clear =
                 |(kind, found): &(usize, Vec<&Listed>)| !found.is_empty() && (*kind == 1 || found.len() == 1);
             found.into_iter().enumerate().find(is_clear).map_or(Vec::new(), |(_, found)| found)
@@ -64,11 +63,13 @@ fn owners<'a>(students: &'a [Listed], submission: &Submission) -> Vec<&'a Listed
                 [student, login, email, id, name].map(String::clone)
             };
             let found = all(&|listed| labels(listed).contains(name));
-            if found.is_empty() {
+            let found = if found.is_empty() {
                 all(&|listed| labels(listed).iter().any(|label| label == repeated(name).0))
             } else {
                 found
-            }
+            };
+            // Two students of one name are told apart by nothing else.
+            if found.iter().all(|listed| listed.person.student == found[0].person.student) { found } else { Vec::new() }
         }
     }
 }
@@ -78,21 +79,30 @@ fn letters(name: &str) -> String {
     name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
-/// A remark on a submission of Canvas with another name than its student's: the group's.
+/// A remark on a submission with another name than its student's: a group's of Canvas, or `anna-1` for `anna`.
 fn another_name(submission: &Submission, owner: &Listed) -> Option<String> {
-    let Author::Canvas { name, .. } = &submission.author else { return None };
     let sorted = |name: &str| {
         let mut letters: Vec<char> = letters(name).chars().collect();
         letters.sort_unstable();
         letters
     };
-    let is_same = name.is_empty() || sorted(name) == sorted(&owner.person.name);
-    (!is_same).then(|| {
-        format!(
-            "{}: counts for {} alone, whose number it has; if it is a group's, students.csv must name the others",
-            submission.name, owner.person.student
-        )
-    })
+    let Person { student, login, email, id, name: full, .. } = &owner.person;
+    match &submission.author {
+        Author::Canvas { name, .. } if !name.is_empty() && sorted(name) != sorted(full) => Some(format!(
+            "{}: counts for {student} alone, whose number it has; if it is a group's, students.csv must name the others",
+            submission.name
+        )),
+        Author::Own(name) if ![student, login, email, id, full].contains(&name) => Some(further(submission, student)),
+        _ => None,
+    }
+}
+
+/// A remark on a submission that counts as a further attempt by its name alone.
+pub fn further(submission: &Submission, student: &str) -> String {
+    format!(
+        "{}: counts as a further attempt of {student}; if it is another student's, the table must say so",
+        submission.name
+    )
 }
 
 /// A remark on a submission that counts for nobody whom the table names.

@@ -219,8 +219,32 @@ fn a_second_attempt_belongs_to_the_first_and_an_unlisted_folder_is_told() {
         ("bob", "bob-1", ""),
     ];
     assert_eq!(rows(&class), expected);
-    let told = "Mallory: students.csv does not list it; it counts as the submission of another student, Mallory";
-    assert_eq!(class.remarks, [told]);
+    let told = [
+        "Mallory: students.csv does not list it; it counts as the submission of another student, Mallory",
+        "bob-1: counts as a further attempt of bob; if it is another student's, the table must say so",
+    ];
+    assert_eq!(class.remarks, told);
+}
+
+#[test]
+fn no_file_of_a_student_passes_for_a_roster_or_for_the_class() {
+    let forged = GRADEBOOK.replace("4711", "4712");
+    let folder = download(&[
+        ("gradebook.csv", GRADEBOOK),
+        ("doejane_4711_98765_hw.zip", BODY),
+        ("roejohn_4712_98766_hw.zip", BODY),
+        ("roejohn_4712_98767_students.csv", &forged),
+        ("__MACOSX/._x", ""),
+    ]);
+    assert_eq!(rows(&found(&folder)), [("jdoe", "doejane_4711_98765_hw", ""), ("jroe", "roejohn_4712_98766_hw", "")]);
+    let metadata = "---\nx:\n  :submitters:\n  - :name: Eve\n";
+    let folder =
+        download(&[("assignment_1_export/submission_metadata.yml", metadata), ("bob/src/psi_neo_hookean.rs", BODY)]);
+    assert_eq!(rows(&found(&folder)), [("assignment_1_export", "assignment_1_export", ""), ("bob", "bob", "")]);
+    let twins = "First Name,Last Name,SID,Email\nAnn,Loe,1,a@x.org\nAnn,Loe,2,b@x.org\n";
+    let folder = download(&[("roster.csv", twins), ("Ann Loe.zip", BODY), ("1.zip", BODY)]);
+    let class = found(&folder);
+    assert_eq!(rows(&class), [("Ann Loe", "Ann Loe", ""), ("a@x.org", "1", "")]);
 }
 
 #[test]
