@@ -142,6 +142,10 @@ fn moodle_s_flat_download_its_groups_and_its_list_of_participants_are_read() {
     assert_eq!(students, ["jane@x.org", "john@x.org"]);
     assert!(class.submissions.iter().all(is_read) && class.remarks.is_empty(), "{:?}", class.remarks);
 
+    let folder =
+        download(&[("w.csv", WORKSHEET), ("Team Red-Jane Doe_657737_assignsubmission_file_/psi_neo_hookean.rs", BODY)]);
+    assert_eq!(rows(&found(&folder))[0].0, "jane@x.org");
+
     // The number is the group's here, and happens to be that of a participant.
     let folder = download(&[("w.csv", WORKSHEET), ("Team Red_657739_assignsubmission_file_/psi_neo_hookean.rs", BODY)]);
     let students: Vec<_> = found(&folder).submissions.iter().map(|one| one.student.clone()).collect();
