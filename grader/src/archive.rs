@@ -1,12 +1,12 @@
 //! Submissions as archives: `.zip`, `.tar.gz`, `.tgz` and `.tar`, unpacked into memory, within limits, and never onto the disk.
 
-use std::fs::File;
+use std::fs::{DirEntry, File};
 use std::io::{self, Read};
 use std::path::Path;
 
 use flate2::read::MultiGzDecoder;
 use grader::submission::entries::{Content, Entry, may_be_taken};
-use grader::submission::{MAX_FILE_BYTES, Submission, Unreadable};
+use grader::submission::{MAX_FILE_BYTES, Source, Submission, Unreadable};
 
 /// All that is unpacked of one archive, bytes.
 const MAX_BYTES: u64 = 64 << 20;
@@ -23,11 +23,58 @@ const MAX_ENTRIES: usize = 10_000;
 /// The endings of archives, longest first.
 const ENDINGS: [&str; 4] = [".tar.gz", ".tgz", ".tar", ".zip"];
 
-/// Reads a submission: a folder or an archive.
+/// Reads a submission: a folder, an archive, or a folder with an archive in it, as Moodle gives one for each student.
 pub fn read_submission(path: &Path) -> Result<Submission, Unreadable> {
-    if path.is_dir() {
-        return Submission::read_folder(path);
+    if !path.is_dir() {
+        return read_archive(path);
     }
+    let refused = match Submission::read_folder(path) {
+        Ok(submission) if submission.functions.values().any(|source| !matches!(source, Source::Missing(_))) => {
+            return Ok(submission);
+        }
+        refused => refused,
+    };
+    let archives = archives_in(path);
+    let Some(archive) = latest(&archives) else {
+        return match archives.len() {
+            0 => refused,
+            _ => Err(unreadable(format!("it holds several archives ({}); hand in one", archives.join(", ")))),
+        };
+    };
+    let mut submission = read_archive(&path.join(archive))?;
+    submission.name = name(path);
+    Ok(submission)
+}
+
+/// The archives in a folder, by name.
+fn archives_in(folder: &Path) -> Vec<String> {
+    let Ok(listing) = folder.read_dir() else { return Vec::new() };
+    let is_file = |entry: &DirEntry| entry.file_type().is_ok_and(|kind| kind.is_file());
+    let names = listing.flatten().filter(is_file).map(|entry| entry.file_name().to_string_lossy().into_owned());
+    let mut names: Vec<_> = names.filter(|name| !name.starts_with('.') && stem(name).is_some()).collect();
+    names.sort();
+    names
+}
+
+/// The last attempt among archives of one name; `None` among different names.
+fn latest(archives: &[String]) -> Option<&String> {
+    let numbered = |name: &String| attempt(stem(name).map_or(name, |(stem, _)| stem)).1;
+    let base = |name: &String| attempt(stem(name).map_or(name, |(stem, _)| stem)).0.to_owned();
+    let is_same = archives.windows(2).all(|pair| base(&pair[0]) == base(&pair[1]));
+    archives.iter().filter(|_| is_same).max_by_key(|name| numbered(name))
+}
+
+/// A name without the number that a browser adds to a second download or upload of it, as in `anna (1)`, and that number.
+pub fn attempt(name: &str) -> (&str, u64) {
+    let parts = name.strip_suffix(')').and_then(|rest| rest.rsplit_once('('));
+    let parts = parts.map(|(base, number)| (base.trim_end(), number.parse()));
+    match parts {
+        Some((base, Ok(number))) if !base.is_empty() => (base, number),
+        _ => (name, 0),
+    }
+}
+
+fn read_archive(path: &Path) -> Result<Submission, Unreadable> {
     let Some((name, ending)) = ending(path) else {
         return Err(unreadable("it is neither a folder nor a .zip, .tar.gz, .tgz or .tar; hand in one of these"));
     };
@@ -55,10 +102,15 @@ pub fn name(path: &Path) -> String {
 /// A path's file name without the ending of an archive, and that ending.
 fn ending(path: &Path) -> Option<(String, &'static str)> {
     let name = path.file_name()?.to_string_lossy().into_owned();
+    stem(&name).map(|(stem, ending)| (stem.to_owned(), ending))
+}
+
+/// A file's name without the ending of an archive, and that ending.
+pub fn stem(name: &str) -> Option<(&str, &'static str)> {
     let lower = name.to_ascii_lowercase();
-    let ending = ENDINGS.into_iter().find(|ending| lower.ends_with(ending))?;
     // Lower case has the same length, in ASCII.
-    Some((name[..name.len() - ending.len()].to_owned(), ending))
+    let ending = ENDINGS.into_iter().find(|ending| lower.ends_with(ending) && lower.len() > ending.len())?;
+    Some((name.get(..name.len() - ending.len())?, ending))
 }
 
 fn unreadable(reason: impl Into<String>) -> Unreadable {

@@ -2,10 +2,12 @@
 //!
 //! A finished grade lies complete in `OUT/grades/KEY`, so that grading may be killed at any time and started again.
 
+mod empty;
 mod find;
 mod folders;
 mod key;
 mod merge;
+mod opened;
 mod person;
 mod process;
 mod regrade;
@@ -20,12 +22,14 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
+use tempfile::TempDir;
 
 use crate::assess::Accounts;
 use crate::grade::Grade;
 use crate::rubric::Counts;
 pub use folders::{apart, distinct};
 pub use key::Identity;
+pub use opened::open;
 pub use person::Person;
 pub use process::end_with;
 pub use regrade::Change;
@@ -42,6 +46,8 @@ pub type Write = fn(&Grade, &Path, bool) -> io::Result<()>;
 pub struct ClassOptions {
     /// Folder of the submissions: each sub-folder and each `.zip`, `.tar.gz` or `.tgz` is one; `students.csv` may name students.
     pub folder: PathBuf,
+    /// The table of the students in place of `students.csv`, or a platform's roster.
+    pub roster: Option<PathBuf>,
     /// Folder of the results, those of earlier runs included.
     pub out: PathBuf,
     /// Number of submissions that are graded at a time; at least one.
@@ -169,7 +175,7 @@ pub fn run(options: &ClassOptions) -> Result<Summary, ClassError> {
         return Err(ClassError::Shard(k, n));
     }
     let rubric = options.accounts.rubric();
-    let mut class = find::class(&options.folder, rubric.counts)?;
+    let mut class = find::class(&options.folder, options.roster.as_deref(), rubric.counts)?;
     class.remarks.extend(roster::strangers(options, &class)?);
     if let Some((k, n)) = options.shard {
         class.submissions.retain(|submission| key::shard(&submission.student, n) == k);
@@ -177,6 +183,8 @@ pub fn run(options: &ClassOptions) -> Result<Summary, ClassError> {
     }
     let identity = Identity::of(&options.grader, options.seed, rubric, &options.extra)?;
     let store = store::Store::open(&options.out)?;
+    // Before hours of grading, because a wrong roster is best mended first.
+    class.remarks.iter().for_each(|remark| eprintln!("note: {remark}"));
     schedule::grade(options, class, identity, &store)
 }
 
@@ -187,9 +195,18 @@ pub struct Listed {
     pub students: Vec<String>,
 }
 
-/// All submissions of a folder, with remarks on what else is there.
-pub fn list(folder: &Path) -> Result<(Vec<Listed>, Vec<String>), ClassError> {
-    let class = find::class(folder, Counts::Best)?;
+/// All submissions of a folder.
+pub struct List {
+    pub submissions: Vec<Listed>,
+    /// Remarks on what else is there.
+    pub remarks: Vec<String>,
+    /// The folders of submissions that came as single files, which last as long as this value.
+    _gathered: Option<TempDir>,
+}
+
+/// Lists the submissions of a folder. A roster takes the place of all tables in it.
+pub fn list(folder: &Path, roster: Option<&Path>) -> Result<List, ClassError> {
+    let class = find::class(folder, roster, Counts::Best)?;
     let mut listed: Vec<Listed> = Vec::new();
     for found in class.submissions {
         match listed.iter_mut().find(|listed| listed.path == found.path) {
@@ -197,7 +214,7 @@ pub fn list(folder: &Path) -> Result<(Vec<Listed>, Vec<String>), ClassError> {
             None => listed.push(Listed { submission: found.name, path: found.path, students: vec![found.student] }),
         }
     }
-    Ok((listed, class.remarks))
+    Ok(List { submissions: listed, remarks: class.remarks, _gathered: class.gathered })
 }
 
 /// Folders of the reports for the graded students of a class, and their release time.

@@ -44,8 +44,11 @@ pub enum Command {
     },
     /// Grade every submission in a folder; goes on where it was stopped.
     Class {
-        /// A folder with a folder or archive for each submission.
+        /// A folder with a folder or archive for each submission, or the archive that Canvas, Moodle or Gradescope give for download.
         folder: PathBuf,
+        /// A table of the students like students.csv, or a roster of Canvas, Moodle or Gradescope, in place of those among the submissions.
+        #[arg(long, value_name = "FILE")]
+        roster: Option<PathBuf>,
         #[command(flatten)]
         options: GradeOptions,
         /// Submissions at a time; one for each core unless told.
@@ -74,8 +77,14 @@ pub enum Command {
     },
     /// Compare the submissions of a folder with each other, and write pages to read similar ones side by side.
     Similar {
-        /// A folder with a folder or archive for each submission.
+        /// A folder with a folder or archive for each submission, or the archive that Canvas, Moodle or Gradescope give for download.
         folder: PathBuf,
+        /// A table of the students like students.csv, or a roster of Canvas, Moodle or Gradescope, in place of those among the submissions.
+        #[arg(long, value_name = "FILE")]
+        roster: Option<PathBuf>,
+        /// Code that you gave beside the handout, and that is left out too: files or folders.
+        #[arg(long, value_name = "PATH", num_args = 1..)]
+        given: Vec<PathBuf>,
         /// A new or empty folder.
         #[arg(long, value_name = "DIR")]
         out: PathBuf,

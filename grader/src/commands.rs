@@ -116,8 +116,7 @@ fn writable(out: &Path) -> Done {
 
 /// Reads a submission. One that cannot be read is graded without any function, and the report gives the reason.
 fn read(path: &Path) -> Submission {
-    let read = if path.is_dir() { Submission::read_folder(path) } else { archive::read_submission(path) };
-    read.unwrap_or_else(|error| {
+    archive::read_submission(path).unwrap_or_else(|error| {
         let why = "the submission cannot be read";
         let functions: BTreeMap<_, _> = NAMES.into_iter().map(|name| (name, Source::Missing(why.to_owned()))).collect();
         Submission { name: archive::name(path), functions, remarks: vec![error.to_string()] }
@@ -162,7 +161,7 @@ pub fn sandbox_layers() -> Done {
 }
 
 pub fn class(
-    folder: &Path,
+    (folder, roster): (&Path, Option<PathBuf>),
     options: &GradeOptions,
     jobs: Option<usize>,
     shard: Option<(usize, usize)>,
@@ -173,6 +172,8 @@ pub fn class(
     if let Some(name) = functions.iter().find(|name| rubric.role(name) != Role::Asked) {
         return Err(unusable(format!("--function {name}: the rubric asks for no such function")));
     }
+    let opened = class::open(folder).map_err(unusable)?;
+    let folder = opened.folder.as_path();
     let adjustments = Adjustments::of_class(folder, &rubric).map_err(unusable)?;
     let accounts = Accounts::new(rubric.clone(), adjustments);
     let longest = Duration::from_secs_f64(LONGEST * rubric.submission_seconds.max(60.0));
@@ -186,6 +187,7 @@ pub fn class(
     let cores = thread::available_parallelism().map_or(1, Into::into);
     let summary = class::run(&class::ClassOptions {
         folder: folder.to_owned(),
+        roster,
         out: options.out.clone(),
         jobs: jobs.unwrap_or(cores).max(1),
         shard,
@@ -209,29 +211,30 @@ pub fn feedback(results: &Path, out: &Path, archive: Option<&Path>) -> Done {
     Ok(())
 }
 
-pub fn similar(folder: &Path, out: &Path, rubric: Option<&Path>) -> Done {
+pub fn similar((folder, roster): (&Path, Option<&Path>), given: &[PathBuf], out: &Path, rubric: Option<&Path>) -> Done {
     let rubric = Rubric::load(rubric).map_err(unusable)?;
-    class::apart(folder, out).map_err(unusable)?;
+    let opened = class::open(folder).map_err(unusable)?;
+    class::apart(&opened.folder, out).map_err(unusable)?;
     new_folder::check(out).map_err(unusable)?;
-    let (listed, remarks) = class::list(folder).map_err(unusable)?;
-    let given = similar::given(&handout::files(&repository(), &rubric).map_err(failed)?);
-    let document = |listed: class::Listed| {
+    let class = class::list(&opened.folder, roster).map_err(unusable)?;
+    let mut handout = handout::files(&repository(), &rubric).map_err(failed)?;
+    given.iter().try_for_each(|path| handout::add_given(path, &mut handout)).map_err(unusable)?;
+    let given = similar::given(&handout);
+    let document = |listed: &class::Listed| {
         let mut texts = similar::texts(&read(&listed.path));
         texts.retain(|(name, _)| rubric.role(name) == Role::Asked);
-        Document::new(listed.submission, listed.students, texts, &given)
+        Document::new(listed.submission.clone(), listed.students.clone(), texts, &given)
     };
-    let documents: Vec<Document> = listed.into_iter().map(document).collect();
-    let pairs = similar::pairs::pairs(&documents);
+    let documents: Vec<Document> = class.submissions.iter().map(document).collect();
+    let found = similar::Found::in_class(&documents);
     let written = new_folder::create(out, |out| {
-        reports::similar::write(&documents, &pairs, out)
+        reports::similar::write(&documents, &found, out)
             .map_err(|error| FolderError::Io { path: out.to_owned(), error })
     });
     written.map_err(unusable)?;
-    remarks.iter().for_each(|remark| println!("{remark}"));
-    let told = pairs.iter().filter(|pair| pair.share >= similar::LEAST_SHARE).count();
-    let pairs = if told == 1 { "1 pair shares".to_owned() } else { format!("{told} pairs share") };
-    let share = 100.0 * similar::LEAST_SHARE;
-    println!("{} submissions; {pairs} {share} % or more: {}", documents.len(), out.join("similar.html").display());
+    class.remarks.iter().for_each(|remark| println!("{remark}"));
+    print!("{}", reports::similar::text(&documents, &found));
+    println!("{}", out.join("similar.html").display());
     Ok(())
 }
 
@@ -248,8 +251,8 @@ fn told(summary: Result<class::Summary, class::ClassError>, out: &Path) -> Done 
     println!("{} graded: {} now, {} before", summary.graded_now + summary.kept, summary.graded_now, summary.kept);
     match count(|outcome| matches!(outcome, Outcome::NoSubmission(_))) {
         0 => {}
-        1 => println!("1 student of students.csv has submitted nothing"),
-        several => println!("{several} students of students.csv have submitted nothing"),
+        1 => println!("1 student of the roster has submitted nothing"),
+        several => println!("{several} students of the roster have submitted nothing"),
     }
     print!("{}", reports::regrade::text(&summary.changes));
     for entry in &summary.entries {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use grader::status::Status;
+use grader::submission::NAMES;
 use grader_child::wire;
 use serde::{Deserialize, Serialize};
 
@@ -38,11 +39,26 @@ pub struct Grade {
     /// Points by hand and lateness, if they have been applied.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub account: Option<Account>,
+    /// Where students find the page of a function: an address with `{name}` in it, relative to their repository unless it begins with
+    /// `http`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pages: Option<String>,
     /// The whole simulation at several time steps, with `--report`; it does not count for points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub study: Option<Study>,
     /// Processor time of this grading with all its processes, s; on a system without that counter, the wall-clock time.
     pub seconds: f64,
+}
+
+/// The pages in the students' repository.
+const PAGES: &str = "include-docs/{name}.md";
+
+impl Grade {
+    /// The address of a function's page; `None` for what is no function of the course.
+    pub fn page_of(&self, function: &str) -> Option<String> {
+        let pages = self.pages.as_deref().unwrap_or(PAGES);
+        NAMES.contains(&function).then(|| pages.replace("{name}", function))
+    }
 }
 
 /// Steps from the points of the checks to the final score.

@@ -138,6 +138,7 @@ impl Grading {
             functions,
             simulation,
             account: None,
+            pages: self.rubric.students.pages.clone(),
             study,
             seconds: timer.seconds(),
         };

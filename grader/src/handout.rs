@@ -52,6 +52,12 @@ pub fn files(root: &Path, rubric: &Rubric) -> Result<Files, HandoutError> {
     collect::collect(root, rubric)
 }
 
+/// Adds what an instructor has given beside the handout: a file or a folder, under its absolute path.
+pub fn add_given(path: &Path, files: &mut Files) -> Result<(), HandoutError> {
+    let path = std::path::absolute(path).map_err(HandoutError::io(path))?;
+    collect::add(Path::new(""), &path, files)
+}
+
 /// Writes the students' repository of the repository `root` for the assignment of a rubric into the new or empty folder `to`.
 pub fn write(root: &Path, rubric: &Rubric, to: &Path) -> Result<(), HandoutError> {
     check_place(root, to)?;

@@ -48,11 +48,13 @@ fn main() -> ExitCode {
         Command::Grade { submission, options, metadata, again, ends_with } => {
             commands::grade(&submission, &options, metadata.as_deref(), &again, ends_with)
         }
-        Command::Class { folder, options, jobs, shard, only, function } => {
-            commands::class(&folder, &options, jobs, shard, (only, function))
+        Command::Class { folder, roster, options, jobs, shard, only, function } => {
+            commands::class((&folder, roster), &options, jobs, shard, (only, function))
         }
         Command::Feedback { results, out, zip } => commands::feedback(&results, &out, zip.as_deref()),
-        Command::Similar { folder, out, rubric } => commands::similar(&folder, &out, rubric.as_deref()),
+        Command::Similar { folder, roster, given, out, rubric } => {
+            commands::similar((&folder, roster.as_deref()), &given, &out, rubric.as_deref())
+        }
         Command::Merge { folders, out } => commands::merge(&folders, &out),
         Command::Sandbox => commands::sandbox_layers(),
         Command::Pack { platform, out, seed, rubric, vendor } => {

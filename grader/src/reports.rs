@@ -32,6 +32,7 @@ use std::path::Path;
 
 use crate::class::Summary;
 use crate::grade::Grade;
+pub use view::points;
 
 /// Contents of the reports of one submission.
 #[derive(Clone, Debug, Default)]
@@ -75,7 +76,7 @@ pub fn write_class(summary: &Summary, folder: &Path) -> io::Result<()> {
         write_file(folder, "regrade.csv", &regrade::csv(&summary.changes)?)?;
         write_file(folder, "regrade.html", &regrade::html(&summary.changes))?;
     }
-    write_file(folder, "class.html", &class_html::render(&rows))
+    write_file(folder, "class.html", &class_html::render(&rows, summary))
 }
 
 /// Replaces a file atomically, so that a reader sees either the whole new file or the old one.

@@ -89,6 +89,9 @@ pub struct Students {
     pub hints: bool,
     /// Time from which on `feedback` may be given.
     pub release: Option<deadline::Time>,
+    /// Address of the page of a function, with `{name}` in place of its name. Unless given, `include-docs/{name}.md` in the students'
+    /// repository.
+    pub pages: Option<String>,
 }
 
 /// The submission of a student that counts.

@@ -55,7 +55,7 @@ pub struct Submission {
 }
 
 impl Submission {
-    /// Reads a folder that holds `src/NAME.rs`, itself or in the one folder in it. Never follows a symbolic link.
+    /// Reads a folder that holds `src/NAME.rs`, itself or in a folder in it, or `NAME.rs` alone. Never follows a symbolic link.
     pub fn read_folder(folder: &Path) -> Result<Self, Unreadable> {
         let entries = folder::entries(folder)?;
         Self::from_entries(display_name(folder), entries)

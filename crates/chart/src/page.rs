@@ -6,7 +6,7 @@ use crate::{Picture, STYLE};
 
 /// A page with the style of reports. A script shows the titles of dots, cells and bars at once, under a finger too.
 pub fn page(title: &str, body: Markup) -> String {
-    document(title, PAGE, Some(SCRIPT), body)
+    document(title, PAGE, Some((SCRIPT, "'unsafe-inline'")), body)
 }
 
 /// A page with a style of its own, and without scripts.
@@ -14,8 +14,14 @@ pub fn static_page(title: &str, style: &str, body: Markup) -> String {
     document(title, style, None, body)
 }
 
-fn document(title: &str, style: &str, script: Option<&str>, body: Markup) -> String {
-    let scripts = if script.is_some() { "; script-src 'unsafe-inline'" } else { "" };
+/// A page with a style and a script of its own. `source` is the script's hash as a Content Security Policy names it, so that a browser
+/// runs this script and no other.
+pub fn scripted_page(title: &str, style: &str, (script, source): (&str, &str), body: Markup) -> String {
+    document(title, style, Some((script, source)), body)
+}
+
+fn document(title: &str, style: &str, script: Option<(&str, &str)>, body: Markup) -> String {
+    let scripts = script.map_or(String::new(), |(_, source)| format!("; script-src {source}"));
     let page = html! {
         (DOCTYPE) "\n"
         html lang="en" {
@@ -30,7 +36,7 @@ fn document(title: &str, style: &str, script: Option<&str>, body: Markup) -> Str
             }
             body {
                 main { "\n" (body) "\n" }
-                @if let Some(script) = script { script { "\n" (PreEscaped(script)) } }
+                @if let Some((script, _)) = script { script { (PreEscaped(script)) } }
             }
         }
     };
@@ -76,7 +82,10 @@ mod tests {
 
     #[test]
     fn pages_load_no_external_resource() {
-        for page in [page("a <page>", html! { p { "text" } }), static_page("a <page>", "", html! { p { "text" } })] {
+        let text = || html! { p { "text" } };
+        let scripted = scripted_page("a <page>", "", ("let x = 1;", "'sha256-x='"), text());
+        assert!(scripted.contains("script-src 'sha256-x='") && scripted.contains("<script>let x = 1;</script>"));
+        for page in [page("a <page>", text()), static_page("a <page>", "", text()), scripted] {
             assert!(page.contains("<title>a &lt;page&gt;</title>") && page.contains("default-src 'none'"));
             for word in ["http://", "https://", "src=", "@import", "url("] {
                 assert!(!page.contains(word), "{word}");

@@ -66,6 +66,26 @@ fn every_kind_of_archive_gives_the_same_submission() {
 }
 
 #[test]
+fn a_folder_with_an_archive_in_it_is_the_archive() {
+    let folder = tempfile::tempdir().unwrap();
+    let ada = folder.path().join("Ada Doe_17_assignsubmission_file_");
+    fs::create_dir(&ada).unwrap();
+    fs::write(ada.join("hw.zip"), zip_of(&[("hw/psi_neo_hookean.rs", b"old")])).unwrap();
+    fs::write(ada.join("hw (1).zip"), zip_of(&[("hw/psi_neo_hookean.rs", BODY.as_bytes())])).unwrap();
+    let submission = read_submission(&ada).unwrap();
+    assert_eq!(submission.name, "Ada Doe_17_assignsubmission_file_");
+    assert_eq!(submission.functions["psi_neo_hookean"], Source::Written(BODY.to_owned()), "the second attempt counts");
+    fs::write(ada.join("other.zip"), zip_of(&[("src/psi_neo_hookean.rs", b"other")])).unwrap();
+    assert!(
+        read_submission(&ada)
+            .is_err_and(|error| error.to_string().contains("several archives (hw (1).zip, hw.zip, other.zip)"))
+    );
+    fs::write(ada.join("psi_neo_hookean.rs"), BODY).unwrap();
+    let submission = read_submission(&ada).unwrap();
+    assert_eq!(submission.functions["psi_neo_hookean"], Source::Written(BODY.to_owned()), "files come before archives");
+}
+
+#[test]
 fn what_is_no_archive_or_damaged_is_told_and_no_fault() {
     let zip = zip_of(&[("src/psi_neo_hookean.rs", BODY.as_bytes())]);
     let tar = gzip(&tar_of(&[("src/psi_neo_hookean.rs", &[b' '; 5000])]));

@@ -8,10 +8,10 @@ use std::process::Command;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use grader::submission::MAX_FILE_BYTES;
+use grader::submission::{MAX_FILE_BYTES, entries};
 
 use super::{ClassError, at};
-use crate::archive::MAX_ARCHIVE_BYTES;
+use crate::archive::{self, MAX_ARCHIVE_BYTES};
 use crate::rubric::Rubric;
 
 /// Settings that all grades of a class share.
@@ -89,8 +89,8 @@ fn add_file(hash: &mut Sha256, path: &Path) -> io::Result<()> {
     }
 }
 
-/// A grader looks for `TOP/src/NAME.rs` and no deeper.
-const DEPTH: usize = 3;
+/// A grader looks for `NAME.rs` in so many folders of a submission and no deeper.
+const DEPTH: usize = entries::DEPTH + 1;
 
 /// With more entries than this, a grader looks at none of a folder.
 const MOST_ENTRIES: usize = 10_000;
@@ -105,20 +105,22 @@ fn add_path(hash: &mut Sha256, path: &Path, depth: usize, largest: u64) -> io::R
         add(hash, fs::read_link(path)?.as_os_str().as_encoded_bytes());
     } else if kind.is_dir() {
         add(hash, b"folder");
-        let entries = if depth == 0 { 0 } else { MOST_ENTRIES + 1 };
-        let listing = fs::read_dir(path)?.take(entries);
+        let most = if depth == 0 { 0 } else { MOST_ENTRIES + 1 };
+        let listing = fs::read_dir(path)?.take(most);
         let mut names = listing.map(|entry| Ok(entry?.file_name())).collect::<io::Result<Vec<_>>>()?;
         if names.len() > MOST_ENTRIES {
             add(hash, b"too many");
             return Ok(());
         }
         // Folders of cargo and git are large and never graded.
-        names.retain(|name| name != "target" && name != ".git");
+        names.retain(|name| !entries::is_passed_over(&name.to_string_lossy()) || !path.join(name).is_dir());
         names.sort();
         hash.update((names.len() as u64).to_le_bytes());
         for name in names {
             add(hash, name.as_encoded_bytes());
-            add_path(hash, &path.join(name), depth - 1, MAX_FILE_BYTES)?;
+            let is_archive = archive::stem(&name.to_string_lossy()).is_some();
+            let largest = if is_archive { MAX_ARCHIVE_BYTES } else { MAX_FILE_BYTES };
+            add_path(hash, &path.join(name), depth - 1, largest)?;
         }
     } else if kind.is_file() {
         add(hash, b"file");

@@ -12,14 +12,17 @@ pub struct Person {
     pub login: String,
     pub email: String,
     pub section: String,
+    /// Canvas' own number of the student.
+    #[serde(default)]
+    pub canvas: String,
 }
 
 impl Person {
     /// Fills in the identifiers of another row.
     pub fn complete(&mut self, other: Self) {
-        let Self { name, id, login, email, section, .. } = other;
-        let own = [&mut self.name, &mut self.id, &mut self.login, &mut self.email, &mut self.section];
-        for (own, told) in own.into_iter().zip([name, id, login, email, section]) {
+        let Self { name, id, login, email, section, canvas, student: _ } = other;
+        let own = [&mut self.name, &mut self.id, &mut self.login, &mut self.email, &mut self.section, &mut self.canvas];
+        for (own, told) in own.into_iter().zip([name, id, login, email, section, canvas]) {
             if own.is_empty() {
                 *own = told;
             }

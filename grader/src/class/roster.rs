@@ -52,6 +52,11 @@ pub fn strangers(options: &ClassOptions, class: &Class) -> Result<Vec<String>, C
     let mut remarks: Vec<String> = adjusted
         .chain(extended.map(|name| format!("the rubric has an extension for {name}, who is no student")))
         .collect();
+    let late = class.submissions.iter().filter(|submission| submission.is_late && submission.stated_time().is_none());
+    let late: Vec<&str> = late.map(|submission| submission.name.as_str()).collect();
+    if rubric.deadline.is_some() && !late.is_empty() {
+        remarks.push(format!("marked as late, but without a time: {}; give times in students.csv", late.join(", ")));
+    }
     let by_file = class.submissions.iter().filter(|submission| submission.stated_time().is_none()).count();
     if rubric.deadline.is_some() && by_file > 0 {
         remarks.push(format!(

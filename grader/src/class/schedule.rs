@@ -12,8 +12,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::find::{Class, Submission};
 use super::process::{Interrupt, Process, State};
 use super::store::{self, Store};
-use super::{ClassError, ClassOptions, Entry, Identity, Outcome, Summary, at, regrade, roster};
+use super::{ClassError, ClassOptions, Entry, Identity, Outcome, Summary, at, empty, regrade, roster};
 use crate::grade::Grade;
+use crate::reports;
 use crate::rubric::{Counts, NoSubmission};
 
 /// Interval at which processes are polled.
@@ -62,6 +63,8 @@ pub fn grade(options: &ClassOptions, class: Class, identity: Identity, store: &S
         sleep(TICK);
     }
     schedule.bar.finish_and_clear();
+    let empty = empty::remarks(&schedule.summary.entries);
+    schedule.summary.remarks.extend(empty);
     let after = regrade::table(&schedule.summary.entries);
     schedule.summary.changes = regrade::changes(&before, &after);
     store.publish(&schedule.summary, options.report)?;
@@ -260,7 +263,11 @@ impl<'a> Schedule<'a> {
         let outcome = result.unwrap_or_else(Outcome::NotGraded);
         let name = &self.submissions[index].name;
         let line = match &outcome {
-            Outcome::Graded(grade, _) => format!("{name}: {} of {}", grade.score, grade.max_score),
+            Outcome::Graded(grade, _) => {
+                let [score, most] = [grade.score, grade.max_score].map(reports::points);
+                let why = empty::reason(grade).map_or(String::new(), |why| format!("; {why}"));
+                format!("{name}: {score} of {most}{why}")
+            }
             Outcome::NotGraded(reason) => format!("{name}: not graded: {reason}"),
             _ => name.clone(),
         };

@@ -14,6 +14,7 @@ use crate::assess::Adjustments;
 use crate::reports;
 use crate::rubric::{Counts, Rubric};
 
+mod imports;
 mod people;
 mod regrading;
 mod shards;
@@ -103,6 +104,7 @@ impl Room {
 fn options(base: &Path) -> ClassOptions {
     ClassOptions {
         folder: base.join("hw"),
+        roster: None,
         out: base.join("out"),
         jobs: 1,
         shard: None,
@@ -271,7 +273,7 @@ fn archives_and_folders_are_found_under_names_that_differ() {
     for name in ["anna.zip", "bob@2026.tar.gz", "carl__hw1.TGZ", "dora.rar", ".zip"] {
         fs::write(room.path("hw").join(name), name).unwrap();
     }
-    let class = find::class(&room.path("hw"), Counts::Newest).unwrap();
+    let class = find::class(&room.path("hw"), None, Counts::Newest).unwrap();
     let names: Vec<_> = class.submissions.iter().map(|found| (found.student.as_str(), found.name.as_str())).collect();
     assert_eq!(names, [("anna", "anna"), ("anna", "anna.zip"), ("bob", "bob@2026"), ("carl", "carl__hw1")]);
     assert_eq!(class.remarks.len(), 3, "{:?}", class.remarks);

@@ -89,7 +89,7 @@ fn leave_out_the_engine(files: &mut Files) {
 }
 
 /// Adds a file or a folder, without hidden files and build products.
-fn add(root: &Path, path: &Path, files: &mut Files) -> Result<(), HandoutError> {
+pub fn add(root: &Path, path: &Path, files: &mut Files) -> Result<(), HandoutError> {
     let full = root.join(path);
     if !full.is_dir() {
         files.insert(path.to_owned(), fs::read(&full).map_err(HandoutError::io(&full))?);

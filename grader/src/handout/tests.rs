@@ -95,6 +95,19 @@ fn links_of_its_pages_lead_somewhere() {
 }
 
 #[test]
+fn commands_on_its_pages_fit_a_window_of_1280_pixels() {
+    // Beside the list of sections such a window has room for so many letters of code.
+    const MOST: usize = 95;
+    let folder = root().join("include-docs");
+    for name in names(&folder).into_iter().filter(|name| name.ends_with(".md")) {
+        let page = fs::read_to_string(folder.join(&name)).unwrap();
+        let blocks = page.split("```").skip(1).step_by(2).filter(|block| !block.starts_with("math"));
+        let long = blocks.flat_map(str::lines).find(|line| line.chars().count() > MOST);
+        assert_eq!(long, None, "{name} has a line of code that is cut off");
+    }
+}
+
+#[test]
 fn folders_that_hold_something_or_lie_in_the_sources_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("mine"), "").unwrap();

@@ -1,15 +1,16 @@
 //! `class.html`: a whole class on one page, for the instructor.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use fem_chart::{Axis, Bar, Chart, Dot, Series, bars, histogram};
 use grader::status::Status;
 use maud::{Markup, html};
 
-use super::page::{chart, figure, name, page};
+use super::page::{chart, figure, name, page_with_table};
 use super::rows::Row;
 use super::study::{CHART, REFERENCE, SUBMISSION};
 use super::{escape, view};
+use crate::class::{Person, Summary};
 use crate::grade::Grade;
 
 /// Groups of statuses, with the numbers of their colours.
@@ -19,33 +20,37 @@ const GROUPS: [(&str, usize); 4] = [("passed", 2), ("failed", 7), ("no answer", 
 const DIAGNOSES: usize = 15;
 
 /// The text of `class.html`. Figures and charts include graded submissions only; the table includes all.
-pub fn render(rows: &[Row]) -> String {
+pub fn render(rows: &[Row], summary: &Summary) -> String {
     let grades: Vec<&Grade> = rows.iter().filter_map(Row::grade).collect();
     let shares: Vec<f64> = grades.iter().map(|grade| share(grade)).collect();
     let body = html! {
-        (head(rows, &grades))
+        (head(rows, &grades, &summary.title))
         div class="charts" {
             (chart("Scores", &histogram("Distribution of scores", &shares), "Submissions by share of the points."))
             (error_against_time(rows))
             (success(&grades))
             (common_diagnoses(&grades))
         } "\n"
-        (table(rows))
+        (table(rows, &summary.people))
     };
-    page("Class", body)
+    page_with_table(&format!("{}: class", summary.title), body)
 }
 
-fn head(rows: &[Row], grades: &[&Grade]) -> Markup {
+fn head(rows: &[Row], grades: &[&Grade], title: &str) -> Markup {
     let submissions = rows.iter().filter(|row| row.has_submission()).count();
+    let names = rows.iter().filter(|row| row.has_submission()).map(|row| row.entry.submission.as_str());
+    let different = names.collect::<BTreeSet<_>>().len();
     let mut shares: Vec<f64> = grades.iter().map(|grade| share(grade)).collect();
     shares.sort_by(f64::total_cmp);
     let percent = |share: Option<f64>| share.map_or("–".to_owned(), |share| format!("{:.0} %", 100.0 * share));
     let mean = (!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64);
     let complete = grades.iter().filter(|grade| view::parts(grade).all(|p| p.status == Status::Passed)).count();
     html! {
-        h1 { "Class" }
+        h1 { (escape::line(title)) }
         div class="figures" {
             (figure(&submissions.to_string(), "students with a submission"))
+            // Groups hand in one for several students.
+            @if different < submissions { (figure(&different.to_string(), "submissions")) }
             @if grades.len() < submissions { (figure(&(submissions - grades.len()).to_string(), "without a grade")) }
             @if submissions < rows.len() { (figure(&(rows.len() - submissions).to_string(), "students without a submission")) }
             (figure(&percent(median(&shares)), "median score"))
@@ -177,38 +182,51 @@ fn common_diagnoses(grades: &[&Grade]) -> Markup {
     }
 }
 
-fn table(rows: &[Row]) -> Markup {
+fn table(rows: &[Row], people: &[Person]) -> Markup {
+    let has_names = people.iter().any(|person| !person.name.is_empty());
     html! {
-        h2 { "Submissions" }
-        div class="scroll" { table {
-            tr {
-                th { "student" } th { "submission" } th class="right" { "points" } th class="right" { "functions" }
-                th class="right" { "worst error" } th class="right" { "run time" } th { "remarks" }
-            } "\n"
-            @for row in rows { (line(row)) "\n" }
+        h2 { "Students and submissions" }
+        div class="scroll" { table class="sortable" {
+            thead { tr {
+                th { "student" } @if has_names { th { "name" } } th { "submission" } th class="right" { "points" }
+                th class="right" { "functions" } th class="right extra" { "worst error" } th class="right extra" { "run time" }
+                th { "remarks" }
+            } } "\n"
+            tbody { "\n" @for row in rows { (line(row, has_names.then_some(people))) "\n" } }
         } }
     }
 }
 
-fn line(row: &Row) -> Markup {
+/// A row of the table; with people, it has their names.
+fn line(row: &Row, people: Option<&[Person]>) -> Markup {
     let submission = escape::line(&row.entry.submission);
-    let figures = row.grade().map_or(["–"; 4].map(str::to_owned), figures);
+    let student = &row.entry.student;
+    let name = |people: &[Person]| {
+        let person = people.iter().find(|person| person.student == *student);
+        person.map_or(String::new(), |person| escape::line(&person.name))
+    };
     html! {
         tr {
-            td { (escape::plain(&row.entry.student)) }
+            td { (escape::plain(student)) }
+            @if let Some(people) = people { td { (name(people)) } }
             td { @if let Some(page) = row.page() { a href=(escape::link(&page)) { (submission) } } @else { (submission) } }
-            @for figure in figures { td class="right" { (figure) } }
+            @for (index, (figure, value)) in figures(row.grade()).into_iter().enumerate() {
+                td class={ "right" @if index >= 2 { " extra" } } data-sort=[value] { (figure) }
+            }
             td class="soft wide" { (escape::plain(&row.notes().join("; "))) }
         }
     }
 }
 
-fn figures(grade: &Grade) -> [String; 4] {
+/// Points, functions, error and time as people read them, with the numbers by which they are sorted.
+fn figures(grade: Option<&Grade>) -> [(String, Option<f64>); 4] {
+    let Some(grade) = grade else { return [const { None }; 4].map(|none: Option<f64>| ("–".to_owned(), none)) };
     let (passed, all) = view::passed(grade);
+    let (error, seconds) = (view::worst_error(grade), view::total_seconds(grade).0);
     [
-        format!("{} / {}", view::points(grade.score), view::points(grade.max_score)),
-        format!("{passed} / {all}"),
-        view::error(view::worst_error(grade)),
-        view::seconds(view::total_seconds(grade).0),
+        (format!("{} / {}", view::points(grade.score), view::points(grade.max_score)), Some(grade.score)),
+        (format!("{passed} / {all}"), Some(passed as f64)),
+        (view::error(error), error.filter(|error| error.is_finite())),
+        (view::seconds(seconds), seconds.filter(|seconds| seconds.is_finite())),
     ]
 }

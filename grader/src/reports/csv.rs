@@ -87,7 +87,9 @@ fn figures(grade: &Grade, names: &[&str]) -> Vec<String> {
     let account = grade.account.as_ref();
     cells.push(points(Some(account.map_or(grade.score, |account| account.raw_score))));
     match account.and_then(|account| account.late.as_ref()) {
-        Some(late) => cells.extend([late.submitted.clone(), late.days.to_string(), points(Some(late.penalty))]),
+        Some(late) => {
+            cells.extend([late.submitted.clone(), late.days.to_string(), view::rounded(late.penalty).to_string()])
+        }
         None => cells.extend([const { String::new() }; 3]),
     }
     cells
@@ -100,7 +102,7 @@ fn diagnoses<'a>(parts: impl Iterator<Item = &'a FunctionGrade>) -> String {
 
 /// Points; an empty cell where there are none.
 fn points(points: Option<f64>) -> String {
-    points.filter(|points| points.is_finite()).map_or(String::new(), |points| view::rounded(points).to_string())
+    points.filter(|points| points.is_finite()).map_or(String::new(), view::points)
 }
 
 /// An error or a time with four digits, however small; an empty cell without one.

@@ -25,8 +25,8 @@ pub fn canvas(rows: &[Row], summary: &Summary) -> io::Result<String> {
     let possible = possible.chain([view::points(summary.max_score)]).collect();
     let students = students(rows, summary).into_iter().map(|(person, row)| {
         let name = if person.name.is_empty() { &person.student } else { &person.name };
-        // Canvas' own number of a student is left empty: the other two identifiers suffice.
-        let cells = [name, "", &person.id, &person.login, &person.section].map(escape::cell);
+        // Canvas' own number of a student is known from its gradebook alone; the other two identifiers suffice.
+        let cells = [name, &person.canvas, &person.id, &person.login, &person.section].map(|text| escape::cell(text));
         cells.into_iter().chain([score(row)]).collect()
     });
     Ok(text(heading, [possible].into_iter().chain(students))?.trim_start_matches('\u{feff}').to_owned())

@@ -16,7 +16,10 @@ pub fn render(grade: &Grade, show_diagnosis: bool) -> String {
             span { "function" } span { "status" } span class="right" { "points" } span class="right" { "error" }
             span class="right" { "time (of reference)" }
         } "\n"
-        @for part in view::parts(grade) { (function(part, show_diagnosis)) }
+        @for part in view::parts(grade) { (function(part, grade.page_of(&part.name), show_diagnosis)) }
+        @if grade.pages.is_none() {
+            p class="soft" { "Pages are files of your repository: keep this file in its folder, and the links lead to them." } "\n"
+        }
         p class="soft" { "Error: worst relative difference from the reference. Time: one call on a standard load." } "\n"
         @if let Some(found) = &grade.study { (study::render(grade, found)) }
     };
@@ -40,9 +43,9 @@ fn head(grade: &Grade) -> Markup {
     }
 }
 
-fn function(part: &FunctionGrade, show_diagnosis: bool) -> Markup {
+fn function(part: &FunctionGrade, page: Option<String>, show_diagnosis: bool) -> Markup {
     html! {
-        details open[view::has_notes(part)] { (summary(part)) "\n" (inside(part, show_diagnosis)) } "\n"
+        details open[view::has_notes(part)] { (summary(part)) "\n" (inside(part, page, show_diagnosis)) } "\n"
     }
 }
 
@@ -62,9 +65,10 @@ fn summary(part: &FunctionGrade) -> Markup {
     }
 }
 
-fn inside(part: &FunctionGrade, show_diagnosis: bool) -> Markup {
+fn inside(part: &FunctionGrade, page: Option<String>, show_diagnosis: bool) -> Markup {
     html! {
         div class="inside" {
+            @if let Some(page) = page { p class="soft page" { "Page: " a href=(page) { (page) } } }
             @for note in view::notes(part, show_diagnosis) {
                 @let note = escape::plain(note.trim_end());
                 // A compiler's message needs a font of constant width.

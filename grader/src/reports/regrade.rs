@@ -77,5 +77,5 @@ fn shown(points: Option<f64>) -> String {
 }
 
 fn points(points: Option<f64>) -> String {
-    points.map_or(String::new(), |points| view::rounded(points).to_string())
+    points.map_or(String::new(), view::points)
 }

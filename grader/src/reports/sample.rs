@@ -33,6 +33,7 @@ pub fn grade(variant: usize) -> Grade {
         functions,
         simulation: FunctionGrade { name: "simulation".to_owned(), max_score: 12.0, score: 0.0, ..function(3, 0) },
         account: None,
+        pages: None,
         study: None,
         seconds: 12.345678,
     }

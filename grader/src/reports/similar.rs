@@ -1,4 +1,5 @@
-//! Pairs of submissions that are alike: `similar.csv`, `similar.html`, and a page for each pair to read side by side.
+//! Pairs of submissions that are alike: `similar.csv`, `similar.html`, and a page for each pair to read side by side. The text that was
+//! left out is in `origin.csv`.
 
 use std::fs;
 use std::io;
@@ -8,30 +9,101 @@ use maud::{Markup, html};
 
 use super::page::{name, page};
 use super::{csv, escape, write_file};
-use crate::similar::LEAST_SHARE;
 use crate::similar::fingerprints::{Document, File};
+use crate::similar::origin::Origin;
 use crate::similar::pairs::Pair;
+use crate::similar::{Found, LEAST_SHARE};
 
 /// Pages of pairs, the most alike first.
 const MOST_PAGES: usize = 200;
 
+/// Groups that the terminal lists, and names of each.
+const MOST_GROUPS: usize = 20;
+const MOST_NAMES: usize = 12;
+
+/// From this part of a class's text on, common text is reported as such.
+const MUCH: f64 = 0.2;
+
 /// Colours of runs, in turn.
 const COLOURS: usize = 6;
 
-/// Writes the table, the list and the pages into a folder.
-pub fn write(class: &[Document], pairs: &[Pair], folder: &Path) -> io::Result<()> {
-    write_file(folder, "similar.csv", &table(class, pairs)?)?;
-    write_file(folder, "similar.html", &list(class, pairs))?;
+/// Writes the tables, the list and the pages into a folder.
+pub fn write(class: &[Document], found: &Found, folder: &Path) -> io::Result<()> {
+    write_file(folder, "similar.csv", &table(class, &found.pairs)?)?;
+    write_file(folder, "origin.csv", &origin_table(&found.origins)?)?;
+    write_file(folder, "similar.html", &list(class, found))?;
     let pages = folder.join("pairs");
     fs::create_dir_all(&pages)?;
-    for (index, pair) in shown(pairs).enumerate() {
+    for (index, pair) in shown(&found.pairs).enumerate() {
         write_file(&pages, &file_name(index), &side_by_side(class, pair))?;
     }
     Ok(())
 }
 
+/// The result for a terminal: the origin of the text by function, then the number of similar pairs and their groups.
+pub fn text(class: &[Document], found: &Found) -> String {
+    let mut text = format!("{:36}{:>8}{:>10}{:>10}\n", "function", "tokens", "left out", "common");
+    for origin in &found.origins {
+        let [given, common] = shares(origin);
+        text.push_str(&format!("{:36}{:>8}{given:>10}{common:>10}\n", origin.function, origin.tokens));
+    }
+    text.push_str(
+        "left out: the handout gave it; common: more than half of the submissions have it alike, and it counts\n",
+    );
+    if let Some(warning) = warning(found) {
+        text.push_str(&format!("{warning}\n"));
+    }
+    let names = |group: &Vec<usize>| {
+        let names: Vec<_> =
+            group.iter().take(MOST_NAMES).map(|place| escape::line(&class[*place].submission)).collect();
+        let more = if group.len() > MOST_NAMES { ", …" } else { "" };
+        format!("group of {}: {}{more}\n", group.len(), names.join(", "))
+    };
+    found.groups.iter().take(MOST_GROUPS).for_each(|group| text.push_str(&names(group)));
+    if found.groups.len() > MOST_GROUPS {
+        text.push_str(&format!("{} more groups are on the page\n", found.groups.len() - MOST_GROUPS));
+    }
+    text + &format!("{} submissions; {}: ", class.len(), counted(&found.pairs))
+}
+
+/// The number of similar pairs as a sentence's subject and verb.
+fn counted(pairs: &[Pair]) -> String {
+    let share = 100.0 * LEAST_SHARE;
+    match similar(pairs).count() {
+        1 => format!("1 pair shares {share} % or more"),
+        several => format!("{several} pairs share {share} % or more"),
+    }
+}
+
+/// A sentence about a class with much common text.
+fn warning(found: &Found) -> Option<String> {
+    let all = found.origins.last().filter(|all| all.common_share() >= MUCH)?;
+    Some(format!(
+        "More than half of the class has {} of its text alike: copies of one source, or code that you gave beside the handout (name it with --given).",
+        shares(all)[1]
+    ))
+}
+
+fn shares(origin: &Origin) -> [String; 2] {
+    [origin.given_share(), origin.common_share()].map(|share| format!("{:.0} %", 100.0 * share))
+}
+
+/// The text of `origin.csv`.
+fn origin_table(origins: &[Origin]) -> io::Result<String> {
+    let heading = ["function", "tokens", "left_out", "common"].map(str::to_owned).to_vec();
+    let rows = origins.iter().map(|origin| {
+        let figures = [origin.tokens, origin.given, origin.common].map(|tokens| tokens.to_string());
+        [origin.function.to_owned()].into_iter().chain(figures).collect()
+    });
+    csv::text(heading, rows)
+}
+
+fn similar(pairs: &[Pair]) -> impl Iterator<Item = &Pair> {
+    pairs.iter().filter(|pair| pair.share >= LEAST_SHARE)
+}
+
 fn shown(pairs: &[Pair]) -> impl Iterator<Item = &Pair> {
-    pairs.iter().filter(|pair| pair.share >= LEAST_SHARE).take(MOST_PAGES)
+    similar(pairs).take(MOST_PAGES)
 }
 
 fn file_name(index: usize) -> String {
@@ -58,7 +130,7 @@ fn longest(pair: &Pair) -> usize {
 }
 
 /// The text of `similar.html`.
-pub fn list(class: &[Document], pairs: &[Pair]) -> String {
+pub fn list(class: &[Document], found: &Found) -> String {
     let row = |(index, pair): (usize, &Pair)| -> Markup {
         html! {
             tr {
@@ -69,21 +141,43 @@ pub fn list(class: &[Document], pairs: &[Pair]) -> String {
             } "\n"
         }
     };
+    let names = |group: &Vec<usize>| -> String {
+        group.iter().map(|place| escape::line(&class[*place].submission)).collect::<Vec<_>>().join(", ")
+    };
     let body = html! {
         h1 { "Similar submissions" }
-        p { (class.len()) " submissions. Names, numbers, comments and what the handout gave are left out. A shared run is a reason to read
-            both, not a verdict: short functions have few right forms." } "\n"
-        @if shown(pairs).next().is_none() {
-            p { (format!("No two share {:.0} % of what is their own.", 100.0 * LEAST_SHARE)) }
-        } @else {
+        p { (class.len()) " submissions; " (counted(&found.pairs)) ". Names, numbers, comments and what the handout gave are left out. A shared
+            run is a reason to read both, not a verdict: short functions have few right forms." } "\n"
+        @if let Some(warning) = warning(found) { p { b { (warning) } } "\n" }
+        @if !found.groups.is_empty() {
+            h2 { "Groups" }
+            ul { @for group in &found.groups { li { (group.len()) ": " (names(group)) } "\n" } }
+            h2 { "Pairs" }
             div class="scroll" { table {
                 tr { th { "submissions" } th class="right" { "share" } th class="right" { "tokens" } th class="right" { "longest run" } } "\n"
-                @for pair in shown(pairs).enumerate() { (row(pair)) }
+                @for pair in shown(&found.pairs).enumerate() { (row(pair)) }
             } }
         }
-        p class="soft" { (format!("Pairs from {:.0} % on; similar.csv lists all.", 100.0 * LEAST_SHARE)) }
+        p class="soft" { (format!("Pairs from {:.0} % on, at most {MOST_PAGES}; similar.csv lists all.", 100.0 * LEAST_SHARE)) }
+        (origins(&found.origins))
     };
     page("Similar submissions", body)
+}
+
+fn origins(origins: &[Origin]) -> Markup {
+    html! {
+        h2 { "Where the text comes from" }
+        p { "The handout gave what is left out. More than half of the submissions have the common text alike, and it counts." }
+        div class="scroll" { table {
+            tr { th { "function" } th class="right" { "tokens" } th class="right" { "left out" } th class="right" { "common" } } "\n"
+            @for origin in origins {
+                tr {
+                    td class="name" { (name(origin.function)) } td class="right" { (origin.tokens) }
+                    @for share in shares(origin) { td class="right" { (share) } }
+                } "\n"
+            }
+        } }
+    }
 }
 
 /// The page of a pair: each function with a shared run, both texts, equal runs in equal colours with equal numbers.

@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use super::sample::{self, HOSTILE, SECRET};
 use super::*;
+use crate::class::Person;
 
 fn options() -> Options {
     let variables = |name: &str| Some(format!("{}{name}", if name == "SUBMISSION_TAG" { "submit/" } else { "" }));
@@ -78,8 +79,11 @@ fn figures_that_are_no_numbers_become_null_and_scores_are_refused() {
 #[test]
 fn pages_run_no_text_of_a_submission() {
     let class = sample::class();
-    for page in [html::render(&sample::hostile(), true), class_html::render(&rows::rows(&class.entries))] {
-        assert!(!page.contains("<script"));
+    let people = vec![Person { student: HOSTILE.to_owned(), name: HOSTILE.to_owned(), ..Person::default() }];
+    let class = Summary { people, title: HOSTILE.to_owned(), ..class };
+    let class_page = class_html::render(&rows::rows(&class.entries), &class);
+    for (page, scripts) in [(html::render(&sample::hostile(), true), 0), (class_page, 1)] {
+        assert_eq!(page.matches("<script").count(), scripts);
         assert_eq!(page.matches("</title>").count(), page.matches("<title>").count());
         assert!(!page.contains("NaN") && !page.contains("inf"));
         assert!(!page.contains("src=") && !page.contains("href=\"http") && !page.contains("url("));
@@ -173,6 +177,37 @@ fn the_class_page_shows_what_is_not_graded_and_counts_it_in_no_figure() {
     assert!(!without.contains("without a grade"));
     let median = |page: &str| page[..page.find("median score").unwrap()].rsplit("<b>").next().unwrap().to_owned();
     assert_eq!(median(&page), median(&without));
+}
+
+#[test]
+fn the_class_page_has_the_title_names_and_numbers_to_sort_by() {
+    let person =
+        |student: &str, name: &str| Person { student: student.to_owned(), name: name.to_owned(), ..Person::default() };
+    let mut class = sample::class();
+    class.people = vec![person("Ünal 00", "Ünal, Anna"), person("@lost", "Berg, Bob")];
+    // A group's submission.
+    class.entries[1].submission = class.entries[0].submission.clone();
+    let page = class_html::render(&rows::rows(&class.entries), &class);
+    assert!(page.contains("<h1>Homework</h1>") && page.contains("<title>Homework: class</title>"), "{page}");
+    assert!(
+        page.contains("<b>33</b><span>students with a submission</span>")
+            && page.contains("<b>32</b><span>submissions</span>")
+    );
+    assert!(
+        page.contains("<td>Ünal 00</td><td>Ünal, Anna</td><td><a href=")
+            && page.contains("<td>@lost</td><td>Berg, Bob</td>")
+    );
+    assert!(page.contains("table class=\"sortable\"><thead>") && page.contains("<td class=\"right\" data-sort=\""));
+}
+
+#[test]
+fn the_students_page_links_to_the_page_of_each_function() {
+    let page = html::render(&sample::grade(2), true);
+    let link = r#"<a href="include-docs/psi_neo_hookean.md">include-docs/psi_neo_hookean.md</a>"#;
+    assert!(page.contains(link), "{page}");
+    assert_eq!(page.matches("Page: <a").count(), 22);
+    let grade = Grade { pages: Some("https://x.org/\"{name}.html".to_owned()), ..sample::grade(2) };
+    assert!(html::render(&grade, true).contains(r#"href="https://x.org/&quot;newtons_method.html""#));
 }
 
 #[test]

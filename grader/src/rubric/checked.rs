@@ -85,6 +85,14 @@ impl Rubric {
             let points = self.simulation.points;
             return Err(format!("points = {points} of [simulation]; give a number from 0 to {MOST_POINTS}"));
         }
+        if let Some(pages) = &self.students.pages {
+            let is_address = pages.starts_with("https://") || pages.starts_with("http://") || !pages.contains(':');
+            if !(is_address && pages.contains("{name}")) {
+                return Err(format!(
+                    "pages = \"{pages}\"; give an address that begins with https:// or a path, with {{name}} in it"
+                ));
+            }
+        }
         if let Some(deadline) = &self.deadline {
             deadline.check()?;
         }

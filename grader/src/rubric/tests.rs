@@ -34,6 +34,10 @@ fn mistakes_are_named_with_their_line() {
     assert!(problem(OURS.replacen("hints = true", "hint = true", 1)).contains("hint"));
     assert!(problem(OURS.replacen("tolerance = 1e-9", "tolerance = nan", 1)).contains("tolerance"));
     assert!(problem(OURS.replacen("compile_seconds = 20.0", "compile_seconds = 0.0", 1)).contains("compile_seconds"));
+    for pages in ["javascript:alert('{name}')", "https://x.org/pages"] {
+        let text = OURS.replacen("hints = true", &format!("hints = true\npages = \"{pages}\""), 1);
+        assert!(problem(text).contains("give an address that begins with https://"), "{pages}");
+    }
     let twice = format!("{OURS}\n[[function]]\nname = \"psi_neo_hookean\"\npoints = 1.0\nlevel = 1\n");
     assert!(problem(twice).contains("second time"));
     assert!(problem(b"partial_credit = true\n# \xff").contains("line 2: is not UTF-8 text"));

@@ -11,6 +11,36 @@ pub const PIECE: usize = 24;
 /// Neighbouring pieces of which one is kept: each shared run of `PIECE + WINDOW − 1` tokens is found.
 const WINDOW: usize = 8;
 
+/// Neighbouring pieces of the given libraries that make a run: among so many lines a single piece is found by chance.
+const LIBRARY_RUN: usize = PIECE + 1;
+
+/// Pieces of the text that students were given.
+#[derive(Default)]
+pub struct Given {
+    /// Of the files that they work on and read.
+    pub exercises: HashSet<u64>,
+    /// Of the libraries beside them, which count in longer runs alone.
+    pub libraries: HashSet<u64>,
+}
+
+impl Given {
+    /// Returns for each piece of a text, in its order, whether it was given.
+    pub fn places(&self, hashes: &[u64]) -> Vec<bool> {
+        let mut given: Vec<bool> = hashes.iter().map(|hash| self.exercises.contains(hash)).collect();
+        let mut begin = 0;
+        for end in 0..=hashes.len() {
+            if hashes.get(end).is_some_and(|hash| given[end] || self.libraries.contains(hash)) {
+                continue;
+            }
+            if end - begin >= LIBRARY_RUN {
+                given[begin..end].fill(true);
+            }
+            begin = end + 1;
+        }
+        given
+    }
+}
+
 /// One file of a submission.
 pub struct File {
     pub name: &'static str,
@@ -31,17 +61,14 @@ pub struct Document {
 
 impl Document {
     /// Takes the fingerprints of the files of a submission, without the pieces of the `handout`.
-    pub fn new(
-        submission: String,
-        students: Vec<String>,
-        texts: Vec<(&'static str, String)>,
-        handout: &HashSet<u64>,
-    ) -> Self {
+    pub fn new(submission: String, students: Vec<String>, texts: Vec<(&'static str, String)>, handout: &Given) -> Self {
         let files: Vec<File> = texts.into_iter().map(|(name, text)| File::new(name, text, handout)).collect();
         let mut pieces: HashMap<u64, Vec<(usize, usize)>> = HashMap::new();
         for (index, file) in files.iter().enumerate() {
-            for (hash, place) in winnowed(&hashes(&file.tokens)) {
-                if !handout.contains(&hash) {
+            let hashes = hashes(&file.tokens);
+            let given = handout.places(&hashes);
+            for (hash, place) in winnowed(&hashes) {
+                if !given[place] {
                     pieces.entry(hash).or_default().push((index, place));
                 }
             }
@@ -56,11 +83,11 @@ impl Document {
 }
 
 impl File {
-    fn new(name: &'static str, text: String, handout: &HashSet<u64>) -> Self {
+    fn new(name: &'static str, text: String, handout: &Given) -> Self {
         let tokens = tokens(&text);
         let mut is_own = vec![true; tokens.len()];
-        for (place, hash) in hashes(&tokens).into_iter().enumerate() {
-            if handout.contains(&hash) {
+        for (place, is_given) in handout.places(&hashes(&tokens)).into_iter().enumerate() {
+            if is_given {
                 is_own[place..place + PIECE].fill(false);
             }
         }
@@ -74,7 +101,7 @@ pub fn all_pieces(text: &str) -> Vec<u64> {
 }
 
 /// The hash of each piece, by its first token.
-fn hashes(tokens: &[Token]) -> Vec<u64> {
+pub fn hashes(tokens: &[Token]) -> Vec<u64> {
     let hash = |piece: &[Token]| piece.iter().fold(0xcbf2_9ce4_8422_2325, |hash, token| mixed(hash, token.kind));
     tokens.windows(PIECE).map(hash).collect()
 }

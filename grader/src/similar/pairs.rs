@@ -1,14 +1,11 @@
 //! Pairs of submissions, and the runs of tokens that they share.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::fingerprints::{Document, PIECE};
 
 /// Largest number of places of a piece in one submission. A piece that repeats more often is an idiom of the language.
 const MOST_PLACES: usize = 4;
-
-/// A piece in more than half of a class is left out, where the class has so many submissions at least.
-const CLASS: usize = 8;
 
 /// A run of tokens that two submissions share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -31,28 +28,40 @@ pub struct Pair {
     pub share: f64,
 }
 
-/// All pairs with shared runs, the most alike first. Submissions with a student in common are not compared.
+/// All pairs with shared runs, the most alike first. Submissions with a student in common are not compared. What many submissions
+/// share counts as much as what two share: a text may be common because the whole class has copied it.
 pub fn pairs(class: &[Document]) -> Vec<Pair> {
     let mut owners: HashMap<u64, Vec<usize>> = HashMap::new();
     for (index, document) in class.iter().enumerate() {
         document.pieces.keys().for_each(|hash| owners.entry(*hash).or_default().push(index));
     }
-    let is_common = |owners: &Vec<usize>| class.len() >= CLASS && 2 * owners.len() > class.len();
-    owners.retain(|_, owners| owners.len() > 1 && !is_common(owners));
-    let mut shared: HashMap<[usize; 2], Vec<u64>> = HashMap::new();
-    for (hash, owners) in &owners {
-        for (i, &a) in owners.iter().enumerate() {
-            owners[i + 1..].iter().for_each(|&b| shared.entry([a.min(b), a.max(b)]).or_default().push(*hash));
+    let is_apart = |a: usize, b: usize| !class[a].students.iter().any(|student| class[b].students.contains(student));
+    let mut pairs: Vec<Pair> = Vec::new();
+    for (a, document) in class.iter().enumerate() {
+        let mut shared: BTreeMap<usize, Vec<u64>> = BTreeMap::new();
+        for hash in document.pieces.keys() {
+            let later = owners[hash].iter().filter(|b| **b > a);
+            later.for_each(|b| shared.entry(*b).or_default().push(*hash));
         }
+        let apart = shared.into_iter().filter(|(b, _)| is_apart(a, *b));
+        pairs.extend(apart.map(|(b, hashes)| pair(class, [a, b], &hashes)));
     }
-    let is_apart = |[a, b]: [usize; 2]| !class[a].students.iter().any(|student| class[b].students.contains(student));
-    let mut pairs: Vec<Pair> = shared
-        .into_iter()
-        .filter(|(members, _)| is_apart(*members))
-        .map(|(members, hashes)| pair(class, members, &hashes))
-        .collect();
     pairs.sort_by(|a, b| b.share.total_cmp(&a.share).then(a.members.cmp(&b.members)));
     pairs
+}
+
+/// Submissions that are joined by pairs of at least this share, as their places in the class: the largest group first.
+pub fn groups(class: &[Document], pairs: &[Pair], least: f64) -> Vec<Vec<usize>> {
+    let mut group: Vec<usize> = (0..class.len()).collect();
+    for pair in pairs.iter().filter(|pair| pair.share >= least) {
+        let [kept, joined] = pair.members.map(|member| group[member]);
+        group.iter_mut().filter(|group| **group == joined).for_each(|group| *group = kept);
+    }
+    let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    group.into_iter().enumerate().for_each(|(member, group)| groups.entry(group).or_default().push(member));
+    let mut groups: Vec<_> = groups.into_values().filter(|group| group.len() > 1).collect();
+    groups.sort_by_key(|group| std::cmp::Reverse(group.len()));
+    groups
 }
 
 fn pair(class: &[Document], members: [usize; 2], hashes: &[u64]) -> Pair {

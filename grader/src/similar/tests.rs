@@ -35,7 +35,7 @@ const DISGUISES: [(&str, Disguise); 4] = [
     ("all three", |text| split(&renamed(&reordered(text)))),
 ];
 
-fn handout() -> HashSet<u64> {
+fn handout() -> Given {
     given(&crate::handout::files(&repository(), &Rubric::load(None).unwrap()).unwrap())
 }
 
@@ -113,7 +113,7 @@ fn divided(body: TokenStream) -> String {
 }
 
 /// Originals, and for each author a copy in this disguise; the author of each.
-fn class(disguise: Disguise, handout: &HashSet<u64>) -> (Vec<Document>, Vec<usize>) {
+fn class(disguise: Disguise, handout: &Given) -> (Vec<Document>, Vec<usize>) {
     let document = |author: usize, style: &str, change: Disguise| {
         let copy = texts_in(&repository().join(style)).iter().map(|(name, text)| (*name, change(text))).collect();
         (
@@ -162,15 +162,109 @@ fn half_a_copy_is_found_beside_both_of_its_sources() {
     assert_eq!(told, [[0, 8], [1, 8]]);
 }
 
+/// Submissions of all authors, those from the second to the last copy as disguised copies of the first.
+fn class_with_copies(copies: usize, change: Disguise, handout: &Given) -> Vec<Document> {
+    let copied: Vec<_> =
+        texts_in(&repository().join(STYLES[0])).iter().map(|(name, text)| (*name, change(text))).collect();
+    let document = |(author, style): (usize, &&str)| {
+        let is_copy = (1..copies).contains(&author);
+        let texts = if is_copy { copied.clone() } else { texts_in(&repository().join(style)) };
+        Document::new(author.to_string(), vec![author.to_string()], texts, handout)
+    };
+    STYLES.iter().enumerate().map(document).collect()
+}
+
+#[test]
+fn copies_are_found_from_one_pair_to_the_whole_class() {
+    let handout = handout();
+    for (disguise, change) in DISGUISES {
+        for copies in [2, 5, STYLES.len()] {
+            let class = class_with_copies(copies, change, &handout);
+            let found = Found::in_class(&class);
+            let mut told: Vec<_> =
+                found.pairs.iter().filter(|pair| pair.share >= LEAST_SHARE).map(|pair| pair.members).collect();
+            told.sort();
+            let expected: Vec<_> = (0..copies).flat_map(|a| (a + 1..copies).map(move |b| [a, b])).collect();
+            let all = found.origins.last().unwrap();
+            println!(
+                "{disguise:>10}, {copies} of {}: {} of {} pairs, {:.2} left out, {:.2} common",
+                STYLES.len(),
+                told.len(),
+                expected.len(),
+                all.given_share(),
+                all.common_share()
+            );
+            assert_eq!(told, expected, "{disguise}, {copies} copies");
+            assert_eq!(found.groups, [(0..copies).collect::<Vec<_>>()]);
+            assert!(all.given_share() < 0.45, "copies are taken for given text: {all:?}");
+        }
+    }
+    let class = class_with_copies(5, renamed, &handout);
+    let text = similar::text(&class, &Found::in_class(&class));
+    assert!(
+        text.contains("group of 5: 0, 1, 2, 3, 4\n") && text.contains("8 submissions; 10 pairs share 25 %"),
+        "{text}"
+    );
+    assert!(text.contains("More than half of the class has") && text.contains("\nimplicit_euler "), "{text}");
+}
+
+#[test]
+fn precision_on_the_independent_solutions_of_the_repository() {
+    let class = class_with_copies(1, str::to_owned, &handout());
+    let found = Found::in_class(&class);
+    println!("{}", similar::text(&class, &found));
+    for pair in found.pairs.iter().take(5) {
+        println!(
+            "{} and {}: {:.3}, longest run {}",
+            STYLES[pair.members[0]], STYLES[pair.members[1]], pair.share, pair.runs[0].length
+        );
+    }
+    assert!(found.pairs[0].share < 0.2 && found.groups.is_empty(), "{}", found.pairs[0].share);
+}
+
+#[test]
+fn the_code_on_the_pages_of_the_handout_is_given() {
+    let code = "let a = b.c(d) + e[0] * f; for i in 0..4 { a[i] += g.h(i, 2.0) - j; } return a / k;";
+    let page = format!("Text.\n```rust\n{code}\n```\nMore `code` text.\n```\nlet x = 1;\n```\n");
+    let given = given(&Files::from([("include-docs/f.md".into(), page.into_bytes())]));
+    assert!(!given.exercises.is_empty() && given.places(&all_pieces(code)).iter().all(|is_given| *is_given));
+}
+
+#[test]
+fn a_short_run_of_the_given_libraries_is_coincidence_and_a_long_one_is_given() {
+    let text = |length: usize| {
+        (0..length).map(|i| ["a", "+", "1", "*", ";"][(i * i + i / 7) % 5]).collect::<Vec<_>>().join(" ")
+    };
+    let (short, long) = (all_pieces(&text(40)), all_pieces(&text(60)));
+    let library = Given { libraries: long.iter().copied().collect(), ..Given::default() };
+    assert!(library.places(&short).iter().all(|is_given| !is_given));
+    assert!(library.places(&long).iter().all(|is_given| *is_given));
+    let exercises = Given { exercises: library.libraries, ..Given::default() };
+    assert!(exercises.places(&short).iter().all(|is_given| *is_given));
+}
+
+#[test]
+fn code_that_was_given_beside_the_handout_is_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("lecture")).unwrap();
+    let code = texts_in(&repository().join("src"))[2].1.clone();
+    fs::write(folder.path().join("lecture/a.rs"), &code).unwrap();
+    let mut files = Files::new();
+    crate::handout::add_given(&folder.path().join("lecture"), &mut files).unwrap();
+    assert!(given(&files).places(&all_pieces(&code)).iter().all(|is_given| *is_given));
+    assert!(crate::handout::add_given(&folder.path().join("nothing"), &mut files).is_err());
+}
+
 #[test]
 fn what_the_handout_gave_and_what_a_group_shares_is_no_copy() {
     let handout = handout();
     let solved = texts_in(&repository().join("src"));
-    let document = |students: &[&str], handout: &HashSet<u64>| {
+    let document = |students: &[&str], handout: &Given| {
         let students = students.iter().map(|name| (*name).to_owned()).collect();
         Document::new(String::new(), students, solved.clone(), handout)
     };
-    let all_given: HashSet<u64> = solved.iter().flat_map(|(_, text)| all_pieces(text)).collect();
+    let all_given =
+        Given { exercises: solved.iter().flat_map(|(_, text)| all_pieces(text)).collect(), ..Given::default() };
     assert!(pairs(&[document(&["anna"], &all_given), document(&["bob"], &all_given)]).is_empty());
     assert!(pairs(&[document(&["anna", "carl"], &handout), document(&["carl"], &handout)]).is_empty());
     let whole = pairs(&[document(&["anna"], &handout), document(&["bob"], &handout)]);
@@ -179,7 +273,7 @@ fn what_the_handout_gave_and_what_a_group_shares_is_no_copy() {
 
 #[test]
 fn a_pair_side_by_side_marks_what_both_share_and_shows_text_as_text() {
-    let handout = HashSet::new();
+    let handout = Given::default();
     let shared = "let x = a * b + c[0] - d(e, f).g() / 2.0; if x > 1.0 { return x - 3.0 * y[1] + z; }";
     let document = |student: &str, own: &str| {
         let text = format!("fn f() {{\n    {own}\n    {shared}\n}}\n// </pre><script>alert(1)</script>\n");
@@ -191,6 +285,6 @@ fn a_pair_side_by_side_marks_what_both_share_and_shows_text_as_text() {
     assert!(!page.contains("<script") && !page.contains("<b>anna") && page.contains("&lt;/pre&gt;&lt;script&gt;"));
     assert_eq!(page.matches("<mark").count(), page.matches("</mark>").count());
     assert!(page.matches("<mark").count() >= 2 && page.contains("psi_<wbr>neo_<wbr>hookean"), "{page}");
-    let list = similar::list(&class, &found);
+    let list = similar::list(&class, &Found::in_class(&class));
     assert!(list.contains("pairs/001.html") && list.contains("&lt;b&gt;anna") && !list.contains("<b>anna"), "{list}");
 }

@@ -1,36 +1,59 @@
-//! The entries of a folder. Only `src` is read, so that build products and meshes take no time.
+//! The entries of a folder. Only the 22 files are read, so that build products and meshes take no time.
 
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use super::MAX_FILE_BYTES;
-use super::entries::{Content, Entry, Unreadable, may_be_taken};
+use super::entries::{Content, DEPTH, Entry, Unreadable, is_passed_over, may_be_taken};
 
 /// A submission with more entries than this in the folders that are looked into is refused.
 const MAX_ENTRIES: usize = 10_000;
 
-/// The entries of a folder, of its `src`, and of the `src` of its folders.
+/// The entries of a folder, level by level, down to the uppermost `src` that has one of the 22 files.
 pub fn entries(folder: &Path) -> Result<Vec<Entry>, Unreadable> {
     let unreadable = |error: io::Error| Unreadable(format!("the folder cannot be read: {error}"));
-    let mut found = Vec::new();
-    let mut room = MAX_ENTRIES;
-    for (name, path) in listing(folder, &mut room).map_err(unreadable)? {
-        if name == "src" {
-            found.extend(source_files("src/", &path, &mut room).map_err(unreadable)?);
-        } else if is_folder(&path) && !name.starts_with('.') && name != "target" {
-            // Possibly a wrapping folder; only its `src` is read.
-            let src = path.join("src");
-            if is_folder(&src) {
-                found.extend(source_files(&format!("{name}/src/"), &src, &mut room).map_err(unreadable)?);
-                found.extend(other_files(&format!("{name}/"), &path, &mut room).map_err(unreadable)?);
-            }
-            found.push((name, Content::Unread));
-        } else {
-            found.push((name, Content::Unread));
+    let (mut found, mut room) = (Vec::new(), MAX_ENTRIES);
+    let mut level = vec![(String::new(), folder.to_owned())];
+    for _ in 0..=DEPTH {
+        // With a `src` on this level the folders beside it, which may be large, are not looked into.
+        let (sources, others): (Vec<_>, Vec<_>) = level.into_iter().partition(|(prefix, _)| prefix.ends_with("src/"));
+        let mut next = Vec::new();
+        for (prefix, folder) in &sources {
+            next.extend(add(prefix, folder, &mut room, &mut found).map_err(unreadable)?);
         }
+        if found
+            .iter()
+            .any(|(path, _)| may_be_taken(path) && sources.iter().any(|(prefix, _)| path.starts_with(prefix)))
+        {
+            break;
+        }
+        for (prefix, folder) in &others {
+            next.extend(add(prefix, folder, &mut room, &mut found).map_err(unreadable)?);
+        }
+        level = next;
     }
     Ok(found)
+}
+
+/// Adds what is in a folder, and returns the folders in it that may be looked into, with their prefixes.
+fn add(prefix: &str, folder: &Path, room: &mut usize, found: &mut Vec<Entry>) -> io::Result<Vec<(String, PathBuf)>> {
+    let mut folders = Vec::new();
+    for (name, path) in listing(folder, room)? {
+        let whole = format!("{prefix}{name}");
+        if is_folder(&path) && !may_be_taken(&whole) {
+            if !is_passed_over(&name) {
+                folders.push((format!("{whole}/"), path));
+            }
+            found.push((whole, Content::Unread));
+        } else if whole == "src" {
+            return Err(io::Error::other("src is a link or a file; hand in the folder itself"));
+        } else {
+            let content = if may_be_taken(&whole) { content(&path) } else { Content::Unread };
+            found.push((whole, content));
+        }
+    }
+    Ok(folders)
 }
 
 /// Names and paths of what is in a folder, sorted, as far as there is room for them.
@@ -49,23 +72,6 @@ fn listing(folder: &Path, room: &mut usize) -> io::Result<Vec<(String, PathBuf)>
 
 fn is_folder(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_dir())
-}
-
-fn other_files(prefix: &str, folder: &Path, room: &mut usize) -> io::Result<Vec<Entry>> {
-    let names = listing(folder, room)?.into_iter().filter(|(name, _)| name != "src");
-    Ok(names.map(|(name, _)| (format!("{prefix}{name}"), Content::Unread)).collect())
-}
-
-fn source_files(prefix: &str, folder: &Path, room: &mut usize) -> io::Result<Vec<Entry>> {
-    if !is_folder(folder) {
-        return Err(io::Error::other("src is a link or a file; hand in the folder itself"));
-    }
-    let files = listing(folder, room)?.into_iter().map(|(name, path)| {
-        let whole = format!("{prefix}{name}");
-        let content = if may_be_taken(&whole) { content(&path) } else { Content::Unread };
-        (whole, content)
-    });
-    Ok(files.collect())
 }
 
 /// Reads a plain file up to the limit of its size. Other kinds of files are not opened.

@@ -19,7 +19,7 @@ const FORMATS: [&str; 4] =
     ["%Y-%m-%d %H:%M:%S %z", "%Y-%m-%d %H:%M %z", "%Y-%m-%d %H:%M:%S%.f %z", "%a, %d %b %Y %H:%M:%S %z"];
 
 /// A time of submission: a moment, a number, or another text that sorts by time such as `2026-05-01`.
-#[derive(Clone, PartialEq, PartialOrd)]
+#[derive(Clone, Debug, PartialEq, PartialOrd)]
 pub enum Time {
     Number(f64),
     Text(String),
@@ -44,17 +44,17 @@ struct Row {
     section: String,
 }
 
-/// Assigns the students of the table to the submissions, and returns the students.
+/// Assigns the students of the table to the submissions, and returns the students. `given` holds the pairs of submission and student.
 pub fn apply(
     path: &Path,
     submissions: &mut Vec<Submission>,
+    given: &mut Vec<(String, String)>,
     remarks: &mut Vec<String>,
 ) -> Result<Vec<Person>, ClassError> {
     let unreadable =
         |error: csv::Error| ClassError::Unreadable { path: path.to_path_buf(), message: error.to_string() };
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(unreadable)?;
     let mut people: Vec<Person> = Vec::new();
-    let mut given: Vec<(String, String)> = Vec::new();
     for row in reader.deserialize() {
         let row: Row = row.map_err(unreadable)?;
         if row.student.is_empty() {
@@ -65,7 +65,7 @@ pub fn apply(
             Some(person) => person.complete(row.person()),
             None => people.push(row.person()),
         }
-        if !row.submission.is_empty() && !row.assign(submissions, &mut given) {
+        if !row.submission.is_empty() && !row.assign(submissions, given) {
             remarks.push(format!("{STUDENTS}: there is no submission {}", row.submission));
         }
     }
@@ -102,19 +102,21 @@ impl Row {
             login: self.login.clone(),
             email: self.email.clone(),
             section: self.section.clone(),
+            canvas: String::new(),
         }
     }
 }
 
 impl Time {
     /// Reads a cell of the table.
-    fn read(text: String) -> Self {
+    pub fn read(text: String) -> Self {
         if let Ok(number) = text.parse() {
             return Self::Number(number);
         }
         let moment = text.parse().ok().or_else(|| {
             let parsed = FORMATS.iter().find_map(|format| strtime::parse(format, &text).ok()?.to_timestamp().ok());
-            parsed.or_else(|| format!("{}Z", text.strip_suffix(" UTC")?.replacen(' ', "T", 1)).parse().ok())
+            // `2026-05-04 21:59:00 UTC`, `2026-05-04 21:59:00.262843000 Z`, `… +02:00`
+            parsed.or_else(|| text.replacen(" UTC", "Z", 1).replacen(' ', "T", 1).replacen(' ', "", 1).parse().ok())
         });
         moment.map_or(Self::Text(text), Self::Moment)
     }
@@ -145,6 +147,8 @@ mod tests {
             "2026-05-04T23:59:00+02:00",
             "2026-05-04 23:59:00 +0200",
             "2026-05-04 21:59:00 UTC",
+            "2026-05-04 21:59:00.000000000 Z",
+            "2026-05-04 23:59:00.000000000 +02:00",
             "2026-05-04 23:59 +0200",
             "Mon, 04 May 2026 23:59:00 +0200",
         ] {

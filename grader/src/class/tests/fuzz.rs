@@ -40,6 +40,15 @@ const ADJUSTED: &str = "student,function,points,reason,comment\nanna,psi_neo_hoo
 const METADATA: &str = r#"{"id": 123456, "created_at": "2018-07-01T14:22:32.365935-07:00", "assignment": {"title": "x", "total_points": "20.0"},
     "users": [{"email": "anna@x.org", "id": 1234, "name": "Anna", "sid": null}, {"email": "bob@x.org", "name": "Bob \u00fc"}]}"#;
 
+const GRADEBOOK: &str = "Student,ID,SIS User ID,SIS Login ID,Section,Finite elements (12)\n    Points Possible,,,,,100\n\"Ünal, Anna\",4711,17,team,A,\n\
+    Bob,4712,18,solo,B,\n";
+
+const WORKSHEET: &str = "Identifier,Full name,Email address,Status,Group\nParticipant 1,Anna,a@x.org,Submitted - 3 mins late - ,team\n\
+    Participant 2,Bob,b@x.org,No submission,team\n";
+
+const EXPORTED: &str = "---\nteam:\n  :submitters:\n  - :name: \"\\xDCnal\"\n    :sid: \'17\'\n    :email: a@x.org\n  :created_at: 2026-05-04 18:32:11.2 Z\n\
+    submission_2:\n  :submitters:\n  - :name: Bob\n    :email: b@x.org\n";
+
 const GRADE: &str = r#"{"format_version": 1, "submission": "anna", "files": "ab", "score": 1.5, "max_score": 2, "seed": 7, "toolchain": "rustc",
     "sandbox": {"landlock": true}, "remarks": ["one"], "functions": [{"name": "f", "score": 1, "max_score": 2, "status": "failed",
     "diagnosis": "negated", "location": null, "message": "m", "hint": null, "error": 1e-3, "seconds": 0.5, "reference_seconds": 0.25,
@@ -98,13 +107,22 @@ fn mutated_rubrics_are_read_or_refused() {
 
 #[test]
 fn mutated_tables_of_a_class_are_read_or_refused() {
-    let read = |folder: &Path| find::class(folder, Counts::Newest);
+    let read = |folder: &Path| find::class(folder, None, Counts::Newest);
     fuzz_text("students.csv", STUDENTS, read, |found| {
         if let Some(class) = assert_told(found) {
             assert!(class.people.iter().all(|person| !person.student.is_empty()));
             assert!(class.submissions.iter().all(|submission| submission.submitted().is_some()));
         }
     });
+    for (name, text) in
+        [("gradebook.csv", GRADEBOOK), ("worksheet.csv", WORKSHEET), ("submission_metadata.yml", EXPORTED)]
+    {
+        fuzz_text(name, text, read, |found| {
+            if let Some(class) = assert_told(found) {
+                assert!(class.submissions.iter().all(|submission| !submission.student.is_empty()));
+            }
+        });
+    }
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("rubric.toml"), RUBRIC).unwrap();
     let rubric = Rubric::load(Some(&folder.path().join("rubric.toml"))).unwrap_or_else(|error| panic!("{error}"));
@@ -144,7 +162,7 @@ fn the_unmutated_files_are_read() {
     ];
     all.iter().for_each(|(name, text)| fs::write(folder.path().join(name), text).unwrap());
     let rubric = Rubric::load(Some(&folder.path().join("rubric.toml"))).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(find::class(folder.path(), Counts::Newest).unwrap().people.len(), 5);
+    assert_eq!(find::class(folder.path(), None, Counts::Newest).unwrap().people.len(), 5);
     assert_eq!(Adjustments::of_class(folder.path(), &rubric).unwrap().of(&["anna"]).len(), 1);
     assert_eq!(store::read_grade(folder.path()).unwrap().functions.len(), 1);
     assert_eq!(Index::read(folder.path()).unwrap().submissions.len(), 4);

@@ -28,7 +28,8 @@ fn a_group_is_graded_once_and_a_student_without_a_submission_has_a_row() {
     fs::write(room.path("hw/students.csv"), students).unwrap();
     let summary = room.run();
     assert_eq!((room.calls(), summary.graded_now), (vec!["dora".to_owned(), "team".to_owned()], 2));
-    assert_eq!(summary.remarks, ["students.csv: there is no submission gone"]);
+    let unlisted = "dora: students.csv does not list it; it counts as the submission of another student, dora";
+    assert_eq!(summary.remarks, ["students.csv: there is no submission gone", unlisted]);
     let rows = columns(&room, &["student", "submission", "score", "note"]);
     let expected = [
         ["anna", "team", "1.5", ""],
@@ -79,7 +80,8 @@ fn a_deadline_counts_for_each_student_of_a_group_and_shows_both_scores() {
     ];
     assert_eq!(rows, expected);
     assert_eq!((score(&room, "anna"), score(&room, "bob")), (1.5, 0.75));
-    assert_eq!(summary.remarks, ["the rubric has an extension for fritz, who is no student"]);
+    let unlisted = "dora@2026-05-05T11-00-00Z: students.csv does not list it; it counts as the submission of another student, dora";
+    assert_eq!(summary.remarks, [unlisted, "the rubric has an extension for fritz, who is no student"]);
     let page = fs::read_to_string(room.path("out/students/bob/report.html")).unwrap();
     assert!(page.contains("1 day late: 1.5 points, less 50 %, are 0.75"), "{page}");
     assert_eq!(room.calls().len(), 2);

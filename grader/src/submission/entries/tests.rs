@@ -115,8 +115,40 @@ fn without_one_folder_src_nothing_can_be_read() {
     };
     let none = Err("there is no folder `src` in it; hand in the files as src/NAME.rs".to_owned());
     assert_eq!(read(&[]), none);
-    assert_eq!(read(&["a/b/src/psi_neo_hookean.rs"]), none);
+    assert_eq!(
+        read(&["a/b/psi.rs", "tests/functions/psi_neo_hookean.rs", "grader/handed_out/psi_neo_hookean.rs"]),
+        none
+    );
+    assert!(read(&["hw.zip"]).is_err_and(|error| error.contains("only the archive hw.zip")));
+    assert!(read(&["a/psi_neo_hookean.rs", "b/psi_neo_hookean.rs"]).is_err_and(|error| error.contains("(a, b)")));
     assert!(read(&["a/src/x.rs", "b/src/x.rs"]).is_err_and(|error| error.contains("(a, b)")));
+}
+
+#[test]
+fn files_nested_too_deep_or_at_the_top_are_taken() {
+    let body = BODY.as_bytes();
+    for (path, remark) in [
+        ("a/b/c/src/psi_neo_hookean.rs", None),
+        ("psi_neo_hookean.rs", Some("there is no folder `src` in it; the files were taken from its top")),
+        ("hw/Ada Doe/psi_neo_hookean.rs", Some("there is no folder `src` in it; the files were taken from hw/Ada Doe")),
+    ] {
+        let submission = of(&[
+            (path, body),
+            ("tests/functions/psi_neo_hookean.rs", b"given"),
+            ("__MACOSX/src/psi_neo_hookean.rs", b"x"),
+        ]);
+        assert_eq!(psi(&submission), &Source::Written(BODY.to_owned()), "{path}");
+        assert_eq!(submission.remarks.first().map(String::as_str), remark, "{path}");
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir_all(folder.path().join(path).parent().unwrap()).unwrap();
+        fs::write(folder.path().join(path), BODY).unwrap();
+        fs::create_dir_all(folder.path().join("tests/functions")).unwrap();
+        fs::write(folder.path().join("tests/functions/psi_neo_hookean.rs"), "given").unwrap();
+        let read = Submission::read_folder(folder.path()).unwrap();
+        assert_eq!((read.functions, read.remarks), (submission.functions, submission.remarks), "{path}");
+    }
+    let both = of(&[("old/deep/src/psi_neo_hookean.rs", b"old"), ("new/src/psi_neo_hookean.rs", body)]);
+    assert_eq!(psi(&both), &Source::Written(BODY.to_owned()), "the uppermost `src` counts");
 }
 
 #[test]
