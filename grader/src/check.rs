@@ -1,9 +1,13 @@
 //! The public checks on a student's own machine: every function of a repository, those that do not compile included.
 
 mod confined;
+mod judged;
+mod next;
 mod program;
+mod recorded;
 mod report;
 mod reset;
+mod roles;
 mod run_checks;
 mod watch;
 
@@ -19,16 +23,17 @@ use thiserror::Error;
 use crate::compile::prebuilt::{PrebuildError, Prebuilt};
 use crate::compile::{BuildError, Plan, build};
 use crate::implementation::sandboxed::Sandboxed;
-use crate::properties::{Course, FUNCTIONS};
+use crate::properties::FUNCTIONS;
 use crate::sandbox::{Isolation, Sandbox};
 use crate::status::Status;
-use crate::submission::{LATER, Source, Submission, Unreadable};
+use crate::submission::{Source, Submission, Unreadable};
 use confined::{own_repository, sandbox, starter};
+pub use judged::Judge;
+pub use next::{Next, next};
 pub use program::{Options, main};
-use report::View;
-pub use report::{Checked, Report};
+pub use report::{Cause, Checked, Report, View};
 pub use reset::{HANDED_OUT, reset};
-use run_checks::{run_checks, summary};
+pub use roles::{Role, roles};
 use watch::watch;
 
 /// Seed of the random inputs; the same in every run, so that a corrected function shows.
@@ -118,36 +123,13 @@ pub fn check_in(sandbox: &Sandbox, folder: &Path, only: Option<&str>) -> Result<
     let start = |program: Option<PathBuf>| Sandboxed::new(starter(sandbox, program, work.path().to_owned()), LIMIT);
     // Two processes, because a check may need another function while the one that it judges is not done.
     let (subject, trusted) = (start(built.program.clone()), start(built.program.clone()));
-    let mut reports = Vec::new();
-    for (index, (name, checks)) in FUNCTIONS.iter().enumerate() {
-        let is_later = matches!(submission.functions.get(name), Some(Source::Missing(why)) if why == LATER);
-        if only.map_or(is_later, |only| only != *name) {
-            continue;
-        }
+    let roles = roles(folder, &submission);
+    let judge =
+        Judge { submission: &submission, roles: &roles, faults: &built.faults, subject: &subject, trusted: &trusted };
+    let reports = judge.reports(only, |name| {
         bar.inc(1);
-        bar.set_message(*name);
-        subject.next_function();
-        trusted.next_function();
-        let mut checked = Vec::new();
-        let (status, messages) = match (submission.functions.get(name), built.faults.get(name)) {
-            (_, Some(fault)) => (fault.status, vec![fault.message.clone()]),
-            (Some(Source::Written(text)), None) => {
-                let course = Course { subject: &subject, trusted: &trusted, seed: SEED };
-                checked = run_checks(checks, &course, &missing_that(text, name, &submission));
-                summary(name, &checked)
-            }
-            (Some(Source::Refused { line, reason }), None) => (Status::Refused, vec![refused(*line, reason)]),
-            _ => (Status::Missing, Vec::new()),
-        };
-        reports.push(Report {
-            name,
-            place: index + 1,
-            status,
-            checks: checks.len(),
-            messages,
-            checked: checked.into_iter().map(|(checked, _)| checked).collect(),
-        });
-    }
+        bar.set_message(name);
+    });
     bar.finish_and_clear();
     Ok(reports)
 }
@@ -194,18 +176,12 @@ fn plan(submission: &Submission, wanted: &BTreeSet<&'static str>) -> Plan {
     Plan { own: written.collect(), reference: None, helpers: BTreeMap::new(), limit: COMPILE_LIMIT }
 }
 
-/// Functions that a text names and that are not written.
-fn missing_that(text: &str, name: &str, submission: &Submission) -> Vec<&'static str> {
-    let is_missing = |other: &&'static str| !matches!(submission.functions.get(other), Some(Source::Written(_)));
-    let others = FUNCTIONS.iter().map(|(other, _)| *other);
-    others.filter(|other| *other != name && text.contains(other)).filter(is_missing).collect()
-}
-
-/// Prints what was found: a table, and the failing checks of the function `about`, or of the first that fails.
+/// Prints what was found: a table, and the function to work on next: `about`, or else the first that is to be mended or written.
 fn show(options: &Options, reports: &[Report], about: Option<&str>) {
     let is_terminal = io::stdout().is_terminal();
     let colour = is_terminal && env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
-    let text = View { hints: options.hint, colour, folder: &options.folder }.render(reports, about);
+    let view = View { hints: options.hint, colour, folder: &options.folder, only_one: options.only.is_some() };
+    let text = view.render(reports, about);
     // Clears the screen and what was scrolled away.
     let clear = if options.watch && is_terminal { "\x1b[2J\x1b[3J\x1b[H" } else { "" };
     print!("{clear}{text}");
@@ -222,39 +198,7 @@ pub fn run(options: &Options) -> Result<(), CheckError> {
     }
     let reports = check_in(&sandbox, &options.folder, options.only.as_deref())?;
     show(options, &reports, None);
-    let open = reports.iter().filter(|report| report.status != Status::Passed).count();
+    let is_open = |report: &&Report| report.status != Status::Passed && report.role != Role::Later;
+    let open = reports.iter().filter(is_open).count();
     if options.exit_code && open > 0 { Err(CheckError::Open(open)) } else { Ok(()) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::implementation::{Implementation, Local, Trouble};
-    use crate::properties::Check;
-    use crate::properties::outcome::Mistake;
-    use grader_child::UNWRITTEN;
-
-    fn outcome(checks: &[Check]) -> (Status, usize) {
-        let nothing = Local(UNWRITTEN);
-        let course = Course { subject: &nothing, trusted: &nothing, seed: SEED };
-        let (status, messages) = summary("psi_neo_hookean", &run_checks(checks, &course, &[]));
-        (status, messages.len())
-    }
-
-    #[test]
-    fn a_function_that_is_late_has_not_crashed_and_one_that_trips_a_check_has_failed() {
-        let late = Check { name: "late", run: |_| Err(Mistake::Trouble(Trouble::TimedOut(LIMIT))) };
-        let given_up = Check { name: "given up", run: |_| Err(Mistake::Trouble(Trouble::GivenUp)) };
-        let trips = Check { name: "trips", run: |_| panic!("a check stumbles") };
-        assert_eq!(outcome(&[late, given_up]), (Status::TimedOut, 1));
-        assert_eq!(outcome(&[trips]), (Status::Failed, 1));
-        let open_branch = Check { name: "open", run: |_| Err(Mistake::Trouble(Trouble::Missing)) };
-        assert_eq!(outcome(&[open_branch]), (Status::Crashed, 1));
-    }
-
-    #[test]
-    fn a_function_that_a_program_lacks_is_missing_and_has_not_panicked() {
-        let answer = Local(UNWRITTEN).mass_matrix_linear_tetrahedron(1.0, 1.0);
-        assert_eq!(answer.map(drop), Err(Trouble::Missing));
-    }
 }

@@ -7,11 +7,10 @@ use std::time::Duration;
 
 use notify::{RecursiveMode, Watcher, recommended_watcher};
 
-use super::report::Report;
+use super::report::{Report, names_of};
 use super::{CheckError, Options, check_in, show, usable};
 use crate::properties::FUNCTIONS;
 use crate::sandbox::Sandbox;
-use crate::status::Status;
 
 /// Editors save a file in several events. A file counts as saved after this time without another event.
 const QUIET: Duration = Duration::from_millis(200);
@@ -56,11 +55,12 @@ fn checked_again(
 ) -> Result<(), CheckError> {
     let before = reports.iter_mut().find(|report| Some(report.name) == changed).filter(|_| only.is_none());
     if let Some(before) = before {
-        let passed = before.status == Status::Passed;
+        let outcome = |report: &Report| (report.status, names_of(&report.waits_for));
+        let earlier = outcome(before);
         if let Some(now) = check(Some(before.name))?.into_iter().next() {
             *before = now;
         }
-        if (before.status == Status::Passed) == passed {
+        if outcome(before) == earlier {
             return Ok(());
         }
     }
