@@ -9,9 +9,10 @@ mod report;
 mod reset;
 mod roles;
 mod run_checks;
+mod waiting;
 mod watch;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::env;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
@@ -28,12 +29,13 @@ use crate::sandbox::{Isolation, Sandbox};
 use crate::status::Status;
 use crate::submission::{Source, Submission, Unreadable};
 use confined::{own_repository, sandbox, starter};
-pub use judged::Judge;
+pub use judged::{Judge, Judged};
 pub use next::{Next, next};
 pub use program::{Options, main};
 pub use report::{Cause, Checked, Report, View};
-pub use reset::{HANDED_OUT, reset};
-pub use roles::{Role, roles};
+pub use reset::HANDED_OUT;
+pub use roles::{Role, Roles, roles};
+pub use waiting::reports;
 use watch::watch;
 
 /// Seed of the random inputs; the same in every run, so that a corrected function shows.
@@ -111,37 +113,54 @@ pub fn check(folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckErro
 /// # Errors
 /// The reason if no function can be checked.
 pub fn check_in(sandbox: &Sandbox, folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckError> {
-    let submission = usable(folder, only)?;
+    let (_, only) = usable(folder, only)?;
+    let (judged, roles) = judged_in(sandbox, folder, only.map_or(What::All, What::One))?;
+    Ok(reports(&judged, &roles, only))
+}
+
+/// The functions to judge.
+enum What {
+    All,
+    One(&'static str),
+    /// Those that may answer otherwise now that this one has changed.
+    Changed(&'static str, Judged),
+}
+
+/// Compiles and judges the functions of a repository.
+fn judged_in(sandbox: &Sandbox, folder: &Path, what: What) -> Result<(Judged, Roles), CheckError> {
+    let (submission, _) = usable(folder, None)?;
     let bar = bar();
     // A sandbox with layers needs a program that can start as its launcher.
     let tools = if sandbox.is_some_layer() { Sandbox::own_tools(&env::current_exe()?) } else { Sandbox::none() };
     let prebuilt = Prebuilt::new(&own_repository(), tools)?;
     bar.set_message("compiling");
     let work = tempfile::Builder::new().prefix("check-").tempdir_in(&prebuilt.folder)?;
-    let wanted = wanted(&submission, only);
-    let built = build(&prebuilt, sandbox, &plan(&submission, &wanted), work.path())?;
+    let built = build(&prebuilt, sandbox, &plan(&submission), work.path())?;
     let start = |program: Option<PathBuf>| Sandboxed::new(starter(sandbox, program, work.path().to_owned()), LIMIT);
     // Two processes, because a check may need another function while the one that it judges is not done.
     let (subject, trusted) = (start(built.program.clone()), start(built.program.clone()));
-    let roles = roles(folder, &submission);
-    let judge =
-        Judge { submission: &submission, roles: &roles, faults: &built.faults, subject: &subject, trusted: &trusted };
-    let reports = judge.reports(only, |name| {
+    let begins = |name| {
         bar.inc(1);
         bar.set_message(name);
-    });
+    };
+    let judge =
+        Judge { submission: &submission, faults: &built.faults, subject: &subject, trusted: &trusted, begins: &begins };
+    let judged = match what {
+        What::All => judge.all(),
+        What::One(name) => judge.one(name),
+        What::Changed(name, earlier) => judge.after_a_change(earlier, name),
+    };
     bar.finish_and_clear();
-    Ok(reports)
+    Ok((judged, roles(folder, &submission)))
 }
 
-/// Reads the functions of a repository, and makes sure that the one to be checked is one.
-fn usable(folder: &Path, only: Option<&str>) -> Result<Submission, CheckError> {
-    if let Some(name) = only
-        && !FUNCTIONS.iter().any(|(found, _)| *found == name)
-    {
-        return Err(CheckError::Unknown(name.to_owned()));
-    }
-    Submission::read_folder(folder).map_err(|reason| CheckError::Unreadable { folder: folder.to_owned(), reason })
+/// Reads the functions of a repository, and finds the one to be checked by its name.
+fn usable(folder: &Path, only: Option<&str>) -> Result<(Submission, Option<&'static str>), CheckError> {
+    let known = |only: &str| FUNCTIONS.iter().map(|(name, _)| *name).find(|name| *name == only);
+    let only = only.map(|only| known(only).ok_or_else(|| CheckError::Unknown(only.to_owned()))).transpose()?;
+    let read = Submission::read_folder(folder);
+    let submission = read.map_err(|reason| CheckError::Unreadable { folder: folder.to_owned(), reason })?;
+    Ok((submission, only))
 }
 
 /// A progress bar, shown on terminals only and removed at the end.
@@ -159,18 +178,9 @@ fn refused(line: Option<usize>, reason: &str) -> String {
     line.map_or_else(|| reason.to_owned(), |line| format!("line {line}: {reason}"))
 }
 
-/// The functions that go into the program: all, or one and those that it calls or that its checks compare it with.
-fn wanted(submission: &Submission, only: Option<&str>) -> BTreeSet<&'static str> {
-    let all = FUNCTIONS.iter().map(|(name, _)| *name);
-    let Some(only) = only else { return all.collect() };
-    // Checks of derivatives need the function itself, and checks of integrators need whole bodies. So only files that do not compile are
-    // left out. They are not known here; `build` leaves them out.
-    all.filter(|name| *name == only || matches!(submission.functions.get(name), Some(Source::Written(_)))).collect()
-}
-
-fn plan(submission: &Submission, wanted: &BTreeSet<&'static str>) -> Plan {
-    let written = wanted.iter().filter_map(|name| match submission.functions.get(name) {
-        Some(Source::Written(text)) => Some((*name, text.clone())),
+fn plan(submission: &Submission) -> Plan {
+    let written = submission.functions.iter().filter_map(|(name, source)| match source {
+        Source::Written(text) => Some((*name, text.clone())),
         _ => None,
     });
     Plan { own: written.collect(), reference: None, helpers: BTreeMap::new(), limit: COMPILE_LIMIT }

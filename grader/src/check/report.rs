@@ -149,6 +149,8 @@ impl View<'_> {
             text.push_str(&count(reports));
         }
         match next {
+            // The page is named above.
+            Some(next) if self.only_one && next.report.is_some_and(|report| !report.checked.is_empty()) => {}
             Some(next) => text.push_str(&self.told(&next)),
             None if self.only_one => {}
             None => text.push_str(&self.end(reports)),

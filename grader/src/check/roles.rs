@@ -18,8 +18,11 @@ pub enum Role {
     Later,
 }
 
+/// The part of each function.
+pub type Roles = BTreeMap<&'static str, Role>;
+
 /// The part of each function, as its file tells that was handed out, or else the present one.
-pub fn roles(folder: &Path, submission: &Submission) -> BTreeMap<&'static str, Role> {
+pub fn roles(folder: &Path, submission: &Submission) -> Roles {
     NAMES.map(|name| (name, role(folder, name, submission.functions.get(name)))).into()
 }
 
