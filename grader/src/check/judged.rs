@@ -30,6 +30,7 @@ pub struct Judge<'a> {
 }
 
 /// What the compiler and the checks say of one function.
+#[derive(Clone)]
 pub struct Found {
     pub(super) status: Status,
     pub(super) messages: Vec<String>,

@@ -14,6 +14,7 @@ use crate::status::Status;
 const MOST_MESSAGES: usize = 3;
 
 /// Result of one check.
+#[derive(Clone)]
 pub struct CheckResult {
     /// What the student reads of it.
     pub checked: Checked,
