@@ -27,7 +27,7 @@ use crate::implementation::sandboxed::Sandboxed;
 use crate::properties::FUNCTIONS;
 use crate::sandbox::{Isolation, Sandbox};
 use crate::status::Status;
-use crate::submission::{Source, Submission, Unreadable};
+use crate::submission::{NAMES, Source, Submission, Unreadable};
 use confined::{own_repository, sandbox, starter};
 pub use judged::{Judge, Judged};
 pub use next::{Next, next};
@@ -68,7 +68,7 @@ pub enum CheckError {
     #[error(transparent)]
     Build(#[from] BuildError),
     /// A name that no function has.
-    #[error("`{0}` is not a function of the course; the README lists the names")]
+    #[error("`{0}` is not a function of the course; {similar}", similar = similar(.0))]
     Unknown(String),
     /// The folder belongs to another user, and this machine has no sandbox.
     #[error("{0}; add `--without-sandbox` if you trust the functions as you trust yourself")]
@@ -97,6 +97,18 @@ impl CheckError {
             Self::Open(_) => 3,
             _ => 1,
         }
+    }
+}
+
+/// The functions whose names contain a text, a file's ending aside.
+fn similar(text: &str) -> String {
+    let stem = text.rsplit('/').next().unwrap_or(text).trim_end_matches(".rs").to_lowercase();
+    let found: Vec<_> =
+        NAMES.into_iter().filter(|name| !stem.is_empty() && name.to_lowercase().contains(&stem)).collect();
+    if found.is_empty() {
+        "the README lists the names".to_owned()
+    } else {
+        format!("do you mean {}?", found.join(" or "))
     }
 }
 
@@ -211,4 +223,17 @@ pub fn run(options: &Options) -> Result<(), CheckError> {
     let is_open = |report: &&Report| report.status != Status::Passed && report.role != Role::Later;
     let open = reports.iter().filter(is_open).count();
     if options.exit_code && open > 0 { Err(CheckError::Open(open)) } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_that_no_function_has_is_answered_with_those_that_contain_it() {
+        let told = |name: &str| CheckError::Unknown(name.to_owned()).to_string();
+        assert!(told("newton").ends_with("do you mean newtons_method?"), "{}", told("newton"));
+        assert!(told("src/PSI_neo_hookean.rs").contains("do you mean psi_neo_hookean or dpsi"), "{}", told("psi"));
+        assert!(told("euler_explicit").ends_with("the README lists the names"));
+    }
 }

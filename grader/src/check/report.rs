@@ -221,10 +221,10 @@ impl View<'_> {
         }
         match self.hints {
             0 => {
-                let _ = writeln!(text, "  read {page}; `--hint` tells the rules, figures and inputs");
+                let _ = writeln!(text, "  read {page}; `--hint` shows figures and inputs");
             }
             1 => {
-                let _ = writeln!(text, "  read {page}; `--hint --hint` tells common mistakes as well");
+                let _ = writeln!(text, "  read {page}; `--hint --hint` shows common mistakes as well");
             }
             _ => text.push_str(&indented(&common_mistakes(&self.folder.join(&page)), 2)),
         }

@@ -41,7 +41,6 @@ fn the_handout_has_no_strays() {
         "README.md",
         "crates",
         "data",
-        "docs",
         "grader",
         "include-docs",
         "rustfmt.toml",
