@@ -1,7 +1,8 @@
 //! The path of a student: in every state of the 22 functions, and of both assignments, `check` names the function that a tutor would.
 //!
-//! One program holds every function three times, right, wrong and not written; a variable of its environment says which of them answers.
+//! One program holds every function three times, right, wrong and without an answer; a variable of its environment says which of them answers.
 
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -40,7 +41,7 @@ fn right(name: &str) -> String {
     }
 }
 
-/// A file whose function answers as `STATE` says: by `x` wrong, by `?` as if it were not written, else right.
+/// A file whose function answers as `STATE` says: by `x` wrong, by `?` as if it were not written, by `l` never, else right.
 fn switched(place: usize, name: &str) -> String {
     let text = right(name);
     let start = text.find(&format!("pub fn {name}")).expect("the function");
@@ -60,7 +61,7 @@ fn switched(place: usize, name: &str) -> String {
     };
     format!(
         "{imports}\nmod right {{\n{text}\n}}\n\n{signature} {{\n    match state() {{\n        b'x' => {{ {wrong} }}\n        \
-         b'?' => todo!(\"write this function\"),\n        _ => {call},\n    }}\n}}\n\nfn state() -> u8 {{\n    \
+         b'?' => todo!(\"write this function\"),\n        b'l' => loop {{ std::thread::park(); }},\n        _ => {call},\n    }}\n}}\n\nfn state() -> u8 {{\n    \
          static STATE: std::sync::OnceLock<u8> = std::sync::OnceLock::new();\n    \
          *STATE.get_or_init(|| std::env::var(\"STATE\").expect(\"a state\").as_bytes()[{place}])\n}}\n"
     )
@@ -79,6 +80,11 @@ static PROGRAM: LazyLock<(TempDir, PathBuf)> = LazyLock::new(|| {
 
 /// A process whose functions are in these states, one letter each.
 fn process(state: &str) -> Sandboxed {
+    process_within(state, Duration::from_secs(30))
+}
+
+/// The same with this time for an answer.
+fn process_within(state: &str, limit: Duration) -> Sandboxed {
     let (folder, program) = &*PROGRAM;
     let (folder, program, state) = (folder.path().to_owned(), program.clone(), state.to_owned());
     let second = Duration::from_secs(1);
@@ -102,7 +108,7 @@ fn process(state: &str) -> Sandboxed {
             },
         })
     };
-    Sandboxed::new(start, 30 * second)
+    Sandboxed::new(start, limit)
 }
 
 /// A student's repository: the states of the functions, and its files as they would be.
@@ -336,4 +342,23 @@ fn of_several_broken_functions_those_that_need_another_wait_and_mending_what_is_
         judged = student.judged(Some((judged, next)));
     }
     assert_eq!(next_of(&student.reports(&judged)), None);
+}
+
+#[test]
+fn what_calls_a_function_that_never_ends_waits_and_is_not_run() {
+    let mut student = Student::done();
+    student.state[place("psi_neo_hookean")] = b'l';
+    let state = String::from_utf8(student.state.clone()).expect("letters");
+    let [subject, trusted] = [(); 2].map(|()| process_within(&state, Duration::from_secs(2)));
+    let begun = RefCell::new(BTreeSet::new());
+    let begins = |name| drop(begun.borrow_mut().insert(name));
+    let (submission, faults) = (&student.submission, &student.faults);
+    let judge = Judge { submission, faults, subject: &subject, trusted: &trusted, begins: &begins };
+    let found = reports(&judge.one("V_linear_tetrahedron"), &student.roles, Some("V_linear_tetrahedron"));
+    assert_eq!(found[0].messages, ["waits for psi_neo_hookean"]);
+    assert_eq!(next_of(&found), Some("psi_neo_hookean"));
+    assert!(
+        begun.borrow().contains("psi_neo_hookean") && !begun.borrow().contains("V_linear_tetrahedron"),
+        "{begun:?}"
+    );
 }

@@ -1,10 +1,10 @@
 //! A root folder with only the files that the program may see.
 
 use std::collections::BTreeMap;
-use std::fs;
+use std::fs::{self, DirBuilder};
 use std::io;
 use std::os::unix::ffi::OsStrExt;
-use std::os::unix::fs::symlink;
+use std::os::unix::fs::{DirBuilderExt, symlink};
 use std::path::{Path, PathBuf};
 
 use nix::mount::{MntFlags, MsFlags, mount, umount2};
@@ -35,9 +35,10 @@ pub fn build(confined: &Confined) -> io::Result<()> {
     for device in DEVICES {
         bind(Path::new(device))?;
     }
-    // There is no /proc. A program that panics looks here for its own file, to name the lines of its calls.
+    // A program that panics looks here for its own file, to name the lines of its calls. Of /proc there is nothing else, and no list.
     if confined.profile == Profile::Submission {
-        link(&confined.program, Path::new("/proc/self/exe"))?;
+        DirBuilder::new().mode(0o711).recursive(true).create("/proc/self")?;
+        symlink(&confined.program, "/proc/self/exe")?;
     }
     umount2(OLD, MntFlags::MNT_DETACH)?;
     fs::remove_dir(OLD)?;
