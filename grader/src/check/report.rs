@@ -298,4 +298,24 @@ mod tests {
         assert!(second.contains("rule 2") && second.contains("with input 2"), "{second}");
         assert!(!second.contains("Integer division") && third.contains("Integer division"), "{third}");
     }
+
+    #[test]
+    fn a_given_function_that_was_changed_is_put_back_and_one_of_a_later_assignment_is_written_only_where_another_calls_it()
+     {
+        let folder = Path::new(".");
+        let told = |reports: &[Report]| View { hints: 0, colour: false, folder, only_one: false }.render(reports, None);
+        let given = Report { role: Role::Given, ..report("phi_linear_tetrahedron", Status::Failed, &[false]) };
+        let text = told(&[given]);
+        assert!(
+            text.contains("0 of 0 functions pass") && text.contains("reset phi_linear_tetrahedron` puts it back"),
+            "{text}"
+        );
+
+        let later = || Cause { name: "mass_matrix_linear_tetrahedron", status: Status::Missing, role: Role::Later };
+        let waiting = Report { waits_for: vec![later()], ..report("T_linear_tetrahedron", Status::Missing, &[false]) };
+        let text = told(&[waiting]);
+        assert!(text.contains("waits for mass_matrix_linear_tetrahedron\n"), "{text}");
+        assert!(text.contains("next: src/mass_matrix_linear_tetrahedron.rs"), "{text}");
+        assert!(text.contains("a later assignment asks for it, but T_linear_tetrahedron waits for it"), "{text}");
+    }
 }
