@@ -35,6 +35,8 @@ pub struct Found {
     pub(super) status: Status,
     pub(super) messages: Vec<String>,
     pub(super) results: Vec<CheckResult>,
+    /// It can be called.
+    pub(super) is_in_program: bool,
     /// The functions that its text names, itself not among them.
     pub(super) names: Names,
     /// The functions without which nothing can be said of it: those that its text calls and that do not answer in time, or those of
@@ -118,6 +120,7 @@ impl Judge<'_> {
             status,
             messages,
             results: Vec::new(),
+            is_in_program: status == Status::Missing && matches!(self.source(name), Some(Source::Written(_))),
             names: names.clone(),
             stands_still_for,
         };
@@ -138,8 +141,10 @@ impl Judge<'_> {
             let lacking = names.iter().filter(compiles_without).filter(is_lacking).copied().collect();
             return without_checks(fault.status, vec![fault.message.clone()], lacking);
         }
-        let slow: Names =
-            all.iter().filter(|(_, found)| found.status == Status::TimedOut).map(|(name, _)| *name).collect();
+        let is_slow = |found: &Found| {
+            found.status == Status::TimedOut || (found.is_in_program && !found.stands_still_for.is_empty())
+        };
+        let slow: Names = all.iter().filter(|(_, found)| is_slow(found)).map(|(name, _)| *name).collect();
         let called = reached(names.clone(), all);
         if !called.is_disjoint(&slow) {
             return without_checks(Status::Missing, Vec::new(), &called & &slow);
@@ -149,7 +154,7 @@ impl Judge<'_> {
         self.trusted.next_function();
         let results = run_checks(checks_of(name), self.subject, &Recorded::new(self.trusted, &slow), SEED);
         let (status, messages) = summary(name, &results);
-        Found { status, messages, results, names, stands_still_for: Names::new() }
+        Found { status, messages, results, is_in_program: true, names, stands_still_for: Names::new() }
     }
 }
 

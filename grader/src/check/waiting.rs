@@ -6,7 +6,9 @@ use super::judged::{Found, Judged, Names, checks_of};
 use super::report::{Cause, Checked, Report, names_of};
 use super::roles::{Role, Roles};
 use super::run_checks::CheckResult;
+use crate::implementation::Trouble;
 use crate::properties::FUNCTIONS;
+use crate::properties::outcome::Mistake;
 use crate::status::Status;
 
 type Waits = BTreeMap<&'static str, Names>;
@@ -64,12 +66,15 @@ pub fn reached(from: Names, all: &Judged) -> Names {
 /// The functions that may be to blame for a failing check of the function `name`: those that it calls or that the check asks, and that
 /// do not pass themselves. Empty for a check that passes.
 fn causes_of(name: &str, result: &CheckResult, all: &Judged) -> Names {
-    if result.mistake.is_none() {
-        return Names::new();
-    }
+    let Some(mistake) = &result.mistake else { return Names::new() };
+    // A function that is not in the program stops whatever calls it, so an answer was made without it.
+    let is_stopped = matches!(
+        mistake,
+        Mistake::Waits { .. } | Mistake::Trouble(Trouble::Missing) | Mistake::Trouble(Trouble::GivenUp)
+    );
+    let may_be_to_blame = |found: &Found| found.status != Status::Passed && (is_stopped || found.is_in_program);
     let needed = reached(&all[name].names | &result.asked, all);
-    let is_open = |other: &&str| *other != name && all.get(other).is_some_and(|found| found.status != Status::Passed);
-    needed.into_iter().filter(is_open).collect()
+    needed.into_iter().filter(|other| *other != name && all.get(other).is_some_and(may_be_to_blame)).collect()
 }
 
 /// The functions that each judged function waits for; none if it passes, is not written, or has a mistake of its own: a failing check
