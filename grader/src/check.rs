@@ -1,13 +1,18 @@
 //! The public checks on a student's own machine: every function of a repository, those that do not compile included.
 
 mod confined;
+mod judged;
+mod next;
 mod program;
+mod recorded;
 mod report;
 mod reset;
+mod roles;
 mod run_checks;
+mod waiting;
 mod watch;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::env;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
@@ -19,16 +24,18 @@ use thiserror::Error;
 use crate::compile::prebuilt::{PrebuildError, Prebuilt};
 use crate::compile::{BuildError, Plan, build};
 use crate::implementation::sandboxed::Sandboxed;
-use crate::properties::{Course, FUNCTIONS};
+use crate::properties::FUNCTIONS;
 use crate::sandbox::{Isolation, Sandbox};
 use crate::status::Status;
-use crate::submission::{LATER, Source, Submission, Unreadable};
+use crate::submission::{NAMES, Source, Submission, Unreadable};
 use confined::{own_repository, sandbox, starter};
+pub use judged::{Judge, Judged};
+pub use next::{Next, next};
 pub use program::{Options, main};
-use report::View;
-pub use report::{Checked, Report};
-pub use reset::{HANDED_OUT, reset};
-use run_checks::{run_checks, summary};
+pub use report::{Cause, Checked, Report, View};
+pub use reset::HANDED_OUT;
+pub use roles::{Role, Roles, roles};
+pub use waiting::reports;
 use watch::watch;
 
 /// Seed of the random inputs; the same in every run, so that a corrected function shows.
@@ -61,7 +68,7 @@ pub enum CheckError {
     #[error(transparent)]
     Build(#[from] BuildError),
     /// A name that no function has.
-    #[error("`{0}` is not a function of the course; the README lists the names")]
+    #[error("`{0}` is not a function of the course; {similar}", similar = similar(.0))]
     Unknown(String),
     /// The folder belongs to another user, and this machine has no sandbox.
     #[error("{0}; add `--without-sandbox` if you trust the functions as you trust yourself")]
@@ -93,6 +100,18 @@ impl CheckError {
     }
 }
 
+/// The functions whose names contain a text, a file's ending aside.
+fn similar(text: &str) -> String {
+    let stem = text.rsplit('/').next().unwrap_or(text).trim_end_matches(".rs").to_lowercase();
+    let found: Vec<_> =
+        NAMES.into_iter().filter(|name| !stem.is_empty() && name.to_lowercase().contains(&stem)).collect();
+    if found.is_empty() {
+        "the README lists the names".to_owned()
+    } else {
+        format!("do you mean {}?", found.join(" or "))
+    }
+}
+
 /// Checks the functions of the repository at `folder`, or one of them, without a sandbox.
 ///
 /// # Errors
@@ -106,60 +125,54 @@ pub fn check(folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckErro
 /// # Errors
 /// The reason if no function can be checked.
 pub fn check_in(sandbox: &Sandbox, folder: &Path, only: Option<&str>) -> Result<Vec<Report>, CheckError> {
-    let submission = usable(folder, only)?;
+    let (_, only) = usable(folder, only)?;
+    let (judged, roles) = judged_in(sandbox, folder, only.map_or(What::All, What::One))?;
+    Ok(reports(&judged, &roles, only))
+}
+
+/// The functions to judge.
+enum What {
+    All,
+    One(&'static str),
+    /// Those that may answer otherwise now that this one has changed.
+    Changed(&'static str, Judged),
+}
+
+/// Compiles and judges the functions of a repository.
+fn judged_in(sandbox: &Sandbox, folder: &Path, what: What) -> Result<(Judged, Roles), CheckError> {
+    let (submission, _) = usable(folder, None)?;
     let bar = bar();
     // A sandbox with layers needs a program that can start as its launcher.
     let tools = if sandbox.is_some_layer() { Sandbox::own_tools(&env::current_exe()?) } else { Sandbox::none() };
     let prebuilt = Prebuilt::new(&own_repository(), tools)?;
     bar.set_message("compiling");
     let work = tempfile::Builder::new().prefix("check-").tempdir_in(&prebuilt.folder)?;
-    let wanted = wanted(&submission, only);
-    let built = build(&prebuilt, sandbox, &plan(&submission, &wanted), work.path())?;
+    let built = build(&prebuilt, sandbox, &plan(&submission), work.path())?;
     let start = |program: Option<PathBuf>| Sandboxed::new(starter(sandbox, program, work.path().to_owned()), LIMIT);
     // Two processes, because a check may need another function while the one that it judges is not done.
     let (subject, trusted) = (start(built.program.clone()), start(built.program.clone()));
-    let mut reports = Vec::new();
-    for (index, (name, checks)) in FUNCTIONS.iter().enumerate() {
-        let is_later = matches!(submission.functions.get(name), Some(Source::Missing(why)) if why == LATER);
-        if only.map_or(is_later, |only| only != *name) {
-            continue;
-        }
+    let begins = |name| {
         bar.inc(1);
-        bar.set_message(*name);
-        subject.next_function();
-        trusted.next_function();
-        let mut checked = Vec::new();
-        let (status, messages) = match (submission.functions.get(name), built.faults.get(name)) {
-            (_, Some(fault)) => (fault.status, vec![fault.message.clone()]),
-            (Some(Source::Written(text)), None) => {
-                let course = Course { subject: &subject, trusted: &trusted, seed: SEED };
-                checked = run_checks(checks, &course, &missing_that(text, name, &submission));
-                summary(name, &checked)
-            }
-            (Some(Source::Refused { line, reason }), None) => (Status::Refused, vec![refused(*line, reason)]),
-            _ => (Status::Missing, Vec::new()),
-        };
-        reports.push(Report {
-            name,
-            place: index + 1,
-            status,
-            checks: checks.len(),
-            messages,
-            checked: checked.into_iter().map(|(checked, _)| checked).collect(),
-        });
-    }
+        bar.set_message(name);
+    };
+    let judge =
+        Judge { submission: &submission, faults: &built.faults, subject: &subject, trusted: &trusted, begins: &begins };
+    let judged = match what {
+        What::All => judge.all(),
+        What::One(name) => judge.one(name),
+        What::Changed(name, earlier) => judge.after_a_change(earlier, name),
+    };
     bar.finish_and_clear();
-    Ok(reports)
+    Ok((judged, roles(folder, &submission)))
 }
 
-/// Reads the functions of a repository, and makes sure that the one to be checked is one.
-fn usable(folder: &Path, only: Option<&str>) -> Result<Submission, CheckError> {
-    if let Some(name) = only
-        && !FUNCTIONS.iter().any(|(found, _)| *found == name)
-    {
-        return Err(CheckError::Unknown(name.to_owned()));
-    }
-    Submission::read_folder(folder).map_err(|reason| CheckError::Unreadable { folder: folder.to_owned(), reason })
+/// Reads the functions of a repository, and finds the one to be checked by its name.
+fn usable(folder: &Path, only: Option<&str>) -> Result<(Submission, Option<&'static str>), CheckError> {
+    let known = |only: &str| FUNCTIONS.iter().map(|(name, _)| *name).find(|name| *name == only);
+    let only = only.map(|only| known(only).ok_or_else(|| CheckError::Unknown(only.to_owned()))).transpose()?;
+    let read = Submission::read_folder(folder);
+    let submission = read.map_err(|reason| CheckError::Unreadable { folder: folder.to_owned(), reason })?;
+    Ok((submission, only))
 }
 
 /// A progress bar, shown on terminals only and removed at the end.
@@ -177,35 +190,20 @@ fn refused(line: Option<usize>, reason: &str) -> String {
     line.map_or_else(|| reason.to_owned(), |line| format!("line {line}: {reason}"))
 }
 
-/// The functions that go into the program: all, or one and those that it calls or that its checks compare it with.
-fn wanted(submission: &Submission, only: Option<&str>) -> BTreeSet<&'static str> {
-    let all = FUNCTIONS.iter().map(|(name, _)| *name);
-    let Some(only) = only else { return all.collect() };
-    // Checks of derivatives need the function itself, and checks of integrators need whole bodies. So only files that do not compile are
-    // left out. They are not known here; `build` leaves them out.
-    all.filter(|name| *name == only || matches!(submission.functions.get(name), Some(Source::Written(_)))).collect()
-}
-
-fn plan(submission: &Submission, wanted: &BTreeSet<&'static str>) -> Plan {
-    let written = wanted.iter().filter_map(|name| match submission.functions.get(name) {
-        Some(Source::Written(text)) => Some((*name, text.clone())),
+fn plan(submission: &Submission) -> Plan {
+    let written = submission.functions.iter().filter_map(|(name, source)| match source {
+        Source::Written(text) => Some((*name, text.clone())),
         _ => None,
     });
     Plan { own: written.collect(), reference: None, helpers: BTreeMap::new(), limit: COMPILE_LIMIT }
 }
 
-/// Functions that a text names and that are not written.
-fn missing_that(text: &str, name: &str, submission: &Submission) -> Vec<&'static str> {
-    let is_missing = |other: &&'static str| !matches!(submission.functions.get(other), Some(Source::Written(_)));
-    let others = FUNCTIONS.iter().map(|(other, _)| *other);
-    others.filter(|other| *other != name && text.contains(other)).filter(is_missing).collect()
-}
-
-/// Prints what was found: a table, and the failing checks of the function `about`, or of the first that fails.
+/// Prints what was found: a table, and the function to work on next: `about`, or else the first that is to be mended or written.
 fn show(options: &Options, reports: &[Report], about: Option<&str>) {
     let is_terminal = io::stdout().is_terminal();
     let colour = is_terminal && env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
-    let text = View { hints: options.hint, colour, folder: &options.folder }.render(reports, about);
+    let view = View { hints: options.hint, colour, folder: &options.folder, only_one: options.only.is_some() };
+    let text = view.render(reports, about);
     // Clears the screen and what was scrolled away.
     let clear = if options.watch && is_terminal { "\x1b[2J\x1b[3J\x1b[H" } else { "" };
     print!("{clear}{text}");
@@ -222,39 +220,20 @@ pub fn run(options: &Options) -> Result<(), CheckError> {
     }
     let reports = check_in(&sandbox, &options.folder, options.only.as_deref())?;
     show(options, &reports, None);
-    let open = reports.iter().filter(|report| report.status != Status::Passed).count();
+    let is_open = |report: &&Report| report.status != Status::Passed && report.role != Role::Later;
+    let open = reports.iter().filter(is_open).count();
     if options.exit_code && open > 0 { Err(CheckError::Open(open)) } else { Ok(()) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::implementation::{Implementation, Local, Trouble};
-    use crate::properties::Check;
-    use crate::properties::outcome::Mistake;
-    use grader_child::UNWRITTEN;
-
-    fn outcome(checks: &[Check]) -> (Status, usize) {
-        let nothing = Local(UNWRITTEN);
-        let course = Course { subject: &nothing, trusted: &nothing, seed: SEED };
-        let (status, messages) = summary("psi_neo_hookean", &run_checks(checks, &course, &[]));
-        (status, messages.len())
-    }
 
     #[test]
-    fn a_function_that_is_late_has_not_crashed_and_one_that_trips_a_check_has_failed() {
-        let late = Check { name: "late", run: |_| Err(Mistake::Trouble(Trouble::TimedOut(LIMIT))) };
-        let given_up = Check { name: "given up", run: |_| Err(Mistake::Trouble(Trouble::GivenUp)) };
-        let trips = Check { name: "trips", run: |_| panic!("a check stumbles") };
-        assert_eq!(outcome(&[late, given_up]), (Status::TimedOut, 1));
-        assert_eq!(outcome(&[trips]), (Status::Failed, 1));
-        let open_branch = Check { name: "open", run: |_| Err(Mistake::Trouble(Trouble::Missing)) };
-        assert_eq!(outcome(&[open_branch]), (Status::Crashed, 1));
-    }
-
-    #[test]
-    fn a_function_that_a_program_lacks_is_missing_and_has_not_panicked() {
-        let answer = Local(UNWRITTEN).mass_matrix_linear_tetrahedron(1.0, 1.0);
-        assert_eq!(answer.map(drop), Err(Trouble::Missing));
+    fn a_name_that_no_function_has_is_answered_with_those_that_contain_it() {
+        let told = |name: &str| CheckError::Unknown(name.to_owned()).to_string();
+        assert!(told("newton").ends_with("do you mean newtons_method?"), "{}", told("newton"));
+        assert!(told("src/PSI_neo_hookean.rs").contains("do you mean psi_neo_hookean or dpsi"), "{}", told("psi"));
+        assert!(told("euler_explicit").ends_with("the README lists the names"));
     }
 }

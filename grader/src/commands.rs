@@ -52,6 +52,7 @@ fn unusable(error: impl Display) -> Problem {
 pub fn handout(to: &Path, rubric: Option<&Path>) -> Done {
     let rubric = Rubric::load(rubric).map_err(unusable)?;
     handout::write(&repository(), &rubric, to).map_err(unusable)?;
+    rubric.unfinishable().iter().for_each(|sentence| eprintln!("{sentence}"));
     println!("The students' repository is in {}; its README.md tells how to begin.", to.display());
     Ok(())
 }

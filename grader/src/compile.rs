@@ -19,6 +19,7 @@ use thiserror::Error;
 use crate::implementation::budget::Budget;
 use crate::sandbox::Sandbox;
 use crate::status::Status;
+use crate::submission::mentions;
 pub use attempt::{Attempt, attempt};
 use prebuilt::Prebuilt;
 
@@ -116,9 +117,21 @@ pub fn build_within(
             let sentence = "the files compile one by one, but not together";
             found = plan.own.keys().map(|name| (*name, does_not_compile(sentence.to_owned()))).collect();
         }
+        let found = without_consequences(found, &plan);
         plan.own.retain(|name, _| !found.contains_key(name));
         all_faults.extend(found);
     }
+}
+
+/// The faults of files that name no other faulty function: the next attempt shows whether the others compile without these, whose wrong
+/// signature or missing `pub` is an error in each file that calls them. All faults if each file names another.
+fn without_consequences(found: BTreeMap<&'static str, Fault>, plan: &Plan) -> BTreeMap<&'static str, Fault> {
+    let names_faulty = |name: &str| {
+        let others = plan.own.get(name).map(|text| mentions(text)).unwrap_or_default();
+        others.into_iter().any(|other| other != name && found.contains_key(other))
+    };
+    let first: BTreeSet<&str> = found.keys().copied().filter(|name| !names_faulty(name)).collect();
+    if first.is_empty() { found } else { found.into_iter().filter(|(name, _)| first.contains(name)).collect() }
 }
 
 /// Finds the files that cannot be compiled even alone.

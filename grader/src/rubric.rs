@@ -3,6 +3,7 @@
 mod checked;
 mod deadline;
 mod judging;
+mod needs;
 
 use std::fs::File;
 use std::io::Read;

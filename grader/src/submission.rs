@@ -27,6 +27,9 @@ pub const MAX_FILE_BYTES: u64 = 1 << 20;
 /// Text in the handout's empty file of a function that this assignment does not ask for.
 pub const LATER: &str = "a later assignment asks for it";
 
+/// First line of a function that an assignment gives solved.
+pub const GIVEN: &str = "// Given solved in this assignment; changes in this file are not taken.\n";
+
 /// The submission's source of one function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {

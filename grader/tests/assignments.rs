@@ -54,23 +54,23 @@ fn functions(grade: &Value) -> Vec<(&str, &str)> {
 
 #[test]
 fn what_a_later_assignment_asks_for_is_neither_graded_nor_needed() {
-    let folder = submission(&NAMES[..12]);
+    let folder = submission(&NAMES[..13]);
     let grade = grade(folder.path(), &repository().join("grader/rubrics/first.toml"));
-    assert_eq!(functions(&grade), NAMES[..12].iter().map(|name| (*name, "passed")).collect::<Vec<_>>());
-    assert_eq!((&grade["score"], &grade["max_score"]), (&Value::from(49.0), &Value::from(49.0)));
+    assert_eq!(functions(&grade), NAMES[..13].iter().map(|name| (*name, "passed")).collect::<Vec<_>>());
+    assert_eq!((&grade["score"], &grade["max_score"]), (&Value::from(53.0), &Value::from(53.0)));
     assert!(grade["simulation"]["message"].as_str().is_some_and(|told| told.contains("later assignment")));
 }
 
 #[test]
 fn the_reference_stands_in_for_what_is_given_also_in_the_simulation() {
-    let folder = submission(&NAMES[12..]);
+    let folder = submission(&NAMES[13..]);
     add(&folder, "psi_neo_hookean", &solution("psi_neo_hookean").replace("- 3.0", "- 2.0"));
     add(&folder, "fixed_point_constraints", "pub fn fixed_point_constraints() {}");
     let grade = grade(folder.path(), &repository().join("grader/rubrics/second.toml"));
     let expected =
         |name: &&'static str| (*name, if *name == "fixed_point_constraints" { "did_not_compile" } else { "passed" });
-    assert_eq!(functions(&grade), NAMES[12..].iter().map(expected).collect::<Vec<_>>());
-    assert_eq!((&grade["score"], &grade["max_score"]), (&Value::from(48.0), &Value::from(51.0)));
+    assert_eq!(functions(&grade), NAMES[13..].iter().map(expected).collect::<Vec<_>>());
+    assert_eq!((&grade["score"], &grade["max_score"]), (&Value::from(44.0), &Value::from(47.0)));
     let remarks = grade["remarks"].to_string();
     assert!(
         remarks.contains("src/psi_neo_hookean.rs is given solved") && remarks.matches("given").count() == 1,
@@ -79,7 +79,7 @@ fn the_reference_stands_in_for_what_is_given_also_in_the_simulation() {
 
     add(&folder, "fixed_point_constraints", &solution("fixed_point_constraints"));
     let whole = self::grade(folder.path(), &repository().join("grader/rubrics/second.toml"));
-    assert_eq!((&whole["simulation"]["status"], &whole["score"]), (&Value::from("passed"), &Value::from(51.0)));
+    assert_eq!((&whole["simulation"]["status"], &whole["score"]), (&Value::from("passed"), &Value::from(47.0)));
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn a_given_function_that_calls_what_is_asked_for_calls_the_students_own() {
 
 #[test]
 fn one_function_is_graded_again_and_a_deadline_counts_for_a_single_submission() {
-    let folder = submission(&NAMES[..12]);
+    let folder = submission(&NAMES[..13]);
     let rubric = folder.path().join("rubric.toml");
     let first = fs::read_to_string(repository().join("grader/rubrics/first.toml")).expect("the rubric");
     let strict =
@@ -114,8 +114,8 @@ fn one_function_is_graded_again_and_a_deadline_counts_for_a_single_submission() 
     let who = r#"{"created_at": "2026-05-04T06:00:00-07:00", "users": [{"email": "anna@x.org"}]}"#;
     fs::write(&metadata, who).expect("a file");
     let late = grade_with(folder.path(), &rubric, &["--seed", "5", "--metadata", &metadata.display().to_string()]);
-    assert_eq!((&late["score"], &late["account"]["raw_score"]), (&Value::from(24.5), &Value::from(49.0)));
-    assert!(late["remarks"].to_string().contains("1 day late: 49 points, less 50 %, are 24.5"), "{}", late["remarks"]);
+    assert_eq!((&late["score"], &late["account"]["raw_score"]), (&Value::from(26.5), &Value::from(53.0)));
+    assert!(late["remarks"].to_string().contains("1 day late: 53 points, less 50 %, are 26.5"), "{}", late["remarks"]);
 
     let mut earlier = late.clone();
     for function in earlier["functions"].as_array_mut().expect("functions") {
@@ -127,14 +127,14 @@ fn one_function_is_graded_again_and_a_deadline_counts_for_a_single_submission() 
     let again = grade_with(folder.path(), &rubric, &again);
     assert_eq!(again["functions"][5]["diagnosis"], Value::Null);
     let kept = again["functions"].as_array().expect("functions").iter();
-    assert_eq!(kept.filter(|function| function["diagnosis"] == "of the first time").count(), 11);
+    assert_eq!(kept.filter(|function| function["diagnosis"] == "of the first time").count(), 12);
     assert_eq!(functions(&again), functions(&late));
 }
 
 #[test]
 fn students_check_what_is_asked_for_beside_what_is_given_and_read_nothing_of_what_comes_later() {
     for (file, missing, passed) in
-        [("first.toml", &NAMES[..12], &NAMES[..0]), ("second.toml", &NAMES[12..], &NAMES[..12])]
+        [("first.toml", &NAMES[..13], &NAMES[..0]), ("second.toml", &NAMES[13..], &NAMES[..13])]
     {
         let folder = TempDir::new().expect("a folder");
         let mut grader = Command::new(env!("CARGO_BIN_EXE_grader"));
@@ -168,7 +168,7 @@ fn with_own_check(submission: &Path, check: &str) -> (Output, Value) {
 fn a_check_beside_the_rubric_judges_like_any_other_and_its_mistakes_are_named_with_their_line() {
     let example = repository().join("grader/rubrics/checks/energy_is_linear_in_its_constants.rs");
     let check = fs::read_to_string(example).expect("the example");
-    let folder = submission(&NAMES[..12]);
+    let folder = submission(&NAMES[..13]);
     let (output, right) = with_own_check(folder.path(), &check);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     let checks = right["functions"][2]["checks"].as_array().expect("checks");

@@ -6,11 +6,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 use std::time::Duration;
 
-use grader::check::check;
+use grader::check::{Report, check};
 use grader::compile::prebuilt::Prebuilt;
 use grader::compile::{Plan, build};
 use grader::implementation::sandboxed::Sandboxed;
@@ -43,38 +41,82 @@ fn texts(repository: &Path) -> BTreeMap<&'static str, String> {
     NAMES.map(|name| (name, read(name))).into()
 }
 
-/// Output of `check` for the handout with the first functions solved: status and messages of each.
-fn checked_with_first(solved: usize) -> BTreeMap<&'static str, (Status, Vec<String>)> {
+/// Output of `check` for a repository with these files.
+fn checked(texts: &BTreeMap<&'static str, String>) -> BTreeMap<&'static str, Report> {
+    LazyLock::force(&LIBRARIES);
     let folder = TempDir::new().expect("a folder");
     fs::create_dir(folder.path().join("src")).expect("a folder");
-    let (empty, full) = (texts(HANDOUT.path()), texts(&repository()));
-    for (place, name) in NAMES.iter().enumerate() {
-        let text = if place < solved { &full[name] } else { &empty[name] };
+    for (name, text) in texts {
         fs::write(folder.path().join(format!("src/{name}.rs")), text).expect("a file");
     }
     let reports = check(folder.path(), None).unwrap_or_else(|error| panic!("{error}"));
-    reports.into_iter().map(|report| (report.name, (report.status, report.messages))).collect()
+    reports.into_iter().map(|report| (report.name, report)).collect()
 }
 
 #[test]
 fn each_solved_function_counts_in_teaching_order_and_changes_no_other() {
-    LazyLock::force(&LIBRARIES);
-    let next = AtomicUsize::new(0);
-    // Each step is a folder of its own, so steps may be checked at the same time.
-    let steps = || {
-        let step = || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|&step| step <= NAMES.len());
-        std::iter::from_fn(step).map(|step| (step, checked_with_first(step))).collect::<Vec<_>>()
+    let (empty, full) = (texts(HANDOUT.path()), texts(&repository()));
+    for solved in [0, 6, 14, NAMES.len()] {
+        let is_solved = |name: &str| NAMES[..solved].contains(&name);
+        let of = |name| if is_solved(name) { &full[name] } else { &empty[name] };
+        let reports = checked(&NAMES.map(|name| (name, of(name).clone())).into());
+        for (name, Report { status, messages, .. }) in &reports {
+            let expected = if is_solved(name) { Status::Passed } else { Status::Missing };
+            assert_eq!((*status, messages.len()), (expected, 0), "{name} of {solved}");
+        }
+    }
+}
+
+#[test]
+fn an_error_of_the_compiler_belongs_to_the_file_that_causes_it_and_a_panic_in_a_library_to_the_line_that_calls_it() {
+    let mut files = texts(&repository());
+    let mut change = |name, from: &str, to: &str| {
+        let text: &mut String = files.get_mut(name).expect("a function");
+        assert!(text.contains(from), "{name}: {from}");
+        *text = text.replace(from, to);
     };
-    let threads = thread::available_parallelism().map_or(1, Into::into);
-    let results: BTreeMap<usize, _> = thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(steps)).collect();
-        workers.into_iter().flat_map(|worker| worker.join().expect("the steps are checked")).collect()
-    });
-    assert!(results[&0].values().all(|(status, messages)| *status == Status::Missing && messages.is_empty()));
-    for (place, name) in NAMES.iter().enumerate() {
-        let mut expected = results[&place].clone();
-        expected.insert(name, (Status::Passed, Vec::new()));
-        assert_eq!(results[&(place + 1)], expected, "{name} is solved, and nothing else has changed");
+    change("phi_linear_tetrahedron", "pub fn", "fn");
+    change("dpsi_neo_hookean_dF", "D: f64", "D: f32");
+    change("psi_neo_hookean", "pub fn", "fn ( {}\npub fn");
+    change(
+        "mass_matrix_mesh",
+        "add_block(&mut M, element[a], element[b], &block);",
+        "add_block(&mut M, q_size, 0, &block);",
+    );
+    change(
+        "fixed_point_constraints",
+        "-> CsrMatrix<f64> {",
+        "-> CsrMatrix<f64> {\n    let _ = nalgebra::DVector::from_element(1, 1.0)[q_size];",
+    );
+    let reports = checked(&files);
+    let first_message = |name: &str| reports[name].messages.first().map_or("", String::as_str);
+    for (name, told) in [
+        (
+            "phi_linear_tetrahedron",
+            "the file has no public function of this name; write `pub fn phi_linear_tetrahedron(V: &[Vector3<f64>]",
+        ),
+        (
+            "dpsi_neo_hookean_dF",
+            "the signature is not the course's, which is `pub fn dpsi_neo_hookean_dF(F: &Matrix3<f64>",
+        ),
+        ("psi_neo_hookean", "src/psi_neo_hookean.rs"),
+    ] {
+        assert_eq!(reports[name].status, Status::DidNotCompile, "{name}");
+        assert!(first_message(name).contains(told), "{name}: {}", first_message(name));
+    }
+    for name in
+        ["dphi_linear_tetrahedron_dX", "V_linear_tetrahedron", "dV_linear_tetrahedron_dq", "build_skinning_matrix"]
+    {
+        assert!(!reports[name].waits_for.is_empty(), "{name}: {:?} {:?}", reports[name].status, reports[name].messages);
+    }
+    for name in ["mass_matrix_mesh", "fixed_point_constraints"] {
+        let line = files[name]
+            .lines()
+            .position(|line| line.contains("q_size, 0") || line.contains("from_element"))
+            .expect("a line");
+        let told = format!("the function panicked at src/{name}.rs:{}: ", line + 1);
+        assert_eq!(reports[name].status, Status::Crashed, "{name}");
+        assert!(first_message(name).starts_with(&told), "{name}: {}", first_message(name));
     }
 }
 

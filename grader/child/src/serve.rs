@@ -1,6 +1,7 @@
 //! The loop that calls a submission's functions: one call, one answer, until the other side closes.
 
 use std::any::Any;
+use std::backtrace::Backtrace;
 use std::cell::RefCell;
 use std::hint::black_box;
 use std::panic::{self, AssertUnwindSafe, Location};
@@ -70,11 +71,26 @@ fn remember_where_panics_happen() {
     panic::set_hook(Box::new(|info| {
         // Windows divides paths in its own way.
         let place = |location: &Location| format!("{}:{}", location.file().replace('\\', "/"), location.line());
-        let place = info.location().map(place);
+        let place = info.location().map(place).unwrap_or_default();
+        // A library panics in its own file. The line that called it is the author's.
+        let own = own_place(&place).or_else(|| {
+            let calls = Backtrace::force_capture().to_string();
+            calls.lines().find_map(|line| own_place(line.trim_start().strip_prefix("at ")?))
+        });
         if let Ok(mut kept) = PLACE.lock() {
-            *kept = place.unwrap_or_default();
+            *kept = own.unwrap_or(place);
         }
     }));
+}
+
+/// `src/NAME.rs:LINE` at the end of a path with a line and perhaps a column, if it is in the file of an exercise.
+fn own_place(path: &str) -> Option<String> {
+    let path = path.replace('\\', "/");
+    let (folder, file) = path.rsplit_once('/')?;
+    let mut parts = file.split(':');
+    let (name, line) = (parts.next()?.strip_suffix(".rs")?, parts.next()?);
+    let is_in_src = folder == "src" || folder.ends_with("/src");
+    (is_in_src && Exercise::from_name(name).is_some()).then(|| format!("src/{name}.rs:{line}"))
 }
 
 fn place() -> String {
@@ -174,4 +190,20 @@ fn repeat(functions: &Functions, parent: &Parent, body: &[u8]) -> Option<Vec<u8>
         last = call();
     }
     Some(last)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::own_place;
+
+    #[test]
+    fn the_authors_line_is_found_in_every_form_of_a_path_and_a_librarys_is_not() {
+        let own = Some("src/psi_neo_hookean.rs:7".to_owned());
+        for path in ["src/psi_neo_hookean.rs:7", "./src/psi_neo_hookean.rs:7:5", "/tmp/a/src\\psi_neo_hookean.rs:7:5"] {
+            assert_eq!(own_place(path), own, "{path}");
+        }
+        for path in ["/x/nalgebra/src/base/ops.rs:7:5", "/x/mysrc/psi_neo_hookean.rs:7", "src/psi_neo_hookean.rs", ""] {
+            assert_eq!(own_place(path), None, "{path}");
+        }
+    }
 }

@@ -7,7 +7,8 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, Subcommand};
 
-use super::{CheckError, reset, run};
+use super::reset::{Done, reset};
+use super::{CheckError, run};
 use crate::sandbox::confine;
 
 #[derive(Parser)]
@@ -19,9 +20,9 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Hold the functions of this repository to the public checks.
+    /// Check the functions of this repository, and tell which one to work on next.
     Check(Options),
-    /// Put a function back as it was handed out; the present file is kept beside it.
+    /// Put a function back as it was handed out; the present file is kept in the folder `old`.
     Reset {
         /// The function.
         name: String,
@@ -46,7 +47,7 @@ pub struct Options {
     /// Check another's folder even where this machine has no sandbox: its functions may then do what you may.
     #[arg(long)]
     pub without_sandbox: bool,
-    /// Tell the broken rules with figures and inputs; twice: common mistakes as well.
+    /// Tell what is wrong, with figures and inputs; twice: common mistakes as well.
     #[arg(long, action = ArgAction::Count)]
     pub hint: u8,
     /// End with exit code 3 if a function does not pass.
@@ -84,8 +85,9 @@ fn done(command: &Command) -> Result<(), CheckError> {
         Command::Check(options) => run(options),
         Command::Reset { name, folder } => {
             match reset(folder, name)? {
-                Some(kept) => println!("src/{name}.rs is as it was handed out; your file is {}", kept.display()),
-                None => println!("src/{name}.rs is as it was handed out"),
+                Done::Kept(path) => println!("src/{name}.rs is as it was handed out; your file is {}", path.display()),
+                Done::New => println!("src/{name}.rs is there again, as it was handed out"),
+                Done::Unchanged => println!("src/{name}.rs is as it was handed out; there was nothing to reset"),
             }
             Ok(())
         }

@@ -4,6 +4,9 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
+use super::next::{Next, next};
+use super::roles::Role;
+use crate::properties::FUNCTIONS;
 use crate::status::Status;
 
 /// Result of the checks of one function.
@@ -12,7 +15,9 @@ pub struct Report {
     pub name: &'static str,
     /// Its place in the course, from 1.
     pub place: usize,
-    /// The outcome.
+    /// Its part in the assignment.
+    pub role: Role,
+    /// The outcome; `Missing` if it waits.
     pub status: Status,
     /// Number of its checks.
     pub checks: usize,
@@ -20,18 +25,55 @@ pub struct Report {
     pub messages: Vec<String>,
     /// The checks that were made, in order; empty if the function could not be run.
     pub checked: Vec<Checked>,
+    /// The functions that must pass before anything can be said of this one.
+    pub waits_for: Vec<Cause>,
 }
 
 /// Result of one check.
+#[derive(Clone)]
 pub struct Checked {
     /// Its name as a sentence.
     pub name: String,
     /// The check passes.
     pub passed: bool,
+    /// Functions that may be to blame in place of the one that is judged, if the check fails.
+    pub waits_for: Vec<Cause>,
     /// The broken rule, or why there is no answer; empty if it passes.
     pub rule: String,
     /// Figures and input; may be empty.
     pub details: String,
+}
+
+/// A function for which another one waits.
+#[derive(Clone)]
+pub struct Cause {
+    /// Its name.
+    pub name: &'static str,
+    /// Its outcome.
+    pub status: Status,
+    /// Its part in the assignment.
+    pub role: Role,
+}
+
+/// The names of some functions: `a`, `a and b`, `a, b and c`.
+pub fn names_of(causes: &[Cause]) -> String {
+    listed(&causes.iter().map(|cause| cause.name).collect::<Vec<_>>())
+}
+
+fn listed(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => (*one).to_owned(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+/// The same in the space of a line: at most two names.
+fn first_of(causes: &[Cause]) -> String {
+    match causes {
+        [first, _, more @ ..] if !more.is_empty() => format!("{} and {} more", first.name, more.len() + 1),
+        few => names_of(few),
+    }
 }
 
 /// Level of detail and format of the report.
@@ -44,6 +86,8 @@ pub struct View<'a> {
     pub colour: bool,
     /// The repository, for its pages.
     pub folder: &'a Path,
+    /// The reports are those of one function that was asked for.
+    pub only_one: bool,
 }
 
 const GREEN: &str = "32";
@@ -52,23 +96,27 @@ const YELLOW: &str = "33";
 const BOLD: &str = "1";
 
 impl Report {
-    fn passing(&self) -> usize {
-        self.checked.iter().filter(|check| check.passed).count()
+    fn passes(&self) -> bool {
+        self.status == Status::Passed
     }
 
     /// `9 of 12 checks`, or the reason why none was made.
     fn outcome(&self) -> (&'static str, String) {
-        let count = format!("{} of {} checks", self.passing(), self.checks);
-        match self.status {
+        let passing = self.checked.iter().filter(|check| check.passed).count();
+        let count = format!("{passing} of {} checks", self.checks);
+        let (colour, outcome) = match self.status {
+            Status::Passed if self.role == Role::Given => (GREEN, "given solved".to_owned()),
             Status::Passed => (GREEN, format!("passed, {count}")),
             Status::Failed => (RED, format!("failed, {count} pass")),
             Status::Crashed => (RED, format!("crashed, {count} pass")),
             Status::TimedOut => (RED, format!("took too long, {count} pass")),
             Status::DidNotCompile => (RED, "does not compile".to_owned()),
-            Status::Refused => (RED, "refused".to_owned()),
-            Status::Missing if self.messages.is_empty() => (YELLOW, "not written yet".to_owned()),
-            Status::Missing => (YELLOW, format!("waits, {count} pass")),
-        }
+            Status::Refused => (RED, "holds something that is not allowed".to_owned()),
+            Status::Missing if self.waits_for.is_empty() => (YELLOW, "not written yet".to_owned()),
+            Status::Missing => (YELLOW, format!("waits for {}", first_of(&self.waits_for))),
+        };
+        let later = if self.role == Role::Later { " (a later assignment)" } else { "" };
+        (colour, format!("{outcome}{later}"))
     }
 }
 
@@ -77,8 +125,8 @@ impl View<'_> {
         if self.colour { format!("\x1b[{code}m{text}\x1b[0m") } else { text.to_owned() }
     }
 
-    /// The functions in a table, then the checks of one of them, then what to do next. That one is the function `about`, if it does
-    /// not pass, or else the first that is written and does not.
+    /// The functions in a table, then the failing checks of the next one to work on, then its name. It is the function `about` or what
+    /// that one waits for, if it does not pass.
     pub fn render(&self, reports: &[Report], about: Option<&str>) -> String {
         let mut text = String::new();
         for report in reports {
@@ -86,44 +134,74 @@ impl View<'_> {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "{:2} {:32} {}", report.place, report.name, self.paint(code, &outcome));
         }
-        let open = |report: &&Report| report.status != Status::Passed;
-        let is_told = |report: &&Report| open(report) && !(report.checked.is_empty() && report.messages.is_empty());
-        let named = reports.iter().filter(open).find(|report| about == Some(report.name));
-        let told = named.or_else(|| reports.iter().find(is_told));
-        if let Some(report) = told {
+        let next = next(reports, about);
+        if let Some(report) =
+            next.as_ref().and_then(|next| next.report).filter(|report| report.status != Status::Missing)
+        {
             text.push('\n');
             text.push_str(&self.story(report));
         }
-        let passed = reports.iter().filter(|report| report.status == Status::Passed).count();
-        if let [one] = reports {
-            if one.status == Status::Passed {
-                let _ = writeln!(text, "\n{} is done", self.paint(BOLD, one.name));
-            }
-            return text;
+        text.push('\n');
+        if self.only_one {
+            let done = reports.iter().filter(|report| report.passes());
+            done.for_each(|report| text.push_str(&format!("{} is done\n", self.paint(BOLD, report.name))));
+        } else {
+            text.push_str(&count(reports));
         }
-        let _ = writeln!(text, "\n{passed} of {} functions pass", reports.len());
-        match reports.iter().find(open) {
-            Some(next) => {
-                let _ = writeln!(
-                    text,
-                    "next: {}, with the page include-docs/{}.md",
-                    self.paint(BOLD, &format!("src/{}.rs", next.name)),
-                    next.name
-                );
-            }
-            None => text.push_str("all of them; run the simulation: cargo run --release -- bunny\n"),
+        match next {
+            // The page is named above.
+            Some(next) if self.only_one && next.report.is_some_and(|report| !report.checked.is_empty()) => {}
+            Some(next) => text.push_str(&self.told(&next)),
+            None if self.only_one => {}
+            None => text.push_str(&self.end(reports)),
         }
         text
+    }
+
+    /// The next function, its page, and why it is next.
+    fn told(&self, next: &Next) -> String {
+        let name = next.name;
+        let file = self.paint(BOLD, &format!("src/{name}.rs"));
+        let mut text = format!("next: {file}, with the page include-docs/{name}.md\n");
+        let waiting = match &next.waiting[..] {
+            [] => String::new(),
+            [one] => format!("{one} waits for it"),
+            [one, two] => format!("{one} and {two} wait for it"),
+            [one, more @ ..] => format!("{one} and {} more wait for it", more.len()),
+        };
+        match next.role {
+            Role::Asked if waiting.is_empty() => {}
+            Role::Asked => text.push_str(&format!("      {waiting}\n")),
+            Role::Given => text.push_str(&format!(
+                "      it was given solved and has been changed; `cargo run -p grader -- reset {name}` puts it back\n"
+            )),
+            Role::Later => text.push_str(&format!(
+                "      a later assignment asks for it, but {waiting}: write it now, or do without it\n"
+            )),
+        }
+        text
+    }
+
+    /// What to do when all functions pass.
+    fn end(&self, reports: &[Report]) -> String {
+        let is_whole = reports.len() == FUNCTIONS.len() && reports.iter().all(Report::passes);
+        if is_whole {
+            return "all of them; run the simulation: cargo run -- bunny\n".to_owned();
+        }
+        "all of this assignment: hand in the folder src\nlater assignments ask for the others; the simulation runs when all are written\n".to_owned()
     }
 
     /// The failing checks of a function.
     fn story(&self, report: &Report) -> String {
         let mut text = format!("{}: {}\n", self.paint(BOLD, report.name), report.outcome().1);
+        let page = format!("include-docs/{}.md", report.name);
         if report.checked.is_empty() {
             report.messages.iter().for_each(|message| text.push_str(&indented(message, 2)));
             return text;
         }
-        for (index, check) in report.checked.iter().filter(|check| !check.passed).enumerate() {
+        let (own, waiting): (Vec<_>, Vec<_>) =
+            report.checked.iter().filter(|check| !check.passed).partition(|check| check.waits_for.is_empty());
+        for (index, check) in own.iter().enumerate() {
             let _ = writeln!(text, "  {} {}", self.paint(RED, "✗"), check.name);
             if index == 0 || self.hints > 0 {
                 text.push_str(&indented(&check.rule, 6));
@@ -132,18 +210,39 @@ impl View<'_> {
                 text.push_str(&indented(&check.details, 6));
             }
         }
-        let page = format!("include-docs/{}.md", report.name);
+        for check in waiting {
+            let _ = writeln!(
+                text,
+                "  {} {}: waits for {}",
+                self.paint(YELLOW, "…"),
+                check.name,
+                names_of(&check.waits_for)
+            );
+        }
         match self.hints {
             0 => {
-                let _ = writeln!(text, "  read {page}; `--hint` tells the rules, figures and inputs");
+                let _ = writeln!(text, "  read {page}; `--hint` shows figures and inputs");
             }
             1 => {
-                let _ = writeln!(text, "  read {page}; `--hint --hint` tells common mistakes as well");
+                let _ = writeln!(text, "  read {page}; `--hint --hint` shows common mistakes as well");
             }
             _ => text.push_str(&indented(&common_mistakes(&self.folder.join(&page)), 2)),
         }
         text
     }
+}
+
+/// How many of the functions that the assignment asks for pass, and how many wait.
+fn count(reports: &[Report]) -> String {
+    let asked: Vec<_> = reports.iter().filter(|report| report.role == Role::Asked).collect();
+    let passed = asked.iter().filter(|report| report.passes()).count();
+    let waiting = asked.iter().filter(|report| !report.waits_for.is_empty()).count();
+    let waits = match waiting {
+        0 => String::new(),
+        1 => ", 1 waits".to_owned(),
+        more => format!(", {more} wait"),
+    };
+    format!("{passed} of {} functions pass{waits}\n", asked.len())
 }
 
 fn indented(text: &str, by: usize) -> String {
@@ -165,11 +264,13 @@ mod tests {
         let check = |(index, passed): (usize, &bool)| Checked {
             name: format!("check {index}"),
             passed: *passed,
+            waits_for: Vec::new(),
             rule: format!("rule {index}"),
             details: format!("figures {index}\nwith input {index}"),
         };
         let checked = outcomes.iter().enumerate().map(check).collect();
-        Report { name, place: 1, status, checks: outcomes.len(), messages: Vec::new(), checked }
+        let (checks, messages, waits_for) = (outcomes.len(), Vec::new(), Vec::new());
+        Report { name, place: 1, role: Role::Asked, status, checks, messages, checked, waits_for }
     }
 
     fn text(hints: u8) -> String {
@@ -179,15 +280,15 @@ mod tests {
             report("dphi_linear_tetrahedron_dX", Status::Missing, &[]),
             report("psi_neo_hookean", Status::Failed, &[false, true, false]),
         ];
-        View { hints, colour: false, folder: &folder }.render(&reports, None)
+        View { hints, colour: false, folder: &folder, only_one: false }.render(&reports, None)
     }
 
     #[test]
-    fn failing_checks_are_named_and_counted_and_the_next_function_is_named() {
+    fn failing_checks_are_named_and_counted_and_a_mistake_is_mended_before_more_is_written() {
         let text = text(0);
         assert!(text.contains("psi_neo_hookean                  failed, 1 of 3 checks pass"), "{text}");
         assert!(text.contains("✗ check 0") && text.contains("✗ check 2") && !text.contains("check 1"), "{text}");
-        assert!(text.contains("1 of 3 functions pass\nnext: src/dphi_linear_tetrahedron_dX.rs"), "{text}");
+        assert!(text.contains("1 of 3 functions pass\nnext: src/psi_neo_hookean.rs"), "{text}");
     }
 
     #[test]
@@ -196,5 +297,25 @@ mod tests {
         assert!(first.contains("rule 0") && !first.contains("rule 2") && !first.contains("figures 0"), "{first}");
         assert!(second.contains("rule 2") && second.contains("with input 2"), "{second}");
         assert!(!second.contains("Integer division") && third.contains("Integer division"), "{third}");
+    }
+
+    #[test]
+    fn a_given_function_that_was_changed_is_put_back_and_one_of_a_later_assignment_is_written_only_where_another_calls_it()
+     {
+        let folder = Path::new(".");
+        let told = |reports: &[Report]| View { hints: 0, colour: false, folder, only_one: false }.render(reports, None);
+        let given = Report { role: Role::Given, ..report("phi_linear_tetrahedron", Status::Failed, &[false]) };
+        let text = told(&[given]);
+        assert!(
+            text.contains("0 of 0 functions pass") && text.contains("reset phi_linear_tetrahedron` puts it back"),
+            "{text}"
+        );
+
+        let later = || Cause { name: "mass_matrix_linear_tetrahedron", status: Status::Missing, role: Role::Later };
+        let waiting = Report { waits_for: vec![later()], ..report("T_linear_tetrahedron", Status::Missing, &[false]) };
+        let text = told(&[waiting]);
+        assert!(text.contains("waits for mass_matrix_linear_tetrahedron\n"), "{text}");
+        assert!(text.contains("next: src/mass_matrix_linear_tetrahedron.rs"), "{text}");
+        assert!(text.contains("a later assignment asks for it, but T_linear_tetrahedron waits for it"), "{text}");
     }
 }

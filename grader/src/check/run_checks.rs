@@ -1,9 +1,11 @@
 //! Runs the checks of a function, and summarises the results.
 
+use std::collections::BTreeSet;
 use std::panic::{self, AssertUnwindSafe};
 
+use super::recorded::Recorded;
 use super::report::Checked;
-use crate::implementation::Trouble;
+use crate::implementation::{Implementation, Trouble};
 use crate::properties::outcome::{Mistake, message_of};
 use crate::properties::{Check, Course, sentence};
 use crate::status::Status;
@@ -11,45 +13,47 @@ use crate::status::Status;
 /// Number of failing checks of one function whose messages are kept.
 const MOST_MESSAGES: usize = 3;
 
-/// A check, and the mistake and the status if it fails.
-pub type CheckResult = (Checked, Option<(Mistake, Status)>);
+/// Result of one check.
+#[derive(Clone)]
+pub struct CheckResult {
+    /// What the student reads of it.
+    pub checked: Checked,
+    /// The mistake if it fails.
+    pub mistake: Option<Mistake>,
+    /// The functions that it asked beside the one that it judges.
+    pub asked: BTreeSet<&'static str>,
+}
 
-/// Runs the checks of a function. `missing` are the functions that its text names and that are not written.
-pub fn run_checks(checks: &[Check], course: &Course, missing: &[&str]) -> Vec<CheckResult> {
+/// Runs the checks of a function.
+pub fn run_checks(checks: &[Check], subject: &dyn Implementation, trusted: &Recorded, seed: u64) -> Vec<CheckResult> {
     let one = |check: &Check| {
-        course.subject.begin_check();
-        course.trusted.begin_check();
+        subject.begin_check();
+        trusted.begin_check();
         // A check may panic on a malformed answer.
-        let outcome = panic::catch_unwind(AssertUnwindSafe(|| (check.run)(course)));
+        let outcome = panic::catch_unwind(AssertUnwindSafe(|| (check.run)(&Course { subject, trusted, seed })));
         let mistake = outcome.unwrap_or(Err(Mistake::Trouble(Trouble::Malformed))).err();
-        let (rule, details) = mistake.as_ref().map(|mistake| told(mistake, missing)).unwrap_or_default();
-        let checked = Checked { name: sentence(check.name), passed: mistake.is_none(), rule, details };
-        let status = |mistake: &Mistake| status_of(mistake, missing);
-        (checked, mistake.map(|mistake| (mistake.clone(), status(&mistake))))
+        let (rule, details) = mistake.as_ref().map(told).unwrap_or_default();
+        let checked =
+            Checked { name: sentence(check.name), passed: mistake.is_none(), waits_for: Vec::new(), rule, details };
+        CheckResult { checked, mistake, asked: trusted.take() }
     };
     checks.iter().map(one).collect()
 }
 
-fn status_of(mistake: &Mistake, missing: &[&str]) -> Status {
+fn status_of(mistake: &Mistake) -> Status {
     match mistake {
-        Mistake::Wrong { .. } | Mistake::Trouble(Trouble::Malformed) => Status::Failed,
+        Mistake::Wrong { .. } | Mistake::Waits { .. } | Mistake::Trouble(Trouble::Malformed) => Status::Failed,
         Mistake::Trouble(Trouble::TimedOut(_)) => Status::TimedOut,
-        // If no other function is missing, the `todo!` is in a branch of this one.
-        Mistake::Trouble(Trouble::Missing) if missing.is_empty() => Status::Crashed,
-        Mistake::Trouble(Trouble::Missing) | Mistake::Waits { .. } => Status::Missing,
         Mistake::Trouble(_) => Status::Crashed,
     }
 }
 
 /// The rule and the details of a mistake.
-fn told(mistake: &Mistake, missing: &[&str]) -> (String, String) {
+fn told(mistake: &Mistake) -> (String, String) {
     match mistake {
         Mistake::Wrong { rule, figures, counterexample } => {
             let input = if counterexample.is_empty() { String::new() } else { format!("with input {counterexample}") };
             (rule.clone(), [figures.clone(), input].join("\n").trim().to_owned())
-        }
-        Mistake::Trouble(Trouble::Missing) if !missing.is_empty() => {
-            (format!("waits for {}", missing.join(", ")), String::new())
         }
         Mistake::Trouble(Trouble::Missing) => {
             ("the function comes to a `todo!`; write what is missing there".to_owned(), String::new())
@@ -61,23 +65,57 @@ fn told(mistake: &Mistake, missing: &[&str]) -> (String, String) {
 }
 
 /// The status of a function, and messages of its first failing checks.
-pub fn summary(name: &str, checked: &[CheckResult]) -> (Status, Vec<String>) {
+pub fn summary(name: &str, results: &[CheckResult]) -> (Status, Vec<String>) {
     let (mut status, mut messages) = (Status::Passed, Vec::new());
-    for (check, mistake) in checked {
-        let Some((mistake, found)) = mistake else { continue };
+    for CheckResult { checked, mistake, .. } in results {
+        let Some(mistake) = mistake else { continue };
         // The reason for giving up is in the messages already.
         if *mistake == Mistake::Trouble(Trouble::GivenUp) && status != Status::Passed {
             continue;
         }
-        // A wrong answer comes before a check that waits for another function.
-        status = if status == Status::Passed { *found } else { status.min(*found) };
+        let found = status_of(mistake);
+        // A wrong answer comes before a panic.
+        status = if status == Status::Passed { found } else { status.min(found) };
         let message = match mistake {
             Mistake::Wrong { .. } => message_of(name, mistake),
-            _ => check.rule.clone(),
+            _ => checked.rule.clone(),
         };
         if !messages.contains(&message) && messages.len() < MOST_MESSAGES {
             messages.push(message);
         }
     }
     (status, messages)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+    use crate::implementation::Local;
+    use grader_child::UNWRITTEN;
+
+    fn outcome(checks: &[Check]) -> (Status, usize) {
+        let (nothing, slow) = (Local(UNWRITTEN), BTreeSet::new());
+        let results = run_checks(checks, &nothing, &Recorded::new(&nothing, &slow), 1);
+        let (status, messages) = summary("psi_neo_hookean", &results);
+        (status, messages.len())
+    }
+
+    #[test]
+    fn a_function_that_is_late_has_not_crashed_and_one_that_trips_a_check_has_failed() {
+        let late = Check { name: "late", run: |_| Err(Mistake::Trouble(Trouble::TimedOut(Duration::from_secs(5)))) };
+        let given_up = Check { name: "given up", run: |_| Err(Mistake::Trouble(Trouble::GivenUp)) };
+        let trips = Check { name: "trips", run: |_| panic!("a check stumbles") };
+        assert_eq!(outcome(&[late, given_up]), (Status::TimedOut, 1));
+        assert_eq!(outcome(&[trips]), (Status::Failed, 1));
+        let open_branch = Check { name: "open", run: |_| Err(Mistake::Trouble(Trouble::Missing)) };
+        assert_eq!(outcome(&[open_branch]), (Status::Crashed, 1));
+    }
+
+    #[test]
+    fn a_function_that_a_program_lacks_is_missing_and_has_not_panicked() {
+        let answer = Local(UNWRITTEN).mass_matrix_linear_tetrahedron(1.0, 1.0);
+        assert_eq!(answer.map(drop), Err(Trouble::Missing));
+    }
 }

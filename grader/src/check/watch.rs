@@ -7,23 +7,21 @@ use std::time::Duration;
 
 use notify::{RecursiveMode, Watcher, recommended_watcher};
 
-use super::report::Report;
-use super::{CheckError, Options, check_in, show, usable};
+use super::{CheckError, Options, What, judged_in, reports, show, usable};
 use crate::properties::FUNCTIONS;
 use crate::sandbox::Sandbox;
-use crate::status::Status;
 
 /// Editors save a file in several events. A file counts as saved after this time without another event.
 const QUIET: Duration = Duration::from_millis(200);
 
-/// Checks all functions, then those whose file in `src` changes, until the program is stopped.
+/// Checks all functions, then those that a change of a file in `src` may concern, until the program is stopped.
 ///
 /// # Errors
 /// The reason if the folder or the name is not usable or cannot be watched. Problems that a later check finds are printed, and
 /// watching goes on.
 pub fn watch(sandbox: &Sandbox, options: &Options) -> Result<(), CheckError> {
-    let (folder, only) = (&options.folder, options.only.as_deref());
-    usable(folder, only)?;
+    let folder = &options.folder;
+    let only = usable(folder, options.only.as_deref())?.1;
     let (sender, changes) = channel();
     let mut watcher = recommended_watcher(move |event: notify::Result<notify::Event>| {
         // Reading a file is an event too, and the checks read them all.
@@ -33,12 +31,18 @@ pub fn watch(sandbox: &Sandbox, options: &Options) -> Result<(), CheckError> {
         }
     })?;
     watcher.watch(&folder.join("src"), RecursiveMode::NonRecursive)?;
-    let mut reports = Vec::new();
-    let mut changed = None;
+    let (mut changed, mut earlier) = (None, None);
     loop {
-        let check = |only: Option<&str>| check_in(sandbox, folder, only);
-        match checked_again(check, only, changed, &mut reports) {
-            Ok(()) => show(options, &reports, changed),
+        let what = match (only, changed, earlier.take()) {
+            (Some(name), ..) => What::One(name),
+            (None, Some(name), Some(earlier)) => What::Changed(name, earlier),
+            (None, ..) => What::All,
+        };
+        match judged_in(sandbox, folder, what) {
+            Ok((judged, roles)) => {
+                show(options, &reports(&judged, &roles, only), changed);
+                earlier = Some(judged);
+            }
             Err(error) => eprintln!("{error}"),
         }
         println!("waiting for a file to be saved in {}; stop with Ctrl-C", folder.join("src").display());
@@ -47,34 +51,18 @@ pub fn watch(sandbox: &Sandbox, options: &Options) -> Result<(), CheckError> {
     }
 }
 
-/// Checks the function that has changed; all functions if several files have changed, or if others may have waited for this function.
-fn checked_again(
-    check: impl Fn(Option<&str>) -> Result<Vec<Report>, CheckError>,
-    only: Option<&str>,
-    changed: Option<&'static str>,
-    reports: &mut Vec<Report>,
-) -> Result<(), CheckError> {
-    let before = reports.iter_mut().find(|report| Some(report.name) == changed).filter(|_| only.is_none());
-    if let Some(before) = before {
-        let passed = before.status == Status::Passed;
-        if let Some(now) = check(Some(before.name))?.into_iter().next() {
-            *before = now;
-        }
-        if (before.status == Status::Passed) == passed {
-            return Ok(());
-        }
-    }
-    *reports = check(only)?;
-    Ok(())
-}
-
-/// The files that are saved next; `None` when watching ends.
+/// The files that are saved next, of which one is Rust's; `None` when watching ends.
 fn saved(changes: &Receiver<Vec<PathBuf>>) -> Option<BTreeSet<PathBuf>> {
-    let mut paths = BTreeSet::from_iter(changes.recv().ok()?);
-    while let Ok(more) = changes.recv_timeout(QUIET) {
-        paths.extend(more);
+    loop {
+        let mut paths = BTreeSet::from_iter(changes.recv().ok()?);
+        while let Ok(more) = changes.recv_timeout(QUIET) {
+            paths.extend(more);
+        }
+        // Editors write copies and locks, too.
+        if paths.iter().any(|path| path.extension().is_some_and(|end| end == "rs")) {
+            return Some(paths);
+        }
     }
-    Some(paths)
 }
 
 /// The function that these files are about, if it is one: editors also write copies and locks beside it.

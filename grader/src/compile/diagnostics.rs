@@ -22,7 +22,25 @@ struct Message {
 #[derive(Deserialize)]
 struct Span {
     file_name: String,
+    #[serde(default)]
+    text: Vec<Line>,
     expansion: Option<Box<Expansion>>,
+}
+
+#[derive(Deserialize)]
+struct Line {
+    text: String,
+}
+
+/// The place of an error.
+#[derive(Clone, Copy)]
+enum Place {
+    /// The function's file.
+    File,
+    /// The line that calls the function.
+    Call,
+    /// The line that imports the function from its file.
+    Import,
 }
 
 #[derive(Deserialize)]
@@ -38,11 +56,13 @@ pub fn faults(messages: &str) -> BTreeMap<&'static str, String> {
         if message.level != "error" {
             continue;
         }
-        let Some((function, is_call)) = message.spans.iter().find_map(blamed) else { continue };
-        let text = if is_call {
-            format!("the signature is not the course's, which is `{}`", signature(function))
-        } else {
-            without_paths(&message.rendered.unwrap_or(message.message))
+        let Some((function, place)) = message.spans.iter().find_map(blamed) else { continue };
+        let text = match place {
+            Place::File => without_paths(&message.rendered.unwrap_or(message.message)),
+            Place::Call => format!("the signature is not the course's, which is `{}`", signature(function)),
+            Place::Import => {
+                format!("the file has no public function of this name; write `{}`", signature(function))
+            }
         };
         let told = found.entry(function.name()).or_default();
         if told.len() + text.len() < MOST_TEXT && !told.contains(&text) {
@@ -55,14 +75,23 @@ pub fn faults(messages: &str) -> BTreeMap<&'static str, String> {
     found
 }
 
-/// The function whose file a place is in, and whether it is the line that calls the function.
-fn blamed(span: &Span) -> Option<(Exercise, bool)> {
+/// The function that a place belongs to.
+fn blamed(span: &Span) -> Option<(Exercise, Place)> {
     // Windows divides paths in its own way.
     let file_name = span.file_name.replace('\\', "/");
-    let here = file_name.strip_prefix("src/").and_then(|file| {
-        let (is_call, file) = file.strip_prefix("calls/").map_or((false, file), |file| (true, file));
-        let stem = file.strip_suffix(".rs")?;
-        Exercise::from_name(stem).map(|function| (function, is_call))
-    });
+    let file = file_name.strip_prefix("src/");
+    let here = match file {
+        Some("main.rs") => span.text.iter().find_map(imported).map(|function| (function, Place::Import)),
+        _ => file.and_then(|file| {
+            let (place, file) = file.strip_prefix("calls/").map_or((Place::File, file), |file| (Place::Call, file));
+            Exercise::from_name(file.strip_suffix(".rs")?).map(|function| (function, place))
+        }),
+    };
     here.or_else(|| span.expansion.as_ref().and_then(|expansion| blamed(&expansion.span)))
+}
+
+/// The function that the line `pub use NAME::NAME;` imports.
+fn imported(line: &Line) -> Option<Exercise> {
+    let (module, name) = line.text.trim().strip_prefix("pub use ")?.strip_suffix(';')?.split_once("::")?;
+    Exercise::from_name(name).filter(|_| module == name)
 }

@@ -82,8 +82,6 @@ impl Prebuilt {
             "-Ccodegen-units=1".to_owned(),
             // No program is optimised again after linking.
             "-Cembed-bitcode=no".to_owned(),
-            // Linking std's debug information takes longer than the rest of the linker's work.
-            "-Cstrip=debuginfo".to_owned(),
             // The linker of the Rust toolchain needs /proc. On other systems rustc uses the system's linker, and has no such option.
             #[cfg(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"))]
             "-Clinker-features=-lld".to_owned(),

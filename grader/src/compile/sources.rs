@@ -61,7 +61,11 @@ pub fn signature(function: Exercise) -> String {
         plain => plain.to_owned(),
     };
     let arguments: Vec<_> = arguments.iter().map(|(argument, kind)| format!("{argument}: {}", written(kind))).collect();
-    format!("pub fn {}{generics}({}) -> {result}", function.name(), arguments.join(", "))
+    let signature = format!("pub fn {}{generics}({}) -> {result}", function.name(), arguments.join(", "));
+    // The macro puts spaces between all tokens.
+    [(" < ", "<"), (" >", ">"), ("& ", "&"), (" ;", ";")]
+        .iter()
+        .fold(signature, |text, (from, to)| text.replace(from, to))
 }
 
 /// Writes the sources of a program, and removes those of an earlier one.

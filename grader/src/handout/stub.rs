@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use grader::submission::GIVEN;
 use proc_macro2::{TokenStream, TokenTree};
 use syn::spanned::Spanned;
 use syn::{FnArg, Item, ItemFn, ItemUse, Pat, UseTree};
@@ -25,17 +26,14 @@ pub fn stub(name: &str, solved: &str) -> Result<String, String> {
     Ok(format!("{imports}{expectation_at}{body}", expectation_at = with_line(function, signature, expectation)))
 }
 
-/// The first line of a function that is given solved.
-const MARK: &str = "// Given solved in this assignment; changes in this file are not taken.\n";
-
 /// A solved function as it is handed out.
 pub fn marked(solved: &str) -> String {
-    format!("{MARK}{solved}")
+    format!("{GIVEN}{solved}")
 }
 
 /// A text without the mark of a function that is given solved.
 pub fn unmarked(text: &str) -> &str {
-    text.strip_prefix(MARK).unwrap_or(text)
+    text.strip_prefix(GIVEN).unwrap_or(text)
 }
 
 /// Documentation, attributes and signature as they are written, but without underscores that tell which argument is not needed.

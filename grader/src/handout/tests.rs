@@ -72,6 +72,20 @@ fn every_function_is_empty_and_names_its_page() {
 }
 
 #[test]
+fn no_lint_stops_the_build_of_what_students_write() {
+    let folder = written();
+    let library = fs::read_to_string(folder.path().join("src/lib.rs")).unwrap();
+    assert!(
+        library.contains("#![warn(warnings)]") && library.contains("extern crate self as finite_elements_3d;"),
+        "{library}"
+    );
+    for entry in fs::read_dir(folder.path().join("src")).unwrap().flatten().filter(|entry| entry.path().is_file()) {
+        let text = fs::read_to_string(entry.path()).unwrap();
+        assert!(!text.contains("![deny(") && !text.contains("![forbid("), "{}", entry.path().display());
+    }
+}
+
+#[test]
 fn a_solution_in_any_text_is_found() {
     let solved = fs::read_to_string(root().join("src/newtons_method.rs")).unwrap();
     let inside = format!("# Hints\n\n{}", solved.replace("    ", " ").replace('\n', "  \n"));

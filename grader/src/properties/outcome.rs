@@ -137,7 +137,13 @@ pub fn near_number(rule: &str, actual: f64, expected: f64, allowed: f64) -> Outc
     if is_near(actual, expected, allowed) {
         return Ok(());
     }
-    Err(wrong(rule, format!("got {actual:e}, expected {expected:e} (may differ by {allowed:.1e})")))
+    Err(wrong(rule, format!("got {}, expected {} (may differ by {allowed:.1e})", figure(actual), figure(expected))))
+}
+
+/// All digits of a number, with an exponent where it is small or large.
+fn figure(number: f64) -> String {
+    let is_plain = number == 0.0 || (1e-3..1e7).contains(&number.abs());
+    if is_plain { number.to_string() } else { format!("{number:e}") }
 }
 
 /// Compares two vectors or matrices entry by entry.
@@ -162,7 +168,8 @@ where
             let (a, e) = (actual[(row, column)], expected[(row, column)]);
             if !is_near(a, e, allowed) {
                 let place = if actual.ncols() == 1 { format!("[{row}]") } else { format!("[({row}, {column})]") };
-                let figures = format!("entry {place} is {a:e}, expected {e:e} (may differ by {allowed:.1e})");
+                let (a, e) = (figure(a), figure(e));
+                let figures = format!("entry {place} is {a}, expected {e} (may differ by {allowed:.1e})");
                 return Err(wrong(rule, figures));
             }
         }
@@ -232,6 +239,12 @@ mod tests {
         let entries = || near("", &dvector![1e-8, 3.0], &dvector![0.0, 3.0], 0.0);
         assert!(with_tolerance(1e-6, entries).is_ok() && entries().is_err());
         assert!(with_tolerance(1e-6, || near_number("", f64::NAN, 1.0, 1.0)).is_err());
+    }
+
+    #[test]
+    fn figures_have_all_digits_and_an_exponent_only_where_it_helps() {
+        let shown = [0.0, -12.5, 1e4, 1e7, 2.5e-4, f64::NAN].map(figure);
+        assert_eq!(shown, ["0", "-12.5", "10000", "1e7", "2.5e-4", "NaN"]);
     }
 
     #[test]

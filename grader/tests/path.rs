@@ -1,0 +1,364 @@
+//! The path of a student: in every state of the 22 functions, and of both assignments, `check` names the function that a tutor would.
+//!
+//! One program holds every function three times, right, wrong and without an answer; a variable of its environment says which of them answers.
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::LazyLock;
+use std::time::Duration;
+
+use grader::check::{Judge, Judged, Report, Role, Roles, View, next, reports, roles};
+use grader::compile::prebuilt::Prebuilt;
+use grader::compile::{Fault, Plan, build};
+use grader::implementation::sandboxed::Sandboxed;
+use grader::sandbox::{Confined, Limits, Profile, Sandbox};
+use grader::status::Status;
+use grader::submission::{NAMES, Source, Submission, mentions};
+use tempfile::TempDir;
+
+/// The page of function 6 takes the matrix of function 13, which the solution does not.
+const T_BY_ITS_PAGE: &str = "use crate::mass_matrix_linear_tetrahedron;
+use nalgebra::{DVector, SVector};
+
+pub fn T_linear_tetrahedron(qdot: &DVector<f64>, element: &[usize; 4], density: f64, volume: f64) -> f64 {
+    let v = SVector::<f64, 12>::from_fn(|i, _| qdot[3 * element[i / 3] + i % 3]);
+    0.5 * v.dot(&(mass_matrix_linear_tetrahedron(density, volume) * v))
+}
+";
+
+fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the grader lies in the repository").to_owned()
+}
+
+/// A right function.
+fn right(name: &str) -> String {
+    match name {
+        "T_linear_tetrahedron" => T_BY_ITS_PAGE.to_owned(),
+        _ => fs::read_to_string(repository().join(format!("src/{name}.rs"))).expect("a solution"),
+    }
+}
+
+/// A file whose function answers as `STATE` says: by `x` wrong, by `?` as if it were not written, by `l` never, else right.
+fn switched(place: usize, name: &str) -> String {
+    let text = right(name);
+    let start = text.find(&format!("pub fn {name}")).expect("the function");
+    let signature = &text[start..start + text[start..].find(" {\n").expect("its body")];
+    let imports: String =
+        text.lines().take_while(|line| !line.starts_with("///") && !line.starts_with("pub")).collect();
+    let arguments = &signature[signature.find('(').expect("arguments") + 1..signature.rfind(')').expect("arguments")];
+    let names = arguments.split(": ").filter_map(|part| part.rsplit([' ', ',', '(']).next());
+    let names: Vec<_> = names.filter(|word| arguments.contains(&format!("{word}: "))).collect();
+    let call = format!("right::{name}({})", names.join(", "));
+    let result = signature.rsplit(')').next().and_then(|rest| rest.trim().strip_prefix("-> "));
+    let wrong = match result {
+        Some("f64") => format!("1.0 + 1.5 * {call}"),
+        Some("Vec<usize>") => format!("{call}.into_iter().chain([0]).rev().collect()"),
+        Some(_) => format!("{call} * 1.5"),
+        None => format!("{call}; *qdot *= 1.5"),
+    };
+    format!(
+        "{imports}\nmod right {{\n{text}\n}}\n\n{signature} {{\n    match state() {{\n        b'x' => {{ {wrong} }}\n        \
+         b'?' => todo!(\"write this function\"),\n        b'l' => loop {{ std::thread::park(); }},\n        _ => {call},\n    }}\n}}\n\nfn state() -> u8 {{\n    \
+         static STATE: std::sync::OnceLock<u8> = std::sync::OnceLock::new();\n    \
+         *STATE.get_or_init(|| std::env::var(\"STATE\").expect(\"a state\").as_bytes()[{place}])\n}}\n"
+    )
+}
+
+/// The program, in its folder.
+static PROGRAM: LazyLock<(TempDir, PathBuf)> = LazyLock::new(|| {
+    let libraries = Prebuilt::new(&repository(), Sandbox::none()).unwrap_or_else(|error| panic!("{error}"));
+    let folder = TempDir::new().expect("a folder");
+    let own = NAMES.iter().enumerate().map(|(place, name)| (*name, switched(place, name))).collect();
+    let plan = Plan { own, reference: None, helpers: BTreeMap::new(), limit: Duration::from_secs(60) };
+    let built = build(&libraries, &Sandbox::none(), &plan, folder.path()).expect("the compiler starts");
+    assert!(built.faults.is_empty(), "{:?}", built.faults);
+    (folder, built.program.expect("a program"))
+});
+
+/// A process whose functions are in these states, one letter each.
+fn process(state: &str) -> Sandboxed {
+    process_within(state, Duration::from_secs(30))
+}
+
+/// The same with this time for an answer.
+fn process_within(state: &str, limit: Duration) -> Sandboxed {
+    let (folder, program) = &*PROGRAM;
+    let (folder, program, state) = (folder.path().to_owned(), program.clone(), state.to_owned());
+    let second = Duration::from_secs(1);
+    let start = move || {
+        Sandbox::none().start(&Confined {
+            program: program.clone(),
+            arguments: Vec::new(),
+            environment: vec![("STATE".to_owned(), state.clone())],
+            folder: folder.clone(),
+            readable: Vec::new(),
+            writable: Vec::new(),
+            profile: Profile::Submission,
+            limits: Limits {
+                wall: 600 * second,
+                cpu: 600 * second,
+                memory: 4 << 30,
+                processes: 64,
+                file_size: 0,
+                open_files: 64,
+                output: 0,
+            },
+        })
+    };
+    Sandboxed::new(start, limit)
+}
+
+/// A student's repository: the states of the functions, and its files as they would be.
+struct Student {
+    state: Vec<u8>,
+    submission: Submission,
+    faults: BTreeMap<&'static str, Fault>,
+    roles: Roles,
+}
+
+/// How a function is broken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Broken {
+    Wrong,
+    NotWritten,
+    DoesNotCompile,
+    Refused,
+}
+
+impl Student {
+    /// With every function right.
+    fn done() -> Self {
+        let functions = NAMES.map(|name| (name, Source::Written(right(name)))).into();
+        let submission = Submission { name: "student".to_owned(), functions, remarks: Vec::new() };
+        let roles = NAMES.map(|name| (name, Role::Asked)).into();
+        Self { state: vec![b'.'; NAMES.len()], submission, faults: BTreeMap::new(), roles }
+    }
+
+    fn break_one(&mut self, name: &'static str, how: Broken) {
+        let source = match how {
+            Broken::Wrong | Broken::DoesNotCompile => Source::Written(right(name)),
+            Broken::NotWritten => Source::Missing("empty".to_owned()),
+            Broken::Refused => Source::Refused { line: Some(1), reason: "not allowed".to_owned() },
+        };
+        self.submission.functions.insert(name, source);
+        if how == Broken::DoesNotCompile {
+            self.faults.insert(name, Fault { status: Status::DidNotCompile, message: "an error".to_owned() });
+        }
+        self.state[place(name)] = if how == Broken::Wrong { b'x' } else { b'?' };
+    }
+
+    fn mend(&mut self, name: &'static str) {
+        self.submission.functions.insert(name, Source::Written(right(name)));
+        self.faults.remove(name);
+        self.state[place(name)] = b'.';
+    }
+
+    fn is_written(&self, name: &str) -> bool {
+        matches!(self.submission.functions[name], Source::Written(_))
+    }
+
+    /// What `check` finds: of all functions, or of those that the change of one concerns.
+    fn judged(&self, change: Option<(Judged, &str)>) -> Judged {
+        let state = String::from_utf8(self.state.clone()).expect("letters");
+        let (subject, trusted) = (process(&state), process(&state));
+        let (submission, faults) = (&self.submission, &self.faults);
+        let judge = Judge { submission, faults, subject: &subject, trusted: &trusted, begins: &|_| {} };
+        match change {
+            Some((earlier, changed)) => judge.after_a_change(earlier, changed),
+            None => judge.all(),
+        }
+    }
+
+    fn reports(&self, judged: &Judged) -> Vec<Report> {
+        reports(judged, &self.roles, None)
+    }
+}
+
+fn place(name: &str) -> usize {
+    NAMES.iter().position(|found| *found == name).expect("a function of the course")
+}
+
+fn next_of(reports: &[Report]) -> Option<&'static str> {
+    next(reports, None).map(|next| next.name)
+}
+
+/// The last lines that `check` prints.
+fn end_of(reports: &[Report]) -> String {
+    let view = View { hints: 0, colour: false, folder: Path::new("."), only_one: false };
+    let text = view.render(reports, None);
+    text.lines().rev().take(2).collect()
+}
+
+/// The functions whose checks take longest, and those that they or their checks call directly.
+const INTEGRATORS: [&str; 2] = ["linearly_implicit_euler", "implicit_euler"];
+const NEAR_INTEGRATORS: [&str; 7] = [
+    "V_linear_tetrahedron",
+    "mass_matrix_mesh",
+    "assemble_forces",
+    "assemble_stiffness",
+    "linearly_implicit_euler",
+    "newtons_method",
+    "implicit_euler",
+];
+
+/// Breaks each function in one way while all others are right, and expects `check` to name it, and to blame no other. The integrators
+/// are not written yet while functions far from them are broken.
+fn is_blamed_alone(how: impl Fn(usize) -> Broken) {
+    let mut student = Student::done();
+    INTEGRATORS.iter().for_each(|name| student.break_one(name, Broken::NotWritten));
+    let almost_done = student.judged(None);
+    assert_eq!(next_of(&student.reports(&almost_done)), Some(INTEGRATORS[0]), "all others are right");
+    let of_each = |student: &mut Student, base: &Judged, names: &[&'static str]| {
+        for name in names {
+            let how = how(place(name));
+            student.break_one(name, how);
+            let reports = student.reports(&student.judged(Some((base.clone(), name))));
+            assert_eq!(next_of(&reports), Some(*name), "{name} is broken: {how:?}");
+            let is_waiting = |report: &&Report| {
+                report.name != *name && report.status != Status::Passed && student.is_written(report.name)
+            };
+            for report in reports.iter().filter(is_waiting) {
+                let causes: Vec<_> = report.waits_for.iter().map(|cause| cause.name).collect();
+                assert_eq!(causes, [*name], "{} fails although {name} alone is broken", report.name);
+            }
+            student.mend(name);
+        }
+    };
+    let far: Vec<_> = NAMES.into_iter().filter(|name| !NEAR_INTEGRATORS.contains(name)).collect();
+    of_each(&mut student, &almost_done, &far);
+    let mut done = almost_done;
+    for name in INTEGRATORS {
+        student.mend(name);
+        done = student.judged(Some((done, name)));
+    }
+    assert_eq!(next_of(&student.reports(&done)), None, "all is right");
+    of_each(&mut student, &done, &NEAR_INTEGRATORS);
+}
+
+#[test]
+fn a_wrong_function_is_next_and_what_needs_it_waits() {
+    is_blamed_alone(|_| Broken::Wrong);
+}
+
+#[test]
+fn a_function_that_is_not_written_does_not_compile_or_is_refused_is_next_and_what_needs_it_waits() {
+    is_blamed_alone(|index| [Broken::NotWritten, Broken::DoesNotCompile, Broken::Refused][index % 3]);
+}
+
+/// The order in which the functions are written: that of the course, but what a function calls comes right after it.
+fn order(asked: &[&'static str]) -> Vec<&'static str> {
+    let mut order: Vec<_> = asked.iter().copied().filter(|name| *name != "mass_matrix_linear_tetrahedron").collect();
+    let after = order.iter().position(|name| *name == "T_linear_tetrahedron").map(|at| at + 1);
+    let at = after.unwrap_or(0);
+    if asked.contains(&"mass_matrix_linear_tetrahedron") {
+        order.insert(at, "mass_matrix_linear_tetrahedron");
+    }
+    order
+}
+
+/// Writes one asked function after the other, each first wrong, and expects `check` to lead through them.
+fn leads_through(mut student: Student, asked: &[&'static str]) -> String {
+    let mut judged = student.judged(None);
+    for name in order(asked) {
+        assert_eq!(next_of(&student.reports(&judged)), Some(name), "{name} is not written");
+        student.break_one(name, Broken::Wrong);
+        judged = student.judged(Some((judged, name)));
+        let reports = student.reports(&judged);
+        let own = reports.iter().find(|report| report.name == name).expect("a report");
+        match &own.waits_for[..] {
+            [] => assert_eq!(next_of(&reports), Some(name), "{name} is wrong"),
+            [cause] => assert_eq!(next_of(&reports), Some(cause.name), "{name} waits"),
+            more => panic!("{name} waits for {} functions", more.len()),
+        }
+        student.mend(name);
+        judged = student.judged(Some((judged, name)));
+    }
+    let reports = student.reports(&judged);
+    assert_eq!(next_of(&reports), None);
+    end_of(&reports)
+}
+
+/// The repository of an assignment as it is handed out.
+fn handed_out(rubric: Option<&str>) -> Student {
+    let folder = TempDir::new().expect("a folder");
+    let mut grader = Command::new(env!("CARGO_BIN_EXE_grader"));
+    grader.arg("handout").arg(folder.path());
+    if let Some(rubric) = rubric {
+        grader.arg("--rubric").arg(repository().join("grader/rubrics").join(rubric));
+    }
+    let output = grader.output().expect("the grader starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    let submission = Submission::read_folder(folder.path()).expect("src");
+    let state = |name: &str| if matches!(submission.functions[name], Source::Written(_)) { b'.' } else { b'?' };
+    let state = NAMES.map(state).to_vec();
+    Student { state, faults: BTreeMap::new(), roles: roles(folder.path(), &submission), submission }
+}
+
+#[test]
+fn check_leads_through_the_course_and_both_assignments_to_their_ends() {
+    let end = leads_through(handed_out(None), &NAMES);
+    assert!(end.contains("all of them; run the simulation"), "{end}");
+
+    let first = handed_out(Some("first.toml"));
+    let (asked, later) = NAMES.split_at(13);
+    let end = leads_through(first, asked);
+    assert!(end.contains("hand in the folder src") && !end.contains("cargo run"), "{end}");
+
+    let end = leads_through(handed_out(Some("second.toml")), later);
+    assert!(end.contains("all of them; run the simulation"), "{end}");
+}
+
+#[test]
+fn of_several_broken_functions_those_that_need_another_wait_and_mending_what_is_next_mends_all() {
+    let mut student = Student::done();
+    let wrong = [
+        "dphi_linear_tetrahedron_dX",
+        "psi_neo_hookean",
+        "dpsi_neo_hookean_dF",
+        "quadrature_single_point",
+        "V_linear_tetrahedron",
+        "mass_matrix_linear_tetrahedron",
+        "assemble_forces",
+        "newtons_method",
+    ];
+    wrong.iter().for_each(|name| student.break_one(name, Broken::Wrong));
+    let mut judged = student.judged(None);
+    let mut left = BTreeSet::from(wrong);
+    while !left.is_empty() {
+        let reports = student.reports(&judged);
+        for report in &reports {
+            let is_own = report.status != Status::Passed && report.waits_for.is_empty();
+            assert!(!is_own || left.contains(report.name), "{} is right", report.name);
+        }
+        let next = next_of(&reports).expect("functions are wrong");
+        assert!(left.remove(next), "{next} is right");
+        let called = mentions(&right(next));
+        assert!(left.iter().all(|name| !called.contains(name)), "{next} calls a wrong function");
+        student.mend(next);
+        judged = student.judged(Some((judged, next)));
+    }
+    assert_eq!(next_of(&student.reports(&judged)), None);
+}
+
+#[test]
+fn what_calls_a_function_that_never_ends_waits_and_is_not_run() {
+    let mut student = Student::done();
+    student.state[place("psi_neo_hookean")] = b'l';
+    let state = String::from_utf8(student.state.clone()).expect("letters");
+    let [subject, trusted] = [(); 2].map(|()| process_within(&state, Duration::from_secs(2)));
+    let begun = RefCell::new(BTreeSet::new());
+    let begins = |name| drop(begun.borrow_mut().insert(name));
+    let (submission, faults) = (&student.submission, &student.faults);
+    let judge = Judge { submission, faults, subject: &subject, trusted: &trusted, begins: &begins };
+    let found = reports(&judge.one("V_linear_tetrahedron"), &student.roles, Some("V_linear_tetrahedron"));
+    assert_eq!(found[0].messages, ["waits for psi_neo_hookean"]);
+    assert_eq!(next_of(&found), Some("psi_neo_hookean"));
+    assert!(
+        begun.borrow().contains("psi_neo_hookean") && !begun.borrow().contains("V_linear_tetrahedron"),
+        "{begun:?}"
+    );
+}
