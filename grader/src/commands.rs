@@ -21,7 +21,7 @@ use crate::pack::{self, PackOptions, Platform};
 use crate::reports::{self, Options};
 use crate::rubric::{Role, Rubric};
 use crate::similar::fingerprints::Document;
-use crate::{archive, class, feedback, handout, own_checks, seed, similar};
+use crate::{archive, class, feedback, handout, own_checks, seed, similar, weights};
 
 /// The grader or its machine failed; there is no grade.
 pub const GRADER_FAILED: u8 = 1;
@@ -232,6 +232,13 @@ pub fn similar(folder: &Path, out: &Path, rubric: Option<&Path>) -> Done {
     let pairs = if told == 1 { "1 pair shares".to_owned() } else { format!("{told} pairs share") };
     let share = 100.0 * similar::LEAST_SHARE;
     println!("{} submissions; {pairs} {share} % or more: {}", documents.len(), out.join("similar.html").display());
+    Ok(())
+}
+
+pub fn weights(rubric: Option<&Path>) -> Done {
+    let rubric = Rubric::load(rubric).map_err(unusable)?;
+    own_checks::have(&rubric, &repository(), &tools()?).map_err(unusable)?;
+    print!("{}", weights::table(&rubric));
     Ok(())
 }
 

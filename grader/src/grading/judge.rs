@@ -89,12 +89,7 @@ impl Grading {
 
     /// Partial credit, also where some checks end in a panic or a time-out, and the mistake that explains the answers.
     fn explain(&self, grade: &mut FunctionGrade, name: &str, subject: &Sandboxed) {
-        grade.score = points(
-            grade.max_score,
-            self.rubric.partial_credit,
-            (grade.status, &grade.checks),
-            &self.rubric.own_points(name),
-        );
+        grade.score = points(name, &self.rubric.worth(name, grade.max_score), (grade.status, &grade.checks));
         if grade.status == Status::Failed {
             let asked = AssertUnwindSafe(|| explain(name, self.seed, subject, variants::of(name)));
             let Explanation { diagnosis, location } = panic::catch_unwind(asked).unwrap_or_default();
@@ -170,8 +165,8 @@ fn told_of(trouble: &Trouble) -> String {
 fn status_of(trouble: &Trouble) -> Status {
     match trouble {
         Trouble::Missing | Trouble::Panicked { .. } | Trouble::Crashed(_) => Status::Crashed,
-        Trouble::TimedOut(_) => Status::TimedOut,
-        // The first trouble, before giving up, decides the status of the function.
-        Trouble::Malformed | Trouble::GivenUp => Status::Failed,
+        // A function that is not called for a check has let too many others wait.
+        Trouble::TimedOut(_) | Trouble::GivenUp => Status::TimedOut,
+        Trouble::Malformed => Status::Failed,
     }
 }
