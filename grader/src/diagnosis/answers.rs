@@ -16,6 +16,7 @@ pub fn candidates<'a>(cases: &[&Case]) -> Vec<Candidate<'a>> {
         ),
     ];
     all.extend(constant(cases));
+    let mut all: Vec<_> = all.into_iter().map(Candidate::of_entries).collect();
     all.extend(by_quantities());
     all.extend(reordered());
     all

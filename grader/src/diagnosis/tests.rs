@@ -1,6 +1,7 @@
 //! Known mistakes are named. Right answers, and answers that no mistake explains, get no name.
 
 mod mistakes;
+mod reported;
 
 use finite_elements_3d as solved;
 use grader::implementation::Local;
