@@ -24,6 +24,7 @@ macro_rules! wrong {
 mod blind;
 mod by_hand;
 mod final_validation;
+mod repositories;
 mod tests;
 mod training;
 mod validation;
