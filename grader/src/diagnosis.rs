@@ -166,9 +166,10 @@ fn with_factor(candidate: &Candidate, cases: &[&Case]) -> Option<Diagnosis> {
     let by = answers::written(factor);
     // An implausible factor is no explanation.
     (!by.contains('.') || by.len() < 6).then_some(())?;
+    let whole = answers::whole(first.expected.numbers.len()).to_lowercase();
     let (name, sentence) = match by == "-1" {
-        true => ("negated".to_owned(), "Besides, every entry has the opposite sign.".to_owned()),
-        false => (format!("scaled by {by}"), format!("Besides, every entry is {by} times as large as it should be.")),
+        true => ("negated".to_owned(), format!("Besides, {whole} has the opposite sign.")),
+        false => (format!("scaled by {by}"), format!("Besides, {whole} is {by} times as large as it should be.")),
     };
     explains(&scaled, cases).then(|| Diagnosis {
         name: format!("{} and {name}", candidate.name),

@@ -92,7 +92,7 @@ fn a_panic_a_crash_a_time_out_or_an_open_branch_costs_its_own_checks() {
     assert!(graded.function("phi_linear_tetrahedron")["status"] == "passed");
 }
 
-/// Newton's method with a line search that goes on until a step is accepted.
+/// Newton's method with a line search that goes on until a step is accepted, and a function that does not end for half of its inputs.
 const ENDLESS_SEARCH: &str = "    let mut gradient = g(x0);
     let small = 1e-10 * gradient.norm();
     for _ in 0..max_steps {
@@ -101,30 +101,41 @@ const ENDLESS_SEARCH: &str = "    let mut gradient = g(x0);
         }
         let d = solve(&H(x0), &-&gradient);
         let (value, slope, mut alpha) = (f(x0), gradient.dot(&d), 1.0);
-        while !(f(&(&*x0 + &d * alpha)) < value + 1e-8 * alpha * slope) {
+        loop {
+            let tried = f(&(&*x0 + &d * alpha));
+            if tried.is_finite() && tried <= value + 1e-8 * alpha * slope {
+                break;
+            }
             alpha *= 0.5;
         }
         *x0 += d * alpha;
         gradient = g(x0);
     }
     f(x0)";
+const ENDLESS_HALF: &str = "    while F[(0, 1)] > 0.0 {
+        std::hint::spin_loop();
+    }
+    let J = F.determinant();
+    if J <= 0.0 {
+        return f64::INFINITY;
+    }
+    C * (J.powf(-2.0 / 3.0) * F.norm_squared() - 3.0) + D * (J - 1.0).powi(2)";
 
 #[test]
-fn a_line_search_that_never_ends_loses_at_least_half_of_its_points_and_not_those_of_others() {
+fn what_never_ends_in_edge_cases_costs_a_fifth_at_most_and_what_never_ends_on_half_of_its_inputs_at_least_half() {
     let mut room = Classroom::new();
     room.replace_body("newtons_method", "timed_out", ENDLESS_SEARCH);
-    room.replace_body(
-        "psi_neo_hookean",
-        "timed_out",
-        "    while F[(0, 1)] > 0.0 { std::hint::spin_loop() }\n    C * F.norm_squared() + D",
-    );
+    room.replace_body("psi_neo_hookean", "timed_out", ENDLESS_HALF);
     let graded = room.grade();
     graded.is_as_expected();
-    let newton = graded.function("newtons_method");
-    assert_eq!(checks(&graded, "newtons_method")["agrees_with_the_reference"], "passed", "{newton:#}");
-    let score = newton["score"].as_f64().expect("a score");
-    assert!(score > 0.0 && score <= 3.5, "{newton:#}");
-    assert_eq!(graded.function("psi_neo_hookean")["score"], 0.0);
+    let share = |name: &str| {
+        let function = graded.function(name);
+        function["score"].as_f64().expect("a score") / function["max_score"].as_f64().expect("points")
+    };
+    let newton = checks(&graded, "newtons_method");
+    assert_eq!(newton["agrees_with_the_reference"], "passed", "{newton:#?}");
+    assert!((0.8..0.95).contains(&share("newtons_method")), "{} {newton:#?}", share("newtons_method"));
+    assert!(share("psi_neo_hookean") <= 0.5, "{}", share("psi_neo_hookean"));
 }
 
 /// A full matrix, and a search through all elements for each vertex: right, and slow on large meshes.

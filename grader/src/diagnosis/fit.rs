@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::answers::written;
+use super::answers::{whole, written};
 use super::{Candidate, Case};
 use crate::reference::trial::{Observed, Trial};
 
@@ -37,7 +37,7 @@ pub fn candidate<'a>(formula: Formula<'a>, cases: &[&Case], among: &[bool]) -> O
     let few = &cases[..cases.len().min(FIRST.max(1 + formula.terms.len() / entries))];
     fitted(&formula, few, among)?;
     let coefficients = fitted(&formula, cases, among)?;
-    let (name, sentence) = told(&formula, &coefficients)?;
+    let (name, sentence) = told(&formula, &coefficients, whole(among.len()))?;
     let (values, among) = (formula.values, among.to_vec());
     let name = if among.iter().all(|of| *of) { name } else { format!("in some entries {name}") };
     Some(Candidate::new(name, sentence, move |trial, answer| {
@@ -86,7 +86,7 @@ fn fitted(formula: &Formula, cases: &[&Case], among: &[bool]) -> Option<Vec<f64>
 }
 
 /// Name and sentence of what is wrong.
-fn told(formula: &Formula, coefficients: &[f64]) -> Option<(String, String)> {
+fn told(formula: &Formula, coefficients: &[f64], whole: &str) -> Option<(String, String)> {
     if let Some(replaced) = replaced(formula, coefficients) {
         return Some(replaced);
     }
@@ -103,7 +103,7 @@ fn told(formula: &Formula, coefficients: &[f64]) -> Option<(String, String)> {
         let factor = written(factor);
         return Some((
             format!("{name} and scaled by {factor}"),
-            format!("{sentence} Besides, every entry is {factor} times as large as it should be."),
+            format!("{sentence} Besides, {} is {factor} times as large as it should be.", whole.to_lowercase()),
         ));
     }
     // If no term is right, the fit is no explanation.

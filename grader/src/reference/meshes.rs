@@ -108,7 +108,7 @@ pub fn skinnings(function: &'static str, random: &mut Random) -> Vec<Trial> {
             }
         };
         // Points on a boundary, no points, and points outside.
-        let edge = index < 8 || index >= 20;
+        let edge = !(8..20).contains(&index);
         Trial { edge, ..trial(function, name, Input::Skinning { V, T, V_skin }, 1.0) }
     };
     (0..28).map(one).collect()

@@ -90,15 +90,11 @@ fn without_a_break(
 
 #[test]
 fn skinning_without_a_break_is_named_whatever_the_slack() {
-    let with = |build: fn(&[Vector3<f64>], &[[usize; 4]], &[Vector3<f64>]) -> CsrMatrix<f64>| Functions {
-        build_skinning_matrix: build,
-        ..REFERENCE
-    };
     let all = [
-        with(|V, T, skin| without_a_break(V, T, skin, 1e-6, true)),
-        with(|V, T, skin| without_a_break(V, T, skin, 0.0, true)),
-        with(|V, T, skin| without_a_break(V, T, skin, 1e-9, true)),
-        with(|V, T, skin| without_a_break(V, T, skin, 1e-6, false)),
+        Functions { build_skinning_matrix: |V, T, skin| without_a_break(V, T, skin, 1e-6, true), ..REFERENCE },
+        Functions { build_skinning_matrix: |V, T, skin| without_a_break(V, T, skin, 0.0, true), ..REFERENCE },
+        Functions { build_skinning_matrix: |V, T, skin| without_a_break(V, T, skin, 1e-9, true), ..REFERENCE },
+        Functions { build_skinning_matrix: |V, T, skin| without_a_break(V, T, skin, 1e-6, false), ..REFERENCE },
     ];
     for functions in all {
         let name = name("build_skinning_matrix", functions);
@@ -291,4 +287,14 @@ fn entries_are_told_once() {
     let diagnosis = diagnosis.unwrap();
     assert!(diagnosis.sentence.contains("entries"), "{diagnosis:?}");
     assert!(!location.clone().unwrap_or_default().contains("ntries"), "{diagnosis:?} {location:?}");
+}
+
+#[test]
+fn a_number_has_no_entries_and_a_shape_function_no_force() {
+    let twice = Functions { psi_neo_hookean: |F, C, D| 2.0 * solved::psi_neo_hookean(F, C, D), ..REFERENCE };
+    let sentence = explained("psi_neo_hookean", twice).diagnosis.unwrap().sentence;
+    assert!(sentence.starts_with("The answer is 2 times"), "{sentence}");
+    let negated = Functions { phi_linear_tetrahedron: |V, e, x| -solved::phi_linear_tetrahedron(V, e, x), ..REFERENCE };
+    let sentence = explained("phi_linear_tetrahedron", negated).diagnosis.unwrap().sentence;
+    assert!(sentence.starts_with("Every entry has the opposite sign") && !sentence.contains("force"), "{sentence}");
 }
