@@ -26,7 +26,7 @@ const MOST_BYTES: u64 = 1 << 20;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rubric {
-    /// A function that is right on ordinary inputs keeps the share of checks that it passes.
+    /// A function that is right on ordinary inputs keeps the shares of the checks that it passes.
     pub partial_credit: bool,
     /// Largest share of a function's points that its edge cases have together.
     #[serde(default = "edge_cases")]
