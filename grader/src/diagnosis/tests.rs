@@ -2,6 +2,7 @@
 
 mod mistakes;
 mod reported;
+mod sentences;
 
 use finite_elements_3d as solved;
 use grader::implementation::Local;
