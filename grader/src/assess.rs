@@ -12,38 +12,45 @@ use jiff::Timestamp;
 use crate::grade::{Account, CheckGrade, FunctionGrade, Grade};
 use crate::reference::compare::Check;
 use crate::reports;
-use crate::rubric::Rubric;
+use crate::rubric::{Rubric, Worth};
+use crate::weights::{MOST_OF_ENDLESS, is_edge_case, shares};
 pub use adjustments::{ADJUSTMENTS, Adjustments};
 pub use metadata::Metadata;
 
-/// The points of a function in which the checks `own` have points of their own. If one of them fails, the function keeps the points of
-/// its other checks.
-pub fn points(max_score: f64, partial_credit: bool, part: (Status, &[CheckGrade]), own: &[(&str, f64)]) -> f64 {
-    let (status, checks) = part;
-    if status == Status::Passed || own.is_empty() {
-        return shared(max_score, partial_credit, status, checks);
+/// The points of a function. If a check with points of its own fails, the function keeps the points of its other checks.
+pub fn points(function: &str, worth: &Worth, (status, checks): (Status, &[CheckGrade])) -> f64 {
+    if status == Status::Passed {
+        return worth.max_score;
     }
-    let points_of = |check: &CheckGrade| own.iter().find(|(name, _)| *name == check.name).map(|(_, points)| *points);
-    let (apart, others): (Vec<_>, Vec<_>) = checks.iter().cloned().partition(|check| points_of(check).is_some());
-    let earned: f64 = apart.iter().filter(|check| check.status == Status::Passed).filter_map(points_of).sum();
-    let rest = max_score - own.iter().map(|(_, points)| points).sum::<f64>();
-    let status = others.iter().map(|check| check.status).max().unwrap_or(status);
-    shared(rest, partial_credit, status, &others) + earned
+    let points_of =
+        |check: &CheckGrade| worth.own.iter().find(|(name, _)| *name == check.name).map(|(_, points)| *points);
+    let (apart, others): (Vec<_>, Vec<_>) = checks.iter().partition(|check| points_of(check).is_some());
+    let earned: f64 = apart.into_iter().filter(|check| check.status == Status::Passed).filter_map(points_of).sum();
+    let rest = worth.max_score - worth.own.iter().map(|(_, points)| points).sum::<f64>();
+    let points = rest * kept(function, worth, &others);
+    // Exact if nothing is lost, and else no more than is earned.
+    earned + if points == rest { rest } else { (points * 100.0 + ROUND_OFF).floor() / 100.0 }
 }
 
-/// The points that checks share. A part of them is kept if the answers agree with the reference and other checks fail.
-fn shared(max_score: f64, partial_credit: bool, status: Status, checks: &[CheckGrade]) -> f64 {
-    if status == Status::Passed {
-        return max_score;
+/// Round-off of sums of shares, in hundredths of a point.
+const ROUND_OFF: f64 = 1e-6;
+
+/// The share of its points that a function keeps.
+fn kept(function: &str, worth: &Worth, checks: &[&CheckGrade]) -> f64 {
+    let passes = |check: &&CheckGrade| check.status == Status::Passed;
+    if !checks.is_empty() && checks.iter().all(passes) {
+        return 1.0;
     }
-    let passed = checks.iter().filter(|check| check.status == Status::Passed).count();
-    let is_right_at_heart =
-        checks.iter().any(|check| check.name == Check::Agrees.name() && check.status == Status::Passed);
-    if !(partial_credit && is_right_at_heart) {
+    let is_right_at_heart = checks.iter().any(|check| check.name == Check::Agrees.name() && passes(check));
+    if !(worth.partial_credit && is_right_at_heart) {
         return 0.0;
     }
-    let share = passed as f64 / checks.len() as f64;
-    (max_score * share * 100.0).floor() / 100.0
+    let names: Vec<_> = checks.iter().map(|check| check.name.as_str()).collect();
+    let shares = shares(function, &names, worth.edge_cases);
+    let passed: f64 = checks.iter().zip(shares).filter(|(check, _)| passes(check)).map(|(_, share)| share).sum();
+    let endless: Vec<_> = checks.iter().filter(|check| check.status == Status::TimedOut).collect();
+    let is_ordinary = endless.iter().any(|check| !is_edge_case(function, &check.name));
+    if is_ordinary || 2 * endless.len() >= checks.len() { passed.min(MOST_OF_ENDLESS) } else { passed }
 }
 
 /// The rules that turn the results of a graded submission into points.
@@ -109,12 +116,11 @@ impl Accounts {
 
     /// Updates points and hints from the present rubric.
     fn recount(&self, grade: &mut Grade) {
-        let Rubric { partial_credit, growth_costs, students, functions, simulation, .. } = &self.rubric;
+        let Rubric { growth_costs, students, functions, simulation, .. } = &self.rubric;
         let mut change = (0.0, 0.0);
         let mut count = |part: &mut FunctionGrade, max_score: f64| {
-            let own = self.rubric.own_points(&part.name);
-            let score =
-                points(max_score, *partial_credit, (part.status, &part.checks), &own) * part.kept(*growth_costs);
+            let worth = self.rubric.worth(&part.name, max_score);
+            let score = points(&part.name, &worth, (part.status, &part.checks)) * part.kept(*growth_costs);
             change = (change.0 + score - part.score, change.1 + max_score - part.max_score);
             (part.score, part.max_score) = (score, max_score);
         };

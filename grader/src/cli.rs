@@ -101,6 +101,12 @@ pub enum Command {
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
     },
+    /// Print what the failure of each check costs.
+    Weights {
+        /// Points and shares, instead of the grader's own.
+        #[arg(long, value_name = "FILE")]
+        rubric: Option<PathBuf>,
+    },
     /// Name the layers of this machine's sandbox; fails where they are not enough to grade.
     Sandbox,
     /// Write the files with which a platform runs the grader.

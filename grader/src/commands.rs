@@ -21,7 +21,7 @@ use crate::pack::{self, PackOptions, Platform};
 use crate::reports::{self, Options};
 use crate::rubric::{Role, Rubric};
 use crate::similar::fingerprints::Document;
-use crate::{archive, class, feedback, handout, own_checks, seed, similar};
+use crate::{archive, class, feedback, handout, own_checks, seed, similar, weights};
 
 /// The grader or its machine failed; there is no grade.
 pub const GRADER_FAILED: u8 = 1;
@@ -236,6 +236,13 @@ pub fn similar((folder, roster): (&Path, Option<&Path>), given: &[PathBuf], out:
     class.remarks.iter().for_each(|remark| println!("{remark}"));
     print!("{}", reports::similar::text(&documents, &found));
     println!("{}", out.join("similar.html").display());
+    Ok(())
+}
+
+pub fn weights(rubric: Option<&Path>) -> Done {
+    let rubric = Rubric::load(rubric).map_err(unusable)?;
+    own_checks::have(&rubric, &repository(), &tools()?).map_err(unusable)?;
+    print!("{}", weights::table(&rubric));
     Ok(())
 }
 

@@ -2,6 +2,7 @@
 
 mod algorithms;
 mod answers;
+mod arguments;
 mod differences;
 mod entries;
 mod fit;
@@ -27,6 +28,14 @@ pub struct Diagnosis {
     pub name: String,
     /// Sentence for the student: it teaches and does not give the answer.
     pub sentence: String,
+    /// The sentence tells which entries are right or wrong, so that no other one has to.
+    tells_entries: bool,
+}
+
+impl Diagnosis {
+    fn new(name: impl Into<String>, sentence: impl Into<String>) -> Self {
+        Self { name: name.into(), sentence: sentence.into(), tells_entries: false }
+    }
 }
 
 /// Answer of a mistake in a trial, from the right answer; `None` if the mistake cannot be made there.
@@ -37,6 +46,7 @@ struct Candidate<'a> {
     name: String,
     sentence: String,
     answers: Answers<'a>,
+    tells_entries: bool,
 }
 
 impl<'a> Candidate<'a> {
@@ -45,7 +55,12 @@ impl<'a> Candidate<'a> {
         sentence: impl Into<String>,
         answers: impl Fn(&Trial, &Observed) -> Option<Observed> + 'a,
     ) -> Self {
-        Self { name: name.into(), sentence: sentence.into(), answers: Box::new(answers) }
+        Self { name: name.into(), sentence: sentence.into(), answers: Box::new(answers), tells_entries: false }
+    }
+
+    /// The same with a sentence that tells which entries are right or wrong.
+    fn of_entries(self) -> Self {
+        Self { tells_entries: true, ..self }
     }
 }
 
@@ -71,16 +86,20 @@ pub struct Explanation {
 /// Explains the answers of a function.
 pub fn explain(function: &str, seed: u64, subject: &dyn Implementation, variants: &[Variant]) -> Explanation {
     let cases = cases(function, seed, subject);
-    let location = location::locate(&cases, subject);
-    let elsewhere = kinds::evaluated_elsewhere(&cases, subject);
-    Explanation { diagnosis: diagnose(function, cases, variants).or(elsewhere), location }
+    let found = diagnose(function, &cases, variants);
+    let diagnosis = found
+        .or_else(|| kinds::evaluated_elsewhere(&cases, subject))
+        .or_else(|| arguments::old_velocity(&cases, subject));
+    let tells_entries = diagnosis.as_ref().is_some_and(|diagnosis| diagnosis.tells_entries);
+    Explanation { location: location::locate(&cases, subject, tells_entries), diagnosis }
 }
 
-fn diagnose(function: &str, mut cases: Vec<Case>, variants: &[Variant]) -> Option<Diagnosis> {
+fn diagnose(function: &str, cases: &[Case], variants: &[Variant]) -> Option<Diagnosis> {
+    let mut cases: Vec<&Case> = cases.iter().collect();
     // Wrong answers come first, because they rule out most candidates.
-    cases.sort_by_cached_key(right);
+    cases.sort_by_cached_key(|case| right(case));
     // A second mistake in a limiting case must not hide the first.
-    let (ordinary, edges): (Vec<_>, Vec<_>) = cases.iter().partition(|case| !case.trial.edge);
+    let (ordinary, edges): (Vec<&Case>, Vec<_>) = cases.iter().partition(|case| !case.trial.edge);
     let all: Vec<_> = ordinary.iter().chain(&edges).copied().collect();
     let candidates: Vec<_> = answers::candidates(&ordinary)
         .into_iter()
@@ -102,10 +121,14 @@ fn diagnose(function: &str, mut cases: Vec<Case>, variants: &[Variant]) -> Optio
         let same = |candidate: &&Candidate| cases.iter().take(TURNED).all(|case| solves_as_often(candidate, case));
         if !counts || same(&first) { Some(first) } else { all.find(same).or(Some(first)) }
     };
-    let diagnosis = |of: &Candidate| Diagnosis { name: of.name.clone(), sentence: of.sentence.clone() };
+    let diagnosis = |of: &Candidate| Diagnosis {
+        name: of.name.clone(),
+        sentence: of.sentence.clone(),
+        tells_entries: of.tells_entries,
+    };
     // If no answer is right, answers that are not finite have too many explanations.
     let nothing = kinds::not_a_number(&ordinary);
-    if let Some(nothing) = nothing.clone().filter(|_| !cases.iter().any(right)) {
+    if let Some(nothing) = nothing.clone().filter(|_| !cases.iter().any(|case| right(case))) {
         return Some(nothing);
     }
     // At a vertex or on an edge a display vertex may follow any of several elements, and the choice changes wrong weights.
@@ -118,7 +141,7 @@ fn diagnose(function: &str, mut cases: Vec<Case>, variants: &[Variant]) -> Optio
     if nothing.is_some() {
         return nothing;
     }
-    if cases.iter().all(right) {
+    if cases.iter().all(|case| right(case)) {
         return candidates.iter().find(|candidate| explains_finely(candidate, &all)).map(diagnosis);
     }
     let scaled = || candidates.iter().find_map(|candidate| with_factor(candidate, &ordinary));
@@ -143,13 +166,15 @@ fn with_factor(candidate: &Candidate, cases: &[&Case]) -> Option<Diagnosis> {
     let by = answers::written(factor);
     // An implausible factor is no explanation.
     (!by.contains('.') || by.len() < 6).then_some(())?;
+    let whole = answers::whole(first.expected.numbers.len()).to_lowercase();
     let (name, sentence) = match by == "-1" {
-        true => ("negated".to_owned(), "Besides, every entry has the opposite sign.".to_owned()),
-        false => (format!("scaled by {by}"), format!("Besides, every entry is {by} times as large as it should be.")),
+        true => ("negated".to_owned(), format!("Besides, {whole} has the opposite sign.")),
+        false => (format!("scaled by {by}"), format!("Besides, {whole} is {by} times as large as it should be.")),
     };
     explains(&scaled, cases).then(|| Diagnosis {
         name: format!("{} and {name}", candidate.name),
-        sentence: format!("{} {sentence}", candidate.sentence),
+        sentence: format!("{} {sentence}", switches::beside_another(&candidate.sentence)).trim().to_owned(),
+        tells_entries: true,
     })
 }
 

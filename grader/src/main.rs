@@ -23,6 +23,7 @@ mod rubric;
 mod seed;
 mod similar;
 mod variants;
+mod weights;
 
 use std::env;
 use std::panic;
@@ -56,6 +57,7 @@ fn main() -> ExitCode {
             commands::similar((&folder, roster.as_deref()), &given, &out, rubric.as_deref())
         }
         Command::Merge { folders, out } => commands::merge(&folders, &out),
+        Command::Weights { rubric } => commands::weights(rubric.as_deref()),
         Command::Sandbox => commands::sandbox_layers(),
         Command::Pack { platform, out, seed, rubric, vendor } => {
             let seed = seed.unwrap_or_else(seed::drawn);

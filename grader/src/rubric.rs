@@ -4,6 +4,7 @@ mod checked;
 mod deadline;
 mod judging;
 mod needs;
+mod worth;
 
 use std::fs::File;
 use std::io::Read;
@@ -14,6 +15,7 @@ use thiserror::Error;
 use toml::Spanned;
 
 pub use deadline::{Deadline, Extension, Lateness};
+pub use worth::Worth;
 
 /// The rubric that comes with the grader.
 const OURS: &str = include_str!("../rubric.toml");
@@ -25,8 +27,11 @@ const MOST_BYTES: u64 = 1 << 20;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rubric {
-    /// A function that is right on ordinary inputs keeps the share of checks that it passes.
+    /// A function that is right on ordinary inputs keeps the shares of the checks that it passes.
     pub partial_credit: bool,
+    /// Largest share of a function's points that its edge cases have together.
+    #[serde(default = "edge_cases")]
+    pub edge_cases: f64,
     /// Share of its points that a right assembly loses if its time clearly grows faster with the mesh than the reference's.
     #[serde(default)]
     pub growth_costs: f64,
@@ -216,6 +221,10 @@ impl Rubric {
         let function = self.functions.iter().find(|function| function.name.get_ref() == name)?;
         Some(*function.level.get_ref())
     }
+}
+
+fn edge_cases() -> f64 {
+    0.2
 }
 
 fn title() -> String {

@@ -351,7 +351,9 @@ fn what_calls_a_function_that_never_ends_waits_and_is_not_run() {
     let state = String::from_utf8(student.state.clone()).expect("letters");
     let [subject, trusted] = [(); 2].map(|()| process_within(&state, Duration::from_secs(2)));
     let begun = RefCell::new(BTreeSet::new());
-    let begins = |name| drop(begun.borrow_mut().insert(name));
+    let begins = |name| {
+        begun.borrow_mut().insert(name);
+    };
     let (submission, faults) = (&student.submission, &student.faults);
     let judge = Judge { submission, faults, subject: &subject, trusted: &trusted, begins: &begins };
     let found = reports(&judge.one("V_linear_tetrahedron"), &student.roles, Some("V_linear_tetrahedron"));

@@ -138,7 +138,8 @@ fn a_check_with_points_of_its_own_earns_or_costs_these_alone() {
     let all = |agrees, own| {
         [check(Check::Agrees.name(), agrees), check("is zero at rest", Status::Passed), check("own", own)]
     };
-    let of = |status, checks: &[CheckGrade]| points(6.0, true, (status, checks), &[("own", 2.0)]);
+    let worth = |own| Worth { max_score: 6.0, partial_credit: true, edge_cases: 0.2, own };
+    let of = |status, checks: &[CheckGrade]| points("psi_neo_hookean", &worth(vec![("own", 2.0)]), (status, checks));
     assert_eq!(of(Status::Passed, &all(Status::Passed, Status::Passed)), 6.0);
     assert_eq!(of(Status::Failed, &all(Status::Passed, Status::Failed)), 4.0);
     assert_eq!(of(Status::Failed, &all(Status::Failed, Status::Passed)), 2.0);
@@ -146,7 +147,8 @@ fn a_check_with_points_of_its_own_earns_or_costs_these_alone() {
     let share =
         [check(Check::Agrees.name(), Status::Passed), check("other", Status::Failed), check("own", Status::Passed)];
     assert_eq!(of(Status::Failed, &share), 2.0 + 2.0);
-    assert_eq!(points(6.0, true, (Status::Failed, &share), &[]), 4.0, "it counts like any other check");
+    let shared = points("psi_neo_hookean", &worth(Vec::new()), (Status::Failed, &share));
+    assert_eq!(shared, 4.0, "it counts like any other check");
 }
 
 #[test]

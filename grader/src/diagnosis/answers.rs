@@ -5,20 +5,37 @@ use crate::reference::trial::{Input, Observed, Trial};
 
 /// Simplest first. The factor of a constant one is read off the answers.
 pub fn candidates<'a>(cases: &[&Case]) -> Vec<Candidate<'a>> {
+    let Some(first) = cases.first() else { return Vec::new() };
+    let whole = whole(first.expected.numbers.len());
+    let zero = format!("{whole} is zero. Is the result of the computation returned?");
+    let negated = format!("{whole} has the opposite sign. {}", about_the_sign(first.trial.function));
     let mut all = vec![
-        Candidate::new("zero", "Every entry is zero. Is the result of the computation returned?", |trial, answer| {
-            scaled(trial, answer, 0.0)
-        }),
-        Candidate::new(
-            "negated",
-            "Every entry has the opposite sign. Is the function asked for the energy's gradient or for the force?",
-            |trial, answer| scaled(trial, answer, -1.0),
-        ),
+        Candidate::new("zero", zero, |trial, answer| scaled(trial, answer, 0.0)),
+        Candidate::new("negated", negated, |trial, answer| scaled(trial, answer, -1.0)),
     ];
     all.extend(constant(cases));
+    let mut all: Vec<_> = all.into_iter().map(Candidate::of_entries).collect();
     all.extend(by_quantities());
     all.extend(reordered());
     all
+}
+
+/// The words for an answer of so many numbers.
+pub(super) fn whole(numbers: usize) -> &'static str {
+    if numbers == 1 { "The answer" } else { "Every entry" }
+}
+
+/// What is to be thought of where all signs are wrong.
+fn about_the_sign(function: &str) -> &'static str {
+    match function {
+        "dV_linear_tetrahedron_dq" | "dV_spring_particle_particle_dq" | "assemble_forces" => {
+            "Is the function asked for the energy's gradient or for the force?"
+        }
+        "d2V_linear_tetrahedron_dq2" | "assemble_stiffness" => {
+            "Is the function asked for the derivative of the gradient or for that of the force?"
+        }
+        _ => "Compare its sign with that of the formula.",
+    }
 }
 
 fn scaled(trial: &Trial, answer: &Observed, factor: f64) -> Option<Observed> {
@@ -38,8 +55,9 @@ fn constant<'a>(cases: &[&Case]) -> Option<Candidate<'a>> {
     };
     let factor = cases.iter().find_map(|case| ratio(case)).filter(|factor| factor.is_finite() && *factor != 0.0)?;
     let name = written(factor);
+    let whole = whole(cases.first()?.expected.numbers.len());
     let sentence = format!(
-        "Every entry is {name} times as large as it should be. Which constant of the formula is missing, or there twice?"
+        "{whole} is {name} times as large as it should be. Which constant of the formula is missing, or there twice?"
     );
     Some(Candidate::new(format!("scaled by {name}"), sentence, move |trial, answer| scaled(trial, answer, factor)))
 }

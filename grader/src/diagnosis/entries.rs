@@ -62,6 +62,40 @@ const COORDINATES: &[Set] = &[
     ("the first half", |p| p.row < p.shape[0] / 2),
 ];
 
+/// Sets in the force of a spring.
+const ENDS: &[Set] = &[
+    ("the first end", |p| p.row < 3),
+    ("the second end", |p| p.row >= 3),
+    ("the x of each end", |p| p.row % 3 == 0),
+    ("the y of each end", |p| p.row % 3 == 1),
+    ("the z of each end", |p| p.row % 3 == 2),
+    ("the first entry", |p| p.row == 0),
+    ("the last entry", |p| p.row == 5),
+];
+
+/// Sets in the derivative of the stress, whose rows and columns are the entries of a 3×3 matrix.
+const MODULI: &[Set] = &[
+    ("the diagonal", |p| p.row == p.column),
+    ("the diagonal blocks", |p| p.row / 3 == p.column / 3),
+    ("the upper triangle", |p| p.row <= p.column),
+    ("the lower triangle", |p| p.row >= p.column),
+    ("the part above the diagonal", |p| p.row < p.column),
+    ("the part below the diagonal", |p| p.row > p.column),
+    ("the upper blocks", |p| p.row / 3 <= p.column / 3),
+    ("the lower blocks", |p| p.row / 3 >= p.column / 3),
+    ("the blocks above the diagonal", |p| p.row / 3 < p.column / 3),
+    ("the blocks below the diagonal", |p| p.row / 3 > p.column / 3),
+    ("the diagonals of the blocks", |p| p.row % 3 == p.column % 3),
+    ("the first row", |p| p.row == 0),
+    ("the last row", |p| p.row + 1 == p.shape[0]),
+    ("the first column", |p| p.column == 0),
+    ("the last column", |p| p.column + 1 == p.shape[1]),
+    ("the first three rows", |p| p.row < 3),
+    ("the last three rows", |p| p.row >= 6),
+    ("the first three columns", |p| p.column < 3),
+    ("the last three columns", |p| p.column >= 6),
+];
+
 /// Sets in the stress, row by row.
 const STRESS: &[Set] = &[
     ("the diagonal", |p| p.row % 4 == 0),
@@ -101,6 +135,8 @@ pub fn sets(input: &Input, shape: [usize; 2]) -> &'static [Set] {
             &[]
         }
         (Input::Density { .. }, [_, 1]) => STRESS,
+        (Input::Density { .. }, _) => MODULI,
+        (Input::Spring { .. }, _) => ENDS,
         (_, [_, 1]) => COORDINATES,
         _ => BLOCKS,
     }
@@ -118,7 +154,7 @@ pub fn candidates<'a>(cases: &[&Case]) -> Vec<Candidate<'a>> {
         return Vec::new();
     }
     let sets = sets(&first.trial.input, first.expected.shape);
-    sets.iter().filter_map(|set| in_set(set, cases)).collect()
+    sets.iter().filter_map(|set| in_set(set, cases)).map(Candidate::of_entries).collect()
 }
 
 /// One factor in the set and one outside of it, where the answers have such.
@@ -130,7 +166,7 @@ fn in_set<'a>(&(name, contains): &Set, cases: &[&Case]) -> Option<Candidate<'a>>
     } else if near(outside, 0.0) && near(inside, 1.0) {
         (
             format!("only {}", name.trim_start_matches("the ")),
-            format!("Only {name} is filled, and right; the rest is zero."),
+            format!("Everything outside of {name} is zero; what stands there is right."),
         )
     } else if near(inside, 1.0) {
         (told(&format!("all but {name}"), outside)?, format!("Right in {name}, and wrong in all other entries."))

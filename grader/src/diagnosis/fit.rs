@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::answers::written;
+use super::answers::{whole, written};
 use super::{Candidate, Case};
 use crate::reference::trial::{Observed, Trial};
 
@@ -33,10 +33,11 @@ const FIRST: usize = 4;
 
 /// The mistake that explains the answers by these terms in the entries that are `among` them; `None` if none does or if too many of its coefficients are wrong.
 pub fn candidate<'a>(formula: Formula<'a>, cases: &[&Case], among: &[bool]) -> Option<Candidate<'a>> {
-    let few = &cases[..cases.len().min(FIRST)];
+    let entries = among.iter().filter(|of| **of).count().max(1);
+    let few = &cases[..cases.len().min(FIRST.max(1 + formula.terms.len() / entries))];
     fitted(&formula, few, among)?;
     let coefficients = fitted(&formula, cases, among)?;
-    let (name, sentence) = told(&formula, &coefficients)?;
+    let (name, sentence) = told(&formula, &coefficients, whole(among.len()))?;
     let (values, among) = (formula.values, among.to_vec());
     let name = if among.iter().all(|of| *of) { name } else { format!("in some entries {name}") };
     Some(Candidate::new(name, sentence, move |trial, answer| {
@@ -77,13 +78,15 @@ fn fitted(formula: &Formula, cases: &[&Case], among: &[bool]) -> Option<Vec<f64>
     // A term that is zero in these trials has no coefficient, which must not spoil those of the others.
     let normal = scaled.transpose() * &scaled + DMatrix::identity(n, n) * SMALL;
     let x = normal.cholesky()?.solve(&(scaled.transpose() * &b));
-    let coefficients: Vec<f64> = x.iter().zip(&lengths).map(|(x, length)| x / length).collect();
+    // A term that is zero in all of these entries says nothing, so that its coefficient counts as right.
+    let of_term = |j: usize| if A.column(j).amax() == 0.0 { formula.terms[j].1 } else { x[j] / lengths[j] };
+    let coefficients: Vec<f64> = (0..n).map(of_term).collect();
     let misfit = (&A * DVector::from_column_slice(&coefficients) - b).amax();
     (misfit <= NEAR && coefficients.iter().all(|c| c.is_finite())).then_some(coefficients)
 }
 
 /// Name and sentence of what is wrong.
-fn told(formula: &Formula, coefficients: &[f64]) -> Option<(String, String)> {
+fn told(formula: &Formula, coefficients: &[f64], whole: &str) -> Option<(String, String)> {
     if let Some(replaced) = replaced(formula, coefficients) {
         return Some(replaced);
     }
@@ -100,7 +103,7 @@ fn told(formula: &Formula, coefficients: &[f64]) -> Option<(String, String)> {
         let factor = written(factor);
         return Some((
             format!("{name} and scaled by {factor}"),
-            format!("{sentence} Besides, every entry is {factor} times as large as it should be."),
+            format!("{sentence} Besides, {} is {factor} times as large as it should be.", whole.to_lowercase()),
         ));
     }
     // If no term is right, the fit is no explanation.

@@ -13,20 +13,15 @@ use crate::reference::trial::Input;
 pub fn not_a_number(cases: &[&Case]) -> Option<Diagnosis> {
     let is_empty = |case: &&Case| case.observed.numbers.is_empty();
     if cases.iter().all(is_empty) && cases.iter().filter(|case| !right(case)).count() > 2 {
-        return Some(Diagnosis {
-            name: "empty".to_owned(),
-            sentence: "The answer is empty, whatever the input. Is what was found returned?".to_owned(),
-        });
+        return Some(Diagnosis::new("empty", "The answer is empty, whatever the input. Is what was found returned?"));
     }
     let nothing = |case: &&Case| case.observed.numbers.iter().all(|x| !x.is_finite());
     let wrong: Vec<_> =
         cases.iter().copied().filter(|case| !right(case) && !case.observed.numbers.is_empty()).collect();
     let is_nan = |case: &&Case| case.observed.numbers.iter().any(|x| x.is_nan());
-    (wrong.len() > 2 && wrong.iter().all(nothing)).then(|| Diagnosis {
-        name: if wrong.iter().any(is_nan) { "not a number" } else { "infinite" }.to_owned(),
-        sentence: "The answers are NaN or infinite: which division, root, power or logarithm has no value there?"
-            .to_owned(),
-    })
+    let name = if wrong.iter().any(is_nan) { "not a number" } else { "infinite" };
+    let sentence = "The answers are NaN or infinite: which division, root, power or logarithm has no value there?";
+    (wrong.len() > 2 && wrong.iter().all(nothing)).then(|| Diagnosis::new(name, sentence))
 }
 
 /// The mistake of a function that is right but for limiting cases.
@@ -54,10 +49,8 @@ pub fn limiting_case(cases: &[&Case]) -> Option<Diagnosis> {
     kinds.sort_unstable();
     kinds.dedup();
     let kinds = kinds.join(", ");
-    Some(Diagnosis {
-        name: format!("{how} in a limiting case"),
-        sentence: format!("Right in general; {told} in a limiting case ({kinds}). What does the page say about it?"),
-    })
+    let sentence = format!("Right in general; {told} in a limiting case ({kinds}). What does the page say about it?");
+    Some(Diagnosis::new(format!("{how} in a limiting case"), sentence))
 }
 
 /// Most that an answer may be wrong in any trial to count as nearly right.
@@ -77,13 +70,12 @@ pub fn inexact(cases: &[&Case]) -> Option<Diagnosis> {
     let errors = errors?;
     let worst = errors.iter().fold(0.0, |worst: f64, error| worst.max(*error));
     let wrong = errors.iter().filter(|error| **error > TOLERANCE).count();
-    (worst > TOLERANCE && worst <= NEARLY_RIGHT && 2 * wrong > errors.len()).then(|| Diagnosis {
-        name: "inexact".to_owned(),
-        sentence: format!(
-            "Nearly right everywhere, to about {:.0} digits. Finite differences, single precision, a slack or a rounded constant are not exact.",
-            -worst.log10().ceil()
-        ),
-    })
+    let sentence = format!(
+        "Nearly right everywhere, to about {:.0} digits. Finite differences, single precision, a slack or a rounded constant are not exact.",
+        -worst.log10().ceil()
+    );
+    let is_nearly_right = worst > TOLERANCE && worst <= NEARLY_RIGHT && 2 * wrong > errors.len();
+    is_nearly_right.then(|| Diagnosis::new("inexact", sentence))
 }
 
 /// The mistake of a quadrature that is right but for the point at which it evaluates.
@@ -101,9 +93,7 @@ pub fn evaluated_elsewhere(cases: &[Case], subject: &dyn Implementation) -> Opti
         let expected = integrand.at(&point) * *volume;
         answer.len() == expected.len() && (&answer - &expected).amax() <= 1e-9 * expected.amax()
     };
-    (!wrong.is_empty() && wrong.iter().all(fits)).then(|| Diagnosis {
-        name: "evaluated at the wrong point".to_owned(),
-        sentence: "The integrand is evaluated once, and its value is used well. At which point does the page want it evaluated?"
-            .to_owned(),
-    })
+    let sentence =
+        "The integrand is evaluated once, and its value is used well. At which point does the page want it evaluated?";
+    (!wrong.is_empty() && wrong.iter().all(fits)).then(|| Diagnosis::new("evaluated at the wrong point", sentence))
 }

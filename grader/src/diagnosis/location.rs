@@ -17,14 +17,17 @@ const PROBED: usize = 4;
 /// Most inputs that are named.
 const MOST: usize = 3;
 
-/// Sentences about where the answers are right; `None` if there is no pattern.
-pub fn locate(cases: &[Case], subject: &dyn Implementation) -> Option<String> {
+/// Sentences about where the answers are right; `None` if there is no pattern. Those about entries are left out if the diagnosis tells
+/// them: a second set of entries beside the first reads like a contradiction.
+pub fn locate(cases: &[Case], subject: &dyn Implementation, tells_entries: bool) -> Option<String> {
     let (good, bad): (Vec<_>, Vec<_>) = cases.iter().partition(|case| right(case));
     let first = bad.first()?;
     let mut all = Vec::new();
-    all.extend(entries(&bad));
+    // Of a limiting case its kind says more: simpler inputs are no limiting cases any more, whatever they are.
+    let ordinary: Vec<_> = bad.iter().copied().filter(|case| !case.trial.edge).collect();
+    all.extend(entries(&ordinary).filter(|_| !tells_entries));
     all.extend(calls::told(&bad, subject));
-    let probed: Vec<_> = bad.iter().map(|case| &case.trial).take(PROBED).collect();
+    let probed: Vec<_> = ordinary.iter().map(|case| &case.trial).take(PROBED).collect();
     let probes = probes::PROBES.iter().filter(|(_, change)| is_right(&probed, *change, subject));
     let names: Vec<_> = probes.map(|(name, _)| *name).take(MOST).collect();
     if !names.is_empty() {

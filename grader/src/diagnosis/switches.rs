@@ -24,9 +24,35 @@ pub fn candidates<'a, S: Copy + 'static>(right: S, switches: &'static [Switch<S>
             let mut settings = right;
             (first.2)(&mut settings);
             (second.2)(&mut settings);
-            let (name, sentence) = (format!("{} and {}", first.0, second.0), format!("{} {}", first.1, second.1));
+            let name = format!("{} and {}", first.0, second.0);
+            let sentence = format!("{} {}", beside_another(first.1), beside_another(second.1));
             all.push(Candidate::new(name, sentence, move |trial, _| run(&settings, trial)));
         }
     }
     all
+}
+
+/// Words with which a sentence says that something is right.
+const CLAIMS: [&str; 5] = [" is right", " are right", " is well", "The right ", "Right "];
+
+/// A sentence about a mistake that is not the only one: what it says to be right is left out, as the other mistake may have spoilt it.
+pub fn beside_another(sentence: &str) -> String {
+    let end = sentence.find([':', '.']).filter(|&end| CLAIMS.iter().any(|claim| sentence[..end].contains(claim)));
+    let rest = end.map_or(sentence, |end| sentence[end + 1..].trim_start());
+    let mut letters = rest.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sentence_beside_another_claims_nothing_to_be_right() {
+        let one = "The velocity is right and the positions are not: how far does a body move in one step?";
+        assert_eq!(beside_another(one), "How far does a body move in one step?");
+        let other = "Inside all is well. Which element does a vertex outside follow?";
+        assert_eq!(beside_another(other), "Which element does a vertex outside follow?");
+        assert_eq!(beside_another("Every vertex is wrong: why?"), "Every vertex is wrong: why?");
+    }
 }

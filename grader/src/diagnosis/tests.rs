@@ -1,6 +1,8 @@
 //! Known mistakes are named. Right answers, and answers that no mistake explains, get no name.
 
 mod mistakes;
+mod reported;
+mod sentences;
 
 use finite_elements_3d as solved;
 use grader::implementation::Local;

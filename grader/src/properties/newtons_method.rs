@@ -72,7 +72,7 @@ fn a_full_step_that_overshoots_is_cut_back(course: &Course) -> Outcome {
 }
 
 fn states_without_an_energy_are_refused(course: &Course) -> Outcome {
-    for outside in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+    for outside in [f64::NAN, f64::INFINITY] {
         let run = log_barrier(outside).minimise(course, &[3.0], 30)?;
         near("the minimum is found though f has no value beyond a wall", &run.x, &dvector![1.0], 1e-7)?;
         near_number("f there", run.f, 1.0, 1e-12)?;
@@ -91,7 +91,7 @@ fn the_value_returned_is_f_at_the_x_that_is_left(course: &Course) -> Outcome {
             let run = objective.minimise(course, &start, steps)?;
             is_f_at_x(&run, &objective)?;
         }
-        for (objective, start) in [(overshooting(), 5.0), (log_barrier(f64::NAN), 3.0), (halving(1.0), 1.0)] {
+        for (objective, start) in [(overshooting(), 5.0), (log_barrier(f64::INFINITY), 3.0), (halving(1.0), 1.0)] {
             let run = objective.minimise(course, &[start], steps)?;
             is_f_at_x(&run, &objective)?;
         }

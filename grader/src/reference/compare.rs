@@ -171,7 +171,8 @@ fn calls(trial: &Trial, observed: &Observed, expected: &Observed) -> Vec<Wrong> 
     let pairs = observed.calls.iter().zip(&expected.calls);
     let wrong = |&(name, n): &(&str, usize), &(_, wanted): &(&str, usize)| {
         let figures = format!("{name}: {n} calls, {wanted} by the reference");
-        (counts(name, wanted) && !holds(n, wanted, most)).then_some(Wrong { check: Check::Calls, rule, figures })
+        let check = if trial.edge { Check::EdgeCases } else { Check::Calls };
+        (counts(name, wanted) && !holds(n, wanted, most)).then_some(Wrong { check, rule, figures })
     };
     pairs.filter_map(|(observed, expected)| wrong(observed, expected)).collect()
 }

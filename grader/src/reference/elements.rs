@@ -41,7 +41,10 @@ pub fn shapes(function: &'static str, random: &mut Random) -> Vec<Trial> {
             0..4 => ("at a vertex", Vector4::from_fn(|i, _| if i == index { 1.0 } else { 0.0 })),
             4 => ("at the centroid", Vector4::repeat(0.25)),
             5..25 => ("inside", Vector4::from_fn(|_, _| random.number(0.0..1.0))),
-            _ => ("outside", Vector4::new(-1.0, 1.5, random.number(0.5..2.0), random.number(0.5..2.0))),
+            _ => {
+                let weights = [-1.0, 1.5, random.number(0.5..2.0), random.number(0.5..2.0)];
+                ("outside", Vector4::from_fn(|i, _| weights[(i + index) % 4]))
+            }
         };
         let phi = phi / phi.sum();
         let x = (0..4).map(|i| V[element[i]] * phi[i]).sum();

@@ -37,11 +37,21 @@ fn uneven_box(random: &mut Random) -> Body {
 
 /// `mass_matrix_mesh`.
 pub fn masses(function: &'static str, random: &mut Random) -> Vec<Trial> {
-    let one = |_| {
-        let (V, T, v0, _) = uneven_box(random);
+    let one = |index: usize| {
+        let (V, mut T, v0, _) = uneven_box(random);
+        // In the first ones the last vertex belongs to no element, in the others it does.
+        let edge = index < 4;
+        let last = V.len() - 1;
+        let unused = (0..=last).find(|vertex| !T.iter().flatten().any(|used| used == vertex)).unwrap_or(last);
+        let other = if edge { last } else { 0 };
+        if edge || unused == last {
+            T.iter_mut().flatten().filter(|vertex| **vertex == other).for_each(|vertex| *vertex = unused);
+        }
         let density = random.number(1.0..5000.0);
         let scale = density * v0.iter().copied().fold(0.0, f64::max) / 10.0;
-        trial(function, "a small mesh", Input::MeshMass { q_size: 3 * V.len(), T, density, v0 }, scale)
+        let name = if edge { "a last vertex without elements" } else { "a small mesh" };
+        let input = Input::MeshMass { q_size: 3 * V.len(), T, density, v0 };
+        Trial { edge, ..trial(function, name, input, scale) }
     };
     (0..20).map(one).collect()
 }
@@ -97,7 +107,9 @@ pub fn skinnings(function: &'static str, random: &mut Random) -> Vec<Trial> {
                 "outside"
             }
         };
-        Trial { edge: index >= 20, ..trial(function, name, Input::Skinning { V, T, V_skin }, 1.0) }
+        // Points on a boundary, no points, and points outside.
+        let edge = !(8..20).contains(&index);
+        Trial { edge, ..trial(function, name, Input::Skinning { V, T, V_skin }, 1.0) }
     };
     (0..28).map(one).collect()
 }

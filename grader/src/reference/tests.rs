@@ -179,7 +179,8 @@ fn calls_too_many_fail_and_do_not_change_the_rest() {
         },
         ..REFERENCE
     };
-    assert_eq!(failed("newtons_method", eager), [CALLS]);
+    // Only where the start is the solution.
+    assert_eq!(failed("newtons_method", eager), [EDGES]);
 }
 
 #[test]

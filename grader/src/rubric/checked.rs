@@ -78,8 +78,10 @@ impl Rubric {
                 return Err(format!("{what} = {seconds}; give a number from 0.1 to 600"));
             }
         }
-        if !(0.0..=1.0).contains(&self.growth_costs) {
-            return Err(format!("growth_costs = {}; give a share from 0 to 1", self.growth_costs));
+        for (what, share) in [("growth_costs", self.growth_costs), ("edge_cases", self.edge_cases)] {
+            if !(0.0..=1.0).contains(&share) {
+                return Err(format!("{what} = {share}; give a share from 0 to 1"));
+            }
         }
         if !is_points(self.simulation.points) {
             let points = self.simulation.points;

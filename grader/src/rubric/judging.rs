@@ -25,6 +25,7 @@ impl Rubric {
         let mut rubric = Self {
             title: String::new(),
             partial_credit: true,
+            edge_cases: 0.0,
             counts: Counts::default(),
             no_submission: NoSubmission::default(),
             deadline: None,

@@ -78,6 +78,7 @@ fn points_hints_and_deadlines_need_no_new_grading_and_all_else_does() {
         OURS.replacen("hint = \"Try", "hint = \"Look: try", 1),
         OURS.replacen("partial_credit = true", "# a remark\ncounts = \"best\"\npartial_credit = false", 1),
         OURS.replacen("diagnosis = true", "diagnosis = false", 1),
+        OURS.replacen("edge_cases = 0.2", "edge_cases = 0.5", 1),
         format!("{OURS}{late}"),
     ] {
         assert_eq!(judging(same), ours);

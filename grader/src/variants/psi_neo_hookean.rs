@@ -20,8 +20,8 @@ pub const VARIANTS: &[Variant] = &[
     ),
     variant!(
         psi_neo_hookean,
-        "integer division",
-        "The power of J does nothing here. What kind of numbers are divided in its exponent, and what is the result?",
+        "power of J without effect",
+        "The power of J has no effect: does it stand in the formula, and with an exponent that is divided as a floating-point number?",
         |F, C, D| with_power(F, C, D, 0.0)
     ),
     variant!(

@@ -15,6 +15,10 @@ pub struct Settings {
     /// Indices of the elements that are added, of so many.
     elements: fn(usize) -> Vec<usize>,
     volume: fn(&[f64], usize) -> f64,
+    /// The place of an element's volume, from its number and its vertices.
+    volume_at: fn(usize, &[usize; 4]) -> usize,
+    /// The place of the volume that an element's row is multiplied by instead, from its vertices and the row.
+    volume_of_row: Option<fn(&[usize; 4], usize) -> usize>,
     positions: fn(&DVector<f64>, &[Vector3<f64>]) -> DVector<f64>,
     /// The element's vertices where its answer is placed.
     vertices: fn([usize; 4], usize) -> [usize; 4],
@@ -34,6 +38,8 @@ pub struct Settings {
 pub const RIGHT: Settings = Settings {
     elements: |n| (0..n).collect(),
     volume: |v0, e| v0[e],
+    volume_at: |e, _| e,
+    volume_of_row: None,
     positions: |q, _| q.clone(),
     vertices: |element, _| element,
     columns: |vertices| vertices,
@@ -67,6 +73,9 @@ pub const SWITCHES: &[Switch<Settings>] = &[
     ("missing volume", VOLUMES, |s| s.volume = |_, _| 1.0),
     ("volume squared", VOLUMES, |s| s.volume = |v0, e| v0[e] * v0[e]),
     ("volume of the next element", VOLUMES, |s| s.volume = |v0, e| v0[(e + 1) % v0.len()]),
+    ("volumes by vertex", VOLUMES, |s| s.volume_at = |_, vertices| vertices[0]),
+    ("volumes by vertex", VOLUMES, |s| s.volume_of_row = Some(|vertices, i| vertices[i / 3])),
+    ("volumes by local vertex", VOLUMES, |s| s.volume_of_row = Some(|_, i| i / 3)),
     ("volumes in reverse", VOLUMES, |s| s.volume = |v0, e| v0[v0.len() - 1 - e]),
     (
         "rest for deformed",
@@ -198,9 +207,13 @@ pub const SWITCHES: &[Switch<Settings>] = &[
             s.put = |sum, value| if sum == 0.0 { value } else { sum };
         },
     ),
-    ("largest contribution kept", "A single element is right, elements that share a vertex are not.", |s| {
-        s.put = |sum, value| if value.abs() > f64::abs(sum) { value } else { sum };
-    }),
+    (
+        "largest contribution kept",
+        "A single element is right, elements that share a vertex are not: which of their contributions counts?",
+        |s| {
+            s.put = |sum, value| if value.abs() > f64::abs(sum) { value } else { sum };
+        },
+    ),
     ("mean of the elements", "Elements that share a vertex add up; their mean is something else.", |s| {
         s.divided_by_valence = true
     }),
@@ -218,15 +231,21 @@ fn raised(H: &SMatrix<f64, 12, 12>, share: f64) -> SMatrix<f64, 12, 12> {
     with_eigenvalues(H, |value| value.max(floor))
 }
 
+/// The volume that an element is given; `None` if the list has none there.
+fn volume_of(s: &Settings, v0: &[f64], T: &[[usize; 4]], index: usize) -> Option<f64> {
+    let place = (s.volume_at)(index, &T[index]);
+    (place < v0.len()).then(|| (s.volume)(v0, place))
+}
+
 /// Contribution of an element: a column for forces, a matrix otherwise.
 fn of_element(s: &Settings, trial: &Trial, index: usize) -> Option<Block> {
     match &trial.input {
-        Input::MeshMass { density, v0, .. } => {
-            let M = solved::mass_matrix_linear_tetrahedron(*density, (s.volume)(v0, index));
+        Input::MeshMass { density, v0, T, .. } => {
+            let M = solved::mass_matrix_linear_tetrahedron(*density, volume_of(s, v0, T, index)?);
             Some(Block::from_fn(12, 12, |i, j| M[(i, j)]))
         }
         Input::Mesh(Mesh { q, V, T, v0, C, D }) => {
-            let (q, volume) = ((s.positions)(q, V), (s.volume)(v0, index));
+            let (q, volume) = ((s.positions)(q, V), volume_of(s, v0, T, index)?);
             if trial.function == "assemble_forces" {
                 let f = solved::dV_linear_tetrahedron_dq(&q, V, &T[index], volume, *C, *D);
                 return Some(Block::from_fn(12, 1, |i, _| -f[i]));
@@ -240,15 +259,20 @@ fn of_element(s: &Settings, trial: &Trial, index: usize) -> Option<Block> {
 
 /// The assembly with these settings.
 pub fn run(s: &Settings, trial: &Trial) -> Option<Observed> {
-    let (T, size) = match &trial.input {
-        Input::MeshMass { q_size, T, .. } => (T, *q_size),
-        Input::Mesh(mesh) => (&mesh.T, mesh.q.len()),
+    let (T, v0, size) = match &trial.input {
+        Input::MeshMass { q_size, T, v0, .. } => (T, v0, *q_size),
+        Input::Mesh(mesh) => (&mesh.T, &mesh.v0, mesh.q.len()),
         _ => return None,
     };
     let columns = if trial.function == "assemble_forces" { 1 } else { size };
     let mut numbers = vec![0.0; size * columns];
     for index in (s.elements)(T.len()) {
-        let (block, vertices) = (of_element(s, trial, index)?, (s.vertices)(T[index], index));
+        let (mut block, vertices) = (of_element(s, trial, index)?, (s.vertices)(T[index], index));
+        if let Some(place) = s.volume_of_row {
+            for i in 0..12 {
+                block.row_mut(i).scale_mut(v0.get(place(&T[index], i))? / v0[index]);
+            }
+        }
         for (i, j) in (0..12).flat_map(|i| (0..block.ncols()).map(move |j| (i, j))) {
             let row = (s.place)(&vertices, i, size);
             let column = if columns == 1 { 0 } else { (s.place)(&(s.columns)(vertices), j, size) };

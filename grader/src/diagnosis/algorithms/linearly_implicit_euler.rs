@@ -49,8 +49,7 @@ const UNITS_OF_RIGHT: &str = "Look at the units on the right-hand side: each of 
 const OLD_STATE: &str = "Force and stiffness belong to the state at the start of the step.";
 const POSITIONS: &str = "The velocity is right and the positions are not: how far does a body move in one step?";
 const WRITTEN: &str = "The positions move, and the velocity stays that at the start. What else does a step change?";
-const SOLUTION: &str =
-    "The system of equations is right. What does its solution stand for: a velocity, its change, an acceleration?";
+const SOLUTION: &str = "The system of equations and the use of its solution do not fit: is it solved for a velocity, for its change, or for an acceleration?";
 
 /// The mistakes.
 pub const SWITCHES: &[Switch<Settings>] = &[

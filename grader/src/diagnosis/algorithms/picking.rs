@@ -48,7 +48,11 @@ enum From {
     Hit,
     Centroid,
     Corner,
-    /// The vertex of the surface that is nearest to the hit.
+    /// The corner of the triangle that is nearest to the hit.
+    NearestCorner,
+    /// The vertex of any triangle that is nearest to the hit.
+    NearestOnSurface,
+    /// The vertex that is nearest to the hit.
     NearestVertex,
     Near,
     Far,
@@ -210,7 +214,9 @@ pub const SWITCHES: &[Switch<Settings>] = &[
     ("last triangle of the list", HIDDEN, |s| s.hit = Hit::LastInList),
     ("distance from the middle of the triangle", CENTRE, |s| s.from = From::Centroid),
     ("distance from a corner of the triangle", CENTRE, |s| s.from = From::Corner),
+    ("distance from the nearest corner of the triangle", CENTRE, |s| s.from = From::NearestCorner),
     ("distance from the nearest vertex", CENTRE, |s| s.from = From::NearestVertex),
+    ("distance from the nearest vertex", CENTRE, |s| s.from = From::NearestOnSurface),
     ("distance from the near plane", CENTRE, |s| s.from = From::Near),
     ("distance from the far plane", CENTRE, |s| s.from = From::Far),
     (

@@ -19,6 +19,8 @@ pub struct Settings {
     weights: fn(Phi) -> Phi,
     columns: fn([usize; 4]) -> [usize; 4],
     shares: Shares,
+    /// An element holds a point if no weight is below minus this.
+    slack: f64,
 }
 
 /// Vertices that get weights.
@@ -48,12 +50,14 @@ const BEST: Settings = Settings {
     weights: |phi| phi,
     columns: |element| element,
     shares: Shares::One,
+    slack: 1e-6,
 };
 
 const CHOICE: &str = "The wrong element is followed: which one holds the display vertex?";
 const OUTSIDE: &str = "Inside all is well. A display vertex outside of all elements follows the wrong one: read what the page says about it.";
 const WEIGHTS: &str =
     "The right element is followed with wrong weights: what do the shape functions at the display vertex say?";
+const ALL: &str = "On a shared face the row adds up to more than one: a display vertex follows a single element, the first that holds it.";
 const COLUMNS: &str =
     "The weights are right, but they are given to the wrong vertices: what do the columns of the matrix count?";
 
@@ -175,11 +179,11 @@ pub const SWITCHES: &[Switch<Settings>] = &[
     ("wrong vertex order", COLUMNS, |s| s.columns = |[a, b, c, d]| [a, c, b, d]),
     ("wrong vertex order", COLUMNS, |s| s.columns = |[a, b, c, d]| [a, b, d, c]),
     ("wrong vertex order", COLUMNS, |s| s.columns = |[a, b, c, d]| [d, c, b, a]),
-    (
-        "all that hold it",
-        "On a shared face the row adds up to more than one: a display vertex follows a single element.",
-        |s| s.shares = Shares::All,
-    ),
+    ("all that hold it", ALL, |s| s.shares = Shares::All),
+    // Round-off decides which elements hold a point on their faces.
+    ("all that hold it", ALL, |s| (s.shares, s.slack) = (Shares::All, 0.0)),
+    ("all that hold it", ALL, |s| (s.shares, s.slack) = (Shares::All, 1e-12)),
+    ("all that hold it", ALL, |s| (s.shares, s.slack) = (Shares::All, 1e-9)),
     ("mean of all that hold it", "A display vertex follows a single element, not the mean of several.", |s| {
         s.shares = Shares::Mean
     }),
@@ -222,7 +226,7 @@ pub fn run(s: &Settings, trial: &Trial) -> Option<Observed> {
             let columns = (s.columns)(T[element]);
             (0..4).for_each(|i| numbers[row * V.len() + columns[i]] += weights[i]);
         };
-        let holding: Vec<_> = (0..T.len()).filter(|&e| phis[e].min() >= -1e-6).collect();
+        let holding: Vec<_> = (0..T.len()).filter(|&e| phis[e].min() >= -s.slack).collect();
         match s.shares {
             Shares::NearestVertex => {
                 let distance = |vertex: &usize| (V[*vertex] - x).norm();

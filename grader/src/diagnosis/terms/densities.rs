@@ -57,8 +57,7 @@ pub const POWER: &str =
 const AT_REST: &str = "At rest there must be no energy. What does the first term give for the identity?";
 const SQUARES: &str =
     "The first term needs the sum of the squares of all entries. A rotation must store no energy: does yours?";
-const INTEGERS: &str =
-    "The power of J does nothing here. What kind of numbers are divided in its exponent, and what is the result?";
+const NO_POWER: &str = "The power of J has no effect: does it stand in the formula, and with an exponent that is divided as a floating-point number?";
 const NOT_SQUARED: &str = "Compression stores energy too, so the second term may not change its sign with J − 1.";
 
 /// Parts with C.
@@ -73,7 +72,7 @@ const SHAPES: &[Part<Scalar>] = &[
     ("wrong exponent", POWER, |s| s.J * s.I - 3.0),
     ("wrong exponent", POWER, |s| s.J.cbrt() * s.I - 3.0),
     ("sign of the exponent", POWER, |s| s.I / s.g() - 3.0),
-    ("integer division", INTEGERS, |s| s.I - 3.0),
+    ("power of J without effect", NO_POWER, |s| s.I - 3.0),
     ("squared as a whole", SHAPE, |s| (s.g() * s.I - 3.0).powi(2)),
     ("root as a whole", SHAPE, |s| (s.g() * s.I - 3.0).max(0.0).sqrt()),
     ("3 inside the product", POWER, |s| s.g() * (s.I - 3.0)),

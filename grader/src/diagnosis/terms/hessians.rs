@@ -67,7 +67,56 @@ pub fn formulas<'a>() -> Vec<Formula<'a>> {
             Some(terms_of(&s, parts(&s)).map(|term| by_rows(&term)).to_vec())
         }),
     };
-    std::iter::once(right).chain(OTHERS.map(with)).chain(PARTS.map(wrongly)).collect()
+    let signs = SIGNS.map(|(row, column)| Formula {
+        name: Some(("one sign of the cross product with the wrong sign", CROSS)),
+        terms: &TERMS[..7],
+        values: Box::new(move |trial: &Trial| {
+            let s = State::of(trial)?;
+            Some(terms_of(&s, with_sign(&s, row, column)).map(|term| by_rows(&term)).to_vec())
+        }),
+    });
+    let of_law = |volume| Formula {
+        name: Some(("another material", LAW)),
+        terms: LAW_TERMS,
+        values: Box::new(move |trial: &Trial| Some(of_logarithmic_law(&State::of(trial)?, volume).to_vec())),
+    };
+    let laws = [Volume::Square, Volume::Logarithm].map(of_law);
+    laws.into_iter().chain([right]).chain(OTHERS.map(with)).chain(PARTS.map(wrongly)).chain(signs).collect()
+}
+
+const LAW: &str =
+    "This belongs to another neo-Hookean law, one with a logarithm of J: differentiate the energy on the page.";
+
+/// The terms of the second derivative of C (tr(FᵀF) − 3 − 2 ln J) and a part with D.
+const LAW_TERMS: &[(&str, f64)] = &[
+    ("the term along the identity", 2.0),
+    ("the square of the cofactors with C", 2.0),
+    ("the derivative of the cofactors with C", -2.0),
+    ("the square of the cofactors with D", 2.0),
+    ("the derivative of the cofactors with D", 2.0),
+];
+
+/// A part with D: D (J − 1)² or D (ln J)².
+#[derive(Clone, Copy)]
+enum Volume {
+    Square,
+    Logarithm,
+}
+
+fn of_logarithmic_law(s: &State, volume: Volume) -> [Vec<f64>; 5] {
+    let (J, square, derivative) = (s.J, square(s), change_of_cofactors(s));
+    let [on_square, on_derivative] = match volume {
+        Volume::Square => [1.0, J - 1.0],
+        Volume::Logarithm => [(1.0 - J.ln()) / (J * J), J.ln() / J],
+    };
+    let terms = [
+        Matrix9::identity() * s.C,
+        square * (s.C / (J * J)),
+        derivative * (s.C / J),
+        square * (s.D * on_square),
+        derivative * (s.D * on_derivative),
+    ];
+    terms.map(|term| by_rows(&term))
 }
 
 /// F and its cofactors, flattened, and the derivative of the cofactors.
@@ -97,6 +146,19 @@ const PARTS: [Wrong; 14] = [
     ("one block left out", |s| with_block(s, 2, 0, 0.0)),
     ("one block left out", |s| with_block(s, 2, 1, 0.0)),
 ];
+
+const CROSS: &str = "The matrix that takes the cross product has one wrong sign: it must be minus its own transpose.";
+
+/// The entries of the matrix that takes the cross product with a vector.
+const SIGNS: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)];
+
+/// The parts with this entry of every block of the derivative of the cofactors negated.
+fn with_sign(s: &State, row: usize, column: usize) -> Parts {
+    let derivative = change_of_cofactors(s);
+    let derivative =
+        Matrix9::from_fn(|i, j| if (i % 3, j % 3) == (row, column) { -derivative[(i, j)] } else { derivative[(i, j)] });
+    (flat(&s.F), flat(&s.cofactors()), derivative)
+}
 
 fn with_block(s: &State, row: usize, column: usize, factor: f64) -> Parts {
     let mut derivative = change_of_cofactors(s);

@@ -13,6 +13,8 @@ const COFACTORS: &str = "The second part of the stress is along another matrix: 
 const PRODUCT: &str =
     "The part with C is a product of two functions of F: differentiate each of them, and check the powers of J.";
 const SQUARE: &str = "The part with D is a square: write down its outer and its inner derivative.";
+const LAW: &str =
+    "This is the stress of another neo-Hookean law, one with a logarithm of J: differentiate the energy on the page.";
 const VOLUME: &str = "The part with D belongs to another energy: differentiate the one on the page.";
 
 /// Matrices of the first part.
@@ -93,7 +95,20 @@ pub fn formulas<'a>() -> Vec<Formula<'a>> {
     choices.extend(factors.skip(1));
     // The same wrong power of J on both parts with C.
     choices.extend((1..ON_FIRST.len()).flat_map(|k| (1..ON_SECOND.len()).map(move |l| [0, 0, k, l, 0])));
-    choices.into_iter().map(formula).collect()
+    ON_SECOND_D.iter().map(of_logarithmic_law).chain(choices.into_iter().map(formula)).collect()
+}
+
+/// Stresses of the energy C (tr(FᵀF) − 3 − 2 ln J) with any part with D.
+fn of_logarithmic_law<'a>(&(_, _, volume): &Part<Scalar>) -> Formula<'a> {
+    Formula {
+        name: Some(("another material", LAW)),
+        terms: &[("the term along F", 2.0), ("the term with the logarithm of J", -2.0), ("the term with D", 2.0)],
+        values: Box::new(move |trial| {
+            let s = State::of(trial)?;
+            let terms = [s.F * s.C, s.cofactors() * (s.C / s.J), s.cofactors() * (s.D * volume(&s))];
+            Some(terms.map(|term| term.transpose().as_slice().to_vec()).to_vec())
+        }),
+    }
 }
 
 fn formula<'a>([a, b, c, d, e]: [usize; 5]) -> Formula<'a> {

@@ -40,7 +40,7 @@ pub const MISTAKES: &[Mistake] = &[
         SVector::<f64, 6>::from_column_slice(&[-f.x, -f.y, -f.z, f.x, f.y, f.z])
     }),
     // first half has the wrong sign
-    wrong!(dV_spring_particle_particle_dq, ["the first vertex with the wrong sign"], |q0, q1, l0, stiffness| {
+    wrong!(dV_spring_particle_particle_dq, ["the first end with the wrong sign"], |q0, q1, l0, stiffness| {
         let d = q1 - q0;
         let n = if d.norm() == 0.0 { Vector3::zeros() } else { d.normalize() };
         let f = stiffness * (d - l0 * n);
@@ -85,7 +85,7 @@ pub const MISTAKES: &[Mistake] = &[
         C * (J.powf(-2.0 / 3.0) * E.trace() - 3.0) + D * (J - 1.0).powi(2)
     }),
     // exponent 0 (integer division)
-    wrong!(psi_neo_hookean, ["integer division"], |F, C, D| {
+    wrong!(psi_neo_hookean, ["power of J without effect"], |F, C, D| {
         let J = F.determinant();
         if J <= 0.0 {
             return f64::INFINITY;

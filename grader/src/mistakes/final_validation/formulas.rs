@@ -73,7 +73,7 @@ pub const MISTAKES: &[Mistake] = &[
     wrong!(dV_spring_particle_particle_dq, ["scaled by 0.5"], |q0, q1, l0, k| right!(dV_spring_particle_particle_dq(
         q0, q1, l0, k
     )) * 0.5),
-    wrong!(dV_spring_particle_particle_dq, ["only x", "only x of each vertex"], |q0, q1, l0, k| {
+    wrong!(dV_spring_particle_particle_dq, ["only x", "only x of each end"], |q0, q1, l0, k| {
         let f = right!(dV_spring_particle_particle_dq(q0, q1, l0, k));
         SVector::from_fn(|i, _| if i % 3 == 0 { f[i] } else { 0.0 })
     }),

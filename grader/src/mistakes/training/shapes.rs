@@ -160,7 +160,7 @@ pub const MISTAKES: &[Mistake] = &[
         let f = right!(dV_spring_particle_particle_dq(q0, q1, l0, k));
         SVector::from_fn(|i, _| if i < 3 { 0.0 } else { f[i] })
     }),
-    wrong!(dV_spring_particle_particle_dq, ["the first vertex with the wrong sign"], |q0, q1, l0, k| {
+    wrong!(dV_spring_particle_particle_dq, ["the first end with the wrong sign"], |q0, q1, l0, k| {
         let f = right!(dV_spring_particle_particle_dq(q0, q1, l0, k));
         SVector::from_fn(|i, _| f[3 + i % 3])
     }),

@@ -25,16 +25,23 @@ pub fn found(s: &Settings, pick: &Pick, [near, far]: [Point; 2]) -> Vec<usize> {
         Hit::LastInList => hits.last().into_iter().collect(),
         Hit::All => hits.iter().collect(),
     };
+    let nearest_to = |hit: Point, of: &mut dyn Iterator<Item = usize>| {
+        let points = of.map(|vertex| pick.V[vertex]);
+        points.min_by(|a, b| (a - hit).norm().total_cmp(&(b - hit).norm())).unwrap_or(hit)
+    };
     let distance = |vertex: usize| {
         let to = |&&(t, triangle): &&(f64, &[usize; 3])| match s.from {
             From::Hit => (s.norm)(&(pick.V[vertex] - near - direction * t)),
             From::Centroid => (pick.V[vertex] - triangle.iter().map(|&i| pick.V[i]).sum::<Point>() / 3.0).norm(),
             From::Corner => (pick.V[vertex] - pick.V[triangle[0]]).norm(),
-            From::NearestVertex => {
-                let hit = near + direction * t;
-                let nearest = pick.V.iter().min_by(|a, b| (*a - hit).norm().total_cmp(&(*b - hit).norm()));
-                nearest.map_or(f64::INFINITY, |nearest| (pick.V[vertex] - nearest).norm())
+            From::NearestCorner => {
+                (pick.V[vertex] - nearest_to(near + direction * t, &mut triangle.iter().copied())).norm()
             }
+            From::NearestOnSurface => {
+                let corners = &mut pick.F.iter().flatten().copied();
+                (pick.V[vertex] - nearest_to(near + direction * t, corners)).norm()
+            }
+            From::NearestVertex => (pick.V[vertex] - nearest_to(near + direction * t, &mut (0..pick.V.len()))).norm(),
             From::Near => (pick.V[vertex] - near).norm(),
             From::Far => (pick.V[vertex] - far).norm(),
             From::Line => (pick.V[vertex] - near).cross(&direction.normalize()).norm(),
