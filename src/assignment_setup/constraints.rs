@@ -27,7 +27,7 @@ impl Constraints {
         }))
     }
 
-    /// Whether no node is fixed.
+    /// Returns true if no node is fixed.
     pub(super) fn is_free(&self) -> bool {
         self.0.as_ref().is_none_or(|fixed| fixed.P.nrows() == fixed.P.ncols())
     }

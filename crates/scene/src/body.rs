@@ -35,7 +35,7 @@ pub struct Body {
     pub regions: Vec<MaterialRegion>,
     /// Plastic flow of all elements.
     pub plasticity: Option<Plasticity>,
-    /// Whether the mass matrix is lumped instead of consistent: as the scene says, else for an explicit method and a mesh of more than
+    /// True if the mass matrix is lumped instead of consistent: as the scene says, else for an explicit method and a mesh of more than
     /// [`CONSISTENT_MASS`](crate::CONSISTENT_MASS) nodes or with obstacles.
     pub lumped_mass: bool,
     /// Factor on the moduli of each element; empty for a uniform body. Scene files have no key for it.

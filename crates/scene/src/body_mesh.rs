@@ -228,7 +228,7 @@ impl BodyMesh {
         }
     }
 
-    /// Whether the body is flat.
+    /// Returns true if the body is flat.
     pub fn is_flat(&self) -> bool {
         matches!(self, Self::Flat { .. } | Self::Quadratic { .. })
     }

@@ -146,14 +146,14 @@ impl LoadCurve {
         }
     }
 
-    /// Whether the factor jumps.
+    /// Returns true if the factor jumps.
     pub fn has_jumps(&self) -> bool {
         matches!(self, Self::Switch { .. })
     }
 }
 
-/// Whether a time precedes an instant, s. A time is a sum of steps, and counts as the instant when round-off alone separates them, so
-/// that a load or a constraint that ends with a step ends with that step.
+/// Returns true if a time precedes an instant, s. A time is a sum of steps, and counts as the instant when round-off alone separates
+/// them, so that a load or a constraint that ends with a step ends with that step.
 pub fn is_before(time: f64, instant: f64) -> bool {
     time < instant * (1.0 - 1e-9)
 }

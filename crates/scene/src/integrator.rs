@@ -90,7 +90,7 @@ impl Integrator {
         }
     }
 
-    /// Whether a step computes accelerations from forces alone, and is stable for short steps only.
+    /// Returns true if a step computes accelerations from forces alone, and is stable for short steps only.
     pub fn is_explicit(self) -> bool {
         match self {
             Self::ExplicitEuler | Self::SemiImplicitEuler | Self::Rk2 | Self::Rk4 | Self::Verlet => true,
@@ -100,32 +100,32 @@ impl Integrator {
         }
     }
 
-    /// Whether it is one of [`ITERATED`](Self::ITERATED).
+    /// Returns true if it is one of [`ITERATED`](Self::ITERATED).
     pub fn is_iterated(self) -> bool {
         Self::ITERATED.contains(&self)
     }
 
-    /// Whether a step needs the matrix of a linear system, beside the mass.
+    /// Returns true if a step needs the matrix of a linear system, beside the mass.
     pub fn has_matrix(self) -> bool {
         !self.is_explicit() && !self.needs_node_masses()
     }
 
-    /// Whether a step needs a mass for each node, and so a lumped one.
+    /// Returns true if a step needs a mass for each node, and so a lumped one.
     pub fn needs_node_masses(self) -> bool {
         matches!(self, Self::Pbd | Self::Xpbd | Self::Vbd)
     }
 
-    /// Whether a step needs Newton's method.
+    /// Returns true if a step needs Newton's method.
     pub fn has_newton(self) -> bool {
         !self.is_explicit() && self != Self::LinearlyImplicitEuler && !self.is_iterated()
     }
 
-    /// Whether obstacles stop nodes one by one as its iterations go on, without a barrier.
+    /// Returns true if obstacles stop nodes one by one as its iterations go on, without a barrier.
     pub fn projects_contact(self) -> bool {
         self.needs_node_masses()
     }
 
-    /// Whether a step can keep a body outside an obstacle.
+    /// Returns true if a step can keep a body outside an obstacle.
     pub fn supports_contact(self) -> bool {
         match self {
             Self::ExplicitEuler | Self::SemiImplicitEuler | Self::Rk2 | Self::Rk4 | Self::Verlet => true,

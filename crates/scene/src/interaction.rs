@@ -31,7 +31,7 @@ impl Interaction {
         Self { stiffness: drag.map_or(stiffness, |drag| drag.stiffness), drag, pull: None }
     }
 
-    /// Whether the scene has a drag.
+    /// Returns true if the scene has a drag.
     pub fn has_drag(&self) -> bool {
         self.drag.is_some()
     }

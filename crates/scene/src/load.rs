@@ -117,7 +117,15 @@ fn of_line(text: &str, path: &Path, error: &toml::de::Error) -> SceneError {
 }
 
 fn problem_of(error: &toml::de::Error) -> String {
-    format!("{}; correct it as docs/book/scenes.md says", error.message().trim_end())
+    let message = error.message().trim_end();
+    let remedy = match message.split(' ').next() {
+        Some("missing") => "add it",
+        Some("unknown") => "correct this name",
+        Some("duplicate") => "remove one of the two",
+        Some("invalid") => "correct this value",
+        _ => "correct this line",
+    };
+    format!("{message}; {remedy}")
 }
 
 /// The error of a field: of the override that sets it, or else of its line in the scene's text.

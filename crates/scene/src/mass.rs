@@ -1,4 +1,4 @@
-//! Whether the mass matrix of a body is lumped.
+//! The rule by which the mass matrix of a body is lumped.
 
 use crate::Scene;
 
@@ -6,7 +6,7 @@ use crate::Scene;
 /// products for each evaluation of the forces, a lumped mass one division.
 pub const CONSISTENT_MASS: usize = 2000;
 
-/// Whether the mass matrix of a scene with so many nodes is lumped, see [`Body::lumped_mass`](crate::Body::lumped_mass).
+/// Returns true if the mass matrix of a scene with so many nodes is lumped, see [`Body::lumped_mass`](crate::Body::lumped_mass).
 pub fn lumps_mass(scene: &Scene, nodes: usize) -> bool {
     let method = scene.time.integrator;
     let by_default =

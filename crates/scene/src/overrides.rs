@@ -102,13 +102,13 @@ impl Override {
         }
     }
 
-    /// Whether it makes an earlier override without effect: it sets the same key, or a table that contains it. The places of an array
-    /// move when an entry is removed, so that earlier overrides of entries keep their effect.
+    /// Returns true if it replaces an earlier override: it sets the same key, or a table that contains it. The places of an array move
+    /// when an entry is removed, so that earlier overrides of entries keep their effect.
     pub(crate) fn replaces(&self, earlier: &Self) -> bool {
         self.value.is_some() && earlier.path.starts_with(&self.path)
     }
 
-    /// Whether it sets a field such as `time.dt` or `traction[0].on`, a part of it, or a table that contains it.
+    /// Returns true if it sets a field such as `time.dt` or `traction[0].on`, a part of it, or a table that contains it.
     pub(crate) fn concerns(&self, field: &str) -> bool {
         let field = field.replace('[', ".").replace(']', "");
         self.path.iter().zip(field.split('.')).all(|(key, of_field)| key == of_field)

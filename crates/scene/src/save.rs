@@ -51,7 +51,7 @@ pub enum SaveError {
     Path {
         /// The path.
         file: PathBuf,
-        /// What is wrong, and the remedy.
+        /// The problem and its remedy.
         problem: String,
     },
     /// The text does not read back to the scene.
@@ -69,7 +69,7 @@ impl Scene {
         text(self, &self.tables())
     }
 
-    /// Whether all tables and keys are the same, whatever the file and the overrides that gave them.
+    /// Returns true if all tables and keys are the same, whatever the file and the overrides that gave them.
     pub fn has_same_tables(&self, other: &Self) -> bool {
         let bare = |scene: &Self| Self {
             name: String::new(),

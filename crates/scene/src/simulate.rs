@@ -12,7 +12,7 @@ pub struct Run {
     pub step_seconds: Vec<f64>,
     /// The failure, if a step failed.
     pub failure: Option<Failure>,
-    /// Whether `after_step` ended the run before its last step.
+    /// True if `after_step` ended the run before its last step.
     pub interrupted: bool,
 }
 

@@ -95,7 +95,7 @@ pub trait Simulation: Send {
         None
     }
 
-    /// Whether elements have a stress: those of a mass-spring body have none.
+    /// Returns true if elements have a stress: those of a mass-spring body have none.
     fn has_stress(&self) -> bool {
         true
     }

@@ -42,7 +42,7 @@ fn uses(scene: &Scene) -> [Use; 8] {
     ]
 }
 
-/// Whether whole steps run on a graphics device.
+/// Returns true if whole steps run on a graphics device.
 fn steps_on_device(scene: &Scene) -> bool {
     let method = scene.time.integrator;
     let is_known = method.is_explicit() || method == Integrator::Vbd;

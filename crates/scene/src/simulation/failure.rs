@@ -139,7 +139,7 @@ impl Failure {
 }
 
 impl Breakdown {
-    /// Whether memory or a device is at fault, so that no other matrix would help.
+    /// Returns true if memory or a device is at fault, so that no other matrix would help.
     pub fn is_of_machine(self) -> bool {
         matches!(self, Self::TooLarge | Self::DeviceTooSmall | Self::DeviceFailed)
     }

@@ -13,7 +13,7 @@ pub struct Parameter {
     pub value: f64,
     /// Smallest and largest value that is accepted.
     pub range: (f64, f64),
-    /// Whether a slider should be logarithmic.
+    /// True if a slider should be logarithmic.
     pub logarithmic: bool,
 }
 

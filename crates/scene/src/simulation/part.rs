@@ -5,7 +5,7 @@
 pub struct Part {
     /// Short name, also its key in the statistics file.
     pub name: &'static str,
-    /// Whether the scene builds it.
+    /// True if the scene builds it.
     pub built: bool,
     /// The part's purpose, and the key of the scene that builds it or leaves it out.
     pub why: String,

@@ -93,7 +93,7 @@ impl PrescribedTable {
         selectors
     }
 
-    /// Whether x, y and z are prescribed.
+    /// Returns true for each of x, y and z that is prescribed.
     pub(crate) fn is_prescribed(&self) -> [bool; 3] {
         let named = |axis| self.components.as_ref().is_none_or(|components| components.contains(&axis));
         [Axis::X, Axis::Y, Axis::Z].map(named)

@@ -165,12 +165,12 @@ impl Material {
         self.poisson.or_else(|| half_shear.zip(self.D).map(of_moduli))
     }
 
-    /// Whether every edge of the mesh is a spring, and no element is elastic.
+    /// Returns true if every edge of the mesh is a spring, and no element is elastic.
     pub fn is_mass_spring(&self) -> bool {
         self.model == MASS_SPRING.0
     }
 
-    /// Whether linear tetrahedra lock: Poisson's ratio is above 0.45.
+    /// Returns true if linear tetrahedra lock: Poisson's ratio is above 0.45.
     pub fn locks(&self) -> bool {
         self.poissons_ratio().is_some_and(|poisson| poisson > LOCKS_ABOVE)
     }

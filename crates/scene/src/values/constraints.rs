@@ -16,7 +16,7 @@ pub struct DirichletCondition {
     pub name: String,
     /// Nodes, ascending and without repeats.
     pub nodes: Vec<usize>,
-    /// Whether x, y and z are prescribed.
+    /// True for each of x, y and z that is prescribed.
     pub components: [bool; 3],
     /// Prescribed motion; `None` if the nodes keep their undeformed positions.
     pub motion: Option<Motion>,

@@ -40,7 +40,7 @@ pub struct Spring {
     pub stiffness: f64,
     /// l, m.
     pub rest_length: f64,
-    /// Whether l is by definition the undeformed distance of the nodes: any difference is round-off and no strain.
+    /// True if l is by definition the undeformed distance of the nodes: any difference is round-off and no strain.
     pub is_initially_relaxed: bool,
     /// c, N s/m.
     pub damping: f64,

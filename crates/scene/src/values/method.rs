@@ -19,7 +19,7 @@ pub struct Method {
     pub precision: Precision,
     /// Equal parts in which `static` applies loads and prescribed motions.
     pub load_steps: usize,
-    /// Whether `static` follows the equilibrium path by arc length.
+    /// True if `static` follows the equilibrium path by arc length.
     pub arc_length: bool,
     /// β and γ of `newmark`.
     pub newmark: NewmarkParameters,
@@ -43,7 +43,7 @@ pub struct NewmarkParameters {
 }
 
 impl NewmarkParameters {
-    /// Whether the method is stable at any time step: 2β ≥ γ.
+    /// Returns true if the method is stable at any time step: 2β ≥ γ.
     pub fn is_unconditionally_stable(self) -> bool {
         2.0 * self.beta >= self.gamma
     }
@@ -60,9 +60,9 @@ pub struct IterationSettings {
     pub acceleration: Option<f64>,
     /// Stiffness of the constraints of `pbd`, 0 to 1.
     pub stiffness: f64,
-    /// Whether `xpbd` keeps the residual of the equation of motion.
+    /// True if `xpbd` keeps the residual of the equation of motion.
     pub residual: bool,
-    /// Whether steps that end before the iterations have settled are good enough.
+    /// True if steps that end before the iterations have settled are accepted.
     pub accept_unconverged: bool,
 }
 
@@ -88,7 +88,7 @@ pub struct NewtonSettings {
     pub tolerance: Option<f64>,
     /// Projection of element stiffnesses.
     pub projection: Projection,
-    /// Whether steps that end before Newton's method has converged are good enough.
+    /// True if steps that end before Newton's method has converged are accepted.
     pub accept_unconverged: bool,
 }
 
@@ -115,7 +115,7 @@ pub struct RayleighDamping {
 }
 
 impl Method {
-    /// Whether a run is good enough some steps of which have not converged.
+    /// Returns true if a run may end with steps that have not converged.
     pub fn accepts_unconverged(&self) -> bool {
         if self.integrator.is_iterated() { self.iterations.accept_unconverged } else { self.newton.accept_unconverged }
     }

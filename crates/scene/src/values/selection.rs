@@ -141,7 +141,7 @@ pub(crate) fn elements(
 /// Points nearer than this part of the mesh's size to a box or sphere count as inside: coordinates are rounded.
 const NEAR: f64 = 1e-9;
 
-/// Whether a point (m) lies in a region; a side is that of the mesh's bounding box.
+/// Returns true if a point (m) lies in a region; a side is that of the mesh's bounding box.
 fn inside(region: &Region, mesh: &BodyMesh) -> impl Fn(&Vector3<f64>) -> bool {
     let (least, most) = span(mesh);
     let near = NEAR * (most - least).amax();

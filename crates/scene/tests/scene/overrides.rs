@@ -69,7 +69,7 @@ fn what_is_no_override_is_refused() {
 #[test]
 fn an_error_names_the_override_that_causes_it() {
     assert_refused(&["time.dt=-1"], &["--set time.dt=-1: ", "time.dt is -1; give a positive number"]);
-    assert_refused(&["time.dt=fast", "material.C=2"], &["--set time.dt=fast: ", "expected", "docs/book/scenes.md"]);
+    assert_refused(&["time.dt=fast", "material.C=2"], &["--set time.dt=fast: ", "expected", "correct this value"]);
     assert_refused(&["time.step=1"], &["--set time.step=1: ", "unknown field `step`"]);
     assert_refused(&["mesh.file=a.msh"], &["line 3: mesh.box stands beside `file`"]);
     assert_refused(&["time.dt.x=1"], &["--set time.dt.x=1: ", "time.dt is a value without keys; remove `.x`"]);

@@ -169,8 +169,8 @@ fn add_uses(table: &str, path: &str, source: &Source, uses: &mut Vec<(String, St
         let path = format!("{path}.{}", key.name);
         uses.push((name.clone(), path.clone()));
         let values = source.choices.get(&name).into_iter().flat_map(|choice| &choice.values);
-        let held = values.filter_map(|value| value.table.as_ref());
-        for table in held.chain([&name]).filter(|table| source.tables.contains_key(*table)) {
+        let nested = values.filter_map(|value| value.table.as_ref());
+        for table in nested.chain([&name]).filter(|table| source.tables.contains_key(*table)) {
             add_uses(table, &path, source, uses);
         }
     }

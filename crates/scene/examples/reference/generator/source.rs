@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use syn::{Attribute, Expr, Fields, Item, Lit, LitStr, Meta, Stmt, Token, Type};
 
-/// What the sources say.
+/// The types and docs that the sources declare.
 #[derive(Default)]
 pub struct Source {
     pub tables: BTreeMap<String, Table>,
@@ -143,7 +143,7 @@ fn expanded(text: &str) -> Option<String> {
     Some([&[text], &structs[..]].concat().join("\n"))
 }
 
-/// What serde's attributes say of a field.
+/// A field's attributes of serde.
 struct Serde {
     rename: Option<String>,
     default: SerdeDefault,
