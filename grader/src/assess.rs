@@ -11,7 +11,6 @@ use jiff::Timestamp;
 
 use crate::grade::{Account, CheckGrade, FunctionGrade, Grade};
 use crate::reference::compare::Check;
-use crate::reports;
 use crate::rubric::{Rubric, Worth};
 use crate::weights::{MOST_OF_ENDLESS, is_edge_case, shares};
 pub use adjustments::{ADJUSTMENTS, Adjustments};
@@ -90,7 +89,7 @@ impl Accounts {
                     change
                 });
                 grade.score += change.sum::<f64>();
-                grade.remarks.push(format!("{name}: {} points, given by hand", reports::points(points)));
+                grade.remarks.push(format!("{name}: {} points, given by hand", crate::grade::points(points)));
             }
         }
         let deadline = self.rubric.deadline.as_ref();
@@ -98,14 +97,14 @@ impl Accounts {
             deadline.zip(submitted).map(|(deadline, at)| deadline.lateness(&self.rubric.extensions, students, at));
         if let Some(late) = late.as_ref().filter(|late| late.days > 0) {
             let days = if late.days == 1 { "1 day".to_owned() } else { format!("{} days", late.days) };
-            let before = reports::points(grade.score);
+            let before = crate::grade::points(grade.score);
             grade.score = (100.0 * grade.score * (1.0 - late.penalty)).round() / 100.0;
-            let [share, after] = [100.0 * late.penalty, grade.score].map(reports::points);
+            let [share, after] = [100.0 * late.penalty, grade.score].map(crate::grade::points);
             grade.remarks.push(format!("{days} late: {before} points, less {share} %, are {after}"));
         }
         if let Some(points) = adjustments.iter().rfind(|one| one.function.is_none()).and_then(|whole| whole.points) {
             grade.score = points;
-            grade.remarks.push(format!("{} points in all, given by hand", reports::points(points)));
+            grade.remarks.push(format!("{} points in all, given by hand", crate::grade::points(points)));
         }
         grade.remarks.extend(adjustments.iter().filter_map(|adjustment| adjustment.comment.clone()));
         grade.score = rounded(grade.score).clamp(0.0, grade.max_score);

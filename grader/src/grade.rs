@@ -50,6 +50,12 @@ pub struct Grade {
     pub seconds: f64,
 }
 
+/// Points as people read them, without needless digits: `7`, `7.5`, `7.25`.
+pub fn points(points: f64) -> String {
+    let text = format!("{points:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 /// The pages in the students' repository.
 const PAGES: &str = "include-docs/{name}.md";
 

@@ -32,7 +32,6 @@ use std::path::Path;
 
 use crate::class::Summary;
 use crate::grade::Grade;
-pub use view::points;
 
 /// Contents of the reports of one submission.
 #[derive(Clone, Debug, Default)]

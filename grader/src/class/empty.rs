@@ -3,10 +3,16 @@
 use grader::status::Status;
 
 use super::{Entry, Outcome};
-use crate::grade::Grade;
+use crate::grade::{Grade, points};
+
+/// The score, and the reason if no function was found.
+pub fn score(grade: &Grade) -> String {
+    let why = reason(grade).map_or(String::new(), |why| format!("; {why}"));
+    format!("{} of {}{why}", points(grade.score), points(grade.max_score))
+}
 
 /// The reason for a grade of a submission in which no function was found, if the submission gives one.
-pub fn reason(grade: &Grade) -> Option<String> {
+fn reason(grade: &Grade) -> Option<String> {
     let is_empty = grade.functions.iter().all(|function| function.status == Status::Missing);
     (is_empty && !grade.remarks.is_empty()).then(|| format!("no function was found: {}", grade.remarks.join("; ")))
 }

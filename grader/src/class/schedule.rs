@@ -14,7 +14,6 @@ use super::process::{Interrupt, Process, State};
 use super::store::{self, Store};
 use super::{ClassError, ClassOptions, Entry, Identity, Outcome, Summary, at, empty, regrade, roster};
 use crate::grade::Grade;
-use crate::reports;
 use crate::rubric::{Counts, NoSubmission};
 
 /// Interval at which processes are polled.
@@ -263,11 +262,7 @@ impl<'a> Schedule<'a> {
         let outcome = result.unwrap_or_else(Outcome::NotGraded);
         let name = &self.submissions[index].name;
         let line = match &outcome {
-            Outcome::Graded(grade, _) => {
-                let [score, most] = [grade.score, grade.max_score].map(reports::points);
-                let why = empty::reason(grade).map_or(String::new(), |why| format!("; {why}"));
-                format!("{name}: {score} of {most}{why}")
-            }
+            Outcome::Graded(grade, _) => format!("{name}: {}", empty::score(grade)),
             Outcome::NotGraded(reason) => format!("{name}: not graded: {reason}"),
             _ => name.clone(),
         };

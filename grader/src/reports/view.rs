@@ -3,6 +3,7 @@
 use grader::status::Status;
 
 use super::escape;
+pub use crate::grade::points;
 use crate::grade::{FunctionGrade, Grade};
 
 /// The error that a double cannot fall below: a plot draws smaller ones here.
@@ -71,12 +72,6 @@ pub fn has_notes(function: &FunctionGrade) -> bool {
 /// Number of functions that pass, and number of all functions.
 pub fn passed(grade: &Grade) -> (usize, usize) {
     (grade.functions.iter().filter(|f| f.status == Status::Passed).count(), grade.functions.len())
-}
-
-/// Points without needless digits: `7`, `7.5`, `7.25`.
-pub fn points(points: f64) -> String {
-    let text = format!("{points:.2}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// Points as numbers in files: sums like 78.30000000000001 are rounded.

@@ -252,36 +252,6 @@ fn no_file_of_a_student_passes_for_a_roster_or_for_the_class() {
 }
 
 #[test]
-fn a_late_mark_without_a_time_is_told_where_there_is_a_deadline() {
-    let room = Room::new(&[]);
-    for name in ["doejane_LATE_4711_98765_hw.zip", "roejohn_4712_98770_work.zip"] {
-        fs::write(room.path("hw").join(name), "").unwrap();
-    }
-    let deadline = format!("{OURS}\n[deadline]\nat = 2026-05-04T12:00:00Z\npenalty_per_day = 0.5\n");
-    let summary =
-        run(&ClassOptions { accounts: accounts(&deadline, room.0.path()), ..options(room.0.path()) }).unwrap();
-    assert!(
-        summary.remarks[0].starts_with("marked as late, but without a time: doejane_LATE_4711_98765_hw;"),
-        "{:?}",
-        summary.remarks
-    );
-}
-
-#[test]
-fn a_submission_without_a_function_is_named_and_points_have_two_decimals() {
-    let room = Room::new(&[("anna", GOOD), ("bob", GOOD)]);
-    let text = fs::read_to_string(room.path("grade.json")).unwrap();
-    let text = text.replace("1.5", "1.5000000000000002").replace(r#""score": 1,"#, r#""score": 1.1234567,"#);
-    fs::write(room.path("grade.json"), text).unwrap();
-    let empty = r#"sed -e 's/"failed"/"missing"/' -e 's/"remarks": \[\]/"remarks": ["there is no folder"]/' "$base/grade.json" >"$out/grade.json""#;
-    fs::write(room.path("hw/bob/do.sh"), empty).unwrap();
-    let summary = room.run();
-    assert_eq!(summary.remarks, ["bob: no function was found: there is no folder"]);
-    let table = room.table("out/grades.csv");
-    assert_eq!((table[1][2].as_str(), table[1][5].as_str()), ("1.5", "1.12"));
-}
-
-#[test]
 fn a_roster_beside_the_class_takes_the_place_of_its_tables() {
     let folder = download(&[
         ("doejane_4711_98765_hw.zip", BODY),

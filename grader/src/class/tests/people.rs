@@ -166,3 +166,31 @@ fn students_get_back_what_they_may_see_and_not_before_its_time() {
     assert_eq!(names, expected);
     assert!(write("back", "2026-06-01T10:00:00Z").unwrap_err().to_string().contains("not empty"));
 }
+
+#[test]
+fn a_submission_without_a_function_is_named_and_points_have_two_decimals() {
+    let room = Room::new(&[("anna", GOOD), ("bob", GOOD)]);
+    let text = fs::read_to_string(room.path("grade.json")).unwrap();
+    let text = text.replace("1.5", "1.5000000000000002").replace(r#""score": 1,"#, r#""score": 1.1234567,"#);
+    fs::write(room.path("grade.json"), text).unwrap();
+    let empty = r#"sed -e 's/"failed"/"missing"/' -e 's/"remarks": \[\]/"remarks": ["there is no folder"]/' "$base/grade.json" >"$out/grade.json""#;
+    fs::write(room.path("hw/bob/do.sh"), empty).unwrap();
+    let summary = room.run();
+    assert_eq!(summary.remarks, ["bob: no function was found: there is no folder"]);
+    let table = room.table("out/grades.csv");
+    assert_eq!((table[1][2].as_str(), table[1][5].as_str()), ("1.5", "1.12"));
+}
+
+#[test]
+fn a_late_mark_without_a_time_is_told_where_there_is_a_deadline() {
+    let room = Room::new(&[]);
+    for name in ["doejane_LATE_4711_98765_hw.zip", "roejohn_4712_98770_work.zip"] {
+        fs::write(room.path("hw").join(name), "").unwrap();
+    }
+    let summary = run_with(&room, &format!("{OURS}{DEADLINE}"));
+    assert!(
+        summary.remarks[0].starts_with("marked as late, but without a time: doejane_LATE_4711_98765_hw;"),
+        "{:?}",
+        summary.remarks
+    );
+}
