@@ -1,6 +1,7 @@
 //! The public checks on a student's own machine: every function of a repository, those that do not compile included.
 
 mod confined;
+mod found;
 mod judged;
 mod next;
 mod program;
@@ -9,6 +10,7 @@ mod report;
 mod reset;
 mod roles;
 mod run_checks;
+mod view;
 mod waiting;
 mod watch;
 
@@ -29,12 +31,14 @@ use crate::sandbox::{Isolation, Sandbox};
 use crate::status::Status;
 use crate::submission::{NAMES, Source, Submission, Unreadable};
 use confined::{own_repository, sandbox, starter};
-pub use judged::{Judge, Judged};
+pub use found::{Found, Judged};
+pub use judged::Judge;
 pub use next::{Next, next};
 pub use program::{Options, main};
-pub use report::{Cause, Checked, Report, View};
+pub use report::{Cause, Checked, Report};
 pub use reset::HANDED_OUT;
 pub use roles::{Role, Roles, roles};
+pub use view::View;
 pub use waiting::reports;
 use watch::watch;
 

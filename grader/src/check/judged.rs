@@ -1,19 +1,16 @@
 //! Judges the functions of a repository: what the compiler and the checks say of each.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
+use super::found::{Found, Judged, Names, checks_of, reached};
 use super::recorded::Recorded;
-use super::run_checks::{CheckResult, run_checks, summary};
-use super::waiting::reached;
+use super::run_checks::{run_checks, summary};
 use super::{SEED, refused};
 use crate::compile::Fault;
 use crate::implementation::sandboxed::Sandboxed;
-use crate::properties::{Check, FUNCTIONS};
+use crate::properties::FUNCTIONS;
 use crate::status::Status;
 use crate::submission::{Source, Submission, mentions};
-
-/// Names of functions.
-pub type Names = BTreeSet<&'static str>;
 
 /// A repository whose functions are compiled, and the processes that call them.
 pub struct Judge<'a> {
@@ -27,31 +24,6 @@ pub struct Judge<'a> {
     pub trusted: &'a Sandboxed,
     /// Is told each function whose checks begin.
     pub begins: &'a dyn Fn(&'static str),
-}
-
-/// What the compiler and the checks say of one function.
-#[derive(Clone)]
-pub struct Found {
-    pub(super) status: Status,
-    pub(super) messages: Vec<String>,
-    pub(super) results: Vec<CheckResult>,
-    /// It can be called.
-    pub(super) is_in_program: bool,
-    /// The functions that its text names, itself not among them.
-    pub(super) names: Names,
-    /// The functions without which nothing can be said of it: those that its text calls and that do not answer in time, or those of
-    /// whose files it uses a part that is not in the program.
-    pub(super) stands_still_for: Names,
-}
-
-/// The functions that were judged.
-pub type Judged = BTreeMap<&'static str, Found>;
-
-impl Found {
-    /// The functions that its text names or its checks ask.
-    fn needs(&self) -> Names {
-        self.results.iter().flat_map(|result| &result.asked).chain(&self.names).copied().collect()
-    }
 }
 
 impl Judge<'_> {
@@ -156,9 +128,4 @@ impl Judge<'_> {
         let (status, messages) = summary(name, &results);
         Found { status, messages, results, is_in_program: true, names, stands_still_for: Names::new() }
     }
-}
-
-/// The checks of a function.
-pub fn checks_of(name: &str) -> &'static [Check] {
-    FUNCTIONS.iter().find(|(found, _)| *found == name).map_or(&[], |(_, checks)| checks)
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::judged::{Found, Judged, Names, checks_of};
+use super::found::{Found, Judged, Names, checks_of, reached};
 use super::report::{Cause, Checked, Report, names_of};
 use super::roles::{Role, Roles};
 use super::run_checks::CheckResult;
@@ -50,17 +50,6 @@ fn report(name: &'static str, all: &Judged, roles: &Roles, waits: &Waits) -> Rep
         checked: found.results.iter().map(checked).collect(),
         waits_for,
     }
-}
-
-/// Functions and all that they call, as far as these are judged.
-pub fn reached(from: Names, all: &Judged) -> Names {
-    let (mut found, mut next) = (Names::new(), Vec::from_iter(from));
-    while let Some(name) = next.pop() {
-        if found.insert(name) {
-            next.extend(all.get(name).into_iter().flat_map(|found| &found.names));
-        }
-    }
-    found
 }
 
 /// The functions that may be to blame for a failing check of the function `name`: those that it calls or that the check asks, and that
