@@ -189,7 +189,7 @@ fn an_unknown_key_is_refused_in_every_table_and_in_every_table_within_one() {
         let text = [&text[..=number], &["foo = 1"], &text[number + 1..]].concat().join("\n");
         let error = parse(&text, Path::new("folder/name.toml")).unwrap_err().to_string();
         let expected = format!("folder/name.toml, line {}: unknown field `foo`", number + 2);
-        assert!(error.starts_with(&expected) && error.contains("; correct it as"), "{header}: {error}");
+        assert!(error.starts_with(&expected) && error.contains("; correct this name"), "{header}: {error}");
     }
     for (number, line) in ALL.lines().enumerate().filter(|(_, line)| line.contains("= { ")) {
         let text = edit(ALL, line, &line.replace("= { ", "= { foo = 1, "));
