@@ -33,6 +33,7 @@ fn one_that_sleeps_in_each_call_is_scored_within_its_budget() {
 }
 
 #[test]
+#[ignore = "takes a minute; .ci/long runs it"]
 fn files_that_compile_alone_and_not_together_are_judged_alone() {
     let mut room = Classroom::new();
     // Each takes the compiler two seconds, and the eight of them, which are of one level, more than the ten that it has.
@@ -53,6 +54,7 @@ fn files_that_compile_alone_and_not_together_are_judged_alone() {
 }
 
 #[test]
+#[ignore = "takes a minute; .ci/long runs it"]
 fn one_that_says_as_much_as_it_can_leaves_files_of_bounded_size() {
     let mut room = Classroom::new();
     for (index, name) in NAMES.into_iter().enumerate() {
