@@ -39,8 +39,7 @@ pub struct Grade {
     /// Points by hand and lateness, if they have been applied.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub account: Option<Account>,
-    /// Where students find the page of a function: an address with `{name}` in it, relative to their repository unless it begins with
-    /// `http`.
+    /// Address of a function's page, with `{name}` in it; relative to the student's repository unless it begins with `http`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pages: Option<String>,
     /// The whole simulation at several time steps, with `--report`; it does not count for points.

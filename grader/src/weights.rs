@@ -1,4 +1,4 @@
-//! What each kind of failure costs: the shares of a function's points that its checks have.
+//! The cost of each kind of failure: the shares of a function's points that its checks have.
 //!
 //! A function that answers ordinary inputs wrongly earns nothing. If it answers them rightly, each check that it passes earns its share.
 //! The shares are equal, but for edge cases, which together have at most [`Rubric::edge_cases`](crate::rubric::Rubric::edge_cases): a

@@ -1,4 +1,4 @@
-//! What the compiler and the checks say of the functions.
+//! The compiler's messages and the results of the checks, function by function.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,7 +9,7 @@ use crate::status::Status;
 /// Names of functions.
 pub type Names = BTreeSet<&'static str>;
 
-/// What the compiler and the checks say of one function.
+/// The compiler's messages and the results of the checks of one function.
 #[derive(Clone)]
 pub struct Found {
     pub(super) status: Status,

@@ -16,7 +16,7 @@ const MOST_MESSAGES: usize = 3;
 /// Result of one check.
 #[derive(Clone)]
 pub struct CheckResult {
-    /// What the student reads of it.
+    /// The message for the student.
     pub checked: Checked,
     /// The mistake if it fails.
     pub mistake: Option<Mistake>,

@@ -118,7 +118,7 @@ impl View<'_> {
         text
     }
 
-    /// What to do when all functions pass.
+    /// The next command when all functions pass.
     fn end(&self, reports: &[Report]) -> String {
         let is_whole = reports.len() == FUNCTIONS.len() && reports.iter().all(Report::passes);
         if is_whole {

@@ -25,7 +25,7 @@ pub(super) fn whole(numbers: usize) -> &'static str {
     if numbers == 1 { "The answer" } else { "Every entry" }
 }
 
-/// What is to be thought of where all signs are wrong.
+/// The likely causes if all signs are wrong.
 fn about_the_sign(function: &str) -> &'static str {
     match function {
         "dV_linear_tetrahedron_dq" | "dV_spring_particle_particle_dq" | "assemble_forces" => {

@@ -1,5 +1,5 @@
-//! What each function builds on: an assignment that asks for a function and leaves one for later that it builds on cannot be finished with
-//! `check`, although it can be graded.
+//! The functions that each function builds on. An assignment that asks for a function and leaves one that it builds on for later cannot be
+//! finished with `check`, although it can be graded.
 
 use super::{Role, Rubric};
 

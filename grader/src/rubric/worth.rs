@@ -1,4 +1,4 @@
-//! What a function is worth, and how its checks share that.
+//! The points of a function, and the shares of its checks.
 
 use super::Rubric;
 
@@ -15,7 +15,7 @@ pub struct Worth<'a> {
 }
 
 impl Rubric {
-    /// What a function with these points is worth.
+    /// The worth of a function with these points.
     pub fn worth(&self, name: &str, max_score: f64) -> Worth<'_> {
         let own = self.own_points(name);
         Worth { max_score, partial_credit: self.partial_credit, edge_cases: self.edge_cases, own }

@@ -13,7 +13,7 @@
 use super::students::Time;
 use crate::archive::{attempt, stem};
 
-/// What a platform calls the author of a submission.
+/// The name that a platform gives the author of a submission.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Author {
     /// The student's name, in lower case, and Canvas' number or code of the student.
