@@ -131,6 +131,11 @@ pub enum ClassError {
     File { path: PathBuf, source: io::Error },
     #[error("{path}: {message}", path = path.display())]
     Unreadable { path: PathBuf, message: String },
+    #[error(
+        "{path}: names no student; give a roster of Canvas, Moodle or Gradescope as it comes, or a table with a column `student`",
+        path = .0.display()
+    )]
+    NoStudents(PathBuf),
     #[error("{0}: another run is at work there; wait for it or name another folder")]
     Locked(String),
     #[error("shard {0}/{1}: the first figure runs from 1 to the second")]

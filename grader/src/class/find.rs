@@ -89,6 +89,9 @@ pub fn class(folder: &Path, roster: Option<&Path>, counts: Counts) -> Result<Cla
     } else {
         remarks.extend(lookalikes(&submissions));
     }
+    if let Some(path) = roster.filter(|_| people.is_empty()) {
+        return Err(ClassError::NoStudents(path.to_owned()));
+    }
     if counts == Counts::Newest {
         attempts::mark_older(&mut submissions);
     }

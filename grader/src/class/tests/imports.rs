@@ -270,3 +270,13 @@ fn a_roster_beside_the_class_takes_the_place_of_its_tables() {
     let missing = find::class(folder.path(), Some(&beside.path().join("nothing.csv")), Counts::Newest);
     assert!(missing.is_err_and(|error| error.to_string().contains("nothing.csv")));
 }
+
+#[test]
+fn a_roster_that_names_no_student_is_refused_before_anything_is_graded() {
+    let folder = download(&[("anna.zip", BODY)]);
+    for text in ["", "\0\u{1}", "First Name,Last Name,SID,Email,Role\n", "student\n", "Pages,Words\n"] {
+        let beside = download(&[("roster.csv", text)]);
+        let class = find::class(folder.path(), Some(&beside.path().join("roster.csv")), Counts::Newest);
+        assert!(class.is_err_and(|error| error.to_string().contains("roster.csv: names no student")), "{text:?}");
+    }
+}
