@@ -136,6 +136,8 @@ pub enum ClassError {
         path = .0.display()
     )]
     NoStudents(PathBuf),
+    #[error("{path}: {source}; --roster takes the path of a roster as the platform gives it", path = path.display())]
+    NoRoster { path: PathBuf, source: io::Error },
     #[error("{0}: another run is at work there; wait for it or name another folder")]
     Locked(String),
     #[error("shard {0}/{1}: the first figure runs from 1 to the second")]

@@ -72,6 +72,7 @@ pub fn class(folder: &Path, roster: Option<&Path>, counts: Counts) -> Result<Cla
     unique_names(&mut submissions);
     let mut table = Some(folder.join(STUDENTS)).filter(|path| path.is_file());
     if let Some(path) = roster {
+        fs::File::open(path).map_err(|source| ClassError::NoRoster { path: path.to_owned(), source })?;
         let rows = rosters::read(path)?;
         table = rows.is_none().then(|| path.to_owned());
         rosters.retain(|(name, _)| name == gradescope::METADATA);

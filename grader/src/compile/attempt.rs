@@ -62,8 +62,11 @@ pub fn attempt(
     let emitted = format!("--emit=link={file},dep-info={LIST}");
     // With its lines a program tells which of them has called a library that panics.
     let lines = "-Cdebuginfo=line-tables-only";
-    arguments
-        .extend(["--crate-name=submission", "--crate-type=bin", lines, &emitted, "src/main.rs"].map(str::to_owned));
+    // As in a student's own build, where a difference of indices below zero panics.
+    let overflow = "-Coverflow-checks=on";
+    arguments.extend(
+        ["--crate-name=submission", "--crate-type=bin", lines, overflow, &emitted, "src/main.rs"].map(str::to_owned),
+    );
     let mut readable = prebuilt.readable();
     if let Some((library, _)) = &plan.reference {
         arguments.extend(["--extern".to_owned(), format!("course_below={}", library.display())]);

@@ -107,6 +107,20 @@ pub fn write(plan: &Plan, folder: &Path) -> io::Result<()> {
     fs::write(folder.join("main.rs"), root)
 }
 
+/// An argument of a call. A closure is passed by value, as the course's programs do, so that a function that asks for a reference to one
+/// does not compile here either.
+fn passed(argument: &str, kind: &str) -> String {
+    let takes = match kind {
+        "Integrand" => "x: &Vector3<f64>",
+        "Objective" | "Gradient" | "Hessian" => "x: &DVector<f64>",
+        "Force" | "Stiffness" => "x: &DVector<f64>, y: &DVector<f64>",
+        "Solve" => "x: &CsrMatrix<f64>, y: &DVector<f64>",
+        _ => return argument.to_owned(),
+    };
+    let given = if takes.contains("y:") { "x, y" } else { "x" };
+    format!("|{takes}| {argument}({given})")
+}
+
 /// The text that calls a function, with the course's signature and nothing else in it.
 fn call(function: Exercise) -> String {
     let (name, Row { takes_closures, arguments, result }) = (function.name(), &ROWS[function as usize]);
@@ -115,7 +129,8 @@ fn call(function: Exercise) -> String {
     if !takes_closures {
         return format!("pub const CALL: fn({types}) -> {result} = crate::{name};\n");
     }
-    let call = format!("|{names}| crate::{name}({names});\n");
+    let passed: Vec<_> = arguments.iter().map(|(argument, kind)| passed(argument, kind)).collect();
+    let call = format!("|{names}| crate::{name}({});\n", passed.join(", "));
     // Generic, so a call with numbers must compile as well.
     let of_numbers = "const _: fn(&[Vector3<f64>], &[usize; 4], f64, &dyn Fn(&Vector3<f64>) -> f64) -> f64 =\n    ";
     let also = if types.contains("Integrand") { format!("{of_numbers}{call}") } else { String::new() };

@@ -1,5 +1,7 @@
 //! The path of a student: in every state of the 22 functions, and of both assignments, `check` names the function that a tutor would.
 
+#[path = "../common/mod.rs"]
+mod common;
 mod student;
 
 use std::cell::RefCell;
@@ -8,10 +10,11 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
+use common::repository;
 use grader::check::{Judge, Judged, Report, View, next, reports, roles};
 use grader::status::Status;
 use grader::submission::{NAMES, Source, Submission, mentions};
-use student::{Broken, Student, place, process_within, repository, right};
+use student::{Broken, Student, place, process_within, right};
 use tempfile::TempDir;
 
 fn next_of(reports: &[Report]) -> Option<&'static str> {

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::LazyLock;
 use std::time::Duration;
 
@@ -11,10 +11,12 @@ use grader::check::{Judge, Judged, Report, Role, Roles, reports};
 use grader::compile::prebuilt::Prebuilt;
 use grader::compile::{Fault, Plan, build};
 use grader::implementation::sandboxed::Sandboxed;
-use grader::sandbox::{Confined, Limits, Profile, Sandbox};
+use grader::sandbox::Sandbox;
 use grader::status::Status;
 use grader::submission::{NAMES, Source, Submission};
 use tempfile::TempDir;
+
+use crate::common::{self, repository};
 
 /// The page of function 6 takes the matrix of function 13, which the solution does not.
 const T_BY_ITS_PAGE: &str = "use crate::mass_matrix_linear_tetrahedron;
@@ -25,10 +27,6 @@ pub fn T_linear_tetrahedron(qdot: &DVector<f64>, element: &[usize; 4], density: 
     0.5 * v.dot(&(mass_matrix_linear_tetrahedron(density, volume) * v))
 }
 ";
-
-pub fn repository() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the grader lies in the repository").to_owned()
-}
 
 /// A right function.
 pub fn right(name: &str) -> String {
@@ -84,28 +82,7 @@ fn process(state: &str) -> Sandboxed {
 pub fn process_within(state: &str, limit: Duration) -> Sandboxed {
     let (folder, program) = &*PROGRAM;
     let (folder, program, state) = (folder.path().to_owned(), program.clone(), state.to_owned());
-    let second = Duration::from_secs(1);
-    let start = move || {
-        Sandbox::none().start(&Confined {
-            program: program.clone(),
-            arguments: Vec::new(),
-            environment: vec![("STATE".to_owned(), state.clone())],
-            folder: folder.clone(),
-            readable: Vec::new(),
-            writable: Vec::new(),
-            profile: Profile::Submission,
-            limits: Limits {
-                wall: 600 * second,
-                cpu: 600 * second,
-                memory: 4 << 30,
-                processes: 64,
-                file_size: 0,
-                open_files: 64,
-                output: 0,
-            },
-        })
-    };
-    Sandboxed::new(start, limit)
+    common::process(program, folder, vec![("STATE".to_owned(), state)], limit)
 }
 
 /// A student's repository: the states of the functions, and its files as they would be.
