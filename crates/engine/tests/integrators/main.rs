@@ -12,6 +12,7 @@ mod cantilever;
 mod closed_scenes;
 mod conserved;
 mod curves;
+mod damped_starts;
 mod divergence;
 mod driven;
 mod extreme;

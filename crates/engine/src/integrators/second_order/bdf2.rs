@@ -17,9 +17,14 @@ pub fn coefficients(dt: f64, ratio: f64) -> Coefficients {
     of(dt * (1.0 + ratio) / (1.0 + 2.0 * ratio), ratio * ratio / (1.0 + 2.0 * ratio))
 }
 
-/// The first stage of the first step: implicit Euler.
+/// The first stage of the first step.
 pub fn first_stage(dt: f64) -> Coefficients {
-    of(FIRST_STAGE * dt, 0.0)
+    implicit_euler(FIRST_STAGE * dt)
+}
+
+/// A step of implicit Euler.
+pub fn implicit_euler(dt: f64) -> Coefficients {
+    of(dt, 0.0)
 }
 
 /// Its second one, from the first: y₁ = y₀ + (1 − γ) dt f(y_γ) + γ dt f(y₁), with (y_γ − y₀)/(γ dt) in place of f(y_γ).

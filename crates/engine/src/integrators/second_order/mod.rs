@@ -24,6 +24,7 @@ use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::Newton;
 use crate::solvers::Solver;
+use coefficients::Coefficients;
 use fem_elements::Real;
 use fem_elements::history::{put, put_option, take, take_option};
 use fem_elements::vector::axpy;
@@ -62,7 +63,8 @@ impl<T: Real> SecondOrder<T> {
     /// Allocates its vectors for a body. `estimates` tells whether each step estimates its error.
     pub fn new(scheme: Scheme, newton: Newton<T>, system: &System<T>, estimates: bool) -> Self {
         let zero = || vec![[T::default(); 3]; system.nodes()];
-        let known = Known::new(system.nodes(), [scheme.has_acceleration(), scheme == Scheme::Bdf2, estimates]);
+        let has_step = scheme == Scheme::Bdf2 || scheme.has_acceleration() && system.is_damped();
+        let known = Known::new(system.nodes(), [scheme.has_acceleration(), has_step, estimates]);
         Self {
             scheme,
             newton,
@@ -91,14 +93,16 @@ impl<T: Real> SecondOrder<T> {
         dt: f64,
         counters: &mut Counters,
     ) -> Result<(), Cause> {
-        let Self { scheme, start, known, acceleration, estimates, .. } = self;
-        if system.dirichlet.has_motion() && start.jump(system, state, dt)? {
-            known.forget();
+        if system.dirichlet.has_motion() && self.start.jump(system, state, dt)? {
+            self.known.forget();
         }
+        let Self { scheme, start, known, acceleration, estimates, .. } = self;
         if scheme.has_acceleration() && !known.has_acceleration {
-            start.accelerations(system, state, dt, &mut known.acceleration, counters)?;
-            known.has_acceleration = true;
-            acceleration.copy_from_slice(&known.acceleration);
+            let a = &mut known.acceleration;
+            start.accelerations(system, state, dt, a, counters)?;
+            known.has_acceleration =
+                !(start.is_overdamped(system, state, dt, &state.v)? || start.is_overdamped(system, state, dt, a)?);
+            acceleration.copy_from_slice(a);
         }
         if *estimates && known.age.is_none() {
             if known.has_acceleration {
@@ -109,6 +113,33 @@ impl<T: Real> SecondOrder<T> {
             known.age = Some(0.0);
         }
         Ok(())
+    }
+
+    /// The first step of an overdamped motion by a method that keeps an acceleration. M⁻¹ f is of the size λ v₀ where damping brings a
+    /// velocity to rest at a rate λ of many times 1/dt; the method's formulas would add dt² λ v₀ to displacements, and springs would store energy
+    /// that nobody has supplied. So the step is that of BDF2, and the acceleration at its end the mean one over half a step of implicit
+    /// Euler, which is not taken. Both bring such velocities to rest.
+    fn settle(
+        &mut self,
+        system: &System<T>,
+        state: &mut State<T>,
+        dt: f64,
+        counters: &mut Counters,
+    ) -> Result<Convergence, Cause> {
+        let convergence = self.first_step(system, state, dt, counters)?;
+        let end = state.clone();
+        let (stage, of_step) = (self.stage, self.acceleration.clone());
+        let (mean, half) = (self.next.mean.clone(), 0.5 * dt);
+        state.time += dt;
+        let of = Coefficients { acceleration: [0.0, 1.0], ..bdf2::implicit_euler(half) };
+        let moment = Moment::at(state.time + half);
+        self.advance(system, state, (half, moment), &of, counters)?;
+        *state = end;
+        (self.stage, self.acceleration, self.next.mean) = (stage, of_step, mean);
+        self.next.dt = Some(dt);
+        // The step may be repeated.
+        self.known.has_acceleration = false;
+        Ok(convergence)
     }
 
     /// The first step of BDF2: two stages, of which the second takes the first as the step before it.
@@ -154,6 +185,9 @@ impl<T: Real> Integrator<T> for SecondOrder<T> {
             self.before.copy_from_slice(&state.v);
         }
         let convergence = match self.scheme.coefficients(dt, before) {
+            Some(_) if self.scheme.has_acceleration() && !self.known.has_acceleration => {
+                self.settle(system, state, dt, counters)?
+            }
             Some(of) => self.advance(system, state, (dt, end), &of, counters)?,
             None => self.first_step(system, state, dt, counters)?,
         };

@@ -99,6 +99,24 @@ impl<T: Real> Start<T> {
         self.mass.solve(system, &mut self.force, a)
     }
 
+    /// Returns true if damping changes these rates by more than their own size in a step: M⁻¹ C w dt is larger than w.
+    pub fn is_overdamped(
+        &mut self,
+        system: &System<T>,
+        state: &State<T>,
+        dt: f64,
+        rates: &[[T; 3]],
+    ) -> Result<bool, Cause> {
+        if !system.is_damped() {
+            return Ok(false);
+        }
+        let Self { mass, force, obstacles: change, .. } = self;
+        force.fill([T::default(); 3]);
+        system.add_damping_force(&state.u, rates, force);
+        mass.solve(system, force, change)?;
+        Ok(dt * max_norm(change) > max_norm(rates))
+    }
+
     /// Accelerations by the obstacles alone at displacements and a moment, m/s²; `None` if they do not touch the body.
     pub fn by_obstacles(
         &mut self,
