@@ -142,7 +142,7 @@ impl<T: Real> SuppliedEnergy<T> {
         if self.start.is_none() {
             self.start_at(system, before, dt);
         }
-        self.work += self.work_of_loads(system, before, state, dt);
+        self.work += self.work_of_loads(system, integrator, before, state, dt);
         if system.dirichlet.has_motion() {
             self.work += self.work_of_motions(system, integrator, before, state, dt);
         }
@@ -155,20 +155,35 @@ impl<T: Real> SuppliedEnergy<T> {
         // In the first step of explicit Euler velocities change and displacements do not, so the next displacements are used.
         add_scaled(&state.u, dt, &state.v, &mut self.change);
         let work = |u: &[[T; 3]]| potential - steady_potential(system, u, moment);
+        // Who moves nodes supplies at least their kinetic energy; the work of an explicit step takes the forces and velocities at its start.
+        let of_motions = if system.dirichlet.has_motion() { kinetic_of_motions(system, &state.v) } else { 0.0 };
         let steady = f64::max(work(&state.u), work(&self.change));
-        self.largest = self.largest.max(start + self.work + steady);
+        self.largest = self.largest.max(start + self.work + steady).max(of_motions);
     }
 
-    /// Work in a step of follower loads and of loads that change with the time, J. Their forces take the displacements at the start of
-    /// the step and the time of its end, and the velocities are those at its end.
-    fn work_of_loads(&mut self, system: &System<T>, before: &State<T>, state: &State<T>, dt: f64) -> f64 {
+    /// Work in a step of follower loads, of loads that change with the time and of moving obstacles, J. Their forces are those at the end
+    /// of an implicit step; else they take the displacements at the start of the step and the time of its end, and the velocities are
+    /// those at its end.
+    fn work_of_loads(
+        &mut self,
+        system: &System<T>,
+        integrator: &dyn Integrator<T>,
+        before: &State<T>,
+        state: &State<T>,
+        dt: f64,
+    ) -> f64 {
         if !system.forces.active().any(|(potential, _)| !is_steady(potential)) {
             return 0.0;
         }
         self.make_room(system.nodes());
         self.force.fill([T::default(); 3]);
         for (potential, _) in system.forces.active().filter(|(potential, _)| !is_steady(*potential)) {
-            potential.add_gradient(&before.u, Moment::at(before.time + dt), &mut self.force);
+            let u = if integrator.has_line_search() { &state.u } else { &before.u };
+            potential.add_gradient(u, Moment::at(before.time + dt), &mut self.force);
+        }
+        if integrator.has_line_search() {
+            add_scaled(&state.u, -1.0, &before.u, &mut self.change);
+            return -dot(&self.force, &self.change);
         }
         -dt * dot(&self.force, &state.v)
     }
@@ -214,6 +229,13 @@ fn is_steady<T: Real>(potential: &dyn Potential<T>) -> bool {
 fn steady_potential<T: Real>(system: &System<T>, u: &[[T; 3]], moment: Moment) -> f64 {
     let steady = system.forces.active().filter(|(potential, _)| is_steady(*potential) && !potential.is_internal());
     steady.map(|(potential, _)| potential.energy(u, moment).value).sum()
+}
+
+/// Kinetic energy of the nodes with a prescribed motion, J.
+fn kinetic_of_motions<T: Real>(system: &System<T>, v: &[[T; 3]]) -> f64 {
+    let mut prescribed = v.to_vec();
+    system.dirichlet.clear_free(&mut prescribed);
+    system.mass.kinetic_energy(&prescribed)
 }
 
 /// Kinetic energy, and that of elements and internal forces, J.

@@ -36,6 +36,7 @@ mod second_order;
 mod shipped_scenes;
 mod statics;
 mod substeps;
+mod supplied;
 mod surface_loads;
 mod twists;
 mod unconverged;

@@ -107,6 +107,9 @@ impl<T: Real> SecondOrder<T> {
             next.acceleration.copy_from_slice(acceleration);
             if let Some(by_obstacles) = start.by_obstacles(system, &state.u, Moment::at(state.time + dt))? {
                 axpy(-of.obstacles, by_obstacles, &mut next.acceleration);
+                if of.beyond > 0.0 {
+                    axpy(-of.beyond, by_obstacles, &mut state.v);
+                }
             }
             for (next, known) in next.acceleration.iter_mut().zip(&known.acceleration) {
                 *next = triple(|i| T::of(of_known) * known[i] + T::of(of_stage) * next[i]);

@@ -47,5 +47,6 @@ fn of(tau: f64, q: f64) -> Coefficients {
         of_velocity: tau,
         acceleration: [0.0; 2],
         obstacles: 1.0,
+        beyond: 0.0,
     }
 }

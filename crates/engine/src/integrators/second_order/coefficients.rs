@@ -32,6 +32,8 @@ pub struct Coefficients {
     pub acceleration: [f64; 2],
     /// κ, the multiple of the forces of obstacles in the equation.
     pub obstacles: f64,
+    /// The time for which the end's forces of obstacles act beyond that of the step in `velocity` + k a_s; v₁ takes their impulse back, s.
+    pub beyond: f64,
 }
 
 impl Coefficients {

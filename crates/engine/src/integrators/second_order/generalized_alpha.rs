@@ -29,5 +29,6 @@ pub fn coefficients(rho_inf: f64, dt: f64) -> Coefficients {
         of_velocity: gamma * dt / of_end,
         acceleration: [kept, 1.0 / of_end],
         obstacles: of_end / gamma,
+        beyond: 0.0,
     }
 }

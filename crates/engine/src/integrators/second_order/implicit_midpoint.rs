@@ -14,5 +14,6 @@ pub fn coefficients(dt: f64) -> Coefficients {
         of_velocity: dt,
         acceleration: [0.0; 2],
         obstacles: 1.0,
+        beyond: 0.0,
     }
 }
