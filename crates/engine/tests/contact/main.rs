@@ -11,6 +11,7 @@ mod refused;
 mod resting;
 mod resumed;
 
+mod turned;
 use std::path::Path;
 
 use fem_engine::simulator::Simulator;
