@@ -97,8 +97,14 @@ impl<T: Real> Contacts<T> {
         Ok(())
     }
 
-    /// Drops the forces of the last step: the state is a new one.
-    pub(super) fn forget(&mut self, system: &mut System<T>) {
+    /// Prepares a step from these displacements, m.
+    pub(super) fn begin_step(&mut self, u: &[[T; 3]]) {
+        self.barrier.begin_step(u);
+    }
+
+    /// Drops the forces of the last step: the state is a new one, with these displacements, m.
+    pub(super) fn forget(&mut self, system: &mut System<T>, u: &[[T; 3]]) {
+        self.begin_step(u);
         self.residual = 0.0;
         system.contact_force.fill([T::default(); 3]);
         if let Some(impulses) = &mut self.impulses {

@@ -71,8 +71,11 @@ impl<T: Real> Simulator<T> {
         if self.apply_conditions_at(self.state.time) {
             self.integrator.forget();
         }
-        let Self { integrator, system, state, substep_dt: dt, last_good, .. } = self;
+        let Self { integrator, system, state, substep_dt: dt, last_good, contact, .. } = self;
         last_good.copy_from(state);
+        if let Some(contact) = contact {
+            contact.begin_step(&state.u);
+        }
         let moment = integrator.moment(state);
         system.forces.begin_step(&state.u, moment, *dt);
         let convergence = self.advance()?;

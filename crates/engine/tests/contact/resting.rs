@@ -22,8 +22,8 @@ fn a_block_of_quadratic_triangles_rests_where_the_barrier_carries_its_weight() {
     assert!((simulation.weight().unwrap() - WEIGHT).abs() < 1e-12 * WEIGHT);
     let contact = &simulation.contacts()[0];
     assert!((contact.force[1] - WEIGHT).abs() < 1e-8 * WEIGHT, "{:?}", contact.force);
-    // κ |b'(gap/d̂)| times the area of the nodes below is m g: they have Simpson's shares of the lower side and of the sides beside it.
-    let (area, distance, stiffness) = (4.0 / 3.0, 1e-3, young / 2.6 + WEIGHT);
+    // κ |b'(gap/d̂)| times the area of the nodes below is m g: they have the whole lower side.
+    let (area, distance, stiffness) = (1.0, 1e-3, young / 2.6 + WEIGHT);
     let (mut lower, mut upper) = (1e-6, 1.0);
     for _ in 0..200 {
         let middle = 0.5 * (lower + upper);

@@ -140,6 +140,7 @@ impl<T: Real> Potential<T> for Friction<T> {
 
     fn begin_step(&mut self, u: &[[T; 3]], start: Moment, dt: f64) {
         self.start.copy_from_slice(u);
+        self.barrier.begin_step(u);
         self.times = [start.time, start.time + dt];
         self.transition = self.transition_speed * dt;
         self.evaluate(u, start.time);

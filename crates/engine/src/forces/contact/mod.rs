@@ -1,6 +1,7 @@
 //! Contact with planes: a barrier energy, and a friction potential beside it, for implicit methods. Explicit methods use
 //! [impulses](crate::integrators::Impulses) instead.
 
+pub mod areas;
 pub mod barrier;
 pub mod friction;
 pub mod planes;
@@ -78,8 +79,9 @@ impl<T: Real> Potential<T> for Contact {
         true
     }
 
-    fn begin_step(&mut self, _: &[[T; 3]], start: Moment, dt: f64) {
+    fn begin_step(&mut self, u: &[[T; 3]], start: Moment, dt: f64) {
         self.end = start.time + dt;
+        self.barrier.begin_step(u);
     }
 
     fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy {
