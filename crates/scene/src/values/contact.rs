@@ -2,9 +2,10 @@
 
 use nalgebra::Vector3;
 
+use super::transition::Moving;
 use crate::check::contact::check;
 use crate::tables::PlaneTable;
-use crate::{BodyMesh, LoadCurve, Scene, SceneError};
+use crate::{BodyMesh, DirichletCondition, Integrator, LoadCurve, Scene, SceneError};
 
 /// Obstacles, and how the body is kept outside.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +14,9 @@ pub struct Contact {
     pub planes: Vec<ContactPlane>,
     /// How a step keeps the body outside.
     pub treatment: ContactTreatment,
+    /// True if a plane stands back from a body that is nearer at the start than the distance at which its barrier bears the
+    /// body. A load step finds its balance by itself.
+    pub may_stand_back: bool,
     /// Distance below which a barrier repels the body, m.
     pub activation_distance: f64,
     /// Speed of sliding from which friction has its full size, m/s.
@@ -114,14 +118,15 @@ impl PlaneMotion {
 /// Activation distance where the scene gives none, in lengths of the body.
 const ACTIVATION_DISTANCE: f64 = 1e-3;
 
-/// Transition speed where the scene gives none, in lengths of the body per second; Li et al., Incremental Potential Contact (2020).
-const TRANSITION_SPEED: f64 = 1e-3;
-
 /// Depth at the start that counts as touching, in lengths of the body: a sum of rounding errors.
 const TOUCHING: f64 = 1e-9;
 
 /// The obstacles of `[[planes]]`, if there are some. Refuses a body that lies behind a plane at the start.
-pub(crate) fn contact(scene: &Scene, mesh: &BodyMesh) -> Result<Option<Contact>, SceneError> {
+pub(crate) fn contact(
+    scene: &Scene,
+    mesh: &BodyMesh,
+    (dirichlet, initial_velocity): (&[DirichletCondition], &[Vector3<f64>]),
+) -> Result<Option<Contact>, SceneError> {
     if scene.planes.is_empty() {
         return Ok(None);
     }
@@ -148,11 +153,14 @@ pub(crate) fn contact(scene: &Scene, mesh: &BodyMesh) -> Result<Option<Contact>,
         method if method.projects_contact() => ContactTreatment::Projection,
         _ => ContactTreatment::Barrier,
     };
+    let moving = Moving { mesh, planes: &planes, dirichlet, initial_velocity };
+    let transition_speed = table.transition_speed.unwrap_or_else(|| moving.transition_speed(scene));
     Ok(Some(Contact {
         planes,
         treatment,
+        may_stand_back: treatment == ContactTreatment::Barrier && scene.time.integrator != Integrator::Static,
         activation_distance: table.activation_distance.unwrap_or(ACTIVATION_DISTANCE * length),
-        transition_speed: table.transition_speed.unwrap_or(TRANSITION_SPEED * length),
+        transition_speed,
     }))
 }
 

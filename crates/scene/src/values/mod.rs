@@ -9,6 +9,7 @@ mod materials;
 mod method;
 mod plasticity;
 mod selection;
+mod transition;
 
 pub use batch::EnvironmentValues;
 pub use constraints::{DirichletCondition, Motion, Rotation};
