@@ -4,6 +4,7 @@ mod adaptive;
 mod checkpoint;
 mod compiled;
 mod contact;
+mod creep;
 pub(crate) mod device_assembly;
 #[cfg(feature = "gpu")]
 pub(crate) mod device_elements;

@@ -91,6 +91,11 @@ impl<T: Real> Simulator<T> {
         self.integrator.accept();
         self.flow();
         self.state.time = self.last_good.time + self.substep_dt;
+        if self.system.forces.has_lag()
+            && let Some(contact) = &mut self.contact
+        {
+            contact.end_step(&self.last_good, &self.state);
+        }
     }
 
     /// Returns to the state before a substep that has failed.
