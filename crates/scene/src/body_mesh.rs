@@ -49,7 +49,8 @@ impl BodyMesh {
 
     /// Length of the undeformed body, m, whatever its direction: √12 times its largest radius of gyration, for a box its longest edge.
     pub fn length(&self) -> f64 {
-        body_length::length(self)
+        let corners = if self.is_flat() { 3 } else { 4 };
+        body_length::length(self.vertices(), || self.corners(), corners, &self.volumes())
     }
 
     /// Number of elements.

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::contact::{ContactPlane, PlaneMotion};
+use super::planes::{ContactPlane, PlaneMotion};
 use crate::{BodyMesh, DirichletCondition, Scene};
 
 /// Largest default, in lengths of the body per second; Li et al., Incremental Potential Contact (2020).
