@@ -33,6 +33,9 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
         Pipeline::Engine => engine::build(scene, body)?,
     };
     warn_of_vertices_outside(scene, &*simulation);
+    for note in simulation.notes() {
+        eprintln!("note: {}: {note}", scene.path.display());
+    }
     let seconds_setup = start.elapsed().as_secs_f64();
     let down = scene.gravity.as_ref().and_then(|gravity| Vector3::from(gravity.acceleration).try_normalize(0.0));
     let expected_tip = engine::expected_tip_displacement(scene);

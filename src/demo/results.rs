@@ -163,6 +163,9 @@ fn warn(simulation: &dyn Simulation) {
              smaller loads, a finer mesh, or a law that does not allow inversion"
         );
     }
+    for warning in simulation.warnings() {
+        eprintln!("warning: {name}: {warning}");
+    }
     if let Some(factor) = simulation.load_factor().filter(|factor| *factor < 1.0) {
         let percent = (1e6 * factor).round() / 1e4;
         eprintln!(

@@ -4,6 +4,7 @@ mod adaptive;
 mod checkpoint;
 mod compiled;
 mod contact;
+mod creep;
 pub(crate) mod device_assembly;
 #[cfg(feature = "gpu")]
 pub(crate) mod device_elements;
@@ -28,7 +29,7 @@ use fem_scene::{Body, Integrator as IntegratorKind, Material, Method, Precision,
 use nalgebra::Vector3;
 
 use crate::boundary::rigid_modes;
-use crate::forces::{self, anchors};
+use crate::forces::{self, Moment, anchors};
 use crate::integrators::Integrator;
 use crate::model::numbering::Numbering;
 use crate::model::state::State;
@@ -241,7 +242,9 @@ impl<T: Real> Simulator<T> {
             control.forget();
         }
         if let Some(contact) = &mut self.contact {
-            contact.forget(&mut self.system);
+            contact.forget(&mut self.system, &self.state.u);
+            // Energies of the new state are those of its own faces.
+            self.system.forces.begin_step(&self.state.u, Moment::at(self.state.time), self.substep_dt);
         }
     }
 

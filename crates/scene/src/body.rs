@@ -104,6 +104,7 @@ pub fn body_of_shape(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, S
     let density_factors = density_factors(&regions, scene.material.density, mesh.elements());
     let density = |element: usize| scene.material.density * density_factors.get(element).copied().unwrap_or(1.0);
     let initial_velocity = initial_velocity(scene, &mesh, density, |file| find(scene, data, file))?;
+    let contact = contact(scene, &mesh, (&dirichlet, &initial_velocity))?;
     Ok(Body {
         name: scene.name.clone(),
         material: scene.material.clone(),
@@ -121,7 +122,7 @@ pub fn body_of_shape(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, S
         tractions,
         pressures,
         springs: springs(scene, &mesh)?,
-        contact: contact(scene, &mesh)?,
+        contact,
         drag: drag(scene, &mesh)?,
         damping: damping(scene),
         shape: Shape { mesh, boundary, display, picture },

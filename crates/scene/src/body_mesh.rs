@@ -7,6 +7,8 @@ use fem_mesh::{
 };
 use nalgebra::{Matrix3, Vector3};
 
+use crate::body_length;
+
 /// The mesh of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BodyMesh {
@@ -45,11 +47,10 @@ impl BodyMesh {
         with_mesh!(self, mesh => &mesh.vertices)
     }
 
-    /// Longest edge of the undeformed body's bounding box, m.
+    /// Length of the undeformed body, m, whatever its direction: √12 times its largest radius of gyration, for a box its longest edge.
     pub fn length(&self) -> f64 {
-        let x = self.vertices();
-        let (least, most) = x.iter().fold((x[0], x[0]), |(least, most), x| (least.inf(x), most.sup(x)));
-        (most - least).max()
+        let corners = if self.is_flat() { 3 } else { 4 };
+        body_length::length(self.vertices(), || self.corners(), corners, &self.volumes())
     }
 
     /// Number of elements.

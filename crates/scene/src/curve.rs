@@ -117,6 +117,23 @@ impl LoadCurve {
         }
     }
 
+    /// The largest rate of the factor at any time, 1/s; that of a switch, whose factor jumps, is zero.
+    pub fn largest_rate(&self) -> f64 {
+        match self {
+            Self::Ramp(duration) => 1.0 / duration,
+            Self::Table(points) => {
+                let rate = |pair: &[[f64; 2]]| ((pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0])).abs();
+                points.windows(2).map(rate).fold(0.0, f64::max)
+            }
+            Self::Sine { frequency, .. } => TAU * frequency,
+            Self::Switch { .. } => 0.0,
+            Self::Integral(curve) => match curve.as_deref() {
+                Some(Self::Table(points)) => points.iter().map(|[_, factor]| factor.abs()).fold(0.0, f64::max),
+                _ => 1.0,
+            },
+        }
+    }
+
     /// The factor and its first and second derivative (1/s, 1/s²) within a time step, at a part of it (0 at `begin`, 1 at `end`, s). A
     /// curve that is piecewise linear counts as linear during the step, so that a kink inside it changes the rate and never the ends.
     pub fn in_step(&self, [begin, end]: [f64; 2], part: f64) -> [f64; 3] {

@@ -39,6 +39,7 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
 mod body;
+mod body_length;
 mod body_mesh;
 mod check;
 mod conditions;

@@ -21,7 +21,7 @@ pub use failure::{Breakdown, Cause, Failure};
 pub use parameter::Parameter;
 pub use part::Part;
 pub use picture_place::PicturePlace;
-pub use plane::Plane;
+pub use plane::{Plane, PlaneContact};
 pub use plastic_flow::PlasticFlow;
 
 /// A simulation of one body, whichever pipeline computes it. Lengths are in m, times in s, energies in J.
@@ -152,6 +152,16 @@ pub trait Simulation: Send {
         Vec::new()
     }
 
+    /// What the user should know before the first step, a line each.
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// What makes the result of the run so far misleading, a line each, with its remedy.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// The obstacles where they are now; empty without obstacles.
     fn planes(&self) -> Vec<Plane> {
         Vec::new()
@@ -241,17 +251,6 @@ pub struct Reaction {
     pub name: String,
     /// Sum over the nodes of the force on the body, in the constrained directions, N.
     pub force: [f64; 3],
-}
-
-/// The force of an obstacle on the body.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlaneContact {
-    /// The scene's table, such as `planes[0]`.
-    pub name: String,
-    /// Sum over the nodes in the last step, friction included, N; the mean over the step for an explicit method.
-    pub force: [f64; 3],
-    /// Distance of the nearest node, m.
-    pub smallest_gap: f64,
 }
 
 /// A click into a picture of the simulation mesh, in OpenGL's conventions.

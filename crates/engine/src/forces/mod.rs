@@ -142,6 +142,11 @@ pub trait Potential<T: Real>: Send + Sync {
         f64::INFINITY
     }
 
+    /// The distance over which the force changes where it is much shorter than the body, m.
+    fn scale(&self) -> f64 {
+        f64::INFINITY
+    }
+
     /// Sum of the forces on all nodes where that does not depend on `u`, N; `None` where it does.
     fn resultant(&self, _moment: Moment) -> Option<[f64; 3]> {
         None
@@ -254,6 +259,11 @@ impl<T: Real> Forces<T> {
     /// Returns true if the body has obstacles.
     pub fn has_obstacles(&self) -> bool {
         self.active().any(|(potential, _)| potential.is_obstacle())
+    }
+
+    /// The shortest distance over which a force changes, m.
+    pub fn smallest_scale(&self) -> f64 {
+        self.active().map(|(potential, _)| potential.scale()).fold(f64::INFINITY, f64::min)
     }
 
     /// Returns true if the body has a follower load.

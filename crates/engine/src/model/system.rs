@@ -50,7 +50,7 @@ pub struct System<T: Real> {
     pub spring_modulus: f64,
     /// Rayleigh damping, where the scene asks for some.
     pub damping: Option<RayleighDamping>,
-    /// Longest edge of the undeformed body's bounding box, m.
+    /// Length of the undeformed body, m: `BodyMesh::length`.
     pub length: f64,
     /// Calls and time of its parts so far.
     pub profile: Profile,

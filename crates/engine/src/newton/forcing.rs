@@ -16,10 +16,17 @@ const COARSE: f64 = 0.01;
 /// A matrix of the previous step is outdated where it reduces the update by less than this factor.
 const SLOW: f64 = 0.2;
 
+/// Part of the distance over which forces change that an update must not exceed for its ratio to the one before to be a rate.
+const SMALL: f64 = 0.1;
+
 impl Iterate {
     /// Estimate of the size of the next update, m. It includes the part of the last update that an obstacle has cut off.
-    pub(super) fn remaining_update(&self) -> f64 {
-        let update = self.size * self.rate.unwrap_or(1.0).max(self.forcing).min(1.0);
+    ///
+    /// A large update before a small one looks like fast convergence also where the small one is as large as the layer of a barrier, in
+    /// which forces change: the ratio of the two counts for updates much smaller than this `scale`, m.
+    pub(super) fn remaining_update(&self, scale: f64) -> f64 {
+        let rate = self.rate.filter(|_| self.size <= SMALL * scale);
+        let update = self.size * rate.unwrap_or(1.0).max(self.forcing).min(1.0);
         update.max(self.left_out)
     }
 

@@ -202,13 +202,14 @@ impl<T: Real> Newton<T> {
         let mut at =
             Iterate { energy, size: f64::INFINITY, left_out: 0.0, rate: None, norms: (norm, norm), forcing: 0.0 };
         let tolerance = self.limits.tolerance * potential.system.length;
+        let scale = potential.system.forces.smallest_scale();
         for iteration in 0..self.limits.max_iterations {
             if at.norms.0 == 0.0 {
                 return Ok(Convergence::Converged);
             }
             counters.newton_iterations += 1;
             let moved = self.iterate(potential, w, &mut at, counters)?;
-            if !moved || at.remaining_update() <= tolerance {
+            if !moved || at.remaining_update(scale) <= tolerance {
                 if iteration as f64 > COST_OF_A_FACTOR || self.is_matrix_outdated {
                     self.factor = Factor::Stale;
                 }

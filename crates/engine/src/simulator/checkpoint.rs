@@ -76,6 +76,7 @@ pub(super) fn restore<T: Compiled>(simulator: &mut Simulator<T>, checkpoint: &Ch
     }
     if let Some(contact) = &mut simulator.contact {
         contact.restore(history, &mut simulator.system, simulator.substep_dt)?;
+        contact.begin_step(&simulator.last_good.u);
     }
     // Forces of a step, such as friction, show in reports until the next one.
     let (before, forces) = (&simulator.last_good, &mut simulator.system.forces);

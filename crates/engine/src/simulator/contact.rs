@@ -5,10 +5,13 @@ use fem_scene::{Body, ContactPlane, ContactTreatment, Timer};
 use nalgebra::Vector3;
 
 use super::Simulator;
+use super::creep::Creep;
 use crate::forces::contact::barrier::Barrier;
 use crate::forces::contact::friction::{norm, slope_over_y, tangential};
 use crate::forces::contact::planes::Planes;
+use crate::forces::contact::start::{Obstacles, Stand};
 use crate::integrators::{Convergence, Impulses, PlaneContacts};
+use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::history::{put, take};
@@ -38,6 +41,9 @@ pub(super) struct Contacts<T: Real> {
     transition_speed: f64,
     /// Impulses in place of the barrier, for explicit methods.
     impulses: Option<Impulses<T>>,
+    /// The planes that stand back from the scene's place.
+    stands: Vec<Stand>,
+    creep: Creep,
     /// Largest relative change that lagged forces were left with in a step.
     residual: f64,
     /// Calls and time of the impulses.
@@ -55,15 +61,17 @@ impl<T: Real> Contacts<T> {
     /// The obstacles of a body; `None` if the scene has none.
     pub(super) fn new(body: Option<&Body>, system: &mut System<T>) -> Option<Self> {
         let contact = body?.contact.as_ref()?;
-        let planes = Planes::new(body?, &system.numbering)?;
+        let Obstacles { planes, barrier, stands } = Obstacles::new(body?, &system.numbering)?;
         if contact.treatment == ContactTreatment::Projection {
             system.contact_force = vec![[T::default(); 3]; system.nodes()];
         }
         Some(Self {
             impulses: Impulses::new(planes.clone(), contact.treatment, system),
-            barrier: Barrier::new(body?, &system.numbering)?,
+            barrier,
             transition_speed: contact.transition_speed,
             planes,
+            stands,
+            creep: Creep::default(),
             residual: 0.0,
             timer: Timer::default(),
         })
@@ -83,6 +91,7 @@ impl<T: Real> Contacts<T> {
     /// Adds the data of the last steps that reports need.
     pub(super) fn save(&self, history: &mut History) {
         put(history, "contact.residual", &[self.residual]);
+        self.creep.save(history);
         if let Some(impulses) = &self.impulses {
             impulses.save(history);
         }
@@ -91,19 +100,48 @@ impl<T: Real> Contacts<T> {
     /// Restores the data that [`save`](Self::save) has added; steps last `dt` seconds.
     pub(super) fn restore(&mut self, history: &History, system: &mut System<T>, dt: f64) -> Result<(), String> {
         take(history, "contact.residual", std::slice::from_mut(&mut self.residual))?;
+        self.creep.restore(history)?;
         let Some(impulses) = &mut self.impulses else { return Ok(()) };
         impulses.restore(history)?;
         impulses.write_forces(system, dt);
         Ok(())
     }
 
-    /// Drops the forces of the last step: the state is a new one.
-    pub(super) fn forget(&mut self, system: &mut System<T>) {
-        self.residual = 0.0;
+    /// Prepares a step from these displacements, m.
+    pub(super) fn begin_step(&mut self, u: &[[T; 3]]) {
+        self.barrier.begin_step(u);
+    }
+
+    /// Drops the forces of the last step: the state is a new one, with these displacements, m.
+    pub(super) fn forget(&mut self, system: &mut System<T>, u: &[[T; 3]]) {
+        self.begin_step(u);
+        (self.residual, self.creep) = (0.0, Creep::default());
         system.contact_force.fill([T::default(); 3]);
         if let Some(impulses) = &mut self.impulses {
             impulses.forget();
         }
+    }
+
+    /// Takes note of the sliding in a step that has been accepted, with lagged friction.
+    pub(super) fn end_step(&mut self, before: &State<T>, after: &State<T>) {
+        self.creep.add((&self.planes, &self.barrier), self.transition_speed, before, after);
+    }
+
+    /// The warning of a run whose friction was smaller than Coulomb's, if it was.
+    pub(super) fn warning(&self) -> Option<String> {
+        self.creep.warning(self.transition_speed, self.barrier.distance)
+    }
+
+    /// The planes that stand back, a line each.
+    pub(super) fn notes(&self) -> Vec<String> {
+        let stand = |&Stand { plane, distance, force, energy }: &Stand| {
+            format!(
+                "planes[{plane}] stands back by {distance:.3e} m from the body, which is nearer than its barrier's reach of {:.3e} m: \
+                 there it starts in balance, with {force:.3e} N and {energy:.3e} J",
+                self.barrier.distance
+            )
+        };
+        self.stands.iter().map(stand).collect()
     }
 
     /// The first plane with a node behind it, the deepest such node and its depth (m), in the engine's numbering.

@@ -181,6 +181,14 @@ impl<T: Compiled> Simulation for Simulator<T> {
         self.contacts_now()
     }
 
+    fn notes(&self) -> Vec<String> {
+        self.contact.as_ref().map_or(Vec::new(), |contact| contact.notes())
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.contact.iter().filter_map(|contact| contact.warning()).collect()
+    }
+
     fn planes(&self) -> Vec<Plane> {
         self.planes_now()
     }

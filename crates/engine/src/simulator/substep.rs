@@ -71,8 +71,11 @@ impl<T: Real> Simulator<T> {
         if self.apply_conditions_at(self.state.time) {
             self.integrator.forget();
         }
-        let Self { integrator, system, state, substep_dt: dt, last_good, .. } = self;
+        let Self { integrator, system, state, substep_dt: dt, last_good, contact, .. } = self;
         last_good.copy_from(state);
+        if let Some(contact) = contact {
+            contact.begin_step(&state.u);
+        }
         let moment = integrator.moment(state);
         system.forces.begin_step(&state.u, moment, *dt);
         let convergence = self.advance()?;
@@ -88,6 +91,11 @@ impl<T: Real> Simulator<T> {
         self.integrator.accept();
         self.flow();
         self.state.time = self.last_good.time + self.substep_dt;
+        if self.system.forces.has_lag()
+            && let Some(contact) = &mut self.contact
+        {
+            contact.end_step(&self.last_good, &self.state);
+        }
     }
 
     /// Returns to the state before a substep that has failed.

@@ -2,6 +2,7 @@
 
 #![allow(non_snake_case)] // E and L are the names that the mathematics uses
 
+mod areas;
 mod derivatives;
 mod explained;
 mod friction;
@@ -10,6 +11,7 @@ mod press;
 mod refused;
 mod resting;
 mod resumed;
+mod turned;
 
 use std::path::Path;
 

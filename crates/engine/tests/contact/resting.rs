@@ -1,5 +1,6 @@
 //! Bodies at rest: the forces of the planes carry the weight.
 
+use fem_engine::simulator::Simulator;
 use fem_scene::simulation::Simulation;
 
 use crate::{
@@ -22,8 +23,8 @@ fn a_block_of_quadratic_triangles_rests_where_the_barrier_carries_its_weight() {
     assert!((simulation.weight().unwrap() - WEIGHT).abs() < 1e-12 * WEIGHT);
     let contact = &simulation.contacts()[0];
     assert!((contact.force[1] - WEIGHT).abs() < 1e-8 * WEIGHT, "{:?}", contact.force);
-    // κ |b'(gap/d̂)| times the area of the nodes below is m g: they have Simpson's shares of the lower side and of the sides beside it.
-    let (area, distance, stiffness) = (4.0 / 3.0, 1e-3, young / 2.6 + WEIGHT);
+    // κ |b'(gap/d̂)| times the area of the nodes below is m g: they have the whole lower side.
+    let (area, distance, stiffness) = (1.0, 1e-3, young / 2.6 + WEIGHT);
     let (mut lower, mut upper) = (1e-6, 1.0);
     for _ in 0..200 {
         let middle = 0.5 * (lower + upper);
@@ -93,5 +94,61 @@ fn the_impulses_of_the_planes_are_the_change_of_momentum_less_the_weight() {
             assert!((impulse[i] - expected[i]).abs() < tolerance * 1000.0, "{method}: {impulse:?} {expected:?}");
         }
         assert!(expected[1] > 100.0, "{method}: the cube has not landed");
+    }
+}
+
+/// A block of 1 × 0.5 × 1 m on a plane through its lower side, under gravity at an angle to its normal, rad.
+fn touching(method: &str, young: f64, dt: f64, angle: f64) -> Simulator<f64> {
+    let tables =
+        gravity(9.81 * angle.sin(), -9.81 * angle.cos()) + &floor(0.0, if angle > 0.0 { "friction = 0.8" } else { "" });
+    build(&text("box = { size = [1, 0.5, 1], cells_per_unit = 2 }", "stable_neo_hookean", young, method, dt, &tables))
+}
+
+#[test]
+fn a_block_that_touches_its_plane_stays_there_with_every_method_and_step_and_gains_no_energy() {
+    // m g h
+    let height_energy = 0.5 * WEIGHT * 0.5;
+    for method in METHODS {
+        for (young, angle) in [(1e6, 0.0), (1e6, 0.3), (1e9, 0.0)] {
+            let steps = match method {
+                // At a higher rate its vibrations grow without damping.
+                "explicit_euler" => continue,
+                _ if is_implicit(method) => [4e-3, 1e-3, 2.5e-4],
+                _ if young > 1e8 => continue,
+                _ => [5e-4, 2e-4, 1e-4],
+            };
+            for dt in steps {
+                let mut simulation = touching(method, young, dt, angle);
+                let (d_hat, before) = (1e-3, simulation.energies().total());
+                for _ in 0..(0.1 / dt) as usize {
+                    run(&mut simulation, 1);
+                    let gain = simulation.energies().total() - before;
+                    assert!(gain < 0.01 * height_energy, "{method}, E = {young:e}, dt = {dt:e}: {gain} J");
+                    let gap = simulation.contacts()[0].smallest_gap;
+                    assert!(gap > 0.0 && gap < 1.001 * d_hat, "{method}, E = {young:e}, dt = {dt:e}: {gap:e} m");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_plane_that_is_touched_stands_back_to_where_its_barrier_bears_the_body_and_says_so() {
+    for (gap, stands) in [(0.0, true), (5e-4, true), (9.99e-4, false)] {
+        let tables = gravity(0.0, -9.81) + &floor(-gap, "");
+        let simulation = build(&text(CUBE, "corotated", 1e6, "bdf2", 1e-3, &tables));
+        let notes = simulation.notes();
+        assert_eq!(notes.len(), usize::from(stands), "{notes:?}");
+        if stands {
+            let force = contact_force(&simulation)[1];
+            assert!((force - WEIGHT).abs() < 1e-6 * WEIGHT, "{gap:e}: {force} N");
+            assert!(notes[0].contains("planes[0] stands back") && notes[0].contains("9.810e3 N"), "{notes:?}");
+        }
+    }
+    // A load step finds its balance by itself, and impulses have no reach.
+    let top = "[[prescribed]]\non = { axis = \"y\", side = \"max\", within = 1e-9 }\ndisplacement = [0, -0.01, 0]\n";
+    for (method, tables) in [("static", top), ("verlet", "")] {
+        let simulation = build(&text(CUBE, "corotated", 1e6, method, 1e-4, &(tables.to_owned() + &floor(0.0, ""))));
+        assert!(simulation.notes().is_empty() && simulation.planes()[0].point.y == 0.0, "{method}");
     }
 }

@@ -36,9 +36,10 @@ pub struct PlaneTable {
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct ContactTable {
-    /// Distance from an obstacle below which it repels the body, m; positive. Default: 1e-3 of the body's longest edge.
+    /// Distance from an obstacle below which it repels the body, m; positive. Default: 1e-3 of the body's length.
     pub activation_distance: Option<f64>,
-    /// Speed of sliding from which friction has its full size, m/s; positive. It needs a plane with friction. Default: 1e-3 of the body's
-    /// longest edge per second.
+    /// Speed of sliding from which friction has its full size, m/s; positive. It needs a plane with friction. Default: the
+    /// smallest of 1e-3 lengths of the body per second, 1e-3 √(g × length), and a tenth of the speed along a plane with friction of each
+    /// prescribed motion, of the initial velocity and of the plane.
     pub transition_speed: Option<f64>,
 }

@@ -29,7 +29,7 @@ pub struct TimeTable {
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct AdaptiveTable {
-    /// Largest estimated error of a displacement that one time step `dt` adds, as a part of the body's longest edge; above 0 and below 1.
+    /// Largest estimated error of a displacement that one time step `dt` adds, as a part of the body's length; above 0 and below 1.
     pub tolerance: f64,
 }
 

@@ -2,9 +2,10 @@
 
 use nalgebra::Vector3;
 
+use super::planes::ContactPlane;
+use super::transition::Moving;
 use crate::check::contact::check;
-use crate::tables::PlaneTable;
-use crate::{BodyMesh, LoadCurve, Scene, SceneError};
+use crate::{BodyMesh, DirichletCondition, Integrator, Scene, SceneError};
 
 /// Obstacles, and how the body is kept outside.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +14,9 @@ pub struct Contact {
     pub planes: Vec<ContactPlane>,
     /// How a step keeps the body outside.
     pub treatment: ContactTreatment,
+    /// True if a plane stands back from a body that is nearer at the start than the distance at which its barrier bears the
+    /// body. A load step finds its balance by itself.
+    pub may_stand_back: bool,
     /// Distance below which a barrier repels the body, m.
     pub activation_distance: f64,
     /// Speed of sliding from which friction has its full size, m/s.
@@ -30,98 +34,18 @@ pub enum ContactTreatment {
     Projection,
 }
 
-/// A half-space that the body does not enter.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ContactPlane {
-    /// A point of the plane before its motion, m.
-    pub point: Vector3<f64>,
-    /// Unit normal, towards the body.
-    pub normal: Vector3<f64>,
-    /// Coefficient of Coulomb friction.
-    pub friction: f64,
-    /// How the plane moves.
-    pub motion: PlaneMotion,
-}
-
-/// Motion of an obstacle.
-#[derive(Clone, Debug, PartialEq)]
-pub enum PlaneMotion {
-    /// The plane stays where it is.
-    AtRest,
-    /// A constant velocity.
-    Uniform {
-        /// m/s
-        velocity: Vector3<f64>,
-        /// Time at which the motion ends, s; infinite for a motion without end.
-        until: f64,
-    },
-    /// A displacement times a factor of time.
-    Curve {
-        /// m
-        displacement: Vector3<f64>,
-        /// Its factor, without jumps.
-        curve: LoadCurve,
-    },
-}
-
-impl ContactPlane {
-    /// Displacement of the plane at a time (s), m.
-    pub fn displacement(&self, time: f64) -> Vector3<f64> {
-        match &self.motion {
-            PlaneMotion::AtRest => Vector3::zeros(),
-            PlaneMotion::Uniform { velocity, until } => velocity * time.min(*until),
-            PlaneMotion::Curve { displacement, curve } => displacement * curve.factor(time),
-        }
-    }
-
-    /// Its mean velocity between two times (s), m/s.
-    pub fn mean_velocity(&self, [from, to]: [f64; 2]) -> Vector3<f64> {
-        match &self.motion {
-            PlaneMotion::AtRest => Vector3::zeros(),
-            PlaneMotion::Uniform { velocity, until } if to <= *until => *velocity,
-            _ => (self.displacement(to) - self.displacement(from)) / (to - from),
-        }
-    }
-
-    /// Returns true if the plane never moves.
-    pub fn is_at_rest(&self) -> bool {
-        self.motion == PlaneMotion::AtRest
-    }
-
-    fn new(table: &PlaneTable) -> Self {
-        Self {
-            point: table.point.into(),
-            normal: unit(table.normal.into()),
-            friction: table.friction,
-            motion: PlaneMotion::new(table),
-        }
-    }
-}
-
-impl PlaneMotion {
-    fn new(table: &PlaneTable) -> Self {
-        let curve = table.curve.as_ref().map(|curve| curve.curve());
-        match (table.velocity, table.displacement.zip(curve)) {
-            (_, Some((displacement, curve))) => Self::Curve { displacement: displacement.into(), curve },
-            (Some(velocity), None) if velocity != [0.0; 3] => {
-                Self::Uniform { velocity: velocity.into(), until: table.until.unwrap_or(f64::INFINITY) }
-            }
-            _ => Self::AtRest,
-        }
-    }
-}
-
 /// Activation distance where the scene gives none, in lengths of the body.
 const ACTIVATION_DISTANCE: f64 = 1e-3;
-
-/// Transition speed where the scene gives none, in lengths of the body per second; Li et al., Incremental Potential Contact (2020).
-const TRANSITION_SPEED: f64 = 1e-3;
 
 /// Depth at the start that counts as touching, in lengths of the body: a sum of rounding errors.
 const TOUCHING: f64 = 1e-9;
 
 /// The obstacles of `[[planes]]`, if there are some. Refuses a body that lies behind a plane at the start.
-pub(crate) fn contact(scene: &Scene, mesh: &BodyMesh) -> Result<Option<Contact>, SceneError> {
+pub(crate) fn contact(
+    scene: &Scene,
+    mesh: &BodyMesh,
+    (dirichlet, initial_velocity): (&[DirichletCondition], &[Vector3<f64>]),
+) -> Result<Option<Contact>, SceneError> {
     if scene.planes.is_empty() {
         return Ok(None);
     }
@@ -148,15 +72,13 @@ pub(crate) fn contact(scene: &Scene, mesh: &BodyMesh) -> Result<Option<Contact>,
         method if method.projects_contact() => ContactTreatment::Projection,
         _ => ContactTreatment::Barrier,
     };
+    let moving = Moving { mesh, planes: &planes, dirichlet, initial_velocity };
+    let transition_speed = table.transition_speed.unwrap_or_else(|| moving.transition_speed(scene));
     Ok(Some(Contact {
         planes,
         treatment,
+        may_stand_back: treatment == ContactTreatment::Barrier && scene.time.integrator != Integrator::Static,
         activation_distance: table.activation_distance.unwrap_or(ACTIVATION_DISTANCE * length),
-        transition_speed: table.transition_speed.unwrap_or(TRANSITION_SPEED * length),
+        transition_speed,
     }))
-}
-
-/// A vector of length 1, without overflow on the way.
-fn unit(vector: Vector3<f64>) -> Vector3<f64> {
-    (vector / vector.amax()).normalize()
 }

@@ -7,15 +7,18 @@ mod initial;
 mod loads;
 mod materials;
 mod method;
+mod planes;
 mod plasticity;
 mod selection;
+mod transition;
 
 pub use batch::EnvironmentValues;
 pub use constraints::{DirichletCondition, Motion, Rotation};
-pub use contact::{Contact, ContactPlane, ContactTreatment, PlaneMotion};
+pub use contact::{Contact, ContactTreatment};
 pub use loads::{Drag, Pressure, Spring, Traction, highest_node};
 pub use materials::MaterialRegion;
 pub use method::{IterationSettings, Method, NewmarkParameters, NewtonSettings, RayleighDamping, SolverSettings};
+pub use planes::{ContactPlane, PlaneMotion};
 pub use plasticity::Plasticity;
 
 pub(crate) use constraints::dirichlet_conditions;

@@ -5,10 +5,11 @@
 
 use fem_scene::Body;
 
+use super::areas::Areas;
 use crate::forces::mass_spring;
 use crate::model::numbering::Numbering;
+use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
-use fem_elements::vector::triple;
 
 /// The barrier of a body.
 #[derive(Clone, Debug)]
@@ -17,10 +18,7 @@ pub struct Barrier {
     pub distance: f64,
     /// κ, Pa.
     pub stiffness: f64,
-    /// Area of each node, m²: its share of the boundary, or of a section through its elements inside the body; zero for a node
-    /// that cannot move away from the plane. Those of all nodes for the first plane come first.
-    areas: Vec<f64>,
-    nodes: usize,
+    areas: Areas,
 }
 
 impl Barrier {
@@ -30,25 +28,22 @@ impl Barrier {
     /// body, whatever its material, and its matrix is as well conditioned.
     pub fn new(body: &Body, numbering: &Numbering) -> Option<Self> {
         let contact = body.contact.as_ref()?;
-        let of_mesh = areas(body);
-        let constrained = constrained_directions(body);
-        let area = |plane: usize, node: u32| {
-            let (normal, constrained) = (contact.planes[plane].normal, constrained[node as usize]);
-            let gives_way = (0..3).any(|i| !constrained[i] && normal[i] != 0.0);
-            if gives_way { of_mesh[node as usize] } else { 0.0 }
-        };
-        let of_plane = |plane: usize| numbering.mesh_node.iter().map(move |&node| area(plane, node));
+        let normals = contact.planes.iter().map(|plane| plane.normal).collect();
         Some(Self {
             distance: contact.activation_distance,
             stiffness: stiffness(body),
-            areas: (0..contact.planes.len()).flat_map(of_plane).collect(),
-            nodes: of_mesh.len(),
+            areas: Areas::new(body, numbering, normals),
         })
+    }
+
+    /// Prepares a step from these displacements, m.
+    pub fn begin_step<T: Real>(&mut self, u: &[[T; 3]]) {
+        self.areas.update(u);
     }
 
     /// Area of a node, m²; zero if it cannot move away from the plane.
     pub fn area(&self, plane: usize, node: usize) -> f64 {
-        self.areas[plane * self.nodes + node]
+        self.areas.of(plane, node)
     }
 
     /// Energy of a node at a distance (m), J; infinite behind the plane.
@@ -68,7 +63,7 @@ impl Barrier {
 
     /// Memory, bytes.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.areas[..])
+        self.areas.bytes()
     }
 }
 
@@ -108,41 +103,6 @@ fn stiffness(body: &Body) -> f64 {
     let density = materials.map(|material| material.density).fold(0.0, f64::max);
     f64::max(largest * factor, mass_spring::shear_modulus(body))
         + density * body.gravity.map_or(0.0, |g| g.norm()) * body.shape.mesh.length()
-}
-
-/// Area of each node of the mesh, m².
-fn areas(body: &Body) -> Vec<f64> {
-    let mesh = &body.shape.mesh;
-    let mut areas = vec![0.0; mesh.vertices().len()];
-    let outline: Vec<Vec<usize>> = match mesh.is_flat() {
-        true => mesh.outline(),
-        false => body.shape.boundary.iter().map(|face| face.to_vec()).collect(),
-    };
-    for face in &outline {
-        let area = mesh.area(face);
-        face.iter().zip(mesh.face_shares()).for_each(|(&node, share)| areas[node] += share * area);
-    }
-    // With a law that allows inversion, inner nodes can reach the plane.
-    let mut volumes = vec![0.0; areas.len()];
-    for (corners, volume) in mesh.corners().zip(mesh.volumes()) {
-        corners.iter().for_each(|&node| volumes[node] += volume / corners.len() as f64);
-    }
-    for (area, volume) in areas.iter_mut().zip(volumes).filter(|(area, _)| **area == 0.0) {
-        *area = f64::cbrt(volume).powi(2);
-    }
-    areas
-}
-
-/// The directions in which each node of the mesh is constrained at all times.
-fn constrained_directions(body: &Body) -> Vec<[bool; 3]> {
-    let mut constrained = vec![[false, false, body.shape.mesh.is_flat()]; body.shape.mesh.vertices().len()];
-    for condition in body.dirichlet.iter().filter(|condition| condition.until.is_none()) {
-        for &node in &condition.nodes {
-            let before = constrained[node];
-            constrained[node] = triple(|i| before[i] || condition.components[i]);
-        }
-    }
-    constrained
 }
 
 #[cfg(test)]

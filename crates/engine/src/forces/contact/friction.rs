@@ -8,6 +8,7 @@ use fem_scene::{Body, ContactPlane, ContactTreatment};
 
 use super::barrier::Barrier;
 use super::planes::Planes;
+use super::start::Obstacles;
 use crate::forces::{Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
 use fem_elements::Real;
@@ -57,9 +58,10 @@ pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Pote
         return None;
     }
     let nodes = body.shape.mesh.vertices().len();
+    let Obstacles { planes, barrier, .. } = Obstacles::new(body, numbering)?;
     Some(Box::new(Friction {
-        planes: Planes::new(body, numbering)?,
-        barrier: Barrier::new(body, numbering)?,
+        planes,
+        barrier,
         transition_speed: contact.transition_speed,
         transition: 0.0,
         mass_times_length: mass_times_length(body),
@@ -140,6 +142,7 @@ impl<T: Real> Potential<T> for Friction<T> {
 
     fn begin_step(&mut self, u: &[[T; 3]], start: Moment, dt: f64) {
         self.start.copy_from_slice(u);
+        self.barrier.begin_step(u);
         self.times = [start.time, start.time + dt];
         self.transition = self.transition_speed * dt;
         self.evaluate(u, start.time);

@@ -1,9 +1,11 @@
 //! Contact with planes: a barrier energy, and a friction potential beside it, for implicit methods. Explicit methods use
 //! [impulses](crate::integrators::Impulses) instead.
 
+pub mod areas;
 pub mod barrier;
 pub mod friction;
 pub mod planes;
+pub mod start;
 
 use fem_scene::{Body, ContactTreatment};
 
@@ -13,6 +15,7 @@ use barrier::Barrier;
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
 use planes::Planes;
+use start::Obstacles;
 
 /// Key in the statistics.
 pub const NAME: &str = "contact";
@@ -28,7 +31,7 @@ pub struct Contact {
 /// The barrier of a body with obstacles, for implicit methods.
 pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Potential<T>>> {
     body.contact.as_ref().filter(|contact| contact.treatment == ContactTreatment::Barrier)?;
-    let (planes, barrier) = (Planes::new(body, numbering)?, Barrier::new(body, numbering)?);
+    let Obstacles { planes, barrier, .. } = Obstacles::new(body, numbering)?;
     Some(Box::new(Contact { planes, barrier, end: 0.0 }))
 }
 
@@ -78,8 +81,9 @@ impl<T: Real> Potential<T> for Contact {
         true
     }
 
-    fn begin_step(&mut self, _: &[[T; 3]], start: Moment, dt: f64) {
+    fn begin_step(&mut self, u: &[[T; 3]], start: Moment, dt: f64) {
         self.end = start.time + dt;
+        self.barrier.begin_step(u);
     }
 
     fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy {
@@ -116,6 +120,10 @@ impl<T: Real> Potential<T> for Contact {
                 product[near.node][i] += factor * T::of(k * along * n[i]);
             }
         }
+    }
+
+    fn scale(&self) -> f64 {
+        self.barrier.distance
     }
 
     fn largest_step(&self, u: &[[T; 3]], direction: &[[T; 3]]) -> f64 {

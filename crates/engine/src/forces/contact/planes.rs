@@ -37,6 +37,14 @@ impl Planes {
         Some(Self { rest_gaps: planes.iter().flat_map(of_plane).collect(), nodes: vertices.len(), planes })
     }
 
+    /// Moves a plane back along its normal, m.
+    pub(super) fn stand_back(&mut self, plane: usize, distance: f64) {
+        let obstacle = &mut self.planes[plane];
+        obstacle.point -= obstacle.normal * distance;
+        let gaps = &mut self.rest_gaps[plane * self.nodes..(plane + 1) * self.nodes];
+        gaps.iter_mut().for_each(|gap| *gap += distance);
+    }
+
     /// Number of nodes.
     pub fn nodes(&self) -> usize {
         self.nodes

@@ -38,14 +38,14 @@ pub fn block(young: f64) -> Result<Block, String> {
     Ok(Block { gap: contact.smallest_gap, root: root(young), force: contact.force[1], unconverged })
 }
 
-/// Each node below has half of two sides, 1 m²: κ |b'(gap/d̂)| · 2 m² = m g with κ of the shear modulus and the pressure under the weight;
+/// The nodes below share the lower side of 1 m²: κ |b'(gap/d̂)| · 1 m² = m g with κ of the shear modulus and the pressure under the weight;
 /// by bisection.
 fn root(young: f64) -> f64 {
     let stiffness = young / 2.6 + WEIGHT;
     let (mut lower, mut upper) = (1e-6, 1.0);
     for _ in 0..200 {
         let middle = 0.5 * (lower + upper);
-        *(if -2.0 * stiffness * slope(middle) > WEIGHT { &mut lower } else { &mut upper }) = middle;
+        *(if -stiffness * slope(middle) > WEIGHT { &mut lower } else { &mut upper }) = middle;
     }
     lower * ACTIVATION
 }
