@@ -12,7 +12,7 @@ const COARSE_NEIGHBOURS: usize = 8;
 /// The aggregate of each node, and the number of aggregates, from the pattern of A and the positions of its nodes. First whole
 /// neighbourhoods become aggregates, then each remaining node joins an adjacent one (Vaněk, Mandel and Brezina, Algebraic Multigrid by
 /// Smoothed Aggregation for Second and Fourth Order Elliptic Problems, 1996), or becomes one of its own if there is none.
-pub fn aggregate<const D: usize>(A: &Blocks<D, D>, positions: &[[f32; 3]]) -> (Vec<u32>, usize) {
+pub fn aggregate<const D: usize>(A: &Blocks<D, D>, positions: &[[f64; 3]]) -> (Vec<u32>, usize) {
     let mut aggregates = vec![NONE; A.rows()];
     let mut count = 0;
     for node in 0..A.rows() {
@@ -36,11 +36,11 @@ pub fn aggregate<const D: usize>(A: &Blocks<D, D>, positions: &[[f32; 3]]) -> (V
 }
 
 /// The node and the nodes that join its aggregate: all adjacent ones on the finest level, the nearest on the others.
-fn neighbours<const D: usize>(A: &Blocks<D, D>, node: usize, positions: &[[f32; 3]]) -> Vec<u32> {
+fn neighbours<const D: usize>(A: &Blocks<D, D>, node: usize, positions: &[[f64; 3]]) -> Vec<u32> {
     let mut neighbours = A.row(node).0.to_vec();
     if D > 3 && neighbours.len() > COARSE_NEIGHBOURS {
         let squared_distance =
-            |&other: &u32| (0..3).map(|i| (positions[other as usize][i] - positions[node][i]).powi(2)).sum::<f32>();
+            |&other: &u32| (0..3).map(|i| (positions[other as usize][i] - positions[node][i]).powi(2)).sum::<f64>();
         neighbours.sort_by(|a, b| squared_distance(a).total_cmp(&squared_distance(b)).then(a.cmp(b)));
         neighbours.truncate(COARSE_NEIGHBOURS);
     }
@@ -48,32 +48,12 @@ fn neighbours<const D: usize>(A: &Blocks<D, D>, node: usize, positions: &[[f32; 
 }
 
 /// Mean position of the nodes of each aggregate.
-pub fn centres(aggregates: &[u32], count: usize, positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
-    let mut sums = vec![[0.0f32; 4]; count];
+pub fn centres(aggregates: &[u32], count: usize, positions: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let mut sums = vec![[0.0; 4]; count];
     for (&aggregate, position) in aggregates.iter().zip(positions) {
         let sum = &mut sums[aggregate as usize];
         (0..3).for_each(|i| sum[i] += position[i]);
         sum[3] += 1.0;
     }
     sums.iter().map(|sum| [sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]]).collect()
-}
-
-/// Rigid motions of the aggregates: a displacement u and a rotation ω about the centre c give a node at x the displacement
-/// u + ω × (x − c), and the rotation ω if the node has rotations (D = 6).
-pub fn rigid<const D: usize>(aggregates: &[u32], centres: &[[f32; 3]], positions: &[[f32; 3]]) -> Blocks<D, 6> {
-    let mut motion = Blocks::zeros((0..=aggregates.len()).collect(), aggregates.to_vec());
-    for ((block, &aggregate), x) in motion.values.iter_mut().zip(aggregates).zip(positions) {
-        let c = &centres[aggregate as usize];
-        let [x, y, z] = [x[0] - c[0], x[1] - c[1], x[2] - c[2]];
-        let rows = [
-            [1.0, 0.0, 0.0, 0.0, z, -y],
-            [0.0, 1.0, 0.0, -z, 0.0, x],
-            [0.0, 0.0, 1.0, y, -x, 0.0],
-            [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
-            [0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
-            [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
-        ];
-        block.copy_from_slice(&rows[..D]);
-    }
-    motion
 }
