@@ -202,6 +202,7 @@ impl<T: Compiled> Simulation for Simulator<T> {
         Counters {
             symbolic_factorizations: solver.symbolic_factorizations,
             solver_iterations: solver.iterations,
+            solver_fallbacks: solver.fallbacks,
             skinning_rows: self.skinned_rows.load(Ordering::Relaxed),
             ..self.counters
         }

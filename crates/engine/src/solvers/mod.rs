@@ -8,6 +8,7 @@ mod block;
 mod choice;
 mod device;
 mod direct;
+mod fallback;
 mod inverse;
 mod krylov;
 mod parts;

@@ -9,6 +9,10 @@ const NONE: u32 = u32::MAX;
 /// all of them would leave too few nodes for the motions of the next level: the cycle would need more iterations with each level.
 const COARSE_NEIGHBOURS: usize = 8;
 
+/// Adjacent nodes at more than this multiple of the distance of the nearest one are weakly coupled: with them, an aggregate of stretched elements
+/// would be long, and the smoother, which is slow along weak couplings, would leave too much to the coarse level.
+const FAR: f64 = 4.0;
+
 /// The aggregate of each node, and the number of aggregates, from the pattern of A and the positions of its nodes. First whole
 /// neighbourhoods become aggregates, then each remaining node joins an adjacent one (Vaněk, Mandel and Brezina, Algebraic Multigrid by
 /// Smoothed Aggregation for Second and Fourth Order Elliptic Problems, 1996), or becomes one of its own if there is none.
@@ -35,14 +39,19 @@ pub fn aggregate<const D: usize>(A: &Blocks<D, D>, positions: &[[f64; 3]]) -> (V
     (aggregates, count as usize)
 }
 
-/// The node and the nodes that join its aggregate: all adjacent ones on the finest level, the nearest on the others.
+/// The node and the nodes that join its aggregate: on the finest level the adjacent ones that are not [far](FAR), on the others the nearest.
 fn neighbours<const D: usize>(A: &Blocks<D, D>, node: usize, positions: &[[f64; 3]]) -> Vec<u32> {
     let mut neighbours = A.row(node).0.to_vec();
+    let squared_distance =
+        |&other: &u32| (0..3).map(|i| (positions[other as usize][i] - positions[node][i]).powi(2)).sum::<f64>();
     if D > 3 && neighbours.len() > COARSE_NEIGHBOURS {
-        let squared_distance =
-            |&other: &u32| (0..3).map(|i| (positions[other as usize][i] - positions[node][i]).powi(2)).sum::<f64>();
         neighbours.sort_by(|a, b| squared_distance(a).total_cmp(&squared_distance(b)).then(a.cmp(b)));
         neighbours.truncate(COARSE_NEIGHBOURS);
+    }
+    if D == 3 {
+        let others = neighbours.iter().filter(|&&other| other as usize != node);
+        let nearest = others.map(squared_distance).fold(f64::INFINITY, f64::min);
+        neighbours.retain(|other| squared_distance(other) <= FAR * FAR * nearest);
     }
     neighbours
 }
