@@ -247,7 +247,7 @@ impl<T: Real> Simulator<T> {
         let methods: Vec<_> = integrators(method).iter().copied().filter(|kind| is_usable(*kind)).collect();
         self.kind = self.kind.next_in(&methods);
         let planes = self.contact.as_ref().map(|contact| contact.planes());
-        self.integrator = switched(self.kind, &self.method, &mut self.system, planes);
+        self.integrator = switched(self.kind, &self.method, &mut self.system, self.solver, planes);
     }
 
     pub(super) fn reactions_now(&self) -> Vec<Reaction> {

@@ -109,7 +109,10 @@ impl<T: Real> ApproximateInverse<T> for FaerCholesky<T> {
     }
 }
 
-fn symbolic_factor<T: Real>(matrix: &CscMatrix<T>, ordering: SymmetricOrdering<'_, u32>) -> Option<SymbolicCholesky<u32>> {
+fn symbolic_factor<T: Real>(
+    matrix: &CscMatrix<T>,
+    ordering: SymmetricOrdering<'_, u32>,
+) -> Option<SymbolicCholesky<u32>> {
     let supernodal = CholeskySymbolicParams {
         supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
         ..Default::default()

@@ -179,7 +179,13 @@ impl<const D: usize> Level<D> {
 
     pub fn bytes(&self) -> usize {
         let vectors = 5 * size_of_val(self.x.as_slice()) + size_of_val(self.inverses.as_slice());
-        self.A.bytes() + self.exact.bytes() + self.rigid.bytes() + self.P.bytes() + self.R.bytes() + self.AP.bytes() + vectors
+        self.A.bytes()
+            + self.exact.bytes()
+            + self.rigid.bytes()
+            + self.P.bytes()
+            + self.R.bytes()
+            + self.AP.bytes()
+            + vectors
     }
 }
 

@@ -26,8 +26,10 @@ pub fn orthonormal<const D: usize>(
     aggregates.iter().enumerate().for_each(|(node, &aggregate)| members[aggregate as usize].push(node));
     let mut tentative = Blocks::zeros((0..=aggregates.len()).collect(), aggregates.to_vec());
     let coarse = members.iter().zip(centres).map(|(members, centre)| {
-        let mut Q: Vec<_> =
-            members.iter().map(|&node| about(&motions[node], std::array::from_fn(|i| positions[node][i] - centre[i]))).collect();
+        let mut Q: Vec<_> = members
+            .iter()
+            .map(|&node| about(&motions[node], std::array::from_fn(|i| positions[node][i] - centre[i])))
+            .collect();
         let R = orthonormalize(&mut Q);
         for (&node, Q) in members.iter().zip(&Q) {
             tentative.values[node] = Q.map(|row| row.map(|entry| entry as f32));
@@ -43,7 +45,9 @@ fn about<const D: usize>(motion: &Motion<D>, d: [f64; 3]) -> Motion<D> {
     let [x, y, z] = d;
     let cross = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]];
     motion.map(|row| {
-        std::array::from_fn(|j| if j < 3 { row[j] } else { row[j] + (0..3).map(|i| row[i] * cross[i][j - 3]).sum::<f64>() })
+        std::array::from_fn(
+            |j| if j < 3 { row[j] } else { row[j] + (0..3).map(|i| row[i] * cross[i][j - 3]).sum::<f64>() },
+        )
     })
 }
 
@@ -51,7 +55,8 @@ fn about<const D: usize>(motion: &Motion<D>, d: [f64; 3]) -> Motion<D> {
 /// Rozložník, The Loss of Orthogonality in the Gram–Schmidt Orthogonalization Process (2005).
 fn orthonormalize<const D: usize>(B: &mut [Motion<D>]) -> Motion<6> {
     let dot = |B: &[Motion<D>], i: usize, j: usize| B.iter().flatten().map(|row| row[i] * row[j]).sum::<f64>();
-    let size_of = |columns: std::ops::Range<usize>, B: &[Motion<D>]| columns.map(|j| dot(B, j, j)).fold(0.0, f64::max).sqrt();
+    let size_of =
+        |columns: std::ops::Range<usize>, B: &[Motion<D>]| columns.map(|j| dot(B, j, j)).fold(0.0, f64::max).sqrt();
     let sizes = [size_of(0..3, B), size_of(3..6, B)];
     let mut R = [[0.0; 6]; 6];
     for j in 0..6 {
