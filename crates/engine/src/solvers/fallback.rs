@@ -74,7 +74,7 @@ fn available_memory() -> Option<usize> {
 }
 
 /// Returns true if the factor of a body of so many nodes is expected to fit into memory: in nested dissection of a compact body of n unknowns
-/// it has about 15 n^(4/3) entries (George, Nested Dissection of a Regular Finite Element Mesh, 1973, extended to space).
+/// it has about 15 n^(4/3) entries (George, Nested Dissection of a Regular Finite Element Mesh, 1973, has the exponent of the plane).
 pub(crate) fn factor_fits(nodes: usize) -> bool {
     let bytes = 8.0 * 15.0 * (3.0 * nodes as f64).powf(4.0 / 3.0);
     available_memory().is_none_or(|available| bytes < available as f64)

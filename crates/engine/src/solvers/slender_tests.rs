@@ -61,7 +61,7 @@ fn multigrid_agrees_with_cholesky_on_slender_curved_beams() {
 fn multigrid_agrees_with_cholesky_on_the_curved_beam_of_macneal_and_harder() {
     let map = |[s, y, z]: [f64; 3]| {
         let (sine, cosine) = (s * std::f64::consts::FRAC_PI_2).sin_cos();
-        [(4.12 + 0.2 * y) * cosine, (4.12 + 0.2 * y) * sine, 0.1 * z]
+        [(4.12 + 0.2 * y) * sine, (4.12 + 0.2 * y) * cosine, 0.1 * z]
     };
     agrees_with_cholesky(&Beam::mapped([192, 4], Stored::Lower, map), 150, "curved beam");
 }

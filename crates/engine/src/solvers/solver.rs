@@ -1,5 +1,7 @@
 //! A solver for matrices of one sparsity pattern.
 
+mod checkpoint;
+
 use std::sync::Arc;
 
 use super::ApproximateInverse;
@@ -16,10 +18,9 @@ use super::krylov::{
 use super::parts::Part;
 use super::preconditioners::{BlockJacobi, Identity, IncompleteCholesky, Multigrid, Ssor};
 use fem_elements::Real;
-use fem_elements::history::{put_flag, take_flag};
 use fem_elements::sparse::{Block, Pattern, Stored};
 use fem_scene::Timer;
-use fem_scene::simulation::{Breakdown, History};
+use fem_scene::simulation::Breakdown;
 
 /// Operations that a solver has carried out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -258,28 +259,6 @@ impl<T: Real> Solver<T> {
             Some(factor) => factor.apply(r, z),
             None => inverse.apply(r, z),
         });
-    }
-
-    /// Adds the data of earlier matrices that the next preparation needs, and, if the factor or preconditioner `is_kept`, those that it
-    /// depends on.
-    pub fn save(&self, is_kept: bool, history: &mut History) {
-        if self.inverse.assembles() {
-            put_flag(history, "solver.has_own_matrix", self.has_own_matrix);
-        }
-        self.inverse.save(is_kept, history);
-    }
-
-    /// Restores the data that [`save`](Self::save) has added.
-    pub fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String> {
-        self.has_own_matrix = self.inverse.assembles() && take_flag(history, "solver.has_own_matrix")?;
-        self.inverse.restore(is_kept, history)
-    }
-
-    /// Computes the kept factor or preconditioner after [`restore`](Self::restore), bit for bit as it was. `values` is the matrix that
-    /// is still in use.
-    pub fn prepare_again(&mut self, values: &[Block<T, 3>]) -> Result<(), String> {
-        let again = self.inverse.prepare_again(values);
-        again.map_err(|breakdown| format!("its matrix cannot be factored again: {breakdown}"))
     }
 
     /// Returns true if a solve iterates with the matrix that it is given, so that the prepared matrix only preconditions.

@@ -1,5 +1,7 @@
 //! Sparse matrices of R×C blocks, in single precision for cycles and in double for products, whose sparsity patterns are fixed.
 
+use std::ops::Range;
+
 use pulp::{Simd, WithSimd};
 
 use fem_elements::number::vectorized;
@@ -77,21 +79,50 @@ impl<const R: usize, const C: usize, F: Copy + Default> Blocks<R, C, F> {
     }
 }
 
-/// C = A B in double precision for a C from [`Blocks::product`]. `slots` is workspace with an entry for each column of C.
-pub struct Product<'a, F, G, const R: usize, const K: usize, const C: usize> {
-    pub A: &'a Blocks<R, K, F>,
-    pub B: &'a Blocks<K, C, G>,
-    pub C: &'a mut Blocks<R, C, f64>,
-    pub slots: &'a mut [u32],
+/// Up to this many rows one thread computes.
+const ROWS: usize = 256;
+
+/// C = A B in double precision for a C from [`Blocks::product`].
+pub fn multiply<F, G, const R: usize, const K: usize, const C: usize>(
+    A: &Blocks<R, K, F>,
+    B: &Blocks<K, C, G>,
+    product: &mut Blocks<R, C, f64>,
+) where
+    F: Copy + Default + Into<f64> + Sync,
+    G: Copy + Default + Into<f64> + Sync,
+{
+    let Blocks { starts, columns, values } = product;
+    Product { A, B, starts, columns, rows: 0..A.rows(), values }.compute();
+}
+
+/// Some rows of a product.
+struct Product<'a, F, G, const R: usize, const K: usize, const C: usize> {
+    A: &'a Blocks<R, K, F>,
+    B: &'a Blocks<K, C, G>,
+    /// The pattern of the product.
+    starts: &'a [usize],
+    columns: &'a [u32],
+    rows: Range<usize>,
+    /// The values in these rows.
+    values: &'a mut [[[f64; C]; R]],
 }
 
 impl<F, G, const R: usize, const K: usize, const C: usize> Product<'_, F, G, R, K, C>
 where
-    F: Copy + Default + Into<f64>,
-    G: Copy + Default + Into<f64>,
+    F: Copy + Default + Into<f64> + Sync,
+    G: Copy + Default + Into<f64> + Sync,
 {
-    pub fn compute(self) {
-        vectorized(self);
+    /// Halves of many rows side by side. Each row is computed in one order, so that the threads do not change a bit.
+    fn compute(self) {
+        if self.rows.len() <= ROWS {
+            return vectorized(self);
+        }
+        let Self { A, B, starts, columns, rows, values } = self;
+        let middle = rows.start + rows.len() / 2;
+        let (left, right) = values.split_at_mut(starts[middle] - starts[rows.start]);
+        let part = |rows, values| Product { A, B, starts, columns, rows, values };
+        let (left, right) = (part(rows.start..middle, left), part(middle..rows.end, right));
+        rayon::join(|| left.compute(), || right.compute());
     }
 }
 
@@ -104,21 +135,21 @@ where
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) {
-        let Self { A, B, C: product, slots } = self;
-        for i in 0..A.rows() {
-            let first = product.starts[i];
-            let row = &mut product.values[first..product.starts[i + 1]];
+        let Self { A, B, starts, columns: of_product, rows, values } = self;
+        let first = starts[rows.start];
+        for i in rows {
+            let of_row = &of_product[starts[i]..starts[i + 1]];
+            let row = &mut values[starts[i] - first..][..of_row.len()];
             row.fill([[0.0; C]; R]);
-            for (place, &column) in product.columns[first..][..row.len()].iter().enumerate() {
-                slots[column as usize] = place as u32;
-            }
             let (columns, values) = A.row(i);
             for (&k, a) in columns.iter().zip(values) {
                 let a = a.map(|row| row.map(Into::into));
                 let (columns, values) = B.row(k as usize);
+                let mut place = 0;
                 for (&column, b) in columns.iter().zip(values) {
                     let b = b.map(|row| row.map(Into::into));
-                    add_product(&a, &b, &mut row[slots[column as usize] as usize]);
+                    place += of_row[place..].partition_point(|&other| other < column);
+                    add_product(&a, &b, &mut row[place]);
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! One level: a matrix, its smoother, and the prolongation from the next coarser level.
 
 use super::aggregate::{aggregate, centres};
-use super::blocks::{Blocks, Product, add_product, row_times};
+use super::blocks::{Blocks, add_product, multiply, row_times};
 use super::cycle::{Rows, Smoother, over_rows, times};
 use super::motions::{Motion, orthonormal};
 use crate::solvers::block::invert;
@@ -109,8 +109,8 @@ impl<const D: usize> Level<D> {
             let block = &self.P.values[source as usize];
             *transpose = std::array::from_fn(|i| std::array::from_fn(|j| block[j][i]));
         }
-        Product { A: &self.exact, B: &self.P, C: &mut self.AP, slots: &mut self.slots }.compute();
-        Product { A: &self.R, B: &self.AP, C: coarse, slots: &mut self.slots }.compute();
+        multiply(&self.exact, &self.P, &mut self.AP);
+        multiply(&self.R, &self.AP, coarse);
         for row in 0..coarse.rows() {
             let block = diagonal(coarse, row);
             fix_missing_motions(&mut coarse.values[block]);
