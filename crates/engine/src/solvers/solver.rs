@@ -1,6 +1,9 @@
 //! A solver for matrices of one sparsity pattern.
 
 mod checkpoint;
+mod counters;
+
+pub use counters::SolverCounters;
 
 use std::sync::Arc;
 
@@ -21,21 +24,6 @@ use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern, Stored};
 use fem_scene::Timer;
 use fem_scene::simulation::Breakdown;
-
-/// Operations that a solver has carried out.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct SolverCounters {
-    /// Analyses of a sparsity pattern.
-    pub symbolic_factorizations: usize,
-    /// Computations of a factor or a preconditioner.
-    pub factorizations: usize,
-    /// Linear systems.
-    pub solves: usize,
-    /// Iterations of all solves.
-    pub iterations: usize,
-    /// Matrices that were factored because the iterative solver broke down.
-    pub fallbacks: usize,
-}
 
 /// A solver for matrices of one sparsity pattern. It allocates nothing after the first [`prepare`](Self::prepare) and
 /// [`solve`](Self::solve), but for the directions that conjugate directions keep.
