@@ -166,6 +166,13 @@ fn warn(simulation: &dyn Simulation) {
     for warning in simulation.warnings() {
         eprintln!("warning: {name}: {warning}");
     }
+    let fallbacks = simulation.counters().solver_fallbacks;
+    if fallbacks > 0 {
+        eprintln!(
+            "note: {name}: the iterative solver broke down, and a Cholesky factorisation took over ({fallbacks} matrices); \
+             solver.kind = \"cholesky\" starts with it"
+        );
+    }
     if let Some(factor) = simulation.load_factor().filter(|factor| *factor < 1.0) {
         let percent = (1e6 * factor).round() / 1e4;
         eprintln!(

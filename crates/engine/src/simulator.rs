@@ -110,7 +110,7 @@ pub fn planned_parts(scene: &Scene, body: &Body) -> Result<Vec<Part>, SceneError
     let is_linear = is_law_linear && forces.iter().all(|force| force.is_quadratic());
     let mut plan = Plan::new(body);
     plan.add_forces(forces.iter().map(|force| &**force));
-    Ok(plan.parts(method.integrator, &method, integrator::solver_choice(&method, nodes), is_linear))
+    Ok(plan.parts(method.integrator, &method, integrator::solver_choice(&method, body), is_linear))
 }
 
 /// The law of a body that the engine can simulate with numbers of this machine epsilon; `None` for a mass-spring body.
@@ -160,7 +160,7 @@ impl<T: Real> Simulator<T> {
         let method = scene.method();
         let skinned = body.shape.mesh.solid().zip(body.shape.display.as_ref());
         let skinning = skinned.map(|(mesh, display)| Skinning::new(mesh, &display.vertices));
-        let solver = integrator::solver_choice(&method, body.shape.mesh.vertices().len());
+        let solver = integrator::solver_choice(&method, &body);
         let velocities = body.initial_velocity.clone();
         let mut plan = Plan::new(&body);
         let gravity = body.gravity;

@@ -285,6 +285,8 @@ pub struct Counters {
     pub factorizations: usize,
     pub symbolic_factorizations: usize,
     pub solver_iterations: usize,
+    /// Matrices that were factored because an iterative solver had broken down.
+    pub solver_fallbacks: usize,
     pub force_assemblies: usize,
     pub stiffness_assemblies: usize,
     pub energy_evaluations: usize,

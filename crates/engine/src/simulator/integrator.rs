@@ -1,6 +1,6 @@
 //! The integrator that a scene names, with its limits and its linear solver.
 
-use fem_scene::{Integrator as IntegratorKind, Method, SolverKind};
+use fem_scene::{Body, Integrator as IntegratorKind, Method, SolverKind};
 
 use crate::forces::contact::planes::Planes;
 use crate::integrators::{
@@ -13,7 +13,7 @@ use crate::refusal::Refusal;
 use crate::simulator::device_assembly;
 #[cfg(feature = "gpu")]
 use crate::simulator::device_elements;
-use crate::solvers::{Preconditioner, Solver, SolverChoice, unusable_device};
+use crate::solvers::{Preconditioner, Solver, SolverChoice, factor_fits, unusable_device};
 use fem_elements::Real;
 
 /// Smallest relative residual that a linear solver can be asked for, in units of the machine epsilon.
@@ -92,8 +92,15 @@ pub fn integrators(kind: IntegratorKind) -> &'static [IntegratorKind] {
     }
 }
 
-/// The solver that the scene names, or the one that suits its size.
-pub(super) fn solver_choice(method: &Method, nodes: usize) -> SolverChoice {
+/// Poisson's ratio above which multigrid needs hundreds of iterations: its smoother cannot tell changes of volume from others.
+const NEARLY_INCOMPRESSIBLE: f64 = 0.49;
+
+/// The solver that the scene names, or the one that suits the body.
+pub(super) fn solver_choice(method: &Method, body: &Body) -> SolverChoice {
+    let nodes = body.shape.mesh.vertices().len();
+    let regions = body.regions.iter().map(|region| &region.material);
+    let mut ratios = regions.chain([&body.material]).filter_map(|material| material.poissons_ratio());
+    let suits_factor = ratios.any(|ratio| ratio > NEARLY_INCOMPRESSIBLE) && factor_fits(nodes);
     let is_static = method.integrator == IntegratorKind::Static;
     match &method.solver {
         // All rounds of all steps have the same matrix.
@@ -102,6 +109,7 @@ pub(super) fn solver_choice(method: &Method, nodes: usize) -> SolverChoice {
         // Beyond a limit point the matrix is not positive definite.
         None if is_static && method.arc_length => SolverChoice::Lu,
         None if nodes <= if is_static { DIRECT.1 } else { DIRECT.0 } => SolverChoice::Cholesky,
+        None if is_static && suits_factor => SolverChoice::Cholesky,
         // With inertia the cheapest preconditioner needs few iterations; in equilibrium only multigrid does.
         None if is_static => SolverChoice::Pcg(Preconditioner::Multigrid),
         None => SolverChoice::Pcg(Preconditioner::Ssor),
@@ -133,9 +141,9 @@ pub(super) fn switched<T: Real>(
     kind: IntegratorKind,
     method: &Method,
     system: &mut System<T>,
+    choice: SolverChoice,
     planes: Option<&Planes>,
 ) -> Box<dyn Integrator<T>> {
-    let choice = solver_choice(method, system.nodes());
     if kind.has_matrix() && !system.has_pattern() {
         system.prepare_matrix(choice);
     }
@@ -156,7 +164,10 @@ pub(super) fn build<T: Real>(
     let tolerance = tolerance.max(SMALLEST_RESIDUAL * T::EPSILON.as_f64());
     let newton = || {
         // Inertia bounds the condition number, and a linear body needs one direction alone.
-        let solver = if kind == IntegratorKind::Static || system.is_linear() {
+        let solver = if kind == IntegratorKind::Static && system.is_linear() {
+            // No load makes this matrix indefinite.
+            solver().with_direct_fallback()
+        } else if kind == IntegratorKind::Static || system.is_linear() {
             solver()
         } else {
             Solver::for_directions(choice, &system.pattern, &rest())

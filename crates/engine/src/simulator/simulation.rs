@@ -210,6 +210,7 @@ impl<T: Compiled> Simulation for Simulator<T> {
         Counters {
             symbolic_factorizations: solver.symbolic_factorizations,
             solver_iterations: solver.iterations,
+            solver_fallbacks: solver.fallbacks,
             skinning_rows: self.skinned_rows.load(Ordering::Relaxed),
             ..self.counters
         }
@@ -254,7 +255,7 @@ impl<T: Real> Simulator<T> {
         let methods: Vec<_> = integrators(method).iter().copied().filter(|kind| is_usable(*kind)).collect();
         self.kind = self.kind.next_in(&methods);
         let planes = self.contact.as_ref().map(|contact| contact.planes());
-        self.integrator = switched(self.kind, &self.method, &mut self.system, planes);
+        self.integrator = switched(self.kind, &self.method, &mut self.system, self.solver, planes);
     }
 
     pub(super) fn reactions_now(&self) -> Vec<Reaction> {

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::model::numbering::{Numbering, Ordering};
 use fem_elements::Real;
 use fem_elements::sparse::{Pattern, Stored};
-use fem_mesh::box_mesh;
+use fem_mesh::{TetrahedralMesh, box_mesh};
 
 /// Young's modulus in Pa, Poisson's ratio, density in kg/m³.
 const MATERIAL: (f64, f64, f64) = (6e5, 0.4, 1000.0);
@@ -28,7 +28,22 @@ impl Beam {
     }
 
     pub fn constrained_where(cells_per_unit: usize, stored: Stored, is_in: impl Fn(&Vector3<f64>) -> bool) -> Self {
-        let mesh = box_mesh([4.0, 1.0, 1.0], cells_per_unit).unwrap();
+        Self::of_mesh(box_mesh([4.0, 1.0, 1.0], cells_per_unit).unwrap(), stored, is_in)
+    }
+
+    /// A beam of so many cells along and across, with this position for each point of the box 1 m × 1 m × 1 m, and its end x = 0 of the box
+    /// constrained.
+    pub fn mapped([along, across]: [usize; 2], stored: Stored, map: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
+        let mut mesh = box_mesh([along as f64, across as f64, across as f64], 1).unwrap();
+        let sizes = Vector3::new(along as f64, across as f64, across as f64);
+        let boxed: Vec<_> = mesh.vertices.iter().map(|x| x.component_div(&sizes)).collect();
+        let is_end: std::collections::HashSet<_> =
+            boxed.iter().filter(|x| x.x == 0.0).map(|x| map((*x).into()).map(f64::to_bits)).collect();
+        mesh.vertices = boxed.into_iter().map(|x| map(x.into()).into()).collect();
+        Self::of_mesh(mesh, stored, |x| is_end.contains(&[x.x, x.y, x.z].map(f64::to_bits)))
+    }
+
+    fn of_mesh(mesh: TetrahedralMesh, stored: Stored, is_in: impl Fn(&Vector3<f64>) -> bool) -> Self {
         let constrained: Vec<bool> = mesh.vertices.iter().map(is_in).collect();
         let numbering = Numbering::new(Ordering::FillReducing, &mesh.vertices, &mesh.elements, &constrained);
         let elements = numbering.elements(&mesh.elements);

@@ -8,6 +8,7 @@ mod block;
 mod choice;
 mod device;
 mod direct;
+mod fallback;
 mod inverse;
 mod krylov;
 mod parts;
@@ -16,6 +17,8 @@ mod solver;
 
 #[cfg(test)]
 pub(crate) mod beam;
+#[cfg(test)]
+mod slender_tests;
 #[cfg(test)]
 mod teaching_tests;
 #[cfg(test)]
@@ -31,4 +34,5 @@ pub(crate) use assembly::DeviceElements;
 #[cfg(feature = "gpu")]
 pub(crate) use device::device as open_device;
 pub(crate) use device::unusable as unusable_device;
+pub(crate) use fallback::factor_fits;
 pub(crate) use inverse::ApproximateInverse;

@@ -1,5 +1,10 @@
 //! A solver for matrices of one sparsity pattern.
 
+mod checkpoint;
+mod counters;
+
+pub use counters::SolverCounters;
+
 use std::sync::Arc;
 
 use super::ApproximateInverse;
@@ -9,29 +14,16 @@ use super::assembly::DeviceElements;
 use super::choice::{Preconditioner, SolverChoice};
 use super::device;
 use super::direct::{Lu, cholesky, cholesky_for_directions};
+use super::fallback::DirectFallback;
 use super::krylov::{
     LinearSystem, Workspace, conjugate_directions, conjugate_gradients, parts, product, refine, steepest_descent,
 };
 use super::parts::Part;
 use super::preconditioners::{BlockJacobi, Identity, IncompleteCholesky, Multigrid, Ssor};
 use fem_elements::Real;
-use fem_elements::history::{put_flag, take_flag};
-use fem_elements::sparse::{Block, Pattern};
+use fem_elements::sparse::{Block, Pattern, Stored};
 use fem_scene::Timer;
-use fem_scene::simulation::{Breakdown, History};
-
-/// Operations that a solver has carried out.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct SolverCounters {
-    /// Analyses of a sparsity pattern.
-    pub symbolic_factorizations: usize,
-    /// Computations of a factor or a preconditioner.
-    pub factorizations: usize,
-    /// Linear systems.
-    pub solves: usize,
-    /// Iterations of all solves.
-    pub iterations: usize,
-}
+use fem_scene::simulation::Breakdown;
 
 /// A solver for matrices of one sparsity pattern. It allocates nothing after the first [`prepare`](Self::prepare) and
 /// [`solve`](Self::solve), but for the directions that conjugate directions keep.
@@ -43,6 +35,7 @@ pub struct Solver<T: Real> {
     inverse: Box<dyn ApproximateInverse<T>>,
     /// True if the matrix was assembled by the inverse itself, and only there.
     has_own_matrix: bool,
+    fallback: Option<DirectFallback<T>>,
     workspace: Workspace<T>,
     counters: SolverCounters,
     preparing: Timer,
@@ -87,11 +80,20 @@ impl<T: Real> Solver<T> {
             pattern: Arc::clone(pattern),
             inverse,
             has_own_matrix: false,
+            fallback: None,
             workspace: Workspace::new(pattern.rows()),
             counters: SolverCounters { symbolic_factorizations: 1, ..SolverCounters::default() },
             preparing: Timer::default(),
             solving: Timer::default(),
         }
+    }
+
+    /// Factors the matrix where the iterative solver breaks down and a factor fits into memory: for a matrix that is positive definite unless
+    /// the scene is wrong.
+    pub fn with_direct_fallback(mut self) -> Self {
+        let has_factor = self.choice.stored() == Stored::Lower && self.choice.is_iterative();
+        self.fallback = has_factor.then(DirectFallback::new);
+        self
     }
 
     /// Computes the factor or the preconditioner for the values of a matrix. After an error it must be called again before
@@ -100,7 +102,21 @@ impl<T: Real> Solver<T> {
         self.counters.factorizations += 1;
         self.has_own_matrix = false;
         let Self { inverse, preparing, .. } = self;
-        preparing.time(|| inverse.prepare(values))
+        let outcome = preparing.time(|| inverse.prepare(values));
+        if let Some(fallback) = &mut self.fallback {
+            fallback.is_in_use = false;
+        }
+        outcome.or_else(|breakdown| self.fall_back(values, breakdown))
+    }
+
+    /// Factors the matrix after a breakdown, or returns the breakdown where the solver does not [fall back](Self::with_direct_fallback).
+    fn fall_back(&mut self, values: &[Block<T, 3>], breakdown: Breakdown) -> Result<(), Breakdown> {
+        let Self { fallback, pattern, preparing, counters, .. } = self;
+        let Some(fallback) = fallback.as_mut().filter(|fallback| !fallback.is_in_use) else { return Err(breakdown) };
+        counters.symbolic_factorizations += usize::from(fallback.bytes() == 0);
+        preparing.time(|| fallback.prepare(pattern, values, breakdown))?;
+        counters.fallbacks += 1;
+        Ok(())
     }
 
     /// Receives the elements whose matrices a graphics device then assembles; other solvers ignore them.
@@ -159,7 +175,26 @@ impl<T: Real> Solver<T> {
         observe: &mut dyn FnMut(&[[T; 3]]),
     ) -> Result<usize, Breakdown> {
         self.counters.solves += 1;
-        let Self { choice, pattern, parts, inverse, workspace, solving, .. } = self;
+        match self.iterate(values, b, x, tolerance, observe) {
+            Err(breakdown) => {
+                self.fall_back(values, breakdown)?;
+                self.iterate(values, b, x, tolerance, observe)
+            }
+            solved => solved,
+        }
+    }
+
+    /// One attempt at a solution, by the factor of the [fallback](Self::with_direct_fallback) where that is in use.
+    fn iterate(
+        &mut self,
+        values: &[Block<T, 3>],
+        b: &[[T; 3]],
+        x: &mut [[T; 3]],
+        tolerance: f64,
+        observe: &mut dyn FnMut(&[[T; 3]]),
+    ) -> Result<usize, Breakdown> {
+        let Self { choice, pattern, parts, inverse, fallback, workspace, solving, .. } = self;
+        let mut fallback = fallback.as_mut().filter(|fallback| fallback.is_in_use);
         let (b, x) = (&b[..pattern.rows()], &mut x[..pattern.rows()]);
         let has_own_matrix = self.has_own_matrix;
         let iterations = solving.time(|| {
@@ -169,7 +204,9 @@ impl<T: Real> Solver<T> {
             }
             let A = |x: &[[T; 3]], y: &mut [[T; 3]]| product(pattern, parts, values, x, y);
             let mut corrections = 0;
-            if !choice.is_iterative() {
+            if let Some(factor) = &mut fallback {
+                factor.apply(b, x);
+            } else if !choice.is_iterative() {
                 inverse.apply(b, x);
             } else if choice.copies_matrix() {
                 let refined = {
@@ -181,7 +218,10 @@ impl<T: Real> Solver<T> {
                 }
                 corrections = refined.iterations;
             }
-            let P = |r: &[[T; 3]], z: &mut [[T; 3]]| inverse.apply(r, z);
+            let P = |r: &[[T; 3]], z: &mut [[T; 3]]| match &mut fallback {
+                Some(factor) => factor.apply(r, z),
+                None => inverse.apply(r, z),
+            };
             let largest_entry = || largest_entry(pattern, values);
             let system = LinearSystem { A, largest_entry, b, tolerance };
             let iterations = match choice {
@@ -201,30 +241,12 @@ impl<T: Real> Solver<T> {
 
     /// z = P⁻¹ r, with P the factorised matrix or the preconditioner.
     pub fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
-        let Self { pattern, inverse, solving, .. } = self;
-        solving.time(|| inverse.apply(&r[..pattern.rows()], &mut z[..pattern.rows()]));
-    }
-
-    /// Adds the data of earlier matrices that the next preparation needs, and, if the factor or preconditioner `is_kept`, those that it
-    /// depends on.
-    pub fn save(&self, is_kept: bool, history: &mut History) {
-        if self.inverse.assembles() {
-            put_flag(history, "solver.has_own_matrix", self.has_own_matrix);
-        }
-        self.inverse.save(is_kept, history);
-    }
-
-    /// Restores the data that [`save`](Self::save) has added.
-    pub fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String> {
-        self.has_own_matrix = self.inverse.assembles() && take_flag(history, "solver.has_own_matrix")?;
-        self.inverse.restore(is_kept, history)
-    }
-
-    /// Computes the kept factor or preconditioner after [`restore`](Self::restore), bit for bit as it was. `values` is the matrix that
-    /// is still in use.
-    pub fn prepare_again(&mut self, values: &[Block<T, 3>]) -> Result<(), String> {
-        let again = self.inverse.prepare_again(values);
-        again.map_err(|breakdown| format!("its matrix cannot be factored again: {breakdown}"))
+        let Self { pattern, inverse, fallback, solving, .. } = self;
+        let (r, z) = (&r[..pattern.rows()], &mut z[..pattern.rows()]);
+        solving.time(|| match fallback.as_mut().filter(|fallback| fallback.is_in_use) {
+            Some(factor) => factor.apply(r, z),
+            None => inverse.apply(r, z),
+        });
     }
 
     /// Returns true if a solve iterates with the matrix that it is given, so that the prepared matrix only preconditions.
@@ -259,7 +281,8 @@ impl<T: Real> Solver<T> {
 
     /// Allocated bytes without the pattern. The factors of an LU factorisation are not counted: faer does not report their size.
     pub fn bytes(&self) -> usize {
-        self.inverse.bytes() + self.workspace.bytes()
+        let fallback = self.fallback.as_ref().map_or(0, |fallback| fallback.bytes());
+        self.inverse.bytes() + self.workspace.bytes() + fallback
     }
 }
 

@@ -106,6 +106,13 @@ impl Failure {
             _ if matches!(cause, Cause::Solver(breakdown) if breakdown.is_of_machine()) => {
                 "use solver.kind = \"pcg\"".to_owned()
             }
+            Integrator::Static if matches!(cause, Cause::Solver(Breakdown::NotConverged { .. })) => {
+                "use solver.kind = \"cholesky\"".to_owned()
+            }
+            Integrator::Static if matches!(cause, Cause::Solver(_)) => {
+                "constrain the body so that it cannot move freely, or, under a nonlinear law, use more static.load_steps or smaller loads"
+                    .to_owned()
+            }
             Integrator::Static => {
                 "use more static.load_steps, smaller loads, or static.arc_length where the load has a limit point"
                     .to_owned()

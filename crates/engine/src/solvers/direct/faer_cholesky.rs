@@ -1,6 +1,6 @@
 //! Sparse Cholesky factorisation A = L Lᵀ of large matrices, by faer: supernodal, in several threads.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::sparse::SparseColMatRef;
 use faer::sparse::linalg::SupernodalThreshold;
@@ -21,7 +21,7 @@ use fem_scene::simulation::Breakdown;
 const ROWS_FOR_THREADS: usize = 5_000;
 
 /// A factor with its workspace.
-pub(super) struct FaerCholesky<T> {
+pub(crate) struct FaerCholesky<T> {
     matrix: CscMatrix<T>,
     /// `None` if the factor would not fit into memory.
     symbolic: Option<SymbolicCholesky<u32>>,
@@ -35,18 +35,40 @@ impl<T: Real> FaerCholesky<T> {
     /// Symbolic factorisation in the order of the rows; `pattern` stores the lower half.
     pub(super) fn new(pattern: &Pattern) -> Self {
         let matrix = CscMatrix::new(pattern);
-        let threads = if pattern.rows() < ROWS_FOR_THREADS { Par::Seq } else { Par::rayon(0) };
-        let symbolic = symbolic_factor(&matrix);
+        let symbolic = symbolic_factor(&matrix, SymmetricOrdering::Identity);
+        Self::with_symbolic(matrix, symbolic, threads(pattern))
+    }
+
+    /// The same in a fill-reducing order, for rows in another one. Returns an error if the factor would take more than `limit` bytes.
+    pub(crate) fn reordered(pattern: &Pattern, limit: Option<usize>) -> Result<Self, Breakdown> {
+        let matrix = CscMatrix::new(pattern);
+        let symbolic = symbolic_factor(&matrix, SymmetricOrdering::Amd).ok_or(Breakdown::TooLarge)?;
+        let threads = threads(pattern);
+        let bytes = symbolic.len_val() * size_of::<T>() + scratch::<T>(&symbolic, threads).size_bytes();
+        if limit.is_some_and(|limit| bytes > limit) {
+            return Err(Breakdown::TooLarge);
+        }
+        Ok(Self::with_symbolic(matrix, Some(symbolic), threads))
+    }
+
+    fn with_symbolic(matrix: CscMatrix<T>, symbolic: Option<SymbolicCholesky<u32>>, threads: Par) -> Self {
         let (entries, need) = match &symbolic {
-            Some(symbolic) => {
-                let factor = symbolic.factorize_numeric_llt_scratch::<T>(threads, Spec::default());
-                (symbolic.len_val(), factor.or(symbolic.solve_in_place_scratch::<T>(1, threads)))
-            }
-            None => (0, faer::dyn_stack::StackReq::EMPTY),
+            Some(symbolic) => (symbolic.len_val(), scratch::<T>(symbolic, threads)),
+            None => (0, StackReq::EMPTY),
         };
         let (L, workspace) = (vec![T::default(); entries], MemBuffer::new(need));
         Self { matrix, symbolic, L, workspace, workspace_bytes: need.size_bytes(), threads }
     }
+}
+
+fn threads(pattern: &Pattern) -> Par {
+    if pattern.rows() < ROWS_FOR_THREADS { Par::Seq } else { Par::rayon(0) }
+}
+
+/// Workspace of a factorisation and a substitution.
+fn scratch<T: Real>(symbolic: &SymbolicCholesky<u32>, threads: Par) -> StackReq {
+    let factor = symbolic.factorize_numeric_llt_scratch::<T>(threads, Spec::default());
+    factor.or(symbolic.solve_in_place_scratch::<T>(1, threads))
 }
 
 impl<T: Real> ApproximateInverse<T> for FaerCholesky<T> {
@@ -87,13 +109,16 @@ impl<T: Real> ApproximateInverse<T> for FaerCholesky<T> {
     }
 }
 
-fn symbolic_factor<T: Real>(matrix: &CscMatrix<T>) -> Option<SymbolicCholesky<u32>> {
+fn symbolic_factor<T: Real>(
+    matrix: &CscMatrix<T>,
+    ordering: SymmetricOrdering<'_, u32>,
+) -> Option<SymbolicCholesky<u32>> {
     let supernodal = CholeskySymbolicParams {
         supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
         ..Default::default()
     };
     let upper = matrix.symbolic().to_row_major().ok()?;
-    factorize_symbolic_cholesky(upper.transpose(), Side::Upper, SymmetricOrdering::Identity, supernodal).ok()
+    factorize_symbolic_cholesky(upper.transpose(), Side::Upper, ordering, supernodal).ok()
 }
 
 /// Refuses a factor with a pivot that round-off alone has made positive: faer accepts it, and the matrix is singular.
@@ -102,13 +127,16 @@ fn check_pivots<T: Real>(
     L: &[T],
     A: SparseColMatRef<'_, u32, T>,
 ) -> Result<(), Breakdown> {
+    let order = symbolic.perm().map(|order| order.arrays().0);
     let SymbolicCholeskyRaw::Supernodal(symbolic) = symbolic.raw() else { return Ok(()) };
     let L = SupernodalLltRef::new(symbolic, L);
     for supernode in 0..symbolic.n_supernodes() {
         let columns = L.supernode(supernode);
         for j in 0..columns.val().ncols() {
             let pivot = columns.val()[(j, j)];
-            sqrt_pivot(pivot * pivot, A.val_of_col(columns.start() + j)[0])?;
+            let column = columns.start() + j;
+            let column = order.map_or(column, |order| order[column] as usize);
+            sqrt_pivot(pivot * pivot, A.val_of_col(column)[0])?;
         }
     }
     Ok(())

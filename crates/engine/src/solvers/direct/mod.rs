@@ -9,13 +9,13 @@ mod supernodal;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use faer_cholesky::FaerCholesky;
 pub(crate) use lu::Lu;
 pub(crate) use supernodal::SupernodalCholesky;
 
 use std::sync::Arc;
 
 use super::ApproximateInverse;
-use faer_cholesky::FaerCholesky;
 use fem_elements::Real;
 use fem_elements::sparse::Pattern;
 use single::SingleCholesky;

@@ -9,10 +9,14 @@ const NONE: u32 = u32::MAX;
 /// all of them would leave too few nodes for the motions of the next level: the cycle would need more iterations with each level.
 const COARSE_NEIGHBOURS: usize = 8;
 
+/// Adjacent nodes at more than this multiple of the distance of the nearest one are weakly coupled: with them, an aggregate of stretched elements
+/// would be long, and the smoother, which is slow along weak couplings, would leave too much to the coarse level.
+const FAR: f64 = 4.0;
+
 /// The aggregate of each node, and the number of aggregates, from the pattern of A and the positions of its nodes. First whole
 /// neighbourhoods become aggregates, then each remaining node joins an adjacent one (Vaněk, Mandel and Brezina, Algebraic Multigrid by
 /// Smoothed Aggregation for Second and Fourth Order Elliptic Problems, 1996), or becomes one of its own if there is none.
-pub fn aggregate<const D: usize>(A: &Blocks<D, D>, positions: &[[f32; 3]]) -> (Vec<u32>, usize) {
+pub fn aggregate<const D: usize>(A: &Blocks<D, D>, positions: &[[f64; 3]]) -> (Vec<u32>, usize) {
     let mut aggregates = vec![NONE; A.rows()];
     let mut count = 0;
     for node in 0..A.rows() {
@@ -35,45 +39,30 @@ pub fn aggregate<const D: usize>(A: &Blocks<D, D>, positions: &[[f32; 3]]) -> (V
     (aggregates, count as usize)
 }
 
-/// The node and the nodes that join its aggregate: all adjacent ones on the finest level, the nearest on the others.
-fn neighbours<const D: usize>(A: &Blocks<D, D>, node: usize, positions: &[[f32; 3]]) -> Vec<u32> {
+/// The node and the nodes that join its aggregate: on the finest level the adjacent ones that are not [far](FAR), on the others the nearest.
+fn neighbours<const D: usize>(A: &Blocks<D, D>, node: usize, positions: &[[f64; 3]]) -> Vec<u32> {
     let mut neighbours = A.row(node).0.to_vec();
+    let squared_distance =
+        |&other: &u32| (0..3).map(|i| (positions[other as usize][i] - positions[node][i]).powi(2)).sum::<f64>();
     if D > 3 && neighbours.len() > COARSE_NEIGHBOURS {
-        let squared_distance =
-            |&other: &u32| (0..3).map(|i| (positions[other as usize][i] - positions[node][i]).powi(2)).sum::<f32>();
         neighbours.sort_by(|a, b| squared_distance(a).total_cmp(&squared_distance(b)).then(a.cmp(b)));
         neighbours.truncate(COARSE_NEIGHBOURS);
+    }
+    if D == 3 {
+        let others = neighbours.iter().filter(|&&other| other as usize != node);
+        let nearest = others.map(squared_distance).fold(f64::INFINITY, f64::min);
+        neighbours.retain(|other| squared_distance(other) <= FAR * FAR * nearest);
     }
     neighbours
 }
 
 /// Mean position of the nodes of each aggregate.
-pub fn centres(aggregates: &[u32], count: usize, positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
-    let mut sums = vec![[0.0f32; 4]; count];
+pub fn centres(aggregates: &[u32], count: usize, positions: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let mut sums = vec![[0.0; 4]; count];
     for (&aggregate, position) in aggregates.iter().zip(positions) {
         let sum = &mut sums[aggregate as usize];
         (0..3).for_each(|i| sum[i] += position[i]);
         sum[3] += 1.0;
     }
     sums.iter().map(|sum| [sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]]).collect()
-}
-
-/// Rigid motions of the aggregates: a displacement u and a rotation ω about the centre c give a node at x the displacement
-/// u + ω × (x − c), and the rotation ω if the node has rotations (D = 6).
-pub fn rigid<const D: usize>(aggregates: &[u32], centres: &[[f32; 3]], positions: &[[f32; 3]]) -> Blocks<D, 6> {
-    let mut motion = Blocks::zeros((0..=aggregates.len()).collect(), aggregates.to_vec());
-    for ((block, &aggregate), x) in motion.values.iter_mut().zip(aggregates).zip(positions) {
-        let c = &centres[aggregate as usize];
-        let [x, y, z] = [x[0] - c[0], x[1] - c[1], x[2] - c[2]];
-        let rows = [
-            [1.0, 0.0, 0.0, 0.0, z, -y],
-            [0.0, 1.0, 0.0, -z, 0.0, x],
-            [0.0, 0.0, 1.0, y, -x, 0.0],
-            [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
-            [0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
-            [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
-        ];
-        block.copy_from_slice(&rows[..D]);
-    }
-    motion
 }

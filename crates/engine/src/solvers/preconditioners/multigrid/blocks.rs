@@ -1,4 +1,6 @@
-//! Sparse matrices of R×C blocks in single precision, and their products with fixed sparsity patterns.
+//! Sparse matrices of R×C blocks, in single precision for cycles and in double for products, whose sparsity patterns are fixed.
+
+use std::ops::Range;
 
 use pulp::{Simd, WithSimd};
 
@@ -6,23 +8,27 @@ use fem_elements::number::vectorized;
 
 /// A matrix in block compressed sparse rows.
 #[derive(Clone)]
-pub struct Blocks<const R: usize, const C: usize> {
+pub struct Blocks<const R: usize, const C: usize, F = f32> {
     /// `starts[i]..starts[i + 1]` are the blocks of row i.
     pub starts: Vec<usize>,
     /// Column of each block, ascending within a row.
     pub columns: Vec<u32>,
-    pub values: Vec<[[f32; C]; R]>,
+    pub values: Vec<[[F; C]; R]>,
 }
 
-impl<const R: usize, const C: usize> Blocks<R, C> {
+impl<const R: usize, const C: usize, F: Copy + Default> Blocks<R, C, F> {
     /// A zero matrix with this sparsity pattern.
     pub fn zeros(starts: Vec<usize>, columns: Vec<u32>) -> Self {
-        let values = vec![[[0.0; C]; R]; columns.len()];
+        let values = vec![[[F::default(); C]; R]; columns.len()];
         Self { starts, columns, values }
     }
 
     /// A zero matrix with the sparsity pattern of A B.
-    pub fn product<const K: usize>(A: &Blocks<R, K>, B: &Blocks<K, C>) -> Self {
+    pub fn product<const K: usize, G, H>(A: &Blocks<R, K, G>, B: &Blocks<K, C, H>) -> Self
+    where
+        G: Copy + Default,
+        H: Copy + Default,
+    {
         let (mut starts, mut columns, mut row) = (vec![0], Vec::new(), Vec::new());
         for i in 0..A.rows() {
             row.clear();
@@ -39,7 +45,7 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
 
     /// A zero matrix with the sparsity pattern of Aᵀ, for A of `columns` columns, and the number in A of each block's
     /// transpose.
-    pub fn transpose(A: &Blocks<C, R>, columns: usize) -> (Self, Vec<u32>) {
+    pub fn transpose(A: &Blocks<C, R, F>, columns: usize) -> (Self, Vec<u32>) {
         let mut starts = vec![0; columns + 1];
         A.columns.iter().for_each(|&column| starts[column as usize + 1] += 1);
         for column in 0..columns {
@@ -63,7 +69,7 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
     }
 
     /// Columns and values of a row.
-    pub fn row(&self, row: usize) -> (&[u32], &[[[f32; C]; R]]) {
+    pub fn row(&self, row: usize) -> (&[u32], &[[[F; C]; R]]) {
         let blocks = self.starts[row]..self.starts[row + 1];
         (&self.columns[blocks.clone()], &self.values[blocks])
     }
@@ -73,38 +79,77 @@ impl<const R: usize, const C: usize> Blocks<R, C> {
     }
 }
 
-/// C = A B for a C from [`Blocks::product`]. `slots` is workspace with an entry for each column of C.
-pub struct Product<'a, const R: usize, const K: usize, const C: usize> {
-    pub A: &'a Blocks<R, K>,
-    pub B: &'a Blocks<K, C>,
-    pub C: &'a mut Blocks<R, C>,
-    pub slots: &'a mut [u32],
+/// Up to this many rows one thread computes.
+const ROWS: usize = 256;
+
+/// C = A B in double precision for a C from [`Blocks::product`].
+pub fn multiply<F, G, const R: usize, const K: usize, const C: usize>(
+    A: &Blocks<R, K, F>,
+    B: &Blocks<K, C, G>,
+    product: &mut Blocks<R, C, f64>,
+) where
+    F: Copy + Default + Into<f64> + Sync,
+    G: Copy + Default + Into<f64> + Sync,
+{
+    let Blocks { starts, columns, values } = product;
+    Product { A, B, starts, columns, rows: 0..A.rows(), values }.compute();
 }
 
-impl<const R: usize, const K: usize, const C: usize> Product<'_, R, K, C> {
-    pub fn compute(self) {
-        vectorized(self);
+/// Some rows of a product.
+struct Product<'a, F, G, const R: usize, const K: usize, const C: usize> {
+    A: &'a Blocks<R, K, F>,
+    B: &'a Blocks<K, C, G>,
+    /// The pattern of the product.
+    starts: &'a [usize],
+    columns: &'a [u32],
+    rows: Range<usize>,
+    /// The values in these rows.
+    values: &'a mut [[[f64; C]; R]],
+}
+
+impl<F, G, const R: usize, const K: usize, const C: usize> Product<'_, F, G, R, K, C>
+where
+    F: Copy + Default + Into<f64> + Sync,
+    G: Copy + Default + Into<f64> + Sync,
+{
+    /// Halves of many rows side by side. Each row is computed in one order, so that the threads do not change a bit.
+    fn compute(self) {
+        if self.rows.len() <= ROWS {
+            return vectorized(self);
+        }
+        let Self { A, B, starts, columns, rows, values } = self;
+        let middle = rows.start + rows.len() / 2;
+        let (left, right) = values.split_at_mut(starts[middle] - starts[rows.start]);
+        let part = |rows, values| Product { A, B, starts, columns, rows, values };
+        let (left, right) = (part(rows.start..middle, left), part(middle..rows.end, right));
+        rayon::join(|| left.compute(), || right.compute());
     }
 }
 
-impl<const R: usize, const K: usize, const C: usize> WithSimd for Product<'_, R, K, C> {
+impl<F, G, const R: usize, const K: usize, const C: usize> WithSimd for Product<'_, F, G, R, K, C>
+where
+    F: Copy + Default + Into<f64>,
+    G: Copy + Default + Into<f64>,
+{
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) {
-        let Self { A, B, C: product, slots } = self;
-        for i in 0..A.rows() {
-            let first = product.starts[i];
-            let row = &mut product.values[first..product.starts[i + 1]];
+        let Self { A, B, starts, columns: of_product, rows, values } = self;
+        let first = starts[rows.start];
+        for i in rows {
+            let of_row = &of_product[starts[i]..starts[i + 1]];
+            let row = &mut values[starts[i] - first..][..of_row.len()];
             row.fill([[0.0; C]; R]);
-            for (place, &column) in product.columns[first..][..row.len()].iter().enumerate() {
-                slots[column as usize] = place as u32;
-            }
             let (columns, values) = A.row(i);
             for (&k, a) in columns.iter().zip(values) {
+                let a = a.map(|row| row.map(Into::into));
                 let (columns, values) = B.row(k as usize);
+                let mut place = 0;
                 for (&column, b) in columns.iter().zip(values) {
-                    add_product(a, b, &mut row[slots[column as usize] as usize]);
+                    let b = b.map(|row| row.map(Into::into));
+                    place += of_row[place..].partition_point(|&other| other < column);
+                    add_product(&a, &b, &mut row[place]);
                 }
             }
         }
@@ -114,9 +159,9 @@ impl<const R: usize, const K: usize, const C: usize> WithSimd for Product<'_, R,
 /// c += a b
 #[inline(always)]
 pub fn add_product<const R: usize, const K: usize, const C: usize>(
-    a: &[[f32; K]; R],
-    b: &[[f32; C]; K],
-    c: &mut [[f32; C]; R],
+    a: &[[f64; K]; R],
+    b: &[[f64; C]; K],
+    c: &mut [[f64; C]; R],
 ) {
     for i in 0..R {
         for k in 0..K {

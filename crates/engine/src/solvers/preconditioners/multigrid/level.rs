@@ -1,10 +1,13 @@
 //! One level: a matrix, its smoother, and the prolongation from the next coarser level.
 
-use super::aggregate::{aggregate, centres, rigid};
-use super::blocks::{Blocks, Product, add_product, row_times};
+use super::aggregate::{aggregate, centres};
+use super::blocks::{Blocks, add_product, multiply, row_times};
 use super::cycle::{Rows, Smoother, over_rows, times};
+use super::motions::{Motion, orthonormal};
 use crate::solvers::block::invert;
 use crate::solvers::parts::Part;
+use pulp::{Simd, WithSimd};
+
 use fem_elements::history::{put, take};
 use fem_elements::number::vectorized;
 use fem_scene::simulation::{Breakdown, History};
@@ -12,19 +15,20 @@ use fem_scene::simulation::{Breakdown, History};
 /// Steps of the power iteration for the largest eigenvalue of D⁻¹A. It starts from the vector of the last preparation.
 const POWER_STEPS: usize = 4;
 
-/// Smallest pivot of a coarse diagonal block relative to its diagonal entry: the rotations of an aggregate of one or two nodes are not
-/// independent.
-const PIVOT: f32 = 1e-5;
-
 /// A level whose nodes have D unknowns.
 pub struct Level<const D: usize> {
-    pub A: Blocks<D, D>,
+    /// The matrix in double precision: rounded to single, it would lose the bending stiffness of a slender body, whose smallest eigenvalues are
+    /// below the round-off of the largest, and the coarse matrices would not be positive definite.
+    pub exact: Blocks<D, D, f64>,
+    /// The same in single precision, for the smoother. Its round-off there does not spoil the cycle, which stays positive definite if the coarse
+    /// matrices are.
+    A: Blocks<D, D>,
     /// The parts of A that threads sweep over side by side.
     parts: Part,
     /// Number of each diagonal block.
     diagonal: Vec<usize>,
     inverses: Vec<[[f32; D]; D]>,
-    /// Tentative prolongation: rigid motions of the aggregates.
+    /// Tentative prolongation: orthonormal rigid motions of the aggregates.
     rigid: Blocks<D, 6>,
     /// Smoothed prolongation.
     P: Blocks<D, 6>,
@@ -32,8 +36,10 @@ pub struct Level<const D: usize> {
     R: Blocks<6, D>,
     /// Number in P of the transpose of each block of R.
     R_sources: Vec<u32>,
-    AP: Blocks<D, 6>,
+    AP: Blocks<D, 6, f64>,
     slots: Vec<u32>,
+    /// Workspace for a row of A P̂.
+    row: Vec<[[f64; 6]; D]>,
     /// Vector of the power iteration.
     power: Vec<[f32; D]>,
     /// The same before the last preparation, for a checkpoint.
@@ -44,15 +50,20 @@ pub struct Level<const D: usize> {
 }
 
 impl<const D: usize> Level<D> {
-    /// From the pattern of A and the positions of its nodes: the level, the pattern of the coarse matrix and the coarse
-    /// positions.
-    pub fn new(A: Blocks<D, D>, positions: &[[f32; 3]]) -> (Self, Blocks<6, 6>, Vec<[f32; 3]>) {
+    /// From the pattern of A and the rigid motions and positions of its nodes: the level, the pattern of the coarse matrix and the coarse
+    /// motions and positions.
+    pub fn new(
+        exact: Blocks<D, D, f64>,
+        motions: &[Motion<D>],
+        positions: &[[f64; 3]],
+    ) -> (Self, Blocks<6, 6, f64>, Vec<Motion<6>>, Vec<[f64; 3]>) {
+        let A = Blocks::zeros(exact.starts.clone(), exact.columns.clone());
         let (aggregates, count) = aggregate(&A, positions);
         let coarse_positions = centres(&aggregates, count, positions);
-        let rigid = rigid(&aggregates, &coarse_positions, positions);
+        let (rigid, coarse_motions) = orthonormal(&aggregates, &coarse_positions, (motions, positions));
         let P = Blocks::product(&A, &rigid);
         let (R, R_sources) = Blocks::transpose(&P, count);
-        let AP = Blocks::product(&A, &P);
+        let AP = Blocks::<D, 6, f64>::product(&A, &P);
         let coarse = Blocks::product(&R, &AP);
         let rows = A.rows();
         let vector = || vec![[0.0; D]; rows];
@@ -61,11 +72,13 @@ impl<const D: usize> Level<D> {
             diagonal: (0..rows).map(|row| diagonal(&A, row)).collect(),
             inverses: vec![[[0.0; D]; D]; rows],
             slots: vec![0; count],
+            row: vec![[[0.0; 6]; D]; longest_row(&P)],
             power: vector(),
             power_before: vector(),
             b: vector(),
             x: vector(),
             r: vector(),
+            exact,
             A,
             rigid,
             P,
@@ -74,14 +87,17 @@ impl<const D: usize> Level<D> {
             AP,
         };
         level.restart_power();
-        (level, coarse, coarse_positions)
+        (level, coarse, coarse_motions, coarse_positions)
     }
 
     /// Computes the smoother, the prolongation and the coarse matrix Pᵀ A P from the values of A.
-    pub fn prepare(&mut self, coarse: &mut Blocks<6, 6>) -> Result<(), Breakdown> {
+    pub fn prepare(&mut self, coarse: &mut Blocks<6, 6, f64>) -> Result<(), Breakdown> {
         self.power_before.copy_from_slice(&self.power);
+        for (single, exact) in self.A.values.iter_mut().zip(&self.exact.values) {
+            *single = exact.map(|row| row.map(|entry| entry as f32));
+        }
         for (inverse, &block) in self.inverses.iter_mut().zip(&self.diagonal) {
-            *inverse = invert(&self.A.values[block])?;
+            *inverse = invert(&self.exact.values[block])?.map(|row| row.map(|entry| entry as f32));
         }
         let largest = self.largest_eigenvalue();
         if !largest.is_finite() {
@@ -93,11 +109,11 @@ impl<const D: usize> Level<D> {
             let block = &self.P.values[source as usize];
             *transpose = std::array::from_fn(|i| std::array::from_fn(|j| block[j][i]));
         }
-        Product { A: &self.A, B: &self.P, C: &mut self.AP, slots: &mut self.slots }.compute();
-        Product { A: &self.R, B: &self.AP, C: coarse, slots: &mut self.slots }.compute();
+        multiply(&self.exact, &self.P, &mut self.AP);
+        multiply(&self.R, &self.AP, coarse);
         for row in 0..coarse.rows() {
             let block = diagonal(coarse, row);
-            regularize(&mut coarse.values[block]);
+            fix_missing_motions(&mut coarse.values[block]);
         }
         Ok(())
     }
@@ -121,17 +137,7 @@ impl<const D: usize> Level<D> {
 
     /// P = (1 − ω D⁻¹ A) P̂, with P̂ the tentative prolongation.
     fn smooth_prolongation(&mut self, omega: f32) {
-        Product { A: &self.A, B: &self.rigid, C: &mut self.P, slots: &mut self.slots }.compute();
-        for row in 0..self.A.rows() {
-            let mut scaled = self.inverses[row];
-            scaled.as_flattened_mut().iter_mut().for_each(|entry| *entry *= -omega);
-            let (own, motion) = (self.rigid.columns[row], &self.rigid.values[row]);
-            for block in self.P.starts[row]..self.P.starts[row + 1] {
-                let mut smoothed = if self.P.columns[block] == own { *motion } else { [[0.0; 6]; D] };
-                add_product(&scaled, &self.P.values[block], &mut smoothed);
-                self.P.values[block] = smoothed;
-            }
-        }
+        vectorized(Smoothing { level: self, omega: f64::from(omega) });
     }
 
     /// Estimate of the largest eigenvalue of D⁻¹A.
@@ -173,30 +179,68 @@ impl<const D: usize> Level<D> {
 
     pub fn bytes(&self) -> usize {
         let vectors = 5 * size_of_val(self.x.as_slice()) + size_of_val(self.inverses.as_slice());
-        self.A.bytes() + self.rigid.bytes() + self.P.bytes() + self.R.bytes() + self.AP.bytes() + vectors
+        self.A.bytes()
+            + self.exact.bytes()
+            + self.rigid.bytes()
+            + self.P.bytes()
+            + self.R.bytes()
+            + self.AP.bytes()
+            + vectors
     }
 }
 
-/// Enlarges the diagonal entries whose pivots are too small in a factorisation of the block. The others stay as they are: a shift of
-/// all would exceed the smallest eigenvalues of a slender body.
-fn regularize(block: &mut [[f32; 6]; 6]) {
-    let most = (0..6).map(|i| block[i][i]).fold(0.0, f32::max);
-    let mut L = [[0.0f32; 6]; 6];
-    for j in 0..6 {
-        let entry = block[j][j];
-        let least = PIVOT * if entry > PIVOT * most { entry } else { most };
-        let pivot = entry - (0..j).map(|k| L[j][k] * L[j][k]).sum::<f32>();
-        if pivot < least {
-            block[j][j] += least - pivot;
+/// The computation of P row by row.
+struct Smoothing<'a, const D: usize> {
+    level: &'a mut Level<D>,
+    omega: f64,
+}
+
+impl<const D: usize> WithSimd for Smoothing<'_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) {
+        let Self { level: Level { exact, inverses, rigid, P, slots, row, .. }, omega } = self;
+        for i in 0..exact.rows() {
+            let blocks = P.starts[i]..P.starts[i + 1];
+            let row = &mut row[..blocks.len()];
+            row.fill([[0.0; 6]; D]);
+            for (place, &column) in P.columns[blocks.clone()].iter().enumerate() {
+                slots[column as usize] = place as u32;
+            }
+            let (columns, values) = exact.row(i);
+            for (&k, a) in columns.iter().zip(values) {
+                let k = k as usize;
+                let motion = rigid.values[k].map(|row| row.map(f64::from));
+                add_product(a, &motion, &mut row[slots[rigid.columns[k] as usize] as usize]);
+            }
+            let scaled = inverses[i].map(|row| row.map(|entry| -omega * f64::from(entry)));
+            for ((P, product), &column) in P.values[blocks.clone()].iter_mut().zip(&*row).zip(&P.columns[blocks]) {
+                let is_own = column == rigid.columns[i];
+                let mut smoothed = if is_own { rigid.values[i].map(|row| row.map(f64::from)) } else { [[0.0; 6]; D] };
+                add_product(&scaled, product, &mut smoothed);
+                *P = smoothed.map(|row| row.map(|entry| entry as f32));
+            }
         }
-        L[j][j] = pivot.max(least).sqrt();
-        for i in j + 1..6 {
-            L[i][j] = (block[i][j] - (0..j).map(|k| L[i][k] * L[j][k]).sum::<f32>()) / L[j][j];
+    }
+}
+
+/// Gives a stiffness to the motions that an aggregate lacks: their rows are zero, no other row knows them, and no load reaches them.
+fn fix_missing_motions(block: &mut [[f64; 6]; 6]) {
+    let most = (0..6).map(|i| block[i][i]).fold(0.0, f64::max);
+    for i in 0..6 {
+        if block[i].iter().all(|entry| *entry == 0.0) {
+            block[i][i] = most;
         }
     }
 }
 
 /// Number of the diagonal block of a row.
-fn diagonal<const D: usize>(A: &Blocks<D, D>, row: usize) -> usize {
+fn diagonal<const D: usize, F: Copy + Default>(A: &Blocks<D, D, F>, row: usize) -> usize {
     A.starts[row] + A.row(row).0.partition_point(|&column| (column as usize) < row)
+}
+
+/// The largest number of blocks in a row.
+fn longest_row<const R: usize, const C: usize>(A: &Blocks<R, C>) -> usize {
+    (0..A.rows()).map(|row| A.row(row).0.len()).max().unwrap_or(0)
 }

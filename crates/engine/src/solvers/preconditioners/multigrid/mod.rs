@@ -1,13 +1,16 @@
 //! Multigrid by smoothed aggregation with the six rigid motions: Vaněk, Mandel and Brezina, Algebraic Multigrid by Smoothed
-//! Aggregation for Second and Fourth Order Elliptic Problems (1996). In single precision, which is enough for a preconditioner.
+//! Aggregation for Second and Fourth Order Elliptic Problems (1996). The coarse matrices are computed and factored in double precision, and
+//! cycles smooth in single, whose round-off a preconditioner forgives.
 
 mod aggregate;
 mod blocks;
 mod cycle;
 mod level;
+mod motions;
 
 use blocks::Blocks;
 use level::Level;
+use motions::DISPLACEMENTS;
 
 use super::single_precision_scale;
 use crate::solvers::ApproximateInverse;
@@ -26,12 +29,15 @@ const MAX_COARSEST: usize = 1000;
 pub(crate) struct Multigrid {
     fine: Level<3>,
     coarser: Vec<Level<6>>,
-    coarsest: Blocks<6, 6>,
+    coarsest: Blocks<6, 6, f64>,
     /// Right-hand side and solution on the coarsest level.
     b: Vec<[f32; 6]>,
     x: Vec<[f32; 6]>,
-    direct: SupernodalCholesky<f32>,
-    direct_values: Vec<[[f32; 3]; 3]>,
+    direct: SupernodalCholesky<f64>,
+    direct_values: Vec<[[f64; 3]; 3]>,
+    /// Right-hand side and solution of the factor.
+    direct_b: Vec<[f64; 3]>,
+    direct_x: Vec<[f64; 3]>,
     /// Number in the given matrix of each block of the fine one, or of its transpose right of the diagonal.
     sources: Vec<u32>,
     diagonal: Vec<u32>,
@@ -43,16 +49,17 @@ impl Multigrid {
     /// Finds the levels from a pattern, which may store the lower half, and the undeformed positions of its nodes, m.
     pub(crate) fn new(pattern: &Pattern, rest: &[[f64; 3]]) -> Self {
         let (fine, sources) = all_blocks(pattern);
-        let (fine, mut coarsest, mut positions) = Level::new(fine, &scaled_positions(rest));
+        let motions = vec![DISPLACEMENTS; rest.len()];
+        let (fine, mut coarsest, mut motions, mut positions) = Level::new(fine, &motions, &scaled_positions(rest));
         let mut coarser = Vec::new();
         while coarsest.rows() > MAX_COARSEST {
             let before = coarsest.rows();
-            let (level, next, next_positions) = Level::new(coarsest.clone(), &positions);
+            let (level, next, next_motions, next_positions) = Level::new(coarsest.clone(), &motions, &positions);
             if 2 * next.rows() > before {
                 break;
             }
             coarser.push(level);
-            (coarsest, positions) = (next, next_positions);
+            (coarsest, motions, positions) = (next, next_motions, next_positions);
         }
         let lower = lower_pattern(&coarsest);
         let vector = vec![[0.0; 6]; coarsest.rows()];
@@ -61,6 +68,8 @@ impl Multigrid {
             coarser,
             direct: SupernodalCholesky::new(&lower),
             direct_values: vec![Default::default(); lower.blocks()],
+            direct_b: vec![[0.0; 3]; lower.rows()],
+            direct_x: vec![[0.0; 3]; lower.rows()],
             b: vector.clone(),
             x: vector,
             coarsest,
@@ -78,9 +87,13 @@ impl Multigrid {
             let (levels, coarser) = self.coarser.split_at_mut(number + 1);
             levels[number].descend(coarser.first_mut().map_or(&mut self.b, |level| &mut level.b));
         }
-        let (b, _) = self.b.as_flattened().as_chunks::<3>();
-        let (x, _) = self.x.as_flattened_mut().as_chunks_mut::<3>();
-        self.direct.apply(b, x);
+        for (double, b) in self.direct_b.as_flattened_mut().iter_mut().zip(self.b.as_flattened()) {
+            *double = f64::from(*b);
+        }
+        self.direct.apply(&self.direct_b, &mut self.direct_x);
+        for (x, double) in self.x.as_flattened_mut().iter_mut().zip(self.direct_x.as_flattened()) {
+            *x = *double as f32;
+        }
         for number in (0..self.coarser.len()).rev() {
             let (levels, coarser) = self.coarser.split_at_mut(number + 1);
             levels[number].ascend(coarser.first().map_or(&self.x, |level| &level.x));
@@ -88,13 +101,13 @@ impl Multigrid {
         self.fine.ascend(self.coarser.first().map_or(&self.x, |level| &level.x));
     }
 
-    /// Prepares all levels for the fine matrix in single precision.
+    /// Prepares all levels for the fine matrix.
     fn prepare_levels(&mut self) -> Result<(), Breakdown> {
-        let first = self.coarser.first_mut().map_or(&mut self.coarsest, |level| &mut level.A);
+        let first = self.coarser.first_mut().map_or(&mut self.coarsest, |level| &mut level.exact);
         self.fine.prepare(first)?;
         for number in 0..self.coarser.len() {
             let (levels, coarser) = self.coarser.split_at_mut(number + 1);
-            let next = coarser.first_mut().map_or(&mut self.coarsest, |level| &mut level.A);
+            let next = coarser.first_mut().map_or(&mut self.coarsest, |level| &mut level.exact);
             levels[number].prepare(next)?;
         }
         copy_lower(&self.coarsest, &mut self.direct_values);
@@ -105,12 +118,12 @@ impl Multigrid {
 impl<T: Real> ApproximateInverse<T> for Multigrid {
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
         self.scale = single_precision_scale(values, &self.diagonal)?;
-        let Blocks { starts, columns, values: singles } = &mut self.fine.A;
+        let Blocks { starts, columns, values: exact } = &mut self.fine.exact;
         for row in 0..starts.len() - 1 {
             for block in starts[row]..starts[row + 1] {
                 let value = &values[self.sources[block] as usize];
-                let single = map(value, |entry| (entry.as_f64() * self.scale) as f32);
-                singles[block] = if columns[block] as usize > row { transposed(&single) } else { single };
+                let scaled = map(value, |entry| entry.as_f64() * self.scale);
+                exact[block] = if columns[block] as usize > row { transposed(&scaled) } else { scaled };
             }
         }
         self.prepare_levels()
@@ -139,7 +152,7 @@ impl<T: Real> ApproximateInverse<T> for Multigrid {
             level.save(is_kept, &format!("multigrid.power.{}", number + 1), history);
         }
         if is_kept {
-            put(history, "multigrid.values", self.fine.A.values.as_flattened().as_flattened());
+            put(history, "multigrid.values", self.fine.exact.values.as_flattened().as_flattened());
             put_option(history, "multigrid.scale", Some(self.scale));
         }
     }
@@ -152,7 +165,7 @@ impl<T: Real> ApproximateInverse<T> for Multigrid {
         if !is_kept {
             return Ok(());
         }
-        take(history, "multigrid.values", self.fine.A.values.as_flattened_mut().as_flattened_mut())?;
+        take(history, "multigrid.values", self.fine.exact.values.as_flattened_mut().as_flattened_mut())?;
         self.scale = take_option(history, "multigrid.scale")?.unwrap_or(1.0);
         self.prepare_levels().map_err(|breakdown| format!("its multigrid levels cannot be prepared again: {breakdown}"))
     }
@@ -164,24 +177,25 @@ impl<T: Real> ApproximateInverse<T> for Multigrid {
 
     fn bytes(&self) -> usize {
         let levels: usize = self.coarser.iter().map(Level::bytes).sum();
-        let direct = self.direct.bytes() + size_of_val(self.direct_values.as_slice());
+        let vectors = size_of_val(self.direct_b.as_slice()) + size_of_val(self.direct_x.as_slice());
+        let direct = self.direct.bytes() + size_of_val(self.direct_values.as_slice()) + vectors;
         let own = size_of_val(self.sources.as_slice()) + size_of_val(self.diagonal.as_slice());
         self.fine.bytes() + levels + self.coarsest.bytes() + direct + own
     }
 }
 
 /// Positions relative to the first node, scaled to coordinates of at most 1.
-fn scaled_positions(rest: &[[f64; 3]]) -> Vec<[f32; 3]> {
+fn scaled_positions(rest: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let Some(&origin) = rest.first() else { return Vec::new() };
     let relative = |x: &[f64; 3]| [x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]];
     let largest = rest.iter().flat_map(relative).fold(0.0, |most: f64, x| most.max(x.abs()));
     let unit = if largest > 0.0 { largest } else { 1.0 };
-    rest.iter().map(|x| relative(x).map(|x| (x / unit) as f32)).collect()
+    rest.iter().map(|x| relative(x).map(|x| x / unit)).collect()
 }
 
 /// A zero matrix with all blocks of a pattern, which may store the lower half, and the number in the pattern of each block, or of its transpose
 /// right of the diagonal.
-fn all_blocks(pattern: &Pattern) -> (Blocks<3, 3>, Vec<u32>) {
+fn all_blocks(pattern: &Pattern) -> (Blocks<3, 3, f64>, Vec<u32>) {
     let mut rows: Vec<Vec<(u32, u32)>> = vec![Vec::new(); pattern.rows()];
     for row in 0..pattern.rows() {
         for block in pattern.row(row).filter(|&block| pattern.columns[block] as usize <= row) {
@@ -202,12 +216,12 @@ fn all_blocks(pattern: &Pattern) -> (Blocks<3, 3>, Vec<u32>) {
 }
 
 /// Aᵀ for a block.
-fn transposed(A: &[[f32; 3]; 3]) -> [[f32; 3]; 3] {
+fn transposed(A: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| A[j][i]))
 }
 
 /// The pattern of the lower half of a matrix of 6×6 blocks, as 3×3 blocks.
-fn lower_pattern(A: &Blocks<6, 6>) -> Pattern {
+fn lower_pattern(A: &Blocks<6, 6, f64>) -> Pattern {
     let (mut starts, mut columns) = (vec![0], Vec::new());
     for row in 0..2 * A.rows() {
         let all = A.row(row / 2).0.iter().flat_map(|&column| [2 * column, 2 * column + 1]);
@@ -218,7 +232,7 @@ fn lower_pattern(A: &Blocks<6, 6>) -> Pattern {
 }
 
 /// Copies the lower half of a matrix of 6×6 blocks to the 3×3 blocks of its [`lower_pattern`].
-fn copy_lower(A: &Blocks<6, 6>, values: &mut [[[f32; 3]; 3]]) {
+fn copy_lower(A: &Blocks<6, 6, f64>, values: &mut [[[f64; 3]; 3]]) {
     let mut values = values.iter_mut();
     for row in 0..2 * A.rows() {
         let (columns, blocks) = A.row(row / 2);

@@ -1,0 +1,81 @@
+//! The direct factorisation that takes over where an iterative solver breaks down.
+//!
+//! Round-off in a preconditioner, or an iteration that stagnates, says little about the matrix: the factor decides whether that is positive
+//! definite.
+
+use super::ApproximateInverse;
+use super::direct::FaerCholesky;
+use fem_elements::Real;
+use fem_elements::sparse::{Block, Pattern};
+use fem_scene::simulation::Breakdown;
+
+/// The factor of a matrix with which the iterative solver has broken down.
+pub(super) struct DirectFallback<T: Real> {
+    /// Bytes that the factor may take, where that is known.
+    limit: Option<usize>,
+    factor: Option<FaerCholesky<T>>,
+    /// True if the factor is that of the matrix in use.
+    pub(super) is_in_use: bool,
+}
+
+impl<T: Real> DirectFallback<T> {
+    pub(super) fn new() -> Self {
+        Self::within(available_memory())
+    }
+
+    /// The same with a limit of so many bytes.
+    pub(super) fn within(limit: Option<usize>) -> Self {
+        Self { limit, factor: None, is_in_use: false }
+    }
+
+    /// Factors a matrix after this breakdown. Returns an error if the matrix is not positive definite, or if its factor does not fit into
+    /// memory.
+    pub(super) fn prepare(
+        &mut self,
+        pattern: &Pattern,
+        values: &[Block<T, 3>],
+        breakdown: Breakdown,
+    ) -> Result<(), Breakdown> {
+        let factor = match self.factor.take() {
+            Some(factor) => factor,
+            None => FaerCholesky::reordered(pattern, self.limit).map_err(|_| without_verdict(breakdown))?,
+        };
+        let outcome = self.factor.insert(factor).prepare(values);
+        self.is_in_use = outcome.is_ok();
+        outcome
+    }
+
+    /// z = A⁻¹ r
+    pub(super) fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
+        if let Some(factor) = &mut self.factor {
+            factor.apply(r, z);
+        }
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        self.factor.as_ref().map_or(0, |factor| factor.bytes())
+    }
+}
+
+/// Without a factor the matrix may well be positive definite: what is known is that the iteration has not converged.
+fn without_verdict(breakdown: Breakdown) -> Breakdown {
+    match breakdown {
+        Breakdown::NotPositiveDefinite => Breakdown::NotConverged { residual: 1.0 },
+        other => other,
+    }
+}
+
+/// Memory that the operating system can give without swapping, in bytes; `None` where it does not say.
+fn available_memory() -> Option<usize> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kibibytes: usize = line.trim().trim_end_matches("kB").trim().parse().ok()?;
+    Some(kibibytes * 1024)
+}
+
+/// Returns true if the factor of a body of so many nodes is expected to fit into memory: in nested dissection of a compact body of n unknowns
+/// it has about 15 n^(4/3) entries (George, Nested Dissection of a Regular Finite Element Mesh, 1973, has the exponent of the plane).
+pub(crate) fn factor_fits(nodes: usize) -> bool {
+    let bytes = 8.0 * 15.0 * (3.0 * nodes as f64).powf(4.0 / 3.0);
+    available_memory().is_none_or(|available| bytes < available as f64)
+}
