@@ -92,7 +92,31 @@ pub fn multiply<F, G, const R: usize, const K: usize, const C: usize>(
     G: Copy + Default + Into<f64> + Sync,
 {
     let Blocks { starts, columns, values } = product;
-    Product { A, B, starts, columns, rows: 0..A.rows(), values }.compute();
+    Product { A, B, starts, columns, last: |_| u32::MAX, rows: 0..A.rows(), values }.compute();
+}
+
+/// The same where C is symmetric: its lower half, which is copied to the upper one. `slots` is workspace with an entry for each row.
+pub fn multiply_symmetric<const K: usize, const C: usize>(
+    A: &Blocks<C, K>,
+    B: &Blocks<K, C, f64>,
+    product: &mut Blocks<C, C, f64>,
+    slots: &mut [u32],
+) {
+    let Blocks { starts, columns, values } = product;
+    Product { A, B, starts, columns, last: |row| row as u32, rows: 0..A.rows(), values }.compute();
+    // Rows ascend, so the blocks of a column go one after another to the row of that number.
+    for row in 0..A.rows() {
+        for block in starts[row]..starts[row + 1] {
+            let column = columns[block] as usize;
+            if column == row {
+                slots[row] = block as u32 + 1;
+                break;
+            }
+            let lower = values[block];
+            values[slots[column] as usize] = std::array::from_fn(|i| std::array::from_fn(|j| lower[j][i]));
+            slots[column] += 1;
+        }
+    }
 }
 
 /// Some rows of a product.
@@ -102,6 +126,8 @@ struct Product<'a, F, G, const R: usize, const K: usize, const C: usize> {
     /// The pattern of the product.
     starts: &'a [usize],
     columns: &'a [u32],
+    /// The last column that is computed in a row.
+    last: fn(usize) -> u32,
     rows: Range<usize>,
     /// The values in these rows.
     values: &'a mut [[[f64; C]; R]],
@@ -117,10 +143,10 @@ where
         if self.rows.len() <= ROWS {
             return vectorized(self);
         }
-        let Self { A, B, starts, columns, rows, values } = self;
+        let Self { A, B, starts, columns, last, rows, values } = self;
         let middle = rows.start + rows.len() / 2;
         let (left, right) = values.split_at_mut(starts[middle] - starts[rows.start]);
-        let part = |rows, values| Product { A, B, starts, columns, rows, values };
+        let part = |rows, values| Product { A, B, starts, columns, last, rows, values };
         let (left, right) = (part(rows.start..middle, left), part(middle..rows.end, right));
         rayon::join(|| left.compute(), || right.compute());
     }
@@ -135,7 +161,7 @@ where
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) {
-        let Self { A, B, starts, columns: of_product, rows, values } = self;
+        let Self { A, B, starts, columns: of_product, last, rows, values } = self;
         let first = starts[rows.start];
         for i in rows {
             let of_row = &of_product[starts[i]..starts[i + 1]];
@@ -146,7 +172,8 @@ where
                 let a = a.map(|row| row.map(Into::into));
                 let (columns, values) = B.row(k as usize);
                 let mut place = 0;
-                for (&column, b) in columns.iter().zip(values) {
+                let count = columns.partition_point(|&column| column <= last(i));
+                for (&column, b) in columns.iter().zip(values).take(count) {
                     let b = b.map(|row| row.map(Into::into));
                     place += of_row[place..].partition_point(|&other| other < column);
                     add_product(&a, &b, &mut row[place]);

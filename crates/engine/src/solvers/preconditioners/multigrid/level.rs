@@ -1,7 +1,7 @@
 //! One level: a matrix, its smoother, and the prolongation from the next coarser level.
 
 use super::aggregate::{aggregate, centres};
-use super::blocks::{Blocks, add_product, multiply, row_times};
+use super::blocks::{Blocks, add_product, multiply, multiply_symmetric, row_times};
 use super::cycle::{Rows, Smoother, over_rows, times};
 use super::motions::{Motion, orthonormal};
 use crate::solvers::block::invert;
@@ -110,7 +110,7 @@ impl<const D: usize> Level<D> {
             *transpose = std::array::from_fn(|i| std::array::from_fn(|j| block[j][i]));
         }
         multiply(&self.exact, &self.P, &mut self.AP);
-        multiply(&self.R, &self.AP, coarse);
+        multiply_symmetric(&self.R, &self.AP, coarse, &mut self.slots);
         for row in 0..coarse.rows() {
             let block = diagonal(coarse, row);
             fix_missing_motions(&mut coarse.values[block]);
