@@ -60,8 +60,6 @@ pub struct Stats {
     pub symbolic_factorizations: usize,
     /// Sum over all iterative solutions.
     pub solver_iterations: usize,
-    /// Matrices that were factored because an iterative solver had broken down.
-    pub solver_fallbacks: usize,
     pub stiffness_assemblies: usize,
     pub energy_evaluations: usize,
     pub line_search_backtracks: usize,
@@ -121,7 +119,6 @@ impl Stats {
             factorizations: counters.factorizations,
             symbolic_factorizations: counters.symbolic_factorizations,
             solver_iterations: counters.solver_iterations,
-            solver_fallbacks: counters.solver_fallbacks,
             stiffness_assemblies: counters.stiffness_assemblies,
             energy_evaluations: counters.energy_evaluations,
             line_search_backtracks: counters.line_search_backtracks,
