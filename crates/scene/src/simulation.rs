@@ -152,12 +152,12 @@ pub trait Simulation: Send {
         Vec::new()
     }
 
-    /// What the user should know before the first step, a line each.
+    /// Remarks on the scene as it was built, one line each, to be shown before the first step.
     fn notes(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// What makes the result of the run so far misleading, a line each, with its remedy.
+    /// Reasons why the result of the run so far may mislead, one line each, with the remedy.
     fn warnings(&self) -> Vec<String> {
         Vec::new()
     }

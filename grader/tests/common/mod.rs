@@ -1,4 +1,4 @@
-//! What several of the grader's tests need.
+//! The repository's folder and the start of a process, which several of the grader's tests share.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;

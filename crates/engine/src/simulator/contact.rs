@@ -136,8 +136,8 @@ impl<T: Real> Contacts<T> {
     pub(super) fn notes(&self) -> Vec<String> {
         let stand = |&Stand { plane, distance, force, energy }: &Stand| {
             format!(
-                "planes[{plane}] stands back by {distance:.3e} m from the body, which is nearer than its barrier's reach of {:.3e} m: \
-                 there it starts in balance, with {force:.3e} N and {energy:.3e} J",
+                "planes[{plane}] is nearer to the body than its barrier's reach of {:.3e} m, so it stands back by {distance:.3e} m: there \
+                 the barrier bears the body with {force:.3e} N and stores {energy:.3e} J",
                 self.barrier.distance
             )
         };

@@ -177,11 +177,12 @@ impl<T: Real> SuppliedEnergy<T> {
         }
         self.make_room(system.nodes());
         self.force.fill([T::default(); 3]);
+        let is_implicit = integrator.has_line_search();
+        let u = if is_implicit { &state.u } else { &before.u };
         for (potential, _) in system.forces.active().filter(|(potential, _)| !is_steady(*potential)) {
-            let u = if integrator.has_line_search() { &state.u } else { &before.u };
             potential.add_gradient(u, Moment::at(before.time + dt), &mut self.force);
         }
-        if integrator.has_line_search() {
+        if is_implicit {
             add_scaled(&state.u, -1.0, &before.u, &mut self.change);
             return -dot(&self.force, &self.change);
         }

@@ -20,7 +20,7 @@ const RESOLVED: f64 = 1e-8;
 /// Part of a speed along a plane that is a rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// What moves a body along its obstacles, or these along it.
+/// The motions of a scene that let a body slide along its obstacles.
 pub(super) struct Moving<'a> {
     pub mesh: &'a BodyMesh,
     pub planes: &'a [ContactPlane],

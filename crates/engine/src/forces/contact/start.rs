@@ -17,7 +17,7 @@ const HALVINGS: usize = 100;
 
 /// The obstacles of a body at the start.
 pub struct Obstacles {
-    /// Where they are.
+    /// The planes, moved back where the body is too near.
     pub planes: Planes,
     /// Their barrier.
     pub barrier: Barrier,
@@ -73,7 +73,8 @@ impl Obstacles {
             *(if force(middle) > load { &mut lower } else { &mut upper }) = middle;
         }
         let energy = nodes.iter().map(|(gap, area)| barrier.energy(*area, gap + upper)).sum();
-        stands.push(Stand { plane, distance: upper, force: force(upper), energy });
+        // The sum of no forces is −0, which 0 makes 0.
+        stands.push(Stand { plane, distance: upper, force: force(upper) + 0.0, energy });
         planes.stand_back(plane, upper);
     }
 }
