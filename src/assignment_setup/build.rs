@@ -116,6 +116,7 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         ("materials", !scene.materials.is_empty()),
         ("plasticity", scene.plasticity.is_some()),
         ("newton", scene.newton.is_some()),
+        ("energy", scene.energy.is_some()),
         ("solver", scene.solver.is_some()),
         ("mass.lumped", scene.mass.lumped == Some(true)),
         ("damping", scene.damping.is_some()),

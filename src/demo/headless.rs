@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use fem_mesh::write::Frame;
-use fem_scene::output::{self, Probe, Series};
-use fem_scene::simulation::{Energies, Simulation};
+use fem_scene::output::{self, EnergyRow, Probe, Series};
+use fem_scene::simulation::Simulation;
 use fem_scene::{Scene, simulate};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -69,7 +69,7 @@ struct Log {
     probes: Vec<Probe>,
     wants_energies: bool,
     wants_frames: bool,
-    energies: Vec<(f64, Energies)>,
+    energies: Vec<EnergyRow>,
     frames: Vec<Frame>,
     series: Option<Series>,
 }
@@ -92,7 +92,7 @@ impl Log {
     fn add(&mut self, simulation: &dyn Simulation) -> Result<(), End> {
         let time = simulation.time();
         if self.wants_energies {
-            self.energies.push((time, simulation.energies()));
+            self.energies.push(EnergyRow::of(simulation));
         }
         self.probes.iter_mut().for_each(|probe| probe.add(simulation));
         if self.wants_frames && (time - self.start) * EXPORTED_FRAMES_PER_SECOND >= self.frames.len() as f64 - 1e-6 {

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use fem_mesh::write::Frame;
-use fem_scene::output::{self, EXPORTS, Stats};
+use fem_scene::output::{self, EXPORTS, EnergyRow, Stats};
 use fem_scene::simulate::{Run, quantile};
-use fem_scene::simulation::{Energies, PlaneContact, Reaction, Simulation};
+use fem_scene::simulation::{PlaneContact, Reaction, Simulation};
 use fem_scene::{IterationSettings, Method, Pipeline, Scene};
 use nalgebra::Vector3;
 
@@ -21,7 +21,7 @@ pub struct Finished<'a> {
     /// Exit code of the signal that has ended the run, if one has.
     pub signal: Option<u8>,
     pub seconds_setup: f64,
-    pub energies: Vec<(f64, Energies)>,
+    pub energies: Vec<EnergyRow>,
     pub frames: Vec<Frame>,
     /// Timoshenko's displacement of the tip, m, if the scene is a cantilever.
     pub expected_tip: Option<Vector3<f64>>,
@@ -112,8 +112,7 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
 /// The failure of the run, a signal, or steps that have not converged unless the scene accepts those.
 fn end(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
     let Finished { simulation, scene, run, signal, .. } = finished;
-    if let Some(failure) = &run.failure {
-        let failure = failure.clone();
+    if let Some(failure) = run.failure.clone().or_else(|| simulation.unexplained_energy()) {
         return Err(End::Failed(match simulation.critical_time_step() {
             Some(critical) => failure.with_critical_time_step(critical),
             None => failure,
@@ -143,9 +142,8 @@ fn not_settled(method: &Method, unconverged_steps: usize, steps: usize) -> Strin
     let IterationSettings { count, tolerance, .. } = method.iterations;
     let how = match tolerance {
         Some(tolerance) => format!("before the iterations had reached iterations.tolerance = {tolerance}"),
-        None => {
-            "far from the solution: the body has more than ten times the energy that it was supplied with".to_owned()
-        }
+        None => "far from the solution: the body has gained more than 5 % of the energy that it was supplied with"
+            .to_owned(),
     };
     format!(
         "{unconverged_steps} of {steps} steps ended {how}, so the result is not to be trusted; use more than {count} \

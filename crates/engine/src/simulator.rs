@@ -8,10 +8,11 @@ mod creep;
 pub(crate) mod device_assembly;
 #[cfg(feature = "gpu")]
 pub(crate) mod device_elements;
-mod divergence;
 pub mod double;
+mod energies;
 mod integrator;
 mod iterated_check;
+mod ledger;
 mod parts;
 mod path_check;
 mod plan;
@@ -21,6 +22,8 @@ mod step;
 #[cfg(feature = "gpu")]
 mod step_from;
 mod substep;
+mod volumes;
+mod work;
 
 use std::sync::atomic::AtomicUsize;
 
@@ -43,8 +46,9 @@ use fem_elements::number::check_instructions;
 
 use adaptive::Control;
 use contact::Contacts;
-use divergence::SuppliedEnergy;
+use ledger::Ledger;
 use plan::Plan;
+use work::{LastForces, StepWork};
 
 pub use compiled::Compiled;
 pub use integrator::integrators;
@@ -59,8 +63,11 @@ pub struct Simulator<T: Real> {
     initial_velocity: Vec<[T; 3]>,
     /// The state before the last step, to which a failed step returns.
     last_good: State<T>,
-    /// The energy that the kinetic energy of a method that can diverge is compared with.
-    supplied: SuppliedEnergy<T>,
+    /// Where its energy comes from and where it goes.
+    ledger: Ledger,
+    /// Works of the step that was computed last, and the forces at its end.
+    work: (StepWork, LastForces<T>),
+    last_forces: LastForces<T>,
     contact: Option<Contacts<T>>,
     /// N; `None` without gravity.
     weight: Option<f64>,
@@ -186,7 +193,9 @@ impl<T: Real> Simulator<T> {
                 solver,
                 contact.as_ref().map(|contact| contact.planes()),
             ),
-            supplied: SuppliedEnergy::default(),
+            ledger: Ledger::new(method.accept_gain),
+            work: <_>::default(),
+            last_forces: LastForces::default(),
             contact,
             weight: gravity.map(|gravity| gravity.norm() * system.total_mass),
             kind: method.integrator,
@@ -228,16 +237,16 @@ impl<T: Real> Simulator<T> {
         self.forget();
     }
 
-    /// Switches the check for divergence off, so that the growth of a motion can be measured, or on again.
-    pub fn accept_divergence(&mut self, is_accepted: bool) {
-        self.supplied.forget();
-        self.supplied.may_diverge = is_accepted;
+    /// Switches the check of the energy off, so that the growth of a motion can be measured, or on again.
+    pub fn accept_gain(&mut self, is_accepted: bool) {
+        self.ledger = Ledger::new(is_accepted);
     }
 
     /// Drops all that was derived from earlier states and parameters.
     fn forget(&mut self) {
         self.integrator.forget();
-        self.supplied.forget();
+        self.ledger.forget();
+        self.last_forces.forget();
         if let Some(control) = &mut self.control {
             control.forget();
         }

@@ -14,7 +14,7 @@ use fem_mesh::MeshError;
 const LINE: usize = 120;
 
 /// The order of the tables in a file.
-const ORDER: [&str; 26] = [
+const ORDER: [&str; 27] = [
     "about",
     "pipeline",
     "mesh",
@@ -39,6 +39,7 @@ const ORDER: [&str; 26] = [
     "iterations",
     "newton",
     "solver",
+    "energy",
     "drag",
     "batch",
 ];
@@ -93,6 +94,7 @@ impl Scene {
             ("solver", self.solver.is_some()),
             ("contact", self.contact.is_some()),
             ("damping", self.damping.is_some()),
+            ("energy", self.energy.is_some()),
         ];
         optional.iter().filter(|(_, is_there)| !is_there).for_each(|(name, _)| drop(tables.remove(*name)));
         tables.retain(|_, value| !value.as_array().is_some_and(Vec::is_empty));

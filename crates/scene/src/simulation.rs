@@ -2,6 +2,7 @@
 
 mod checkpoint;
 mod failure;
+mod ledger;
 mod parameter;
 mod part;
 mod picture_place;
@@ -18,6 +19,7 @@ use crate::BodyMesh;
 
 pub use checkpoint::{Checkpoint, History};
 pub use failure::{Breakdown, Cause, Failure};
+pub use ledger::EnergyLedger;
 pub use parameter::Parameter;
 pub use part::Part;
 pub use picture_place::PicturePlace;
@@ -55,7 +57,8 @@ pub trait Simulation: Send {
         1
     }
 
-    /// Advances by one time step. A step that fails leaves the state as it was before the substep that failed.
+    /// Advances by one time step. A step that fails leaves the state as it was before the substep that failed; after one that has gained
+    /// energy ([`Cause::EnergyGained`]) it may be the state at its end.
     fn step(&mut self) -> Result<(), Failure>;
 
     /// Returns to the initial state: undeformed, at rest, time zero. Parameters and integrator keep their values.
@@ -70,6 +73,17 @@ pub trait Simulation: Send {
 
     /// Kinetic and potential energy now, J.
     fn energies(&self) -> Energies;
+
+    /// Where the energy comes from and where it goes; `None` in statics, and for a pipeline that does not compute it.
+    fn energy_ledger(&self) -> Option<EnergyLedger> {
+        None
+    }
+
+    /// The failure of a run that has gained energy which nothing explains, and has not failed because of it yet: a run is judged every few
+    /// steps, and has ended between.
+    fn unexplained_energy(&self) -> Option<Failure> {
+        None
+    }
 
     /// Sum of the estimated errors of the displacements in the last step, m; `None` without adaptive steps.
     fn estimated_error(&self) -> Option<f64> {

@@ -2,25 +2,16 @@
 
 use std::collections::VecDeque;
 
-use fem_scene::simulation::Energies;
+use fem_scene::output::EnergyRow;
 
 /// Simulated time that the plot spans, s.
 pub const SPAN: f64 = 10.0;
 const SAMPLES: f64 = 500.0; // more than the plot has pixels
 
-/// The energies at one time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    /// Simulated time, s.
-    pub time: f64,
-    /// Energies at that time, J.
-    pub energies: Energies,
-}
-
 /// Samples of the last [`SPAN`] seconds at a bounded rate, so that their number does not grow with the number of steps.
 #[derive(Clone, Debug, Default)]
 pub struct History {
-    samples: VecDeque<Sample>,
+    samples: VecDeque<EnergyRow>,
 }
 
 impl History {
@@ -30,7 +21,7 @@ impl History {
     }
 
     /// Adds a sample. A time before the last one clears the history first.
-    pub fn push(&mut self, sample: Sample) {
+    pub fn push(&mut self, sample: EnergyRow) {
         if self.samples.back().is_some_and(|last| sample.time < last.time) {
             self.samples.clear();
         }
@@ -46,20 +37,26 @@ impl History {
     }
 
     /// The samples, oldest first.
-    pub fn to_vec(&self) -> Vec<Sample> {
+    pub fn to_vec(&self) -> Vec<EnergyRow> {
         self.samples.iter().copied().collect()
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use fem_scene::simulation::Energies;
+
     use super::*;
+
+    fn row(time: f64) -> EnergyRow {
+        EnergyRow { time, energies: Energies::default(), ledger: None }
+    }
 
     fn fill(history: &mut History, steps: usize, dt: f64) {
         for i in 0..steps {
             let time = i as f64 * dt;
             if history.wants(time) {
-                history.push(Sample { time, energies: Energies::default() });
+                history.push(row(time));
             }
         }
     }
@@ -85,7 +82,7 @@ mod tests {
     fn a_time_before_the_last_one_clears_the_history() {
         let mut history = History::default();
         fill(&mut history, 50, 0.1);
-        history.push(Sample { time: 0.0, energies: Energies::default() });
+        history.push(row(0.0));
         assert_eq!(history.to_vec().len(), 1);
     }
 }

@@ -2,7 +2,10 @@
 
 use kiss3d::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 
-use crate::history::{SPAN, Sample};
+use fem_scene::output::EnergyRow;
+use fem_scene::simulation::EnergyLedger;
+
+use crate::history::SPAN;
 use crate::theme;
 
 const HEIGHT: f32 = 150.0;
@@ -12,7 +15,7 @@ const ABOVE: f32 = 16.0; // room for the name of the energy axis
 const FONT: FontId = FontId::proportional(11.0);
 
 /// Name, colour and value of a curve.
-type Curve = (&'static str, Color32, fn(&Sample) -> f64);
+type Curve = (&'static str, Color32, fn(&EnergyRow) -> f64);
 
 const CURVES: [Curve; 3] = [
     ("kinetic", theme::KINETIC, |s| s.energies.kinetic),
@@ -21,21 +24,21 @@ const CURVES: [Curve; 3] = [
 ];
 
 /// Draws the curves, their axes and a legend over the available width.
-pub fn show(ui: &mut Ui, samples: &[Sample]) {
+pub fn show(ui: &mut Ui, samples: &[EnergyRow]) {
     let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
     let frame = Rect::from_min_max(area.min + vec2(LEFT, ABOVE), area.max - vec2(6.0, BELOW));
     let axes = Axes::around(frame, samples);
     axes.paint(ui.painter());
     let inside = ui.painter().with_clip_rect(frame.expand(1.0));
     for (_, color, value) in CURVES {
-        let at = |s: &Sample| axes.at(s.time, value(s));
+        let at = |s: &EnergyRow| axes.at(s.time, value(s));
         let curve: Vec<Pos2> = samples.iter().filter(|s| value(s).is_finite()).map(at).collect();
         inside.add(Shape::line(curve, Stroke::new(1.6, color)));
     }
     legend(ui, samples.last());
 }
 
-fn legend(ui: &mut Ui, last: Option<&Sample>) {
+fn legend(ui: &mut Ui, last: Option<&EnergyRow>) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 5.0;
         for (name, color, value) in CURVES {
@@ -46,6 +49,16 @@ fn legend(ui: &mut Ui, last: Option<&Sample>) {
             ui.add_space(2.0);
         }
     });
+    if let Some(ledger) = last.and_then(|row| row.ledger) {
+        ui.small(balance(&ledger));
+    }
+}
+
+/// What has been supplied since the start, and where it is.
+fn balance(ledger: &EnergyLedger) -> String {
+    let [supplied, dissipated, lost] =
+        [ledger.start + ledger.supplied(), ledger.dissipated(), ledger.numerical()].map(short);
+    format!("supplied {supplied}   dissipated {dissipated}   by the method {lost}")
 }
 
 /// Ranges of time and energy that the frame spans.
@@ -57,7 +70,7 @@ struct Axes {
 }
 
 impl Axes {
-    fn around(frame: Rect, samples: &[Sample]) -> Self {
+    fn around(frame: Rect, samples: &[EnergyRow]) -> Self {
         let last = samples.last().map_or(0.0, |s| s.time);
         let end = last.max(SPAN);
         let (energies, step) = energy_range(samples);
@@ -94,7 +107,7 @@ impl Axes {
 }
 
 /// Range of the energy axis and spacing of its lines: round numbers that enclose zero and all samples.
-fn energy_range(samples: &[Sample]) -> ((f64, f64), f64) {
+fn energy_range(samples: &[EnergyRow]) -> ((f64, f64), f64) {
     let values = samples.iter().flat_map(|s| CURVES.map(|(_, _, value)| value(s))).filter(|v| v.is_finite());
     let (low, high) = values.fold((0.0, 0.0), |(low, high), v| (f64::min(low, v), f64::max(high, v)));
     let span = if high - low > 0.0 { high - low } else { 1.0 };
@@ -142,8 +155,8 @@ mod tests {
 
     use super::*;
 
-    fn sample(kinetic: f64, potential: f64) -> Sample {
-        Sample { time: 0.0, energies: Energies { kinetic, potential } }
+    fn sample(kinetic: f64, potential: f64) -> EnergyRow {
+        EnergyRow { time: 0.0, energies: Energies { kinetic, potential }, ledger: None }
     }
 
     #[test]

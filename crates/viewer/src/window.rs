@@ -4,7 +4,8 @@ use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use fem_scene::Scene;
-use fem_scene::simulation::{Energies, Simulation};
+use fem_scene::output::EnergyRow;
+use fem_scene::simulation::Simulation;
 use kiss3d::context::Context;
 use kiss3d::window::{CanvasSetup, NumSamples, Window};
 use thiserror::Error;
@@ -23,8 +24,8 @@ pub struct Outcome {
     pub simulation: Option<Box<dyn Simulation>>,
     /// Wall-clock time of each step since the start or the last reset, the physics alone, s.
     pub step_seconds: Vec<f64>,
-    /// Time (s) and energies (J) after each of these steps, if [`WindowOptions::log_energies`] is set.
-    pub energies: Vec<(f64, Energies)>,
+    /// Time and energies after each of these steps, if [`WindowOptions::log_energies`] is set.
+    pub energies: Vec<EnergyRow>,
     /// The failure that had stopped the simulation when the window was closed.
     pub stop: Option<Stop>,
     /// The scene with the changes of its user, if it could be changed.

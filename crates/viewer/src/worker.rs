@@ -18,13 +18,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 
 use fem_scene::Scene;
-use fem_scene::output::ElementField;
-use fem_scene::simulation::{Click, Energies, Failure, Parameter, Pull, Shape, Simulation};
+use fem_scene::output::{ElementField, EnergyRow};
+use fem_scene::simulation::{Click, Failure, Parameter, Pull, Shape, Simulation};
 use nalgebra::Vector3;
 
 use crate::change::Change;
 use crate::frame::{Frame, Wanted};
-use crate::history::Sample;
 use crate::panics::panic_message;
 use scene_editor::{SceneEditor, SceneSetup};
 use step_timers::StepTimer;
@@ -142,7 +141,7 @@ pub struct Snapshot {
     /// The longest stable time step of an explicit method, s, if the scene may be changed.
     pub critical_time_step: Option<f64>,
     /// Energies of the last simulated seconds.
-    pub history: Vec<Sample>,
+    pub history: Vec<EnergyRow>,
     /// The simulation is paused.
     pub paused: bool,
     /// [`LoopOptions::steps`] has been reached.
@@ -159,8 +158,8 @@ pub struct Finished {
     pub simulation: Option<Box<dyn Simulation>>,
     /// Wall-clock time of each step since the start or the last reset, the physics alone, s.
     pub step_seconds: Vec<f64>,
-    /// Time (s) and energies (J) after each of these steps, if [`LoopOptions::log_energies`] is set.
-    pub energies: Vec<(f64, Energies)>,
+    /// Time and energies after each of these steps, if [`LoopOptions::log_energies`] is set.
+    pub energies: Vec<EnergyRow>,
     /// The failure that had stopped the simulation at the end.
     pub stop: Option<Stop>,
     /// The scene with the user's changes, if it could be changed.

@@ -21,8 +21,18 @@ pub fn reactions_at<T: Real>(
     system: &System<T>,
     before: &State<T>,
     state: &State<T>,
-    (part, acceleration): (f64, &[[T; 3]]),
+    stage: (f64, &[[T; 3]]),
 ) -> Vec<Reaction> {
+    of_unbalanced(system, &unbalanced_at(system, before, state, stage))
+}
+
+/// M a − f at that stage, N.
+pub fn unbalanced_at<T: Real>(
+    system: &System<T>,
+    before: &State<T>,
+    state: &State<T>,
+    (part, acceleration): (f64, &[[T; 3]]),
+) -> Vec<[T; 3]> {
     let between = |before: &[[T; 3]], end: &[[T; 3]]| -> Vec<[T; 3]> {
         let mean = |a: T, b: T| T::of(1.0 - part) * a + T::of(part) * b;
         before.iter().zip(end).map(|(a, b)| triple(|i| mean(a[i], b[i]))).collect()
@@ -35,7 +45,7 @@ pub fn reactions_at<T: Real>(
         *force = -*force;
     }
     system.mass.add_times(T::one(), acceleration, &mut unbalanced);
-    of_unbalanced(system, &unbalanced)
+    unbalanced
 }
 
 fn of_unbalanced<T: Real>(system: &System<T>, force: &[[T; 3]]) -> Vec<Reaction> {
@@ -50,8 +60,8 @@ fn of_unbalanced<T: Real>(system: &System<T>, force: &[[T; 3]]) -> Vec<Reaction>
     system.dirichlet.conditions().map(reaction).collect()
 }
 
-/// M a − f, N.
-fn unbalanced<T: Real>(system: &System<T>, before: &State<T>, state: &State<T>, moment: Moment) -> Vec<[T; 3]> {
+/// M a − f at a moment, with the mean acceleration of the last step, N.
+pub fn unbalanced<T: Real>(system: &System<T>, before: &State<T>, state: &State<T>, moment: Moment) -> Vec<[T; 3]> {
     let mut unbalanced = vec![[T::default(); 3]; system.nodes()];
     system.force(&state.u, &state.v, &before.u, moment, &mut unbalanced);
     for force in unbalanced.as_flattened_mut() {

@@ -19,12 +19,25 @@ use fem_elements::vector::{axpy, dot};
 pub struct Accelerations<T: Real> {
     mass: MassInverse<T>,
     force: Vec<[T; 3]>,
+    /// Forces of Rayleigh damping and of dampers at the last stage, N; empty without.
+    damping: [Vec<[T; 3]>; 2],
     motion: PrescribedMotion<T>,
     /// Start of the step and its duration, s.
     time: f64,
     dt: f64,
-    /// Work of the prescribed motions on the body in the step, J.
-    work: f64,
+    /// Works in the step.
+    work: StageWork,
+}
+
+/// Works in a step, summed over its stages, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StageWork {
+    /// Of the prescribed motions on the body.
+    pub motions: f64,
+    /// Dissipated by Rayleigh damping.
+    pub rayleigh: f64,
+    /// Dissipated by the dampers of forces.
+    pub dampers: f64,
 }
 
 /// A stage of a step.
@@ -40,8 +53,10 @@ impl<T: Real> Accelerations<T> {
     /// Allocates its vectors for a body.
     pub fn new(system: &System<T>) -> Self {
         let force = vec![[T::default(); 3]; system.nodes()];
+        let zero = |is_there: bool| vec![[T::default(); 3]; if is_there { system.nodes() } else { 0 }];
+        let damping = [zero(system.damping.is_some()), zero(system.has_dampers())];
         let (mass, motion) = (MassInverse::new(&system.mass), PrescribedMotion::new(system));
-        Self { mass, force, motion, time: 0.0, dt: 0.0, work: 0.0 }
+        Self { mass, force, damping, motion, time: 0.0, dt: 0.0, work: StageWork::default() }
     }
 
     /// Starts a step. A jump of a prescribed velocity changes the velocities of the neighbours through a consistent mass:
@@ -53,7 +68,7 @@ impl<T: Real> Accelerations<T> {
         dt: f64,
         a: &mut [[T; 3]],
     ) -> Result<bool, Cause> {
-        (self.time, self.dt, self.work) = (state.time, dt, 0.0);
+        (self.time, self.dt, self.work) = (state.time, dt, StageWork::default());
         if !system.dirichlet.has_motion() {
             return Ok(false);
         }
@@ -63,7 +78,7 @@ impl<T: Real> Accelerations<T> {
             motion.start(system, state, force)
         });
         if has_jump {
-            *work = system.profile.mass.time(|| impulse(system, mass, motion, (force, a), state))?;
+            work.motions = system.profile.mass.time(|| impulse(system, mass, motion, (force, a), state))?;
         }
         Ok(has_jump)
     }
@@ -78,17 +93,18 @@ impl<T: Real> Accelerations<T> {
         a: &mut [[T; 3]],
         counters: &mut Counters,
     ) -> Result<(), Cause> {
-        let Self { mass, force, motion, time, dt, work } = self;
+        let Self { mass, force, damping, motion, time, dt, work } = self;
         let has_motion = system.dirichlet.has_motion();
         if has_motion {
             system.profile.prescribed.time(|| motion.place(system, after, u, v));
         }
         counters.force_assemblies += 1;
-        system.force(u, v, u, Moment::at(*time + after * *dt), force);
+        system.undamped_force(u, Moment::at(*time + after * *dt), force);
+        system.add_damping_forces(u, v, damping, force);
         if has_motion {
             system.profile.prescribed.time(|| system.mass.add_times(T::of(-1.0), &motion.acceleration, force));
             // The reactions are minus the force, and free entries of the velocity are zero.
-            *work -= weight * *dt * dot(force, &motion.velocity);
+            work.motions -= weight * *dt * dot(force, &motion.velocity);
         }
         system.profile.mass.time(|| {
             mass.solve(system, force, a)?;
@@ -96,9 +112,16 @@ impl<T: Real> Accelerations<T> {
             Ok(())
         })?;
         if has_motion && !system.mass.is_lumped() {
-            *work += weight * *dt * product(system, a, &motion.velocity, force);
+            work.motions += weight * *dt * product(system, a, &motion.velocity, force);
         }
         Ok(())
+    }
+
+    /// Adds what the damping forces of the last stage take from a body with these velocities (m/s) in a part of the step.
+    pub fn dissipate(&mut self, v: &[[T; 3]], part: f64) {
+        let [rayleigh, dampers] = &self.damping;
+        self.work.rayleigh -= part * self.dt * dot(rayleigh, v);
+        self.work.dampers -= part * self.dt * dot(dampers, v);
     }
 
     /// Ends a step: constrained degrees of freedom have their prescribed displacement and velocity.
@@ -108,8 +131,8 @@ impl<T: Real> Accelerations<T> {
         }
     }
 
-    /// Work of the prescribed motions on the body in the last step, J.
-    pub fn work_of_motions(&self) -> f64 {
+    /// Works in the last step.
+    pub fn work(&self) -> StageWork {
         self.work
     }
 }

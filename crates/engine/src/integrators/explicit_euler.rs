@@ -2,7 +2,7 @@
 
 use fem_scene::simulation::{Cause, Counters};
 
-use super::{Accelerations, Convergence, Integrator, Stage};
+use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
 use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
@@ -32,13 +32,14 @@ impl<T: Real> Integrator<T> for ExplicitEuler<T> {
         let Self { accelerations, a } = self;
         accelerations.begin(system, state, dt, a)?;
         accelerations.at(system, (&mut state.u, &mut state.v), Stage { after: 0.0, weight: 1.0 }, a, counters)?;
+        accelerations.dissipate(&state.v, 1.0);
         axpy(dt, &state.v, &mut state.u);
         axpy(dt, a, &mut state.v);
         accelerations.end(system, state);
         Ok(Convergence::Converged)
     }
 
-    fn work_of_motions(&self) -> Option<f64> {
-        Some(self.accelerations.work_of_motions())
+    fn work_of_stages(&self) -> Option<StageWork> {
+        Some(self.accelerations.work())
     }
 }

@@ -74,10 +74,6 @@ impl<T: Real> Integrator<T> for ImplicitEuler<T> {
         Some(self.newton.solver())
     }
 
-    fn is_unconditionally_stable(&self) -> bool {
-        true
-    }
-
     fn has_line_search(&self) -> bool {
         true
     }

@@ -42,8 +42,6 @@ pub struct Impulses<T> {
     ordered: usize,
     /// Nodes near a plane.
     near: Vec<Near>,
-    /// Work of moving planes in the last step, J.
-    work: f64,
 }
 
 /// The impulse of a plane on a node.
@@ -73,7 +71,6 @@ impl<T: Real> Impulses<T> {
             impulses: Vec::new(),
             ordered: 0,
             near: Vec::new(),
-            work: 0.0,
         })
     }
 
@@ -98,7 +95,7 @@ impl<T: Real> Impulses<T> {
         }
         let had_contact = !self.impulses.is_empty();
         self.impulses.clear();
-        (self.ordered, self.work) = (0, 0.0);
+        self.ordered = 0;
         self.move_out(system, &mut state.u, times[1]);
         if self.impulses.is_empty() {
             self.write_forces(system, dt);
@@ -121,8 +118,6 @@ impl<T: Real> Impulses<T> {
         for impulse in &self.impulses {
             let mass = self.masses[impulse.node].as_f64();
             let shift = free(system, impulse.node).component_mul(&impulse.tangential) * (share(kind) * dt / mass);
-            let plane = &self.planes.planes[impulse.plane];
-            self.work += impulse.total(plane.normal).dot(&plane.mean_velocity(times));
             add(&mut state.u[impulse.node], shift);
         }
         self.move_out(system, &mut state.u, times[1]);
@@ -177,11 +172,6 @@ impl<T: Real> Impulses<T> {
     /// The impulses of the last step.
     pub fn impulses(&self) -> &[Impulse] {
         &self.impulses
-    }
-
-    /// Work of moving planes on the body in the last step, J.
-    pub fn work(&self) -> f64 {
-        self.work
     }
 
     /// Adds the impulses of the last step to a history.

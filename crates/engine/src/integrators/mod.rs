@@ -28,7 +28,7 @@ mod vbd;
 mod verlet;
 mod xpbd;
 
-pub use accelerations::{Accelerations, Stage};
+pub use accelerations::{Accelerations, Stage, StageWork};
 pub use critical_time_step::critical_time_step;
 pub use explicit_euler::ExplicitEuler;
 pub use implicit_euler::ImplicitEuler;
@@ -110,11 +110,6 @@ pub trait Integrator<T: Real>: Send {
         None
     }
 
-    /// Returns true if the method is stable at every time step.
-    fn is_unconditionally_stable(&self) -> bool {
-        false
-    }
-
     /// Returns true if a step may end far from the solution of its equation unnoticed, because it takes a number of iterations that
     /// the scene has set.
     fn may_stop_early(&self) -> bool {
@@ -126,9 +121,20 @@ pub trait Integrator<T: Real>: Send {
         false
     }
 
-    /// Work of the prescribed motions on the body in the last step, J; `None` where the method does not know the reactions.
-    fn work_of_motions(&self) -> Option<f64> {
+    /// Works in the last step, if the method sums them over its stages.
+    fn work_of_stages(&self) -> Option<StageWork> {
         None
+    }
+
+    /// Work of the impulses with which prescribed velocities have jumped at the start of the last step, J.
+    fn work_of_jump(&self) -> f64 {
+        0.0
+    }
+
+    /// The kinetic energy of a state that ends a step of `dt` seconds, which the method keeps together with the elastic energy of a linear
+    /// body, J.
+    fn kinetic_energy(&self, system: &System<T>, state: &State<T>, _dt: f64) -> f64 {
+        system.mass.kinetic_energy(&state.v)
     }
 
     /// Contacts with planes of a method that projects nodes onto them in its iterations.

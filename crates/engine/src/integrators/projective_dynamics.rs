@@ -218,10 +218,6 @@ impl<T: Real> Integrator<T> for ProjectiveDynamics<T> {
         Some(&self.solver)
     }
 
-    fn is_unconditionally_stable(&self) -> bool {
-        true
-    }
-
     fn may_stop_early(&self) -> bool {
         self.settings.tolerance.is_none()
     }

@@ -3,7 +3,7 @@
 
 use fem_scene::simulation::{Cause, Counters};
 
-use super::{Accelerations, Convergence, Integrator, Stage};
+use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
 use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
@@ -43,13 +43,14 @@ impl<T: Real> Integrator<T> for Rk2<T> {
         axpy(half, &state.v, u);
         axpy(half, a, v);
         accelerations.at(system, (u, v), Stage { after: 0.5, weight: 1.0 }, a, counters)?;
+        accelerations.dissipate(v, 1.0);
         axpy(dt, v, &mut state.u);
         axpy(dt, a, &mut state.v);
         accelerations.end(system, state);
         Ok(Convergence::Converged)
     }
 
-    fn work_of_motions(&self) -> Option<f64> {
-        Some(self.accelerations.work_of_motions())
+    fn work_of_stages(&self) -> Option<StageWork> {
+        Some(self.accelerations.work())
     }
 }

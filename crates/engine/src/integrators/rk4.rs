@@ -2,7 +2,7 @@
 
 use fem_scene::simulation::{Cause, Counters};
 
-use super::{Accelerations, Convergence, Integrator, Stage};
+use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
 use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
@@ -48,6 +48,7 @@ impl<T: Real> Integrator<T> for Rk4<T> {
         }
         for (number, stage) in STAGES.into_iter().enumerate() {
             accelerations.at(system, (u, v), stage, a, counters)?;
+            accelerations.dissipate(v, stage.weight);
             axpy(stage.weight * dt, v, &mut state.u);
             axpy(stage.weight * dt, a, &mut state.v);
             // Where the next stage is.
@@ -61,7 +62,7 @@ impl<T: Real> Integrator<T> for Rk4<T> {
         Ok(Convergence::Converged)
     }
 
-    fn work_of_motions(&self) -> Option<f64> {
-        Some(self.accelerations.work_of_motions())
+    fn work_of_stages(&self) -> Option<StageWork> {
+        Some(self.accelerations.work())
     }
 }

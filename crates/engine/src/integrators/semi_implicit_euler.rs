@@ -4,7 +4,7 @@
 
 use fem_scene::simulation::{Cause, Counters};
 
-use super::{Accelerations, Convergence, Integrator, Stage};
+use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
 use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
@@ -34,7 +34,10 @@ impl<T: Real> Integrator<T> for SemiImplicitEuler<T> {
         let Self { accelerations, a } = self;
         accelerations.begin(system, state, dt, a)?;
         accelerations.at(system, (&mut state.u, &mut state.v), Stage { after: 0.0, weight: 1.0 }, a, counters)?;
+        // The mean of the velocities half a step before and after.
+        accelerations.dissipate(&state.v, 0.5);
         axpy(dt, a, &mut state.v);
+        accelerations.dissipate(&state.v, 0.5);
         axpy(dt, &state.v, &mut state.u);
         accelerations.end(system, state);
         Ok(Convergence::Converged)
@@ -44,7 +47,7 @@ impl<T: Real> Integrator<T> for SemiImplicitEuler<T> {
         true
     }
 
-    fn work_of_motions(&self) -> Option<f64> {
-        Some(self.accelerations.work_of_motions())
+    fn work_of_stages(&self) -> Option<StageWork> {
+        Some(self.accelerations.work())
     }
 }

@@ -153,10 +153,6 @@ impl<T: Real> Integrator<T> for Statics<T> {
         })
     }
 
-    fn is_unconditionally_stable(&self) -> bool {
-        true
-    }
-
     fn has_line_search(&self) -> bool {
         matches!(self.method, Method::Newton(_))
     }

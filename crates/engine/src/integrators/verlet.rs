@@ -3,7 +3,7 @@
 
 use fem_scene::simulation::{Cause, Counters, History};
 
-use super::{Accelerations, Convergence, Integrator, Stage};
+use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
 use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
@@ -51,13 +51,19 @@ impl<T: Real> Integrator<T> for Verlet<T> {
         axpy(dt, &state.v, &mut state.u);
         accelerations.at(system, (&mut state.u, v), Stage { after: 1.0, weight: 1.0 }, a, counters)?;
         axpy(half, a, &mut state.v);
+        accelerations.dissipate(&state.v, 1.0);
         *is_known = true;
         accelerations.end(system, state);
         Ok(Convergence::Converged)
     }
 
-    fn work_of_motions(&self) -> Option<f64> {
-        Some(self.accelerations.work_of_motions())
+    fn work_of_stages(&self) -> Option<StageWork> {
+        Some(self.accelerations.work())
+    }
+
+    /// ½ v₋ᵀ M v₊ of the velocities half a step before and after, v ∓ ½ dt a.
+    fn kinetic_energy(&self, system: &System<T>, state: &State<T>, dt: f64) -> f64 {
+        system.mass.kinetic_energy(&state.v) - (0.5 * dt).powi(2) * system.mass.kinetic_energy(&self.a)
     }
 
     fn save(&self, history: &mut History) {

@@ -6,6 +6,7 @@ use super::system::System;
 use crate::forces::HessianKind;
 use fem_elements::Real;
 use fem_elements::sparse::Block;
+use fem_elements::vector::{axpy, dot};
 
 /// Multiples of the mass, the stiffness and the damping matrices of forces in a sum α M + β K + γ D.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,8 +45,45 @@ impl<T: Real> System<T> {
         }
     }
 
+    /// The same, with the forces of Rayleigh damping and of dampers, N, each empty if the body has none.
+    pub fn add_damping_forces(&self, u: &[[T; 3]], v: &[[T; 3]], parts: &mut [Vec<[T; 3]>; 2], force: &mut [[T; 3]]) {
+        let rates = DampingRates::new(self.damping.as_ref(), -1.0);
+        for part in &mut *parts {
+            part.fill([T::default(); 3]);
+        }
+        let [rayleigh, dampers] = &mut *parts;
+        if !rayleigh.is_empty() {
+            self.add_rayleigh_times(rates, u, v, rayleigh);
+            axpy(1.0, rayleigh, force);
+        }
+        if !dampers.is_empty() {
+            self.add_dampers_times(rates.forces, u, v, dampers);
+            axpy(1.0, dampers, force);
+        }
+    }
+
+    /// vᵀ (α M + β K(u)) v and vᵀ D(u) v, W if `v` are velocities.
+    pub fn damping_powers(&self, u: &[[T; 3]], v: &[[T; 3]]) -> [f64; 2] {
+        let rates = DampingRates::new(self.damping.as_ref(), 1.0);
+        let mut product = vec![[T::default(); 3]; v.len()];
+        self.add_rayleigh_times(rates, u, v, &mut product);
+        let rayleigh = if self.damping.is_some() { dot(&product, v) } else { 0.0 };
+        if !self.has_dampers() {
+            return [rayleigh, 0.0];
+        }
+        product.fill([T::default(); 3]);
+        self.add_dampers_times(rates.forces, u, v, &mut product);
+        [rayleigh, dot(&product, v)]
+    }
+
     /// Adds (α M + β K(u) + γ D(u)) v, N.
     pub fn add_damping_times(&self, rates: DampingRates<T>, u: &[[T; 3]], v: &[[T; 3]], product: &mut [[T; 3]]) {
+        self.add_rayleigh_times(rates, u, v, product);
+        self.add_dampers_times(rates.forces, u, v, product);
+    }
+
+    /// Adds (α M + β K(u)) v, N.
+    fn add_rayleigh_times(&self, rates: DampingRates<T>, u: &[[T; 3]], v: &[[T; 3]], product: &mut [[T; 3]]) {
         if rates.mass != T::zero() || rates.stiffness != T::zero() {
             self.profile.damping.time(|| {
                 self.mass.add_times(rates.mass, v, product);
@@ -54,7 +92,6 @@ impl<T: Real> System<T> {
                 }
             });
         }
-        self.add_dampers_times(rates.forces, u, v, product);
     }
 
     /// Adds `factor` D(u) v of the forces that damp motions, N.

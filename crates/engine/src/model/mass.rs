@@ -117,12 +117,18 @@ impl<T: Real> Mass<T> {
 
     /// ½ vᵀ M v, J.
     pub fn kinetic_energy<const D: usize>(&self, v: &[[T; D]]) -> f64 {
+        0.5 * self.product(v, v)
+    }
+
+    /// vᵀ M w
+    pub fn product<const D: usize>(&self, v: &[[T; D]], w: &[[T; D]]) -> f64 {
         let dot = |x: &[T; D], y: [T; D]| x.iter().zip(y).map(|(&x, y)| x.as_f64() * y.as_f64()).sum::<f64>();
-        let twice: f64 = match self {
-            Self::Lumped(masses) => v.iter().zip(masses).map(|(x, &mass)| dot(x, x.map(|x| x * mass))).sum(),
-            Self::Consistent(mass) => v.iter().enumerate().map(|(row, x)| dot(x, mass.row_times(row, v))).sum(),
-        };
-        0.5 * twice
+        match self {
+            Self::Lumped(masses) => {
+                v.iter().zip(w).zip(masses).map(|((v, w), &mass)| dot(v, w.map(|w| w * mass))).sum()
+            }
+            Self::Consistent(mass) => v.iter().enumerate().map(|(row, x)| dot(x, mass.row_times(row, w))).sum(),
+        }
     }
 
     /// Adds `factor` M to the blocks of a matrix of the first rows.

@@ -170,6 +170,12 @@ impl<T: Real> System<T> {
 
     /// All forces on the nodes, N: elastic, external, follower, contact and damping forces. Damping takes its stiffness at `u_damping`.
     pub fn force(&self, u: &[[T; 3]], v: &[[T; 3]], u_damping: &[[T; 3]], moment: Moment, force: &mut [[T; 3]]) {
+        self.undamped_force(u, moment, force);
+        self.add_damping_force(u_damping, v, force);
+    }
+
+    /// The same without damping forces, N.
+    pub fn undamped_force(&self, u: &[[T; 3]], moment: Moment, force: &mut [[T; 3]]) {
         self.elastic_gradient(u, force);
         self.add_gradient_of_forces(true, u, moment, force);
         self.add_gradient_of_forces(false, u, moment, force);
@@ -179,7 +185,6 @@ impl<T: Real> System<T> {
         for (force, contact) in force.iter_mut().zip(&self.contact_force) {
             *force = triple(|i| force[i] + contact[i]);
         }
-        self.add_damping_force(u_damping, v, force);
     }
 
     /// Adds minus the forces of follower loads on the deformed surface, N.

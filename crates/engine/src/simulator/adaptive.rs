@@ -109,12 +109,12 @@ impl<T: Real> Simulator<T> {
     fn part(&mut self, wanted: f64) -> Result<Convergence, Failure> {
         let smallest = SMALLEST * self.dt;
         loop {
-            let (h, sums) = (self.substep_dt, self.supplied.sums());
+            let h = self.substep_dt;
             let outcome = self.try_substep();
             let ratio = self.error_ratio();
             let cause = match outcome {
                 Ok(convergence) if ratio.is_none_or(|ratio| ratio <= 1.0) => {
-                    self.accept();
+                    let convergence = self.accept(convergence)?;
                     self.counters.accepted_steps += 1;
                     let error = self.integrator.estimated_error().unwrap_or_default();
                     if let (Some(control), Some(ratio)) = (&mut self.control, ratio) {
@@ -129,7 +129,6 @@ impl<T: Real> Simulator<T> {
             if h <= smallest {
                 return Err(self.fail(cause));
             }
-            self.supplied.set_sums(sums);
             self.state.copy_from(&self.last_good);
             self.counters.rejected_steps += 1;
             let Some(control) = &mut self.control else { return Err(self.fail(cause)) };

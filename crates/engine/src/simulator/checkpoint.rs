@@ -19,7 +19,8 @@ pub(super) fn of<T: Compiled>(simulator: &Simulator<T>) -> Checkpoint {
     if let Some(plasticity) = simulator.system.elements.plasticity() {
         plasticity.save(&mut history);
     }
-    simulator.supplied.save(&mut history);
+    simulator.ledger.save(&mut history);
+    simulator.last_forces.save(&mut history);
     if let Some(contact) = &simulator.contact {
         contact.save(&mut history);
     }
@@ -68,7 +69,8 @@ pub(super) fn restore<T: Compiled>(simulator: &mut Simulator<T>, checkpoint: &Ch
     let mut unconverged_steps = [0.0];
     take(history, "unconverged_steps", &mut unconverged_steps)?;
     simulator.counters.unconverged_steps = (unconverged_steps[0] as usize).min(checkpoint.steps);
-    simulator.supplied.restore(history)?;
+    simulator.ledger.restore(history)?;
+    simulator.last_forces.restore(history, coordinates / 3)?;
     if let Some(control) = &mut simulator.control {
         control.restore(history)?;
         let last = simulator.state.time - simulator.last_good.time;

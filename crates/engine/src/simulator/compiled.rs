@@ -3,7 +3,7 @@
 //! A generic function is compiled anew in each crate that calls it, and a simulation holds all elements, laws and solvers. Large
 //! functions are therefore called through a trait with an implementation for each type, which is compiled once, here.
 
-use fem_scene::simulation::{Energies, Failure, Reaction};
+use fem_scene::simulation::{Energies, EnergyLedger, Failure, Reaction};
 use fem_scene::{Body, Scene, SceneError};
 use nalgebra::Matrix3;
 
@@ -22,6 +22,10 @@ pub trait Compiled: Real {
     fn next_integrator(simulator: &mut Simulator<Self>);
     #[doc(hidden)]
     fn energies(simulator: &Simulator<Self>) -> Energies;
+    #[doc(hidden)]
+    fn energy_ledger(simulator: &Simulator<Self>) -> EnergyLedger;
+    #[doc(hidden)]
+    fn unexplained_energy(simulator: &Simulator<Self>) -> Option<Failure>;
     #[doc(hidden)]
     fn reactions(simulator: &Simulator<Self>) -> Vec<Reaction>;
     #[doc(hidden)]
@@ -53,6 +57,14 @@ macro_rules! compiled {
 
             fn energies(simulator: &Simulator<Self>) -> Energies {
                 simulator.energies_now()
+            }
+
+            fn energy_ledger(simulator: &Simulator<Self>) -> EnergyLedger {
+                simulator.ledger.report(&simulator.system, &simulator.state)
+            }
+
+            fn unexplained_energy(simulator: &Simulator<Self>) -> Option<Failure> {
+                simulator.unexplained_energy_now()
             }
 
             fn reactions(simulator: &Simulator<Self>) -> Vec<Reaction> {

@@ -51,10 +51,10 @@ pub(super) struct Contacts<T: Real> {
 }
 
 /// The force of an obstacle on a node, N.
-struct NodeForce {
-    plane: usize,
-    node: usize,
-    force: Vector3<f64>,
+pub(super) struct NodeForce {
+    pub plane: usize,
+    pub node: usize,
+    pub force: Vector3<f64>,
 }
 
 impl<T: Real> Contacts<T> {
@@ -80,6 +80,11 @@ impl<T: Real> Contacts<T> {
     /// The planes.
     pub(super) fn planes(&self) -> &Planes {
         &self.planes
+    }
+
+    /// Returns true if a plane moves or has friction.
+    pub(super) fn does_work(&self) -> bool {
+        self.planes.planes.iter().any(|plane| plane.friction > 0.0 || !plane.is_at_rest())
     }
 
     /// Memory, bytes.
@@ -158,15 +163,13 @@ impl<T: Real> Simulator<T> {
         if self.system.forces.has_lag() {
             return self.advance_with_lag();
         }
-        let Self { integrator, system, state, substep_dt: dt, counters, last_good, contact, supplied, kind, .. } = self;
+        let Self { integrator, system, state, substep_dt: dt, counters, last_good, contact, kind, .. } = self;
         let convergence = integrator.step(system, state, *dt, counters)?;
         if let Some(contacts) = integrator.plane_contacts() {
             write_contact_forces(contacts, &mut system.contact_force);
-            supplied.add(contacts.work(state.time, *dt));
         }
         let Some(Contacts { impulses: Some(impulses), timer, .. }) = contact else { return Ok(convergence) };
         if timer.time(|| impulses.apply(system, last_good, state, (*kind, *dt))) {
-            supplied.add(impulses.work());
             // Places have changed, and with them the forces at the end of the step.
             integrator.forget_forces();
         }
@@ -199,8 +202,8 @@ impl<T: Real> Simulator<T> {
         unreachable!("the last repetition returns")
     }
 
-    /// The force of each obstacle on each node near it in the last step, in the engine's numbering.
-    fn contact_forces_on_nodes(&self) -> Vec<NodeForce> {
+    /// The force of each obstacle on each node near it in a step between two times (s), in the engine's numbering.
+    pub(super) fn contact_forces_on_nodes(&self, times: [f64; 2]) -> Vec<NodeForce> {
         let Self { contact: Some(contact), state, last_good, substep_dt: dt, .. } = self else { return Vec::new() };
         if let Some(impulses) = &contact.impulses {
             let of_impulse = |impulse: &crate::integrators::Impulse| NodeForce {
@@ -214,12 +217,12 @@ impl<T: Real> Simulator<T> {
             return contacts.forces().map(|(plane, node, force)| NodeForce { plane, node, force }).collect();
         }
         let transition = contact.transition_speed * dt;
-        let near = contact.planes.near(&state.u, state.time, contact.barrier.distance);
+        let near = contact.planes.near(&state.u, times[1], contact.barrier.distance);
         let force = |near: crate::forces::contact::planes::Near| {
             let plane = &contact.planes.planes[near.plane];
             let normal = contact.barrier.force(contact.barrier.area(near.plane, near.node), near.gap);
             let moved = triple(|i| (state.u[near.node][i] - last_good.u[near.node][i]).as_f64());
-            let slide = tangential(plane, moved, [last_good.time, state.time]);
+            let slide = tangential(plane, moved, times);
             let factor = plane.friction * normal * slope_over_y(norm(slide), transition);
             let friction = if plane.friction > 0.0 { Vector3::from(slide) * factor } else { Vector3::zeros() };
             NodeForce { plane: near.plane, node: near.node, force: plane.normal * normal - friction }
@@ -230,7 +233,7 @@ impl<T: Real> Simulator<T> {
     /// The force of each obstacle on the body, and the distance of the nearest node.
     pub(super) fn contacts_now(&self) -> Vec<PlaneContact> {
         let Some(contact) = &self.contact else { return Vec::new() };
-        let forces = self.contact_forces_on_nodes();
+        let forces = self.contact_forces_on_nodes([self.last_good.time, self.state.time]);
         let of_plane = |plane: usize| {
             let on_nodes = forces.iter().filter(|force| force.plane == plane);
             PlaneContact {
@@ -256,7 +259,7 @@ impl<T: Real> Simulator<T> {
     pub(super) fn contact_forces_now(&self) -> Option<Vec<[f64; 3]>> {
         self.contact.as_ref()?;
         let mut forces = vec![[0.0; 3]; self.system.nodes()];
-        for NodeForce { node, force, .. } in self.contact_forces_on_nodes() {
+        for NodeForce { node, force, .. } in self.contact_forces_on_nodes([self.last_good.time, self.state.time]) {
             for i in 0..3 {
                 forces[node][i] += force[i];
             }

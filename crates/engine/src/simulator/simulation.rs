@@ -5,12 +5,13 @@ use std::sync::atomic::Ordering;
 
 use fem_scene::Integrator as IntegratorKind;
 use fem_scene::simulation::{
-    Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, Plane, PlaneContact, PlasticFlow, Pull, Reaction,
-    Shape, Simulation,
+    Checkpoint, Click, Counters, Energies, EnergyLedger, Failure, Parameter, Part, Plane, PlaneContact, PlasticFlow,
+    Pull, Reaction, Shape, Simulation,
 };
 use nalgebra::{DVector, Matrix3, Vector3};
 
 use super::integrator::{integrators, switched};
+use super::substep::is_judged;
 use super::{Compiled, Simulator, checkpoint, parts};
 use crate::boundary::reactions::{reactions, reactions_at};
 use crate::integrators::LastStage;
@@ -95,6 +96,14 @@ impl<T: Compiled> Simulation for Simulator<T> {
         T::energies(self)
     }
 
+    fn energy_ledger(&self) -> Option<EnergyLedger> {
+        is_judged(self.kind).then(|| T::energy_ledger(self))
+    }
+
+    fn unexplained_energy(&self) -> Option<Failure> {
+        T::unexplained_energy(self)
+    }
+
     fn estimated_error(&self) -> Option<f64> {
         self.control.as_ref().filter(|_| self.is_adaptive()).map(|control| control.error)
     }
@@ -163,6 +172,7 @@ impl<T: Compiled> Simulation for Simulator<T> {
     fn pull(&mut self, pull: Option<Pull>) {
         self.system.forces.anchors.interaction.set_pull(pull);
         self.integrator.forget_forces();
+        self.last_forces.forget();
     }
 
     fn display_vertices_outside(&self) -> usize {
@@ -222,22 +232,6 @@ impl<T: Compiled> Simulation for Simulator<T> {
 }
 
 impl<T: Real> Simulator<T> {
-    pub(super) fn min_J_now(&self) -> (f64, usize) {
-        if self.system.elements.count() == 0 {
-            let of_elements = self.det_F_of_mesh().enumerate().map(|(element, J)| (J, element));
-            return of_elements.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0));
-        }
-        let (J, element) = self.system.elements.min_det_F(&self.state.u);
-        (J.as_f64(), element)
-    }
-
-    pub(super) fn inverted_elements_now(&self) -> usize {
-        if self.system.elements.count() == 0 {
-            return self.det_F_of_mesh().filter(|J| *J <= 0.0).count();
-        }
-        self.system.elements.inverted(&self.state.u)
-    }
-
     pub(super) fn energies_now(&self) -> Energies {
         let Self { system, state, integrator, .. } = self;
         let potential = system.reported_potential(&state.u, integrator.moment(state));
@@ -274,14 +268,6 @@ impl<T: Real> Simulator<T> {
         let mut force = vec![[T::default(); 3]; system.nodes()];
         system.force(&state.u, &state.v, &last_good.u, integrator.moment(state), &mut force);
         system.numbering.to_mesh(&force).iter().map(|force| force.map(T::as_f64)).collect()
-    }
-
-    /// det F of each element of the mesh, elastic or not.
-    fn det_F_of_mesh(&self) -> impl Iterator<Item = f64> {
-        let u = self.system.numbering.to_mesh(&self.state.u);
-        let mesh = &self.system.shape.mesh;
-        let G = move |element| mesh.displacement_gradient(element, |node| Vector3::from(u[node].map(T::as_f64)));
-        (0..mesh.elements()).map(move |element| (Matrix3::identity() + G(element)).determinant())
     }
 
     /// Positions of the mesh's nodes, m.

@@ -13,7 +13,7 @@ impl<T: Compiled> Simulator<T> {
         let start = self.state.clone();
         self.set_state(u, v);
         (self.state.time, self.state.steps) = (start.time + steps as f64 * self.dt, start.steps + steps);
-        self.supplied.start_at(&self.system, &start, self.substep_dt);
+        self.ledger.open(&self.system, &start);
         let before = self.counters.unconverged_steps;
         self.step()?;
         Ok(self.counters.unconverged_steps == before)

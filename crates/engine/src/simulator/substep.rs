@@ -1,8 +1,10 @@
 //! Substeps: one is computed, and accepted or undone.
 
+use fem_scene::Integrator as IntegratorKind;
 use fem_scene::simulation::{Cause, Failure};
 
 use super::Simulator;
+use super::ledger::{Ledger, Step};
 use crate::integrators::Convergence;
 use crate::model::system::System;
 use fem_elements::Real;
@@ -16,10 +18,7 @@ impl<T: Real> Simulator<T> {
         let mut convergence = Convergence::Converged;
         for _ in 0..self.substeps {
             let outcome = match self.try_substep() {
-                Ok(outcome) => {
-                    self.accept();
-                    outcome
-                }
+                Ok(outcome) => self.accept(outcome)?,
                 Err(cause) if self.is_inverted_beyond_the_stage(cause) => self.in_smaller_parts()?,
                 Err(cause) => return Err(self.fail(cause)),
             };
@@ -46,8 +45,8 @@ impl<T: Real> Simulator<T> {
             self.substep_dt = if part < 0.999 * left { part } else { left };
             match self.try_substep() {
                 Ok(outcome) => {
-                    self.accept();
-                    convergence = if outcome == Convergence::NotConverged { outcome } else { convergence };
+                    let accepted = self.accept(outcome).inspect_err(|_| self.substep_dt = whole)?;
+                    convergence = if accepted == Convergence::NotConverged { accepted } else { convergence };
                     self.state.time = if self.substep_dt == left { end } else { self.state.time };
                 }
                 Err(Cause::Inverted { .. }) if part > SMALLEST * whole => {
@@ -80,14 +79,35 @@ impl<T: Real> Simulator<T> {
         system.forces.begin_step(&state.u, moment, *dt);
         let convergence = self.advance()?;
         self.check_state()?;
-        let Self { integrator, supplied, system, state, last_good, substep_dt: dt, .. } = self;
-        let ended_far_off =
-            integrator.may_stop_early() && supplied.is_exceeded(system, &**integrator, last_good, state, *dt);
-        Ok(if ended_far_off { Convergence::NotConverged } else { convergence })
+        Ok(convergence)
     }
 
-    /// Accepts the substep that was computed: the material flows, and time goes on.
-    pub(super) fn accept(&mut self) {
+    /// The failure of a run whose last steps, which no judgement has seen yet, have gained energy that nothing explains.
+    pub(super) fn unexplained_energy_now(&self) -> Option<Failure> {
+        let Self { integrator, system, state, last_good: before, substep_dt: dt, kind, last_forces, work, .. } = self;
+        let is_staggered = integrator.has_staggered_velocities();
+        let mut ledger = self.ledger.clone();
+        if is_staggered {
+            ledger = ledger.without(&self.work.0);
+        }
+        let is_due = is_judged(*kind) && !integrator.may_stop_early() && ledger.has_enough_steps();
+        let step = Step {
+            system,
+            integrator: &**integrator,
+            before,
+            state,
+            dt: *dt,
+            loads: &last_forces.loads,
+            work: &work.0,
+        };
+        (is_due && ledger.judge(&step)).then(|| self.failure(ledger.cause()))
+    }
+
+    /// Accepts the substep that was computed: the material flows, time goes on, and the energy is judged. After a failure the state is that at
+    /// the end of the substep.
+    pub(super) fn accept(&mut self, convergence: Convergence) -> Result<Convergence, Failure> {
+        let is_staggered = self.integrator.has_staggered_velocities();
+        let mut has_gained = is_staggered && self.judge();
         self.integrator.accept();
         self.flow();
         self.state.time = self.last_good.time + self.substep_dt;
@@ -96,6 +116,43 @@ impl<T: Real> Simulator<T> {
         {
             contact.end_step(&self.last_good, &self.state);
         }
+        self.ledger.add(&self.work.0);
+        let were_known = !self.last_forces.reactions.is_empty();
+        self.last_forces = std::mem::take(&mut self.work.1);
+        if !were_known && !self.last_forces.reactions.is_empty() {
+            let (ledger, step) = self.ledger_and_step();
+            ledger.explain_jump(&step);
+        }
+        has_gained |= !is_staggered && self.judge();
+        match has_gained {
+            false => Ok(convergence),
+            true if self.integrator.may_stop_early() => Ok(Convergence::NotConverged),
+            true => Err(self.failure(self.ledger.cause())),
+        }
+    }
+
+    /// Judges the energy of a step if the method is due for that. Returns true if energy has been gained that nothing explains.
+    fn judge(&mut self) -> bool {
+        let kind = self.kind;
+        let (ledger, step) = self.ledger_and_step();
+        is_judged(kind) && ledger.is_due(step.integrator, kind.is_explicit()) && ledger.judge(&step)
+    }
+
+    /// The ledger, and the last step for it.
+    fn ledger_and_step(&mut self) -> (&mut Ledger, Step<'_, T>) {
+        let Self { integrator, system, state, last_good: before, substep_dt: dt, ledger, last_forces, work, .. } = self;
+        (
+            ledger,
+            Step {
+                system,
+                integrator: &**integrator,
+                before,
+                state,
+                dt: *dt,
+                loads: &last_forces.loads,
+                work: &work.0,
+            },
+        )
     }
 
     /// Returns to the state before a substep that has failed.
@@ -116,10 +173,15 @@ impl<T: Real> Simulator<T> {
             Cause::inverted((J.as_f64(), element)).map_or(Ok(()), Err)?;
         }
         self.check_contact()?;
-        if self.integrator.is_unconditionally_stable() || self.supplied.may_diverge {
+        if !is_judged(self.kind) {
             return Ok(());
         }
-        self.supplied.check(&self.system, &*self.integrator, &self.last_good, &self.state, self.substep_dt)
+        self.ledger.open(&self.system, &self.last_good);
+        self.work = self.work_of_step();
+        let Self { integrator, system, state, last_good: before, substep_dt: dt, ledger, work, .. } = self;
+        let step =
+            Step { system, integrator: &**integrator, before, state, dt: *dt, loads: &work.1.loads, work: &work.0 };
+        ledger.leap(&step, &work.0).map_or(Ok(()), Err)
     }
 
     /// Lets the material flow in a step that has been accepted.
@@ -131,6 +193,11 @@ impl<T: Real> Simulator<T> {
     }
 
     fn failure(&self, cause: Cause) -> Failure {
-        Failure::of_step(self.state.steps, self.state.time, self.substep_dt, self.kind, cause)
+        Failure::of_step(self.state.steps, self.last_good.time, self.substep_dt, self.kind, cause)
     }
+}
+
+/// Returns true for a method whose energy is that of the body: statics has no motion, and position-based dynamics no moduli.
+pub(super) fn is_judged(kind: IntegratorKind) -> bool {
+    !matches!(kind, IntegratorKind::Static | IntegratorKind::Pbd)
 }

@@ -14,7 +14,7 @@ fn a_run_on_the_device_whose_end_is_not_to_be_trusted_says_so() {
     assert!(batch_of_one.failures().unwrap().is_empty());
     batch_of_one.check_ends().unwrap();
     let failure = batch_of_one.failures().unwrap()[0].failure.clone();
-    assert!(matches!(failure.cause, Cause::Diverged { .. }), "{failure}");
+    assert!(matches!(failure.cause, Cause::EnergyGained { .. }), "{failure}");
 
     let sound = BEAM.replace("METHOD", "verlet") + &gpu("f32");
     let mut sound = batch(&format!("{sound}{VARIED}")).unwrap();

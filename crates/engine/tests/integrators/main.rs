@@ -20,6 +20,7 @@ mod flat;
 mod initial_velocity;
 mod lattices;
 mod laws;
+mod ledger;
 mod mass_spring;
 mod orders;
 mod parts;

@@ -79,7 +79,7 @@ fn distances(integrator: &str, rest: &str) -> [f64; 4] {
     let scene = scene(&text.replace("stiffness = 1e6", "stiffness = 1e6\nrest_length = 0"));
     let body = fem_scene::body(&scene, std::path::Path::new("no data")).unwrap();
     let mut simulation = Simulator::<f64>::new(&scene, body).unwrap();
-    simulation.accept_divergence(true);
+    simulation.accept_gain(true);
     let mut away = || {
         run(&mut simulation, 1);
         simulation.positions()[15] - 1.0 - 1.0 / frequency().powi(2)
@@ -91,13 +91,10 @@ fn distances(integrator: &str, rest: &str) -> [f64; 4] {
 fn vibrations_faster_than_the_step_are_damped_as_the_theory_of_each_method_says() {
     for rho in [0.0, 0.3, 0.5, 0.8, 0.9, 1.0] {
         let d = distances("generalized_alpha", &format!("[generalized_alpha]\nspectral_radius = {rho}\n"));
-        // All three roots are −ρ∞: (λ + ρ)³ annihilates the distances, and Newton's method on ρ finds the root that does.
-        let residual = d[3] + 3.0 * rho * d[2] + 3.0 * rho * rho * d[1] + rho.powi(3) * d[0];
-        let slope = 3.0 * (d[2] + 2.0 * rho * d[1] + rho * rho * d[0]);
+        // The start has no acceleration of such vibrations, so each distance is −ρ∞ times the one before.
         let error = match rho {
-            0.0 => residual,
-            1.0 => d[3] / d[2] + 1.0,
-            _ => residual / slope,
+            0.0 => d.iter().fold(0.0, |most: f64, d| most.max(d.abs())),
+            _ => (1..4).fold(0.0, |most: f64, i| most.max((d[i] / d[i - 1] + rho).abs())),
         };
         println!("ρ∞ = {rho}: error {error:e}");
         assert!(error.abs() < 1e-6, "{error:e} for {rho}");

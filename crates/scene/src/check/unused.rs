@@ -6,7 +6,7 @@ use crate::{Integrator, Pipeline, Scene, SolverKind};
 /// A table, whether the scene has it, whether its integrator uses it, and which integrators do.
 type Use = (&'static str, bool, bool, &'static str);
 
-fn uses(scene: &Scene) -> [Use; 8] {
+fn uses(scene: &Scene) -> [Use; 9] {
     let method = scene.time.integrator;
     let is_static = method == Integrator::Static;
     [
@@ -39,6 +39,7 @@ fn uses(scene: &Scene) -> [Use; 8] {
             "implicit_euler, an implicit method of second order, or static",
         ),
         ("damping", scene.damping.is_some(), !is_static, "a method that moves: equilibrium has no velocities"),
+        ("energy", scene.energy.is_some(), !is_static, "a method that moves: statics has no energy ledger"),
     ]
 }
 
@@ -82,6 +83,7 @@ impl Scene {
                 "solver" => self.solver = None,
                 "contact" => self.contact = None,
                 "damping" => self.damping = None,
+                "energy" => self.energy = None,
                 other => unreachable!("{other} is none of the tables above"),
             }
         }

@@ -2,6 +2,7 @@
 
 mod batch;
 mod element_field;
+mod energies;
 mod fields;
 mod probe;
 mod series;
@@ -9,6 +10,7 @@ mod state;
 
 pub use batch::{EnvironmentEnd, write_batch};
 pub use element_field::ElementField;
+pub use energies::{EnergyRow, write_energies};
 pub use fields::von_mises;
 pub use probe::Probe;
 pub use series::Series;
@@ -16,29 +18,17 @@ pub use state::{ResumeError, resume, write_state};
 
 use fields::export_fields;
 
-use std::fmt::Write as _;
 use std::path::Path;
 
 use serde::Serialize;
 
 use crate::simulate::{Run, quantile};
-use crate::simulation::{Energies, Part, PlaneContact, PlasticFlow, Simulation};
+use crate::simulation::{EnergyLedger, Part, PlaneContact, PlasticFlow, Simulation};
 use fem_mesh::write::{Frame, save_bytes, write_glb, write_surface};
 use fem_mesh::{MeshError, Problem, SurfaceMesh};
 
 /// File extensions that [`export`] supports.
 pub const EXPORTS: [&str; 3] = ["obj", "vtu", "glb"];
-
-/// Writes `time,kinetic,potential,total` (s and J), a line for the first state and for each step.
-pub fn write_energies(path: &Path, rows: &[(f64, Energies)]) -> Result<(), MeshError> {
-    let mut text = "time,kinetic,potential,total\n".to_owned();
-    for (time, energies) in rows {
-        let Energies { kinetic, potential } = energies;
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{time:.9e},{kinetic:.16e},{potential:.16e},{:.16e}", energies.total());
-    }
-    save_bytes(path, text.as_bytes())
-}
 
 /// The numbers of a run, in the order of the statistics file.
 #[derive(Clone, Debug, Serialize)]
@@ -85,6 +75,9 @@ pub struct Stats {
     /// Largest relative change that the normal forces of friction were left with in a step; no key without such forces.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lag_residual: Option<f64>,
+    /// The energy ledger at the end, J; no key in statics, and for a pipeline that does not compute it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy: Option<EnergyLedger>,
     pub parts: serde_json::Map<String, serde_json::Value>,
 }
 
@@ -133,6 +126,7 @@ impl Stats {
             reactions: reactions.collect(),
             contacts: simulation.contacts().into_iter().map(contact).collect(),
             lag_residual: simulation.lag_residual(),
+            energy: simulation.energy_ledger(),
             parts: built.map(|part| (part.name.to_owned(), cost(&part))).collect(),
         }
     }

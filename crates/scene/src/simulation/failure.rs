@@ -41,12 +41,12 @@ pub enum Cause {
         /// m
         depth: f64,
     },
-    /// The motion has far more energy than it was supplied with: it grows without bound.
-    Diverged {
-        /// Kinetic energy, J.
-        kinetic: f64,
-        /// Largest energy that loads, prescribed motions and the initial state have supplied so far, J.
-        supplied: f64,
+    /// The body has gained energy that nothing has supplied: a motion that grows without bound, or steps that are too long.
+    EnergyGained {
+        /// That energy, J.
+        gained: f64,
+        /// Largest energy that initial state, loads, prescribed motions and obstacles have supplied so far, J.
+        turned_over: f64,
     },
     /// The estimated error of the smallest step that is tried is larger than the tolerance of `time.adaptive`.
     SmallestStep {
@@ -180,10 +180,10 @@ impl fmt::Display for Failure {
             Cause::Penetrated { plane, node, depth } => {
                 write!(f, "node {node} is constrained, and lies {depth:.3e} m behind planes[{plane}]")?;
             }
-            Cause::Diverged { kinetic, supplied } => write!(
+            Cause::EnergyGained { gained, turned_over } => write!(
                 f,
-                "the motion grows without bound: its kinetic energy is {kinetic:.3e} J, and loads, prescribed motions and \
-                 initial state have supplied {supplied:.3e} J"
+                "the body has gained {gained:.3e} J from nothing, and initial state, loads, prescribed motions and planes have supplied \
+                 {turned_over:.3e} J"
             )?,
             Cause::SmallestStep { dt, ratio } => write!(
                 f,
@@ -196,7 +196,11 @@ impl fmt::Display for Failure {
                 "Newton's method finds no way to lower the energy, and {unbalanced:.3e} N are not in balance"
             )?,
         }
-        write!(f, "; {}", self.remedy)
+        write!(f, "; {}", self.remedy)?;
+        match self.cause {
+            Cause::EnergyGained { .. } => write!(f, "; energy.accept_gain = true accepts the gain"),
+            _ => Ok(()),
+        }
     }
 }
 

@@ -66,6 +66,16 @@ pub struct NewtonTable {
     pub accept_unconverged: bool,
 }
 
+/// `[energy]`: the energy ledger of a run. Engine only.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(deny_unknown_fields)]
+pub struct EnergyTable {
+    /// True if a run goes on although the body has gained more energy than 5 % of what initial state, loads, prescribed motions and planes
+    /// have supplied.
+    #[serde(default)]
+    pub accept_gain: bool,
+}
+
 /// The iterations of Newton's method in which element stiffnesses are projected to positive semi-definite ones.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]

@@ -21,8 +21,8 @@ pub use loads::{BodyForceTable, DragTable, DragVertex, GravityTable, SpringTable
 pub(crate) use material::IN_PLANE_STRESS;
 pub use material::{MODELS, Material, MaterialsTable, PlaneState};
 pub use method::{
-    AdaptiveTable, DampingTable, GeneralizedAlphaTable, IterationsTable, NewmarkTable, NewtonTable, Precision,
-    Preconditioner, Projection, SolverKind, SolverTable, StaticTable, TimeTable,
+    AdaptiveTable, DampingTable, EnergyTable, GeneralizedAlphaTable, IterationsTable, NewmarkTable, NewtonTable,
+    Precision, Preconditioner, Projection, SolverKind, SolverTable, StaticTable, TimeTable,
 };
 pub use plasticity::{PlasticModel, PlasticityTable};
 pub use selector::{BoxTable, On, Plane, Region, Selector, SidePlane, SphereTable};
@@ -107,6 +107,8 @@ pub struct Scene {
     pub newton: Option<NewtonTable>,
     /// `[solver]`
     pub solver: Option<SolverTable>,
+    /// `[energy]`
+    pub energy: Option<EnergyTable>,
     /// `[drag]`
     pub drag: Option<DragTable>,
     /// `[batch]`

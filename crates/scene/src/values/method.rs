@@ -3,7 +3,7 @@
 use crate::tables::{IterationsTable, NewtonTable, SolverTable};
 use crate::{Integrator, Precision, Preconditioner, Projection, Scene, SolverKind};
 
-/// Settings of `[time]`, `[static]`, `[newmark]`, `[generalized_alpha]`, `[iterations]`, `[newton]` and `[solver]`.
+/// Settings of `[time]`, `[static]`, `[newmark]`, `[generalized_alpha]`, `[iterations]`, `[newton]`, `[solver]` and `[energy]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Method {
     /// Time integration method.
@@ -29,6 +29,8 @@ pub struct Method {
     pub iterations: IterationSettings,
     /// Newton's method.
     pub newton: NewtonSettings,
+    /// True if a gain of energy does not end a run.
+    pub accept_gain: bool,
     /// Linear solver; `None` if the scene leaves the choice to the pipeline.
     pub solver: Option<SolverSettings>,
 }
@@ -151,6 +153,7 @@ impl Scene {
             rho_inf: self.generalized_alpha.as_ref().and_then(|table| table.spectral_radius).unwrap_or(0.8),
             iterations: IterationSettings::new(self.iterations.as_ref().unwrap_or(&IterationsTable::default())),
             newton: self.newton.as_ref().map(newton).unwrap_or_default(),
+            accept_gain: self.energy.is_some_and(|energy| energy.accept_gain),
             solver: self.solver.as_ref().map(solver),
         }
     }

@@ -11,11 +11,11 @@ use super::theory::{self, HighestMode};
 /// Initial amplitude of the highest mode, m; the body's elements have edges of 1 m.
 const AMPLITUDE: f64 = 1e-4;
 
-/// e-folds of that amplitude until its energy exceeds ten times that at the start, with a margin.
+/// e-folds of that amplitude until the energy ledger has certainly ended the run.
 const TO_DIVERGENCE: f64 = 2.5;
 
-/// e-folds that leave its energy below that.
-const SMALL: f64 = 0.9;
+/// e-folds that leave its gain of energy below the 5 % of the ledger.
+const SMALL: f64 = 0.015;
 
 /// The prediction for an integrator at a time step.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,15 +10,15 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use fem_scene::output::ElementField;
-use fem_scene::simulation::{Energies, Simulation};
+use fem_scene::output::{ElementField, EnergyRow};
+use fem_scene::simulation::Simulation;
 use nalgebra::Vector3;
 
 use super::scene_editor::SceneEditor;
 use super::step_timers::StepTimers;
 use super::{Command, Finished, LoopOptions, Slot, Snapshot, Stepping, Stop};
 use crate::frame::{Frame, Wanted};
-use crate::history::{History, Sample};
+use crate::history::History;
 use crate::pacing::{Pace, Rate};
 use crate::panics::panic_message;
 
@@ -41,7 +41,7 @@ pub struct SimulationLoop {
     history: History,
     recent: VecDeque<f64>,
     step_seconds: Vec<f64>,
-    energies: Vec<(f64, Energies)>,
+    energies: Vec<EnergyRow>,
     /// Simulated time of the last frame, s, in [`Stepping::Frames`].
     last_frame: f64,
     frame_requested: bool,
@@ -219,7 +219,7 @@ impl SimulationLoop {
         let time = self.simulation.time();
         self.rate.mark(self.started.elapsed().as_secs_f64(), time);
         if self.options.log_energies {
-            self.energies.push((time, self.simulation.energies()));
+            self.energies.push(EnergyRow::of(&*self.simulation));
         }
         self.sample();
     }
@@ -239,7 +239,7 @@ impl SimulationLoop {
     fn sample(&mut self) {
         let time = self.simulation.time();
         if self.history.wants(time) {
-            self.history.push(Sample { time, energies: self.simulation.energies() });
+            self.history.push(EnergyRow::of(&*self.simulation));
         }
     }
 

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicUsize;
 use std::time::{Duration, Instant};
 
 use fem_scene::BodyMesh;
-use fem_scene::simulation::{Cause, Checkpoint, Counters, Part, Shape};
+use fem_scene::simulation::{Cause, Checkpoint, Counters, Energies, Part, Shape};
 use kiss3d::glamx::Vec3;
 use nalgebra::{DVector, Matrix3, Matrix4, Vector4};
 

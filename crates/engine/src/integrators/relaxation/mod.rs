@@ -164,10 +164,6 @@ impl<T: Real, R: Relaxation<T>> Integrator<T> for Relaxed<T, R> {
         self.contacts.as_mut().map_or(Ok(()), |contacts| contacts.restore(history))
     }
 
-    fn is_unconditionally_stable(&self) -> bool {
-        true
-    }
-
     fn may_stop_early(&self) -> bool {
         self.relaxation.has_material() && self.tolerance.is_none()
     }

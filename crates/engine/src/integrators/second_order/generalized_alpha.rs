@@ -2,13 +2,25 @@
 //! (1993): Newmark's formulas with M ((1 − α_m) a₁ + α_m a₀) = f((1 − α_f) u₁ + α_f u₀, …). Second order; vibrations faster than the step
 //! lose all but the part ρ∞ of their amplitude in each step.
 
+use fem_scene::NewmarkParameters;
+
 use super::coefficients::{Coefficients, Combination};
+
+/// α_m and α_f for a spectral radius ρ∞.
+fn alphas(rho_inf: f64) -> [f64; 2] {
+    [(2.0 * rho_inf - 1.0) / (rho_inf + 1.0), rho_inf / (rho_inf + 1.0)]
+}
+
+/// β and γ for this spectral radius.
+pub fn parameters(rho_inf: f64) -> NewmarkParameters {
+    let [alpha_m, alpha_f] = alphas(rho_inf);
+    NewmarkParameters { beta: 0.25 * (1.0 - alpha_m + alpha_f).powi(2), gamma: 0.5 - alpha_m + alpha_f }
+}
 
 /// The step with this spectral radius ρ∞.
 pub fn coefficients(rho_inf: f64, dt: f64) -> Coefficients {
-    let (alpha_m, alpha_f) = ((2.0 * rho_inf - 1.0) / (rho_inf + 1.0), rho_inf / (rho_inf + 1.0));
-    let gamma = 0.5 - alpha_m + alpha_f;
-    let beta = 0.25 * (1.0 - alpha_m + alpha_f).powi(2);
+    let [alpha_m, alpha_f] = alphas(rho_inf);
+    let NewmarkParameters { beta, gamma } = parameters(rho_inf);
     let (stage, of_end) = (1.0 - alpha_f, 1.0 - alpha_m);
     // a₁ = (a_s − α_m a₀)/(1 − α_m), and z = θ (dt v₀ + dt² (½ − β) a₀ + β dt² a₁).
     let square = stage * beta * dt * dt / of_end;

@@ -8,6 +8,7 @@ mod advance;
 mod bdf2;
 mod coefficients;
 mod error;
+mod first_step;
 mod generalized_alpha;
 mod history;
 mod implicit_midpoint;
@@ -24,10 +25,8 @@ use crate::model::state::State;
 use crate::model::system::System;
 use crate::newton::Newton;
 use crate::solvers::Solver;
-use coefficients::Coefficients;
 use fem_elements::Real;
 use fem_elements::history::{put, put_option, take, take_option};
-use fem_elements::vector::axpy;
 use history::Known;
 pub use scheme::Scheme;
 use start::Start;
@@ -63,7 +62,8 @@ impl<T: Real> SecondOrder<T> {
     /// Allocates its vectors for a body. `estimates` tells whether each step estimates its error.
     pub fn new(scheme: Scheme, newton: Newton<T>, system: &System<T>, estimates: bool) -> Self {
         let zero = || vec![[T::default(); 3]; system.nodes()];
-        let has_step = scheme == Scheme::Bdf2 || scheme.has_acceleration() && system.is_damped();
+        let may_settle = scheme.has_acceleration() && (system.is_damped() || scheme.overshoot() > 0.0);
+        let has_step = scheme == Scheme::Bdf2 || may_settle;
         let known = Known::new(system.nodes(), [scheme.has_acceleration(), has_step, estimates]);
         Self {
             scheme,
@@ -93,17 +93,22 @@ impl<T: Real> SecondOrder<T> {
         dt: f64,
         counters: &mut Counters,
     ) -> Result<(), Cause> {
+        self.start.work = 0.0;
         if system.dirichlet.has_motion() && self.start.jump(system, state, dt)? {
             self.known.forget();
         }
-        let Self { scheme, start, known, acceleration, estimates, .. } = self;
+        let Self { scheme, start, known, acceleration, .. } = self;
         if scheme.has_acceleration() && !known.has_acceleration {
             let a = &mut known.acceleration;
             start.accelerations(system, state, dt, a, counters)?;
             known.has_acceleration =
                 !(start.is_overdamped(system, state, dt, &state.v)? || start.is_overdamped(system, state, dt, a)?);
             acceleration.copy_from_slice(a);
+            if known.has_acceleration && start.is_unresolved(system, state, dt, (a, scheme.overshoot())) {
+                self.smooth_acceleration(system, state, dt, counters)?;
+            }
         }
+        let Self { start, known, estimates, .. } = self;
         if *estimates && known.age.is_none() {
             if known.has_acceleration {
                 known.mean.copy_from_slice(&known.acceleration);
@@ -113,60 +118,6 @@ impl<T: Real> SecondOrder<T> {
             known.age = Some(0.0);
         }
         Ok(())
-    }
-
-    /// The first step of an overdamped motion by a method that keeps an acceleration. M⁻¹ f is of the size λ v₀ where damping brings a
-    /// velocity to rest at a rate λ of many times 1/dt; the method's formulas would add dt² λ v₀ to displacements, and springs would store energy
-    /// that nobody has supplied. So the step is that of BDF2, and the acceleration at its end the mean one over half a step of implicit
-    /// Euler, which is not taken. Both bring such velocities to rest.
-    fn settle(
-        &mut self,
-        system: &System<T>,
-        state: &mut State<T>,
-        dt: f64,
-        counters: &mut Counters,
-    ) -> Result<Convergence, Cause> {
-        let convergence = self.first_step(system, state, dt, counters)?;
-        let end = state.clone();
-        let (stage, of_step) = (self.stage, self.acceleration.clone());
-        let (mean, half) = (self.next.mean.clone(), 0.5 * dt);
-        state.time += dt;
-        let of = Coefficients { acceleration: [0.0, 1.0], ..bdf2::implicit_euler(half) };
-        let moment = Moment::at(state.time + half);
-        self.advance(system, state, (half, moment), &of, counters)?;
-        *state = end;
-        (self.stage, self.acceleration, self.next.mean) = (stage, of_step, mean);
-        self.next.dt = Some(dt);
-        // The step may be repeated.
-        self.known.has_acceleration = false;
-        Ok(convergence)
-    }
-
-    /// The first step of BDF2: two stages, of which the second takes the first as the step before it.
-    fn first_step(
-        &mut self,
-        system: &System<T>,
-        state: &mut State<T>,
-        dt: f64,
-        counters: &mut Counters,
-    ) -> Result<Convergence, Cause> {
-        let (time, part) = (state.time, bdf2::FIRST_STAGE * dt);
-        let end = Moment::at(time + dt);
-        let first = self.advance(system, state, (part, end), &bdf2::first_stage(dt), counters)?;
-        std::mem::swap(&mut self.known, &mut self.next);
-        // The error is estimated from the mean acceleration of the whole step.
-        std::mem::swap(&mut self.known.mean, &mut self.next.mean);
-        self.known.age = self.next.age;
-        state.time = time + part;
-        let second = self.advance(system, state, (dt - part, end), &bdf2::second_stage(dt), counters);
-        state.time = time;
-        let Self { known, next, .. } = self;
-        axpy(1.0, &known.increment, &mut next.increment);
-        next.earlier_velocity.copy_from_slice(&known.earlier_velocity);
-        next.dt = Some(dt);
-        // The step may be repeated.
-        known.dt = None;
-        Ok(if second? == Convergence::Converged { first } else { Convergence::NotConverged })
     }
 }
 
@@ -187,6 +138,9 @@ impl<T: Real> Integrator<T> for SecondOrder<T> {
         let convergence = match self.scheme.coefficients(dt, before) {
             Some(_) if self.scheme.has_acceleration() && !self.known.has_acceleration => {
                 self.settle(system, state, dt, counters)?
+            }
+            Some(of) if self.scheme == Scheme::Bdf2 && system.forces.has_obstacles() => {
+                self.step_with_impacts(system, state, dt, (&of, counters))?
             }
             Some(of) => self.advance(system, state, (dt, end), &of, counters)?,
             None => self.first_step(system, state, dt, counters)?,
@@ -240,10 +194,21 @@ impl<T: Real> Integrator<T> for SecondOrder<T> {
         self.error
     }
 
-    /// The numerical damping of these methods bounds the energy. The other two keep or multiply the energy of motions with large
-    /// deformations.
-    fn is_unconditionally_stable(&self) -> bool {
-        matches!(self.scheme, Scheme::GeneralizedAlpha(_) | Scheme::Bdf2)
+    fn work_of_jump(&self) -> f64 {
+        self.start.work
+    }
+
+    /// Newmark's method keeps ½ vᵀ M v + ½ uᵀ K u + ½ (β − γ/2) dt² aᵀ M a if γ = ½, and lowers it if γ is larger: Krenk, Energy Conservation
+    /// in Newmark Based Time Integration Algorithms (2006).
+    fn kinetic_energy(&self, system: &System<T>, state: &State<T>, dt: f64) -> f64 {
+        let kinetic = system.mass.kinetic_energy(&state.v);
+        match self.scheme {
+            Scheme::Newmark(values) if self.known.has_acceleration => {
+                let factor = values.beta - 0.5 * values.gamma;
+                kinetic + factor * dt.powi(2) * system.mass.kinetic_energy(&self.known.acceleration)
+            }
+            _ => kinetic,
+        }
     }
 
     fn has_line_search(&self) -> bool {

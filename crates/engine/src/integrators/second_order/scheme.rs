@@ -41,6 +41,17 @@ impl Scheme {
         }
     }
 
+    /// (1 − γ/2β)²: from an initial acceleration a₀ of vibrations faster than the step, the velocity 1 − γ/2β times dt a₀ remains. Zero for
+    /// methods without that, and for those that are not stable at such steps.
+    pub(super) fn overshoot(self) -> f64 {
+        let parameters = match self {
+            Self::Newmark(parameters) if parameters.is_unconditionally_stable() => parameters,
+            Self::GeneralizedAlpha(rho_inf) => generalized_alpha::parameters(rho_inf),
+            _ => return 0.0,
+        };
+        (1.0 - parameters.gamma / (2.0 * parameters.beta)).powi(2)
+    }
+
     pub(super) fn has_acceleration(self) -> bool {
         matches!(self, Self::Newmark(_) | Self::GeneralizedAlpha(_))
     }

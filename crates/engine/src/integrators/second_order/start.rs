@@ -8,7 +8,7 @@ use crate::model::mass::Mass;
 use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
-use fem_elements::vector::{max_norm, triple};
+use fem_elements::vector::{dot, max_norm, triple};
 
 /// Part of the largest prescribed velocity from which a change of it is a jump.
 const JUMP: f64 = 1e-9;
@@ -25,6 +25,8 @@ pub struct Start<T: Real> {
     pub velocity: Vec<[T; 3]>,
     /// See `velocity`.
     pub acceleration: Vec<[T; 3]>,
+    /// Work of the impulses of the last jump of prescribed velocities, J.
+    pub work: f64,
 }
 
 impl<T: Real> Start<T> {
@@ -37,6 +39,7 @@ impl<T: Real> Start<T> {
             obstacles: zero(),
             velocity: zero(),
             acceleration: zero(),
+            work: 0.0,
         }
     }
 
@@ -52,7 +55,7 @@ impl<T: Real> Start<T> {
     /// through a consistent mass, M_ff Δv_f = −M_fp Δv_p. Returns whether velocities have jumped.
     pub fn jump(&mut self, system: &System<T>, state: &mut State<T>, dt: f64) -> Result<bool, Cause> {
         self.prescribe(system, state, dt, 0.0);
-        let Self { mass, force, velocity, obstacles: change, .. } = self;
+        let Self { mass, force, velocity, obstacles: change, work, .. } = self;
         let largest = max_norm(velocity);
         for ((change, velocity), v) in change.iter_mut().zip(&*velocity).zip(&state.v) {
             *change = triple(|i| velocity[i] - v[i]);
@@ -63,6 +66,7 @@ impl<T: Real> Start<T> {
         if size <= round_off * largest.max(size) * f64::from(u8::from(largest > 0.0)) || size == 0.0 {
             return Ok(false);
         }
+        let before = system.mass.kinetic_energy(&state.v);
         system.dirichlet.copy_constrained(velocity, &mut state.v);
         if matches!(system.mass, Mass::Consistent(_)) {
             force.fill([T::default(); 3]);
@@ -73,6 +77,7 @@ impl<T: Real> Start<T> {
                 *v = triple(|i| v[i] + change[i]);
             }
         }
+        *work = system.mass.kinetic_energy(&state.v) - before;
         Ok(true)
     }
 
@@ -115,6 +120,24 @@ impl<T: Real> Start<T> {
         system.add_damping_force(&state.u, rates, force);
         mass.solve(system, force, change)?;
         Ok(dt * max_norm(change) > max_norm(rates))
+    }
+
+    /// Returns true if this acceleration is one of vibrations that the step does not resolve, ω dt > 1, and what `overshoot` leaves of it in
+    /// the velocities would have more than a hundredth of their energy: e² ω² dt² in units of that, with the Rayleigh quotient ω² = aᵀ K a / aᵀ M a.
+    pub fn is_unresolved(
+        &mut self,
+        system: &System<T>,
+        state: &State<T>,
+        dt: f64,
+        (a, overshoot): (&[[T; 3]], f64),
+    ) -> bool {
+        if overshoot == 0.0 {
+            return false;
+        }
+        self.force.fill([T::default(); 3]);
+        system.add_stiffness_times(T::one(), &state.u, a, &mut self.force);
+        let square = dt * dt * dot(a, &self.force) / system.mass.product(a, a);
+        square > 1.0 && overshoot * square > 0.01
     }
 
     /// Accelerations by the obstacles alone at displacements and a moment, m/s²; `None` if they do not touch the body.

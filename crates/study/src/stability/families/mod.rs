@@ -2,6 +2,7 @@
 
 mod contact;
 mod degenerate_bodies;
+mod energy;
 mod explosions;
 mod flat_bodies;
 pub mod incompressibility;
@@ -43,6 +44,7 @@ pub fn cases(quick: bool, maps: &maps::Found) -> Vec<Case> {
     mass_spring::add(&mut cases, quick);
     iterated_methods::add(&mut cases, quick);
     contact::add(&mut cases, quick);
+    energy::add(&mut cases, quick);
     refusals::add(&mut cases);
     cases
 }

@@ -84,7 +84,7 @@ const SETTLED: usize = 4;
 fn measured(text: &SceneText, growth: f64, deadline: Deadline) -> Result<Finding, Finding> {
     let mut simulation = text.build()?;
     excite(&mut simulation, 1.0)?;
-    simulation.accept_divergence(true);
+    simulation.accept_gain(true);
     // Few enough steps that decay does not reach round-off and growth does not overflow.
     let count = if growth < 0.0 { 5.0 / -growth } else { 100.0 / growth.max(2.5) }.clamp(1.0, 40.0) as usize;
     let (mut sizes, start) = (Vec::new(), amplitude(&simulation));
@@ -94,7 +94,7 @@ fn measured(text: &SceneText, growth: f64, deadline: Deadline) -> Result<Finding
         }
         sizes.push(amplitude(&simulation));
     }
-    simulation.accept_divergence(false);
+    simulation.accept_gain(false);
     if growth == 0.0 {
         let end = march(&mut simulation, 1000, deadline);
         let swing = sizes.into_iter().fold(amplitude(&simulation), f64::max) / start;

@@ -1,0 +1,187 @@
+//! Works in one step that depend on the path: of loads that change or follow the body, of prescribed motions and of moving obstacles, and
+//! the energy that damping and friction dissipate.
+//!
+//! Methods of first order take all forces at the end of a step, so their works are F₁ · Δu: then implicit Euler only loses energy. The
+//! others take the mean of the forces at start and end, or those at their stage, which is exact for the trapezoidal and the midpoint
+//! rule. Explicit methods sum the powers of damping and reactions at their stages. Obstacles act at the end of a step in all methods.
+
+use std::ops::AddAssign;
+
+use super::Simulator;
+use super::energies::is_changing_load;
+use crate::boundary::reactions::{unbalanced, unbalanced_at};
+use crate::forces::Moment;
+use crate::forces::contact::friction::tangential;
+use crate::model::state::State;
+use crate::model::system::System;
+use fem_elements::Real;
+use fem_elements::history::put;
+use fem_elements::vector::{dot, triple};
+use fem_scene::Integrator as IntegratorKind;
+use fem_scene::simulation::History;
+use nalgebra::Vector3;
+
+/// Energies supplied and dissipated, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct StepWork {
+    pub loads: f64,
+    pub motions: f64,
+    pub obstacles: f64,
+    pub rayleigh: f64,
+    pub dampers: f64,
+    pub friction: f64,
+}
+
+impl StepWork {
+    /// By loads, prescribed motions and moving obstacles, J.
+    pub(super) fn supplied(&self) -> f64 {
+        self.loads + self.motions + self.obstacles
+    }
+
+    /// By damping and friction, J.
+    pub(super) fn dissipated(&self) -> f64 {
+        self.rayleigh + self.dampers + self.friction
+    }
+
+    pub(super) fn to_array(self) -> [f64; 6] {
+        [self.loads, self.motions, self.obstacles, self.rayleigh, self.dampers, self.friction]
+    }
+
+    pub(super) fn from_array([loads, motions, obstacles, rayleigh, dampers, friction]: [f64; 6]) -> Self {
+        Self { loads, motions, obstacles, rayleigh, dampers, friction }
+    }
+}
+
+impl AddAssign<&Self> for StepWork {
+    fn add_assign(&mut self, other: &Self) {
+        let (a, b) = (self.to_array(), other.to_array());
+        *self = Self::from_array(std::array::from_fn(|i| a[i] + b[i]));
+    }
+}
+
+/// Forces at the end of the last step, which the works of the next one need; empty where they are not known.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LastForces<T> {
+    /// Of changing loads, N.
+    pub(super) loads: Vec<[T; 3]>,
+    /// Of the prescribed motions on the body, N.
+    pub(super) reactions: Vec<[T; 3]>,
+}
+
+impl<T: Real> LastForces<T> {
+    /// Forgets them: the state or the forces are new.
+    pub(super) fn forget(&mut self) {
+        self.loads.clear();
+        self.reactions.clear();
+    }
+
+    /// Adds them to a history.
+    pub(super) fn save(&self, history: &mut History) {
+        put(history, "ledger.load_forces", self.loads.as_flattened());
+        put(history, "ledger.reactions", self.reactions.as_flattened());
+    }
+
+    /// Restores the forces that [`save`](Self::save) has added.
+    pub(super) fn restore(&mut self, history: &History, nodes: usize) -> Result<(), String> {
+        for (name, vector) in [("ledger.load_forces", &mut self.loads), ("ledger.reactions", &mut self.reactions)] {
+            let (found, _) = history.get(name)?.as_chunks::<3>();
+            if !found.is_empty() && found.len() != nodes {
+                return Err(format!("its history has {} nodes of `{name}` and not {nodes}", found.len()));
+            }
+            *vector = found.iter().map(|force| force.map(T::of)).collect();
+        }
+        Ok(())
+    }
+}
+
+impl<T: Real> Simulator<T> {
+    /// The works of the step that was computed last and is not yet accepted, and the forces at its end.
+    pub(super) fn work_of_step(&self) -> (StepWork, LastForces<T>) {
+        let Self { integrator, system, state, last_good: before, substep_dt: dt, kind, last_forces, .. } = self;
+        let (is_damped, has_motion) = (system.is_damped(), system.dirichlet.has_motion());
+        let [obstacles, friction] = self.work_of_obstacles();
+        let mut work = StepWork { obstacles, friction, ..StepWork::default() };
+        let mut last = LastForces::default();
+        let change = || -> Vec<[T; 3]> { difference(&state.u, &before.u) };
+        if let Some(of_stages) = integrator.work_of_stages() {
+            [work.motions, work.rayleigh, work.dampers] = [of_stages.motions, of_stages.rayleigh, of_stages.dampers];
+        } else {
+            if is_damped {
+                let powers = system.damping_powers(&before.u, &change());
+                [work.rayleigh, work.dampers] = powers.map(|power| power / dt);
+            }
+            if has_motion {
+                (work.motions, last.reactions) = self.work_of_motions();
+                work.motions += integrator.work_of_jump();
+            }
+        }
+        if system.forces.active().any(|(potential, _)| is_changing_load(potential)) {
+            last.loads = forces_of_loads(system, &state.u, Moment::at(before.time + dt));
+            let change = change();
+            work.loads = dot(&last.loads, &change);
+            if !takes_forces_at_end(*kind) {
+                let at_start = match last_forces.loads.is_empty() {
+                    true => &forces_of_loads(system, &before.u, Moment::at(before.time)),
+                    false => &last_forces.loads,
+                };
+                work.loads = 0.5 * (work.loads + dot(at_start, &change));
+            }
+        }
+        (work, last)
+    }
+
+    /// Work of the reactions in a step of an implicit method, J, and the reactions at its end or at its stage, N.
+    fn work_of_motions(&self) -> (f64, Vec<[T; 3]>) {
+        let Self { integrator, system, state, last_good: before, substep_dt: dt, kind, last_forces, .. } = self;
+        let mut change = difference(&state.u, &before.u);
+        system.dirichlet.clear_free(&mut change);
+        let end = State { time: before.time + dt, ..state.clone() };
+        let (now, part) = match integrator.last_stage().filter(|_| !takes_forces_at_end(*kind)) {
+            Some(stage) => (unbalanced_at(system, before, &end, (stage.part, stage.acceleration)), stage.part),
+            None => (unbalanced(system, before, &end, Moment::at(end.time)), 1.0),
+        };
+        let work = dot(&now, &change);
+        if takes_forces_at_end(*kind) || last_forces.reactions.is_empty() {
+            return (work, now);
+        }
+        // Linear between the stage of the last step and that of this one.
+        ((1.5 - part) * work + (part - 0.5) * dot(&last_forces.reactions, &change), now)
+    }
+
+    /// Work of moving obstacles in a step, and the energy that friction on obstacles dissipates, J.
+    fn work_of_obstacles(&self) -> [f64; 2] {
+        let Some(contact) = self.contact.as_ref().filter(|contact| contact.does_work()) else { return [0.0; 2] };
+        let times = [self.last_good.time, self.last_good.time + self.substep_dt];
+        let mut work = [0.0; 2];
+        for on_node in self.contact_forces_on_nodes(times) {
+            let (plane, node) = (&contact.planes().planes[on_node.plane], on_node.node);
+            let travel = plane.displacement(times[1]) - plane.displacement(times[0]);
+            let moved = triple(|i| (self.state.u[node][i] - self.last_good.u[node][i]).as_f64());
+            work[0] += on_node.force.dot(&travel);
+            work[1] -= on_node.force.dot(&Vector3::from(tangential(plane, moved, times)));
+        }
+        work
+    }
+}
+
+/// Returns true if a method takes all forces at the end of a step.
+fn takes_forces_at_end(kind: IntegratorKind) -> bool {
+    !kind.is_explicit() && !IntegratorKind::SECOND_ORDER_IMPLICIT.contains(&kind)
+}
+
+/// Forces of the loads whose work depends on the path, N.
+fn forces_of_loads<T: Real>(system: &System<T>, u: &[[T; 3]], moment: Moment) -> Vec<[T; 3]> {
+    let mut force = vec![[T::default(); 3]; u.len()];
+    for (potential, _) in system.forces.active().filter(|(potential, _)| is_changing_load(*potential)) {
+        potential.add_gradient(u, moment, &mut force);
+    }
+    for force in force.as_flattened_mut() {
+        *force = -*force;
+    }
+    force
+}
+
+/// x − y
+fn difference<T: Real>(x: &[[T; 3]], y: &[[T; 3]]) -> Vec<[T; 3]> {
+    x.iter().zip(y).map(|(x, y)| triple(|i| x[i] - y[i])).collect()
+}
