@@ -14,7 +14,7 @@ use fem_mesh::MeshError;
 const LINE: usize = 120;
 
 /// The order of the tables in a file.
-const ORDER: [&str; 26] = [
+const ORDER: [&str; 27] = [
     "about",
     "pipeline",
     "mesh",
@@ -25,6 +25,7 @@ const ORDER: [&str; 26] = [
     "gravity",
     "body_force",
     "traction",
+    "force",
     "springs",
     "fixed",
     "prescribed",

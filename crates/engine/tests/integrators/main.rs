@@ -21,6 +21,7 @@ mod initial_velocity;
 mod lattices;
 mod laws;
 mod mass_spring;
+mod nodal_forces;
 mod orders;
 mod parts;
 mod plasticity;

@@ -9,8 +9,9 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     let body_force = scene.body_force.iter().map(|table| ("body_force".to_owned(), &table.curve));
     let numbered = |table: &str, number: usize| format!("{table}[{number}]");
     let tractions = scene.traction.iter().enumerate().map(|(i, table)| (numbered("traction", i), &table.curve));
+    let forces = scene.force.iter().enumerate().map(|(i, table)| (numbered("force", i), &table.curve));
     let prescribed = scene.prescribed.iter().enumerate().map(|(i, table)| (numbered("prescribed", i), &table.curve));
-    let curves = gravity.chain(body_force).chain(tractions).chain(prescribed);
+    let curves = gravity.chain(body_force).chain(tractions).chain(forces).chain(prescribed);
     let given = curves.filter_map(|(table, curve)| Some((format!("{table}.curve"), curve.as_ref()?)));
     given.into_iter().try_for_each(|(field, curve)| check_curve(scene, &field, curve))
 }

@@ -185,8 +185,9 @@ fn initial_velocity(of_mesh: &[Vector3<f64>], system: &System) -> Vec<[f64; 3]> 
 fn kinks(body: &Body) -> Vec<f64> {
     let of_volume = body.gravity_curve.iter().chain(&body.body_force_curve);
     let dead = body.tractions.iter().filter_map(|traction| traction.curve.as_ref());
+    let nodal = body.nodal_forces.iter().filter_map(|load| load.curve.as_ref());
     let followers = body.pressures.iter().filter_map(|pressure| pressure.curve.as_ref());
-    of_volume.chain(dead).chain(followers).flat_map(LoadCurve::kinks).collect()
+    of_volume.chain(dead).chain(nodal).chain(followers).flat_map(LoadCurve::kinks).collect()
 }
 
 /// Products with M⁻¹ K.
