@@ -182,7 +182,8 @@ impl<T: Compiled> Simulation for Simulator<T> {
     }
 
     fn notes(&self) -> Vec<String> {
-        self.contact.as_ref().map_or(Vec::new(), |contact| contact.notes())
+        let stabilized = self.system.modulus_of_free_body.map(|_| STABILIZED.to_owned());
+        self.contact.iter().flat_map(|contact| contact.notes()).chain(stabilized).collect()
     }
 
     fn warnings(&self) -> Vec<String> {
@@ -296,3 +297,8 @@ impl<T: Real> Simulator<T> {
 fn stacked(vectors: &[[f64; 3]]) -> DVector<f64> {
     DVector::from_column_slice(vectors.as_flattened())
 }
+
+/// The note on a body whose rigid motions are stabilized.
+const STABILIZED: &str = "the constraints leave the body a rigid motion, so each load step is stabilized by a term on the mass, which is \
+                          reduced until the forces that it leaves are 1e-9 of all forces or less; the body keeps its place where no \
+                          force moves it";

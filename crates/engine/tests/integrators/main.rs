@@ -30,6 +30,7 @@ mod precision;
 mod pressures;
 mod quadratic;
 mod quadratic_motion;
+mod quasi_static;
 mod reactions;
 mod release;
 mod resume;

@@ -18,8 +18,9 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
 
 fn check_curve(scene: &Scene, field: &str, curve: &CurveTable) -> Result<(), Problem> {
     curve.check(field)?;
-    if scene.time.integrator == Integrator::Static {
-        let text = "is a function of time, and static has none; its loads grow in the parts of static.load_steps; remove the curve";
+    if scene.time.integrator == Integrator::Static && scene.statics.as_ref().is_some_and(|statics| statics.arc_length) {
+        let text = "is a factor of its own, and along an equilibrium path by static.arc_length all loads have one factor; remove the curve \
+                    or arc_length";
         return problem(field, text);
     }
     Ok(())

@@ -154,7 +154,7 @@ impl Equations {
             scratch.force.resize(n, [0.0; 3]);
             double::add_stiffness_times(&self.system, &rest, &d, &mut scratch.force);
             for (force, _) in self.system.forces.active().filter(|(force, _)| !force.is_internal()) {
-                force.add_hessian_times(1.0, &rest, &d, &mut scratch.force);
+                force.add_hessian_times(1.0, &rest, fem_engine::forces::Moment::at(0.0), &d, &mut scratch.force);
             }
             let mut next = vec![[0.0; 3]; n];
             self.mass.apply(&scratch.force, &mut next, &mut scratch.right);
