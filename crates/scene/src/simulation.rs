@@ -103,6 +103,17 @@ pub trait Simulation: Send {
     /// Cauchy stress of each element now, Pa; empty where elements have none.
     fn stresses(&self) -> Vec<Matrix3<f64>>;
 
+    /// Cauchy stress at each quadrature point now, Pa: those of the first element, then those of the next, as in
+    /// [`BodyMesh::points`](crate::BodyMesh::points).
+    fn stresses_at_points(&self) -> Vec<Matrix3<f64>> {
+        self.stresses()
+    }
+
+    /// The number of the material of each element; empty if all have the same.
+    fn material_of_elements(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
     /// Plastic flow of the body; `None` for a body without plasticity.
     fn plastic_flow(&self) -> Option<PlasticFlow> {
         None

@@ -10,6 +10,11 @@ use fem_elements::vector::triple;
 /// A rigid motion is constrained if its stiffness is more than this part of the largest.
 const LEAST: f64 = 1e-9;
 
+/// The note on a body whose rigid motions are stabilized.
+pub(crate) const STABILIZED: &str = "the constraints leave the body a rigid motion, so each load step is stabilized by a term on the mass, which is \
+                          reduced until the forces that it leaves are 1e-9 of all forces or less; the body keeps its place where no \
+                          force moves it";
+
 /// Refuses a body of which a connected part can move or rotate without deforming. Obstacles may hold it.
 pub(crate) fn check(body: &Body) -> Result<(), Refusal> {
     match free_part(body) {

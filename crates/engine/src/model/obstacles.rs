@@ -76,6 +76,11 @@ impl<T: Real> System<T> {
         [internal, sum_of_sizes(scratch)]
     }
 
+    /// The largest multiple of `direction` up to which no force becomes infeasible.
+    pub fn largest_step(&self, u: &[[T; 3]], moment: Moment, direction: &[[T; 3]]) -> f64 {
+        self.largest_step_where(u, moment, direction, |_| true)
+    }
+
     /// The largest multiple of `direction` up to which no force but those of obstacles becomes infeasible.
     pub fn own_largest_step(&self, u: &[[T; 3]], moment: Moment, direction: &[[T; 3]]) -> f64 {
         self.largest_step_where(u, moment, direction, |potential| !potential.is_obstacle())

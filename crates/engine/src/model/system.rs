@@ -254,11 +254,6 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// Magnitude of the terms that cancel in the elastic energy of a rotated body, J: its rounding error is a part of this.
-    pub fn cancelled(&self, u: &[[T; 3]]) -> f64 {
-        self.elements.cancelled(u)
-    }
-
     /// Energy for reports: that of the elements and of all forces that have a potential, follower loads included, J.
     pub fn reported_potential(&self, u: &[[T; 3]], moment: Moment) -> f64 {
         let elastic = self.elements.energy(u);
@@ -271,12 +266,6 @@ impl<T: Real> System<T> {
     /// Cauchy stress of each element of the mesh, Pa.
     pub fn stresses(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
         self.elements.cauchy_stresses(u)
-    }
-
-    /// The largest multiple of `direction` up to which no force becomes infeasible.
-    pub fn largest_step(&self, u: &[[T; 3]], moment: Moment, direction: &[[T; 3]]) -> f64 {
-        let steps = self.forces.active().map(|(potential, _)| potential.largest_step(u, moment, direction));
-        steps.fold(f64::INFINITY, f64::min)
     }
 
     /// Changes the increment of a step, an initial guess, where a force would be infeasible, m. Constrained entries stay.

@@ -83,7 +83,7 @@ impl<T: Real> IncrementalPotential<'_, T> {
     /// Magnitude of the terms that cancel within E(w), J.
     pub fn cancelled(&self, w: &[[T; 3]], workspace: &mut Workspace<T>) -> f64 {
         workspace.set_u(self.increment.start, w);
-        self.system.cancelled(&workspace.u)
+        self.system.elements.cancelled(&workspace.u)
     }
 
     /// The largest multiple of `direction` from w up to which every force stays feasible.

@@ -13,6 +13,7 @@ use nalgebra::{DVector, Matrix3, Vector3};
 use super::integrator::{integrators, switched};
 use super::{Compiled, Simulator, checkpoint, parts};
 use crate::boundary::reactions::{reactions, reactions_at};
+use crate::boundary::rigid_modes;
 use crate::integrators::LastStage;
 use crate::model::state::State;
 use crate::pick;
@@ -123,6 +124,14 @@ impl<T: Compiled> Simulation for Simulator<T> {
         T::stresses(self)
     }
 
+    fn stresses_at_points(&self) -> Vec<Matrix3<f64>> {
+        T::stresses_at_points(self)
+    }
+
+    fn material_of_elements(&self) -> Vec<usize> {
+        self.system.elements.material_of_elements()
+    }
+
     fn plastic_flow(&self) -> Option<PlasticFlow> {
         let plasticity = self.system.elements.plasticity()?;
         Some(PlasticFlow { strains: self.system.elements.plastic_strains()?, dissipated: plasticity.dissipated() })
@@ -182,7 +191,7 @@ impl<T: Compiled> Simulation for Simulator<T> {
     }
 
     fn notes(&self) -> Vec<String> {
-        let stabilized = self.system.modulus_of_free_body.map(|_| STABILIZED.to_owned());
+        let stabilized = self.system.modulus_of_free_body.map(|_| rigid_modes::STABILIZED.to_owned());
         self.contact.iter().flat_map(|contact| contact.notes()).chain(stabilized).collect()
     }
 
@@ -297,8 +306,3 @@ impl<T: Real> Simulator<T> {
 fn stacked(vectors: &[[f64; 3]]) -> DVector<f64> {
     DVector::from_column_slice(vectors.as_flattened())
 }
-
-/// The note on a body whose rigid motions are stabilized.
-const STABILIZED: &str = "the constraints leave the body a rigid motion, so each load step is stabilized by a term on the mass, which is \
-                          reduced until the forces that it leaves are 1e-9 of all forces or less; the body keeps its place where no \
-                          force moves it";

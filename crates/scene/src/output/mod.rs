@@ -4,6 +4,7 @@ mod batch;
 mod element_field;
 mod fields;
 mod probe;
+mod recovery;
 mod series;
 mod state;
 
