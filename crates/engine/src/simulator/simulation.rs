@@ -10,7 +10,6 @@ use fem_scene::simulation::{
 };
 use nalgebra::{DVector, Matrix3, Vector3};
 
-use super::integrator::{integrators, switched};
 use super::{Compiled, Simulator, checkpoint, parts};
 use crate::boundary::reactions::{reactions, reactions_at};
 use crate::boundary::rigid_modes;
@@ -252,20 +251,6 @@ impl<T: Real> Simulator<T> {
         let Self { system, state, integrator, .. } = self;
         let potential = system.reported_potential(&state.u, integrator.moment(state));
         Energies { kinetic: system.mass.kinetic_energy(&state.v), potential }
-    }
-
-    pub(super) fn switch_integrator(&mut self) {
-        let method = self.method.integrator;
-        let is_usable = |kind: IntegratorKind| {
-            self.contact.is_none()
-                || (kind.supports_contact()
-                    && kind.is_explicit() == method.is_explicit()
-                    && kind.projects_contact() == method.projects_contact())
-        };
-        let methods: Vec<_> = integrators(method).iter().copied().filter(|kind| is_usable(*kind)).collect();
-        self.kind = self.kind.next_in(&methods);
-        let planes = self.contact.as_ref().map(|contact| contact.planes());
-        self.integrator = switched(self.kind, &self.method, &mut self.system, self.solver, planes);
     }
 
     pub(super) fn reactions_now(&self) -> Vec<Reaction> {
