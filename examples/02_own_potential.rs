@@ -52,7 +52,15 @@ impl Potential<f64> for Floor {
         self.contacts(u).for_each(|(node, z)| gradient[node][2] += self.stiffness * z);
     }
 
-    fn add_hessian(&self, k: f64, u: &[[f64; 3]], _: HessianKind, pattern: &Pattern, values: &mut [Block<f64, 3>]) {
+    fn add_hessian(
+        &self,
+        k: f64,
+        u: &[[f64; 3]],
+        _: Moment,
+        _: HessianKind,
+        pattern: &Pattern,
+        values: &mut [Block<f64, 3>],
+    ) {
         let blocks = self.contacts(u).filter_map(|(node, _)| pattern.find(node, node));
         blocks.for_each(|block| values[block][2][2] += k * self.stiffness);
     }

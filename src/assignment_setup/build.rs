@@ -126,6 +126,7 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         ("generalized_alpha", scene.generalized_alpha.is_some()),
         ("body_force", scene.body_force.is_some()),
         ("traction", !scene.traction.is_empty()),
+        ("force", !scene.force.is_empty()),
         ("springs", !scene.springs.is_empty()),
         ("planes", !scene.planes.is_empty()),
         ("contact", scene.contact.is_some()),

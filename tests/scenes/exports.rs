@@ -9,8 +9,17 @@ use crate::program::{Desk, course_scenes};
 use crate::scene_text::{CUBE, build, parse, shipped};
 
 /// The fields of a `.vtu`.
-const FIELDS: [&str; 8] =
-    ["displacement", "velocity", "nodal_force", "stress_averaged", "stress", "von_mises", "strain", "J"];
+const FIELDS: [&str; 9] = [
+    "displacement",
+    "velocity",
+    "nodal_force",
+    "stress_averaged",
+    "stress_volume_averaged",
+    "stress",
+    "von_mises",
+    "strain",
+    "J",
+];
 
 #[test]
 fn an_obj_export_contains_the_deformed_display_surface() {

@@ -53,6 +53,11 @@ pub fn dot3<T: Float>(a: &[T; 3], b: &[T; 3]) -> f64 {
     a.iter().zip(b).map(|(&a, &b)| a.as_f64() * b.as_f64()).sum()
 }
 
+/// Sum of the absolute values of all entries, Σ |xᵢ|.
+pub fn sum_of_sizes<T: Float>(x: &[[T; 3]]) -> f64 {
+    x.as_flattened().iter().map(|x| x.as_f64().abs()).sum()
+}
+
 /// Maximum norm ‖x‖∞, the largest absolute value of an entry that is not NaN.
 pub fn max_norm<T: Float>(x: &[[T; 3]]) -> f64 {
     // NaN fails the comparison.

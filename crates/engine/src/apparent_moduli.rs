@@ -92,6 +92,7 @@ fn with_fixed_boundary(body: &Body) -> Body {
         dirichlet: vec![boundary],
         initial_velocity: Vec::new(),
         tractions: Vec::new(),
+        nodal_forces: Vec::new(),
         pressures: Vec::new(),
         springs: Vec::new(),
         contact: None,

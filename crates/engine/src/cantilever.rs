@@ -58,7 +58,7 @@ pub fn expected_tip_displacement(scene: &Scene) -> Option<Vector3<f64>> {
     let size = scene.mesh.cuboid.as_ref()?.size.map(|edge| edge * scene.mesh.scale);
     let is_uniform = scene.materials.is_empty();
     let is_clamped_alone = is_uniform && is_clamped_at_x_min(scene, size[0]) && scene.prescribed.is_empty();
-    let is_loaded_alone = scene.springs.is_empty() && scene.drag.is_none();
+    let is_loaded_alone = scene.force.is_empty() && scene.springs.is_empty() && scene.drag.is_none();
     if scene.time.integrator != Integrator::Static || !is_clamped_alone || !is_loaded_alone {
         return None;
     }

@@ -32,6 +32,7 @@ use fem_scene::{Body, Integrator as IntegratorKind, Material, Method, Precision,
 use nalgebra::Vector3;
 
 use crate::boundary::rigid_modes;
+use crate::forces::contact::barrier::largest_shear_modulus;
 use crate::forces::{self, Moment, anchors};
 use crate::integrators::Integrator;
 use crate::model::numbering::Numbering;
@@ -172,6 +173,8 @@ impl<T: Real> Simulator<T> {
         let mut plan = Plan::new(&body);
         let gravity = body.gravity;
         let with_obstacles = body.contact.is_some().then(|| body.clone());
+        let is_free = method.integrator == IntegratorKind::Static && rigid_modes::free_part(&body).is_some();
+        let modulus_of_free_body = is_free.then(|| largest_shear_modulus(&body));
         let mut system = match method.integrator.has_matrix() {
             true => System::with_forces(body, law, solver, own),
             false => System::without_matrix(&body, law, own),
@@ -182,6 +185,7 @@ impl<T: Real> Simulator<T> {
         iterated_check::check_forces(&method, &system.forces)
             .map_err(|(field, problem)| scene.refuse(field, &problem))?;
         plan.add_forces(system.forces.all().map(|(force, _)| force).filter(|force| force.name() != anchors::NAME));
+        system.modulus_of_free_body = modulus_of_free_body;
         let contact = Contacts::new(with_obstacles.as_ref(), &mut system);
         let initial_velocity = initial_velocity(&velocities, &system);
         let state = State::at_start(system.nodes(), &initial_velocity);

@@ -12,9 +12,9 @@ use crate::picture;
 use crate::simulation::Shape;
 use crate::tables::{MeshTable, SurfaceTable};
 use crate::values::{
-    Contact, DirichletCondition, Drag, MaterialRegion, Plasticity, Pressure, RayleighDamping, Spring, Traction,
-    contact, curve, damping, density_factors, dirichlet_conditions, drag, initial_velocity, plasticity, regions,
-    springs, surface_loads,
+    Contact, DirichletCondition, Drag, MaterialRegion, NodalForce, Plasticity, Pressure, RayleighDamping, Spring,
+    Traction, contact, curve, damping, density_factors, dirichlet_conditions, drag, initial_velocity, nodal_forces,
+    plasticity, regions, springs, surface_loads,
 };
 use crate::{BodyMesh, LoadCurve, Material, Scene, SceneError};
 use fem_mesh::generate::odt::improve_inside;
@@ -56,6 +56,8 @@ pub struct Body {
     pub initial_velocity: Vec<Vector3<f64>>,
     /// Dead loads on the surface.
     pub tractions: Vec<Traction>,
+    /// Dead loads on single nodes.
+    pub nodal_forces: Vec<NodalForce>,
     /// Follower loads on the surface.
     pub pressures: Vec<Pressure>,
     /// Springs between nodes.
@@ -120,6 +122,7 @@ pub fn body_of_shape(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, S
         dirichlet,
         initial_velocity,
         tractions,
+        nodal_forces: nodal_forces(scene, &mesh)?,
         pressures,
         springs: springs(scene, &mesh)?,
         contact,

@@ -221,6 +221,18 @@ impl BodyMesh {
         }
     }
 
+    /// Undeformed positions of the quadrature points of an element, m, in the order of its states.
+    pub fn points(&self, element: usize) -> Vec<Vector3<f64>> {
+        let X = self.vertices();
+        match (self, self.nodes_of(element)) {
+            (Self::Quadratic { .. }, &[a, b, c, ..]) => {
+                let near = |i: usize, j: usize, k: usize| X[i] * (2.0 / 3.0) + (X[j] + X[k]) / 6.0;
+                vec![near(a, b, c), near(b, c, a), near(c, a, b)]
+            }
+            (_, nodes) => vec![nodes.iter().map(|&node| X[node]).sum::<Vector3<f64>>() / nodes.len() as f64],
+        }
+    }
+
     /// Thickness of a flat body, m.
     pub fn thickness(&self) -> Option<f64> {
         match self {

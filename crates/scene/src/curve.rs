@@ -7,7 +7,8 @@ use serde::Deserialize;
 use crate::check::numbers::{Problem, check_finite, check_positive, problem};
 
 /// `curve`: a factor of time on a load or on a prescribed motion, of one of four kinds: `ramp`, `table`, `sine`, or `on` and `off`, either of
-/// which may be left out. Engine only, and not with `static`, whose loads grow with the load steps.
+/// which may be left out. Engine only. With `static` the load steps count the time, and what has a curve follows it instead of growing with
+/// the load steps.
 ///
 /// Implicit methods evaluate the factor at the end of a step (`implicit_midpoint` and `generalized_alpha` within it), explicit methods at
 /// the time of each stage.

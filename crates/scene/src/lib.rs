@@ -79,7 +79,7 @@ pub use tables::{
 pub use timer::Timer;
 pub use values::{
     Contact, ContactPlane, ContactTreatment, DirichletCondition, Drag, EnvironmentValues, IterationSettings,
-    MaterialRegion, Method, Motion, NewmarkParameters, NewtonSettings, PlaneMotion, Plasticity, Pressure,
+    MaterialRegion, Method, Motion, NewmarkParameters, NewtonSettings, NodalForce, PlaneMotion, Plasticity, Pressure,
     RayleighDamping, Rotation, SolverSettings, Spring, Traction, highest_node,
 };
 pub use warnings::warnings;

@@ -25,6 +25,7 @@ const ORDER: [&str; 27] = [
     "gravity",
     "body_force",
     "traction",
+    "force",
     "springs",
     "fixed",
     "prescribed",

@@ -8,10 +8,11 @@ mod part;
 mod picture_place;
 mod plane;
 mod plastic_flow;
+mod pull;
 
 use std::sync::Arc;
 
-use nalgebra::{DVector, Matrix3, Matrix4, Vector3, Vector4};
+use nalgebra::{DVector, Matrix3, Vector3};
 
 use fem_mesh::SurfaceMesh;
 
@@ -25,6 +26,7 @@ pub use part::Part;
 pub use picture_place::PicturePlace;
 pub use plane::{Plane, PlaneContact};
 pub use plastic_flow::PlasticFlow;
+pub use pull::{Click, Pull};
 
 /// A simulation of one body, whichever pipeline computes it. Lengths are in m, times in s, energies in J.
 pub trait Simulation: Send {
@@ -116,6 +118,17 @@ pub trait Simulation: Send {
 
     /// Cauchy stress of each element now, Pa; empty where elements have none.
     fn stresses(&self) -> Vec<Matrix3<f64>>;
+
+    /// Cauchy stress at each quadrature point now, Pa: those of the first element, then those of the next, as in
+    /// [`BodyMesh::points`](crate::BodyMesh::points).
+    fn stresses_at_points(&self) -> Vec<Matrix3<f64>> {
+        self.stresses()
+    }
+
+    /// The number of the material of each element; empty if all have the same.
+    fn material_of_elements(&self) -> Vec<usize> {
+        Vec::new()
+    }
 
     /// Plastic flow of the body; `None` for a body without plasticity.
     fn plastic_flow(&self) -> Option<PlasticFlow> {
@@ -265,28 +278,6 @@ pub struct Reaction {
     pub name: String,
     /// Sum over the nodes of the force on the body, in the constrained directions, N.
     pub force: [f64; 3],
-}
-
-/// A click into a picture of the simulation mesh, in OpenGL's conventions.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Click {
-    /// Pixels from the lower left; z is not used.
-    pub win: Vector3<f64>,
-    /// World to eye.
-    pub view: Matrix4<f32>,
-    /// Eye to clip, depth −1…1.
-    pub proj: Matrix4<f32>,
-    /// `(x, y, width, height)` in pixels.
-    pub viewport: Vector4<f32>,
-}
-
-/// Springs of zero rest length from nodes to their positions when the pull began, plus a common offset.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Pull {
-    /// Nodes that are pulled, and the position of each when the pull began, m.
-    pub anchors: Vec<(usize, Vector3<f64>)>,
-    /// Displacement of the mouse since then, m.
-    pub offset: Vector3<f64>,
 }
 
 /// Numbers of operations so far.

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use crate::{Body, BodyMesh, Material, Scene};
 
-/// The warnings before a run, each with its remedy: nodes that coincide without being merged, parts that nothing constrains,
-/// and materials in which linear tetrahedra lock.
+/// The warnings before a run, each with its remedy: nodes that coincide without being merged, parts that nothing constrains, forces on constrained
+/// nodes, and materials in which linear tetrahedra lock.
 pub fn warnings(scene: &Scene, body: &Body) -> Vec<String> {
     let file = scene.path.display();
-    [coincident_nodes(body), unconstrained_parts(body)]
+    [coincident_nodes(body), unconstrained_parts(body), loaded_constraints(body)]
         .into_iter()
         .flatten()
         .chain(locking(body))
@@ -48,6 +48,26 @@ fn coincident_nodes(body: &Body) -> Option<String> {
          merged (in Gmsh: Coherence Mesh)",
         found.count
     ))
+}
+
+/// Nodal forces along coordinates that are constrained for good: they go into the reaction and move nothing.
+fn loaded_constraints(body: &Body) -> Option<String> {
+    let mut is_constrained = vec![[false; 3]; body.shape.mesh.vertices().len()];
+    for condition in body.dirichlet.iter().filter(|condition| condition.until.is_none()) {
+        for &node in &condition.nodes {
+            (0..3).for_each(|i| is_constrained[node][i] |= condition.components[i]);
+        }
+    }
+    body.nodal_forces.iter().enumerate().find_map(|(number, load)| {
+        let is_lost = |node: &&usize| (0..3).any(|i| load.force[i] != 0.0 && is_constrained[**node][i]);
+        let count = load.nodes.iter().filter(is_lost).count();
+        let first = load.nodes.iter().find(is_lost)?;
+        Some(format!(
+            "force[{number}]: {count} of its {} nodes are constrained along the force, the first is {first}; the reaction takes that part \
+             of the force and the body does not feel it; name other nodes, unless that is meant",
+            load.nodes.len()
+        ))
+    })
 }
 
 /// Parts without any Dirichlet condition while others have one. Springs connect parts, and the spring of a drag holds its own.

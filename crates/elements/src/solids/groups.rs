@@ -206,8 +206,12 @@ impl<T: Float> Solids<T> for Groups<T> {
         self.groups.iter().map(|group| with_elements!(&group.elements, elements => elements.inverted(u))).sum()
     }
 
-    fn cauchy_stresses(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
-        let mut stresses = vec![Matrix3::zeros(); self.count / self.points_per_element];
+    fn points_per_element(&self) -> usize {
+        self.points_per_element
+    }
+
+    fn cauchy_stresses_at_points(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
+        let mut stresses = vec![Matrix3::zeros(); self.count];
         for group in &self.groups {
             let law = &group.laws.law;
             let is_pushed_forward = !law.is_linear() || self.plasticity.is_some();
@@ -222,9 +226,9 @@ impl<T: Float> Solids<T> for Groups<T> {
                 })
             });
             for (point, stress) in of_group.into_iter().enumerate() {
-                let number = group.number(point) / self.points_per_element;
-                let factor = self.factors.get(number).copied().unwrap_or(1.0) / self.points_per_element as f64;
-                stresses[number] += factor * Matrix3::from_fn(|i, j| stress[i][j]);
+                let number = group.number(point);
+                let factor = self.factor(number / self.points_per_element);
+                stresses[number] = factor * Matrix3::from_fn(|i, j| stress[i][j]);
             }
         }
         stresses

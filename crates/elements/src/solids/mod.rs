@@ -73,8 +73,11 @@ pub trait Solids<T: Float>: Send + Sync {
     /// Number of quadrature points with det F ≤ 0.
     fn inverted(&self, u: &[[T; 3]]) -> usize;
 
-    /// Cauchy stress of each element of the mesh, Pa: the mean of its quadrature points.
-    fn cauchy_stresses(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>>;
+    /// Number of quadrature points of an element.
+    fn points_per_element(&self) -> usize;
+
+    /// Cauchy stress at each quadrature point, Pa: those of the mesh's first element, then those of the next.
+    fn cauchy_stresses_at_points(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>>;
 
     /// Plastic flow of the elements, where the scene has some.
     fn plasticity(&self) -> Option<&Plasticity<T>>;
@@ -103,6 +106,23 @@ impl<T: Float> dyn Solids<T> + '_ {
     /// Returns true if every law allows J = det F ≤ 0.
     pub fn allow_inversion(&self) -> bool {
         self.laws().all(|law| law.allows_inversion())
+    }
+
+    /// Cauchy stress of each element of the mesh, Pa: the mean of its quadrature points.
+    pub fn cauchy_stresses(&self, u: &[[T; 3]]) -> Vec<Matrix3<f64>> {
+        let at_points = self.cauchy_stresses_at_points(u);
+        let mean = |points: &[Matrix3<f64>]| points.iter().sum::<Matrix3<f64>>() / points.len() as f64;
+        at_points.chunks_exact(self.points_per_element()).map(mean).collect()
+    }
+
+    /// The number of the material of each element of the mesh.
+    pub fn material_of_elements(&self) -> Vec<usize> {
+        let mut material_of = vec![0; self.count() / self.points_per_element()];
+        for material in 1..self.materials() {
+            let points = self.numbers(material);
+            points.into_iter().for_each(|point| material_of[point / self.points_per_element()] = material);
+        }
+        material_of
     }
 
     /// Shear modulus and bulk modulus of each material at small strain, Pa.

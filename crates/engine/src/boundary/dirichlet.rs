@@ -172,7 +172,7 @@ impl DirichletConditions {
     ) {
         self.clear_constrained(increment);
         for (DirichletCondition { nodes, components, .. }, motion) in self.motions() {
-            let fraction = moment.load_factor.unwrap_or_else(|| motion.fraction(moment.time));
+            let fraction = moment.factor(motion.curve.as_ref());
             for &node in nodes {
                 let target = motion.position(&rest[node], fraction) - rest[node];
                 for i in (0..3).filter(|&i| components[i]) {

@@ -10,24 +10,37 @@ use fem_elements::vector::triple;
 /// A rigid motion is constrained if its stiffness is more than this part of the largest.
 const LEAST: f64 = 1e-9;
 
-/// Refuses a body of which a connected part can move or rotate without deforming. Parts that are joined by springs are left to the solver.
+/// The note on a body whose rigid motions are stabilized.
+pub(crate) const STABILIZED: &str = "the constraints leave the body a rigid motion, so each load step is stabilized by a term on the mass, which is \
+                          reduced until the forces that it leaves are 1e-9 of all forces or less; the body keeps its place where no \
+                          force moves it";
+
+/// Refuses a body of which a connected part can move or rotate without deforming. Obstacles may hold it.
 pub(crate) fn check(body: &Body) -> Result<(), Refusal> {
+    match free_part(body) {
+        Some(root) if body.contact.is_none() => {
+            let text = format!(
+                "is static, and the part of the body with node {root} can move or rotate as a rigid body; constrain it by \
+                 [fixed] or [[prescribed]], or let it rest on [[planes]]"
+            );
+            Err(("time.integrator", text))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The first node of a connected part that can move or rotate without deforming; `None` if the constraints hold all of them. Parts that are
+/// joined by springs are left to the solver.
+pub(crate) fn free_part(body: &Body) -> Option<usize> {
     let part = body.shape.mesh.parts();
     let grams = gram_matrices(body.shape.mesh.vertices(), &part, &constrained_directions(body));
     let joined: Vec<usize> = body.springs.iter().flat_map(|spring| spring.nodes).map(|node| part[node]).collect();
-    for root in (0..part.len()).filter(|&node| part[node] == node && !joined.contains(&node)) {
+    let is_free = |root: usize| {
         let values = grams[root].symmetric_eigenvalues();
-        // NaN fails the comparison.
-        let is_constrained = values.min() > LEAST * values.max();
-        if !is_constrained {
-            let text = format!(
-                "is static, and the part of the body with node {root} can move or rotate as a rigid body; constrain it by \
-                 [fixed] or [[prescribed]]"
-            );
-            return Err(("time.integrator", text));
-        }
-    }
-    Ok(())
+        // NaN is no constraint.
+        !(values.min() > LEAST * values.max())
+    };
+    (0..part.len()).find(|&node| part[node] == node && !joined.contains(&node) && is_free(node))
 }
 
 /// The constrained directions of each node. The anchor spring of a drag counts as one.

@@ -81,7 +81,15 @@ impl<T: Real> Potential<T> for Anchors {
     }
 
     /// Without it a stiff spring would be integrated explicitly and become unstable.
-    fn add_hessian(&self, factor: T, _: &[[T; 3]], _: HessianKind, pattern: &Pattern, values: &mut [Block<T, 3>]) {
+    fn add_hessian(
+        &self,
+        factor: T,
+        _: &[[T; 3]],
+        _: Moment,
+        _: HessianKind,
+        pattern: &Pattern,
+        values: &mut [Block<T, 3>],
+    ) {
         let stiffness = factor * T::of(self.interaction.stiffness);
         for (node, _) in self.springs::<T>(0.0) {
             if let Some(block) = pattern.find(node, node) {
@@ -92,7 +100,7 @@ impl<T: Real> Potential<T> for Anchors {
         }
     }
 
-    fn add_hessian_times(&self, factor: T, _: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
+    fn add_hessian_times(&self, factor: T, _: &[[T; 3]], _: Moment, d: &[[T; 3]], product: &mut [[T; 3]]) {
         let stiffness = factor * T::of(self.interaction.stiffness);
         for (node, _) in self.springs::<T>(0.0) {
             for i in 0..3 {

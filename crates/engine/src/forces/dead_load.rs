@@ -1,4 +1,4 @@
-//! Dead loads: nodal forces that keep their direction, and their size up to a factor of time. Weight, body force, tractions.
+//! Dead loads: nodal forces that keep their direction, and their size up to a factor of time. Weight, body force, tractions, nodal forces.
 
 use fem_scene::{Body, LoadCurve};
 use nalgebra::Vector3;
@@ -12,7 +12,11 @@ use fem_elements::vector::{dot3, triple};
 pub const NAME: &str = "dead_load";
 
 /// Nodal forces in the engine's order. Loads with the same factor of time are summed.
-pub struct DeadLoad<T>(Vec<Load<T>>);
+pub struct DeadLoad<T> {
+    loads: Vec<Load<T>>,
+    /// The scene's table with the largest numbers.
+    largest: &'static str,
+}
 
 /// Nodal forces, N, and their factor of time.
 struct Load<T> {
@@ -23,21 +27,41 @@ struct Load<T> {
 impl<T: Real> DeadLoad<T> {
     /// These constant forces on the nodes, N.
     pub fn new(force: Vec<[T; 3]>) -> Self {
-        Self(vec![Load { force, curve: None }])
+        Self { loads: vec![Load { force, curve: None }], largest: "gravity" }
     }
 }
 
-/// Weight, body force and dead tractions of a body; `None` where it has none of them.
+/// Weight, body force, dead tractions and nodal forces of a body; `None` where it has none of them.
 pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Potential<T>>> {
     let mut sums = Sums { nodes: body.shape.mesh.vertices().len(), of_curve: Vec::new() };
     add_volume_loads(body, &mut sums);
     add_tractions(body, &mut sums);
+    for load in &body.nodal_forces {
+        let force = sums.of(&load.curve);
+        load.nodes.iter().for_each(|&node| force[node] += load.force);
+    }
     let in_order = |(curve, force): (Option<LoadCurve>, Vec<Vector3<f64>>)| {
         let force = numbering.mesh_node.iter().map(|&node| force[node as usize]);
         Load { force: force.map(|f| [T::of(f.x), T::of(f.y), T::of(f.z)]).collect(), curve }
     };
     let loads: Vec<_> = sums.of_curve.into_iter().map(in_order).collect();
-    (!loads.is_empty()).then(|| Box::new(DeadLoad(loads)) as Box<dyn Potential<T>>)
+    (!loads.is_empty()).then(|| Box::new(DeadLoad { loads, largest: largest(body) }) as Box<dyn Potential<T>>)
+}
+
+/// The scene's table whose load has the largest numbers.
+fn largest(body: &Body) -> &'static str {
+    let size =
+        |vectors: &mut dyn Iterator<Item = &Vector3<f64>>| vectors.map(|vector| vector.amax()).fold(0.0, f64::max);
+    let tables = [
+        ("gravity", size(&mut body.gravity.iter())),
+        ("body_force", size(&mut body.body_force.iter())),
+        ("traction", size(&mut body.tractions.iter().map(|traction| &traction.force_per_area))),
+        ("force", size(&mut body.nodal_forces.iter().map(|load| &load.force))),
+    ];
+    tables
+        .into_iter()
+        .reduce(|largest, next| if next.1 > largest.1 { next } else { largest })
+        .map_or("gravity", |table| table.0)
 }
 
 /// Sums of the nodal forces that have the same factor of time, N.
@@ -93,32 +117,32 @@ impl<T: Real> Potential<T> for DeadLoad<T> {
     }
 
     fn description(&self) -> String {
-        "[gravity], [body_force] or [[traction]] with force_per_area".to_owned()
+        "[gravity], [body_force], [[force]] or [[traction]] with force_per_area".to_owned()
     }
 
     fn bytes(&self) -> usize {
-        self.0.iter().map(|load| size_of_val(&load.force[..])).sum()
+        self.loads.iter().map(|load| size_of_val(&load.force[..])).sum()
     }
 
     fn is_steady(&self) -> bool {
-        self.0.iter().all(|load| load.curve.is_none())
+        self.loads.iter().all(|load| load.curve.is_none())
     }
 
-    /// Energy of the forces of this moment. A force that changes with time does work on a body that does not move.
     fn nodes_of_hessian(&self) -> Option<Vec<u32>> {
         Some(Vec::new())
     }
 
+    /// Energy of the forces of this moment. A force that changes with time does work on a body that does not move.
     fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy {
         let of_load = |load: &Load<T>| -> Energy {
             let factor = moment.factor(load.curve.as_ref());
             load.force.iter().zip(u).map(|(f, u)| Energy::of(-factor * dot3(f, u))).sum()
         };
-        self.0.iter().map(of_load).sum()
+        self.loads.iter().map(of_load).sum()
     }
 
     fn add_gradient(&self, _: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
-        for load in &self.0 {
+        for load in &self.loads {
             let factor = T::of(moment.factor(load.curve.as_ref()));
             for (sum, force) in gradient.iter_mut().zip(&load.force) {
                 for i in 0..3 {
@@ -135,11 +159,11 @@ impl<T: Real> Potential<T> for DeadLoad<T> {
             triple(|i| factor * along(load, i))
         };
         let add = |sum: [f64; 3], force: [f64; 3]| triple(|i| sum[i] + force[i]);
-        Some(self.0.iter().map(of_load).fold([0.0; 3], add))
+        Some(self.loads.iter().map(of_load).fold([0.0; 3], add))
     }
 
     fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
         let is_finite = |load: &Load<T>| load.force.as_flattened().iter().all(|force| force.as_f64().is_finite());
-        (!self.0.iter().all(is_finite)).then_some(("gravity", "a force on a node"))
+        (!self.loads.iter().all(is_finite)).then_some((self.largest, "a force on a node"))
     }
 }

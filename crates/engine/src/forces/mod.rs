@@ -90,7 +90,7 @@ pub trait Potential<T: Real>: Send + Sync {
     }
 
     /// Changes the increment of a step from `start`, an initial guess, where it would be infeasible, m. Returns whether it has.
-    fn make_feasible(&self, _start: &[[T; 3]], _increment: &mut [[T; 3]]) -> bool {
+    fn make_feasible(&self, _start: &[[T; 3]], _end: Moment, _increment: &mut [[T; 3]]) -> bool {
         false
     }
 
@@ -115,6 +115,7 @@ pub trait Potential<T: Real>: Send + Sync {
         &self,
         _factor: T,
         _u: &[[T; 3]],
+        _moment: Moment,
         _kind: HessianKind,
         _pattern: &Pattern,
         _values: &mut [Block<T, 3>],
@@ -122,7 +123,7 @@ pub trait Potential<T: Real>: Send + Sync {
     }
 
     /// Adds `factor` times the exact Hessian times `d`, N.
-    fn add_hessian_times(&self, _factor: T, _u: &[[T; 3]], _d: &[[T; 3]], _product: &mut [[T; 3]]) {}
+    fn add_hessian_times(&self, _factor: T, _u: &[[T; 3]], _moment: Moment, _d: &[[T; 3]], _product: &mut [[T; 3]]) {}
 
     /// Returns true if the force damps motions by −D(u) v, with a damping matrix D that is positive semi-definite. Implicit methods
     /// take D at the displacements at which Rayleigh damping takes its stiffness, fixed within a step, so that ½ ẋᵀ D ẋ is a
@@ -138,7 +139,7 @@ pub trait Potential<T: Real>: Send + Sync {
     fn add_damping_matrix(&self, _factor: T, _u: &[[T; 3]], _values: &mut [Block<T, 3>]) {}
 
     /// The largest multiple of `direction` up to which `u` plus it is certain to stay feasible.
-    fn largest_step(&self, _u: &[[T; 3]], _direction: &[[T; 3]]) -> f64 {
+    fn largest_step(&self, _u: &[[T; 3]], _moment: Moment, _direction: &[[T; 3]]) -> f64 {
         f64::INFINITY
     }
 
@@ -163,8 +164,8 @@ pub trait Potential<T: Real>: Send + Sync {
 pub struct Moment {
     /// s
     pub time: f64,
-    /// Load factor of a load step, 0 to 1: it scales loads and prescribed motions. `None` in dynamics, where loads have their full size and
-    /// prescribed motions follow the time.
+    /// Load factor of a load step, 0 to 1: it scales loads and prescribed motions without a curve. `None` in dynamics, where these have
+    /// their full size.
     pub load_factor: Option<f64>,
 }
 
@@ -174,9 +175,16 @@ impl Moment {
         Self { time, load_factor: None }
     }
 
-    /// Factor of an external load: the load factor, times that of the load's curve at the time.
+    /// Factor of an external load or of a prescribed motion: that of its curve at the time, and without a curve the load factor.
     pub fn factor(self, curve: Option<&LoadCurve>) -> f64 {
-        self.load_factor.unwrap_or(1.0) * curve.map_or(1.0, |curve| curve.factor(self.time))
+        curve.map_or(self.load_factor.unwrap_or(1.0), |curve| curve.factor(self.time))
+    }
+
+    /// The moment after this part of the way to another one.
+    pub fn towards(self, end: Self, part: f64) -> Self {
+        let between = |from: f64, to: f64| if part == 1.0 { to } else { from + part * (to - from) };
+        let factors = self.load_factor.zip(end.load_factor);
+        Self { time: between(self.time, end.time), load_factor: factors.map(|(from, to)| between(from, to)) }
     }
 }
 

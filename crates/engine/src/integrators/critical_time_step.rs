@@ -4,6 +4,7 @@ use fem_scene::{Integrator as IntegratorKind, NewmarkParameters, RayleighDamping
 use nalgebra::{Complex, DMatrix};
 
 use super::MassInverse;
+use crate::forces::Moment;
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::vector::{axpy, dot, triple};
@@ -84,7 +85,7 @@ fn damping_ratio(damping: &RayleighDamping, omega: f64) -> f64 {
 fn largest_frequency<T: Real>(system: &System<T>) -> Option<f64> {
     let square = largest_ratio(system, |undeformed, x, product| {
         system.add_stiffness_times(T::one(), undeformed, x, product);
-        system.add_external_hessian_times(undeformed, x, product);
+        system.add_external_hessian_times(undeformed, Moment::at(0.0), x, product);
     });
     square.map(f64::sqrt)
 }

@@ -69,7 +69,7 @@ impl<T: Real> ProjectiveDynamics<T> {
         for spring in system.forces.all().flat_map(|(force, _)| force.springs()) {
             spring.add_metric(&system.pattern, values);
         }
-        system.add_external_hessian(u, HessianKind::Projected, values);
+        system.add_external_hessian(u, Moment::at(0.0), HessianKind::Projected, values);
         let mass = inertia.over_dt2 + inertia.damping.map_or(T::default(), |rates| rates.mass);
         system.mass.add_to(mass, &system.pattern, values);
         system.dirichlet.eliminate(&system.pattern, values);

@@ -1,10 +1,10 @@
-//! Static equilibrium, ∇V(u) = 0, by load stepping: loads and prescribed motions grow in equal parts, one in each step.
+//! Static equilibrium, ∇V(u) = 0, by load stepping: loads and prescribed motions grow in equal parts, one in each step, and those with a
+//! curve follow it over the pseudo-time that the steps count.
 
 use fem_scene::simulation::{Cause, Counters, History};
 
 use super::arc_length::ArcLength;
-use super::followers::Followers;
-use super::initial_guess::infeasible;
+use super::load_step::LoadStep;
 use super::{Convergence, Integrator};
 use crate::forces::{HessianKind, Moment};
 use crate::model::state::State;
@@ -20,15 +20,12 @@ use fem_elements::vector::{axpy, max_norm};
 /// Load stepping with its solver and vectors.
 pub struct Statics<T: Real> {
     method: Method<T>,
-    followers: Followers<T>,
     load_steps: usize,
-    prescribed: Vec<[T; 3]>,
-    step: Vec<[T; 3]>,
 }
 
 enum Method<T: Real> {
     Linear(Box<Linear<T>>),
-    Newton(Box<Newton<T>>),
+    Newton(Box<LoadStep<T>>),
     ArcLength(Box<ArcLength<T>>),
 }
 
@@ -47,9 +44,6 @@ struct Linear<T: Real> {
 const PRECISE: f64 = 1e-12;
 const REFINEMENTS: usize = 4;
 
-/// Largest number of times that a load step is halved.
-const HALVINGS: i32 = 10;
-
 impl<T: Real> Statics<T> {
     /// Allocates its vectors for a body; a linear one keeps only the solver of `newton`.
     pub fn new(newton: Newton<T>, system: &System<T>, load_steps: usize) -> Self {
@@ -65,17 +59,16 @@ impl<T: Real> Statics<T> {
                 solution: zero(),
             }))
         } else {
-            Method::Newton(Box::new(newton))
+            Method::Newton(Box::new(LoadStep::new(newton, system)))
         };
-        Self { method, followers: Followers::new(system), load_steps, prescribed: zero(), step: zero() }
+        Self { method, load_steps }
     }
 
     /// The same along the equilibrium path, through limit points; only the solver and the limits of `newton` are kept.
     pub fn by_arc_length(newton: Newton<T>, system: &System<T>, load_steps: usize) -> Self {
         let limits = *newton.limits();
         let path = ArcLength::new(newton.into_solver(), limits, system, load_steps);
-        let method = Method::ArcLength(Box::new(path));
-        Self { method, followers: Followers::new(system), load_steps, prescribed: Vec::new(), step: Vec::new() }
+        Self { method: Method::ArcLength(Box::new(path)), load_steps }
     }
 
     /// Load factor after so many steps; it stays at 1 after the last load step.
@@ -96,25 +89,21 @@ impl<T: Real> Integrator<T> for Statics<T> {
         dt: f64,
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
-        let time = state.time + dt;
-        let (from, to) = (self.load_factor(state.steps), self.load_factor(state.steps + 1));
-        let Self { method, followers, prescribed, step, .. } = self;
-        match method {
+        let start = self.moment(state);
+        let end = Moment { time: state.time + dt, load_factor: Some(self.load_factor(state.steps + 1)) };
+        match &mut self.method {
             Method::Linear(linear) => {
-                linear.solve(system, Moment { time, load_factor: Some(to) }, &mut state.u, counters)?;
+                linear.solve(system, end, &mut state.u, counters)?;
                 Ok(Convergence::Converged)
             }
-            Method::Newton(newton) => {
-                let mut load_step = LoadStep { newton, system, time, followers, prescribed, step };
-                load_step.advance(&mut state.u, (from, to), counters)
-            }
-            Method::ArcLength(path) => path.step(system, &mut state.u, (time, state.steps), counters),
+            Method::Newton(load_step) => load_step.advance(system, &mut state.u, (start, end), counters),
+            Method::ArcLength(path) => path.step(system, &mut state.u, (end.time, state.steps), counters),
         }
     }
 
     fn forget(&mut self) {
-        if let Method::Newton(newton) = &mut self.method {
-            newton.forget();
+        if let Method::Newton(load_step) = &mut self.method {
+            load_step.newton.forget();
         }
     }
 
@@ -125,7 +114,7 @@ impl<T: Real> Integrator<T> for Statics<T> {
                 put(history, "static.solution", linear.solution.as_flattened());
                 linear.solver.save(false, history);
             }
-            Method::Newton(newton) => newton.save(history),
+            Method::Newton(load_step) => load_step.newton.save(history),
             Method::ArcLength(path) => path.save(history),
         }
     }
@@ -136,7 +125,7 @@ impl<T: Real> Integrator<T> for Statics<T> {
                 take(history, "static.solution", linear.solution.as_flattened_mut())?;
                 linear.solver.restore(false, history)
             }
-            Method::Newton(newton) => newton.restore(history),
+            Method::Newton(load_step) => load_step.newton.restore(history),
             Method::ArcLength(path) => path.restore(history),
         }
     }
@@ -148,7 +137,7 @@ impl<T: Real> Integrator<T> for Statics<T> {
     fn solver(&self) -> Option<&Solver<T>> {
         Some(match &self.method {
             Method::Linear(linear) => &linear.solver,
-            Method::Newton(newton) => newton.solver(),
+            Method::Newton(load_step) => load_step.newton.solver(),
             Method::ArcLength(path) => &path.solver,
         })
     }
@@ -206,71 +195,5 @@ impl<T: Real> Linear<T> {
             }
         }
         Ok(())
-    }
-}
-
-/// One load step of a nonlinear body.
-struct LoadStep<'a, T: Real> {
-    newton: &'a mut Newton<T>,
-    system: &'a System<T>,
-    time: f64,
-    followers: &'a mut Followers<T>,
-    prescribed: &'a mut Vec<[T; 3]>,
-    step: &'a mut Vec<[T; 3]>,
-}
-
-impl<T: Real> LoadStep<'_, T> {
-    /// From one load factor to another, in smaller parts where Newton's method fails.
-    fn advance(
-        &mut self,
-        u: &mut [[T; 3]],
-        (from, to): (f64, f64),
-        counters: &mut Counters,
-    ) -> Result<Convergence, Cause> {
-        let whole = to - from;
-        let (mut at, mut part) = (from, whole);
-        let mut convergence = Convergence::Converged;
-        loop {
-            let next = if at + part >= to - 1e-9 * whole { to } else { at + part };
-            let outcome = self.equilibrate(u, next, counters);
-            let is_smallest = part <= whole * 0.5f64.powi(HALVINGS);
-            match outcome {
-                Ok(reached) if reached == Convergence::Converged || is_smallest => {
-                    axpy(1.0, self.step, u);
-                    if reached == Convergence::NotConverged {
-                        convergence = reached;
-                    }
-                    at = next;
-                    part *= 2.0;
-                }
-                Err(cause) if is_smallest => return Err(cause),
-                _ => part *= 0.5,
-            }
-            if at >= to {
-                return Ok(convergence);
-            }
-        }
-    }
-
-    /// Writes the increment from u to equilibrium at a load factor into `step`.
-    fn equilibrate(&mut self, u: &[[T; 3]], load_factor: f64, counters: &mut Counters) -> Result<Convergence, Cause> {
-        let Self { newton, system, time, followers, prescribed, step } = self;
-        let end = Moment { time: *time, load_factor: Some(load_factor) };
-        let increment = Increment { start: u, end, inertia: None };
-        step.fill([T::default(); 3]);
-        followers.evaluate(system, &increment, step);
-        system.prescribe(u, end, prescribed);
-        newton.predict(&followers.potential(system, increment), prescribed, step, counters)?;
-        system.make_feasible(u, end, step);
-        let start = match newton.start(&followers.potential(system, increment), step, counters) {
-            Some(start) => start,
-            None => {
-                step.copy_from_slice(prescribed);
-                system.make_feasible(u, end, step);
-                let start = newton.start(&followers.potential(system, increment), step, counters);
-                start.ok_or_else(|| infeasible(system, u, prescribed))?
-            }
-        };
-        followers.minimize(newton, system, increment, start, step, counters)
     }
 }

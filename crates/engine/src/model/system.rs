@@ -48,6 +48,8 @@ pub struct System<T: Real> {
     pub contact_force: Vec<[T; 3]>,
     /// Effective shear modulus of the springs of a mass-spring body, Pa; zero for a body of elastic elements.
     pub spring_modulus: f64,
+    /// Shear modulus of a body that can move as a rigid body, which `static` has to stabilize, Pa; `None` for others.
+    pub modulus_of_free_body: Option<f64>,
     /// Rayleigh damping, where the scene asks for some.
     pub damping: Option<RayleighDamping>,
     /// Length of the undeformed body, m: `BodyMesh::length`.
@@ -58,6 +60,9 @@ pub struct System<T: Real> {
 
 /// Forces of a user's own, given the engine's numbers of the nodes.
 pub type OwnForces<'a, T> = &'a dyn Fn(&Numbering) -> Vec<Box<dyn Potential<T>>>;
+
+/// Internal forces do not depend on the time.
+const INTERNAL: Moment = Moment { time: 0.0, load_factor: None };
 
 impl<T: Real> System<T> {
     /// Builds the parts that the scene names, without a matrix.
@@ -105,6 +110,7 @@ impl<T: Real> System<T> {
             total_mass: masses.iter().sum(),
             node_masses: if dirichlet.is_empty() { mass.row_sums() } else { Vec::new() },
             name,
+            modulus_of_free_body: None,
             spring_modulus: mass_spring::shear_modulus(body),
             damping: body.damping,
             shape,
@@ -210,15 +216,15 @@ impl<T: Real> System<T> {
     /// Adds `factor` times the Hessian of the springs between the body's nodes, N/m.
     pub fn add_internal_hessian(&self, factor: T, u: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>]) {
         for (potential, timer) in self.forces.active().filter(|(potential, _)| potential.is_internal()) {
-            timer.time(|| potential.add_hessian(factor, u, kind, &self.pattern, values));
+            timer.time(|| potential.add_hessian(factor, u, INTERNAL, kind, &self.pattern, values));
         }
     }
 
     /// Adds the Hessian of the external forces, N/m.
-    pub fn add_external_hessian(&self, u: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>]) {
+    pub fn add_external_hessian(&self, u: &[[T; 3]], moment: Moment, kind: HessianKind, values: &mut [Block<T, 3>]) {
         let is_external = |potential: &dyn Potential<T>| potential.is_conservative() && !potential.is_internal();
         for (potential, timer) in self.forces.active().filter(|(potential, _)| is_external(*potential)) {
-            timer.time(|| potential.add_hessian(T::one(), u, kind, &self.pattern, values));
+            timer.time(|| potential.add_hessian(T::one(), u, moment, kind, &self.pattern, values));
         }
     }
 
@@ -226,15 +232,15 @@ impl<T: Real> System<T> {
     pub fn add_stiffness_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
         self.elements.add_stiffness_times(factor, u, d, product);
         for (potential, _) in self.forces.active().filter(|(potential, _)| potential.is_internal()) {
-            potential.add_hessian_times(factor, u, d, product);
+            potential.add_hessian_times(factor, u, INTERNAL, d, product);
         }
     }
 
     /// Adds the Hessian of the external forces times d without a matrix, N.
-    pub fn add_external_hessian_times(&self, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
+    pub fn add_external_hessian_times(&self, u: &[[T; 3]], moment: Moment, d: &[[T; 3]], product: &mut [[T; 3]]) {
         let is_external = |potential: &dyn Potential<T>| potential.is_conservative() && !potential.is_internal();
         for (potential, _) in self.forces.active().filter(|(potential, _)| is_external(*potential)) {
-            potential.add_hessian_times(T::one(), u, d, product);
+            potential.add_hessian_times(T::one(), u, moment, d, product);
         }
     }
 
@@ -253,11 +259,6 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// Magnitude of the terms that cancel in the elastic energy of a rotated body, J: its rounding error is a part of this.
-    pub fn cancelled(&self, u: &[[T; 3]]) -> f64 {
-        self.elements.cancelled(u)
-    }
-
     /// Energy for reports: that of the elements and of all forces that have a potential, follower loads included, J.
     pub fn reported_potential(&self, u: &[[T; 3]], moment: Moment) -> f64 {
         let elastic = self.elements.energy(u);
@@ -272,15 +273,10 @@ impl<T: Real> System<T> {
         self.elements.cauchy_stresses(u)
     }
 
-    /// The largest multiple of `direction` up to which no force becomes infeasible.
-    pub fn largest_step(&self, u: &[[T; 3]], direction: &[[T; 3]]) -> f64 {
-        self.forces.active().map(|(potential, _)| potential.largest_step(u, direction)).fold(f64::INFINITY, f64::min)
-    }
-
     /// Changes the increment of a step, an initial guess, where a force would be infeasible, m. Constrained entries stay.
     pub fn make_feasible(&self, start: &[[T; 3]], moment: Moment, increment: &mut [[T; 3]]) {
         let forces = self.forces.active();
-        if forces.fold(false, |changed, (force, _)| changed | force.make_feasible(start, increment)) {
+        if forces.fold(false, |changed, (force, _)| changed | force.make_feasible(start, moment, increment)) {
             self.prescribe(start, moment, increment);
         }
     }

@@ -83,19 +83,20 @@ impl<T: Real> IncrementalPotential<'_, T> {
     /// Magnitude of the terms that cancel within E(w), J.
     pub fn cancelled(&self, w: &[[T; 3]], workspace: &mut Workspace<T>) -> f64 {
         workspace.set_u(self.increment.start, w);
-        self.system.cancelled(&workspace.u)
+        self.system.elements.cancelled(&workspace.u)
     }
 
     /// The largest multiple of `direction` from w up to which every force stays feasible.
     pub fn largest_step(&self, w: &[[T; 3]], direction: &[[T; 3]], workspace: &mut Workspace<T>) -> f64 {
         workspace.set_u(self.increment.start, w);
-        let Some(StepEnd { ratio, .. }) = self.end_with_obstacles() else {
-            return self.system.largest_step(&workspace.u, direction);
+        let end = self.increment.end;
+        let Some(StepEnd { moment, ratio, .. }) = self.end_with_obstacles() else {
+            return self.system.largest_step(&workspace.u, end, direction);
         };
         workspace.set_end(self.increment.start, ratio, w);
         // A direction that is longer by a factor can be followed to a smaller multiple of it.
-        let of_obstacles = self.system.largest_step_to_obstacles(&workspace.end, direction) / ratio;
-        self.system.own_largest_step(&workspace.u, direction).min(of_obstacles)
+        let of_obstacles = self.system.largest_step_to_obstacles(&workspace.end, moment, direction) / ratio;
+        self.system.own_largest_step(&workspace.u, end, direction).min(of_obstacles)
     }
 
     /// The end of the step, if it is not that of the increment and the body has obstacles.

@@ -101,11 +101,11 @@ impl<T: Real> IncrementalPotential<'_, T> {
             system.add_damping_matrices_of_forces(rates.forces, u, values);
         }
         match self.end_with_obstacles() {
-            None => system.add_external_hessian(&workspace.u, kind, values),
-            Some(StepEnd { ratio, weight, .. }) => {
+            None => system.add_external_hessian(&workspace.u, self.increment.end, kind, values),
+            Some(StepEnd { moment, ratio, weight }) => {
                 workspace.set_end(self.increment.start, ratio, w);
-                system.add_own_external_hessian(&workspace.u, kind, values);
-                system.add_obstacle_hessian(T::of(weight * ratio), &workspace.end, kind, values);
+                system.add_own_external_hessian(&workspace.u, self.increment.end, kind, values);
+                system.add_obstacle_hessian(T::of(weight * ratio), &workspace.end, moment, kind, values);
             }
         }
     }

@@ -33,6 +33,8 @@ pub trait Compiled: Real {
     #[doc(hidden)]
     fn stresses(simulator: &Simulator<Self>) -> Vec<Matrix3<f64>>;
     #[doc(hidden)]
+    fn stresses_at_points(simulator: &Simulator<Self>) -> Vec<Matrix3<f64>>;
+    #[doc(hidden)]
     fn critical_time_step(simulator: &Simulator<Self>) -> Option<f64>;
     #[doc(hidden)]
     fn min_J(simulator: &Simulator<Self>) -> (f64, usize);
@@ -77,6 +79,10 @@ macro_rules! compiled {
 
             fn stresses(simulator: &Simulator<Self>) -> Vec<Matrix3<f64>> {
                 simulator.system.stresses(&simulator.state.u)
+            }
+
+            fn stresses_at_points(simulator: &Simulator<Self>) -> Vec<Matrix3<f64>> {
+                simulator.system.elements.cauchy_stresses_at_points(&simulator.state.u)
             }
 
             fn critical_time_step(simulator: &Simulator<Self>) -> Option<f64> {

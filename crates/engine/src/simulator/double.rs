@@ -48,9 +48,9 @@ pub fn add_stiffness(system: &System, u: &[[f64; 3]], values: &mut [Block<f64, 3
     system.add_stiffness(1.0, u, HessianKind::Exact, values);
 }
 
-/// [`System::add_external_hessian`](system::System::add_external_hessian), not projected.
+/// [`System::add_external_hessian`](system::System::add_external_hessian) at the start, not projected.
 pub fn add_external_hessian(system: &System, u: &[[f64; 3]], values: &mut [Block<f64, 3>]) {
-    system.add_external_hessian(u, HessianKind::Exact, values);
+    system.add_external_hessian(u, Moment::at(0.0), HessianKind::Exact, values);
 }
 
 /// [`System::add_stiffness_times`](system::System::add_stiffness_times)

@@ -2,6 +2,7 @@
 
 use fem_scene::{Body, Integrator as IntegratorKind, Method, SolverKind};
 
+use super::Simulator;
 use crate::forces::contact::planes::Planes;
 use crate::integrators::{
     ExplicitEuler, ImplicitEuler, Integrator, LinearlyImplicitEuler, ProjectiveDynamics, Rk2, Rk4, Scheme, SecondOrder,
@@ -137,7 +138,7 @@ pub(super) fn check_solver(method: &Method, nodes: usize) -> Result<(), Refusal>
 }
 
 /// Builds the integrator that a running simulation is switched to. An explicit scene has no pattern until an implicit method needs one.
-pub(super) fn switched<T: Real>(
+fn switched<T: Real>(
     kind: IntegratorKind,
     method: &Method,
     system: &mut System<T>,
@@ -224,5 +225,22 @@ fn limits<T: Real>(kind: IntegratorKind, method: &Method, solver_tolerance: f64)
         tolerance: method.newton.tolerance.unwrap_or(TOLERANCE.max(SMALLEST_TOLERANCE * T::EPSILON.as_f64())),
         projection: method.newton.projection,
         solver_tolerance: solver_tolerance.min(LARGEST_RESIDUAL),
+    }
+}
+
+impl<T: Real> Simulator<T> {
+    /// Goes on with the next method that can treat the body.
+    pub(super) fn switch_integrator(&mut self) {
+        let method = self.method.integrator;
+        let is_usable = |kind: IntegratorKind| {
+            self.contact.is_none()
+                || (kind.supports_contact()
+                    && kind.is_explicit() == method.is_explicit()
+                    && kind.projects_contact() == method.projects_contact())
+        };
+        let methods: Vec<_> = integrators(method).iter().copied().filter(|kind| is_usable(*kind)).collect();
+        self.kind = self.kind.next_in(&methods);
+        let planes = self.contact.as_ref().map(|contact| contact.planes());
+        self.integrator = switched(self.kind, &self.method, &mut self.system, self.solver, planes);
     }
 }

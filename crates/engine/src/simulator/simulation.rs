@@ -10,10 +10,10 @@ use fem_scene::simulation::{
 };
 use nalgebra::{DVector, Matrix3, Vector3};
 
-use super::integrator::{integrators, switched};
 use super::substep::is_judged;
 use super::{Compiled, Simulator, checkpoint, parts};
 use crate::boundary::reactions::{reactions, reactions_at};
+use crate::boundary::rigid_modes;
 use crate::integrators::LastStage;
 use crate::model::state::State;
 use crate::pick;
@@ -132,6 +132,14 @@ impl<T: Compiled> Simulation for Simulator<T> {
         T::stresses(self)
     }
 
+    fn stresses_at_points(&self) -> Vec<Matrix3<f64>> {
+        T::stresses_at_points(self)
+    }
+
+    fn material_of_elements(&self) -> Vec<usize> {
+        self.system.elements.material_of_elements()
+    }
+
     fn plastic_flow(&self) -> Option<PlasticFlow> {
         let plasticity = self.system.elements.plasticity()?;
         Some(PlasticFlow { strains: self.system.elements.plastic_strains()?, dissipated: plasticity.dissipated() })
@@ -192,7 +200,8 @@ impl<T: Compiled> Simulation for Simulator<T> {
     }
 
     fn notes(&self) -> Vec<String> {
-        self.contact.as_ref().map_or(Vec::new(), |contact| contact.notes())
+        let stabilized = self.system.modulus_of_free_body.map(|_| rigid_modes::STABILIZED.to_owned());
+        self.contact.iter().flat_map(|contact| contact.notes()).chain(stabilized).collect()
     }
 
     fn warnings(&self) -> Vec<String> {
@@ -236,20 +245,6 @@ impl<T: Real> Simulator<T> {
         let Self { system, state, integrator, .. } = self;
         let potential = system.reported_potential(&state.u, integrator.moment(state));
         Energies { kinetic: system.mass.kinetic_energy(&state.v), potential }
-    }
-
-    pub(super) fn switch_integrator(&mut self) {
-        let method = self.method.integrator;
-        let is_usable = |kind: IntegratorKind| {
-            self.contact.is_none()
-                || (kind.supports_contact()
-                    && kind.is_explicit() == method.is_explicit()
-                    && kind.projects_contact() == method.projects_contact())
-        };
-        let methods: Vec<_> = integrators(method).iter().copied().filter(|kind| is_usable(*kind)).collect();
-        self.kind = self.kind.next_in(&methods);
-        let planes = self.contact.as_ref().map(|contact| contact.planes());
-        self.integrator = switched(self.kind, &self.method, &mut self.system, self.solver, planes);
     }
 
     pub(super) fn reactions_now(&self) -> Vec<Reaction> {

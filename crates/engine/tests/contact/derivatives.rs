@@ -59,13 +59,13 @@ fn gradient_and_hessian_of_contact_and_friction_are_the_derivatives_of_their_ene
             let by_differences = (energy(h) - energy(-h)) / (2.0 * h);
             assert!((slope - by_differences).abs() < 1e-6 * slope.abs().max(1.0), "{name}: {slope} {by_differences}");
             let mut product = vec![[0.0; 3]; u.len()];
-            force.add_hessian_times(1.0, &u, &d, &mut product);
+            force.add_hessian_times(1.0, &u, moment, &d, &mut product);
             let difference = moved(&gradient(force, &at(h), moment), -1.0, &gradient(force, &at(-h), moment));
             let error = moved(&product, -0.5 / h, &difference);
             let size = dot(&product, &product).sqrt();
             assert!(dot(&error, &error).sqrt() < 1e-5 * size, "{name}, round {round}, seed {SEED}");
             assert!(dot(&d, &product) >= 0.0, "{name}: the Hessian is not positive semi-definite");
-            assert_matrix(system, force, &u, &d, &product);
+            assert_matrix(system, force, (&u, moment), &d, &product);
         }
     }
 }
@@ -74,12 +74,12 @@ fn gradient_and_hessian_of_contact_and_friction_are_the_derivatives_of_their_ene
 fn assert_matrix(
     system: &fem_engine::model::system::System<f64>,
     force: &dyn Potential<f64>,
-    u: &Vectors,
+    (u, moment): (&Vectors, Moment),
     d: &Vectors,
     product: &Vectors,
 ) {
     let mut values = vec![[[0.0; 3]; 3]; system.pattern.blocks()];
-    force.add_hessian(1.0, u, HessianKind::Projected, &system.pattern, &mut values);
+    force.add_hessian(1.0, u, moment, HessianKind::Projected, &system.pattern, &mut values);
     for (node, block) in system.pattern.diagonal().enumerate() {
         for i in 0..3 {
             let row: f64 = (0..3).map(|j| values[block][i][j] * d[node][j]).sum();
@@ -100,9 +100,10 @@ fn the_largest_step_ends_at_the_first_plane_and_a_guess_behind_it_is_moved_out()
     let wall = simulation.contacts()[1].smallest_gap;
     let slant = 0.2 / (1.0f64 + 0.04 + 0.01).sqrt();
     let expected = gap.min(wall / slant);
-    assert!((system.largest_step(u, &down) - expected).abs() < 1e-9, "{} {expected}", system.largest_step(u, &down));
-    let mut guess: Vectors = down.iter().map(|d| d.map(|d| 0.3 * d)).collect();
-    assert!(contact.make_feasible(u, &mut guess));
     let end = Moment::at(simulation.time());
+    let found = system.largest_step(u, end, &down);
+    assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+    let mut guess: Vectors = down.iter().map(|d| d.map(|d| 0.3 * d)).collect();
+    assert!(contact.make_feasible(u, end, &mut guess));
     assert!(contact.energy(&moved(u, 1.0, &guess), end).value.is_finite());
 }

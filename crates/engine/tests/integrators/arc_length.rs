@@ -40,7 +40,7 @@ impl Potential<f64> for PointLoad {
         gradient[self.node][1] += moment.load_factor.unwrap_or(1.0) * LOAD;
     }
 
-    fn add_hessian(&self, _: f64, _: &[[f64; 3]], _: HessianKind, _: &Pattern, _: &mut [Block<f64, 3>]) {}
+    fn add_hessian(&self, _: f64, _: &[[f64; 3]], _: Moment, _: HessianKind, _: &Pattern, _: &mut [Block<f64, 3>]) {}
 }
 
 /// The scene `snap` without its traction, with other tables in place of `[static]`.

@@ -164,3 +164,23 @@ fn quadratic_elements_are_refused_for_tetrahedra_and_other_orders_for_all() {
     let error = fem_scene::parse(&third, "a.toml".as_ref()).unwrap_err().to_string();
     assert!(error.contains("mesh.order is 3; write 1"), "{error}");
 }
+
+#[test]
+fn stresses_at_points_are_those_of_the_places_that_the_mesh_gives() {
+    let table = "pipeline = \"engine\"\n[mesh]\nrectangle = { size = [1, 1], cells_per_unit = 1 }\norder = 2\n\
+         [material]\nmodel = \"linear\"\nyoung = 1e5\npoisson = 0.25\ndensity = 1000\n[time]\ndt = 1e-3\nintegrator = \"implicit_euler\"\n";
+    let shape = build(table).shape();
+    // u_x = 0.01 x², so that σ_xx = (λ + 2 μ) 0.02 x with λ = μ = 4e4 Pa.
+    let motions =
+        shape.mesh.vertices().iter().enumerate().map(|(node, X)| {
+            format!("[[prescribed]]\nnodes = [{node}]\ndisplacement = [{:e}, 0, 0]\n", 0.01 * X.x * X.x)
+        });
+    let mut simulation = build(&format!("{table}{}", motions.collect::<String>()));
+    run(&mut *simulation, 1);
+    let places = (0..shape.mesh.elements()).flat_map(|element| shape.mesh.points(element));
+    let stresses = simulation.stresses_at_points();
+    assert_eq!(stresses.len(), 6);
+    for (place, stress) in places.zip(stresses) {
+        assert!((stress[(0, 0)] - 1.2e5 * 0.02 * place.x).abs() < 1e-8, "{place} {stress}");
+    }
+}

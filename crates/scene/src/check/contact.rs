@@ -39,10 +39,10 @@ fn check_plane(table: &str, plane: &PlaneTable, method: Integrator) -> Result<()
     if method != Integrator::Static {
         return Ok(());
     }
-    let motions = [("velocity", plane.velocity.is_some()), ("displacement", plane.displacement.is_some())];
-    if let Some((key, _)) = motions.into_iter().find(|(_, is_given)| *is_given) {
-        let text = "is a motion, and time.integrator = \"static\" has none; move the body by [[prescribed]] instead, or use implicit_euler";
-        return problem(&format!("{table}.{key}"), text);
+    if plane.velocity.is_some() {
+        let text = "is a motion in time, and time.integrator = \"static\" counts load steps; give displacement and curve, or use \
+                    implicit_euler";
+        return problem(&format!("{table}.velocity"), text);
     }
     if plane.friction > 0.0 {
         let text = "depends on the motion, and time.integrator = \"static\" has none; remove it, or use implicit_euler";

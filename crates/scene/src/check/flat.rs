@@ -78,6 +78,8 @@ fn vectors(scene: &Scene) -> impl Iterator<Item = (String, [f64; 3])> {
         .iter()
         .enumerate()
         .filter_map(|(number, table)| Some((format!("traction[{number}].force_per_area"), table.force_per_area?)));
+    let forces = scene.force.iter().enumerate().map(|(number, table)| (format!("force[{number}].value"), table.value));
+    let loads = traction.chain(forces);
     let prescribed = scene
         .prescribed
         .iter()
@@ -105,5 +107,5 @@ fn vectors(scene: &Scene) -> impl Iterator<Item = (String, [f64; 3])> {
         .enumerate()
         .filter_map(|(number, plane)| Some((format!("planes[{number}].displacement"), plane.displacement?)));
     let planes = normals.chain(velocities).chain(displacements);
-    gravity.chain(body_force).chain(drag).chain(traction).chain(prescribed).chain(velocity).chain(planes)
+    gravity.chain(body_force).chain(drag).chain(loads).chain(prescribed).chain(velocity).chain(planes)
 }

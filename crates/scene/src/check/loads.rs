@@ -15,6 +15,11 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     for (number, traction) in scene.traction.iter().enumerate() {
         check_traction(&format!("traction[{number}]"), traction)?;
     }
+    for (number, force) in scene.force.iter().enumerate() {
+        let table = format!("force[{number}]");
+        check_one(&table, &force.selectors(), "plane, on, box, sphere, set and nodes")?;
+        check_vector(&format!("{table}.value"), &force.value)?;
+    }
     for (number, spring) in scene.springs.iter().enumerate() {
         check_spring(&format!("springs[{number}]"), spring)?;
     }

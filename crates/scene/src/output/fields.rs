@@ -4,13 +4,14 @@ use std::path::Path;
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::recovery::stresses_at_nodes;
 use crate::BodyMesh;
 use crate::simulation::Simulation;
 use fem_mesh::MeshError;
 use fem_mesh::write::{Field, write_vtu};
 
 /// Writes the undeformed mesh with the fields of the state. Names have neither blanks nor units, so that programs can use them:
-/// point data `displacement` (m), `velocity` (m/s), `nodal_force` (N), `contact_force` (N) and `stress_averaged` (Pa), cell data `stress`,
+/// point data `displacement` (m), `velocity` (m/s), `nodal_force` (N), `contact_force` (N), `stress_averaged` (Pa), recovered by patches, and `stress_volume_averaged` (Pa), cell data `stress`,
 /// `von_mises` (Pa), `strain`, `J` and, of a plastic body, `plastic_strain`. A mass-spring body has no fields of stress. Matrices have nine components, row by row.
 pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<(), MeshError> {
     let shape = simulation.shape();
@@ -19,6 +20,7 @@ pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<
     let force = simulation.nodal_forces();
     let contact = simulation.contact_forces();
     let stresses = simulation.stresses();
+    let recovered = recovered(simulation, &shape.mesh);
     let averaged = entries(&averages_at_nodes(&shape.mesh, &stresses));
     let gradients = displacement_gradients(&shape.mesh, &displacement);
     let strain = entries(&gradients.iter().map(green_lagrange_strain).collect::<Vec<_>>());
@@ -31,7 +33,8 @@ pub(super) fn export_fields(path: &Path, simulation: &dyn Simulation) -> Result<
         Field { name: "velocity", components: 3, values: qdot.as_slice() },
     ];
     if simulation.has_stress() {
-        point.push(Field { name: "stress_averaged", components: 9, values: &averaged });
+        point.push(Field { name: "stress_averaged", components: 9, values: &recovered });
+        point.push(Field { name: "stress_volume_averaged", components: 9, values: &averaged });
     }
     if let Some(force) = &force {
         point.push(Field { name: "nodal_force", components: 3, values: force.as_slice() });
@@ -70,8 +73,16 @@ fn entries(matrices: &[Matrix3<f64>]) -> Vec<f64> {
     matrices.iter().flat_map(|matrix| matrix.iter().copied()).collect()
 }
 
+/// The recovered stress of each node, Pa; of a mass-spring body none.
+fn recovered(simulation: &dyn Simulation, mesh: &BodyMesh) -> Vec<f64> {
+    if !simulation.has_stress() {
+        return Vec::new();
+    }
+    entries(&stresses_at_nodes(mesh, &simulation.material_of_elements(), &simulation.stresses_at_points()))
+}
+
 /// The mean over the elements of each node, weighted by their undeformed volumes.
-fn averages_at_nodes(mesh: &BodyMesh, values: &[Matrix3<f64>]) -> Vec<Matrix3<f64>> {
+pub(super) fn averages_at_nodes(mesh: &BodyMesh, values: &[Matrix3<f64>]) -> Vec<Matrix3<f64>> {
     let mut sums = vec![(Matrix3::zeros(), 0.0); mesh.vertices().len()];
     for ((nodes, value), volume) in mesh.corners().zip(values).zip(mesh.volumes()) {
         for &node in nodes {

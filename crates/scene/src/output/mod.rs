@@ -5,6 +5,7 @@ mod element_field;
 mod energies;
 mod fields;
 mod probe;
+mod recovery;
 mod series;
 mod state;
 

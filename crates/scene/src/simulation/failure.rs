@@ -64,6 +64,11 @@ pub enum Cause {
         /// The largest component of the residual, N.
         unbalanced: f64,
     },
+    /// The loads move a body without constraints, and no obstacle stops it.
+    Adrift {
+        /// Sum of the sizes of the forces that are not in balance, N.
+        force: f64,
+    },
 }
 
 impl Cause {
@@ -105,6 +110,9 @@ impl Failure {
             }
             _ if matches!(cause, Cause::Solver(breakdown) if breakdown.is_of_machine()) => {
                 "use solver.kind = \"pcg\"".to_owned()
+            }
+            Integrator::Static if matches!(cause, Cause::Adrift { .. }) => {
+                "constrain the motion along that force by [fixed] or [[prescribed]], or add an obstacle by [[planes]]".to_owned()
             }
             Integrator::Static if matches!(cause, Cause::Solver(Breakdown::NotConverged { .. })) => {
                 "use solver.kind = \"cholesky\"".to_owned()
@@ -191,6 +199,10 @@ impl fmt::Display for Failure {
             )?,
             Cause::Overflow => write!(f, "an energy or a force is too large for a number")?,
             Cause::Solver(breakdown) => write!(f, "{breakdown}")?,
+            Cause::Adrift { force } => write!(
+                f,
+                "the body has no equilibrium: it moves on as a whole under {force:.3e} N that neither constraints nor obstacles bear"
+            )?,
             Cause::Stuck { unbalanced } => write!(
                 f,
                 "Newton's method finds no way to lower the energy, and {unbalanced:.3e} N are not in balance"

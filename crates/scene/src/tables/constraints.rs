@@ -56,7 +56,8 @@ pub struct PrescribedTable {
     /// Time in which the motion grows linearly from zero to its full size, s; positive. The nodes keep their place afterwards. With
     /// `static` the motion grows with the load steps instead. Default: at once, the full motion applies from the first step on.
     pub over: Option<f64>,
-    /// Part of the full motion, or factor of the velocity, as a function of time; in place of `over`. Default: that of `over`.
+    /// Part of the full motion, or factor of the velocity, as a function of time, with `static` of the time that load steps count; in place
+    /// of `over`. Default: that of `over`.
     pub curve: Option<CurveTable>,
     /// Time from which the nodes are free, s; positive, and not with `static`. Default: never.
     pub until: Option<f64>,

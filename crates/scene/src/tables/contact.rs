@@ -24,8 +24,7 @@ pub struct PlaneTable {
     pub velocity: Option<[f64; 3]>,
     /// Time at which a plane with a velocity stops, s; positive. Default: never.
     pub until: Option<f64>,
-    /// Displacement of the plane at a factor 1 of `curve`, m; together with `curve`, in place of `velocity`, and not with `static`.
-    /// Default: at rest.
+    /// Displacement of the plane at a factor 1 of `curve`, m; together with `curve`, in place of `velocity`. Default: at rest.
     #[serde(default, deserialize_with = "three_numbers_if_any")]
     pub displacement: Option<[f64; 3]>,
     /// Factor of the displacement as a function of time, without jumps. Default: at rest.

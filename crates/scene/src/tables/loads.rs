@@ -1,10 +1,10 @@
-//! The tables of external forces: gravity, body force, traction, springs, the scripted drag.
+//! The tables of external forces: gravity, body force, traction, nodal forces, springs, the scripted drag.
 
 use serde::Deserialize;
 use serde::de::{Error, Visitor};
 
 use super::vectors::{edges_if_any, three_numbers, three_numbers_if_any, triangles_if_any, two_nodes};
-use super::{BoxTable, CurveTable, On, Selector, SphereTable};
+use super::{BoxTable, CurveTable, On, Plane, Region, Selector, SphereTable};
 
 /// `[gravity]`: the weight of every node.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -65,6 +65,42 @@ impl TractionTable {
         let mut selectors = Selector::of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
         selectors.extend(self.faces.clone().map(Selector::Faces));
         selectors.extend(self.edges.clone().map(Selector::Edges));
+        selectors
+    }
+}
+
+/// `[[force]]`: a dead load on single nodes. One selector, and a force. Engine only.
+///
+/// A node that several tables name carries the sum of their forces. On a constrained coordinate the force goes into the reaction.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct ForceTable {
+    /// All nodes near the side of the smallest coordinate along an axis.
+    pub plane: Option<Plane>,
+    /// All nodes near one side of the mesh, or all nodes.
+    pub on: Option<On>,
+    /// All nodes in a box.
+    #[serde(rename = "box")]
+    pub cuboid: Option<BoxTable>,
+    /// All nodes in a sphere.
+    pub sphere: Option<SphereTable>,
+    /// The nodes of a named set of the mesh.
+    pub set: Option<String>,
+    /// These nodes, by their index from 0.
+    pub nodes: Option<Vec<usize>>,
+    /// Force on each of the nodes, N: n nodes carry n times as much together. It keeps its direction.
+    #[serde(deserialize_with = "three_numbers")]
+    pub value: [f64; 3],
+    /// Factor of time on it. Default: constant.
+    pub curve: Option<CurveTable>,
+}
+
+impl ForceTable {
+    /// The selectors that the table gives; exactly one in a checked scene.
+    pub fn selectors(&self) -> Vec<Selector> {
+        let mut selectors = Selector::of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
+        selectors.extend(self.plane.clone().map(|plane| Selector::Region(Region::Plane(plane))));
+        selectors.extend(self.nodes.clone().map(Selector::Nodes));
         selectors
     }
 }

@@ -12,7 +12,8 @@ pub struct TimeTable {
     pub dt: Option<f64>,
     /// Time integration method. The pipeline `"course"` has `"linearly_implicit_euler"` and `"implicit_euler"`.
     pub integrator: Integrator,
-    /// Number of steps of a run without a window, at least 1. Default: 100; with `static` the number of load steps.
+    /// Number of steps of a run without a window, at least 1. Default: 100; with `static` the number of `load_steps`, after
+    /// which loads without a curve stay.
     pub steps: Option<usize>,
     /// Number of equal substeps in which each step is computed, 1 to 100 000; not with `static` and `adaptive`. Statistics, tables, exports
     /// and pictures are those of whole steps. Engine only. Default: 1.

@@ -17,7 +17,7 @@ pub use batch::{BatchTable, RangeTable, Spacing, VaryTable};
 pub use constraints::{FixedTable, PrescribedTable, RotationTable};
 pub use contact::{ContactTable, PlaneTable};
 pub use initial::{AngularVelocityTable, InitialVelocityTable};
-pub use loads::{BodyForceTable, DragTable, DragVertex, GravityTable, SpringTable, TractionTable};
+pub use loads::{BodyForceTable, DragTable, DragVertex, ForceTable, GravityTable, SpringTable, TractionTable};
 pub(crate) use material::IN_PLANE_STRESS;
 pub use material::{MODELS, Material, MaterialsTable, PlaneState};
 pub use method::{
@@ -74,6 +74,9 @@ pub struct Scene {
     /// `[[traction]]`
     #[serde(default)]
     pub traction: Vec<TractionTable>,
+    /// `[[force]]`
+    #[serde(default)]
+    pub force: Vec<ForceTable>,
     /// `[[springs]]`
     #[serde(default)]
     pub springs: Vec<SpringTable>,

@@ -7,7 +7,7 @@ use nalgebra::{Rotation3, Unit, Vector3};
 
 use super::selection::{self, chosen};
 use crate::tables::{CurveTable, PrescribedTable, RotationTable};
-use crate::{BodyMesh, LoadCurve, Scene, SceneError};
+use crate::{BodyMesh, Integrator, LoadCurve, Scene, SceneError};
 
 /// Prescribed coordinates of some nodes.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,13 +79,15 @@ impl Motion {
         [first + self.displacement, omega.cross(&first)]
     }
 
-    fn new(table: &PrescribedTable) -> Self {
+    fn new(table: &PrescribedTable, method: Integrator) -> Self {
         let rotation = |rotation: &RotationTable| Rotation {
             axis: [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()][rotation.axis as usize],
             center: rotation.center.into(),
             turns: rotation.turns,
         };
-        let curve = table.over.map(LoadCurve::Ramp).or_else(|| table.curve.as_ref().map(CurveTable::curve));
+        // Under `static` a motion grows with the load steps.
+        let over = table.over.filter(|_| method != Integrator::Static);
+        let curve = over.map(LoadCurve::Ramp).or_else(|| table.curve.as_ref().map(CurveTable::curve));
         Self {
             displacement: table.velocity.or(table.displacement).unwrap_or_default().into(),
             rotation: table.rotation.as_ref().map(rotation),
@@ -110,7 +112,7 @@ pub(crate) fn dirichlet_conditions(scene: &Scene, mesh: &BodyMesh) -> Result<Vec
     let prescribed = scene.prescribed.iter().enumerate().map(|(number, table)| {
         let name = format!("prescribed[{number}]");
         let nodes = selection::nodes(scene, &name, &chosen(table.selectors()), mesh)?;
-        let (components, motion) = (table.is_prescribed(), Some(Motion::new(table)));
+        let (components, motion) = (table.is_prescribed(), Some(Motion::new(table, scene.time.integrator)));
         Ok(DirichletCondition { name, nodes, components, motion, until: table.until })
     });
     let conditions = fixed.chain(prescribed).collect::<Result<Vec<_>, _>>()?;

@@ -1,11 +1,11 @@
-//! External forces: tractions, pressures, springs, the scripted drag.
+//! External forces: tractions, pressures, nodal forces, springs, the scripted drag.
 
 use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
 use super::selection::{self, chosen, listed};
-use crate::tables::{CurveTable, DragTable, DragVertex, SpringTable, TractionTable};
+use crate::tables::{CurveTable, DragTable, DragVertex, ForceTable, SpringTable, TractionTable};
 use crate::{BodyMesh, LoadCurve, Scene, SceneError};
 
 /// Dead load on a part of the surface: it keeps its direction and its sum.
@@ -27,6 +27,17 @@ pub struct Pressure {
     pub faces: Vec<Vec<usize>>,
     /// Force per deformed area, Pa; positive pushes inward.
     pub pressure: f64,
+    /// Factor of time on it.
+    pub curve: Option<LoadCurve>,
+}
+
+/// Dead load on single nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NodalForce {
+    /// Nodes, ascending and without repeats.
+    pub nodes: Vec<usize>,
+    /// Force on each of them, N.
+    pub force: Vector3<f64>,
     /// Factor of time on it.
     pub curve: Option<LoadCurve>,
 }
@@ -104,6 +115,15 @@ pub(crate) fn loaded_faces(
         Ok(triangles.into_iter().map(Vec::from).collect())
     };
     scene.traction.iter().enumerate().map(faces).collect()
+}
+
+/// The load of every `[[force]]`. Refuses a table without nodes.
+pub(crate) fn nodal_forces(scene: &Scene, mesh: &BodyMesh) -> Result<Vec<NodalForce>, SceneError> {
+    let load = |(number, table): (usize, &ForceTable)| {
+        let nodes = selection::nodes(scene, &format!("force[{number}]"), &chosen(table.selectors()), mesh)?;
+        Ok(NodalForce { nodes, force: table.value.into(), curve: curve(&table.curve) })
+    };
+    scene.force.iter().enumerate().map(load).collect()
 }
 
 /// The factor of time of a load.

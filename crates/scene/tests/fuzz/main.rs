@@ -43,6 +43,9 @@ curve = { table = [[0, 0], [1, 1], [2, 0.5]] }
 [body_force]
 density = [1, 2, 3]
 curve = { sine = { frequency = 2, phase = 0.5 } }
+[[force]]
+nodes = [1]
+value = [0, 1, 0]
 [[traction]]
 on = { axis = "x", side = "max", within = 1e-6 }
 force_per_area = [0, 0, 10]

@@ -100,9 +100,11 @@ fn a_curve_is_checked_at_its_line() {
 }
 
 #[test]
-fn a_curve_without_time_or_beside_over_is_refused() {
+fn a_curve_along_a_path_by_arc_length_or_beside_over_is_refused() {
     let still = edit(&scene("{ ramp = 1 }"), "implicit_euler", "static");
-    assert_refused(&still, 14, "gravity.curve is a function of time, and static has none; its loads grow");
+    assert!(body(&still).is_ok(), "load steps count a pseudo-time");
+    let path = format!("{still}[static]\nload_steps = 2\narc_length = true\n");
+    assert_refused(&path, 14, "gravity.curve is a factor of its own, and along an equilibrium path");
     let motion = "[[prescribed]]\nnodes = [1]\ndisplacement = [1, 0, 0]\nover = 1\ncurve = { ramp = 1 }\n";
     assert_refused(&format!("{LEAST}{motion}"), 16, "prescribed[0].curve stands beside over");
 }

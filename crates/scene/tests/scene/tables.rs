@@ -252,3 +252,42 @@ fn a_drag_is_in_the_stiffness_of_the_engine_always_and_in_that_of_the_course_on_
     let refused = text("course", "\"no\"");
     assert_refused(&refused, refused.lines().count(), "invalid type: string");
 }
+
+#[test]
+fn nodal_forces_take_the_selectors_of_fixed_nodes_and_are_checked() {
+    let with = |table: &str| format!("{LEAST}[[force]]\n{table}");
+    let forces = |table: &str| body(&with(table)).unwrap().nodal_forces;
+    let left = forces("plane = { axis = \"x\", below = 1e-9 }\nvalue = [1, 2, 3]\ncurve = { ramp = 2 }\n");
+    assert!(!left.is_empty() && left[0].nodes.contains(&0) && left[0].force.as_slice() == [1.0, 2.0, 3.0]);
+    assert_eq!(left[0].curve, Some(fem_scene::LoadCurve::Ramp(2.0)));
+    assert_eq!(forces("nodes = [3, 1, 3]\nvalue = [0, 0, 1]\n")[0].nodes, [1, 3]);
+    assert_refused(&with("nodes = []\nvalue = [0, 0, 1]\n"), 13, "force[0].nodes is empty; name a node");
+    assert_refused(&with("nodes = [1]\nvalue = [0, nan, 1]\n"), 14, "force[0].value is NaN; give finite numbers");
+    assert_refused(&with("value = [0, 0, 1]\n"), 12, "force[0] needs one of plane, on, box, sphere, set and nodes");
+    let two = "nodes = [1]\non = \"all\"\nvalue = [0, 0, 1]\n";
+    assert_refused(&with(two), 12, "force[0] needs one of plane");
+    for (table, message) in [
+        ("nodes = [99]\nvalue = [0, 0, 1]\n", "force[0].nodes names node 99; the mesh has nodes 0 to"),
+        ("box = { min = [9, 9, 9], max = [10, 10, 10] }\nvalue = [0, 0, 1]\n", "force[0].box (from [9.0, 9.0, 9.0]"),
+        ("set = \"tip\"\nvalue = [0, 0, 1]\n", "force[0].set is \"tip\", and the mesh has no sets"),
+    ] {
+        let error = body(&with(table)).unwrap_err().to_string();
+        assert!(error.contains(message), "{error}");
+    }
+}
+
+#[test]
+fn a_nodal_force_on_a_constrained_coordinate_is_told() {
+    let text = |force: &str| format!("{LEAST}{force}");
+    let warnings = |force: &str| {
+        let text = text(force);
+        fem_scene::warnings(&read(&text), &body(&text).unwrap())
+    };
+    let slider = "[[prescribed]]\nnodes = [0, 1]\ndisplacement = [0, 0, 0]\ncomponents = [\"x\"]\n";
+    assert!(warnings(&format!("{slider}[[force]]\nnodes = [0, 2]\nvalue = [0, 1, 0]\n")).is_empty());
+    let found = warnings(&format!("{slider}[[force]]\nnodes = [0, 2]\nvalue = [4, 1, 0]\n"));
+    assert!(
+        found.len() == 1 && found[0].contains("force[0]: 1 of its 2 nodes are constrained along the force"),
+        "{found:?}"
+    );
+}

@@ -154,7 +154,7 @@ impl Equations {
             scratch.force.resize(n, [0.0; 3]);
             double::add_stiffness_times(&self.system, &rest, &d, &mut scratch.force);
             for (force, _) in self.system.forces.active().filter(|(force, _)| !force.is_internal()) {
-                force.add_hessian_times(1.0, &rest, &d, &mut scratch.force);
+                force.add_hessian_times(1.0, &rest, fem_engine::forces::Moment::at(0.0), &d, &mut scratch.force);
             }
             let mut next = vec![[0.0; 3]; n];
             self.mass.apply(&scratch.force, &mut next, &mut scratch.right);
@@ -185,8 +185,9 @@ fn initial_velocity(of_mesh: &[Vector3<f64>], system: &System) -> Vec<[f64; 3]> 
 fn kinks(body: &Body) -> Vec<f64> {
     let of_volume = body.gravity_curve.iter().chain(&body.body_force_curve);
     let dead = body.tractions.iter().filter_map(|traction| traction.curve.as_ref());
+    let nodal = body.nodal_forces.iter().filter_map(|load| load.curve.as_ref());
     let followers = body.pressures.iter().filter_map(|pressure| pressure.curve.as_ref());
-    of_volume.chain(dead).chain(followers).flat_map(LoadCurve::kinks).collect()
+    of_volume.chain(dead).chain(nodal).chain(followers).flat_map(LoadCurve::kinks).collect()
 }
 
 /// Products with M⁻¹ K.

@@ -38,7 +38,10 @@ pub(super) fn arrays(system: &System<f64>, body: &Body) -> fem_gpu::Body {
     }
     fem_gpu::Body {
         tetrahedra: device_elements::tetrahedra(system, mesh),
-        weights: dead_loads(system, &Body { body_force: None, tractions: Vec::new(), ..body.clone() }),
+        weights: dead_loads(
+            system,
+            &Body { body_force: None, tractions: Vec::new(), nodal_forces: Vec::new(), ..body.clone() },
+        ),
         loads: dead_loads(system, &Body { gravity: None, ..body.clone() }),
         inverse_masses,
         velocities,

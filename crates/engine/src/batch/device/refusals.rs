@@ -53,7 +53,7 @@ fn unknown(scene: &Scene, body: &Body) -> Option<Unknown> {
     let traction_curve = body.tractions.iter().any(|traction| traction.curve.is_some());
     let iterations = scene.method().iterations;
     let is_accelerated = iterations.acceleration.is_some_and(|radius| radius > 0.0);
-    let keys: [(&'static str, bool, &'static str, &'static str); 18] = [
+    let keys: [(&'static str, bool, &'static str, &'static str); 19] = [
         ("mesh", body.shape.mesh.is_flat(), "is a flat body", "take tetrahedra"),
         ("materials", !body.regions.is_empty(), "gives the body several materials", "remove the tables"),
         ("plasticity", body.plasticity.is_some(), "is a flow of the material", "remove the table"),
@@ -67,6 +67,12 @@ fn unknown(scene: &Scene, body: &Body) -> Option<Unknown> {
         ("body_force.curve", has_curve(&body.body_force_curve), "is a factor of time", "remove it"),
         ("traction", traction_curve, "has a factor of time", "remove its curve"),
         ("traction", !body.pressures.is_empty(), "has a pressure that follows the surface", "give force_per_area"),
+        (
+            "force",
+            body.nodal_forces.iter().any(|load| load.curve.is_some()),
+            "has a factor of time",
+            "remove its curve",
+        ),
         ("springs", !body.springs.is_empty(), "are forces between two nodes", "remove the tables"),
         ("prescribed", has_motion, "is a motion of nodes", "use [fixed]"),
         ("fixed.until", is_released, "is a time from which nodes are free", "remove it"),

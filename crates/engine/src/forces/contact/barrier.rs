@@ -3,7 +3,7 @@
 //! A node of the area a at the distance d has the energy κ a d̂ b(d/d̂), b(s) = −(s − 1)² ln s for s < 1, and zero beyond d̂. So its
 //! pressure κ |b'(d/d̂)| depends on the distance alone, and not on the mesh; κ is a pressure that a gap of about d̂/2 carries.
 
-use fem_scene::Body;
+use fem_scene::{Body, Material};
 
 use super::areas::Areas;
 use crate::forces::mass_spring;
@@ -94,15 +94,23 @@ fn curvature(s: f64) -> f64 {
     -2.0 * t.ln_1p() - 4.0 * t / s + (t / s).powi(2)
 }
 
-/// Largest shear modulus of the body's materials, or that of its springs, plus ρ g L; Pa.
-fn stiffness(body: &Body) -> f64 {
-    let materials = body.regions.iter().map(|region| &region.material).chain([&body.material]);
+/// The materials of a body.
+fn materials(body: &Body) -> impl Iterator<Item = &Material> {
+    body.regions.iter().map(|region| &region.material).chain([&body.material])
+}
+
+/// Largest shear modulus of a body's materials, or that of its springs, Pa.
+pub fn largest_shear_modulus(body: &Body) -> f64 {
     let modulus = |material| AnyLaw::<f64>::new(material).map_or(0.0, |law| law.moduli()[0]);
-    let largest = materials.clone().map(modulus).fold(0.0, f64::max);
+    let largest = materials(body).map(modulus).fold(0.0, f64::max);
     let factor = body.stiffness_factors.iter().copied().reduce(f64::max).unwrap_or(1.0);
-    let density = materials.map(|material| material.density).fold(0.0, f64::max);
     f64::max(largest * factor, mass_spring::shear_modulus(body))
-        + density * body.gravity.map_or(0.0, |g| g.norm()) * body.shape.mesh.length()
+}
+
+/// That modulus plus ρ g L, Pa.
+fn stiffness(body: &Body) -> f64 {
+    let density = materials(body).map(|material| material.density).fold(0.0, f64::max);
+    largest_shear_modulus(body) + density * body.gravity.map_or(0.0, |g| g.norm()) * body.shape.mesh.length()
 }
 
 #[cfg(test)]

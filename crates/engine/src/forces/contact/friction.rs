@@ -177,7 +177,15 @@ impl<T: Real> Potential<T> for Friction<T> {
         }
     }
 
-    fn add_hessian(&self, factor: T, u: &[[T; 3]], _: HessianKind, pattern: &Pattern, values: &mut [Block<T, 3>]) {
+    fn add_hessian(
+        &self,
+        factor: T,
+        u: &[[T; 3]],
+        _: Moment,
+        _: HessianKind,
+        pattern: &Pattern,
+        values: &mut [Block<T, 3>],
+    ) {
         for (lagged, slide) in self.sliding(u) {
             let H = self.hessian(lagged, slide);
             if let Some(block) = pattern.find(lagged.node, lagged.node) {
@@ -190,7 +198,7 @@ impl<T: Real> Potential<T> for Friction<T> {
         }
     }
 
-    fn add_hessian_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
+    fn add_hessian_times(&self, factor: T, u: &[[T; 3]], _: Moment, d: &[[T; 3]], product: &mut [[T; 3]]) {
         for (lagged, slide) in self.sliding(u) {
             let (H, d) = (self.hessian(lagged, slide), d[lagged.node].map(|d| d.as_f64()));
             for i in 0..3 {

@@ -24,15 +24,13 @@ pub const NAME: &str = "contact";
 pub struct Contact {
     planes: Planes,
     barrier: Barrier,
-    /// Time at the end of the step, s.
-    end: f64,
 }
 
 /// The barrier of a body with obstacles, for implicit methods.
 pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Potential<T>>> {
     body.contact.as_ref().filter(|contact| contact.treatment == ContactTreatment::Barrier)?;
     let Obstacles { planes, barrier, .. } = Obstacles::new(body, numbering)?;
-    Some(Box::new(Contact { planes, barrier, end: 0.0 }))
+    Some(Box::new(Contact { planes, barrier }))
 }
 
 /// Distances to which an infeasible node is moved, as parts of the activation distance and of its distance at the start.
@@ -81,8 +79,7 @@ impl<T: Real> Potential<T> for Contact {
         true
     }
 
-    fn begin_step(&mut self, u: &[[T; 3]], start: Moment, dt: f64) {
-        self.end = start.time + dt;
+    fn begin_step(&mut self, u: &[[T; 3]], _: Moment, _: f64) {
         self.barrier.begin_step(u);
     }
 
@@ -99,8 +96,16 @@ impl<T: Real> Potential<T> for Contact {
         }
     }
 
-    fn add_hessian(&self, factor: T, u: &[[T; 3]], _: HessianKind, pattern: &Pattern, values: &mut [Block<T, 3>]) {
-        for (near, area) in self.active(u, self.end) {
+    fn add_hessian(
+        &self,
+        factor: T,
+        u: &[[T; 3]],
+        moment: Moment,
+        _: HessianKind,
+        pattern: &Pattern,
+        values: &mut [Block<T, 3>],
+    ) {
+        for (near, area) in self.active(u, moment.time) {
             let (k, n) = (self.barrier.curvature(area, near.gap), self.normal(near.plane));
             if let Some(block) = pattern.find(near.node, near.node) {
                 for i in 0..3 {
@@ -112,8 +117,8 @@ impl<T: Real> Potential<T> for Contact {
         }
     }
 
-    fn add_hessian_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
-        for (near, area) in self.active(u, self.end) {
+    fn add_hessian_times(&self, factor: T, u: &[[T; 3]], moment: Moment, d: &[[T; 3]], product: &mut [[T; 3]]) {
+        for (near, area) in self.active(u, moment.time) {
             let (k, n) = (self.barrier.curvature(area, near.gap), self.normal(near.plane));
             let along = planes::along(n, &d[near.node]);
             for i in 0..3 {
@@ -126,10 +131,10 @@ impl<T: Real> Potential<T> for Contact {
         self.barrier.distance
     }
 
-    fn largest_step(&self, u: &[[T; 3]], direction: &[[T; 3]]) -> f64 {
+    fn largest_step(&self, u: &[[T; 3]], moment: Moment, direction: &[[T; 3]]) -> f64 {
         let of_plane = |plane: usize| {
             let n = self.normal(plane);
-            let nodes = self.planes.gaps(plane, u, self.end).zip(direction).enumerate();
+            let nodes = self.planes.gaps(plane, u, moment.time).zip(direction).enumerate();
             let free = nodes.filter(move |(node, _)| self.barrier.area(plane, *node) > 0.0);
             let steps = free.map(move |(_, (gap, direction))| (gap, -planes::along(n, direction)));
             steps.filter(|(_, approach)| *approach > 0.0).map(|(gap, approach)| gap / approach)
@@ -138,13 +143,13 @@ impl<T: Real> Potential<T> for Contact {
     }
 
     /// Moves nodes that would be behind a plane, or much nearer to it than at the start, along its normal.
-    fn make_feasible(&self, start: &[[T; 3]], increment: &mut [[T; 3]]) -> bool {
+    fn make_feasible(&self, start: &[[T; 3]], end: Moment, increment: &mut [[T; 3]]) -> bool {
         let mut has_changed = false;
         for _ in 0..PASSES {
             let mut has_moved = false;
             for plane in 0..self.planes.planes.len() {
                 let n = self.normal(plane);
-                for (node, before) in self.planes.gaps(plane, start, self.end).enumerate() {
+                for (node, before) in self.planes.gaps(plane, start, end.time).enumerate() {
                     let now = before + planes::along(n, &increment[node]);
                     let is_near = before > 0.0 && before < self.barrier.distance;
                     let least = if is_near { FROM_NEAR * before } else { FROM_AFAR * self.barrier.distance };

@@ -125,11 +125,19 @@ impl<T: Real> Potential<T> for Springs<T> {
         self.springs.iter().for_each(|spring| spring.add_gradient(u, gradient));
     }
 
-    fn add_hessian(&self, factor: T, u: &[[T; 3]], kind: HessianKind, _: &Pattern, values: &mut [Block<T, 3>]) {
+    fn add_hessian(
+        &self,
+        factor: T,
+        u: &[[T; 3]],
+        _: Moment,
+        kind: HessianKind,
+        _: &Pattern,
+        values: &mut [Block<T, 3>],
+    ) {
         self.add_blocks(factor, values, |spring| spring.hessian(u, kind));
     }
 
-    fn add_hessian_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
+    fn add_hessian_times(&self, factor: T, u: &[[T; 3]], _: Moment, d: &[[T; 3]], product: &mut [[T; 3]]) {
         self.springs.iter().for_each(|spring| spring.add_hessian_times(factor, u, d, product));
     }
 
