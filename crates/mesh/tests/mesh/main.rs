@@ -18,11 +18,13 @@ mod pictures;
 mod progress;
 mod refined;
 mod round_trip;
+mod sets_kept;
 mod shipped;
 mod sides;
 mod stuffing;
 mod surfaces;
 mod triangles;
+mod untidy;
 mod vtk;
 mod written;
 
