@@ -1,6 +1,6 @@
 //! The meshes that a scene names: files, boxes, surfaces to fill.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use fem_mesh::generate::odt::improve_inside;
 use fem_mesh::generate::{Solid, stuff_graded};

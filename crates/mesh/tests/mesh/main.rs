@@ -11,6 +11,7 @@ mod features;
 mod formats;
 mod garbage;
 mod gmsh;
+mod matrix;
 mod odt_space;
 mod other_programs;
 mod packed;
