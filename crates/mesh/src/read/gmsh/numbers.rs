@@ -71,7 +71,11 @@ impl<'a> Text<'a> {
 
 impl Numbers for Text<'_> {
     fn section(&mut self) -> Result<Option<String>, MeshError> {
-        Ok(self.lines.find_map(|line| Some(line.peek()?.strip_prefix('$')?.to_owned())))
+        let Some(line) = self.lines.next() else { return Ok(None) };
+        let word = line.peek().unwrap_or_default();
+        let problem = || Problem::NotA { word: word.to_owned(), expected: "the beginning of a section, such as `$Nodes`" };
+        let name = word.strip_prefix('$').ok_or_else(|| line.error(problem()))?;
+        Ok(Some(name.to_owned()))
     }
 
     fn skip(&mut self, section: &str) -> Result<(), MeshError> {

@@ -67,6 +67,7 @@ fn read_list(
     for count in &mut counts {
         *count = numbers.count("the number of entities")?;
     }
+    numbers.end_row("the numbers of entities")?;
     for (dimension, &count) in counts.iter().enumerate() {
         for row in 0..count {
             numbers.row("entities", count, row)?;
@@ -102,6 +103,7 @@ pub(super) fn read_nodes(numbers: &mut dyn Numbers, layout: Layout, mesh: &mut B
         let dimension = entity(numbers, layout)?.0;
         let is_parametric = numbers.int("whether the nodes are parametric")? != 0;
         let count = numbers.count("the number of nodes of the block")?;
+        numbers.end_row("the number of nodes of the block")?;
         if layout == Layout::V41 {
             read_tags(numbers, count, mesh)?;
         }
@@ -150,6 +152,7 @@ pub(super) fn read_elements(
         let (dimension, tag) = entity(numbers, layout)?;
         let number = numbers.int("the type of the block's elements")?;
         let count = numbers.count("the number of elements of the block")?;
+        numbers.end_row("the number of elements of the block")?;
         if count == 0 {
             continue;
         }
@@ -178,6 +181,7 @@ fn header(numbers: &mut dyn Numbers, layout: Layout) -> Result<(usize, usize), M
         numbers.long("the smallest tag")?;
         numbers.long("the largest tag")?;
     }
+    numbers.end_row("the counts of the section")?;
     Ok(counts)
 }
 
