@@ -104,7 +104,7 @@ fn a_conversion_keeps_sets_and_warns_where_they_are_lost() {
     desk.write("plate.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ng a\nf 1 2 3\ng b\nf 2 4 3\n");
     let outcome = desk.run("mesh convert plate.obj plate.ply");
     assert_eq!(outcome.code, Some(0));
-    let warning = "warning: plate.ply: this format has no sets, and the mesh 2; .msh, .vtu, .vtk and .inp keep all\n";
+    let warning = "warning: plate.ply: this format has no sets, and the mesh 2; .msh, .vtu and .vtk keep all\n";
     assert_eq!(outcome.stderr, warning);
 }
 
@@ -314,7 +314,7 @@ fn nodes_of_no_element_are_told_once_by_commands_and_by_scenes() {
         format!(
             "pipeline = \"engine\"\n[mesh]\nfile = \"{file}\"\n[material]\nmodel = \"neo_hookean\"\nyoung = 1e5\npoisson = 0.3\n\
              density = 1000.0\n[gravity]\nacceleration = [0, -9.81, 0]\n[fixed]\nplane = {{ axis = \"z\", below = 0.1 }}\n[time]\n\
-             integrator = \"linearly_implicit\"\n"
+             integrator = \"linearly_implicit_euler\"\ndt = 0.01\n"
         ),
     );
     let outcome = desk.run("s.toml --headless --steps 1");
@@ -364,7 +364,7 @@ fn bodies_that_overlap_are_told_with_their_names_and_the_place() {
             "s.toml",
             format!(
                 "pipeline = \"engine\"\n[mesh]\nfiles = [\"lower.node\", \"{second}\"]\n[material]\nmodel = \"neo_hookean\"\nyoung = 1e5\n\
-                 poisson = 0.3\ndensity = 1000.0\n[fixed]\non = \"all\"\n[time]\nintegrator = \"linearly_implicit\"\n"
+                 poisson = 0.3\ndensity = 1000.0\n[fixed]\non = \"all\"\n[time]\nintegrator = \"linearly_implicit_euler\"\ndt = 0.01\n"
             ),
         );
         desk.run("s.toml --headless --steps 1").stderr

@@ -31,7 +31,7 @@ def size(x, cells):
 
 
 def of_gmsh(path):
-    if path.endswith((".vtu", ".node", ".obj")):
+    if path.endswith((".vtu", ".node", ".obj", ".inp")):
         return None
     gmsh.clear()
     gmsh.open(path)

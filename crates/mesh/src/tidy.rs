@@ -74,7 +74,13 @@ pub(crate) fn parts_of_elements<const N: usize>(mesh: &Mesh<3, N>) -> Found {
     if faces.is_empty() && edges.is_empty() {
         return (faces, edges);
     }
-    for element in &mesh.elements {
+    // Few elements have two nodes of these parts; the others need no look into the maps.
+    let mut is_near = vec![false; mesh.vertices.len()];
+    for &node in faces.keys().flatten().chain(edges.keys().flatten()) {
+        is_near.get_mut(node).into_iter().for_each(|is_near| *is_near = true);
+    }
+    let is_near = |node: &&usize| is_near.get(**node) == Some(&true);
+    for element in mesh.elements.iter().filter(|element| element.iter().filter(is_near).count() > 1) {
         for (c, b) in (0..N).flat_map(|c| (0..c).map(move |b| (c, b))) {
             if !edges.is_empty()
                 && let Some(is_found) = edges.get_mut(&sorted([element[b], element[c]]))

@@ -1,6 +1,6 @@
 //! `mesh convert`: from one format to another, with repairs.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use fem_mesh::{AnyMesh, Mesh, MeshError, MeshFile};
 

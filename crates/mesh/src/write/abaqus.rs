@@ -11,7 +11,7 @@ use crate::read::ABAQUS_FACES;
 /// Numbers in a row of a set.
 const IN_ROW: usize = 12;
 
-/// Writes tetrahedra as C3D4 and triangles as CPS3. Edges of sets become trusses, which belong to no material.
+/// Writes tetrahedra as C3D4 and triangles as CPS3. Of the edges of sets the nodes are written: trusses would need a section.
 pub(super) fn write<const N: usize>(out: &mut dyn Write, mesh: &Mesh<3, N>) -> io::Result<()> {
     writeln!(out, "*HEADING\nwritten by fem-mesh\n*NODE")?;
     for (i, x) in mesh.vertices.iter().enumerate() {
@@ -21,26 +21,23 @@ pub(super) fn write<const N: usize>(out: &mut dyn Write, mesh: &Mesh<3, N>) -> i
     for (i, element) in mesh.elements.iter().enumerate() {
         writeln!(out, "{}{}", i + 1, numbers(element))?;
     }
-    let mut next = mesh.elements.len() + 1;
     let sides = sides(mesh);
     for (name, set) in &mesh.sets {
+        // CalculiX knows no quotation marks; they are for names with blanks alone.
+        let name = if name.contains(char::is_whitespace) { format!("\"{name}\"") } else { name.clone() };
         if !set.elements.is_empty() {
-            writeln!(out, "*ELSET, ELSET=\"{name}\"")?;
+            writeln!(out, "*ELSET, ELSET={name}")?;
             rows(out, &set.elements)?;
         }
-        if !set.points.is_empty() {
-            writeln!(out, "*NSET, NSET=\"{name}\"")?;
-            rows(out, &set.points)?;
-        }
-        if !set.edges.is_empty() {
-            writeln!(out, "*ELEMENT, TYPE=T3D2, ELSET=\"{name}\"")?;
-            for edge in &set.edges {
-                writeln!(out, "{next}{}", numbers(edge))?;
-                next += 1;
-            }
+        let mut nodes = [&set.points[..], &set.edges.concat()].concat();
+        nodes.sort_unstable();
+        nodes.dedup();
+        if !nodes.is_empty() {
+            writeln!(out, "*NSET, NSET={name}")?;
+            rows(out, &nodes)?;
         }
         if !set.faces.is_empty() {
-            writeln!(out, "*SURFACE, NAME=\"{name}\", TYPE=ELEMENT")?;
+            writeln!(out, "*SURFACE, NAME={name}, TYPE=ELEMENT")?;
             for (element, side) in set.faces.iter().filter_map(|face| sides.get(face)) {
                 writeln!(out, "{}, S{side}", element + 1)?;
             }

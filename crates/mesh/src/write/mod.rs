@@ -127,9 +127,13 @@ pub fn lost_sets<const N: usize>(path: &Path, mesh: &Mesh<3, N>) -> Option<Strin
         "obj" if mesh.sets.values().all(|set| set.edges.is_empty() && set.points.is_empty()) => return None,
         "obj" => "this format has no sets of edges and points".to_owned(),
         "ply" | "stl" => format!("this format has no sets, and the mesh {count}"),
+        "inp" => match mesh.sets.values().map(|set| set.edges.len()).sum() {
+            0_usize => return None,
+            edges => format!("of {edges} edges of sets this format keeps the nodes"),
+        },
         _ => return None,
     };
-    Some(format!("{what}; .msh, .vtu, .vtk and .inp keep all"))
+    Some(format!("{what}; .msh, .vtu and .vtk keep all"))
 }
 
 /// Writes the contents of a file, once.

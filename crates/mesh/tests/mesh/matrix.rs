@@ -47,7 +47,11 @@ fn every_file_gives_what_the_reader_of_its_own_program_finds() {
             wrong.push(format!("{name}: {nodes} nodes, {elements} elements, {size}, not {expected}"));
         }
         for (set, parts) in expected["sets"].as_object().unwrap() {
-            let parts = parts.as_object().unwrap().iter().filter(|(kind, count)| *kind != "points" && count.as_u64() != Some(0));
+            let parts = parts
+                .as_object()
+                .unwrap()
+                .iter()
+                .filter(|(kind, count)| *kind != "points" && count.as_u64() != Some(0));
             let parts: BTreeMap<&str, u64> = parts.map(|(kind, count)| (&kind[..], count.as_u64().unwrap())).collect();
             let found = sets.get(set).map(|set| counts(set, is_body)).unwrap_or_default();
             if found != parts {

@@ -14,10 +14,16 @@ pub(super) struct Kind {
 /// Beginnings of the names of triangles: in plane stress and plane strain, shells, membranes, rotational symmetry.
 const TRIANGLES: [&str; 7] = ["CPS", "CPE", "STRI", "S", "M3D", "CAX", "DS"];
 
-/// The type of a name, such as `C3D4` or `CPE6H`.
-pub(super) fn kind(name: &str) -> Result<Kind, Problem> {
+/// Beginnings of the names of elements that fill no space.
+const WITHOUT_SPACE: [&str; 7] = ["SPRING", "DASHPOT", "MASS", "GAP", "CONN", "DCOUP", "ROTARYI"];
+
+/// The type of a name, such as `C3D4` or `CPE6H`; `None` for elements that fill no space and are skipped.
+pub(super) fn kind(name: &str) -> Result<Option<Kind>, Problem> {
     let name = name.to_uppercase();
-    let of = |nodes, corners| Ok(Kind { nodes, corners });
+    if WITHOUT_SPACE.iter().any(|start| name.starts_with(start)) {
+        return Ok(None);
+    }
+    let of = |nodes, corners| Ok(Some(Kind { nodes, corners }));
     let begins = |list: &[&str], nodes: &str| {
         list.iter().any(|start| {
             name.strip_prefix(start).is_some_and(|rest| rest.trim_end_matches(char::is_alphabetic) == nodes)

@@ -24,16 +24,17 @@ pub(super) fn read(file: &Path, text: String) -> Result<Content, MeshError> {
     let mut lines = deck.lines().peekable();
     while let Some(line) = lines.next() {
         let Some(keyword) = line.keyword() else { continue };
-        let mut rows: Vec<Line> = Vec::new();
-        while let Some(row) = lines.next_if(|line| !line.is_keyword()) {
-            rows.push(row);
-        }
-        section(&mut model, &keyword, &rows)?;
+        let mut rows = std::iter::from_fn(|| lines.next_if(|line| !line.is_keyword()));
+        section(&mut model, &keyword, &mut rows)?;
+        rows.for_each(drop);
     }
     model.finish()
 }
 
-fn section(model: &mut Model, keyword: &Keyword, rows: &[Line]) -> Result<(), MeshError> {
+/// The rows of data after a keyword.
+type Rows<'r, 'a> = &'r mut dyn Iterator<Item = Line<'a>>;
+
+fn section(model: &mut Model, keyword: &Keyword, rows: Rows) -> Result<(), MeshError> {
     let name = |key| keyword.required(key);
     match &keyword.name[..] {
         "NODE" => nodes(model, keyword, rows),
@@ -69,16 +70,16 @@ fn scope(model: &Model, keyword: &Keyword) -> Result<usize, MeshError> {
 }
 
 /// `<number>, <x>, <y>, <z>`, without z in the plane.
-fn nodes(model: &mut Model, keyword: &Keyword, rows: &[Line]) -> Result<(), MeshError> {
+fn nodes(model: &mut Model, keyword: &Keyword, rows: Rows) -> Result<(), MeshError> {
     if keyword.parameter("SYSTEM").is_some_and(|system| !system.eq_ignore_ascii_case("R")) {
         let found = "*NODE with SYSTEM=C or S".to_owned();
         return Err(keyword.line.error(Problem::Unsupported { found, instead: "give rectangular coordinates" }));
     }
-    let mut numbers = Vec::new();
+    let (mut numbers, set) = (Vec::new(), keyword.parameter("NSET"));
     for row in rows {
         let entries: Vec<&str> = row.entries().collect();
         let number = row.integer(entries[0], "the number of a node")?;
-        if entries.len() < 3 {
+        if entries.len() < 3 || entries.len() < *model.columns.get_or_insert(entries.len()) {
             return Err(row.error(Problem::Ends { expected: "a coordinate" }));
         }
         if let Some(word) = entries.get(4) {
@@ -87,20 +88,23 @@ fn nodes(model: &mut Model, keyword: &Keyword, rows: &[Line]) -> Result<(), Mesh
         }
         let z = entries.get(3).map_or(Ok(0.0), |z| row.real(z))?;
         let place = Vector3::new(row.real(entries[1])?, row.real(entries[2])?, z);
-        model.add_node(row, number, place)?;
-        numbers.push(number);
+        model.add_node(&row, number, place)?;
+        numbers.extend(set.map(|_| number));
     }
-    match keyword.parameter("NSET") {
+    match set {
         Some(name) => model.name_nodes(name, &numbers),
         None => Ok(()),
     }
 }
 
 /// `<number>, <nodes …>`, over several lines that end in a comma.
-fn elements(model: &mut Model, keyword: &Keyword, rows: &[Line]) -> Result<(), MeshError> {
-    let kind = kind(keyword.required("TYPE")?).map_err(|problem| keyword.line.error(problem))?;
-    let mut numbers = Vec::new();
-    let mut rows = rows.iter();
+fn elements(model: &mut Model, keyword: &Keyword, rows: Rows) -> Result<(), MeshError> {
+    let name = keyword.required("TYPE")?;
+    let Some(kind) = kind(name).map_err(|problem| keyword.line.error(problem))? else {
+        model.content.notes.unread(format!("elements of the type {name}"));
+        return Ok(());
+    };
+    let (mut numbers, set) = (Vec::new(), keyword.parameter("ELSET"));
     while let Some(row) = rows.next() {
         let mut entries: Vec<&str> = row.entries().collect();
         let mut last = row;
@@ -118,10 +122,10 @@ fn elements(model: &mut Model, keyword: &Keyword, rows: &[Line]) -> Result<(), M
         if let Some(more) = nodes.get(kind.nodes) {
             return Err(row.error(Problem::RowTooLong { word: more.to_string(), last: "the nodes of the element" }));
         }
-        model.add_element(row, number, kind, &nodes[..kind.corners])?;
-        numbers.push(number);
+        model.add_element(&row, number, kind, &nodes[..kind.corners])?;
+        numbers.extend(set.map(|_| number));
     }
-    match keyword.parameter("ELSET") {
+    match set {
         Some(name) => model.name_elements(name, &numbers),
         None => Ok(()),
     }
@@ -134,15 +138,15 @@ enum Member<'a> {
 }
 
 /// Numbers and names, or with `GENERATE` the first number, the last and the step in each row.
-fn members<'a>(keyword: &Keyword, rows: &[Line<'a>]) -> Result<Vec<Member<'a>>, MeshError> {
+fn members<'a>(keyword: &Keyword, rows: Rows<'_, 'a>) -> Result<Vec<Member<'a>>, MeshError> {
     let mut found = Vec::new();
     for row in rows {
         let entries = row.entries().filter(|entry| !entry.is_empty());
         if keyword.parameter("GENERATE").is_none() {
             // A name may have the name of an instance before it.
             found.extend(entries.map(|entry| match entry.parse() {
-                Ok(number) => Member::Number(*row, number),
-                Err(_) => Member::Name(*row, entry.trim_matches('"')),
+                Ok(number) => Member::Number(row, number),
+                Err(_) => Member::Name(row, entry.trim_matches('"')),
             }));
             continue;
         }
@@ -159,7 +163,7 @@ fn members<'a>(keyword: &Keyword, rows: &[Line<'a>]) -> Result<Vec<Member<'a>>, 
         let mut number = first;
         while number <= last {
             // A set without end stops at the first number that the file has not.
-            found.push(Member::Number(*row, number));
+            found.push(Member::Number(row, number));
             if found.len() > MOST_MEMBERS {
                 let reason = format!("the set has over {MOST_MEMBERS} members");
                 return Err(row.error(Problem::Malformed { reason }));
@@ -174,7 +178,7 @@ fn members<'a>(keyword: &Keyword, rows: &[Line<'a>]) -> Result<Vec<Member<'a>>, 
 const MOST_MEMBERS: usize = 100_000_000;
 
 /// `<elements>, S1` in each row, or of nodes with `TYPE=NODE`.
-fn surface(model: &mut Model, keyword: &Keyword, rows: &[Line]) -> Result<(), MeshError> {
+fn surface(model: &mut Model, keyword: &Keyword, rows: Rows) -> Result<(), MeshError> {
     let name = keyword.required("NAME")?;
     if keyword.parameter("TYPE").is_some_and(|kind| kind.eq_ignore_ascii_case("NODE")) {
         let members = members(keyword, rows)?;
@@ -189,8 +193,8 @@ fn surface(model: &mut Model, keyword: &Keyword, rows: &[Line]) -> Result<(), Me
             return Err(row.error(problem));
         };
         let member = match elements.parse() {
-            Ok(number) => Member::Number(*row, number),
-            Err(_) => Member::Name(*row, elements),
+            Ok(number) => Member::Number(row, number),
+            Err(_) => Member::Name(row, elements),
         };
         model.add_sides(name, &member, side)?;
     }
@@ -198,10 +202,10 @@ fn surface(model: &mut Model, keyword: &Keyword, rows: &[Line]) -> Result<(), Me
 }
 
 /// The motion of an instance: a shift, then a turn by an angle in degrees about the axis from one point to another.
-fn motion(rows: &[Line]) -> Result<impl Fn(Vector3<f64>) -> Vector3<f64> + use<>, MeshError> {
-    let numbers = |row: &Line| row.entries().map(|word| row.real(word)).collect::<Result<Vec<f64>, _>>();
-    let first = rows.first().map(numbers).transpose()?.unwrap_or_default();
-    let turn = rows.get(1).map(numbers).transpose()?.unwrap_or_default();
+fn motion(rows: Rows) -> Result<impl Fn(Vector3<f64>) -> Vector3<f64> + use<>, MeshError> {
+    let numbers = |row: Line| row.entries().map(|word| row.real(word)).collect::<Result<Vec<f64>, _>>();
+    let first = rows.next().map(numbers).transpose()?.unwrap_or_default();
+    let turn = rows.next().map(numbers).transpose()?.unwrap_or_default();
     let vector = |list: &[f64], i: usize| Vector3::from_fn(|k, _| list.get(i + k).copied().unwrap_or(0.0));
     let (shift, a, b) = (vector(&first, 0), vector(&turn, 0), vector(&turn, 3));
     let angle = turn.get(6).copied().unwrap_or(0.0).to_radians();

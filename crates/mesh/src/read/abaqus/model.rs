@@ -10,12 +10,12 @@ use super::deck::Line;
 use super::kinds::{FACES, Kind};
 use crate::{MeshError, Problem};
 
-/// What an element has become.
+/// What an element has become. A mesh with more than 2³² elements fits into no memory.
 #[derive(Clone, Copy)]
 enum Element {
-    Tetrahedron(usize),
-    Triangle(usize),
-    Line([usize; 2]),
+    Tetrahedron(u32),
+    Triangle(u32),
+    Line([u32; 2]),
 }
 
 /// A part's own numbers and names.
@@ -36,14 +36,16 @@ pub(super) struct Model {
     /// The current part.
     pub part: usize,
     instances: HashMap<String, usize>,
-    /// Elements with nodes between their corners, and such nodes.
+    /// Entries in the first row of a node; each has as many.
+    pub columns: Option<usize>,
+    /// Elements with nodes between their corners.
     quadratic: usize,
 }
 
 impl Default for Model {
     fn default() -> Self {
         let (content, parts, instances) = (Content::default(), vec![Part::default()], HashMap::new());
-        Self { content, parts, part: 0, instances, quadratic: 0 }
+        Self { content, parts, part: 0, instances, columns: None, quadratic: 0 }
     }
 }
 
@@ -105,13 +107,13 @@ impl Model {
         let element = match nodes[..] {
             [a, b, c, d] => {
                 self.content.tetrahedra.push([a, b, c, d]);
-                Element::Tetrahedron(self.content.tetrahedra.len() - 1)
+                Element::Tetrahedron((self.content.tetrahedra.len() - 1) as u32)
             }
             [a, b, c] => {
                 self.content.triangles.push([a, b, c]);
-                Element::Triangle(self.content.triangles.len() - 1)
+                Element::Triangle((self.content.triangles.len() - 1) as u32)
             }
-            _ => Element::Line([nodes[0], nodes[1]]),
+            _ => Element::Line([nodes[0] as u32, nodes[1] as u32]),
         };
         self.quadratic += usize::from(kind.nodes > kind.corners);
         match part.elements.insert(number, element) {
@@ -187,12 +189,12 @@ impl Model {
             match element {
                 Element::Tetrahedron(index) => {
                     let face = FACES.get(side - 1).ok_or_else(no_side)?;
-                    let tetrahedron = self.content.tetrahedra[index];
+                    let tetrahedron = self.content.tetrahedra[index as usize];
                     parts.triangles.push(self.content.triangles.len());
                     self.content.triangles.push(face.map(|corner| tetrahedron[corner]));
                 }
                 Element::Triangle(index) if (1..=3).contains(&side) => {
-                    let triangle = self.content.triangles[index];
+                    let triangle = self.content.triangles[index as usize];
                     parts.edges.push([triangle[side - 1], triangle[side % 3]]);
                 }
                 _ => return Err(no_side()),
@@ -260,9 +262,9 @@ impl Model {
 
 fn list(parts: &mut Parts, element: Element) {
     match element {
-        Element::Tetrahedron(index) => parts.tetrahedra.push(index),
-        Element::Triangle(index) => parts.triangles.push(index),
-        Element::Line(edge) => parts.edges.push(edge),
+        Element::Tetrahedron(index) => parts.tetrahedra.push(index as usize),
+        Element::Triangle(index) => parts.triangles.push(index as usize),
+        Element::Line(edge) => parts.edges.push(edge.map(|node| node as usize)),
     }
 }
 

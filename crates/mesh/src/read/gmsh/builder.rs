@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use nalgebra::Vector3;
 
 use super::super::content::{Content, Parts};
+use super::index::Index;
 use super::kinds::{Kind, LINE, POINT, TETRAHEDRON, TRIANGLE};
 use crate::Problem;
 
@@ -16,8 +17,7 @@ pub(super) type Group = (usize, i64);
 #[derive(Default)]
 pub(super) struct Builder {
     pub content: Content,
-    /// From a node's tag, any integer, to its index.
-    index: HashMap<i64, usize>,
+    index: Index,
     names: HashMap<Group, String>,
     groups: HashMap<Group, Parts>,
 }
@@ -30,10 +30,8 @@ impl Builder {
 
     /// Adds a tag for the node whose position comes next but `ahead`.
     pub(super) fn add_tag(&mut self, tag: i64, ahead: usize) -> Result<(), Problem> {
-        match self.index.insert(tag, self.content.vertices.len() + ahead) {
-            None => Ok(()),
-            Some(_) => Err(Problem::RepeatedTag { tag }),
-        }
+        let is_new = self.index.insert(tag, self.content.vertices.len() + ahead);
+        if is_new { Ok(()) } else { Err(Problem::RepeatedTag { tag }) }
     }
 
     /// Adds the position of a node, m.
@@ -67,7 +65,7 @@ impl Builder {
             }
             return Ok(());
         }
-        let node = |&tag: &i64| self.index.get(&tag).copied().ok_or(Problem::UnknownTag { tag });
+        let node = |&tag: &i64| self.index.get(tag).ok_or(Problem::UnknownTag { tag });
         let nodes = tags.iter().map(node).collect::<Result<Vec<_>, _>>()?;
         let element = self.elements(kind);
         let sets = groups.iter().copied();

@@ -3,6 +3,7 @@
 
 mod binary;
 mod builder;
+mod index;
 mod kinds;
 mod numbers;
 mod version2;

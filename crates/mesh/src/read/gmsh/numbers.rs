@@ -73,7 +73,8 @@ impl Numbers for Text<'_> {
     fn section(&mut self) -> Result<Option<String>, MeshError> {
         let Some(line) = self.lines.next() else { return Ok(None) };
         let word = line.peek().unwrap_or_default();
-        let problem = || Problem::NotA { word: word.to_owned(), expected: "the beginning of a section, such as `$Nodes`" };
+        let problem =
+            || Problem::NotA { word: word.to_owned(), expected: "the beginning of a section, such as `$Nodes`" };
         let name = word.strip_prefix('$').ok_or_else(|| line.error(problem()))?;
         Ok(Some(name.to_owned()))
     }
