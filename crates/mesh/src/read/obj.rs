@@ -17,12 +17,12 @@ type Face = (usize, [i64; 3]);
 /// A polygon becomes a fan around its first vertex. A face of fewer than three vertices is left out.
 pub(super) fn read(file: &Path, text: &str) -> Result<Content, MeshError> {
     let mut content = Content { is_surface: true, ..Content::default() };
-    let (mut faces, mut extra): (Vec<Face>, Option<usize>) = (Vec::new(), None);
+    let (mut faces, mut has_weights): (Vec<Face>, Option<bool>) = (Vec::new(), None);
     // Names of the current object and groups, and the parts that they have.
     let (mut object, mut groups): (Option<String>, Vec<String>) = Default::default();
     for mut line in Words::of_lines(file, &joined(text)) {
         match line.next().unwrap_or_default() {
-            "v" => content.vertices.push(vertex(&mut line, &mut extra)?),
+            "v" => content.vertices.push(vertex(&mut line, &mut has_weights)?),
             "f" => {
                 let first = faces.len();
                 content.short_faces += usize::from(!polygon(&mut line, content.vertices.len(), &mut faces)?);
@@ -70,14 +70,16 @@ fn joined(text: &str) -> Cow<'_, str> {
     Cow::Owned(all)
 }
 
-/// `x y z`, then nothing, a weight, or three or four numbers of a colour: as many as after the first vertex.
-fn vertex(line: &mut Words, extra: &mut Option<usize>) -> Result<Vector3<f64>, MeshError> {
-    let (place, found) = (line.place()?, line.clone().count());
-    let expected = *extra.get_or_insert(found);
-    if found < expected {
-        return Err(line.error(Problem::Ends { expected: "a number that the first vertex has" }));
+/// `x y z`, then nothing, three or four numbers of a colour, or a weight, which all vertices have or none: a single row with one number more
+/// is a broken one.
+fn vertex(line: &mut Words, has_weights: &mut Option<bool>) -> Result<Vector3<f64>, MeshError> {
+    let (place, extra) = (line.place()?, line.clone().count());
+    let is_same = *has_weights.get_or_insert(extra == 1) == (extra == 1);
+    if is_same && [0, 1, 3, 4].contains(&extra) {
+        return Ok(place);
     }
-    if found == expected && [0, 1, 3, 4].contains(&found) { Ok(place) } else { line.end("a vertex").map(|()| place) }
+    line.end("a vertex")?;
+    Err(line.error(Problem::Ends { expected: "the weight that the first vertex has" }))
 }
 
 /// Adds a polygon as triangles. Returns false if it has fewer than three corners.

@@ -92,7 +92,9 @@ fn shape(mesh: &AnyMesh) -> (&[Vector3<f64>], &[[usize; 4]], &[[usize; 3]]) {
 fn a_broken_row_of_gmsh_gives_the_same_mesh_or_an_error() {
     let is_count =
         |lines: &[String], at: usize| at > 0 && ["$Nodes", "$Elements", "$PhysicalNames"].contains(&&lines[at - 1][..]);
-    check_rows("msh", &[own("msh"), others("msh")].concat(), None, &Rules { is_count, ..ANY });
+    // A row of version 2 tells its own type and number of tags: without its first number it can be a whole row of another type.
+    let others = others("msh").into_iter().filter(|bytes| !bytes.starts_with(b"$MeshFormat\n2"));
+    check_rows("msh", &[own("msh"), others.collect()].concat(), None, &Rules { is_count, ..ANY });
 }
 
 #[test]

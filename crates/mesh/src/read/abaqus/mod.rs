@@ -79,12 +79,17 @@ fn nodes(model: &mut Model, keyword: &Keyword, rows: Rows) -> Result<(), MeshErr
     for row in rows {
         let entries: Vec<&str> = row.entries().collect();
         let number = row.integer(entries[0], "the number of a node")?;
-        if entries.len() < 3 || entries.len() < *model.columns.get_or_insert(entries.len()) {
+        let columns = *model.columns.get_or_insert(entries.len().clamp(3, 4));
+        if entries.len() < columns {
             return Err(row.error(Problem::Ends { expected: "a coordinate" }));
         }
-        if let Some(word) = entries.get(4) {
-            let word = (*word).to_owned();
-            return Err(row.error(Problem::RowTooLong { word, last: "the three coordinates of a node" }));
+        if let Some(word) = entries.get(columns) {
+            let last = if columns == 4 {
+                "the three coordinates of a node"
+            } else {
+                "as many coordinates as the first node has"
+            };
+            return Err(row.error(Problem::RowTooLong { word: (*word).to_owned(), last }));
         }
         let z = entries.get(3).map_or(Ok(0.0), |z| row.real(z))?;
         let place = Vector3::new(row.real(entries[1])?, row.real(entries[2])?, z);
