@@ -125,9 +125,7 @@ pub(crate) fn turn_if_all_inverted<const N: usize>(mesh: &mut Mesh<3, N>) -> Opt
     for element in 0..mesh.elements.len() {
         let problem = problem_of_size(mesh, element);
         has_inverted |= is_inverted(&problem);
-        if problem.is_none() {
-            return None;
-        }
+        problem.as_ref()?;
     }
     has_inverted.then(|| turn_inverted(mesh))
 }

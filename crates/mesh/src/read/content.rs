@@ -212,11 +212,8 @@ impl Content {
         } else {
             clear(&mut mesh, &mut notes);
         }
-        if is_plane {
-            if let Some(count) = turn_if_all_inverted(&mut mesh) {
-                notes
-                    .tell(format!("all {count} triangles were clockwise; each is turned by swapping two of its nodes"));
-            }
+        if is_plane && let Some(count) = turn_if_all_inverted(&mut mesh) {
+            notes.tell(format!("all {count} triangles were clockwise; each is turned by swapping two of its nodes"));
         }
         Ok((AnyMesh::Triangles(mesh), notes))
     }

@@ -80,11 +80,11 @@ fn check_rows(ending: &str, files: &[Vec<u8>], partner: Option<(&str, Vec<u8>)>,
     assert!(refused > 0);
 }
 
-/// Vertices and elements; a row can name another set and be whole.
-fn shape(mesh: &AnyMesh) -> (&[Vector3<f64>], &[[usize; 4]], &[[usize; 3]]) {
+/// Vertices and corners of the elements; a row can name another set and be whole.
+fn shape(mesh: &AnyMesh) -> (&[Vector3<f64>], &[usize]) {
     match mesh {
-        AnyMesh::Tetrahedra(mesh) => (&mesh.vertices, &mesh.elements, &[]),
-        AnyMesh::Triangles(mesh) => (&mesh.vertices, &[], &mesh.elements),
+        AnyMesh::Tetrahedra(mesh) => (&mesh.vertices, mesh.elements.as_flattened()),
+        AnyMesh::Triangles(mesh) => (&mesh.vertices, mesh.elements.as_flattened()),
     }
 }
 
