@@ -62,6 +62,9 @@ pub fn body(scene: &Scene) -> Result<Body, End> {
     for warning in fem_scene::warnings(scene, &body) {
         eprintln!("warning: {warning}");
     }
+    for note in &body.notes {
+        eprintln!("note: {}: {note}", scene.path.display());
+    }
     let integrator = scene.time.integrator;
     // Methods that move nodes one by one support only a lumped mass.
     if body.lumped_mass && scene.mass.lumped.is_none() && !integrator.needs_node_masses() {

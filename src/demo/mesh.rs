@@ -18,10 +18,10 @@ use super::end::End;
 /// The subcommands of `mesh`.
 #[derive(Debug, Subcommand)]
 pub enum MeshAction {
-    /// Counts, volume, quality and histograms of a mesh (.node, .mesh, .msh, .vtu, .vtk), or of a surface (.obj, .ply, .stl, or a mesh of triangles)
+    /// Counts, volume, quality and histograms of a mesh (.node, .mesh, .msh, .vtu, .vtk, .inp), or of a surface (.obj, .ply, .stl, or a mesh of triangles)
     Info(info::Arguments),
-    /// Reads tetrahedra or triangles and writes them in another format
-    Convert { from: PathBuf, to: PathBuf },
+    /// Reads tetrahedra or triangles and writes them in another format; repairs them if asked to
+    Convert(convert::Arguments),
     /// Delaunay triangles of points in the plane, or tetrahedra of points in space (.csv, .node)
     Delaunay { points: PathBuf, out: PathBuf },
     /// Triangles inside the opaque or dark region of a picture (PNG, JPEG), with its holes
@@ -37,13 +37,18 @@ impl MeshAction {
     pub fn run(&self) -> Result<(), End> {
         match self {
             Self::Info(arguments) => info::run(arguments),
-            Self::Convert { from, to } => convert::run(from, to).map_err(End::unusable),
+            Self::Convert(arguments) => convert::run(arguments).map_err(End::unusable),
             Self::Delaunay { points, out } => delaunay::run(points, out),
             Self::FromPicture(arguments) => from_picture::run(arguments),
             Self::FromSurface(arguments) => from_surface::run(arguments).map_err(End::unusable),
             Self::Improve(arguments) => improve::run(arguments),
         }
     }
+}
+
+/// Prints what was left out of a file or changed.
+fn tell(file: &Path, notes: &[String]) {
+    notes.iter().for_each(|note| eprintln!("note: {}: {note}", file.display()));
 }
 
 fn write_tetrahedra(to: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {

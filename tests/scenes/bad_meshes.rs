@@ -87,16 +87,28 @@ fn coordinates_that_are_not_finite_numbers_are_refused() {
 #[test]
 fn elements_without_positive_volume_are_refused_with_their_number() {
     let flat = NODES.replacen("4 1 1 1", "4 0.5 0.5 0", 1);
-    assert_mesh_refused(&flat, ELEMENTS, 3, &["m.node: element 1", "no volume", "remove it or move its vertices"]);
+    assert_mesh_refused(
+        &flat,
+        ELEMENTS,
+        3,
+        &["m.node: element 1", "no volume", "move its vertices apart, or leave such"],
+    );
     let swapped = "2 4 0\n0 0 1 2 3\n1 2 1 3 4\n";
-    assert_mesh_refused(NODES, swapped, 3, &["element 1", "negative volume -3.3", "swap two of its vertices"]);
+    assert_mesh_refused(
+        NODES,
+        swapped,
+        3,
+        &["element 1", "negative volume -3.3", "the first of 1", "`mesh convert --orient`"],
+    );
     let repeated = "2 4 0\n0 0 1 2 3\n1 1 2 4 4\n";
     assert_mesh_refused(NODES, repeated, 3, &["element 1", "has vertex 4 twice"]);
 }
 
 #[test]
-fn a_vertex_without_an_element_is_refused() {
-    assert_mesh_refused(NODES, "1 4 0\n0 0 1 2 3\n", 3, &["vertex 4", "belongs to no element", "remove it"]);
+fn a_vertex_without_an_element_is_left_out_with_a_note() {
+    let outcome = desk("file = \"m.node\"", NODES, "1 4 0\n0 0 1 2 3\n").run("bad.toml --headless");
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    assert_eq!(outcome.stderr, "note: bad.toml: mesh m.node: 1 nodes belong to no element and are left out\n");
 }
 
 #[test]

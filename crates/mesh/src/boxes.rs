@@ -26,7 +26,8 @@ impl Bounds {
         (0..3).all(|i| self.least[i] <= other.largest[i] && other.least[i] <= self.largest[i])
     }
 
-    fn join(&self, other: &Self) -> Self {
+    /// A box around both.
+    pub(crate) fn join(&self, other: &Self) -> Self {
         Self { least: self.least.inf(&other.least), largest: self.largest.sup(&other.largest) }
     }
 }

@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 
 use super::boundary::FACES;
 use super::buckets::Buckets;
+use super::tidy::count_inverted;
 use super::{Mesh, MeshError, Problem, SurfaceMesh, TetrahedralMesh, area_vector, sets, signed_volume};
 
 /// A tetrahedron is flat if its volume is below this fraction of its longest edge cubed.
@@ -39,14 +40,29 @@ fn find_problem_in_plane(mesh: &SurfaceMesh) -> Result<(), Problem> {
     }
     for (element, nodes) in mesh.elements.iter().enumerate() {
         check_indices(element, nodes, mesh.vertices.len())?;
-        check_area(element, nodes.map(|i| mesh.vertices[i]))?;
+        check_area(element, nodes.map(|i| mesh.vertices[i])).map_err(|problem| counted(problem, mesh))?;
     }
     check_all_referenced(mesh)?;
     check_no_duplicates(mesh)?;
     sets::check(mesh)
 }
 
-fn check_area(element: usize, corners: [Vector3<f64>; 3]) -> Result<(), Problem> {
+/// The problem of the first inverted element with the number of all of them.
+fn counted<const N: usize>(problem: Problem, mesh: &Mesh<3, N>) -> Problem {
+    match problem {
+        Problem::Inverted { element, volume, .. } => Problem::Inverted { element, volume, count: inverted(mesh) },
+        Problem::Clockwise { element, area, .. } => Problem::Clockwise { element, area, count: inverted(mesh) },
+        other => other,
+    }
+}
+
+/// The number of inverted elements of a mesh, whose indices may be wrong behind the first.
+fn inverted<const N: usize>(mesh: &Mesh<3, N>) -> usize {
+    let count = mesh.vertices.len();
+    if mesh.elements.iter().flatten().all(|&node| node < count) { count_inverted(mesh) } else { 1 }
+}
+
+pub(crate) fn check_area(element: usize, corners: [Vector3<f64>; 3]) -> Result<(), Problem> {
     let area = area_vector(corners).z;
     let edge = (0..3).map(|i| (corners[i] - corners[(i + 1) % 3]).norm()).fold(0.0, f64::max);
     if !(area.is_finite() && edge.powi(2).is_finite()) {
@@ -57,7 +73,7 @@ fn check_area(element: usize, corners: [Vector3<f64>; 3]) -> Result<(), Problem>
     if area.abs() <= FLAT * edge.powi(2) || 2.0 * area.abs() <= rounding * edge {
         return Err(Problem::NoArea { element, area });
     }
-    if area < 0.0 { Err(Problem::Clockwise { element, area }) } else { Ok(()) }
+    if area < 0.0 { Err(Problem::Clockwise { element, area, count: 1 }) } else { Ok(()) }
 }
 
 fn check_contents<const N: usize>(mesh: &Mesh<3, N>, elements: &'static str) -> Result<(), Problem> {
@@ -77,7 +93,7 @@ fn find_problem(mesh: &TetrahedralMesh) -> Result<(), Problem> {
     check_contents(mesh, "tetrahedra")?;
     for (element, nodes) in mesh.elements.iter().enumerate() {
         check_indices(element, nodes, mesh.vertices.len())?;
-        check_volume(element, nodes.map(|i| mesh.vertices[i]))?;
+        check_volume(element, nodes.map(|i| mesh.vertices[i])).map_err(|problem| counted(problem, mesh))?;
     }
     check_all_referenced(mesh)?;
     check_no_duplicates(mesh)?;
@@ -94,7 +110,7 @@ fn check_indices<const N: usize>(element: usize, nodes: &[usize; N], count: usiz
     }
 }
 
-fn check_volume(element: usize, corners: [Vector3<f64>; 4]) -> Result<(), Problem> {
+pub(crate) fn check_volume(element: usize, corners: [Vector3<f64>; 4]) -> Result<(), Problem> {
     let volume = signed_volume(corners);
     let edge = longest_edge(corners);
     let area = largest_face(corners);
@@ -106,7 +122,7 @@ fn check_volume(element: usize, corners: [Vector3<f64>; 4]) -> Result<(), Proble
     if volume.abs() <= FLAT * edge.powi(3) || 3.0 * volume.abs() <= rounding * area {
         return Err(Problem::Flat { element, volume });
     }
-    if volume < 0.0 { Err(Problem::Inverted { element, volume }) } else { Ok(()) }
+    if volume < 0.0 { Err(Problem::Inverted { element, volume, count: 1 }) } else { Ok(()) }
 }
 
 fn longest_edge(corners: [Vector3<f64>; 4]) -> f64 {

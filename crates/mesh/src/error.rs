@@ -77,6 +77,12 @@ pub enum Problem {
     Unsupported { found: String, instead: &'static str },
     #[error("{}; export the mesh again", short(.reason, 240))]
     Malformed { reason: String },
+    #[error("`{}` stands after {last}, where the row should end; correct the row, or what the file announces of it", short(.word, 60))]
+    RowTooLong { word: String, last: &'static str },
+    #[error(
+        "a row of {what} has {expected} entries, and here are {found}; correct the row or the dimension of the file"
+    )]
+    BrokenRow { what: &'static str, expected: usize, found: usize },
     #[error("{expected} is missing here; complete the entry or correct the counts above it")]
     Ends { expected: &'static str },
     #[error("`{}` is not {expected}; correct it", short(.word, 60))]
@@ -99,20 +105,29 @@ pub enum Problem {
     RepeatedTag { tag: i64 },
     #[error("the file has no node with the tag {tag}; correct it or export the mesh with all of its nodes")]
     UnknownTag { tag: i64 },
-    #[error("element {element} (counted from 0) has vertex {vertex} twice; give it different vertices or remove it")]
-    RepeatedVertex { element: usize, vertex: usize },
-    #[error("element {element} (counted from 0) has the negative volume {volume:e} m³; swap two of its vertices")]
-    Inverted { element: usize, volume: f64 },
     #[error(
-        "element {element} (counted from 0) has no volume ({volume:e} m³ within rounding); remove it or move its vertices apart"
+        "element {element} (counted from 0) has vertex {vertex} twice; give it different vertices, or leave such elements out by `mesh convert --clean`"
+    )]
+    RepeatedVertex { element: usize, vertex: usize },
+    #[error(
+        "element {element} (counted from 0) has the negative volume {volume:e} m³, the first of {count} such elements; turn them by `mesh convert --orient`"
+    )]
+    Inverted { element: usize, volume: f64, count: usize },
+    #[error(
+        "element {element} (counted from 0) has no volume ({volume:e} m³ within rounding); move its vertices apart, or leave such elements out by `mesh convert --clean`"
     )]
     Flat { element: usize, volume: f64 },
-    #[error("vertex {vertex} (counted from 0) has z = {z} m; a flat body lies in the plane z = 0, move it there")]
-    OutOfPlane { vertex: usize, z: f64 },
-    #[error("triangle {element} (counted from 0) is clockwise, with the area {area:e} m²; swap two of its vertices")]
-    Clockwise { element: usize, area: f64 },
     #[error(
-        "triangle {element} (counted from 0) has no area ({area:e} m² within rounding); remove it or move its vertices apart"
+        "vertex {vertex} (counted from 0) has z = {z} m; a flat body lies in the plane z = 0, move it there (Gmsh: Translate {{0, 0, {}}} {{ … }})",
+        -z
+    )]
+    OutOfPlane { vertex: usize, z: f64 },
+    #[error(
+        "triangle {element} (counted from 0) is clockwise, with the area {area:e} m², the first of {count} such triangles; turn them by `mesh convert --orient`"
+    )]
+    Clockwise { element: usize, area: f64, count: usize },
+    #[error(
+        "triangle {element} (counted from 0) has no area ({area:e} m² within rounding); move its vertices apart, or leave such triangles out by `mesh convert --clean`"
     )]
     NoArea { element: usize, area: f64 },
     #[error(
@@ -122,7 +137,7 @@ pub enum Problem {
     #[error("element {element} (counted from 0) is too large to compute its volume; scale the mesh to metres")]
     Huge { element: usize },
     #[error(
-        "element {element} (counted from 0) has the same vertices as element {original}, and {count} elements repeat an earlier one; remove them"
+        "element {element} (counted from 0) has the same vertices as element {original}, and {count} elements repeat an earlier one; leave them out by `mesh convert --clean`"
     )]
     DuplicateElement { element: usize, original: usize, count: usize },
     #[error("vertex {vertex} (counted from 0) belongs to no element; remove it, or add the element that it belongs to")]

@@ -37,6 +37,7 @@ pub mod generate;
 mod join;
 mod measures;
 mod orient;
+mod overlap;
 mod quadratic;
 mod quality;
 mod read;
@@ -44,6 +45,7 @@ mod rectangle;
 mod refine;
 mod sets;
 mod sides;
+mod tidy;
 pub mod write;
 
 pub use boundary::boundary;
@@ -55,17 +57,21 @@ pub use join::join;
 pub(crate) use measures::signed_volume;
 pub use measures::{area_vector, volumes};
 pub use orient::oriented;
+pub use overlap::overlap;
 pub use quadratic::{QuadraticMesh, QuadraticSide, quadratic, quarters_of, sides};
 pub use quality::{
     Distribution, Extreme, Quality, SelfIntersections, SurfaceQuality, TriangleQuality, quality, self_intersections,
     surface_quality, tetrahedron_distributions, tetrahedron_radius_to_edge, triangle_distributions, triangle_quality,
     triangle_radius_to_edge,
 };
-pub use read::{AnyMesh, Points, is_surface, read_mesh, read_points, read_surface, read_tetrahedra};
+pub use read::{
+    AnyMesh, MeshFile, Points, is_surface, read_file, read_mesh, read_points, read_surface, read_tetrahedra,
+};
 pub use rectangle::rectangle_mesh;
 pub use refine::{refine, refine_triangles};
 pub use sets::MeshSet;
 pub use sides::{Side, faces_on_side, nodes_on_side};
+pub use tidy::{turn_inverted, without_faulty_elements};
 pub use write::{write_mesh, write_surface, write_tetrahedra};
 
 /// Simplices of `N` vertices in `D` dimensions. The fields carry no guarantee; [`check`] tests them.

@@ -1,8 +1,7 @@
 //! Named sets: parts of a mesh that a file names, such as Gmsh's physical groups.
 
-use std::collections::HashSet;
-
 use super::connectivity::quarters;
+use super::tidy::{parts_of_elements, sorted};
 use super::{Mesh, Problem};
 
 /// The edges of a tetrahedron, by its corners.
@@ -100,25 +99,16 @@ fn sort_list<T: Ord>(list: &mut Vec<T>) {
 
 /// Checks that the sets consist of parts of the mesh: its elements, their faces and edges, and its nodes.
 pub(crate) fn check<const N: usize>(mesh: &Mesh<3, N>) -> Result<(), Problem> {
-    if mesh.sets.is_empty() {
-        return Ok(());
-    }
-    let (mut faces, mut edges) = (HashSet::new(), HashSet::new());
-    for element in &mesh.elements {
-        for (c, b) in (0..N).flat_map(|c| (0..c).map(move |b| (c, b))) {
-            edges.insert(sorted([element[b], element[c]]));
-            faces.extend((0..b).map(|a| sorted([element[a], element[b], element[c]])));
-        }
-    }
+    let (faces, edges) = parts_of_elements(mesh);
     for (name, set) in &mesh.sets {
         let stray = |part: String| Problem::StrayPart { set: name.clone(), part };
         if let Some(element) = set.elements.iter().find(|&&element| element >= mesh.elements.len()) {
             return Err(stray(format!("the element {element}")));
         }
-        if let Some(face) = set.faces.iter().find(|face| !faces.contains(&sorted(**face))) {
+        if let Some(face) = set.faces.iter().find(|face| faces.get(&sorted(**face)) != Some(&true)) {
             return Err(stray(format!("the triangle {face:?}")));
         }
-        if let Some(edge) = set.edges.iter().find(|edge| !edges.contains(&sorted(**edge))) {
+        if let Some(edge) = set.edges.iter().find(|edge| edges.get(&sorted(**edge)) != Some(&true)) {
             return Err(stray(format!("the edge {edge:?}")));
         }
         if let Some(node) = set.points.iter().find(|&&node| node >= mesh.vertices.len()) {
@@ -126,9 +116,4 @@ pub(crate) fn check<const N: usize>(mesh: &Mesh<3, N>) -> Result<(), Problem> {
         }
     }
     Ok(())
-}
-
-fn sorted<const N: usize>(mut nodes: [usize; N]) -> [usize; N] {
-    nodes.sort_unstable();
-    nodes
 }

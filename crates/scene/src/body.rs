@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use nalgebra::Vector3;
 
 use crate::check::{check, flat};
-use crate::load::{line_of, refused};
+use crate::load::refused;
 use crate::mass::lumps_mass;
+use crate::meshes::{elements, flat_body, mesh_error, scale, surface, text};
 use crate::paths::find;
 use crate::picture;
 use crate::simulation::Shape;
@@ -17,9 +18,7 @@ use crate::values::{
     plasticity, regions, springs, surface_loads,
 };
 use crate::{BodyMesh, LoadCurve, Material, Scene, SceneError};
-use fem_mesh::generate::odt::improve_inside;
-use fem_mesh::generate::{Solid, stuff_graded};
-use fem_mesh::{AnyMesh, MeshError, Problem, SurfaceMesh, TetrahedralMesh};
+use fem_mesh::{SurfaceMesh, TetrahedralMesh};
 
 /// A body as a pipeline simulates it: checked meshes, material, constraints and external forces, in the mesh's node numbers and
 /// SI units.
@@ -29,6 +28,8 @@ pub struct Body {
     pub name: String,
     /// Nodes, tetrahedra and surfaces.
     pub shape: Shape,
+    /// Remarks on the mesh files, one line each: what was left out of them, and what was changed.
+    pub notes: Vec<String>,
     /// Constitutive law and density of the elements outside of all regions.
     pub material: Material,
     /// Parts of the body with materials of their own. No element belongs to two of them.
@@ -79,20 +80,29 @@ impl Body {
 
 /// Reads and checks the meshes of a scene, and builds the body. A mesh file is searched beside the scene, then in `data`.
 pub fn body(scene: &Scene, data: &Path) -> Result<Body, SceneError> {
-    let Some(table) = &scene.mesh.picture else { return body_of(scene, elements(scene, data)?, data) };
+    let Some(table) = &scene.mesh.picture else {
+        let mut notes = Vec::new();
+        let mut body = body_of(scene, elements(scene, data, &mut notes)?, data)?;
+        body.notes.splice(0..0, notes);
+        return Ok(body);
+    };
     let found = picture::triangles(table, &find(scene, data, &table.file), scene.mesh.scale);
-    let (triangles, place) = found.map_err(|text| scene.refuse("mesh.picture", &text))?;
+    let (triangles, place, remark) = found.map_err(|text| scene.refuse("mesh.picture", &text))?;
     let mut body = body_of(scene, flat_body(scene, triangles), data)?;
     body.shape.picture = Some(place);
+    body.notes.extend(remark.map(|remark| format!("mesh.picture {}: {remark}", table.file.display())));
     Ok(body)
 }
 
 /// Builds the body on a mesh in memory, in place of the one that the scene names.
 pub fn body_of(scene: &Scene, mesh: impl Into<BodyMesh>, data: &Path) -> Result<Body, SceneError> {
     let mesh = checked(scene, mesh.into())?;
-    let display = scene.mesh.display.as_ref().map(|file| surface(scene, data, file)).transpose()?;
+    let mut notes = Vec::new();
+    let display = scene.mesh.display.as_ref().map(|file| surface(scene, data, file, &mut notes)).transpose()?;
     let boundary = mesh.surface();
-    body_of_shape(scene, Shape { mesh, boundary, display, picture: None }, data)
+    let mut body = body_of_shape(scene, Shape { mesh, boundary, display, picture: None }, data)?;
+    body.notes = notes;
+    Ok(body)
 }
 
 /// Builds the body of a shape that was made for a scene with the same `[mesh]`.
@@ -128,6 +138,7 @@ pub fn body_of_shape(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, S
         contact,
         drag: drag(scene, &mesh)?,
         damping: damping(scene),
+        notes: Vec::new(),
         shape: Shape { mesh, boundary, display, picture },
     })
 }
@@ -184,92 +195,6 @@ fn source(scene: &Scene) -> PathBuf {
     }
 }
 
-/// The elements of a mesh that is not made from a picture.
-fn elements(scene: &Scene, data: &Path) -> Result<BodyMesh, SceneError> {
-    let read = |field: &'static str, file: &Path| {
-        fem_mesh::read_tetrahedra(&find(scene, data, file)).map_err(|error| mesh_error(scene, field, error))
-    };
-    match &scene.mesh {
-        MeshTable { file: Some(file), .. } if fem_mesh::is_surface(file) => {
-            read("mesh.file", file).map(BodyMesh::Solid)
-        }
-        MeshTable { file: Some(file), .. } => {
-            let mesh = fem_mesh::read_mesh(&find(scene, data, file));
-            match mesh.map_err(|error| mesh_error(scene, "mesh.file", error))? {
-                AnyMesh::Tetrahedra(mesh) => Ok(mesh.into()),
-                AnyMesh::Triangles(mesh) => Ok(flat_body(scene, mesh)),
-            }
-        }
-        MeshTable { files: Some(files), .. } => {
-            // Each is checked alone, so that an error names its file.
-            let checked = |file: &PathBuf| {
-                let mesh = read("mesh.files", file)?;
-                fem_mesh::check(&mesh, file).map_err(|error| mesh_error(scene, "mesh.files", error))?;
-                Ok((name_of(file), mesh))
-            };
-            Ok(fem_mesh::join(files.iter().map(checked).collect::<Result<Vec<_>, SceneError>>()?).into())
-        }
-        MeshTable { cuboid: Some(cuboid), .. } => {
-            let mesh = fem_mesh::box_mesh(cuboid.size, cuboid.cells_per_unit);
-            mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.box", error))
-        }
-        MeshTable { surface: Some(surface), .. } => {
-            let path = find(scene, data, &surface.file);
-            let mesh = fem_mesh::read_surface(&path).and_then(|triangles| {
-                let mesh = stuff_graded(&triangles, surface.edge, surface.grading)
-                    .map_err(|error| MeshError::in_file(&path, Problem::Stuffing(error)))?;
-                fem_mesh::check(&mesh, &path)?;
-                Ok(improve_inside(&mesh, surface.improve, &Solid::new(&triangles)).mesh)
-            });
-            mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.surface", error))
-        }
-        MeshTable { rectangle: Some(rectangle), .. } => {
-            let mesh = fem_mesh::rectangle_mesh(rectangle.size, rectangle.cells_per_unit);
-            mesh.map(|triangles| flat_body(scene, triangles))
-                .map_err(|error| mesh_error(scene, "mesh.rectangle", error))
-        }
-        _ => unreachable!("a scene without elements is refused when it is read"),
-    }
-}
-
-fn flat_body(scene: &Scene, triangles: SurfaceMesh) -> BodyMesh {
-    BodyMesh::Flat { triangles, thickness: scene.material.thickness.unwrap_or(1.0) }
-}
-
-/// The name of a mesh file without its extensions: `wheel` of `meshes/wheel.node.gz`.
-fn name_of(file: &Path) -> String {
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
-    name.split('.').next().unwrap_or_default().to_owned()
-}
-
-fn surface(scene: &Scene, data: &Path, file: &Path) -> Result<SurfaceMesh, SceneError> {
-    let path = find(scene, data, file);
-    let surface = fem_mesh::read_surface(&path).map(|surface| scale(surface, scene.mesh.scale));
-    surface.and_then(|surface| finite(surface, &path)).map_err(|error| mesh_error(scene, "mesh.display", error))
-}
-
-/// Checks the scaled coordinates, which a large scale can make infinite.
-fn finite(surface: SurfaceMesh, source: &Path) -> Result<SurfaceMesh, MeshError> {
-    match surface.vertices.iter().position(|x| !x.iter().all(|coordinate| coordinate.is_finite())) {
-        Some(vertex) => Err(MeshError::in_file(source, Problem::VertexNotFinite { vertex })),
-        None => Ok(surface),
-    }
-}
-
-fn scale<const N: usize>(mut mesh: fem_mesh::Mesh<3, N>, factor: f64) -> fem_mesh::Mesh<3, N> {
-    for vertex in &mut mesh.vertices {
-        *vertex *= factor;
-    }
-    mesh
-}
-
-fn mesh_error(scene: &Scene, field: &'static str, error: MeshError) -> SceneError {
-    if let Some(change) = scene.overrides.iter().rev().find(|change| change.concerns(field)) {
-        return SceneError::Override { option: change.to_string(), problem: format!("{field}: {error}") };
-    }
-    SceneError::Mesh { file: scene.path.clone(), line: line_of(&text(scene), field), field, error }
-}
-
 impl Scene {
     /// Checks the tables again after a change, such as another integrator. Returns the first problem.
     pub fn check(&self) -> Result<(), SceneError> {
@@ -280,9 +205,4 @@ impl Scene {
     pub fn refuse(&self, field: &str, problem: &str) -> SceneError {
         refused(&text(self), self, field, &format!("{field} {problem}"))
     }
-}
-
-/// The text of the scene file, which is read again.
-fn text(scene: &Scene) -> String {
-    std::fs::read_to_string(&scene.path).unwrap_or_default()
 }

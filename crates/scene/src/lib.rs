@@ -50,6 +50,7 @@ mod integrator;
 mod interaction;
 mod load;
 mod mass;
+mod meshes;
 pub mod output;
 mod overrides;
 mod paths;

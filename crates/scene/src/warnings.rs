@@ -2,15 +2,17 @@
 
 use std::collections::BTreeMap;
 
+use crate::meshes::name_of;
 use crate::{Body, BodyMesh, Material, Scene};
 
-/// The warnings before a run, each with its remedy: nodes that coincide without being merged, parts that nothing constrains, forces on constrained
-/// nodes, and materials in which linear tetrahedra lock.
+/// The warnings before a run, each with its remedy: nodes that coincide without being merged, parts that nothing constrains, bodies that
+/// overlap, forces on constrained nodes, and materials in which linear tetrahedra lock.
 pub fn warnings(scene: &Scene, body: &Body) -> Vec<String> {
     let file = scene.path.display();
     [coincident_nodes(body), unconstrained_parts(body), loaded_constraints(body)]
         .into_iter()
         .flatten()
+        .chain(overlaps(scene, body))
         .chain(locking(body))
         .map(|text| format!("{file}: {text}"))
         .collect()
@@ -39,6 +41,24 @@ fn locking(body: &Body) -> impl Iterator<Item = String> {
 /// Tip displacement of the scene `cantilever`, relative to Timoshenko's; docs/book/materials.md has it for more meshes.
 const LOCKING: &str = "the tip of a cantilever of 8 × 1 × 1 m with 6 cells per metre moves by 0.89 of the true distance at ν = 0.3, \
                        0.75 at ν = 0.45, 0.45 at ν = 0.49, 0.10 at ν = 0.499 and 0.03 at ν = 0.4999";
+
+/// Bodies of `mesh.files` that lie in one another.
+fn overlaps(scene: &Scene, body: &Body) -> Vec<String> {
+    let (Some(files), BodyMesh::Solid(mesh)) = (&scene.mesh.files, &body.shape.mesh) else { return Vec::new() };
+    let mut names: Vec<String> = files.iter().map(|file| name_of(file)).collect();
+    names.dedup();
+    let pairs = (0..names.len()).flat_map(|j| (0..j).map(move |i| [i, j])).map(|pair| pair.map(|i| &names[i]));
+    let warning = |[a, b]: [&String; 2]| {
+        let [of_a, of_b] = [a, b].map(|name| mesh.sets.get(name).map_or(&[][..], |set| &set.elements));
+        let [least, largest] =
+            fem_mesh::overlap(mesh, of_a, of_b)?.map(|x| format!("({:.4}, {:.4}, {:.4})", x.x, x.y, x.z));
+        Some(format!(
+            "mesh.files: the bodies {a:?} and {b:?} overlap, from {least} to {largest} m, and nothing keeps them apart; move one of them, or \
+             mesh them as one body"
+        ))
+    };
+    pairs.filter_map(warning).collect()
+}
 
 fn coincident_nodes(body: &Body) -> Option<String> {
     let found = body.shape.mesh.coincident_nodes()?;

@@ -1,26 +1,65 @@
-//! `mesh convert`: from one format to another.
+//! `mesh convert`: from one format to another, with repairs.
 
-use std::path::Path;
+use std::path::PathBuf;
 
-use fem_mesh::{AnyMesh, MeshError};
+use fem_mesh::{AnyMesh, Mesh, MeshError, MeshFile};
 
-use super::{write_surface, write_tetrahedra};
+use super::{tell, write_surface, write_tetrahedra};
+
+/// Arguments of the subcommand.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    from: PathBuf,
+    to: PathBuf,
+    /// Turn the tetrahedra of negative volume; triangles as most of their neighbours by area, or counter-clockwise in the plane z = 0
+    #[arg(long)]
+    orient: bool,
+    /// Leave out elements without a size and those that repeat another
+    #[arg(long)]
+    clean: bool,
+}
 
 /// Reads tetrahedra or triangles and writes them as the extension of `to` says.
-pub fn run(from: &Path, to: &Path) -> Result<(), MeshError> {
-    let sets = match fem_mesh::read_mesh(from)? {
+pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
+    let Arguments { from, to, orient, clean } = arguments;
+    let MeshFile { mesh, mut notes, .. } = fem_mesh::read_file(from)?;
+    let lost = match mesh {
         AnyMesh::Tetrahedra(mesh) => {
+            let mut mesh = if *clean { cleaned(mesh, &mut notes) } else { mesh };
+            if *orient {
+                let count = fem_mesh::turn_inverted(&mut mesh);
+                notes.push(turned(count));
+            }
             fem_mesh::check(&mesh, from)?;
             write_tetrahedra(to, &mesh)?;
-            mesh.sets.len()
+            fem_mesh::write::lost_sets(to, &mesh)
         }
         AnyMesh::Triangles(mesh) => {
+            let mut mesh = if *clean { cleaned(mesh, &mut notes) } else { mesh };
+            if *orient && mesh.vertices.iter().all(|x| x.z == 0.0) {
+                let count = fem_mesh::turn_inverted(&mut mesh);
+                notes.push(turned(count));
+            } else if *orient {
+                let oriented = fem_mesh::oriented(&mesh);
+                let pairs = std::iter::zip(&mesh.elements, &oriented.elements);
+                notes.push(turned(pairs.filter(|(before, after)| before != after).count()));
+                mesh = oriented;
+            }
             write_surface(to, &mesh)?;
-            mesh.sets.len()
+            fem_mesh::write::lost_sets(to, &mesh)
         }
     };
-    if sets > 0 && !fem_mesh::write::keeps_sets(to) {
-        eprintln!("warning: {}: this format has no sets; .msh keeps the {sets} of {}", to.display(), from.display());
-    }
+    tell(from, &notes);
+    lost.iter().for_each(|lost| eprintln!("warning: {}: {lost}", to.display()));
     Ok(())
+}
+
+fn cleaned<const N: usize>(mesh: Mesh<3, N>, notes: &mut Vec<String>) -> Mesh<3, N> {
+    let (mesh, lines) = fem_mesh::without_faulty_elements(mesh);
+    notes.extend(lines);
+    mesh
+}
+
+fn turned(count: usize) -> String {
+    format!("{count} elements are turned")
 }

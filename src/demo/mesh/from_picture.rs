@@ -48,6 +48,9 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
             found.wish
         );
     }
+    if let Some(warning) = picture.warning() {
+        eprintln!("warning: {}: {warning}", file.display());
+    }
     if found.specks > 0 {
         eprintln!("warning: {}: {} specks of less than two pixels are left out", file.display(), found.specks);
     }

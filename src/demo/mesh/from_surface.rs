@@ -7,7 +7,7 @@ use fem_mesh::generate::odt::{improve_inside_with, improve_tetrahedra_with};
 use fem_mesh::generate::{Solid, cage, keep_features, stuff_graded_with};
 use fem_mesh::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
-use super::write_tetrahedra;
+use super::{tell, write_tetrahedra};
 use crate::demo::progress;
 
 /// Arguments of the subcommand.
@@ -36,7 +36,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
     let Arguments { surface: file, out, edge, grading, features, improve, cage: is_cage } = arguments;
     fem_mesh::write::check_tetrahedra(out)?;
-    let surface = fem_mesh::read_surface(file)?;
+    let found = fem_mesh::read_file(file)?;
+    tell(file, &found.notes);
+    let surface = found.triangles(file)?;
     let made = if *is_cage {
         progress::during("enclosing the surface", || cage(&surface, *edge))
     } else {

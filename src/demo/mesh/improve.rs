@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use fem_mesh::generate::odt::{improve_tetrahedra_with, improve_triangles};
-use fem_mesh::{AnyMesh, Mesh, MeshError, Quality, SurfaceMesh, TetrahedralMesh, TriangleQuality};
+use fem_mesh::{AnyMesh, Mesh, MeshError, MeshFile, Quality, SurfaceMesh, TetrahedralMesh, TriangleQuality};
 use fem_mesh::{quality, triangle_quality};
 
-use super::{write_surface, write_tetrahedra};
+use super::{tell, write_surface, write_tetrahedra};
 use crate::demo::end::End;
 use crate::demo::progress;
 
@@ -22,10 +22,13 @@ pub struct Arguments {
 
 /// Improves a mesh, prints its quality before and after, and writes it.
 pub fn run(arguments: &Arguments) -> Result<(), End> {
-    match fem_mesh::read_mesh(&arguments.mesh).map_err(End::unusable)? {
-        AnyMesh::Tetrahedra(mesh) => tetrahedra(arguments, &mesh).map_err(End::unusable),
-        AnyMesh::Triangles(mesh) => triangles(arguments, &mesh),
+    let MeshFile { mesh, notes, .. } = fem_mesh::read_file(&arguments.mesh).map_err(End::unusable)?;
+    match mesh {
+        AnyMesh::Tetrahedra(mesh) => tetrahedra(arguments, &mesh).map_err(End::unusable)?,
+        AnyMesh::Triangles(mesh) => triangles(arguments, &mesh)?,
     }
+    tell(&arguments.mesh, &notes);
+    Ok(())
 }
 
 fn tetrahedra(arguments: &Arguments, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
@@ -36,9 +39,8 @@ fn tetrahedra(arguments: &Arguments, mesh: &TetrahedralMesh) -> Result<(), MeshE
     });
     write_tetrahedra(&arguments.out, &improved.mesh)?;
     print_both(&quality(mesh), &quality(&improved.mesh));
-    if !mesh.sets.is_empty() && !fem_mesh::write::keeps_sets(&arguments.out) {
-        let (out, count) = (arguments.out.display(), mesh.sets.len());
-        eprintln!("warning: {out}: this format has no sets; .msh keeps the {count} of {}", arguments.mesh.display());
+    if let Some(lost) = fem_mesh::write::lost_sets(&arguments.out, mesh) {
+        eprintln!("warning: {}: {lost}", arguments.out.display());
     }
     Ok(())
 }

@@ -4,11 +4,11 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use fem_mesh::{
-    AnyMesh, Distribution, MeshError, SurfaceMesh, TetrahedralMesh, boundary, self_intersections, surface_quality,
-    tetrahedron_distributions, triangle_distributions,
+    AnyMesh, Distribution, MeshError, MeshFile, SurfaceMesh, TetrahedralMesh, boundary, self_intersections,
+    surface_quality, tetrahedron_distributions, triangle_distributions,
 };
 
-use super::shapes;
+use super::{shapes, tell};
 use crate::demo::end::End;
 use crate::demo::engine;
 
@@ -28,7 +28,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), End> {
     let file = &arguments.file;
     arguments.picture.as_deref().map_or(Ok(()), shapes::check).map_err(End::unusable)?;
-    let mesh = fem_mesh::read_mesh(file).map_err(End::unusable)?;
+    let MeshFile { mesh, notes, program } = fem_mesh::read_file(file).map_err(End::unusable)?;
     let (surface, distributions) = match &mesh {
         AnyMesh::Tetrahedra(mesh) => {
             info(file, mesh).map_err(End::unusable)?;
@@ -43,6 +43,10 @@ pub fn run(arguments: &Arguments) -> Result<(), End> {
             (mesh.clone(), triangle_distributions(mesh))
         }
     };
+    if let Some(program) = program {
+        say!("{:<26}{program:>12}", "written by");
+    }
+    tell(file, &notes);
     shapes::print(&distributions);
     if let AnyMesh::Tetrahedra(mesh) = &mesh
         && arguments.stiffness
@@ -75,7 +79,7 @@ fn info(file: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
     say!("{:<26}{:>12}", "duplicate elements", 0);
     boundary_info(&surface_of(mesh));
     for (name, set) in &mesh.sets {
-        say!("set {name:?}: {}", set.counts());
+        say!("set {name:?}: {}, {} nodes", set.counts(), set.nodes(&mesh.elements).len());
     }
     Ok(())
 }
@@ -118,7 +122,7 @@ fn surface_info(mesh: &SurfaceMesh) {
     ];
     rows.iter().for_each(|(name, figure)| say!("{name:<26}{figure:>12}"));
     for (name, set) in &mesh.sets {
-        say!("set {name:?}: {}", set.counts_of_triangles());
+        say!("set {name:?}: {}, {} nodes", set.counts_of_triangles(), set.nodes(&mesh.elements).len());
     }
 }
 

@@ -5,7 +5,12 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
-use crate::{MeshError, MeshSet, Problem, SurfaceMesh, TetrahedralMesh};
+use super::notes::Notes;
+use crate::tidy::{leave_out_strays, leave_out_unreferenced, turn_if_all_inverted, without_empty_triangles};
+use crate::{Mesh, MeshError, MeshSet, Problem, SurfaceMesh, TetrahedralMesh};
+
+/// Different tags beyond which they number the parts of a mesh, and make no sets.
+pub(super) const MOST_TAGS: usize = 1000;
 
 /// A mesh of the kind that its file holds: tetrahedra if there are any, triangles otherwise.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,34 +21,33 @@ pub enum AnyMesh {
     Triangles(SurfaceMesh),
 }
 
-/// All that a reader found in a file.
-#[derive(Default)]
-pub(super) struct Content {
-    /// Positions, m; z is 0 in files of the plane.
-    pub vertices: Vec<Vector3<f64>>,
-    pub tetrahedra: Vec<[usize; 4]>,
-    /// Triangles; those of a file with tetrahedra need not be complete.
-    pub triangles: Vec<[usize; 3]>,
-    /// Named parts of the tetrahedra, or of the triangles if there are no tetrahedra.
-    pub sets: BTreeMap<String, MeshSet>,
-    /// A kind of polygons that was skipped and would be missing in a surface.
-    pub skipped: Option<String>,
+/// A mesh and what is known of its file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeshFile {
+    /// The mesh.
+    pub mesh: AnyMesh,
+    /// Remarks, one line each: what was left out of the file, and what was changed.
+    pub notes: Vec<String>,
+    /// The program that wrote the file, in the file's own words, where it tells.
+    pub program: Option<String>,
 }
 
-impl Content {
-    /// The tetrahedra, of which there may be none unless the file is a surface.
-    pub(super) fn tetrahedra(self, file: &Path) -> Result<TetrahedralMesh, MeshError> {
-        if self.tetrahedra.is_empty() && !self.triangles.is_empty() {
-            let found = format!("a mesh of {} triangles in place of tetrahedra", self.triangles.len());
-            let instead = "give tetrahedra, such as `mesh from-surface` makes inside a surface";
-            return Err(MeshError::in_file(file, Problem::Unsupported { found, instead }));
+impl MeshFile {
+    /// The tetrahedra; a file of triangles is an error.
+    pub fn tetrahedra(self, file: &Path) -> Result<TetrahedralMesh, MeshError> {
+        match self.mesh {
+            AnyMesh::Tetrahedra(mesh) => Ok(mesh),
+            AnyMesh::Triangles(mesh) => {
+                let found = format!("a mesh of {} triangles in place of tetrahedra", mesh.elements.len());
+                let instead = "give tetrahedra, such as `mesh from-surface` makes inside a surface";
+                Err(MeshError::in_file(file, Problem::Unsupported { found, instead }))
+            }
         }
-        Ok(TetrahedralMesh { vertices: self.vertices, elements: self.tetrahedra, sets: self.sets })
     }
 
-    /// The triangles of a file without tetrahedra.
-    pub(super) fn triangles(self, file: &Path) -> Result<SurfaceMesh, MeshError> {
-        match self.mesh(file)? {
+    /// The triangles; a file of tetrahedra is an error.
+    pub fn triangles(self, file: &Path) -> Result<SurfaceMesh, MeshError> {
+        match self.mesh {
             AnyMesh::Triangles(mesh) => Ok(mesh),
             AnyMesh::Tetrahedra(mesh) => {
                 let found = format!("a mesh of {} tetrahedra in place of triangles", mesh.elements.len());
@@ -52,27 +56,179 @@ impl Content {
             }
         }
     }
+}
 
-    /// The tetrahedra if there are any, and the triangles otherwise.
-    pub(super) fn mesh(self, file: &Path) -> Result<AnyMesh, MeshError> {
-        let in_file = |problem| MeshError::in_file(file, problem);
-        if !self.tetrahedra.is_empty() {
-            return self.tetrahedra(file).map(AnyMesh::Tetrahedra);
+/// A named part of a file. Triangles are faces of tetrahedra, or elements if the file has no tetrahedra.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Parts {
+    /// Indices of tetrahedra.
+    pub tetrahedra: Vec<usize>,
+    /// Indices of triangles.
+    pub triangles: Vec<usize>,
+    pub edges: Vec<[usize; 2]>,
+    pub points: Vec<usize>,
+}
+
+impl Parts {
+    pub(super) fn extend(&mut self, other: Self) {
+        self.tetrahedra.extend(other.tetrahedra);
+        self.triangles.extend(other.triangles);
+        self.edges.extend(other.edges);
+        self.points.extend(other.points);
+    }
+}
+
+/// All that a reader found in a file.
+#[derive(Default)]
+pub(super) struct Content {
+    /// Positions, m; z is 0 in files of the plane.
+    pub vertices: Vec<Vector3<f64>>,
+    pub tetrahedra: Vec<[usize; 4]>,
+    pub triangles: Vec<[usize; 3]>,
+    /// Named parts.
+    pub groups: BTreeMap<String, Parts>,
+    /// Parts by an integer.
+    pub tags: BTreeMap<i64, Parts>,
+    /// Names of tags.
+    pub tag_names: BTreeMap<i64, String>,
+    /// There are too many different tags to be parts.
+    pub has_numbering: bool,
+    /// The tag of each node; empty if the file has none.
+    pub node_tags: Vec<i32>,
+    /// A kind of polygons that was skipped and would be missing in a surface.
+    pub skipped: Option<String>,
+    /// Number of faces with fewer than three corners, which were skipped.
+    pub short_faces: usize,
+    /// The file is of a format for surfaces alone: its triangles are no flat body, even in a plane.
+    pub is_surface: bool,
+    pub notes: Notes,
+}
+
+impl Content {
+    /// The part of a tag; `None` for the tag 0, which stands for no part.
+    pub(super) fn tagged(&mut self, tag: i64) -> Option<&mut Parts> {
+        if self.tags.len() >= MOST_TAGS && !self.tags.contains_key(&tag) {
+            self.has_numbering = true;
         }
-        if let Some(found) = self.skipped {
-            return Err(in_file(Problem::Unsupported { found, instead: "split the polygons into triangles first" }));
-        }
-        if self.triangles.is_empty() {
-            return Err(in_file(Problem::Empty { what: "tetrahedra or triangles" }));
-        }
-        let (vertices, elements, sets) = (self.vertices, self.triangles, self.sets);
-        Ok(AnyMesh::Triangles(SurfaceMesh { vertices, elements, sets }))
+        (tag != 0 && !self.has_numbering).then(|| self.tags.entry(tag).or_default())
     }
 
-    /// Adds a triangle, unless the file has tetrahedra, whose triangles are not needed.
-    pub(super) fn add_triangle(&mut self, triangle: [usize; 3]) {
-        if self.tetrahedra.is_empty() {
-            self.triangles.push(triangle);
+    /// Reads the names of tags from comments such as `# set 3 clamped`, which this library writes.
+    pub(super) fn name_tags_from(&mut self, text: &str) {
+        for comment in text.lines().filter_map(|line| line.strip_prefix("# set ")) {
+            if let Some((number, name)) = comment.split_once(' ')
+                && let Ok(number) = number.parse()
+            {
+                self.tag_names.insert(number, name.trim().to_owned());
+            }
         }
+    }
+
+    /// The tetrahedra if there are any, and the triangles otherwise, without what belongs to no element.
+    pub(super) fn finish(mut self, file: &Path, program: Option<String>) -> Result<MeshFile, MeshError> {
+        let in_file = |problem| MeshError::in_file(file, problem);
+        if self.tetrahedra.is_empty() {
+            if let Some(found) = self.skipped {
+                return Err(in_file(Problem::Unsupported {
+                    found,
+                    instead: "split the polygons into triangles first",
+                }));
+            }
+            if self.triangles.is_empty() {
+                let what = if self.is_surface { "faces" } else { "tetrahedra or triangles" };
+                return Err(in_file(Problem::Empty { what }));
+            }
+        } else if let Some(found) = self.skipped.take() {
+            self.notes.unread(found);
+        }
+        self.name_tags();
+        if self.short_faces > 0 {
+            self.notes.tell(format!("{} faces with fewer than three corners are left out", self.short_faces));
+        }
+        let (mesh, notes) =
+            if self.tetrahedra.is_empty() { self.into_triangles(file)? } else { self.into_tetrahedra() };
+        Ok(MeshFile { mesh, notes: notes.into_lines(), program })
+    }
+
+    /// Makes named parts of tags.
+    fn name_tags(&mut self) {
+        let mut tags = std::mem::take(&mut self.tags);
+        if self.has_numbering {
+            self.notes.unread(format!("tags of over {MOST_TAGS} different values, which name no parts"));
+            tags.clear();
+        }
+        // Tags of faces and edges name nodes more exactly than those of the nodes do.
+        let has_faces =
+            |parts: &Parts| !parts.edges.is_empty() || (!parts.triangles.is_empty() && !self.tetrahedra.is_empty());
+        let by_faces: Vec<i64> = tags.iter().filter(|(_, parts)| has_faces(parts)).map(|(tag, _)| *tag).collect();
+        for (node, tag) in self.node_tags.iter().map(|tag| i64::from(*tag)).enumerate().filter(|(_, tag)| *tag != 0) {
+            if !by_faces.contains(&tag) && (tags.len() < MOST_TAGS || tags.contains_key(&tag)) {
+                tags.entry(tag).or_default().points.push(node);
+            }
+        }
+        for (tag, parts) in tags {
+            let name = self.tag_names.get(&tag).cloned().unwrap_or_else(|| tag.to_string());
+            self.groups.entry(name).or_default().extend(parts);
+        }
+    }
+
+    fn into_tetrahedra(self) -> (AnyMesh, Notes) {
+        let (triangles, mut notes) = (self.triangles, self.notes);
+        let set = |(name, parts): (String, Parts)| {
+            let faces = parts.triangles.into_iter().map(|triangle| triangles[triangle]).collect();
+            (name, sorted(MeshSet { elements: parts.tetrahedra, faces, edges: parts.edges, points: parts.points }))
+        };
+        let sets = self.groups.into_iter().map(set).collect();
+        let mut mesh = TetrahedralMesh { vertices: self.vertices, elements: self.tetrahedra, sets };
+        clear(&mut mesh, &mut notes);
+        if let Some(count) = turn_if_all_inverted(&mut mesh) {
+            notes.tell(format!(
+                "all {count} tetrahedra had a negative volume; each is turned by swapping two of its nodes"
+            ));
+        }
+        (AnyMesh::Tetrahedra(mesh), notes)
+    }
+
+    fn into_triangles(self, file: &Path) -> Result<(AnyMesh, Notes), MeshError> {
+        let mut notes = self.notes;
+        let set = |(name, parts): (String, Parts)| {
+            let set = MeshSet { elements: parts.triangles, faces: vec![], edges: parts.edges, points: parts.points };
+            (name, sorted(set))
+        };
+        let sets = self.groups.into_iter().map(set).collect();
+        let mut mesh = SurfaceMesh { vertices: self.vertices, elements: self.triangles, sets };
+        let is_plane = !self.is_surface && mesh.vertices.iter().all(|x| x.z == 0.0);
+        if !is_plane {
+            // An element of a flat body without an area is refused where the body is checked: it may be a gap.
+            let (kept, left_out) = without_empty_triangles(mesh);
+            left_out.into_iter().for_each(|line| notes.tell(line));
+            mesh = kept;
+            if mesh.elements.is_empty() {
+                return Err(MeshError::in_file(file, Problem::Empty { what: "triangles with an area" }));
+            }
+        }
+        if self.is_surface {
+            leave_out_strays(&mut mesh).into_iter().for_each(|line| notes.tell(line));
+        } else {
+            clear(&mut mesh, &mut notes);
+        }
+        if is_plane && let Some(count) = turn_if_all_inverted(&mut mesh) {
+            notes.tell(format!("all {count} triangles were clockwise; each is turned by swapping two of its nodes"));
+        }
+        Ok((AnyMesh::Triangles(mesh), notes))
+    }
+}
+
+fn sorted(mut set: MeshSet) -> MeshSet {
+    set.sort();
+    set
+}
+
+/// Leaves out parts of sets and nodes that belong to no element.
+fn clear<const N: usize>(mesh: &mut Mesh<3, N>, notes: &mut Notes) {
+    leave_out_strays(mesh).into_iter().for_each(|line| notes.tell(line));
+    let count = leave_out_unreferenced(mesh);
+    if count > 0 {
+        notes.tell(format!("{count} nodes belong to no element and are left out"));
     }
 }

@@ -6,66 +6,98 @@ use super::content::Content;
 use super::words::{Words, from_zero};
 use crate::{MeshError, Problem};
 
-/// An element's line, and its vertices counted from 1.
-type Row<const N: usize> = (usize, [i64; N]);
+/// An element's vertices counted from 1, its reference and its line.
+type Row<const N: usize> = ([i64; N], i32, u32);
 
-/// Reads `Vertices`, `Tetrahedra` and `Triangles`, counted from 1, in any order of sections; other sections are skipped up to the
-/// next keyword. Files of dimension 2 have z = 0.
+const REFERENCE: &str = "the reference number of an entry, an integer";
+
+/// Reads `Vertices`, `Tetrahedra`, `Triangles`, `Quadrilaterals` and `Edges`, counted from 1, in any order of sections; other sections are
+/// skipped up to the next keyword. References make sets. Files of dimension 2 have z = 0.
 pub(super) fn read(file: &Path, text: &str) -> Result<Content, MeshError> {
     let mut words = Words::of_text(file, text);
     check_version(&mut words)?;
     let (mut content, mut dimension) = (Content::default(), 3);
+    content.name_tags_from(text);
     let (mut tetrahedra, mut triangles): (Vec<Row<4>>, Vec<Row<3>>) = Default::default();
+    let (mut quadrangles, mut edges): (Vec<Row<4>>, Vec<Row<2>>) = Default::default();
     while let Some(keyword) = words.next() {
-        match keyword {
-            "End" => break,
-            "Dimension" => dimension = read_dimension(&mut words)?,
-            "Vertices" => section(&mut words, "vertices", dimension + 1, |words| {
+        match &keyword.to_ascii_lowercase()[..] {
+            "end" => break,
+            "dimension" => dimension = read_dimension(&mut words)?,
+            "vertices" => section(&mut words, "vertices", dimension + 1, |words| {
                 content.vertices.push(if dimension == 2 { words.place_in_plane()? } else { words.place()? });
-                words.integer("the reference number of a vertex").map(drop)
+                content.node_tags.push(words.tag(REFERENCE)?);
+                Ok(())
             })?,
-            "Tetrahedra" => section(&mut words, "tetrahedra", 5, |words| {
-                tetrahedra.push(row(words)?);
-                words.integer("the reference number of a tetrahedron").map(drop)
-            })?,
-            "Triangles" => section(&mut words, "triangles", 4, |words| {
-                triangles.push(row(words)?);
-                words.integer("the reference number of a triangle").map(drop)
-            })?,
-            "Quadrilaterals" | "QuadrilateralsQ2" | "TrianglesP2" => {
-                content.skipped = polygons(&mut words, keyword)?.or(content.skipped);
+            "tetrahedra" => rows(&mut words, "tetrahedra", &mut tetrahedra)?,
+            "triangles" => rows(&mut words, "triangles", &mut triangles)?,
+            "quadrilaterals" => rows(&mut words, "quadrilaterals", &mut quadrangles)?,
+            "edges" => rows(&mut words, "edges", &mut edges)?,
+            "quadrilateralsq2" | "trianglesp2" => {
+                let count = words.amount("the number of entries")?;
+                skip_section(&mut words);
+                let found = (count > 0).then(|| format!("a surface with {count} {keyword}"));
+                content.skipped = found.or(content.skipped);
             }
-            "Hexahedra" | "HexahedraQ2" | "Prisms" | "Pentahedra" | "Pyramids" | "TetrahedraP2" => {
+            "hexahedra" | "hexahedraq2" | "prisms" | "pentahedra" | "pyramids" | "tetrahedrap2" => {
                 refuse_section(&mut words, keyword)?
             }
-            _ if is_keyword(keyword) => skip_section(&mut words),
+            _ if is_keyword(keyword) => {
+                skip_section(&mut words);
+                content.notes.unread(format!("the section {keyword}"));
+            }
             _ => return Err(words.error(Problem::NotA { word: keyword.to_owned(), expected: "a MEDIT keyword" })),
         }
     }
     // Indices are checked at the end: a file may have its elements before its vertices.
-    content.tetrahedra = elements(file, tetrahedra, content.vertices.len())?;
-    if content.tetrahedra.is_empty() {
-        content.triangles = elements(file, triangles, content.vertices.len())?;
+    let count = content.vertices.len();
+    content.tetrahedra.reserve_exact(tetrahedra.len());
+    content.triangles.reserve_exact(triangles.len());
+    for row in tetrahedra {
+        let (corners, reference) = element(file, row, count)?;
+        let index = content.tetrahedra.len();
+        content.tetrahedra.push(corners);
+        content.tagged(reference).into_iter().for_each(|parts| parts.tetrahedra.push(index));
+    }
+    for row in triangles {
+        let (corners, reference) = element(file, row, count)?;
+        add_triangle(&mut content, corners, reference);
+    }
+    for row in quadrangles {
+        let ([a, b, c, d], reference) = element(file, row, count)?;
+        add_triangle(&mut content, [a, b, c], reference);
+        add_triangle(&mut content, [a, c, d], reference);
+    }
+    for row in edges {
+        let (corners, reference) = element(file, row, count)?;
+        content.tagged(reference).into_iter().for_each(|parts| parts.edges.push(corners));
     }
     Ok(content)
 }
 
-fn elements<const N: usize>(file: &Path, rows: Vec<Row<N>>, vertices: usize) -> Result<Vec<[usize; N]>, MeshError> {
-    let element = |(line, corners): Row<N>| {
-        let mut element = [0; N];
-        for (vertex, index) in element.iter_mut().zip(corners) {
-            *vertex = from_zero(index, 1, vertices).map_err(|problem| MeshError::in_line(file, line, problem))?;
-        }
-        Ok(element)
-    };
-    rows.into_iter().map(element).collect()
+fn add_triangle(content: &mut Content, corners: [usize; 3], reference: i64) {
+    let index = content.triangles.len();
+    content.triangles.push(corners);
+    content.tagged(reference).into_iter().for_each(|parts| parts.triangles.push(index));
 }
 
-/// The four versions differ only in the width of numbers in binary files.
+fn element<const N: usize>(
+    file: &Path,
+    (corners, reference, line): Row<N>,
+    vertices: usize,
+) -> Result<([usize; N], i64), MeshError> {
+    let mut element = [0; N];
+    for (vertex, index) in element.iter_mut().zip(corners) {
+        *vertex = from_zero(index, 1, vertices).map_err(|problem| MeshError::in_line(file, line as usize, problem))?;
+    }
+    Ok((element, reference.into()))
+}
+
+/// The versions differ only in the width of numbers in binary files.
 fn check_version(words: &mut Words) -> Result<(), MeshError> {
     let instead = "save the mesh as a MEDIT text file, which starts with `MeshVersionFormatted 2`";
     match words.word("the keyword MeshVersionFormatted")? {
-        "MeshVersionFormatted" => {}
+        keyword if keyword.eq_ignore_ascii_case("MeshVersionFormatted") => {}
         _ => {
             return Err(words.error(Problem::Unsupported {
                 found: "a .mesh file that is not MEDIT's text format".to_owned(),
@@ -74,7 +106,7 @@ fn check_version(words: &mut Words) -> Result<(), MeshError> {
         }
     }
     match words.amount("the version of the format")? {
-        1..=4 => Ok(()),
+        0..=4 => Ok(()),
         version => Err(words.error(Problem::Unsupported { found: format!("MEDIT version {version}"), instead })),
     }
 }
@@ -89,7 +121,7 @@ fn read_dimension(words: &mut Words) -> Result<usize, MeshError> {
     }
 }
 
-/// A count, then as many entries of `width` words.
+/// A count, then as many entries of `width` words. A line holds whole entries.
 fn section<'a>(
     words: &mut Words<'a>,
     what: &'static str,
@@ -98,16 +130,47 @@ fn section<'a>(
 ) -> Result<(), MeshError> {
     let announced = words.amount("the number of entries")?;
     let start = words.clone();
+    let broken =
+        |row: &Words<'a>| row.error(Problem::BrokenRow { what, expected: width, found: words_of_line(row.clone()) });
+    // The first word of the current line.
+    let mut row = words.clone();
     for found in 0..announced {
-        if words.peek().is_none_or(is_keyword) {
+        let mut first = words.clone();
+        if first.next().is_none_or(is_keyword) {
             return Err(start.error(Problem::WrongCount { what, announced, found }));
         }
+        row = if first.line() == row.line() && found > 0 { row } else { first };
         entry(words)?;
+        if words.line() != row.line() {
+            return Err(broken(&row));
+        }
     }
-    match words.clone().take_while(|word| !is_keyword(word)).count() {
-        0 => Ok(()),
-        more => Err(start.error(Problem::WrongCount { what, announced, found: announced + more.div_ceil(width) })),
+    let mut next = words.clone();
+    if next.next().is_none_or(is_keyword) {
+        return Ok(());
     }
+    if next.line() == words.line() && announced > 0 {
+        return Err(broken(&row));
+    }
+    let more = words.clone().take_while(|word| !is_keyword(word)).count();
+    Err(start.error(Problem::WrongCount { what, announced, found: announced + more.div_ceil(width) }))
+}
+
+/// Number of the words of a line, of which the first has been taken.
+fn words_of_line(mut words: Words) -> usize {
+    let (line, mut count) = (words.line(), 1);
+    while words.next().is_some() && words.line() == line {
+        count += 1;
+    }
+    count
+}
+
+/// A section of elements.
+fn rows<const N: usize>(words: &mut Words, what: &'static str, rows: &mut Vec<Row<N>>) -> Result<(), MeshError> {
+    let announced = words.clone().amount("the number of entries")?;
+    // A word and a blank take two bytes.
+    rows.reserve_exact(announced.min(words.rest().len() / (2 * N + 2)));
+    section(words, what, N + 1, |words| row(words).map(|row| rows.push(row)))
 }
 
 fn row<const N: usize>(words: &mut Words) -> Result<Row<N>, MeshError> {
@@ -115,14 +178,8 @@ fn row<const N: usize>(words: &mut Words) -> Result<Row<N>, MeshError> {
     for corner in &mut corners {
         *corner = words.integer("the index of a vertex")?;
     }
-    Ok((words.line(), corners))
-}
-
-/// Skips polygons that are no triangles. Returns a description if there are some: in a surface they would leave holes.
-fn polygons(words: &mut Words, keyword: &str) -> Result<Option<String>, MeshError> {
-    let count = words.amount("the number of entries")?;
-    skip_section(words);
-    Ok((count > 0).then(|| format!("a surface with {count} {keyword}")))
+    // A file with more than 2³² lines fits into no memory.
+    Ok((corners, words.tag(REFERENCE)?, words.line() as u32))
 }
 
 /// Returns an error for a section with entries: skipped volume elements would leave holes in the body.
@@ -136,9 +193,14 @@ fn refuse_section(words: &mut Words, keyword: &str) -> Result<(), MeshError> {
     }
 }
 
+/// Skips a section, in which a text in quotation marks may have words like keywords.
 fn skip_section(words: &mut Words) {
-    while words.peek().is_some_and(|word| !is_keyword(word)) {
+    while let Some(word) = words.peek().filter(|word| !is_keyword(word)) {
         words.next();
+        let mut is_open = word.matches('"').count() % 2 == 1;
+        while is_open && let Some(word) = words.next() {
+            is_open = word.matches('"').count() % 2 == 0;
+        }
     }
 }
 

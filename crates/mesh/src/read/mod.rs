@@ -1,13 +1,16 @@
 //! Readers of mesh files, by extension. They verify every count that a file announces and every index; [`check`](super::check)
 //! tests the mesh itself.
 
+mod abaqus;
 mod cells;
 mod content;
 mod gmsh;
 mod medit;
+mod notes;
 mod obj;
 mod ply;
 mod points;
+mod program;
 mod stl;
 mod tetgen;
 mod vtk;
@@ -20,8 +23,10 @@ use std::path::{Path, PathBuf};
 
 use flate2::read::MultiGzDecoder;
 
-pub use self::content::AnyMesh;
+pub(super) use self::abaqus::FACES as ABAQUS_FACES;
+pub(super) use self::cells::SET;
 use self::content::Content;
+pub use self::content::{AnyMesh, MeshFile};
 pub use self::points::{Points, read_points};
 use super::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
@@ -29,49 +34,52 @@ use super::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 const MOST_UNPACKED: u64 = 200;
 
 /// Extensions of the files of tetrahedra or triangles.
-pub(super) const MESHES: &str = ".node with .ele (TetGen, Triangle), .mesh (MEDIT), .msh (Gmsh), .vtu or .vtk (VTK), each also as .gz; surfaces are .obj, .ply or .stl";
+pub(super) const MESHES: &str = ".node with .ele (TetGen, Triangle), .mesh (MEDIT), .msh (Gmsh), .vtu or .vtk (VTK), .inp (Abaqus), each also as .gz; surfaces are .obj, .ply or .stl";
 
-/// Extensions of the files of triangles.
-pub(super) const SURFACES: &str = ".obj (Wavefront), .ply (Stanford), .stl, or those of meshes: .mesh (MEDIT), .msh (Gmsh), .vtu or .vtk (VTK), .node with .ele (Triangle); each also as .gz";
+/// Extensions of all files of meshes.
+pub(super) const SURFACES: &str = ".obj (Wavefront), .ply (Stanford), .stl, or those of meshes: .mesh (MEDIT), .msh (Gmsh), .vtu or .vtk (VTK), .inp (Abaqus), .node with .ele (TetGen, Triangle); each also as .gz";
 
-/// Reads a mesh of the kind that its file holds: tetrahedra if there are any, as [`read_tetrahedra`] does, and triangles otherwise, as
-/// [`read_surface`] does.
+/// Reads a mesh file and tells what it leaves out: `.node` and `.ele` (TetGen, Triangle; either name, with the `.face` file beside them),
+/// `.mesh` (MEDIT), `.msh` (Gmsh 1, 2 and 4), `.vtu` and `.vtk` (VTK), `.inp` (Abaqus), or a surface: `.obj` (Wavefront), `.ply`
+/// (Stanford) or `.stl`, text and binary. Each also compressed, with `.gz` after its extension.
+///
+/// Tetrahedra if there are any, and triangles otherwise, polygons as fans; z is 0 in files of the plane. Lengths as in the file, m; indices
+/// in range. Nodes of no element are left out. A mesh whose elements all have a negative volume, or area in the plane z = 0, is turned.
+/// Surfaces lose triangles without an area and those that repeat another. Groups, tags and references become named sets.
+pub fn read_file(path: &Path) -> Result<MeshFile, MeshError> {
+    let read: fn(&Path, Vec<u8>) -> Result<Content, MeshError> = match extension(path).as_str() {
+        "node" | "ele" => |path, bytes| {
+            drop(bytes);
+            tetgen::read(path)
+        },
+        "mesh" => |path, bytes| medit::read(path, &readable(bytes)),
+        "msh" => gmsh::read,
+        "vtu" => |path, bytes| vtu::read(path, &bytes),
+        "vtk" => |path, bytes| vtk::read(path, &bytes),
+        "inp" => |path, bytes| abaqus::read(path, readable(bytes)),
+        "obj" => |path, bytes| obj::read(path, &readable(bytes)),
+        "ply" => |path, bytes| ply::read(path, &bytes),
+        "stl" => stl::read,
+        _ => return Err(unknown_extension(path, SURFACES)),
+    };
+    let bytes = bytes(path)?;
+    let program = program::of(&bytes);
+    read(path, bytes)?.finish(path, program)
+}
+
+/// The mesh of [`read_file`].
 pub fn read_mesh(path: &Path) -> Result<AnyMesh, MeshError> {
-    if is_surface(path) { polygons(path).map(AnyMesh::Triangles) } else { content(path, MESHES)?.mesh(path) }
+    Ok(read_file(path)?.mesh)
 }
 
-/// Reads a tetrahedral mesh: `.node` and `.ele` (TetGen; either name), `.mesh` (MEDIT), `.msh` (Gmsh 2 and 4), `.vtu` and
-/// `.vtk` (VTK), each also compressed, with `.gz` after its extension. Lengths as in the file, m; indices in range; orientation,
-/// volumes and unused vertices as the file has them. Physical groups of Gmsh become named sets.
+/// The mesh of [`read_file`], which has to consist of tetrahedra.
 pub fn read_tetrahedra(path: &Path) -> Result<TetrahedralMesh, MeshError> {
-    content(path, MESHES)?.tetrahedra(path)
+    if is_surface(path) { Err(unknown_extension(path, MESHES)) } else { read_file(path)?.tetrahedra(path) }
 }
 
-/// Reads a triangle mesh: `.obj` (Wavefront), `.ply` (Stanford) or `.stl`, text and binary, or the triangles of a file of
-/// [`read_tetrahedra`] that has no tetrahedra; each also compressed. Polygons become fans of triangles; indices are in range. Equal corners
-/// of an `.stl` are one vertex. Plane meshes have z = 0.
+/// The mesh of [`read_file`], which has to consist of triangles.
 pub fn read_surface(path: &Path) -> Result<SurfaceMesh, MeshError> {
-    if is_surface(path) { polygons(path) } else { content(path, SURFACES)?.triangles(path) }
-}
-
-/// The simplices of a file; `known` are the extensions of its message.
-fn content(path: &Path, known: &'static str) -> Result<Content, MeshError> {
-    match extension(path).as_str() {
-        "node" | "ele" => tetgen::read(path),
-        "mesh" => medit::read(path, &text(path)?),
-        "msh" => gmsh::read(path, bytes(path)?),
-        "vtu" => vtu::read(path, &bytes(path)?),
-        "vtk" => vtk::read(path, &bytes(path)?),
-        _ => Err(unknown_extension(path, known)),
-    }
-}
-
-fn polygons(path: &Path) -> Result<SurfaceMesh, MeshError> {
-    match extension(path).as_str() {
-        "obj" => obj::read(path, &text(path)?),
-        "ply" => ply::read(path, &bytes(path)?),
-        _ => stl::read(path, bytes(path)?),
-    }
+    read_file(path)?.triangles(path)
 }
 
 /// Returns true if a path has the extension of a file that holds surfaces alone.
@@ -105,8 +113,16 @@ pub(super) fn unknown_extension(path: &Path, known: &'static str) -> MeshError {
     MeshError::in_file(path, Problem::UnknownExtension { found: format!(".{}", extension(path)), known })
 }
 
-/// The content of a file, unpacked.
+/// The content of a file, unpacked and without a byte-order mark.
 fn bytes(path: &Path) -> Result<Vec<u8>, MeshError> {
+    let mut bytes = unpacked(path)?;
+    if bytes.starts_with(b"\xef\xbb\xbf") {
+        bytes.drain(..3);
+    }
+    Ok(bytes)
+}
+
+fn unpacked(path: &Path) -> Result<Vec<u8>, MeshError> {
     let bytes = fs::read(path).map_err(|error| {
         let problem = match error.kind() {
             ErrorKind::NotFound => Problem::Missing,
@@ -133,16 +149,13 @@ fn bytes(path: &Path) -> Result<Vec<u8>, MeshError> {
     }
 }
 
-/// A file as text without a byte-order mark. Bytes that are not UTF-8 become question marks: names and comments may be in any encoding.
+/// A file as text.
 fn text(path: &Path) -> Result<String, MeshError> {
-    let mut bytes = bytes(path)?;
-    if bytes.starts_with(b"\xef\xbb\xbf") {
-        bytes.drain(..3);
-    }
-    Ok(readable(bytes))
+    bytes(path).map(readable)
 }
 
-/// The bytes as text, in their place in memory, with question marks for those that are not UTF-8.
+/// The bytes as text, in their place in memory, with question marks for those that are not UTF-8: names and comments may be in any
+/// encoding.
 fn readable(mut bytes: Vec<u8>) -> String {
     let mut checked = 0;
     while let Err(error) = str::from_utf8(&bytes[checked..]) {

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use nalgebra::{Vector2, Vector3};
 
+use super::content::Content;
+use super::tetgen::{self, Nodes};
 use super::words::Words;
 use super::{extension, text, unknown_extension};
 use crate::{MeshError, Problem};
@@ -40,33 +42,15 @@ fn table(file: &Path, text: &str) -> Result<Points, MeshError> {
     let dimension = first.clone().count();
     let rows = lines.map(|mut line| {
         let place = coordinates(&mut line, dimension)?;
-        match line.next() {
-            None => Ok(place),
-            Some(word) => Err(line.error(Problem::NotA {
-                word: word.to_owned(),
-                expected: "expected: the first line has fewer numbers",
-            })),
-        }
+        line.end("as many numbers as the first line has").map(|()| place)
     });
     points(file, dimension, rows.collect::<Result<_, _>>()?)
 }
 
-/// `<points> <dimension> …`, then `<number> <coordinates> …` for each.
+/// The nodes of Triangle or TetGen.
 fn nodes(file: &Path, text: &str) -> Result<Points, MeshError> {
-    let mut lines = Words::of_lines(file, text);
-    let mut header = lines.next().ok_or_else(|| MeshError::in_file(file, Problem::Empty { what: "points" }))?;
-    let announced = header.amount("the number of points")?;
-    let dimension = header.amount("the dimension")?;
-    let rows = lines.map(|mut line| {
-        line.integer("the number of a point")?;
-        coordinates(&mut line, dimension)
-    });
-    let places: Vec<Vec<f64>> = rows.collect::<Result<_, _>>()?;
-    if places.len() != announced {
-        let problem = Problem::WrongCount { what: "points", announced, found: places.len() };
-        return Err(MeshError::in_file(file, problem));
-    }
-    points(file, dimension, places)
+    let Nodes { places, dimension, .. } = tetgen::nodes(file, text, &mut Content::default())?;
+    Ok(if dimension == 2 { Points::InPlane(places.iter().map(Vector3::xy).collect()) } else { Points::InSpace(places) })
 }
 
 fn coordinates(line: &mut Words, dimension: usize) -> Result<Vec<f64>, MeshError> {

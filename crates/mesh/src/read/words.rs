@@ -62,6 +62,14 @@ impl<'a> Words<'a> {
         self.parse(expected)
     }
 
+    /// The next word as a tag: an integer, which some programs write as `0.0`.
+    pub(super) fn tag(&mut self, expected: &'static str) -> Result<i32, MeshError> {
+        let word = self.word(expected)?;
+        let of_real = || word.parse().ok().filter(|x: &f64| x.fract() == 0.0 && x.abs() < 2e9).map(|x| x as i32);
+        let found = word.parse().ok().or_else(of_real);
+        found.ok_or_else(|| self.error(Problem::NotA { word: word.to_owned(), expected }))
+    }
+
     /// The next word as a count. Never allocate by it: the file may hold less.
     pub(super) fn amount(&mut self, expected: &'static str) -> Result<usize, MeshError> {
         self.parse(expected)
@@ -76,6 +84,14 @@ impl<'a> Words<'a> {
     /// The next word as a number.
     pub(super) fn real(&mut self, expected: &'static str) -> Result<f64, MeshError> {
         self.parse(expected)
+    }
+
+    /// Ends the row: no word may be left after the last one, which `last` describes.
+    pub(super) fn end(&self, last: &'static str) -> Result<(), MeshError> {
+        match self.peek() {
+            None => Ok(()),
+            Some(word) => Err(self.error(Problem::RowTooLong { word: word.to_owned(), last })),
+        }
     }
 
     /// All that is left.
@@ -146,4 +162,17 @@ pub(super) fn rows<'a, R>(
         entries.push(row(entries.len(), &mut line)?);
     }
     Ok(entries)
+}
+
+/// Returns an error if lines are left after the announced number of rows.
+pub(super) fn no_more<'a>(
+    file: &Path,
+    lines: impl Iterator<Item = Words<'a>>,
+    what: &'static str,
+    announced: usize,
+) -> Result<(), MeshError> {
+    match lines.count() {
+        0 => Ok(()),
+        more => Err(MeshError::in_file(file, Problem::WrongCount { what, announced, found: announced + more })),
+    }
 }

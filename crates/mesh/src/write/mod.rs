@@ -2,12 +2,14 @@
 //!
 //! Numbers in text files have as many digits as an exact round trip needs, at most 17.
 
+mod abaqus;
 mod glb;
 mod gmsh;
 mod medit;
 mod obj;
 mod ply;
 mod pvd;
+mod sets;
 mod stl;
 mod tetgen;
 mod vtk;
@@ -27,10 +29,10 @@ pub use self::glb::{Frame, write_glb};
 pub use self::pvd::write_pvd;
 pub use self::vtu::{Field, write_vtu};
 use super::read::{MESHES, SURFACES, extension, is_packed, is_surface, unknown_extension};
-use super::{AnyMesh, MeshError, Problem, SurfaceMesh, TetrahedralMesh};
+use super::{AnyMesh, Mesh, MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
 /// Extensions for tetrahedra, and for triangles beside those of surfaces.
-const TETRAHEDRA: [&str; 6] = ["node", "ele", "mesh", "msh", "vtu", "vtk"];
+const TETRAHEDRA: [&str; 7] = ["node", "ele", "mesh", "msh", "vtu", "vtk", "inp"];
 
 /// Writes tetrahedra or triangles, as [`write_tetrahedra`] and [`write_surface`] do.
 pub fn write_mesh(path: &Path, mesh: &AnyMesh) -> Result<(), MeshError> {
@@ -41,15 +43,16 @@ pub fn write_mesh(path: &Path, mesh: &AnyMesh) -> Result<(), MeshError> {
 }
 
 /// Writes a tetrahedral mesh: `.node` and `.ele` (TetGen; both files by either name), `.mesh` (MEDIT), `.msh` (Gmsh 4.1), `.vtu` or
-/// `.vtk` (VTK), each also compressed, with `.gz` after its extension. Reading the file gives the same mesh, bit for bit; named
-/// sets are kept by `.msh` alone.
+/// `.vtk` (VTK), or `.inp` (Abaqus), each also compressed, with `.gz` after its extension. Reading the file gives the same mesh, bit for
+/// bit, and its named sets but for those that [`lost_sets`] tells.
 pub fn write_tetrahedra(path: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
     match extension(path).as_str() {
         "node" | "ele" => tetgen::write(path, mesh),
         "mesh" => save_mesh(path, &mut |out| medit::write(out, mesh)),
         "msh" => save_mesh(path, &mut |out| gmsh::write(out, mesh)),
-        "vtu" => write_vtu(path, mesh, &[], &[]),
+        "vtu" => vtu::write_with_sets(path, mesh),
         "vtk" => save_mesh(path, &mut |out| vtk::write(out, mesh)),
+        "inp" => save_mesh(path, &mut |out| abaqus::write(out, mesh)),
         _ => Err(no_tetrahedra(path)),
     }
 }
@@ -60,13 +63,13 @@ fn no_tetrahedra(path: &Path) -> MeshError {
         return unknown_extension(path, MESHES);
     }
     let found = format!("a mesh of tetrahedra in a .{} file, which holds triangles,", extension(path));
-    let instead = "write it as .node, .mesh, .msh, .vtu or .vtk";
+    let instead = "write it as .node, .mesh, .msh, .vtu, .vtk or .inp";
     MeshError::in_file(path, Problem::Unsupported { found, instead })
 }
 
 /// Writes a triangle mesh: `.obj` (Wavefront), `.ply` (Stanford, binary) or `.stl` (binary), or a file of [`write_tetrahedra`]; each also
 /// compressed. Reading the file gives the same mesh, bit for bit, but for `.stl`, which keeps single precision, merges vertices at one
-/// place and leaves out unused ones. `.node` is for meshes in the plane z = 0. Named sets are kept by `.msh` alone.
+/// place and leaves out unused ones. `.node` is for meshes in the plane z = 0.
 pub fn write_surface(path: &Path, mesh: &SurfaceMesh) -> Result<(), MeshError> {
     match extension(path).as_str() {
         "obj" => save_mesh(path, &mut |out| obj::write(out, mesh)),
@@ -75,8 +78,9 @@ pub fn write_surface(path: &Path, mesh: &SurfaceMesh) -> Result<(), MeshError> {
         "node" | "ele" => tetgen::write_plane(path, mesh),
         "mesh" => save_mesh(path, &mut |out| medit::write(out, mesh)),
         "msh" => save_mesh(path, &mut |out| gmsh::write(out, mesh)),
-        "vtu" => write_vtu(path, mesh, &[], &[]),
+        "vtu" => vtu::write_with_sets(path, mesh),
         "vtk" => save_mesh(path, &mut |out| vtk::write(out, mesh)),
+        "inp" => save_mesh(path, &mut |out| abaqus::write(out, mesh)),
         _ => Err(unknown_extension(path, SURFACES)),
     }
 }
@@ -103,9 +107,33 @@ fn check_place(path: &Path) -> Result<(), MeshError> {
     Err(MeshError::in_file(path, Problem::Unwritable { reason: reason.to_owned() }))
 }
 
-/// Returns true if a file of this extension keeps the named sets of a mesh.
-pub fn keeps_sets(path: &Path) -> bool {
-    extension(path) == "msh"
+/// The remark on what a file of this extension keeps of the named sets of a mesh; `None` if it keeps all.
+pub fn lost_sets<const N: usize>(path: &Path, mesh: &Mesh<3, N>) -> Option<String> {
+    let count = mesh.sets.len();
+    if count == 0 {
+        return None;
+    }
+    let numbered = |has_edges: bool| {
+        let tags = sets::Tags::of(mesh);
+        let edges = if has_edges { 0 } else { tags.edges.len() };
+        let lost = [(tags.lost, "parts that are in several sets, which keep the first"), (edges, "edges of sets")];
+        let lost: Vec<String> =
+            lost.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
+        (!lost.is_empty()).then(|| format!("this format has one number for each part and loses {}", lost.join(" and ")))
+    };
+    let what = match extension(path).as_str() {
+        "mesh" => numbered(true)?,
+        "node" | "ele" => numbered(false)?,
+        "obj" if mesh.sets.values().all(|set| set.edges.is_empty() && set.points.is_empty()) => return None,
+        "obj" => "this format has no sets of edges and points".to_owned(),
+        "ply" | "stl" => format!("this format has no sets, and the mesh {count}"),
+        "inp" => match mesh.sets.values().map(|set| set.edges.len()).sum() {
+            0_usize => return None,
+            edges => format!("of {edges} edges of sets this format keeps the nodes"),
+        },
+        _ => return None,
+    };
+    Some(format!("{what}; .msh, .vtu and .vtk keep all"))
 }
 
 /// Writes the contents of a file, once.

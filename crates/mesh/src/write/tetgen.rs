@@ -1,8 +1,11 @@
-//! Pairs of text files, counted from 0: TetGen's for tetrahedra, Triangle's for triangles in the plane. Sources: H. Si, TetGen manual
+//! Pairs of text files, counted from 0: TetGen's for tetrahedra, Triangle's for triangles in the plane. Named sets are regions and boundary
+//! markers; those of faces make a third file. Sources: H. Si, TetGen manual
 //! 1.6, section 5.2; J. R. Shewchuk, Triangle's page on .node and .ele files.
 
+use std::io::{self, Write};
 use std::path::Path;
 
+use super::sets::Tags;
 use super::{place, place_in_plane, save_mesh};
 use crate::read::{extension, with_extension};
 use crate::{Mesh, MeshError, Problem, SurfaceMesh, TetrahedralMesh};
@@ -27,20 +30,47 @@ fn write_pair<const N: usize>(path: &Path, mesh: &Mesh<3, N>, dimension: usize) 
         "node" => (path.to_owned(), with_extension(path, "ele")),
         _ => (with_extension(path, "node"), path.to_owned()),
     };
+    let tags = Tags::of(mesh);
     save_mesh(&ele_file, &mut |out| {
-        writeln!(out, "{} {N} 0", mesh.elements.len())?;
-        for (i, element) in mesh.elements.iter().enumerate() {
-            write!(out, "{i}")?;
-            element.iter().try_for_each(|vertex| write!(out, " {vertex}"))?;
-            writeln!(out)?;
-        }
-        Ok(())
+        let regions = marks(&tags.elements);
+        writeln!(out, "{}{} {N} {}", tags.comments(), mesh.elements.len(), usize::from(regions.is_some()))?;
+        rows(out, mesh.elements.iter().map(|element| (&element[..], "".to_owned())), regions)
     })?;
+    let face_file = with_extension(&node_file, "face");
+    // A file of faces of another mesh would be read with this one.
+    if !tags.faces.is_empty() || face_file.exists() {
+        let markers: Vec<i32> = tags.faces.values().copied().collect();
+        save_mesh(&face_file, &mut |out| {
+            writeln!(out, "{} 1", tags.faces.len())?;
+            rows(out, tags.faces.keys().map(|face| (&face[..], "".to_owned())), Some(&markers))
+        })?;
+    }
     save_mesh(&node_file, &mut |out| {
-        writeln!(out, "{} {dimension} 0 0", mesh.vertices.len())?;
-        for (i, x) in mesh.vertices.iter().enumerate() {
-            writeln!(out, "{i} {}", if dimension == 2 { place_in_plane(x) } else { place(x) })?;
-        }
-        Ok(())
+        let markers = marks(&tags.nodes);
+        writeln!(out, "{} {dimension} 0 {}", mesh.vertices.len(), usize::from(markers.is_some()))?;
+        let places = mesh.vertices.iter().map(|x| if dimension == 2 { place_in_plane(x) } else { place(x) });
+        rows(out, places.map(|place| (&[][..], format!(" {place}"))), markers)
     })
+}
+
+/// The tags, unless all are 0.
+fn marks(tags: &[i32]) -> Option<&[i32]> {
+    tags.iter().any(|tag| *tag != 0).then_some(tags)
+}
+
+/// Rows of a number, nodes, a text and a tag.
+fn rows<'a>(
+    out: &mut dyn Write,
+    entries: impl Iterator<Item = (&'a [usize], String)>,
+    tags: Option<&[i32]>,
+) -> io::Result<()> {
+    for (i, (nodes, text)) in entries.enumerate() {
+        write!(out, "{i}")?;
+        nodes.iter().try_for_each(|node| write!(out, " {node}"))?;
+        match tags {
+            Some(tags) => writeln!(out, "{text} {}", tags[i])?,
+            None => writeln!(out, "{text}")?,
+        }
+    }
+    Ok(())
 }

@@ -5,12 +5,14 @@ use std::path::Path;
 
 use base64::prelude::{BASE64_STANDARD, Engine};
 
+use super::sets::Marks;
 use super::{escape, save_mesh};
 use crate::{Mesh, MeshError, Problem};
 
-/// VTK's number for the triangle with 3 nodes, the tetrahedron with 4 and the quadratic triangle with 6.
-pub(super) const fn cell_type<const N: usize>() -> u8 {
-    match N {
+/// VTK's number for the line with 2 nodes, the triangle with 3, the tetrahedron with 4 and the quadratic triangle with 6.
+pub(super) const fn cell_type(nodes: usize) -> u8 {
+    match nodes {
+        2 => 3,
         3 => 5,
         6 => 22,
         _ => 10,
@@ -39,7 +41,14 @@ pub fn write_vtu<const N: usize>(
 ) -> Result<(), MeshError> {
     check_sizes(point_fields, mesh.vertices.len(), "point").map_err(|problem| MeshError::in_file(path, problem))?;
     check_sizes(cell_fields, mesh.elements.len(), "cell").map_err(|problem| MeshError::in_file(path, problem))?;
-    save_mesh(path, &mut |out| write_grid(out, mesh, point_fields, cell_fields))
+    let marks = Marks { cells: Vec::new(), of_cells: Vec::new(), of_nodes: Vec::new() };
+    save_mesh(path, &mut |out| write_grid(out, mesh, &marks, point_fields, cell_fields))
+}
+
+/// Writes a mesh with a field of zeros and ones for each named set; faces and edges of sets are cells behind the elements.
+pub(super) fn write_with_sets<const N: usize>(path: &Path, mesh: &Mesh<3, N>) -> Result<(), MeshError> {
+    let marks = Marks::of(mesh);
+    save_mesh(path, &mut |out| write_grid(out, mesh, &marks, &[], &[]))
 }
 
 fn check_sizes(fields: &[Field], entries: usize, per: &'static str) -> Result<(), Problem> {
@@ -56,25 +65,34 @@ fn check_sizes(fields: &[Field], entries: usize, per: &'static str) -> Result<()
 fn write_grid<const N: usize>(
     out: &mut dyn Write,
     mesh: &Mesh<3, N>,
+    marks: &Marks,
     point_fields: &[Field],
     cell_fields: &[Field],
 ) -> io::Result<()> {
     writeln!(out, r#"<?xml version="1.0"?>"#)?;
     writeln!(out, r#"<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">"#)?;
-    let (points, cells) = (mesh.vertices.len(), mesh.elements.len());
+    let (points, elements) = (mesh.vertices.len(), mesh.elements.len());
+    let cells = elements + marks.cells.len();
     writeln!(out, "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">")?;
 
     writeln!(out, "<Points>")?;
     array(out, "Points", "Float64", 3, mesh.vertices.iter().flatten().flat_map(|x| x.to_le_bytes()))?;
     writeln!(out, "</Points>\n<Cells>")?;
-    let connectivity = mesh.elements.iter().flatten().flat_map(|&i| (i as i64).to_le_bytes());
-    array(out, "connectivity", "Int64", 1, connectivity)?;
-    array(out, "offsets", "Int64", 1, (1..=cells).flat_map(|i| ((N * i) as i64).to_le_bytes()))?;
-    array(out, "types", "UInt8", 1, std::iter::repeat_n(cell_type::<N>(), cells))?;
+    let nodes = mesh.elements.iter().flatten().chain(marks.cells.iter().flatten());
+    array(out, "connectivity", "Int64", 1, nodes.flat_map(|&i| (i as i64).to_le_bytes()))?;
+    let sizes = std::iter::repeat_n(N, elements).chain(marks.cells.iter().map(Vec::len));
+    let ends = sizes.clone().scan(0, |end, size| {
+        *end += size as i64;
+        Some(*end)
+    });
+    array(out, "offsets", "Int64", 1, ends.flat_map(i64::to_le_bytes))?;
+    array(out, "types", "UInt8", 1, sizes.map(cell_type))?;
     writeln!(out, "</Cells>\n<PointData>")?;
     write_fields(out, point_fields)?;
+    write_marks(out, &marks.of_nodes)?;
     writeln!(out, "</PointData>\n<CellData>")?;
     write_fields(out, cell_fields)?;
+    write_marks(out, &marks.of_cells)?;
     writeln!(out, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }
 
@@ -83,6 +101,10 @@ fn write_fields(out: &mut dyn Write, fields: &[Field]) -> io::Result<()> {
         array(out, field.name, "Float64", field.components, field.values.iter().flat_map(|x| x.to_le_bytes()))?;
     }
     Ok(())
+}
+
+fn write_marks(out: &mut dyn Write, fields: &[(String, Vec<u8>)]) -> io::Result<()> {
+    fields.iter().try_for_each(|(name, values)| array(out, name, "UInt8", 1, values.iter().copied()))
 }
 
 /// Writes an array as base64 of the number of bytes followed by the bytes.

@@ -3,6 +3,7 @@
 
 mod mutation;
 mod pictures;
+mod rows;
 
 use std::fs;
 use std::io::{Read, Write};
@@ -139,6 +140,11 @@ fn mutated_grids_of_vtk_are_read_or_refused() {
 }
 
 #[test]
+fn mutated_files_of_abaqus_are_read_or_refused() {
+    fuzz_files("inp", &own("inp"), None);
+}
+
+#[test]
 fn mutated_files_of_medit_are_read_or_refused() {
     fuzz_files("mesh", &[own("mesh"), others("mesh")].concat(), None);
 }
@@ -218,7 +224,7 @@ fn a_large_file_takes_at_most_four_times_its_size() {
     let surface = SurfaceMesh::new(mesh.vertices.clone(), boundary(&mesh));
     let plane = SurfaceMesh::new(mesh.vertices.iter().map(|x| Vector3::new(x.x, x.y, 0.0)).collect(), boundary(&mesh));
     let kinds = [
-        (AnyMesh::Tetrahedra(mesh), &["node", "mesh", "msh", "vtu", "vtk"][..]),
+        (AnyMesh::Tetrahedra(mesh), &["node", "mesh", "msh", "vtu", "vtk", "inp"][..]),
         (AnyMesh::Triangles(surface), &["obj", "ply", "stl", "mesh", "msh", "vtu", "vtk"]),
         (AnyMesh::Triangles(plane), &["node"]),
     ];

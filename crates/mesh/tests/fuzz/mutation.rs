@@ -44,7 +44,7 @@ const NUMBERS: [u64; 8] =
     [0, 1, u64::MAX, i64::MAX as u64, 1 << 63, 0x8000_0000_8000_0000, 0x7fff_ffff_7fff_ffff, 0x7ff8_0000_0000_0000];
 
 /// The same numbers in every run: SplitMix64 by Steele, Lea and Flood (2014).
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
     fn next(&mut self) -> u64 {
@@ -54,7 +54,7 @@ impl Random {
         z ^ z >> 31
     }
 
-    fn below(&mut self, count: usize) -> usize {
+    pub fn below(&mut self, count: usize) -> usize {
         (self.next() % count.max(1) as u64) as usize
     }
 
@@ -134,7 +134,7 @@ fn line(random: &mut Random, bytes: &mut Vec<u8>, from: usize) -> usize {
 }
 
 /// Mutated bytes for each reader: a million in the long tests, which `.ci/long` runs, and in the usual ones its first tenth.
-fn bytes_to_mutate() -> usize {
+pub fn bytes_to_mutate() -> usize {
     let is_long = std::env::var("FEM_TEST_EFFORT").is_ok_and(|effort| effort == "long");
     if is_long { 1_000_000 } else { 100_000 }
 }

@@ -114,9 +114,11 @@ fn bad_lines_of_tetgen_are_refused_with_their_number() {
     assert_tetgen(nodes, "1 4 0\n0 0 1 2 99999999999999999999\n", &["m.ele, line 2: `99999999999999999999`"]);
     assert_tetgen(nodes, "1 4 0\n5 0 1 2 3\n", &["m.ele, line 2: the number 5 stands in place of 0; number"]);
     assert_tetgen("# 4-D\n4 4 0 0\n", elements, &["m.node, line 2: the dimension 4 is not", "in space"]);
-    let plane = nodes.replacen("4 3", "4 2", 1);
-    assert_tetgen(&plane, elements, &["m.ele, line 1: a mesh of elements with 4 nodes, and nodes of dimension 2"]);
-    assert_tetgen(&plane, "1 3 0\n0 0 1 2\n", &["m.node: a mesh of 1 triangles in place of tetrahedra"]);
+    let plane = "4 2 0 0\n0 0 0\n1 1 0\n2 0 1\n3 1 1\n";
+    let too_long = nodes.replacen("4 3", "4 2", 1);
+    assert_tetgen(&too_long, elements, &["m.node, line 2: `0` stands after the last entry of the node, where the row"]);
+    assert_tetgen(plane, elements, &["m.ele, line 1: a mesh of elements with 4 nodes, and nodes of dimension 2"]);
+    assert_tetgen(plane, "1 3 0\n0 0 1 2\n", &["m.node: a mesh of 1 triangles in place of tetrahedra"]);
     assert_tetgen(
         nodes,
         "1 3 0\n0 0 1 2\n",
@@ -136,7 +138,11 @@ fn bad_files_of_medit_are_refused() {
     assert_medit("Formatted 2", "Formatted 9", &["m.mesh, line 1: MEDIT version 9 is not supported; save"]);
     assert_medit("MeshVersionFormatted", "\u{1}\0", &["m.mesh, line 1", "not MEDIT's text format", "save the mesh as"]);
     assert_medit("Dimension 3", "Dimension 4", &["line 2: dimension 4 is not supported; give a mesh of `Dimension 2`"]);
-    assert_medit("Dimension 3", "Dimension 2", &["line 3: announces 4 vertices and holds"]);
+    assert_medit(
+        "Dimension 3",
+        "Dimension 2",
+        &["line 4: a row of vertices has 3 entries, and here are 4; correct the row or the dimension"],
+    );
     assert_medit("Vertices 4", "Vertices 5", &["line 3: announces 5 vertices and holds 4; correct the count"]);
     assert_medit("Vertices 4", "Vertices 3", &["line 3: announces 3 vertices and holds 4"]);
     assert_medit(
@@ -169,7 +175,7 @@ fn bad_files_of_gmsh_are_refused() {
     assert_gmsh("4.1 0 8", "4.0 1 8", &["m.msh, line 2: a binary file of Gmsh format 4.0", "-setnumber Mesh.Binary 0"]);
     assert_gmsh("4.1 0 8", "4.1 1 4", &["m.msh, line 2: a binary Gmsh file with numbers of 4 bytes"]);
     assert_gmsh("4.1 0 8", "4.1 1 8", &["m.msh, byte 24: `", "is not the integer 1 that tells the byte order"]);
-    assert_gmsh("$MeshFormat", "$NOD", &["m.msh: ", "without the section $MeshFormat"]);
+    assert_gmsh("$MeshFormat", "$NODE", &["m.msh: ", "without the section $MeshFormat"]);
     assert_gmsh("3 1 0 4", "3 1 0 5", &["m.msh, line 11: announces 5 node tags and holds 4"]);
     assert_gmsh("1 4 1 9", "1 5 1 9", &["m.msh: announces 5 nodes and holds 4"]);
     assert_gmsh("1 1 1 1", "1 2 1 1", &["m.msh: announces 2 elements and holds 1"]);
@@ -235,7 +241,11 @@ fn bad_surfaces_are_refused_with_the_line() {
     assert_obj("v 0 0 0\nv 1 0\n", &["s.obj, line 2", "is missing here"]);
     assert_obj("v 0 0 NaN\n", &["s.obj, line 1", "`NaN` is not finite"]);
     let vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    assert_obj(&format!("{vertices}f 1 2\n"), &["s.obj, line 4: ", "is missing here"]);
+    assert_obj(&format!("{vertices}f 1 2\n"), &["s.obj: the mesh has no faces"]);
+    assert_obj(
+        "v 0 0 0 1 2\n",
+        &["s.obj, line 1: `1` stands after a vertex, where the row should end; correct the row"],
+    );
     assert_obj(&format!("{vertices}f 1 2 4\n"), &["s.obj, line 4: vertex 4 does not exist", "1 to 3"]);
     assert_obj(&format!("{vertices}f 1 2 0\n"), &["s.obj, line 4: vertex 0 does not exist"]);
     assert_obj(&format!("{vertices}f 1 2 -4\n"), &["s.obj, line 4: vertex 0 does not exist"]);

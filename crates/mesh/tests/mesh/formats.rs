@@ -1,6 +1,6 @@
 //! Good files as other programs write them.
 
-use fem_mesh::{SurfaceMesh, TetrahedralMesh, read_surface, read_tetrahedra};
+use fem_mesh::{MeshSet, SurfaceMesh, TetrahedralMesh, read_surface, read_tetrahedra};
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use nalgebra::Vector3;
@@ -26,12 +26,15 @@ fn obj(text: &str) -> SurfaceMesh {
 
 #[test]
 fn tetgen_counts_from_1_with_comments_attributes_and_markers() {
-    let nodes = "# made by hand\r\n 4  3  1  1 # counts\r\n\r\n1 0 0 0 7.5 1\r\n2 1 0 0 7.5 1\r\n3 0 1 0 7.5 1\r\n4 0 0 1 7.5 -1\r\n# end";
+    let nodes = "# made by hand\r\n 4  3  1  1 # counts\r\n\r\n1 0 0 0 7.5 0\r\n2 1 0 0 7.5 0\r\n3 0 1 0 7.5 0\r\n4 0 0 1 7.5 -1\r\n# end";
     let elements = "1 4 1\n1 1 2 3 4 17\n# end\n";
+    let mut expected = corner();
+    expected.sets.insert("17".to_owned(), MeshSet { elements: vec![0], ..MeshSet::default() });
+    expected.sets.insert("-1".to_owned(), MeshSet { points: vec![3], ..MeshSet::default() });
     for names in [["m.node", "m.ele"], ["m.NODE", "m.ele"]] {
-        assert_eq!(read(&[(names[0], nodes.as_bytes()), (names[1], elements.as_bytes())]), corner());
+        assert_eq!(read(&[(names[0], nodes.as_bytes()), (names[1], elements.as_bytes())]), expected);
     }
-    assert_eq!(read(&[("m.ele", elements.as_bytes()), ("m.node", nodes.as_bytes())]), corner());
+    assert_eq!(read(&[("m.ele", elements.as_bytes()), ("m.node", nodes.as_bytes())]), expected);
 }
 
 #[test]
@@ -43,7 +46,10 @@ fn tetgen_may_leave_the_rest_of_the_first_line_out() {
 fn medit_puts_keywords_counts_and_sections_in_many_ways() {
     let text = "\u{feff}MeshVersionFormatted\n1\n\n# by hand\nDimension\n3\nTetrahedra 1\n1 2 3 4 5\nTriangles\n1\n1 2 3 0\n\
                 Corners 2 1 2\nVertices\r\n4\r\n0 0 0 1\r\n1 0 0 1\r\n0 1 0 1 0 0 1 1\r\nNormals 1 0 nan 1\nPrisms 0 End\n nothing 1 2";
-    assert_eq!(read(&[("m.mesh", text.as_bytes())]), corner());
+    let mut expected = corner();
+    expected.sets.insert("5".to_owned(), MeshSet { elements: vec![0], ..MeshSet::default() });
+    expected.sets.insert("1".to_owned(), MeshSet { points: vec![0, 1, 2, 3], ..MeshSet::default() });
+    assert_eq!(read(&[("m.mesh", text.as_bytes())]), expected);
 }
 
 #[test]

@@ -110,7 +110,10 @@ fn a_damaged_surface_is_refused_with_its_place() {
     assert!(refused("s.ply", "0.5 0.5 1 0", "0.5 half 1 0").contains("line 19: `half` is not a number"));
     assert!(refused("s.ply", "4 3 2 1 0 0.5", "4 3 2 1 9 0.5").contains("vertex 9 does not exist"));
     assert!(refused("s.ply", "4 3 2 1 0 0.5", "4 3 2 1 0.5 0.5").contains("`0.5` is not the index of a vertex"));
-    assert!(refused("s.ply", "element vertex 5", "element vertex 5000000000000").contains("a number is missing here"));
+    assert!(
+        refused("s.ply", "element vertex 5", "element vertex 5000000000000")
+            .contains("line 20: `0` stands after the last property")
+    );
     assert!(
         refused("s.ply", "property uchar red", "property colour red").contains("line 8: `property colour red` is not")
     );

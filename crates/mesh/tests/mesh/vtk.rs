@@ -50,7 +50,7 @@ pub fn binary(is_new: bool) -> Vec<u8> {
     }
     bytes.extend(b"\nCELL_TYPES 3\n");
     bytes.extend(big_endian(&[10, 5, 10]));
-    bytes.extend(b"\nCELL_DATA 3\nSCALARS x float 1\nLOOKUP_TABLE default\n\x00\x01");
+    bytes.extend(b"\nCELL_DATA 3\nSCALARS x float 1\nLOOKUP_TABLE default\n\x00\x01\n3456789ab\n");
     bytes
 }
 
@@ -58,7 +58,7 @@ pub fn binary(is_new: bool) -> Vec<u8> {
 fn both_layouts_are_read_as_text_and_binary() {
     assert_eq!(read(text(OLD).as_bytes()), mesh());
     let new = "METADATA\nINFORMATION 1\nNAME x\n\nCELLS 4 11\nOFFSETS vtktypeint64\n0 4 7 11\nCONNECTIVITY vtktypeint64\n\
-               0 1 2 3 0 1 2\n1 2 3 4\nCELL_TYPES 3\n10\n5\n10\nPOINT_DATA 5\nSCALARS a double\n";
+               0 1 2 3 0 1 2\n1 2 3 4\nCELL_TYPES 3\n10\n5\n10\nPOINT_DATA 5\nSCALARS a double\n0 1 2 3 4\n";
     assert_eq!(read(text(new).as_bytes()), mesh());
     assert_eq!(read(text(OLD).replace('\n', "\r\n").as_bytes()), mesh());
     assert_eq!(read(&binary(false)), mesh());
@@ -72,7 +72,7 @@ fn bad_files_are_refused_with_line_or_byte() {
         let message = refusal(text(OLD).replacen(from, to, 1).as_bytes());
         assert!(parts.iter().all(|part| message.contains(part)), "{message}");
     };
-    refused("# vtk", "# vkt", &["m.vtk, line 2: a .vtk file that does not begin", "ParaView"]);
+    refused("# vtk", "# vkt", &["m.vtk, line 1: a .vtk file that does not begin", "ParaView"]);
     refused("UNSTRUCTURED_GRID", "RECTILINEAR_GRID", &["line 4: the data set `DATASET RECTILINEAR_GRID` is not"]);
     refused("ASCII", "TEXT", &["line 3: `TEXT` is not ASCII or BINARY"]);
     refused("POINTS 5", "POINTS 6", &["line 8: `CELLS` is not a number"]);

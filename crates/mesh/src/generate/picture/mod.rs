@@ -40,6 +40,15 @@ impl Picture {
         self.at(i, j) > 127
     }
 
+    /// The remark that no pixel lies outside of the region, if so: its opacity may be meant to be full.
+    pub fn warning(&self) -> Option<String> {
+        let least = self.coverage.iter().min().filter(|least| **least > 127)?;
+        Some(format!(
+            "no pixel lies outside of the region, whose least opacity is {least} of 255, so nothing is cut out of the picture; make the \
+             background transparent"
+        ))
+    }
+
     /// Area of the region, in pixels.
     pub fn area(&self) -> f64 {
         self.coverage.iter().map(|&coverage| u64::from(coverage)).sum::<u64>() as f64 / 255.0

@@ -62,18 +62,20 @@ impl Numbers for Binary<'_> {
         Ok(Some(line.trim().trim_start_matches('$').to_owned()))
     }
 
-    fn skip(&mut self, section: &str) {
+    fn skip(&mut self, section: &str) -> Result<(), MeshError> {
         let end = format!("$End{section}");
         let found = self.rest().windows(end.len()).position(|window| window == end.as_bytes());
-        self.at = found.map_or(self.bytes.len(), |found| self.at + found + end.len());
+        self.at +=
+            found.ok_or_else(|| self.error(Problem::Ends { expected: "the end of the last section" }))? + end.len();
+        Ok(())
     }
 
     fn row(&mut self, _: &'static str, _: usize, _: usize) -> Result<(), MeshError> {
         Ok(())
     }
 
-    fn is_row_over(&self) -> bool {
-        true
+    fn end_row(&self, _: &'static str) -> Result<(), MeshError> {
+        Ok(())
     }
 
     fn int(&mut self, expected: &'static str) -> Result<i64, MeshError> {

@@ -1,12 +1,13 @@
 //! A mesh of tetrahedra or triangles and its named sets, from the nodes, elements and physical groups of a Gmsh file.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
-use super::super::content::Content;
+use super::super::content::{Content, Parts};
+use super::index::Index;
 use super::kinds::{Kind, LINE, POINT, TETRAHEDRON, TRIANGLE};
-use crate::{MeshSet, Problem};
+use crate::Problem;
 
 const FIRST_ORDER: &str = "mesh with triangles and tetrahedra of first order, or leave them out of the physical group";
 
@@ -15,23 +16,10 @@ pub(super) type Group = (usize, i64);
 
 #[derive(Default)]
 pub(super) struct Builder {
-    places: Vec<Vector3<f64>>,
-    /// From a node's tag, any integer, to its index in `places`.
-    index: HashMap<i64, usize>,
-    tetrahedra: Vec<[usize; 4]>,
-    triangles: Vec<[usize; 3]>,
+    pub content: Content,
+    index: Index,
     names: HashMap<Group, String>,
-    sets: HashMap<Group, Parts>,
-    /// Polygons that are no triangles with 3 nodes, in words.
-    skipped: Option<String>,
-}
-
-/// The parts of a physical group; `rest` has its edges and points.
-#[derive(Clone, Default)]
-struct Parts {
-    tetrahedra: Vec<usize>,
-    triangles: Vec<usize>,
-    rest: MeshSet,
+    groups: HashMap<Group, Parts>,
 }
 
 impl Builder {
@@ -42,30 +30,28 @@ impl Builder {
 
     /// Adds a tag for the node whose position comes next but `ahead`.
     pub(super) fn add_tag(&mut self, tag: i64, ahead: usize) -> Result<(), Problem> {
-        match self.index.insert(tag, self.places.len() + ahead) {
-            None => Ok(()),
-            Some(_) => Err(Problem::RepeatedTag { tag }),
-        }
+        let is_new = self.index.insert(tag, self.content.vertices.len() + ahead);
+        if is_new { Ok(()) } else { Err(Problem::RepeatedTag { tag }) }
     }
 
     /// Adds the position of a node, m.
     pub(super) fn add_place(&mut self, place: Vector3<f64>) {
-        self.places.push(place);
+        self.content.vertices.push(place);
     }
 
     /// Number of nodes so far.
     pub(super) fn nodes(&self) -> usize {
-        self.places.len()
+        self.content.vertices.len()
     }
 
     /// Number of elements of this kind so far.
     pub(super) fn elements(&self, kind: Kind) -> usize {
-        if kind.number == TETRAHEDRON { self.tetrahedra.len() } else { self.triangles.len() }
+        if kind.number == TETRAHEDRON { self.content.tetrahedra.len() } else { self.content.triangles.len() }
     }
 
     /// Adds a tetrahedron or a triangle of the mesh to another physical group.
     pub(super) fn add_to_group(&mut self, kind: Kind, element: usize, group: Group) {
-        let parts = self.sets.entry(group).or_default();
+        let parts = self.groups.entry(group).or_default();
         let list = if kind.number == TETRAHEDRON { &mut parts.tetrahedra } else { &mut parts.triangles };
         list.push(element);
     }
@@ -74,25 +60,26 @@ impl Builder {
     pub(super) fn add_element(&mut self, kind: Kind, tags: &[i64], groups: &[Group]) -> Result<(), Problem> {
         if ![TETRAHEDRON, TRIANGLE].contains(&kind.number) && groups.is_empty() {
             if kind.dimension == 2 {
-                self.skipped = Some(format!("a surface of {} (Gmsh's element type {})", kind.name, kind.number));
+                self.content.skipped =
+                    Some(format!("a surface of {} (Gmsh's element type {})", kind.name, kind.number));
             }
             return Ok(());
         }
-        let node = |&tag: &i64| self.index.get(&tag).copied().ok_or(Problem::UnknownTag { tag });
+        let node = |&tag: &i64| self.index.get(tag).ok_or(Problem::UnknownTag { tag });
         let nodes = tags.iter().map(node).collect::<Result<Vec<_>, _>>()?;
         let element = self.elements(kind);
         let sets = groups.iter().copied();
         match (kind.number, &nodes[..]) {
             (TETRAHEDRON, &[a, b, c, d]) => {
-                self.tetrahedra.push([a, b, c, d]);
+                self.content.tetrahedra.push([a, b, c, d]);
                 sets.for_each(|group| self.add_to_group(kind, element, group));
             }
             (TRIANGLE, &[a, b, c]) => {
-                self.triangles.push([a, b, c]);
+                self.content.triangles.push([a, b, c]);
                 sets.for_each(|group| self.add_to_group(kind, element, group));
             }
-            (LINE, &[a, b]) => sets.for_each(|group| self.rest(group).edges.push([a, b])),
-            (POINT, &[a]) => sets.for_each(|group| self.rest(group).points.push(a)),
+            (LINE, &[a, b]) => sets.for_each(|group| self.groups.entry(group).or_default().edges.push([a, b])),
+            (POINT, &[a]) => sets.for_each(|group| self.groups.entry(group).or_default().points.push(a)),
             _ => {
                 let found = format!("a physical group of {} (Gmsh's element type {})", kind.name, kind.number);
                 return Err(Problem::Unsupported { found, instead: FIRST_ORDER });
@@ -101,27 +88,13 @@ impl Builder {
         Ok(())
     }
 
-    fn rest(&mut self, group: Group) -> &mut MeshSet {
-        &mut self.sets.entry(group).or_default().rest
-    }
-
-    /// The mesh. A group has its name, or its number if it has none. Its triangles are faces of tetrahedra, or elements if the file has
-    /// no tetrahedra.
+    /// The mesh. A group has its name, or its number if it has none.
     pub(super) fn finish(self) -> Content {
-        let mut sets: BTreeMap<String, MeshSet> = BTreeMap::new();
-        for (group, Parts { tetrahedra, triangles, rest: mut set }) in self.sets {
+        let mut content = self.content;
+        for (group, parts) in self.groups {
             let name = self.names.get(&group).cloned().unwrap_or_else(|| group.1.to_string());
-            if self.tetrahedra.is_empty() {
-                set.elements = triangles;
-            } else {
-                set.elements = tetrahedra;
-                set.faces = triangles.into_iter().map(|triangle| self.triangles[triangle]).collect();
-            }
-            sets.entry(name).or_default().extend(set);
+            content.groups.entry(name).or_default().extend(parts);
         }
-        sets.values_mut().for_each(MeshSet::sort);
-        let (vertices, tetrahedra) = (self.places, self.tetrahedra);
-        let triangles = if tetrahedra.is_empty() { self.triangles } else { Vec::new() };
-        Content { vertices, tetrahedra, triangles, sets, skipped: self.skipped }
+        content
     }
 }

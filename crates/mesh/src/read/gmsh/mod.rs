@@ -1,8 +1,9 @@
-//! Gmsh's files: versions 2.0 to 2.2 and 4.1, text and binary, and 4.0 as text. Source: Gmsh reference manual, section «MSH file
+//! Gmsh's files: version 1 and 4.0 as text, versions 2.0 to 2.2 and 4.1 as text and binary. Source: Gmsh reference manual, section «MSH file
 //! format» and its appendix.
 
 mod binary;
 mod builder;
+mod index;
 mod kinds;
 mod numbers;
 mod version2;
@@ -23,6 +24,7 @@ const CONVERT: &str = "convert it with `gmsh IN.msh -0 -format msh41 -setnumber 
 
 #[derive(Clone, Copy, PartialEq)]
 enum Version {
+    V1,
     V2,
     V4(Layout),
 }
@@ -54,12 +56,20 @@ fn read_sections(numbers: &mut dyn Numbers, version: Version, is_binary: bool) -
     while let Some(section) = numbers.section()? {
         match (&section[..], version) {
             ("PhysicalNames", _) => read_names(numbers, &mut mesh)?,
-            ("Entities", Version::V4(layout)) => entities = version4::read_entities(numbers, layout)?,
+            ("Entities", Version::V4(layout)) => version4::read_entities(numbers, layout, &mut entities)?,
+            ("PartitionedEntities", Version::V4(layout)) => version4::read_partitioned(numbers, layout, &mut entities)?,
             ("Nodes", Version::V4(layout)) => version4::read_nodes(numbers, layout, &mut mesh)?,
             ("Elements", Version::V4(layout)) => version4::read_elements(numbers, layout, &entities, &mut mesh)?,
-            ("Nodes", Version::V2) => version2::read_nodes(numbers, &mut mesh)?,
-            ("Elements", Version::V2) => version2::read_elements(numbers, is_binary, &mut mesh)?,
-            (other, _) => numbers.skip(other),
+            ("Nodes", Version::V2) | ("NOD", Version::V1) => version2::read_nodes(numbers, &section, &mut mesh)?,
+            ("Elements", Version::V2) | ("ELM", Version::V1) => {
+                version2::read_elements(numbers, is_binary, version == Version::V1, &mut mesh)?
+            }
+            (other, _) => {
+                numbers.skip(other)?;
+                if !["MeshFormat", "Comments"].contains(&other) {
+                    mesh.content.notes.unread(format!("the section ${other}"));
+                }
+            }
         }
     }
     Ok(mesh.finish())
@@ -91,7 +101,11 @@ fn read_format(file: &Path, bytes: &[u8]) -> Result<Format, MeshError> {
         (number + 1, end, String::from_utf8_lossy(line))
     });
     let missing = || MeshError::in_file(file, unsupported("a file without the section $MeshFormat".to_owned()));
-    lines.find(|(_, _, line)| line.trim_start_matches('\u{feff}').trim() == "$MeshFormat").ok_or_else(missing)?;
+    let is_first = |line: &str| ["$MeshFormat", "$NOD"].contains(&line.trim_start_matches('\u{feff}').trim());
+    let (_, _, first) = lines.find(|(_, _, line)| is_first(line)).ok_or_else(missing)?;
+    if first.trim() == "$NOD" {
+        return Ok(Format { version: Version::V1, is_binary: false, end: 0 });
+    }
     let expected = "the version";
     let ends = || MeshError::in_file(file, Problem::Ends { expected });
     let (number, end, line) = lines.find(|(_, _, line)| !line.trim().is_empty()).ok_or_else(ends)?;

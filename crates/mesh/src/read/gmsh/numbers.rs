@@ -12,14 +12,14 @@ pub(super) trait Numbers {
     /// The name of the next section, without its `$`; `None` at the end of the file.
     fn section(&mut self) -> Result<Option<String>, MeshError>;
 
-    /// Goes to the end of a section.
-    fn skip(&mut self, section: &str);
+    /// Goes to the end of a section. Returns an error if it has none.
+    fn skip(&mut self, section: &str) -> Result<(), MeshError>;
 
     /// Begins the row after the first `found` of `announced` rows.
     fn row(&mut self, what: &'static str, announced: usize, found: usize) -> Result<(), MeshError>;
 
-    /// Returns true if no number is left in the row.
-    fn is_row_over(&self) -> bool;
+    /// Ends the row: no number may be left in it. `last` describes the last one.
+    fn end_row(&self, last: &'static str) -> Result<(), MeshError>;
 
     /// An integer, of 4 bytes in a binary file.
     fn int(&mut self, expected: &'static str) -> Result<i64, MeshError>;
@@ -71,12 +71,18 @@ impl<'a> Text<'a> {
 
 impl Numbers for Text<'_> {
     fn section(&mut self) -> Result<Option<String>, MeshError> {
-        Ok(self.lines.find_map(|line| Some(line.peek()?.strip_prefix('$')?.to_owned())))
+        let Some(line) = self.lines.next() else { return Ok(None) };
+        let word = line.peek().unwrap_or_default();
+        let problem =
+            || Problem::NotA { word: word.to_owned(), expected: "the beginning of a section, such as `$Nodes`" };
+        let name = word.strip_prefix('$').ok_or_else(|| line.error(problem()))?;
+        Ok(Some(name.to_owned()))
     }
 
-    fn skip(&mut self, section: &str) {
+    fn skip(&mut self, section: &str) -> Result<(), MeshError> {
         let end = format!("$End{section}");
-        self.lines.find(|line| line.peek() == Some(&end));
+        let ends = || MeshError::in_file(self.file, Problem::Ends { expected: "the end of the last section" });
+        self.lines.find(|line| line.peek() == Some(&end)).map(drop).ok_or_else(ends)
     }
 
     fn row(&mut self, what: &'static str, announced: usize, found: usize) -> Result<(), MeshError> {
@@ -86,8 +92,8 @@ impl Numbers for Text<'_> {
         Ok(())
     }
 
-    fn is_row_over(&self) -> bool {
-        self.line.peek().is_none()
+    fn end_row(&self, last: &'static str) -> Result<(), MeshError> {
+        self.line.end(last)
     }
 
     fn int(&mut self, expected: &'static str) -> Result<i64, MeshError> {

@@ -1,4 +1,4 @@
-//! Sections of versions 2.0 to 2.2, in which every element names its physical group.
+//! Sections of versions 1 and 2.0 to 2.2, in which every element names its physical group.
 
 use std::collections::HashMap;
 
@@ -8,20 +8,27 @@ use super::numbers::Numbers;
 use crate::{MeshError, Problem};
 
 /// A count, then `<tag> <x> <y> <z>` for each node.
-pub(super) fn read_nodes(numbers: &mut dyn Numbers, mesh: &mut Builder) -> Result<(), MeshError> {
+pub(super) fn read_nodes(numbers: &mut dyn Numbers, section: &str, mesh: &mut Builder) -> Result<(), MeshError> {
     let announced = numbers.text_count("the number of nodes")?;
     for row in 0..announced {
         numbers.row("nodes", announced, row)?;
         let tag = numbers.int("the tag of a node")?;
         mesh.add_tag(tag, 0).map_err(|problem| numbers.error(problem))?;
         mesh.add_place(numbers.place()?);
+        numbers.end_row("the coordinates of the node")?;
     }
-    numbers.end("Nodes", "nodes", announced, mesh.nodes())
+    numbers.end(section, "nodes", announced, mesh.nodes())
 }
 
-/// A count, then `<tag> <type> <tags> <tag …> <nodes …>` for each element. In a binary file elements of one type and number of
-/// tags follow each other: `<type> <elements> <tags>`, then `<tag> <tag …> <nodes …>` for each.
-pub(super) fn read_elements(numbers: &mut dyn Numbers, is_binary: bool, mesh: &mut Builder) -> Result<(), MeshError> {
+/// A count, then `<tag> <type> <tags> <tag …> <nodes …>` for each element, or in version 1 `<tag> <type> <group> <entity> <number of nodes>
+/// <nodes …>`. In a binary file elements of one type and number of tags follow each other: `<type> <elements> <tags>`, then `<tag> <tag …>
+/// <nodes …>` for each.
+pub(super) fn read_elements(
+    numbers: &mut dyn Numbers,
+    is_binary: bool,
+    is_first: bool,
+    mesh: &mut Builder,
+) -> Result<(), MeshError> {
     let announced = numbers.text_count("the number of elements")?;
     let (mut found, mut known) = (0, Known::new());
     while found < announced {
@@ -31,7 +38,8 @@ pub(super) fn read_elements(numbers: &mut dyn Numbers, is_binary: bool, mesh: &m
         }
         let number = numbers.int("the type of an element")?;
         let count = if is_binary { amount(numbers, "the number of elements that follow")? } else { 1 };
-        let tags = amount(numbers, "the number of tags")?;
+        // Version 1 has the group, the entity and the number of nodes in place of the tags.
+        let tags = if is_first { 3 } else { amount(numbers, "the number of tags")? };
         let kind = kind(number).map_err(|problem| numbers.error(problem))?;
         for _ in 0..count {
             if is_binary {
@@ -41,7 +49,7 @@ pub(super) fn read_elements(numbers: &mut dyn Numbers, is_binary: bool, mesh: &m
         }
         found += count;
     }
-    numbers.end("Elements", "elements", announced, found)
+    numbers.end(if is_first { "ELM" } else { "Elements" }, "elements", announced, found)
 }
 
 /// Tetrahedra and triangles of physical groups so far: index and groups by the type and the tags of the nodes, 0 for the fourth of a
@@ -64,6 +72,7 @@ fn read_element(
     for _ in 0..kind.nodes {
         nodes.push(numbers.int("the tag of a node")?);
     }
+    numbers.end_row("the nodes of the element")?;
     let groups: &[Group] = if group == 0 { &[] } else { &[(kind.dimension, group)] };
     if [TETRAHEDRON, TRIANGLE].contains(&kind.number)
         && let &[group] = groups

@@ -17,19 +17,62 @@ pub(super) enum Layout {
 /// Physical groups of each entity, by dimension and tag.
 pub(super) type Entities = HashMap<(usize, i64), Vec<Group>>;
 
-/// Counts of the entities of each dimension, then for each: tag, bounding box (4.1: points have a position), physical groups,
-/// and for curves to volumes the entities of its boundary.
-pub(super) fn read_entities(numbers: &mut dyn Numbers, layout: Layout) -> Result<Entities, MeshError> {
-    numbers.row("entities", 1, 0)?;
+/// Counts of the entities of each dimension, then the entities.
+pub(super) fn read_entities(
+    numbers: &mut dyn Numbers,
+    layout: Layout,
+    entities: &mut Entities,
+) -> Result<(), MeshError> {
+    let count = read_list(numbers, layout, entities, |_| Ok(()))?;
+    numbers.end("Entities", "entities", count, count)
+}
+
+/// The number of partitions, then that of ghost entities and `<tag> <partition>` of each, then entities that have their parent's
+/// dimension and tag and their partitions after their own tag.
+pub(super) fn read_partitioned(
+    numbers: &mut dyn Numbers,
+    layout: Layout,
+    entities: &mut Entities,
+) -> Result<(), MeshError> {
+    numbers.row("numbers of partitions", 1, 0)?;
+    numbers.count("the number of partitions")?;
+    numbers.row("numbers of ghost entities", 1, 0)?;
+    let ghosts = numbers.count("the number of ghost entities")?;
+    for row in 0..ghosts {
+        numbers.row("ghost entities", ghosts, row)?;
+        numbers.int("the tag of a ghost entity")?;
+        numbers.int("the partition of a ghost entity")?;
+    }
+    let count = read_list(numbers, layout, entities, |numbers| {
+        numbers.int("the dimension of a parent")?;
+        numbers.int("the tag of a parent")?;
+        for _ in 0..numbers.count("the number of partitions of an entity")? {
+            numbers.int("a partition of an entity")?;
+        }
+        Ok(())
+    })?;
+    numbers.end("PartitionedEntities", "entities", count, count)
+}
+
+/// Counts of the entities of each dimension, then for each: tag, what `middle` reads, bounding box (4.1: points have a position),
+/// physical groups, and for curves to volumes the entities of its boundary. Returns their number.
+fn read_list(
+    numbers: &mut dyn Numbers,
+    layout: Layout,
+    entities: &mut Entities,
+    middle: impl Fn(&mut dyn Numbers) -> Result<(), MeshError>,
+) -> Result<usize, MeshError> {
+    numbers.row("numbers of entities", 1, 0)?;
     let mut counts = [0; 4];
     for count in &mut counts {
         *count = numbers.count("the number of entities")?;
     }
-    let mut entities = Entities::new();
+    numbers.end_row("the numbers of entities")?;
     for (dimension, &count) in counts.iter().enumerate() {
         for row in 0..count {
             numbers.row("entities", count, row)?;
             let tag = numbers.int("the tag of an entity")?;
+            middle(numbers)?;
             let extent = if dimension == 0 && layout == Layout::V41 { 3 } else { 6 };
             for _ in 0..extent {
                 numbers.real("a coordinate of an entity")?;
@@ -44,11 +87,11 @@ pub(super) fn read_entities(numbers: &mut dyn Numbers, layout: Layout) -> Result
                     numbers.int("the tag of a bounding entity")?;
                 }
             }
+            numbers.end_row("the last entry of the entity")?;
             entities.insert((dimension, tag), groups);
         }
     }
-    numbers.end("Entities", "entities", 0, 0)?;
-    Ok(entities)
+    Ok(counts.iter().sum())
 }
 
 /// `<blocks> <nodes> …`, then blocks of `<dim> <tag> <parametric> <nodes>`; all tags stand before all positions (4.1),
@@ -60,6 +103,7 @@ pub(super) fn read_nodes(numbers: &mut dyn Numbers, layout: Layout, mesh: &mut B
         let dimension = entity(numbers, layout)?.0;
         let is_parametric = numbers.int("whether the nodes are parametric")? != 0;
         let count = numbers.count("the number of nodes of the block")?;
+        numbers.end_row("the number of nodes of the block")?;
         if layout == Layout::V41 {
             read_tags(numbers, count, mesh)?;
         }
@@ -72,6 +116,7 @@ pub(super) fn read_nodes(numbers: &mut dyn Numbers, layout: Layout, mesh: &mut B
             for _ in 0..if is_parametric { dimension } else { 0 } {
                 numbers.real("a parametric coordinate")?;
             }
+            numbers.end_row("the coordinates of the node")?;
         }
     }
     numbers.end("Nodes", "nodes", announced, mesh.nodes())
@@ -82,9 +127,8 @@ fn read_tags(numbers: &mut dyn Numbers, count: usize, mesh: &mut Builder) -> Res
         numbers.row("nodes", count, row)?;
         add_tag(numbers, mesh, row)?;
         // A line with more numbers is a position.
-        if !numbers.is_row_over() {
-            return Err(numbers.error(Problem::WrongCount { what: "node tags", announced: count, found: row }));
-        }
+        let fewer = |_| numbers.error(Problem::WrongCount { what: "node tags", announced: count, found: row });
+        numbers.end_row("the tag of a node").map_err(fewer)?;
     }
     Ok(())
 }
@@ -108,6 +152,7 @@ pub(super) fn read_elements(
         let (dimension, tag) = entity(numbers, layout)?;
         let number = numbers.int("the type of the block's elements")?;
         let count = numbers.count("the number of elements of the block")?;
+        numbers.end_row("the number of elements of the block")?;
         if count == 0 {
             continue;
         }
@@ -120,6 +165,7 @@ pub(super) fn read_elements(
             for tag in &mut tags {
                 *tag = numbers.long("the tag of a node")?;
             }
+            numbers.end_row("the nodes of the element")?;
             mesh.add_element(kind, &tags, groups).map_err(|problem| numbers.error(problem))?;
         }
         found += count;
@@ -135,6 +181,7 @@ fn header(numbers: &mut dyn Numbers, layout: Layout) -> Result<(usize, usize), M
         numbers.long("the smallest tag")?;
         numbers.long("the largest tag")?;
     }
+    numbers.end_row("the counts of the section")?;
     Ok(counts)
 }
 

@@ -67,10 +67,33 @@ impl<'a> Reader<'a> {
 
     pub(super) fn skip_array(&mut self, count: usize, kind: &str) -> Result<(), MeshError> {
         match kind {
+            "string" => self.skip_strings(count),
             _ if !self.is_binary => (0..count).try_for_each(|_| self.expected("an entry of a field").map(drop)),
             "float" | "double" => self.reals(count, kind).map(drop),
+            "bit" => self.numbers(count.div_ceil(8), |[byte]: [u8; 1]| byte).map(drop),
             _ => self.integers(count, kind).map(drop),
         }
+    }
+
+    /// Strings: a line each in text; in a binary file each after its length, whose first two bits tell the bytes that it takes.
+    fn skip_strings(&mut self, count: usize) -> Result<(), MeshError> {
+        self.line();
+        for _ in 0..count {
+            let ends = self.malformed("an array of strings is cut short".to_owned());
+            let &first = self.rest().first().ok_or(ends.clone())?;
+            if !self.is_binary {
+                self.line();
+                continue;
+            }
+            let width = [8, 4, 2, 1][usize::from(first >> 6)];
+            let bytes = self.rest().get(..width).ok_or(ends.clone())?;
+            let length = bytes.iter().fold(0_u64, |length, &byte| length << 8 | u64::from(byte));
+            let length = usize::try_from(length & (u64::MAX >> (64 - 8 * width + 2))).unwrap_or(usize::MAX);
+            let end = width.saturating_add(length);
+            self.rest().get(..end).ok_or(ends)?;
+            self.at += end;
+        }
+        Ok(())
     }
 
     pub(super) fn reals(&mut self, count: usize, kind: &str) -> Result<Vec<f64>, MeshError> {
@@ -85,12 +108,15 @@ impl<'a> Reader<'a> {
     pub(super) fn integers(&mut self, count: usize, kind: &str) -> Result<Vec<i64>, MeshError> {
         match kind {
             _ if !self.is_binary => self.words(count, "an integer"),
-            "char" | "unsigned_char" => self.numbers(count, |[byte]| byte.into()),
-            "short" | "unsigned_short" => self.numbers(count, |bytes| i16::from_be_bytes(bytes).into()),
-            "int" | "unsigned_int" | "vtkIdType" | "vtktypeint32" => {
-                self.numbers(count, |bytes| i32::from_be_bytes(bytes).into())
+            "char" | "signed_char" | "unsigned_char" => self.numbers(count, |[byte]| byte.into()),
+            "short" | "vtktypeint16" => self.numbers(count, |bytes| i16::from_be_bytes(bytes).into()),
+            "unsigned_short" | "vtktypeuint16" => self.numbers(count, |bytes| u16::from_be_bytes(bytes).into()),
+            "int" | "vtkIdType" | "vtktypeint32" => self.numbers(count, |bytes| i32::from_be_bytes(bytes).into()),
+            "unsigned_int" | "vtktypeuint32" => self.numbers(count, |bytes| u32::from_be_bytes(bytes).into()),
+            // A number that does not fit becomes a negative one, which is no index either.
+            "long" | "unsigned_long" | "vtktypeint64" | "vtktypeuint64" | "unsigned_vtktypeint64" => {
+                self.numbers(count, i64::from_be_bytes)
             }
-            "long" | "unsigned_long" | "vtktypeint64" => self.numbers(count, i64::from_be_bytes),
             _ => Err(self.unsupported_type(kind)),
         }
     }
@@ -125,4 +151,9 @@ impl<'a> Reader<'a> {
         self.at += array.len();
         Ok(array.as_chunks().0.iter().map(|&chunk| number(chunk)).collect())
     }
+}
+
+/// Returns true for VTK's names of integer types.
+pub(super) fn is_integer(kind: &str) -> bool {
+    !["float", "double", "string", "bit", "variant", "utf8_string"].contains(&kind)
 }

@@ -133,6 +133,8 @@ impl<'a> Arrays<'a> {
         match array.attribute("type") {
             Some("Int8") => Ok(numbers(&bytes, |b| i8::from_le_bytes(b).into())),
             Some("UInt8") => Ok(numbers(&bytes, |b| u8::from_le_bytes(b).into())),
+            Some("Int16") => Ok(numbers(&bytes, |b| i16::from_le_bytes(b).into())),
+            Some("UInt16") => Ok(numbers(&bytes, |b| u16::from_le_bytes(b).into())),
             Some("Int32") => Ok(numbers(&bytes, |b| i32::from_le_bytes(b).into())),
             Some("UInt32") => Ok(numbers(&bytes, |b| u32::from_le_bytes(b).into())),
             Some("Int64") => Ok(numbers(&bytes, i64::from_le_bytes)),

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use roxmltree::{Document, Node};
 
 use self::array::{Arrays, split_appended};
-use super::cells;
+use super::cells::{self, Cells, Field};
 use super::content::Content;
 use crate::{MeshError, Problem};
 
@@ -46,26 +46,46 @@ fn read_points(arrays: &Arrays, points: Node) -> Result<Vec<Vector3<f64>>, MeshE
     }
 }
 
-/// Adds a piece's cells, whose corners are indices of its own points.
+/// Adds a piece's cells, whose corners are indices of its own points, and its sets.
 fn read_cells(arrays: &Arrays, piece: Node, points: usize, content: &mut Content) -> Result<(), MeshError> {
     let cells = arrays.child(piece, "Cells")?;
     let kinds = arrays.integers(arrays.named(cells, "types")?)?;
     let ends = arrays.integers(arrays.named(cells, "offsets")?)?;
     let connectivity = arrays.integers(arrays.named(cells, "connectivity")?)?;
     arrays.check_count(piece, "NumberOfCells", "cells", kinds.len())?;
-    if ends.len() != kinds.len() {
-        let problem = Problem::WrongCount { what: "cells", announced: kinds.len(), found: ends.len() };
-        return Err(arrays.error(cells, problem));
-    }
-    content.tetrahedra.reserve_exact(cells::tetrahedra(&kinds));
-    let mut start = 0;
-    for (cell, (&kind, &end)) in kinds.iter().zip(&ends).enumerate() {
-        let corners = usize::try_from(end).ok().and_then(|end| connectivity.get(start..end)).ok_or_else(|| {
-            let reason = format!("cell {cell} ends at {end} in a connectivity of {} numbers", connectivity.len());
-            arrays.error(cells, Problem::Malformed { reason })
-        })?;
-        start += corners.len();
-        cells::add(content, cell, kind, corners, points).map_err(|problem| arrays.error(cells, problem))?;
-    }
+    let fields = fields(arrays, piece, "CellData", kinds.len(), content)?;
+    let found = Cells { ends: &ends, connectivity: &connectivity, kinds: &kinds };
+    cells::add_all(content, &found, points, fields).map_err(|problem| arrays.error(cells, problem))?;
+    let fields = self::fields(arrays, piece, "PointData", points, content)?;
+    cells::add_points(content, points, fields);
     Ok(())
+}
+
+/// The fields that may make sets: those of single integers. Others are named as not read.
+fn fields(
+    arrays: &Arrays,
+    piece: Node,
+    of: &str,
+    count: usize,
+    content: &mut Content,
+) -> Result<Vec<Field>, MeshError> {
+    let mut fields = Vec::new();
+    let Some(data) = piece.children().find(|child| child.has_tag_name(of)) else { return Ok(fields) };
+    for array in data.children().filter(|child| child.is_element()) {
+        let name = array.attribute("Name").unwrap_or("(without a name)");
+        let is_scalar = array.attribute("NumberOfComponents").is_none_or(|components| components.trim() == "1");
+        let is_integer =
+            array.attribute("type").is_some_and(|kind| kind.starts_with("Int") || kind.starts_with("UInt"));
+        if name == "vtkGhostType" || !is_scalar || !is_integer {
+            content.notes.unread(format!("the field `{name}`"));
+            continue;
+        }
+        let values = arrays.integers(array)?;
+        if values.len() != count {
+            let problem = Problem::WrongCount { what: "values of a field", announced: count, found: values.len() };
+            return Err(arrays.error(array, problem));
+        }
+        fields.push(Field { name: name.to_owned(), values });
+    }
+    Ok(fields)
 }
