@@ -14,7 +14,7 @@ use fem_mesh::MeshError;
 const LINE: usize = 120;
 
 /// The order of the tables in a file.
-const ORDER: [&str; 27] = [
+const ORDER: [&str; 28] = [
     "about",
     "pipeline",
     "mesh",
