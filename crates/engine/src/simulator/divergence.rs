@@ -204,7 +204,8 @@ impl<T: Real> SuppliedEnergy<T> {
         self.make_room(system.nodes());
         let Self { force, change, .. } = self;
         if integrator.is_unconditionally_stable() {
-            system.force(&state.u, &state.v, &before.u, Moment::at(before.time + dt), force);
+            let damping_at = system.damping_displacements(before, dt);
+            system.force(&state.u, &state.v, &damping_at, Moment::at(before.time + dt), force);
         } else {
             system.force(&before.u, &before.v, &before.u, integrator.moment(before), force);
         }

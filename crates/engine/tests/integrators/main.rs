@@ -42,6 +42,7 @@ mod twists;
 mod unconverged;
 mod vertex_block_descent;
 mod vibrations;
+mod viscosity;
 mod work;
 
 use std::path::Path;
