@@ -102,7 +102,7 @@ fn set_material(scene: &mut Scene, material: &SoftBodyMaterial) {
         damping: None,
     };
     if let Some([alpha, beta]) = material.damping {
-        scene.damping = Some(DampingTable { alpha, beta });
+        scene.damping = Some(DampingTable { alpha, beta, ..DampingTable::default() });
     }
 }
 

@@ -17,7 +17,7 @@ pub struct SoftBodyMaterial {
     pub poisson: f64,
     /// Density, kg/m³; above 0.
     pub density: f64,
-    /// Rayleigh damping in place of the scene's `[damping]`: α of the mass, 1/s, and β of the stiffness, s.
+    /// Damping in place of the scene's `[damping]`: α of the mass, 1/s, and β of the stiffness, s.
     pub damping: Option<[f64; 2]>,
 }
 

@@ -13,9 +13,9 @@ use crate::picture;
 use crate::simulation::Shape;
 use crate::tables::{MeshTable, SurfaceTable};
 use crate::values::{
-    Contact, DirichletCondition, Drag, MaterialRegion, NodalForce, Plasticity, Pressure, RayleighDamping, Spring,
-    Traction, contact, curve, damping, density_factors, dirichlet_conditions, drag, initial_velocity, nodal_forces,
-    plasticity, regions, springs, surface_loads,
+    Contact, Damping, DirichletCondition, Drag, MaterialRegion, NodalForce, Plasticity, Pressure, Spring, Traction,
+    contact, curve, damping, density_factors, dirichlet_conditions, drag, initial_velocity, nodal_forces, plasticity,
+    regions, springs, surface_loads,
 };
 use crate::{BodyMesh, LoadCurve, Material, Scene, SceneError};
 use fem_mesh::{SurfaceMesh, TetrahedralMesh};
@@ -67,8 +67,8 @@ pub struct Body {
     pub contact: Option<Contact>,
     /// The scripted drag.
     pub drag: Option<Drag>,
-    /// Rayleigh damping; `None` if both coefficients are zero.
-    pub damping: Option<RayleighDamping>,
+    /// Damping; `None` if both coefficients are zero.
+    pub damping: Option<Damping>,
 }
 
 impl Body {

@@ -75,13 +75,13 @@ pub use mass::{CONSISTENT_MASS, lumps_mass};
 pub use overrides::Override;
 pub use save::{SaveError, save};
 pub use tables::{
-    Axis, MODELS, Material, Pipeline, PlaneState, Precision, Preconditioner, Projection, Scene, SolverKind,
+    Axis, DampingForm, MODELS, Material, Pipeline, PlaneState, Precision, Preconditioner, Projection, Scene, SolverKind,
 };
 pub use timer::Timer;
 pub use values::{
-    Contact, ContactPlane, ContactTreatment, DirichletCondition, Drag, EnvironmentValues, IterationSettings,
+    Contact, ContactPlane, ContactTreatment, Damping, DirichletCondition, Drag, EnvironmentValues, IterationSettings,
     MaterialRegion, Method, Motion, NewmarkParameters, NewtonSettings, NodalForce, PlaneMotion, Plasticity, Pressure,
-    RayleighDamping, Rotation, SolverSettings, Spring, Traction, highest_node,
+    Rotation, SolverSettings, Spring, Traction, highest_node,
 };
 pub use warnings::warnings;
 

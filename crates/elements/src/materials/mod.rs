@@ -11,6 +11,7 @@ mod hencky;
 mod invariants;
 mod isochoric;
 mod isotropic;
+mod kelvin_voigt;
 mod linear;
 mod logarithmic;
 mod mooney_rivlin;
@@ -24,6 +25,7 @@ mod yeoh;
 
 pub use cauchy::{cauchy_stress, in_plane_stress};
 pub use invariants::OfInvariants;
+pub use kelvin_voigt::KelvinVoigt;
 pub use plane_corotated::PlaneCorotated;
 pub use quadratic_form::QuadraticForm;
 pub use vectorized::Vectorized;

@@ -9,7 +9,7 @@
 
 use super::{Flow, Internal};
 use crate::materials::{Kirchhoff, Law, Logarithmic, derivative_from, projected_derivative_from};
-use crate::number::{Number, constant};
+use crate::number::{Float, Number, constant};
 use crate::tensor::{Tensor, Tensor4, from_fn, half, plus_identity, product, transpose};
 
 /// The parameters, Pa, and the internal variables at the start of a step.
@@ -29,6 +29,9 @@ pub struct J2<T> {
     pub strain: T,
 }
 
+/// Distance from the yield surface that counts as rounding error, as a multiple of the yield stress and the machine epsilon.
+const ON_SURFACE: f64 = 1e4;
+
 /// A trial state and its return to the yield surface.
 struct Returned<T> {
     trial: Logarithmic<T>,
@@ -46,19 +49,9 @@ struct Returned<T> {
 }
 
 impl<T: Number> J2<T> {
-    /// The displacement gradient of F Fᵖ⁻¹.
-    #[inline(always)]
-    fn trial(&self, G: &Tensor<T>) -> Tensor<T> {
-        let of_both = product(G, &self.plastic);
-        from_fn(
-            #[inline(always)]
-            |i, j| G[i][j] + self.plastic[i][j] + of_both[i][j],
-        )
-    }
-
     #[inline(always)]
     fn returned(&self, G: &Tensor<T>) -> Returned<T> {
-        let trial = Logarithmic::new(&self.trial(G));
+        let trial = Logarithmic::new(&trial(&self.plastic, G));
         let e = &trial.strains;
         let volume = e[0] + e[1] + e[2];
         let mean = constant::<T>(1.0 / 3.0) * volume;
@@ -70,7 +63,10 @@ impl<T: Number> J2<T> {
         let yields = excess.gt(T::zero());
         let flow = (excess / (three_mu + self.hardening)).select(yields, T::zero());
         let elastic = (T::one() - three_mu * flow / q).select(yields, T::one());
-        let slope = (self.hardening / (three_mu + self.hardening)).select(yields, T::one());
+        // A flow ends on the yield surface, where rounding errors choose the side; the derivative there is that of unloading.
+        let on_surface = constant::<T>(ON_SURFACE * Float::as_f64(<T::Element as Float>::EPSILON));
+        let is_beyond = excess.gt(on_surface * (self.yield_stress + self.hardening * self.strain));
+        let slope = (self.hardening / (three_mu + self.hardening)).select(is_beyond, T::one());
         Returned { trial, deviator, norm, volume, flow, elastic, slope }
     }
 
@@ -109,26 +105,36 @@ impl<T: Number> J2<T> {
     fn stress_of(&self, at: &Returned<T>) -> Tensor<T> {
         product(&at.trial.stress(&self.kirchhoff(at).tau), &transpose(&plus_identity(&self.plastic)))
     }
+}
 
-    /// The derivative by F from that by F Fᵖ⁻¹.
-    #[inline(always)]
-    fn pulled_back(&self, H: &Tensor4<T>) -> Tensor4<T> {
-        let A = plus_identity(&self.plastic);
-        let mut result = [[T::zero(); 9]; 9];
-        for i in 0..3 {
-            for k in 0..3 {
-                let block = from_fn(
-                    #[inline(always)]
-                    |m, n| H[3 * i + m][3 * k + n],
-                );
-                let block = product(&product(&A, &block), &transpose(&A));
-                for j in 0..3 {
-                    result[3 * i + j][3 * k..3 * k + 3].copy_from_slice(&block[j]);
-                }
+/// The displacement gradient of F Fᵖ⁻¹.
+#[inline(always)]
+pub(super) fn trial<T: Number>(plastic: &Tensor<T>, G: &Tensor<T>) -> Tensor<T> {
+    let of_both = product(G, plastic);
+    from_fn(
+        #[inline(always)]
+        |i, j| G[i][j] + plastic[i][j] + of_both[i][j],
+    )
+}
+
+/// The derivative by F from that by F Fᵖ⁻¹.
+#[inline(always)]
+pub(super) fn pulled_back<T: Number>(plastic: &Tensor<T>, H: &Tensor4<T>) -> Tensor4<T> {
+    let A = plus_identity(plastic);
+    let mut result = [[T::zero(); 9]; 9];
+    for i in 0..3 {
+        for k in 0..3 {
+            let block = from_fn(
+                #[inline(always)]
+                |m, n| H[3 * i + m][3 * k + n],
+            );
+            let block = product(&product(&A, &block), &transpose(&A));
+            for j in 0..3 {
+                result[3 * i + j][3 * k..3 * k + 3].copy_from_slice(&block[j]);
             }
         }
-        result
     }
+    result
 }
 
 impl J2<f64> {
@@ -168,12 +174,12 @@ impl<T: Number> Law<T> for J2<T> {
     #[inline(always)]
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         let at = self.returned(G);
-        self.pulled_back(&derivative_from(&at.trial.F, &at.trial.principal(&self.kirchhoff(&at))))
+        pulled_back(&self.plastic, &derivative_from(&at.trial.F, &at.trial.principal(&self.kirchhoff(&at))))
     }
 
     #[inline(always)]
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         let at = self.returned(G);
-        self.pulled_back(&projected_derivative_from(&at.trial.F, &at.trial.principal(&self.kirchhoff(&at))))
+        pulled_back(&self.plastic, &projected_derivative_from(&at.trial.F, &at.trial.principal(&self.kirchhoff(&at))))
     }
 }

@@ -9,7 +9,7 @@ mod laws;
 
 pub use additive::Additive;
 pub use j2::J2;
-pub use laws::{PlasticLaw, PlasticLaws};
+pub use laws::{PlasticLaw, PlasticLaws, Purpose};
 
 use fem_scene::Plasticity as Model;
 use fem_scene::simulation::History;

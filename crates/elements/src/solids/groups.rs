@@ -1,14 +1,16 @@
 //! The elements of a body, grouped by material: the loops over a group are compiled for its law.
 
-use fem_scene::{Body, Material, PlaneState};
+use fem_scene::{Body, DampingForm, Material, PlaneState};
 use nalgebra::{Matrix3, Vector3};
 
 use super::Solids;
 use super::any_elements::{AnyElements, with_elements};
-use super::material::{LawInLanes, LawsByReference, Solid, SolidLaws, with_laws, with_laws_by_reference};
+use super::material::{
+    LawInLanes, LawsByReference, Solid, SolidLaws, with_damping_laws, with_laws, with_laws_by_reference,
+};
 use crate::elements::smaller;
 use crate::materials::{
-    AnyLaw, QuadraticForm, Vectorized, cauchy_stress, in_plane_stress, match_inlined_law, with_inlined_law,
+    AnyLaw, KelvinVoigt, QuadraticForm, Vectorized, cauchy_stress, in_plane_stress, match_inlined_law, with_inlined_law,
 };
 use crate::number::{Float, constant};
 use crate::plasticity::{Internal, Plasticity};
@@ -184,6 +186,28 @@ impl<T: Float> Solids<T> for Groups<T> {
             with_laws_by_reference!(self, group, laws, elements => {
                 elements.add_stiffness_times(laws, factor, u, d, product)
             });
+        }
+    }
+
+    fn add_damping_matrix(
+        &self,
+        form: DampingForm,
+        is_projected: bool,
+        factor: T,
+        u: &[[T; 3]],
+        values: &mut [Block<T, 3>],
+    ) {
+        for group in &self.groups {
+            with_damping_laws!(self, group, form, laws, elements => {
+                let laws = if is_projected { laws.projected() } else { laws };
+                elements.add_stiffness(laws, factor, u, values)
+            });
+        }
+    }
+
+    fn add_damping_times(&self, form: DampingForm, factor: T, u: &[[T; 3]], v: &[[T; 3]], product: &mut [[T; 3]]) {
+        for group in &self.groups {
+            with_damping_laws!(self, group, form, laws, e => e.add_stiffness_times(laws, factor, u, v, product));
         }
     }
 

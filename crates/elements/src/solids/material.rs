@@ -1,11 +1,13 @@
 //! The elements of one material with its law, and the choice of the law and of the lanes for the loops over them.
 
+use fem_scene::{DampingForm, Plasticity as Model};
+
 use super::LawWork;
 use super::any_elements::AnyElements;
 use crate::elements::BatchLaws;
-use crate::materials::{AnyLaw, Law, PlaneCorotated, Terms, Vectorized};
+use crate::materials::{AnyLaw, KelvinVoigt, Law, PlaneCorotated, Terms, Vectorized};
 use crate::number::{Float, Lanes, Number};
-use crate::plasticity::{PlasticLaw, PlasticLaws, Plasticity};
+use crate::plasticity::{PlasticLaw, PlasticLaws, Plasticity, Purpose};
 use crate::tensor::{Tensor, Tensor4};
 
 /// The elements of one material.
@@ -94,6 +96,27 @@ macro_rules! with_laws {
 }
 pub(super) use with_laws;
 
+/// Evaluates an expression for the elements of a group and the laws of their damping, called by reference, in the widest lanes of this
+/// processor.
+macro_rules! with_damping_laws {
+    ($solids:expr, $group:expr, $form:expr, $laws:ident, $elements:ident => $value:expr) => {
+        match &$group.fast {
+            Some(laws) => {
+                let damping = Vectorized(KelvinVoigt::new(laws.law.moduli()));
+                let $laws = LawsByReference::of_damping($form, $group, (laws, &damping), &$solids.plasticity);
+                with_elements!(&$group.elements, $elements => $value)
+            }
+            None => {
+                let laws = &$group.laws;
+                let damping = Vectorized(KelvinVoigt::new(laws.law.moduli()));
+                let $laws = LawsByReference::of_damping($form, $group, (laws, &damping), &$solids.plasticity);
+                with_elements!(&$group.elements, $elements => $value)
+            }
+        }
+    };
+}
+pub(super) use with_damping_laws;
+
 /// The laws of the elements of one material, called by reference once per batch.
 #[derive(Clone, Copy)]
 pub(super) struct LawsByReference<'a, T: Float, L> {
@@ -122,6 +145,26 @@ impl<'a, T: Float, L: Lanes<Element = T>> LawsByReference<'a, T, L> {
                 let laws = PlasticLaws::new(plasticity, &laws.law, &group.numbers);
                 Self { laws: ElasticOrPlastic::Plastic(laws), is_projected: false }
             }
+        }
+    }
+
+    /// The laws whose derivatives are the damping of a group's elements. A linear law damps by its own derivative, which is constant; so
+    /// does every law in Rayleigh's form, without the flow of plastic elements.
+    pub(super) fn of_damping(
+        form: DampingForm,
+        group: &'a Solid<T>,
+        (laws, damping): (&'a SolidLaws<L>, &'a Vectorized<KelvinVoigt<L>>),
+        plasticity: &'a Option<Plasticity<T>>,
+    ) -> Self {
+        let is_viscous = form == DampingForm::KelvinVoigt && !laws.law.is_linear();
+        match plasticity {
+            // Additive plasticity keeps the deformation of the body in its elastic part.
+            Some(plasticity) if !is_viscous || matches!(plasticity.model(), Model::J2 { .. }) => {
+                let purpose = if is_viscous { Purpose::Viscosity } else { Purpose::ElasticDerivative };
+                let laws = PlasticLaws::new(plasticity, &laws.law, &group.numbers).with_purpose(purpose);
+                Self { laws: ElasticOrPlastic::Plastic(laws), is_projected: false }
+            }
+            _ => Self::one(if is_viscous { damping } else { laws.as_law() }),
         }
     }
 

@@ -4,6 +4,7 @@ mod any_elements;
 mod groups;
 mod material;
 
+use fem_scene::DampingForm;
 use nalgebra::Matrix3;
 
 use crate::materials::{AnyLaw, Law};
@@ -57,6 +58,20 @@ pub trait Solids<T: Float>: Send + Sync {
 
     /// Adds `factor` K(u) d without a matrix, N.
     fn add_stiffness_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]);
+
+    /// Adds `factor` times the damping matrix for β = 1 s of this form at `u`, N/m. Where the laws' own derivative takes its place, it is
+    /// projected to a positive semi-definite one if `is_projected`.
+    fn add_damping_matrix(
+        &self,
+        form: DampingForm,
+        is_projected: bool,
+        factor: T,
+        u: &[[T; 3]],
+        values: &mut [Block<T, 3>],
+    );
+
+    /// Adds `factor` times the product of that matrix with the velocities v without a matrix, N.
+    fn add_damping_times(&self, form: DampingForm, factor: T, u: &[[T; 3]], v: &[[T; 3]], product: &mut [[T; 3]]);
 
     /// Adds the Hessian of Σ V k/2 G:G, k = 2μ + λ with Lamé's constants at small strain, N/m.
     fn add_metric(&self, values: &mut [Block<T, 3>]);

@@ -2,6 +2,7 @@
 
 mod closed_forms;
 mod derivatives;
+mod kelvin_voigt;
 mod lanes;
 mod mooney_rivlin;
 mod near_rest;

@@ -11,7 +11,7 @@ use fem_elements::Real;
 use fem_elements::vector::triple;
 
 /// One for each Dirichlet condition, zero if its nodes have been released. The acceleration is the mean of the last step, which began at
-/// `before`; Rayleigh damping takes its stiffness there too.
+/// `before`, as does the damping matrix.
 pub fn reactions<T: Real>(system: &System<T>, before: &State<T>, state: &State<T>, moment: Moment) -> Vec<Reaction> {
     of_unbalanced(system, &unbalanced(system, before, state, moment))
 }
@@ -63,7 +63,8 @@ fn of_unbalanced<T: Real>(system: &System<T>, force: &[[T; 3]]) -> Vec<Reaction>
 /// M a − f at a moment, with the mean acceleration of the last step, N.
 pub fn unbalanced<T: Real>(system: &System<T>, before: &State<T>, state: &State<T>, moment: Moment) -> Vec<[T; 3]> {
     let mut unbalanced = vec![[T::default(); 3]; system.nodes()];
-    system.force(&state.u, &state.v, &before.u, moment, &mut unbalanced);
+    let damping_at = system.damping_displacements(before, state.time - before.time);
+    system.force(&state.u, &state.v, &damping_at, moment, &mut unbalanced);
     for force in unbalanced.as_flattened_mut() {
         *force = -*force;
     }

@@ -34,7 +34,7 @@ pub trait Potential<T: Real>: Send + Sync {
         true
     }
 
-    /// Returns true for an internal force of the body: its Hessian is part of the stiffness K in Rayleigh damping.
+    /// Returns true for an internal force of the body: its Hessian is part of the stiffness K in Rayleigh's damping.
     fn is_internal(&self) -> bool {
         false
     }
@@ -126,7 +126,7 @@ pub trait Potential<T: Real>: Send + Sync {
     fn add_hessian_times(&self, _factor: T, _u: &[[T; 3]], _moment: Moment, _d: &[[T; 3]], _product: &mut [[T; 3]]) {}
 
     /// Returns true if the force damps motions by −D(u) v, with a damping matrix D that is positive semi-definite. Implicit methods
-    /// take D at the displacements at which Rayleigh damping takes its stiffness, fixed within a step, so that ½ ẋᵀ D ẋ is a
+    /// take D at the displacements at which damping takes the stiffness, fixed within a step, so that ½ ẋᵀ D ẋ is a
     /// dissipation potential.
     fn has_damping(&self) -> bool {
         false

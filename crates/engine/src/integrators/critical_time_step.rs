@@ -1,10 +1,11 @@
 //! The critical time step of explicit methods, from the fastest vibration of the undeformed body.
 
-use fem_scene::{Integrator as IntegratorKind, NewmarkParameters, RayleighDamping};
+use fem_scene::{Integrator as IntegratorKind, NewmarkParameters};
 use nalgebra::{Complex, DMatrix};
 
 use super::MassInverse;
 use crate::forces::Moment;
+use crate::model::damping::DampingRates;
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::vector::{axpy, dot, triple};
@@ -28,8 +29,7 @@ pub fn critical_time_step<T: Real>(
         return None;
     }
     let omega = largest_frequency(system)?;
-    let ratio = system.damping.as_ref().map_or(0.0, |damping| damping_ratio(damping, omega))
-        + 0.5 * fastest_damper(system) / omega;
+    let ratio = damping_ratio(system, omega);
     let limit = match kind {
         // Central differences with the damping force of the step before: Belytschko, Liu, Moran, Nonlinear Finite Elements for
         // Continua and Structures (2000), §6.2.
@@ -76,9 +76,15 @@ fn limit_of_taylor_method(degree: u32, ratio: f64) -> f64 {
     stable
 }
 
-/// Part of the critical damping of a vibration, ξ = (α/ω + β ω)/2.
-fn damping_ratio(damping: &RayleighDamping, omega: f64) -> f64 {
-    0.5 * (damping.alpha / omega + damping.beta * omega)
+/// Part of the critical damping of the fastest vibration, ξ = (α/ω + β ω)/2, and with dampers of springs an upper bound of it.
+fn damping_ratio<T: Real>(system: &System<T>, omega: f64) -> f64 {
+    let (alpha, mut beta) = system.damping.map_or((0.0, 0.0), |damping| (damping.alpha, damping.beta));
+    let mut rates = DampingRates { mass: T::zero(), stiffness: T::zero(), forces: T::one() };
+    if system.has_dampers() && system.has_viscosity() {
+        // The springs' part of β is one of their dampers.
+        rates.stiffness = T::of(std::mem::take(&mut beta));
+    }
+    0.5 * (alpha / omega + beta * omega) + 0.5 * fastest_damper(system, rates) / omega
 }
 
 /// The largest angular frequency of the undeformed body, 1/s; `None` where it has no stiffness.
@@ -90,13 +96,13 @@ fn largest_frequency<T: Real>(system: &System<T>) -> Option<f64> {
     square.map(f64::sqrt)
 }
 
-/// The largest xᵀ D x / xᵀ M x of the undeformed body's dampers, 1/s: twice the product ξ ω of a vibration is at most that.
-fn fastest_damper<T: Real>(system: &System<T>) -> f64 {
+/// The largest xᵀ D x / xᵀ M x of the undeformed body with dampers, 1/s: twice the product ξ ω of a vibration is at most that.
+fn fastest_damper<T: Real>(system: &System<T>, rates: DampingRates<T>) -> f64 {
     if !system.has_dampers() {
         return 0.0;
     }
     let rate = largest_ratio(system, |undeformed, x, product| {
-        system.add_dampers_times(T::one(), undeformed, x, product);
+        system.add_damping_times(rates, undeformed, x, product);
     });
     rate.unwrap_or(0.0)
 }

@@ -20,6 +20,8 @@ pub struct ImplicitEuler<T: Real> {
     newton: Newton<T>,
     followers: Followers<T>,
     inertial: Vec<[T; 3]>,
+    /// Displacements at which viscosity takes its matrix, m; empty without.
+    stiffness_at: Vec<[T; 3]>,
     step: Vec<[T; 3]>,
     /// Change of velocity in the last step, m/s; the initial guess of the next step assumes the same.
     last_change: Vec<[T; 3]>,
@@ -29,7 +31,8 @@ impl<T: Real> ImplicitEuler<T> {
     /// Allocates its vectors for a body.
     pub fn new(newton: Newton<T>, system: &System<T>) -> Self {
         let zero = || vec![[T::default(); 3]; system.nodes()];
-        Self { newton, followers: Followers::new(system), inertial: zero(), step: zero(), last_change: zero() }
+        let (followers, stiffness_at) = (Followers::new(system), Vec::new());
+        Self { newton, followers, inertial: zero(), stiffness_at, step: zero(), last_change: zero() }
     }
 }
 
@@ -41,11 +44,16 @@ impl<T: Real> Integrator<T> for ImplicitEuler<T> {
         dt: f64,
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
-        let Self { newton, followers, inertial, step, last_change } = self;
+        let Self { newton, followers, inertial, stiffness_at, step, last_change } = self;
         for (inertial, v) in inertial.iter_mut().zip(&state.v) {
             *inertial = v.map(|v| T::of(dt) * v);
         }
-        let inertia = Inertia::new(system, inertial, dt);
+        let mut inertia = Inertia::new(system, inertial, dt);
+        if system.has_viscosity() {
+            stiffness_at.resize(state.u.len(), [T::default(); 3]);
+            system.extrapolate_half((&state.u, &state.v), dt, stiffness_at);
+            inertia.stiffness_at = Some(stiffness_at);
+        }
         let increment = Increment { start: &state.u, end: Moment::at(state.time + dt), inertia: Some(inertia) };
         followers.evaluate(system, &increment, inertial);
         extrapolate(step, inertial, last_change, dt);

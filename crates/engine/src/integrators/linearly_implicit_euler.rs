@@ -26,6 +26,8 @@ pub struct LinearlyImplicitEuler<T: Real> {
     followers: Followers<T>,
     workspace: Workspace<T>,
     inertial: Vec<[T; 3]>,
+    /// Displacements at which viscosity takes its matrix, m; empty without.
+    stiffness_at: Vec<[T; 3]>,
     right: Vec<[T; 3]>,
     step: Vec<[T; 3]>,
     /// Change of velocity in the last step, m/s: an iterative solver starts from the same one.
@@ -45,6 +47,7 @@ impl<T: Real> LinearlyImplicitEuler<T> {
             followers: Followers::new(system),
             workspace: Workspace::new(system.nodes()),
             inertial: zero(),
+            stiffness_at: Vec::new(),
             right: zero(),
             step: zero(),
             last_change: zero(),
@@ -61,12 +64,29 @@ impl<T: Real> Integrator<T> for LinearlyImplicitEuler<T> {
         dt: f64,
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
-        let Self { solver, values, followers, workspace, inertial, right, step, last_change, prescribed, .. } = self;
+        let Self {
+            solver,
+            values,
+            followers,
+            workspace,
+            inertial,
+            stiffness_at,
+            right,
+            step,
+            last_change,
+            prescribed,
+            ..
+        } = self;
         for (inertial, v) in inertial.iter_mut().zip(&state.v) {
             *inertial = v.map(|v| T::of(dt) * v);
         }
-        let inertia = Some(Inertia::new(system, inertial, dt));
-        let increment = Increment { start: &state.u, end: Moment::at(state.time + dt), inertia };
+        let mut inertia = Inertia::new(system, inertial, dt);
+        if system.has_viscosity() {
+            stiffness_at.resize(state.u.len(), [T::default(); 3]);
+            system.extrapolate_half((&state.u, &state.v), dt, stiffness_at);
+            inertia.stiffness_at = Some(stiffness_at);
+        }
+        let increment = Increment { start: &state.u, end: Moment::at(state.time + dt), inertia: Some(inertia) };
         prescribed.fill([T::default(); 3]);
         followers.evaluate(system, &increment, prescribed);
         system.prescribe(&state.u, increment.end, prescribed);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use fem_elements::solids::Solids;
 use fem_scene::simulation::Shape;
-use fem_scene::{Body, BodyMesh, Interaction, RayleighDamping};
+use fem_scene::{Body, BodyMesh, Damping, Interaction};
 use nalgebra::{Matrix3, Vector3};
 
 use super::mass::{ElementMass, Mass, element_masses};
@@ -50,8 +50,8 @@ pub struct System<T: Real> {
     pub spring_modulus: f64,
     /// Shear modulus of a body that can move as a rigid body, which `static` has to stabilize, Pa; `None` for others.
     pub modulus_of_free_body: Option<f64>,
-    /// Rayleigh damping, where the scene asks for some.
-    pub damping: Option<RayleighDamping>,
+    /// Damping, where the scene asks for some.
+    pub damping: Option<Damping>,
     /// Length of the undeformed body, m: `BodyMesh::length`.
     pub length: f64,
     /// Calls and time of its parts so far.
@@ -62,7 +62,7 @@ pub struct System<T: Real> {
 pub type OwnForces<'a, T> = &'a dyn Fn(&Numbering) -> Vec<Box<dyn Potential<T>>>;
 
 /// Internal forces do not depend on the time.
-const INTERNAL: Moment = Moment { time: 0.0, load_factor: None };
+pub(super) const INTERNAL: Moment = Moment { time: 0.0, load_factor: None };
 
 impl<T: Real> System<T> {
     /// Builds the parts that the scene names, without a matrix.
@@ -231,9 +231,7 @@ impl<T: Real> System<T> {
     /// Adds `factor` K(u) d without a matrix, N.
     pub fn add_stiffness_times(&self, factor: T, u: &[[T; 3]], d: &[[T; 3]], product: &mut [[T; 3]]) {
         self.elements.add_stiffness_times(factor, u, d, product);
-        for (potential, _) in self.forces.active().filter(|(potential, _)| potential.is_internal()) {
-            potential.add_hessian_times(factor, u, INTERNAL, d, product);
-        }
+        self.add_internal_hessian_times(factor, u, d, product);
     }
 
     /// Adds the Hessian of the external forces times d without a matrix, N.

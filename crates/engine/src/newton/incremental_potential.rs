@@ -3,7 +3,6 @@
 pub use super::increment::{Increment, Inertia, StepEnd};
 
 use crate::forces::Energy;
-use crate::model::damping::DampingRates;
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::vector::{axpy, clear, dot, subtract_from, triple};
@@ -178,11 +177,13 @@ impl<T: Real> IncrementalPotential<'_, T> {
                 *difference = triple(|i| prescribed[i] - inertial[i]);
             }
             system.add_mass_times(inertia.over_dt2, &workspace.difference, gradient);
-            if let Some(rates) = inertia.damping {
-                stiffness += rates.stiffness;
+            if let Some(mut rates) = inertia.damping {
+                if system.damps_by_stiffness() && !system.has_viscosity() {
+                    stiffness += std::mem::take(&mut rates.stiffness);
+                }
                 if system.dirichlet.has_motion() {
-                    let rates = DampingRates { stiffness: T::default(), ..rates };
-                    system.add_damping_times(rates, start, prescribed, gradient);
+                    let stiffness_at = inertia.stiffness_at.filter(|_| system.has_viscosity());
+                    system.add_damping_times(rates, stiffness_at.unwrap_or(start), prescribed, gradient);
                 }
             }
         }

@@ -56,7 +56,10 @@ impl<T: Real> IncrementalPotential<'_, T> {
     ) -> Vec<(usize, Block<T, 3>)> {
         let Self { system, .. } = self;
         let pattern = &system.pattern;
-        let nodes = system.forces.nodes_of_hessians().unwrap_or_else(|| (0..pattern.rows() as u32).collect());
+        let has_damped_elements = self.damped().is_some_and(|(rates, _)| rates.stiffness != T::zero());
+        let of_forces = system.forces.nodes_of_hessians();
+        let nodes = of_forces.filter(|_| !has_damped_elements || system.damps_by_stiffness());
+        let nodes = nodes.unwrap_or_else(|| (0..pattern.rows() as u32).collect());
         if nodes.is_empty() {
             return Vec::new();
         }
@@ -71,7 +74,8 @@ impl<T: Real> IncrementalPotential<'_, T> {
 
     /// Factors of the stiffness of the elements in the Hessian at u, and the displacements at which it is taken.
     fn stiffness<'b>(&'b self, u: &'b [[T; 3]]) -> impl Iterator<Item = (T, &'b [[T; 3]])> {
-        let damped = self.damped().filter(|(rates, _)| rates.stiffness != T::zero());
+        let is_damping = |rates: &DampingRates<T>| rates.stiffness != T::zero() && self.system.damps_by_stiffness();
+        let damped = self.damped().filter(|(rates, _)| is_damping(rates));
         std::iter::once((T::one(), u)).chain(damped.map(|(rates, u)| (rates.stiffness, u)))
     }
 
@@ -86,7 +90,7 @@ impl<T: Real> IncrementalPotential<'_, T> {
         Some(inertia.over_dt2 + inertia.damping.map_or(T::default(), |rates| rates.mass))
     }
 
-    /// Adds the Hessians of all forces but the elements' own, and the damping matrices of forces.
+    /// Adds the Hessians of all forces but the elements' own, and the damping matrices that are no multiples of those.
     fn add_hessians_of_forces(
         &self,
         w: &[[T; 3]],
@@ -97,8 +101,7 @@ impl<T: Real> IncrementalPotential<'_, T> {
         let system = self.system;
         system.add_internal_hessian(T::one(), &workspace.u, kind, values);
         if let Some((rates, u)) = self.damped() {
-            system.add_internal_hessian(rates.stiffness, u, kind, values);
-            system.add_damping_matrices_of_forces(rates.forces, u, values);
+            system.add_damping_matrix(rates, u, kind, values);
         }
         match self.end_with_obstacles() {
             None => system.add_external_hessian(&workspace.u, self.increment.end, kind, values),

@@ -47,5 +47,5 @@ pub(super) fn kinetic_of_motions<T: Real>(system: &System<T>, v: &[[T; 3]]) -> f
 /// Rounding error of an energy, J.
 pub(super) fn rounding<T: Real>(system: &System<T>, u: &[[T; 3]]) -> f64 {
     let shear = system.elements.moduli().map(|[shear, _]| shear).fold(system.spring_modulus, f64::max);
-    T::EPSILON.as_f64() * (shear * system.length.powi(3)).max(system.cancelled(u))
+    T::EPSILON.as_f64() * (shear * system.length.powi(3)).max(system.elements.cancelled(u))
 }

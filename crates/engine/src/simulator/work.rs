@@ -107,7 +107,14 @@ impl<T: Real> Simulator<T> {
             [work.motions, work.rayleigh, work.dampers] = [of_stages.motions, of_stages.rayleigh, of_stages.dampers];
         } else {
             if is_damped {
-                let powers = system.damping_powers(&before.u, &change());
+                // Halfway the increment of a rotation strains nothing, as a step's own matrix of viscosity.
+                let halfway: Vec<[T; 3]> = match system.has_viscosity() {
+                    true => {
+                        before.u.iter().zip(&state.u).map(|(a, b)| triple(|i| T::of(0.5) * (a[i] + b[i]))).collect()
+                    }
+                    false => before.u.clone(),
+                };
+                let powers = system.damping_powers(&halfway, &change());
                 [work.rayleigh, work.dampers] = powers.map(|power| power / dt);
             }
             if has_motion {

@@ -45,6 +45,7 @@ mod twists;
 mod unconverged;
 mod vertex_block_descent;
 mod vibrations;
+mod viscosity;
 mod work;
 
 use std::path::Path;

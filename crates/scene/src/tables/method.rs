@@ -163,7 +163,7 @@ pub enum Preconditioner {
     Ssor,
 }
 
-/// `[damping]`: Rayleigh damping, the force −(α M + β K) v. Engine only, and not with `static`.
+/// `[damping]`: the force −α M v, and a stress β times the rate of the elastic one. Engine only, and not with `static`.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct DampingTable {
@@ -173,6 +173,22 @@ pub struct DampingTable {
     /// Factor β of the stiffness, s; at least 0. It damps high frequencies most.
     #[serde(default)]
     pub beta: f64,
+    /// Form of the force of β: `kelvin_voigt` does no work on rigid motions, `rayleigh` brakes a body that spins.
+    #[serde(default)]
+    pub form: DampingForm,
+}
+
+/// The force of β, which is −β K v in small motions about the undeformed body.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub enum DampingForm {
+    /// The stress β (2μ U̇ + λ tr(U̇) 1) of the rate of the stretch, with the elastic moduli of small strain; along springs their
+    /// stiffness. It depends on no rotation and brakes none.
+    #[default]
+    KelvinVoigt,
+    /// Rayleigh's −β K(u) v with the stiffness matrix of the deformed body: linear in the velocities, also in those of a rotation, which
+    /// it brakes where the body is stressed.
+    Rayleigh,
 }
 
 /// `[static]`: the load steps of the integrator `static`. Engine only.

@@ -21,8 +21,8 @@ pub use loads::{BodyForceTable, DragTable, DragVertex, ForceTable, GravityTable,
 pub(crate) use material::IN_PLANE_STRESS;
 pub use material::{MODELS, Material, MaterialsTable, PlaneState};
 pub use method::{
-    AdaptiveTable, DampingTable, EnergyTable, GeneralizedAlphaTable, IterationsTable, NewmarkTable, NewtonTable,
-    Precision, Preconditioner, Projection, SolverKind, SolverTable, StaticTable, TimeTable,
+    AdaptiveTable, DampingForm, DampingTable, EnergyTable, GeneralizedAlphaTable, IterationsTable, NewmarkTable,
+    NewtonTable, Precision, Preconditioner, Projection, SolverKind, SolverTable, StaticTable, TimeTable,
 };
 pub use plasticity::{PlasticModel, PlasticityTable};
 pub use selector::{BoxTable, On, Plane, Region, Selector, SidePlane, SphereTable};

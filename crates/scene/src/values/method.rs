@@ -1,6 +1,6 @@
 //! The numerical method of a scene, and the damping of a body.
 
-use crate::tables::{IterationsTable, NewtonTable, SolverTable};
+use crate::tables::{DampingForm, IterationsTable, NewtonTable, SolverTable};
 use crate::{Integrator, Precision, Preconditioner, Projection, Scene, SolverKind};
 
 /// Settings of `[time]`, `[static]`, `[newmark]`, `[generalized_alpha]`, `[iterations]`, `[newton]`, `[solver]` and `[energy]`.
@@ -107,13 +107,15 @@ pub struct SolverSettings {
     pub precision: Precision,
 }
 
-/// Rayleigh damping: the force −(α M + β K) v.
+/// Damping in proportion to the mass and the stiffness: the force −(α M + β K) v of small motions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RayleighDamping {
+pub struct Damping {
     /// α of the mass, 1/s.
     pub alpha: f64,
     /// β of the stiffness, s.
     pub beta: f64,
+    /// The form of the force of β.
+    pub form: DampingForm,
 }
 
 impl Method {
@@ -170,7 +172,8 @@ impl Scene {
 }
 
 /// The damping of `[damping]`; `None` if both coefficients are zero.
-pub(crate) fn damping(scene: &Scene) -> Option<RayleighDamping> {
-    let damping = scene.damping.as_ref().map(|table| RayleighDamping { alpha: table.alpha, beta: table.beta });
+pub(crate) fn damping(scene: &Scene) -> Option<Damping> {
+    let damping =
+        scene.damping.as_ref().map(|table| Damping { alpha: table.alpha, beta: table.beta, form: table.form });
     damping.filter(|damping| damping.alpha > 0.0 || damping.beta > 0.0)
 }

@@ -17,7 +17,7 @@ pub use constraints::{DirichletCondition, Motion, Rotation};
 pub use contact::{Contact, ContactTreatment};
 pub use loads::{Drag, NodalForce, Pressure, Spring, Traction, highest_node};
 pub use materials::MaterialRegion;
-pub use method::{IterationSettings, Method, NewmarkParameters, NewtonSettings, RayleighDamping, SolverSettings};
+pub use method::{Damping, IterationSettings, Method, NewmarkParameters, NewtonSettings, SolverSettings};
 pub use planes::{ContactPlane, PlaneMotion};
 pub use plasticity::Plasticity;
 

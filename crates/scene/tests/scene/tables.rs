@@ -1,7 +1,7 @@
 //! The tables of the engine: their values, and the line of their errors.
 
 use fem_scene::tables::{BodyForceTable, DampingTable, On, SidePlane, SpringTable, StaticTable, TractionTable};
-use fem_scene::{Axis, Precision, Preconditioner, Projection, Side};
+use fem_scene::{Axis, DampingForm, Precision, Preconditioner, Projection, Side};
 
 use crate::errors::assert_refused;
 use crate::{LEAST, body, edit, read};
@@ -42,7 +42,7 @@ fn the_tables_of_the_engine_are_read() {
     assert_eq!(scene.time.precision, Precision::F32);
     assert_eq!(scene.newton.unwrap().projection, Some(Projection::Always));
     assert_eq!(scene.solver.unwrap().preconditioner, Some(Preconditioner::Multigrid));
-    assert_eq!(scene.damping, Some(DampingTable { alpha: 0.5, beta: 1e-3 }));
+    assert_eq!(scene.damping, Some(DampingTable { alpha: 0.5, beta: 1e-3, form: DampingForm::KelvinVoigt }));
     assert_eq!(scene.mass.lumped, Some(true));
     assert_eq!(scene.body_force, Some(BodyForceTable { density: [0.0, 0.0, -9810.0], curve: None }));
     let on = Some(On::Side(SidePlane { axis: Axis::X, side: Side::Max, within: 1e-9 }));
@@ -96,7 +96,7 @@ fn tables_of_the_engine_have_defaults() {
     assert_eq!((scene.time.precision, scene.mesh.refine), (Precision::F64, 0));
     assert_eq!(scene.newton.unwrap().projection.unwrap_or_default(), Projection::WhenNeeded);
     assert_eq!(Preconditioner::default(), Preconditioner::BlockJacobi);
-    assert_eq!(scene.damping, Some(DampingTable { alpha: 0.0, beta: 2.0 }));
+    assert_eq!(scene.damping, Some(DampingTable { alpha: 0.0, beta: 2.0, form: DampingForm::KelvinVoigt }));
     assert!(scene.traction.is_empty() && scene.springs.is_empty() && scene.prescribed.is_empty());
     assert!(scene.statics.is_none() && scene.body_force.is_none());
 }
@@ -105,6 +105,10 @@ fn tables_of_the_engine_have_defaults() {
 fn every_name_of_the_engine_s_tables_is_known() {
     for name in ["when_needed", "always", "never"] {
         read(&edit(&with_tables(), "\"always\"", &format!("\"{name}\"")));
+    }
+    for (name, form) in [("kelvin_voigt", DampingForm::KelvinVoigt), ("rayleigh", DampingForm::Rayleigh)] {
+        let scene = read(&edit(&with_tables(), "beta = 1e-3", &format!("beta = 1e-3\nform = \"{name}\"")));
+        assert_eq!(scene.damping.unwrap().form, form);
     }
     for name in ["block_jacobi", "incomplete_cholesky", "multigrid"] {
         read(&edit(&with_tables(), "multigrid", name));

@@ -1,6 +1,6 @@
 //! A spring between two nodes, ½ k (|x_b − x_a| − l)², and the damper beside it, whose force is c (v_b − v_a)·n along its direction n.
 
-use fem_scene::Body;
+use fem_scene::{Body, DampingForm};
 
 use crate::forces::{Energy, HessianKind};
 use crate::model::numbering::Numbering;
@@ -56,6 +56,8 @@ impl<T: Real> Spring<T> {
         let edge = b - a;
         let length = spring.rest_length;
         // Rounding of a length that is the undeformed distance must not stretch the spring.
+        let viscosity =
+            body.damping.filter(|damping| damping.form == DampingForm::KelvinVoigt).map_or(0.0, |of| of.beta);
         let excess = if spring.is_initially_relaxed { 0.0 } else { edge.norm_squared() - length * length };
         Self {
             nodes: spring.nodes.map(|node| numbering.engine_node[node]),
@@ -63,7 +65,7 @@ impl<T: Real> Spring<T> {
             stiffness: T::of(spring.stiffness),
             length: T::of(length),
             excess: T::of(excess),
-            damping: T::of(spring.damping),
+            damping: T::of(spring.damping + viscosity * spring.stiffness),
         }
     }
 

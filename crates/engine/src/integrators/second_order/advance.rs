@@ -13,8 +13,8 @@ use crate::newton::incremental_potential::{Increment, Inertia, StepEnd};
 use fem_elements::Real;
 use fem_elements::vector::{axpy, max_norm, triple};
 
-/// Part of the minimum of det F at the start that displacements must keep where damping takes its stiffness.
-const KEPT: f64 = 0.5;
+/// Part of the change before it that a change of the displacements of damping must stay below.
+const SLOW: f64 = 0.5;
 
 /// Part of the body's length that an acceleration may add to an extrapolated increment.
 const LONG: f64 = 0.2;
@@ -30,7 +30,30 @@ impl<T: Real> SecondOrder<T> {
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
         self.predict(system, state, dt, of);
-        let Self { newton, followers, inertial, still, stiffness_at, step, acceleration, .. } = self;
+        extrapolate(&mut self.step, &self.inertial, &self.acceleration, of.tau * of.tau, system.length);
+        let (mut left, tolerance) = (f64::INFINITY, self.newton.limits().tolerance * system.length);
+        let convergence = loop {
+            let convergence = self.minimize(system, state, (dt, end), of, counters)?;
+            let before = left;
+            left = self.review_damping(system, state);
+            if left <= tolerance || left > SLOW * before || convergence == Convergence::NotConverged {
+                break convergence;
+            }
+        };
+        self.finish(system, state, dt, of)?;
+        Ok(convergence)
+    }
+
+    /// Solves the step's equation with the damping matrix at `stiffness_at`.
+    fn minimize(
+        &mut self,
+        system: &System<T>,
+        state: &State<T>,
+        (dt, end): (f64, Moment),
+        of: &Coefficients,
+        counters: &mut Counters,
+    ) -> Result<Convergence, Cause> {
+        let Self { newton, followers, inertial, still, stiffness_at, step, .. } = self;
         let stage = Moment::at(state.time + of.stage * dt);
         let is_damped = system.is_damped();
         let inertia = Inertia {
@@ -41,12 +64,26 @@ impl<T: Real> SecondOrder<T> {
             ..Inertia::of_stage(system, inertial, of.tau, of.stage_velocity())
         };
         let increment = Increment { start: &state.u, end: stage, inertia: Some(inertia) };
-        extrapolate(step, inertial, acceleration, of.tau * of.tau, system.length);
         followers.evaluate(system, &increment, step);
         let convergence = InitialGuess { newton, followers, system, increment, inertia }.minimize(step, counters)?;
         momentum::restore(&followers.potential(system, increment), of.tau, of.stage_velocity(), step);
-        self.finish(system, state, dt, of)?;
         Ok(convergence)
+    }
+
+    /// Moves the displacements at which viscosity takes its matrix to those of the stage that was found, and returns the largest
+    /// change, m; zero for other damping. Forces of viscosity have no torque about these displacements, and do no work on a rotation of them.
+    fn review_damping(&mut self, system: &System<T>, state: &State<T>) -> f64 {
+        if !system.has_viscosity() {
+            return 0.0;
+        }
+        let Self { stiffness_at, step, .. } = self;
+        let mut largest = 0.0;
+        for (at, (u, step)) in stiffness_at.iter_mut().zip(state.u.iter().zip(&*step)) {
+            let now: [T; 3] = triple(|i| u[i] + step[i]);
+            largest = (0..3).map(|i| (now[i] - at[i]).as_f64().abs()).fold(largest, f64::max);
+            *at = now;
+        }
+        largest
     }
 
     /// Writes the data of the step's equation from the start: ẑ, ž, and the displacements at which damping takes its stiffness.
@@ -76,13 +113,7 @@ impl<T: Real> SecondOrder<T> {
         } else {
             system.dirichlet.clear_constrained(still);
         }
-        stiffness_at.copy_from_slice(&state.u);
-        axpy(of.stage * dt, &state.v, stiffness_at);
-        let [before, after] = [&state.u, &*stiffness_at].map(|u| system.elements.min_det_F_of_barriers(u).0);
-        // NaN fails the comparison; without such elements both are infinite.
-        if !(after >= T::of(KEPT) * before) {
-            stiffness_at.copy_from_slice(&state.u);
-        }
+        system.extrapolate((&state.u, &state.v), of.stage * dt, stiffness_at);
     }
 
     /// Moves the state to the end of the step, and keeps the data for the next step.

@@ -1,0 +1,101 @@
+//! Kelvin–Voigt damping of an elastic solid: the stress β (2μ U̇ + λ tr(U̇) 1), conjugate to the rate of the right stretch tensor U, F = R U.
+//!
+//! Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis (2008), §4.12: with F = Σ σ_i u_i⊗v_i the rate of U has the components
+//! U̇_ij = (σ_i Ḟ_ij + σ_j Ḟ_ji)/(σ_i + σ_j), where Ḟ_ij = u_i·Ḟ v_j. So 2μ U̇:U̇ + λ tr(U̇)² = Ḟ : H : Ḟ with
+//! H = 2μ Σ_i B_ii⊗B_ii + λ R⊗R + 4μ Σ_{i<j} N_ij⊗N_ij, B_ij = u_i⊗v_j, N_ij = (σ_i B_ij + σ_j B_ji)/(σ_i + σ_j).
+//!
+//! H is symmetric and positive semi-definite at any F. It is zero for the velocities of a rigid motion, Ḟ = W F with a skew W, and its forces have no
+//! torque about the deformed body. In the undeformed body it is the stiffness of an isotropic law with these moduli. Its entries do
+//! not grow with the stretch: those of a stress of Green's strain grow with the second power, and in elements that are far out of shape damping would
+//! outweigh elasticity.
+
+use super::Law;
+use crate::number::{Number, constant};
+use crate::svd::svd;
+use crate::tensor::{Tensor, Tensor4, plus_identity, zero};
+
+/// Lamé's constants of small strain, Pa: the form Σ V Ḟ : H : Ḟ of velocity gradients at a deformation, of which no energy is stored.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KelvinVoigt<T> {
+    /// Shear modulus μ.
+    pub mu: T,
+    /// λ
+    pub lambda: T,
+}
+
+impl<T: Number> KelvinVoigt<T> {
+    /// The damping of a law with this shear modulus and bulk modulus at small strain, Pa.
+    pub fn new([mu, bulk]: [f64; 2]) -> Self {
+        Self { mu: constant(mu), lambda: constant(bulk - 2.0 / 3.0 * mu) }
+    }
+}
+
+impl<T: Number> Law<T> for KelvinVoigt<T> {
+    #[inline(always)]
+    fn energy(&self, _: &Tensor<T>) -> T {
+        T::zero()
+    }
+
+    #[inline(always)]
+    fn stress(&self, _: &Tensor<T>) -> Tensor<T> {
+        zero()
+    }
+
+    #[inline(always)]
+    fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
+        let F = svd(&plus_identity(G));
+        let mut H = [[T::zero(); 9]; 9];
+        for i in 0..3 {
+            add_square(&mut H, constant::<T>(2.0) * self.mu, &mode(&F.U[i], &F.V[i]));
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let [a, b] = parts(F.sigma[j], F.sigma[k]);
+            let (one, other) = (mode(&F.U[j], &F.V[k]), mode(&F.U[k], &F.V[j]));
+            let mut shear = one;
+            for entry in 0..9 {
+                shear[entry] = a * one[entry] + b * other[entry];
+            }
+            add_square(&mut H, constant::<T>(4.0) * self.mu, &shear);
+        }
+        let R = F.with_values(&[T::one(); 3]);
+        add_square(
+            &mut H,
+            self.lambda,
+            &[R[0][0], R[0][1], R[0][2], R[1][0], R[1][1], R[1][2], R[2][0], R[2][1], R[2][2]],
+        );
+        H
+    }
+
+    #[inline(always)]
+    fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
+        self.derivative(G)
+    }
+}
+
+/// σ_i/(σ_i + σ_j) and σ_j/(σ_i + σ_j). In an inverted element the sum may vanish: it is at least the norm of the two.
+#[inline(always)]
+fn parts<T: Number>(one: T, other: T) -> [T; 2] {
+    let sum = (one + other).max((one * one + other * other).sqrt());
+    let is_positive = sum.gt(T::zero());
+    [(one / sum).select(is_positive, T::zero()), (other / sum).select(is_positive, T::zero())]
+}
+
+/// u⊗v, row by row.
+#[inline(always)]
+fn mode<T: Number>(u: &[T; 3], v: &[T; 3]) -> [T; 9] {
+    let mut entries = [T::zero(); 9];
+    for (entry, value) in entries.iter_mut().enumerate() {
+        *value = u[entry / 3] * v[entry % 3];
+    }
+    entries
+}
+
+/// Adds factor a⊗a.
+#[inline(always)]
+fn add_square<T: Number>(H: &mut Tensor4<T>, factor: T, a: &[T; 9]) {
+    for row in 0..9 {
+        let of_row = factor * a[row];
+        for column in 0..9 {
+            H[row][column] = of_row.times_plus(a[column], H[row][column]);
+        }
+    }
+}
