@@ -1,4 +1,4 @@
-//! The first step of a method that needs data of an earlier one, and steps that BDF2 cannot take: impacts.
+//! The first step of a method that needs data of an earlier one.
 
 use fem_scene::simulation::{Cause, Counters};
 
@@ -9,10 +9,7 @@ use crate::integrators::Convergence;
 use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
-use fem_elements::vector::{axpy, max_norm};
-
-/// Change of the forces of obstacles in a step, as a part of these, from which it is an impact.
-const IMPACT: f64 = 0.5;
+use fem_elements::vector::axpy;
 
 impl<T: Real> SecondOrder<T> {
     /// Replaces the initial acceleration by the mean one over a step of implicit Euler, which is not taken. A part of dt M⁻¹ f would remain in
@@ -100,30 +97,5 @@ impl<T: Real> SecondOrder<T> {
         // The step may be repeated.
         known.dt = None;
         Ok(if second? == Convergence::Converged { first } else { Convergence::NotConverged })
-    }
-
-    /// A step of BDF2 in which no obstacle hits the body; else one of implicit Euler. A force of one step moves the body by 4/9 dt² a and adds dt a
-    /// to its velocity in the end, so a plane of speed V that hits a body at rest would throw it with 9/4 V, and more energy than the plane's work.
-    pub(super) fn step_with_impacts(
-        &mut self,
-        system: &System<T>,
-        state: &mut State<T>,
-        dt: f64,
-        (of, counters): (&Coefficients, &mut Counters),
-    ) -> Result<Convergence, Cause> {
-        let (before, end) = (state.clone(), Moment::at(state.time + dt));
-        let convergence = self.advance(system, state, (dt, end), of, counters)?;
-        let force = |u: &[[T; 3]], time: f64| {
-            let mut force = vec![[T::default(); 3]; u.len()];
-            system.obstacle_energy_and_gradient(u, Moment::at(time), &mut force);
-            force
-        };
-        let (mut change, after) = (force(&before.u, before.time), force(&state.u, end.time));
-        axpy(-1.0, &after, &mut change);
-        if max_norm(&change) <= IMPACT * max_norm(&after) {
-            return Ok(convergence);
-        }
-        state.copy_from(&before);
-        self.advance(system, state, (dt, end), &bdf2::implicit_euler(dt), counters)
     }
 }

@@ -139,9 +139,6 @@ impl<T: Real> Integrator<T> for SecondOrder<T> {
             Some(_) if self.scheme.has_acceleration() && !self.known.has_acceleration => {
                 self.settle(system, state, dt, counters)?
             }
-            Some(of) if self.scheme == Scheme::Bdf2 && system.forces.has_obstacles() => {
-                self.step_with_impacts(system, state, dt, (&of, counters))?
-            }
             Some(of) => self.advance(system, state, (dt, end), &of, counters)?,
             None => self.first_step(system, state, dt, counters)?,
         };
