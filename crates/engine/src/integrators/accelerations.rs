@@ -34,6 +34,8 @@ pub struct Accelerations<T: Real> {
 pub struct StageWork {
     /// Of the prescribed motions on the body.
     pub motions: f64,
+    /// Of the impulses with which prescribed velocities jump at the start of the step.
+    pub jump: f64,
     /// Dissipated by Rayleigh damping.
     pub rayleigh: f64,
     /// Dissipated by the dampers of forces.
@@ -78,7 +80,7 @@ impl<T: Real> Accelerations<T> {
             motion.start(system, state, force)
         });
         if has_jump {
-            work.motions = system.profile.mass.time(|| impulse(system, mass, motion, (force, a), state))?;
+            work.jump = system.profile.mass.time(|| impulse(system, mass, motion, (force, a), state))?;
         }
         Ok(has_jump)
     }

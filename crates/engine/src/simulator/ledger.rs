@@ -197,13 +197,14 @@ impl Ledger {
     fn left_over<T: Real>(&self, step: &Step<T>) -> f64 {
         let Some([start, potential]) = self.start else { return 0.0 };
         let (u, moment) = step.place();
-        // At the start of a step half of its powers have acted.
+        // At the start of a step the impulses and half of its powers have acted.
         let half = if step.integrator.has_staggered_velocities() { 0.5 } else { 0.0 };
         let StepWork { motions, rayleigh, dampers, .. } = *step.work;
+        let jump = step.integrator.work_of_stages().map_or(0.0, |work| 2.0 * half * work.jump);
+        let of_motions = jump + half * (motions - jump);
         let energy = step.kept() + stored(step.system, u, moment) + plastic(step.system);
         let energy = energy + self.sums.dissipated() + half * (rayleigh + dampers);
-        let supplied =
-            start + self.sums.supplied() + half * motions + potential - steady_potential(step.system, u, moment);
+        let supplied = start + self.sums.supplied() + of_motions + potential - steady_potential(step.system, u, moment);
         energy - supplied
     }
 

@@ -104,7 +104,8 @@ impl<T: Real> Simulator<T> {
         let mut last = LastForces::default();
         let change = || -> Vec<[T; 3]> { difference(&state.u, &before.u) };
         if let Some(of_stages) = integrator.work_of_stages() {
-            [work.motions, work.rayleigh, work.dampers] = [of_stages.motions, of_stages.rayleigh, of_stages.dampers];
+            work.motions = of_stages.motions + of_stages.jump;
+            [work.rayleigh, work.dampers] = [of_stages.rayleigh, of_stages.dampers];
         } else {
             if is_damped {
                 // Halfway the increment of a rotation strains nothing, as a step's own matrix of viscosity.

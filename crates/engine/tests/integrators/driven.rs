@@ -75,7 +75,7 @@ fn gained(
     for _ in 0..steps {
         integrator.step(&system, &mut state, dt, &mut counters)?;
         state.time += dt;
-        work += integrator.work_of_stages().map(|work| work.motions).unwrap();
+        work += integrator.work_of_stages().map(|work| work.motions + work.jump).unwrap();
     }
     let energy = system.mass.kinetic_energy(&state.v) + system.potential(&state.u, Moment::at(state.time)).value;
     Ok([energy, work])
