@@ -104,6 +104,21 @@ pub fn transpose<T: Number>(a: &Tensor<T>) -> Tensor<T> {
     )
 }
 
+/// H : a
+#[inline(always)]
+pub fn contracted<T: Number>(H: &Tensor4<T>, a: &Tensor<T>) -> Tensor<T> {
+    from_fn(
+        #[inline(always)]
+        |i, j| {
+            let mut sum = H[3 * i + j][0] * a[0][0];
+            for c in 1..9 {
+                sum += H[3 * i + j][c] * a[c / 3][c % 3];
+            }
+            sum
+        },
+    )
+}
+
 /// Adds b ∂cof(F)/∂F, the second derivative of the determinant: entries ±b F_ln.
 #[inline(always)]
 pub fn add_cofactor_derivative<T: Number>(H: &mut Tensor4<T>, b: T, F: &Tensor<T>) {

@@ -12,7 +12,7 @@ use super::{Batch, BatchLaws, Chunk};
 use crate::materials::{Law, Terms};
 use crate::number::{Float, Lanes, constant};
 use crate::sparse::Block;
-use crate::tensor::{from_fn, volume_change};
+use crate::tensor::{map, volume_change};
 
 /// A part of a stored batch in lanes like `one`.
 #[inline(always)]
@@ -202,16 +202,10 @@ impl<L: Lanes, B: BatchLaws<L>, const D: usize, const E: usize, const N: usize> 
             let law = laws.of_batch(&chunk.elements, i);
             let G = displacement_gradient(&batch, corners, u);
             let dF = displacement_gradient(&batch, corners, d);
-            let H = law.derivative(&G);
-            let dP = from_fn(
+            let dP = map(
+                &law.derivative_times(&G, &dF),
                 #[inline(always)]
-                |i, j| {
-                    let mut sum = H[3 * i + j][0] * dF[0][0];
-                    for c in 1..9 {
-                        sum += H[3 * i + j][c] * dF[c / 3][c % 3];
-                    }
-                    sum * factor
-                },
+                |entry| entry * factor,
             );
             scatter(chunk, corners, &corner_gradients(&batch, &dP), sums);
         }

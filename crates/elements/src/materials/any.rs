@@ -51,6 +51,12 @@ macro_rules! laws {
                 }
             }
 
+            fn derivative_times(&self, G: &Tensor<T>, rate: &Tensor<T>) -> Tensor<T> {
+                match self {
+                    $(Self::$Law(law) => Vectorized(*law).derivative_times(G, rate),)*
+                }
+            }
+
             fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
                 match self {
                     $(Self::$Law(law) => Vectorized(*law).projected_derivative(G),)*

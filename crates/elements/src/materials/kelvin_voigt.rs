@@ -12,7 +12,7 @@
 use super::Law;
 use crate::number::{Number, constant};
 use crate::svd::svd;
-use crate::tensor::{Tensor, Tensor4, plus_identity, zero};
+use crate::tensor::{Tensor, Tensor4, plus_identity, product, trace, transpose, zero};
 
 /// Lamé's constants of small strain, Pa: the form Σ V Ḟ : H : Ḟ of velocity gradients at a deformation, of which no energy is stored.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +63,24 @@ impl<T: Number> Law<T> for KelvinVoigt<T> {
             &[R[0][0], R[0][1], R[0][2], R[1][0], R[1][1], R[1][2], R[2][0], R[2][1], R[2][2]],
         );
         H
+    }
+
+    /// Σ X_ij u_i⊗v_j with the components X of the derivative of ½ Ḟ : H : Ḟ by those of Ḟ.
+    #[inline(always)]
+    fn derivative_times(&self, G: &Tensor<T>, rate: &Tensor<T>) -> Tensor<T> {
+        let F = svd(&plus_identity(G));
+        let of = product(&product(&F.U, rate), &transpose(&F.V));
+        let (two_mu, four_mu) = (constant::<T>(2.0) * self.mu, constant::<T>(4.0) * self.mu);
+        let pressure = self.lambda * trace(&of);
+        let mut X = zero();
+        for i in 0..3 {
+            X[i][i] = two_mu * of[i][i] + pressure;
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let [a, b] = parts(F.sigma[j], F.sigma[k]);
+            let shear = four_mu * (a * of[j][k] + b * of[k][j]);
+            (X[j][k], X[k][j]) = (a * shear, b * shear);
+        }
+        product(&transpose(&F.U), &product(&X, &F.V))
     }
 
     #[inline(always)]

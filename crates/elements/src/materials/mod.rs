@@ -31,7 +31,7 @@ pub use quadratic_form::QuadraticForm;
 pub use vectorized::Vectorized;
 
 use crate::number::Number;
-use crate::tensor::{Tensor, Tensor4};
+use crate::tensor::{Tensor, Tensor4, contracted};
 use any::laws;
 pub(crate) use any::{match_inlined_law, with_inlined_law};
 pub use corotated::OfRotation;
@@ -86,6 +86,12 @@ pub trait Law<T: Number>: Send + Sync {
     #[inline(always)]
     fn terms(&self, _G: &Tensor<T>) -> Terms<T> {
         Terms::Entries
+    }
+
+    /// `∂P/∂F : Ḟ` for a rate Ḟ of F.
+    #[inline(always)]
+    fn derivative_times(&self, G: &Tensor<T>, rate: &Tensor<T>) -> Tensor<T> {
+        contracted(&self.derivative(G), rate)
     }
 
     /// `∂P/∂F` with its negative eigenvalues raised to zero, Pa: the positive semi-definite projection.
@@ -144,6 +150,11 @@ impl<T: Number, L: Law<T> + ?Sized> Law<T> for &L {
     #[inline(always)]
     fn terms(&self, G: &Tensor<T>) -> Terms<T> {
         (**self).terms(G)
+    }
+
+    #[inline(always)]
+    fn derivative_times(&self, G: &Tensor<T>, rate: &Tensor<T>) -> Tensor<T> {
+        (**self).derivative_times(G, rate)
     }
 
     #[inline(always)]

@@ -26,12 +26,27 @@ macro_rules! vectorized_law {
             }
         )*
 
+        struct DerivativeTimes<'a, T, L>(&'a L, &'a Tensor<T>, &'a Tensor<T>);
+
+        impl<T: Number, L: Law<T>> WithSimd for DerivativeTimes<'_, T, L> {
+            type Output = Tensor<T>;
+
+            #[inline(always)]
+            fn with_simd<S: Simd>(self, _simd: S) -> Tensor<T> {
+                self.0.derivative_times(self.1, self.2)
+            }
+        }
+
         impl<T: Number, L: Law<T>> Law<T> for Vectorized<L> {
             $(
                 fn $function(&self, G: &Tensor<T>) -> $Answer {
                     T::$vectorize($Call(&self.0, G))
                 }
             )*
+
+            fn derivative_times(&self, G: &Tensor<T>, rate: &Tensor<T>) -> Tensor<T> {
+                T::vectorize(DerivativeTimes(&self.0, G, rate))
+            }
         }
     };
 }

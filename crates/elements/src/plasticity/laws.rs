@@ -6,7 +6,7 @@ use super::{Additive, J2, Plasticity, j2};
 use crate::elements::BatchLaws;
 use crate::materials::{AnyLaw, KelvinVoigt, Law, Vectorized};
 use crate::number::{Float, Lanes, Number, constant};
-use crate::tensor::{Tensor, Tensor4, from_fn};
+use crate::tensor::{Tensor, Tensor4, from_fn, plus_identity, product, transpose};
 
 /// A law with the internal variables of a batch.
 #[derive(Clone, Copy)]
@@ -127,6 +127,10 @@ impl<T: Number> Law<T> for PlasticLaw<T> {
         with_model!(self, law => Vectorized(*law).derivative(G))
     }
 
+    fn derivative_times(&self, G: &Tensor<T>, rate: &Tensor<T>) -> Tensor<T> {
+        with_model!(self, law => Vectorized(*law).derivative_times(G, rate))
+    }
+
     fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         with_model!(self, law => Vectorized(*law).projected_derivative(G))
     }
@@ -146,6 +150,14 @@ impl<T: Number> Law<T> for ViscousJ2<T> {
     #[inline(always)]
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
         j2::pulled_back(&self.plastic, &self.damping.derivative(&j2::trial(&self.plastic, G)))
+    }
+
+    /// With A = Fᵖ⁻¹, (H : Ḟ A) Aᵀ.
+    #[inline(always)]
+    fn derivative_times(&self, G: &Tensor<T>, rate: &Tensor<T>) -> Tensor<T> {
+        let A = plus_identity(&self.plastic);
+        let stress = self.damping.derivative_times(&j2::trial(&self.plastic, G), &product(rate, &A));
+        product(&stress, &transpose(&A))
     }
 
     #[inline(always)]

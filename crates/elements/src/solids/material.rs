@@ -8,7 +8,7 @@ use crate::elements::BatchLaws;
 use crate::materials::{AnyLaw, KelvinVoigt, Law, PlaneCorotated, Terms, Vectorized};
 use crate::number::{Float, Lanes, Number};
 use crate::plasticity::{PlasticLaw, PlasticLaws, Plasticity, Purpose};
-use crate::tensor::{Tensor, Tensor4};
+use crate::tensor::{Tensor, Tensor4, contracted};
 
 /// The elements of one material.
 pub(super) struct Solid<T: Float> {
@@ -217,6 +217,10 @@ impl<L: Number> Law<L> for LawByReference<'_, L> {
 
     fn derivative(&self, G: &Tensor<L>) -> Tensor4<L> {
         if self.is_projected { self.law().projected_derivative(G) } else { self.law().derivative(G) }
+    }
+
+    fn derivative_times(&self, G: &Tensor<L>, rate: &Tensor<L>) -> Tensor<L> {
+        if self.is_projected { contracted(&self.derivative(G), rate) } else { self.law().derivative_times(G, rate) }
     }
 
     fn terms(&self, G: &Tensor<L>) -> Terms<L> {

@@ -16,7 +16,8 @@ fn press(method: &str, dt: f64) -> String {
 fn a_press_squashes_a_body_to_its_gap_and_both_plates_push_alike() {
     let mut forces = Vec::new();
     for method in dissipative() {
-        let (dt, steps) = if is_implicit(method) { (0.02, 100) } else { (5e-4, 4000) };
+        // Explicit Euler takes longer to come to rest: it feeds the vibrations that damping ends.
+        let (dt, steps) = if is_implicit(method) { (0.02, 100) } else { (5e-4, 6000) };
         let mut simulation = build(&press(method, dt));
         for _ in 0..steps {
             run(&mut simulation, 1);

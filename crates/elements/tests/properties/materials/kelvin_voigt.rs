@@ -39,6 +39,8 @@ fn the_damping_dissipates_the_work_of_the_rate_of_the_stretch_and_never_less_tha
     for G in deformations() {
         let (F, rate) = (plus_identity(&G), from_fn(|_, _| random.number()));
         let dissipated = dot(&stress(&G, &rate), &rate);
+        let size = largest(&rate) * (MU + LAMBDA);
+        assert!(distance(&DAMPING.derivative_times(&G, &rate), &stress(&G, &rate)) < 1e-12 * size, "{G:?}");
         if 1.0 + volume_change(&G).0 > 0.01 {
             let expected = dissipation(&stretch_rate(&F, &rate));
             assert!((dissipated - expected).abs() < 1e-9 * (1.0 + expected), "{dissipated} of {expected} at {G:?}");
