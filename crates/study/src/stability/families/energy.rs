@@ -223,7 +223,7 @@ fn same(scene: Driven, name: &str, copy: Copy) -> Case {
         margin_is: "largest difference / 1e-5 of the length; must be at most 1",
         ..scene.text(ORIGINAL).case(FAMILY, case, parameters, move |deadline| {
             let (a, b) = (answer(scene, ORIGINAL, deadline)?, answer(scene, copy, deadline)?);
-            let difference = |(X, u): &(Vector3<f64>, Vector3<f64>)| {
+            let difference = |(X, u): &Moved| {
                 let nearest = b.iter().min_by(|(a, _), (b, _)| (a - X).norm().total_cmp(&(b - X).norm()));
                 nearest.map_or(f64::NAN, |(_, other)| (u - other).norm())
             };
@@ -233,8 +233,11 @@ fn same(scene: Driven, name: &str, copy: Copy) -> Case {
     }
 }
 
-/// Rest positions and displacements at the end, of the original, m.
-fn answer(scene: Driven, copy: Copy, deadline: Deadline) -> Result<Vec<(Vector3<f64>, Vector3<f64>)>, Finding> {
+/// The rest position and the displacement of a node, m.
+type Moved = (Vector3<f64>, Vector3<f64>);
+
+/// Those of all nodes at the end, as the original has them.
+fn answer(scene: Driven, copy: Copy, deadline: Deadline) -> Result<Vec<Moved>, Finding> {
     let mut simulation = scene.text(copy).build()?;
     let end = march(&mut simulation, scene.steps(), deadline).endurance();
     if end.outcome != Outcome::Survives {
