@@ -18,6 +18,7 @@ mod flags;
 mod freedom;
 mod lesson;
 mod mesh_command;
+mod mesh_files;
 mod mesh_refusals;
 mod mesh_shapes;
 mod momentum;

@@ -6,7 +6,6 @@ use nalgebra::Vector3;
 
 use super::boundary::FACES;
 use super::buckets::Buckets;
-use super::tidy::count_inverted;
 use super::{Mesh, MeshError, Problem, SurfaceMesh, TetrahedralMesh, area_vector, sets, signed_volume};
 
 /// A tetrahedron is flat if its volume is below this fraction of its longest edge cubed.
@@ -162,4 +161,24 @@ fn check_all_referenced<const N: usize>(mesh: &Mesh<3, N>) -> Result<(), Problem
         Some(vertex) => Err(Problem::Unreferenced { vertex }),
         None => Ok(()),
     }
+}
+
+/// The problem of an element's volume, or of its area in the plane z = 0.
+pub(crate) fn problem_of_size<const N: usize>(mesh: &Mesh<3, N>, element: usize) -> Option<Problem> {
+    let corners = mesh.elements[element].map(|node| mesh.vertices[node]);
+    let found = match corners[..] {
+        [a, b, c, d] => check_volume(element, [a, b, c, d]),
+        [a, b, c] => check_area(element, [a, b, c]),
+        _ => Ok(()),
+    };
+    found.err()
+}
+
+pub(crate) fn is_inverted(problem: &Option<Problem>) -> bool {
+    matches!(problem, Some(Problem::Inverted { .. } | Problem::Clockwise { .. }))
+}
+
+/// Number of the elements with a negative volume, or a negative area in the plane z = 0.
+fn count_inverted<const N: usize>(mesh: &Mesh<3, N>) -> usize {
+    (0..mesh.elements.len()).filter(|&element| is_inverted(&problem_of_size(mesh, element))).count()
 }

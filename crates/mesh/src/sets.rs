@@ -1,7 +1,8 @@
 //! Named sets: parts of a mesh that a file names, such as Gmsh's physical groups.
 
+use std::collections::HashMap;
+
 use super::connectivity::quarters;
-use super::tidy::{parts_of_elements, sorted};
 use super::{Mesh, Problem};
 
 /// The edges of a tetrahedron, by its corners.
@@ -116,4 +117,44 @@ pub(crate) fn check<const N: usize>(mesh: &Mesh<3, N>) -> Result<(), Problem> {
         }
     }
     Ok(())
+}
+
+/// Faces and edges by their sorted nodes, true if they belong to an element.
+type Found = (HashMap<[usize; 3], bool>, HashMap<[usize; 2], bool>);
+
+/// The faces and edges of the sets of a mesh.
+pub(crate) fn parts_of_elements<const N: usize>(mesh: &Mesh<3, N>) -> Found {
+    let mut faces: HashMap<[usize; 3], bool> =
+        mesh.sets.values().flat_map(|set| &set.faces).map(|&face| (sorted(face), false)).collect();
+    let mut edges: HashMap<[usize; 2], bool> =
+        mesh.sets.values().flat_map(|set| &set.edges).map(|&edge| (sorted(edge), false)).collect();
+    if faces.is_empty() && edges.is_empty() {
+        return (faces, edges);
+    }
+    // Few elements have two nodes of these parts; the others need no look into the maps.
+    let mut is_near = vec![false; mesh.vertices.len()];
+    for &node in faces.keys().flatten().chain(edges.keys().flatten()) {
+        is_near.get_mut(node).into_iter().for_each(|is_near| *is_near = true);
+    }
+    let is_near = |node: &&usize| is_near.get(**node) == Some(&true);
+    for element in mesh.elements.iter().filter(|element| element.iter().filter(is_near).count() > 1) {
+        for (c, b) in (0..N).flat_map(|c| (0..c).map(move |b| (c, b))) {
+            if !edges.is_empty()
+                && let Some(is_found) = edges.get_mut(&sorted([element[b], element[c]]))
+            {
+                *is_found = true;
+            }
+            for a in 0..if faces.is_empty() { 0 } else { b } {
+                if let Some(is_found) = faces.get_mut(&sorted([element[a], element[b], element[c]])) {
+                    *is_found = true;
+                }
+            }
+        }
+    }
+    (faces, edges)
+}
+
+pub(crate) fn sorted<const N: usize>(mut nodes: [usize; N]) -> [usize; N] {
+    nodes.sort_unstable();
+    nodes
 }

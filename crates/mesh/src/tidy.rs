@@ -1,8 +1,7 @@
 //! Repairs of meshes: what belongs to no element is left out, elements are turned, elements without a size or that repeat others go.
 
-use std::collections::HashMap;
-
-use super::check::{check_area, check_volume};
+use super::check::{is_inverted, problem_of_size};
+use super::sets::{parts_of_elements, sorted};
 use super::{Mesh, MeshSet, Problem, SurfaceMesh, area_vector};
 
 /// Leaves out the nodes of no element, with those that sets name. Returns their number.
@@ -62,61 +61,6 @@ pub(crate) fn leave_out_strays<const N: usize>(mesh: &mut Mesh<3, N>) -> Vec<Str
     lines
 }
 
-/// Faces and edges by their sorted nodes, true if they belong to an element.
-type Found = (HashMap<[usize; 3], bool>, HashMap<[usize; 2], bool>);
-
-/// The faces and edges of the sets of a mesh.
-pub(crate) fn parts_of_elements<const N: usize>(mesh: &Mesh<3, N>) -> Found {
-    let mut faces: HashMap<[usize; 3], bool> =
-        mesh.sets.values().flat_map(|set| &set.faces).map(|&face| (sorted(face), false)).collect();
-    let mut edges: HashMap<[usize; 2], bool> =
-        mesh.sets.values().flat_map(|set| &set.edges).map(|&edge| (sorted(edge), false)).collect();
-    if faces.is_empty() && edges.is_empty() {
-        return (faces, edges);
-    }
-    // Few elements have two nodes of these parts; the others need no look into the maps.
-    let mut is_near = vec![false; mesh.vertices.len()];
-    for &node in faces.keys().flatten().chain(edges.keys().flatten()) {
-        is_near.get_mut(node).into_iter().for_each(|is_near| *is_near = true);
-    }
-    let is_near = |node: &&usize| is_near.get(**node) == Some(&true);
-    for element in mesh.elements.iter().filter(|element| element.iter().filter(is_near).count() > 1) {
-        for (c, b) in (0..N).flat_map(|c| (0..c).map(move |b| (c, b))) {
-            if !edges.is_empty()
-                && let Some(is_found) = edges.get_mut(&sorted([element[b], element[c]]))
-            {
-                *is_found = true;
-            }
-            for a in 0..if faces.is_empty() { 0 } else { b } {
-                if let Some(is_found) = faces.get_mut(&sorted([element[a], element[b], element[c]])) {
-                    *is_found = true;
-                }
-            }
-        }
-    }
-    (faces, edges)
-}
-
-pub(crate) fn sorted<const N: usize>(mut nodes: [usize; N]) -> [usize; N] {
-    nodes.sort_unstable();
-    nodes
-}
-
-/// The problem of an element's volume, or of its area in the plane z = 0.
-fn problem_of_size<const N: usize>(mesh: &Mesh<3, N>, element: usize) -> Option<Problem> {
-    let corners = mesh.elements[element].map(|node| mesh.vertices[node]);
-    let found = match corners[..] {
-        [a, b, c, d] => check_volume(element, [a, b, c, d]),
-        [a, b, c] => check_area(element, [a, b, c]),
-        _ => Ok(()),
-    };
-    found.err()
-}
-
-fn is_inverted(problem: &Option<Problem>) -> bool {
-    matches!(problem, Some(Problem::Inverted { .. } | Problem::Clockwise { .. }))
-}
-
 /// Turns all elements of a mesh of which none has a positive size and some a negative one. Returns their number.
 ///
 /// Elements are tetrahedra, or triangles in the plane z = 0.
@@ -128,11 +72,6 @@ pub(crate) fn turn_if_all_inverted<const N: usize>(mesh: &mut Mesh<3, N>) -> Opt
         problem.as_ref()?;
     }
     has_inverted.then(|| turn_inverted(mesh))
-}
-
-/// Number of the elements with a negative volume, or a negative area in the plane z = 0.
-pub(crate) fn count_inverted<const N: usize>(mesh: &Mesh<3, N>) -> usize {
-    (0..mesh.elements.len()).filter(|&element| is_inverted(&problem_of_size(mesh, element))).count()
 }
 
 /// Turns the elements with a negative volume, or with a negative area in the plane z = 0, by swapping two of their nodes. Returns their

@@ -20,7 +20,7 @@ use crate::BodyMesh;
 
 pub use checkpoint::{Checkpoint, History};
 pub use failure::{Breakdown, Cause, Failure};
-pub use ledger::EnergyLedger;
+pub use ledger::{Energies, EnergyLedger};
 pub use parameter::Parameter;
 pub use part::Part;
 pub use picture_place::PicturePlace;
@@ -245,29 +245,12 @@ pub struct Shape {
     pub picture: Option<PicturePlace>,
 }
 
-/// Energies of the whole body, J.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Energies {
-    /// ½ vᵀ M v
-    pub kinetic: f64,
-    /// Elastic energy, gravity, dead loads and springs, and pressures that have a potential: those whose surface is closed or
-    /// has a fixed edge. Of a plastic body it is the stored energy; [`PlasticFlow`] has the dissipated one.
-    pub potential: f64,
-}
-
 impl Shape {
     /// Distance from a point of the boundary within which its nearest corner lies, m: the longest edge over √3.
     /// `x` are the positions of the nodes now, m.
     pub fn pick_radius(&self, x: &[Vector3<f64>]) -> f64 {
         let edges = self.boundary.iter().flat_map(|&[a, b, c]| [x[a] - x[b], x[b] - x[c], x[c] - x[a]]);
         edges.map(|edge| edge.norm()).fold(0.0, f64::max) / 3f64.sqrt()
-    }
-}
-
-impl Energies {
-    /// Kinetic and potential energy together.
-    pub fn total(&self) -> f64 {
-        self.kinetic + self.potential
     }
 }
 

@@ -261,8 +261,7 @@ impl<T: Float> Solids<T> for Groups<T> {
     fn add_metric(&self, values: &mut [Block<T, 3>]) {
         let zero = vec![[T::default(); 3]; self.nodes];
         for group in &self.groups {
-            let [mu, bulk] = group.laws.law.moduli();
-            let modulus = 4.0 / 3.0 * mu + bulk;
+            let modulus = 4.0 / 3.0 * group.laws.law.moduli()[0] + group.laws.law.moduli()[1];
             if T::has_fast() {
                 let law = QuadraticForm::<T::Fast>(constant(modulus));
                 let laws = LawsByReference::one(&law);
@@ -295,9 +294,7 @@ impl<T: Float> Solids<T> for Groups<T> {
 
     fn plastic_strains(&self) -> Option<Vec<f64>> {
         let points = self.plasticity.as_ref()?.variables().chunks_exact(self.points_per_element);
-        let mean = |points: &[Internal<T>]| {
-            points.iter().map(|of| of.strain.as_f64()).sum::<f64>() / self.points_per_element as f64
-        };
-        Some(points.map(mean).collect())
+        let sum = |points: &[Internal<T>]| points.iter().map(|of| of.strain.as_f64()).sum::<f64>();
+        Some(points.map(|points| sum(points) / self.points_per_element as f64).collect())
     }
 }

@@ -1,4 +1,4 @@
-//! The energy ledger of a run.
+//! Energies of a body, and the energy ledger of a run.
 
 use serde::Serialize;
 
@@ -46,5 +46,22 @@ impl EnergyLedger {
     /// Energy that the method and impacts on planes have dissipated, J; negative if energy has come from nothing.
     pub fn numerical(&self) -> f64 {
         self.start + self.supplied() - self.kinetic - self.stored - self.dissipated()
+    }
+}
+
+/// Energies of the whole body, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energies {
+    /// ½ vᵀ M v
+    pub kinetic: f64,
+    /// Elastic energy, gravity, dead loads and springs, and pressures that have a potential: those whose surface is closed or
+    /// has a fixed edge. Of a plastic body it is the stored energy; [`PlasticFlow`](super::PlasticFlow) has the dissipated one.
+    pub potential: f64,
+}
+
+impl Energies {
+    /// Kinetic and potential energy together.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.potential
     }
 }

@@ -1,6 +1,7 @@
 //! Polygon files, text and binary. Source: G. Turk, The PLY Polygon File Format (1994).
 
 mod header;
+mod number;
 mod reader;
 
 use std::path::Path;

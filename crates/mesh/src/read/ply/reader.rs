@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::header::{Encoding, Kind};
+use super::number::{Encoding, Kind};
 use crate::{MeshError, Problem};
 
 /// A place in the file.
