@@ -64,7 +64,7 @@ pub struct Simulator<T: Real> {
     initial_velocity: Vec<[T; 3]>,
     /// The state before the last step, to which a failed step returns.
     last_good: State<T>,
-    /// Where its energy comes from and where it goes.
+    /// The account of its energy: supplied, stored, dissipated.
     ledger: Ledger,
     /// Works of the step that was computed last, and the forces at its end.
     work: (StepWork, LastForces<T>),

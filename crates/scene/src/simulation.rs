@@ -76,7 +76,7 @@ pub trait Simulation: Send {
     /// Kinetic and potential energy now, J.
     fn energies(&self) -> Energies;
 
-    /// Where the energy comes from and where it goes; `None` in statics, and for a pipeline that does not compute it.
+    /// The account of the energy supplied, stored and dissipated; `None` in statics, and for a pipeline that does not compute it.
     fn energy_ledger(&self) -> Option<EnergyLedger> {
         None
     }

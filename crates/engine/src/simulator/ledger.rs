@@ -48,7 +48,7 @@ pub(super) struct Ledger {
     may_gain: bool,
 }
 
-/// What a judgement looks at: a state, the state before it, and the time between them, s.
+/// A step to be judged: its end, the state before it, and the time between them, s.
 pub(super) struct Step<'a, T: Real> {
     pub system: &'a System<T>,
     pub integrator: &'a dyn Integrator<T>,
@@ -92,8 +92,8 @@ impl<T: Real> Step<'_, T> {
         }
     }
 
-    /// The lowest potential of steady loads at the displacements now and at those which the velocities lead to in the next step, and the
-    /// work that changing loads do in that, J: displacements of explicit Euler do not change in its first step.
+    /// The lowest potential of steady loads, now or after a further step at the present velocities, and the work of changing loads in such a
+    /// step, J: displacements of explicit Euler do not change in its first step.
     fn ahead(&self) -> [f64; 2] {
         let Self { system, before, state, dt, loads, .. } = *self;
         let moment = Moment::at(before.time + dt);

@@ -10,7 +10,7 @@ use super::deck::Line;
 use super::kinds::{FACES, Kind};
 use crate::{MeshError, Problem};
 
-/// What an element has become. A mesh with more than 2³² elements fits into no memory.
+/// The fate of an element. A mesh with more than 2³² elements fits into no memory.
 #[derive(Clone, Copy)]
 enum Element {
     Tetrahedron(u32),
