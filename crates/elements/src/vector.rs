@@ -98,6 +98,12 @@ pub fn clear<X: Copy + Default + Send>(x: &mut [X]) {
     }
 }
 
+/// Makes x as many zeros, in the memory that it has.
+pub fn set_zero<X: Copy + Default>(x: &mut Vec<X>, len: usize) {
+    x.clear();
+    x.resize(len, X::default());
+}
+
 /// y += a x
 pub fn axpy<T: Float>(a: f64, x: &[[T; 3]], y: &mut [[T; 3]]) {
     let a = <T as Float>::of(a);

@@ -49,7 +49,7 @@ use adaptive::Control;
 use contact::Contacts;
 use ledger::Ledger;
 use plan::Plan;
-use work::{LastForces, StepWork};
+use work::{LastForces, Room, StepWork};
 
 pub use compiled::Compiled;
 pub use integrator::integrators;
@@ -69,6 +69,7 @@ pub struct Simulator<T: Real> {
     /// Works of the step that was computed last, and the forces at its end.
     work: (StepWork, LastForces<T>),
     last_forces: LastForces<T>,
+    room: Room<T>,
     contact: Option<Contacts<T>>,
     /// N; `None` without gravity.
     weight: Option<f64>,
@@ -200,6 +201,7 @@ impl<T: Real> Simulator<T> {
             ledger: Ledger::new(method.accept_gain),
             work: <_>::default(),
             last_forces: LastForces::default(),
+            room: Room::default(),
             contact,
             weight: gravity.map(|gravity| gravity.norm() * system.total_mass),
             kind: method.integrator,

@@ -10,7 +10,7 @@ use super::system::{INTERNAL, System};
 use crate::forces::HessianKind;
 use fem_elements::Real;
 use fem_elements::sparse::Block;
-use fem_elements::vector::{axpy, dot};
+use fem_elements::vector::{axpy, dot, set_zero};
 
 /// Part of the minimum of det F that displacements must keep where damping takes its matrix.
 const KEPT: f64 = 0.5;
@@ -76,13 +76,12 @@ impl<T: Real> System<T> {
         self.extrapolate(start, 0.5 * dt, damping_at);
     }
 
-    /// Displacements at which a step of implicit Euler or its linearization takes its damping matrix, m.
-    pub fn damping_displacements(&self, before: &State<T>, dt: f64) -> Vec<[T; 3]> {
-        let mut damping_at = before.u.clone();
+    /// Writes the displacements at which a step of implicit Euler or its linearization takes its damping matrix, m.
+    pub fn damping_displacements(&self, before: &State<T>, dt: f64, damping_at: &mut Vec<[T; 3]>) {
+        damping_at.clone_from(&before.u);
         if self.has_viscosity() {
-            self.extrapolate_half((&before.u, &before.v), dt, &mut damping_at);
+            self.extrapolate_half((&before.u, &before.v), dt, damping_at);
         }
-        damping_at
     }
 
     /// Adds `factor` times the product of d with the Hessian of the springs between the body's nodes, N.
@@ -120,18 +119,18 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// vᵀ (α M + β K(u)) v and vᵀ D(u) v, W if `v` are velocities.
-    pub fn damping_powers(&self, u: &[[T; 3]], v: &[[T; 3]]) -> [f64; 2] {
+    /// vᵀ (α M + β K(u)) v and vᵀ D(u) v, W if `v` are velocities. `product` is overwritten.
+    pub fn damping_powers(&self, u: &[[T; 3]], v: &[[T; 3]], product: &mut Vec<[T; 3]>) -> [f64; 2] {
         let rates = DampingRates::new(self.damping.as_ref(), 1.0);
-        let mut product = vec![[T::default(); 3]; v.len()];
-        self.add_rayleigh_times(rates, u, v, &mut product);
-        let rayleigh = if self.damping.is_some() { dot(&product, v) } else { 0.0 };
+        set_zero(product, v.len());
+        self.add_rayleigh_times(rates, u, v, product);
+        let rayleigh = if self.damping.is_some() { dot(product, v) } else { 0.0 };
         if !self.has_dampers() {
             return [rayleigh, 0.0];
         }
         product.fill([T::default(); 3]);
-        self.add_dampers_times(rates.forces, u, v, &mut product);
-        [rayleigh, dot(&product, v)]
+        self.add_dampers_times(rates.forces, u, v, product);
+        [rayleigh, dot(product, v)]
     }
 
     /// Adds (α M + β K(u) + γ D(u)) v, N.

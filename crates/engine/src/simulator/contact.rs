@@ -204,17 +204,24 @@ impl<T: Real> Simulator<T> {
 
     /// The force of each obstacle on each node near it in a step between two times (s), in the engine's numbering.
     pub(super) fn contact_forces_on_nodes(&self, times: [f64; 2]) -> Vec<NodeForce> {
-        let Self { contact: Some(contact), state, last_good, substep_dt: dt, .. } = self else { return Vec::new() };
+        let mut forces = Vec::new();
+        self.each_contact_force(times, |force| forces.push(force));
+        forces
+    }
+
+    /// Passes each of them on.
+    pub(super) fn each_contact_force(&self, times: [f64; 2], pass: impl FnMut(NodeForce)) {
+        let Self { contact: Some(contact), state, last_good, substep_dt: dt, .. } = self else { return };
         if let Some(impulses) = &contact.impulses {
             let of_impulse = |impulse: &crate::integrators::Impulse| NodeForce {
                 plane: impulse.plane,
                 node: impulse.node,
                 force: impulse.total(contact.planes.planes[impulse.plane].normal) / *dt,
             };
-            return impulses.impulses().iter().map(of_impulse).collect();
+            return impulses.impulses().iter().map(of_impulse).for_each(pass);
         }
         if let Some(contacts) = self.integrator.plane_contacts() {
-            return contacts.forces().map(|(plane, node, force)| NodeForce { plane, node, force }).collect();
+            return contacts.forces().map(|(plane, node, force)| NodeForce { plane, node, force }).for_each(pass);
         }
         let transition = contact.transition_speed * dt;
         let near = contact.planes.near(&state.u, times[1], contact.barrier.distance);
@@ -227,7 +234,7 @@ impl<T: Real> Simulator<T> {
             let friction = if plane.friction > 0.0 { Vector3::from(slide) * factor } else { Vector3::zeros() };
             NodeForce { plane: near.plane, node: near.node, force: plane.normal * normal - friction }
         };
-        near.map(force).collect()
+        near.map(force).for_each(pass);
     }
 
     /// The force of each obstacle on the body, and the distance of the nearest node.

@@ -37,11 +37,12 @@ pub(super) fn plastic<T: Real>(system: &System<T>) -> f64 {
     system.elements.plasticity().map_or(0.0, |plasticity| plasticity.dissipated())
 }
 
-/// Kinetic energy of the nodes with a prescribed motion, J.
-pub(super) fn kinetic_of_motions<T: Real>(system: &System<T>, v: &[[T; 3]]) -> f64 {
-    let mut prescribed = v.to_vec();
-    system.dirichlet.clear_free(&mut prescribed);
-    system.mass.kinetic_energy(&prescribed)
+/// Kinetic energy of the nodes with a prescribed motion, J. `room` is overwritten.
+pub(super) fn kinetic_of_motions<T: Real>(system: &System<T>, v: &[[T; 3]], room: &mut Vec<[T; 3]>) -> f64 {
+    room.clear();
+    room.extend_from_slice(v);
+    system.dirichlet.clear_free(room);
+    system.mass.kinetic_energy(room)
 }
 
 /// Rounding error of an energy, J.

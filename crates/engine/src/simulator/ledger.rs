@@ -18,7 +18,7 @@ use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::history::{put_option, take, take_option};
-use fem_elements::vector::{dot, triple};
+use fem_elements::vector::{axpy, dot};
 
 /// Largest gain of energy, as a part of the energy turned over.
 pub(super) const LARGEST_GAIN: f64 = 0.05;
@@ -59,6 +59,8 @@ pub(super) struct Step<'a, T: Real> {
     pub loads: &'a [[T; 3]],
     /// Works of the step.
     pub work: &'a StepWork,
+    /// Is overwritten.
+    pub room: &'a mut Vec<[T; 3]>,
 }
 
 impl<T: Real> Step<'_, T> {
@@ -73,11 +75,12 @@ impl<T: Real> Step<'_, T> {
 
     /// Kinetic energy there, J.
     fn kinetic(&self) -> f64 {
-        let Self { system, before, state, .. } = *self;
+        let Self { system, before, state, .. } = self;
         match self.integrator.has_staggered_velocities() {
             true => {
-                let twice: Vec<[T; 3]> = sum(&before.v, 1.0, &state.v);
-                system.mass.kinetic_energy(&twice) / 4.0
+                let [a, b, c] = [(before, before), (before, state), (state, state)]
+                    .map(|(one, other)| system.mass.product(&one.v, &other.v));
+                (a + 2.0 * b + c) / 8.0
             }
             false => system.mass.kinetic_energy(&state.v),
         }
@@ -85,20 +88,21 @@ impl<T: Real> Step<'_, T> {
 
     /// The kinetic energy with which the method keeps the energy of a linear body, J.
     fn kept(&self) -> f64 {
-        let Self { system, integrator, before, state, dt, .. } = *self;
+        let Self { system, integrator, before, state, dt, .. } = self;
         match integrator.has_staggered_velocities() {
             true => system.mass.product(&before.v, &state.v) / 2.0,
-            false => integrator.kinetic_energy(system, state, dt),
+            false => integrator.kinetic_energy(system, state, *dt),
         }
     }
 
     /// The lowest potential of steady loads, now or after a further step at the present velocities, and the work of changing loads in such a
     /// step, J: displacements of explicit Euler do not change in its first step.
-    fn ahead(&self) -> [f64; 2] {
-        let Self { system, before, state, dt, loads, .. } = *self;
+    fn ahead(&mut self) -> [f64; 2] {
+        let Self { system, before, state, dt, loads, ref mut room, .. } = *self;
         let moment = Moment::at(before.time + dt);
-        let next = sum(&state.u, dt, &state.v);
-        let lowest = f64::min(steady_potential(system, &state.u, moment), steady_potential(system, &next, moment));
+        room.clone_from(&state.u);
+        axpy(dt, &state.v, room);
+        let lowest = f64::min(steady_potential(system, &state.u, moment), steady_potential(system, room, moment));
         [lowest, f64::max(0.0, dt * dot(loads, &state.v))]
     }
 }
@@ -157,7 +161,7 @@ impl Ledger {
 
     /// The cause of failure of a step, not yet accepted, in which the kinetic energy has leapt. A bound of the largest speed comes first: most
     /// steps need no energy at all.
-    pub(super) fn leap<T: Real>(&mut self, step: &Step<T>, work: &StepWork) -> Option<Cause> {
+    pub(super) fn leap<T: Real>(&mut self, step: &mut Step<T>, work: &StepWork) -> Option<Cause> {
         let Step { system, before, state, .. } = *step;
         let speed = f64::max(before.largest_squared_speed(), state.largest_squared_speed());
         let bound = 0.5 * system.total_mass * speed;
@@ -174,7 +178,7 @@ impl Ledger {
     }
 
     /// Takes the energies at the end of a step. Returns true if energy has been gained that nothing explains.
-    pub(super) fn judge<T: Real>(&mut self, step: &Step<T>) -> bool {
+    pub(super) fn judge<T: Real>(&mut self, step: &mut Step<T>) -> bool {
         self.turn_over(step);
         let left = self.left_over(step);
         let is_first = self.is_opening(step.integrator);
@@ -214,11 +218,11 @@ impl Ledger {
     }
 
     /// Takes the energy supplied so far into the energy turned over. Who moves nodes supplies at least their kinetic energy.
-    fn turn_over<T: Real>(&mut self, step: &Step<T>) {
+    fn turn_over<T: Real>(&mut self, step: &mut Step<T>) {
         let Some([start, potential]) = self.start else { return };
         let [lowest, work] = step.ahead();
         let has_motion = step.system.dirichlet.has_motion();
-        let of_motions = if has_motion { kinetic_of_motions(step.system, &step.state.v) } else { 0.0 };
+        let of_motions = if has_motion { kinetic_of_motions(step.system, &step.state.v, step.room) } else { 0.0 };
         let supplied = start + self.sums.supplied() + work + potential - lowest;
         self.turned_over = self.turned_over.max(supplied).max(of_motions);
     }
@@ -266,9 +270,4 @@ impl Ledger {
         self.sums = StepWork::from_array(sums);
         Ok(())
     }
-}
-
-/// x + a y
-fn sum<T: Real>(x: &[[T; 3]], a: f64, y: &[[T; 3]]) -> Vec<[T; 3]> {
-    x.iter().zip(y).map(|(x, y)| triple(|i| x[i] + T::of(a) * y[i])).collect()
 }

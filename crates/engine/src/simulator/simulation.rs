@@ -260,8 +260,8 @@ impl<T: Real> Simulator<T> {
 
     pub(super) fn nodal_forces_now(&self) -> Vec<[f64; 3]> {
         let Self { system, state, last_good, integrator, .. } = self;
-        let mut force = vec![[T::default(); 3]; system.nodes()];
-        let damping_at = system.damping_displacements(last_good, state.time - last_good.time);
+        let (mut force, mut damping_at) = (vec![[T::default(); 3]; system.nodes()], Vec::new());
+        system.damping_displacements(last_good, state.time - last_good.time, &mut damping_at);
         system.force(&state.u, &state.v, &damping_at, integrator.moment(state), &mut force);
         system.numbering.to_mesh(&force).iter().map(|force| force.map(T::as_f64)).collect()
     }

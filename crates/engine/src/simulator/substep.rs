@@ -91,7 +91,7 @@ impl<T: Real> Simulator<T> {
             ledger = ledger.without(&self.work.0);
         }
         let is_due = is_judged(*kind) && !integrator.may_stop_early() && ledger.has_enough_steps();
-        let step = Step {
+        let mut step = Step {
             system,
             integrator: &**integrator,
             before,
@@ -99,8 +99,9 @@ impl<T: Real> Simulator<T> {
             dt: *dt,
             loads: &last_forces.loads,
             work: &work.0,
+            room: &mut Vec::new(),
         };
-        (is_due && ledger.judge(&step)).then(|| self.failure(ledger.cause()))
+        (is_due && ledger.judge(&mut step)).then(|| self.failure(ledger.cause()))
     }
 
     /// Accepts the substep that was computed: the material flows, time goes on, and the energy is judged. After a failure the state is that at
@@ -118,7 +119,7 @@ impl<T: Real> Simulator<T> {
         }
         self.ledger.add(&self.work.0);
         let were_known = !self.last_forces.reactions.is_empty();
-        self.last_forces = std::mem::take(&mut self.work.1);
+        std::mem::swap(&mut self.last_forces, &mut self.work.1);
         if !were_known && !self.last_forces.reactions.is_empty() {
             let (ledger, step) = self.ledger_and_step();
             ledger.explain_jump(&step);
@@ -134,13 +135,15 @@ impl<T: Real> Simulator<T> {
     /// Judges the energy of a step if the method is due for that. Returns true if energy has been gained that nothing explains.
     fn judge(&mut self) -> bool {
         let kind = self.kind;
-        let (ledger, step) = self.ledger_and_step();
-        is_judged(kind) && ledger.is_due(step.integrator, kind.is_explicit()) && ledger.judge(&step)
+        let (ledger, mut step) = self.ledger_and_step();
+        is_judged(kind) && ledger.is_due(step.integrator, kind.is_explicit()) && ledger.judge(&mut step)
     }
 
     /// The ledger, and the last step for it.
     fn ledger_and_step(&mut self) -> (&mut Ledger, Step<'_, T>) {
-        let Self { integrator, system, state, last_good: before, substep_dt: dt, ledger, last_forces, work, .. } = self;
+        let Self {
+            integrator, system, state, last_good: before, substep_dt: dt, ledger, last_forces, work, room, ..
+        } = self;
         (
             ledger,
             Step {
@@ -151,6 +154,7 @@ impl<T: Real> Simulator<T> {
                 dt: *dt,
                 loads: &last_forces.loads,
                 work: &work.0,
+                room: &mut room.other,
             },
         )
     }
@@ -177,11 +181,19 @@ impl<T: Real> Simulator<T> {
             return Ok(());
         }
         self.ledger.open(&self.system, &self.last_good);
-        self.work = self.work_of_step();
-        let Self { integrator, system, state, last_good: before, substep_dt: dt, ledger, work, .. } = self;
-        let step =
-            Step { system, integrator: &**integrator, before, state, dt: *dt, loads: &work.1.loads, work: &work.0 };
-        ledger.leap(&step, &work.0).map_or(Ok(()), Err)
+        self.write_work_of_step();
+        let Self { integrator, system, state, last_good: before, substep_dt: dt, ledger, work, room, .. } = self;
+        let mut step = Step {
+            system,
+            integrator: &**integrator,
+            before,
+            state,
+            dt: *dt,
+            loads: &work.1.loads,
+            work: &work.0,
+            room: &mut room.other,
+        };
+        ledger.leap(&mut step, &work.0).map_or(Ok(()), Err)
     }
 
     /// Lets the material flow in a step that has been accepted.

@@ -9,14 +9,13 @@ use std::ops::AddAssign;
 
 use super::Simulator;
 use super::energies::is_changing_load;
-use crate::boundary::reactions::{unbalanced, unbalanced_at};
+use crate::boundary::reactions::{End, Unbalanced, write_between};
 use crate::forces::Moment;
 use crate::forces::contact::friction::tangential;
-use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::history::put;
-use fem_elements::vector::{dot, triple};
+use fem_elements::vector::{dot, scale, set_zero, triple};
 use fem_scene::Integrator as IntegratorKind;
 use fem_scene::simulation::History;
 use nalgebra::Vector3;
@@ -94,66 +93,89 @@ impl<T: Real> LastForces<T> {
     }
 }
 
+/// Vectors that works overwrite.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Room<T> {
+    /// Change of the displacements in the step, m; that of constrained ones alone where reactions do work.
+    change: Vec<[T; 3]>,
+    /// Any.
+    pub(super) other: Vec<[T; 3]>,
+    unbalanced: Unbalanced<T>,
+}
+
 impl<T: Real> Simulator<T> {
-    /// The works of the step that was computed last and is not yet accepted, and the forces at its end.
-    pub(super) fn work_of_step(&self) -> (StepWork, LastForces<T>) {
+    /// Writes the works of the step that was computed last and is not yet accepted, and the forces at its end.
+    pub(super) fn write_work_of_step(&mut self) {
+        let mut room = std::mem::take(&mut self.room);
+        let (_, mut last) = std::mem::take(&mut self.work);
+        last.forget();
+        self.work = (self.work_of_step(&mut room, &mut last), last);
+        self.room = room;
+    }
+
+    fn work_of_step(&self, room: &mut Room<T>, last: &mut LastForces<T>) -> StepWork {
         let Self { integrator, system, state, last_good: before, substep_dt: dt, kind, last_forces, .. } = self;
         let (is_damped, has_motion) = (system.is_damped(), system.dirichlet.has_motion());
         let [obstacles, friction] = self.work_of_obstacles();
         let mut work = StepWork { obstacles, friction, ..StepWork::default() };
-        let mut last = LastForces::default();
-        let change = || -> Vec<[T; 3]> { difference(&state.u, &before.u) };
         if let Some(of_stages) = integrator.work_of_stages() {
             work.motions = of_stages.motions + of_stages.jump;
             [work.rayleigh, work.dampers] = [of_stages.rayleigh, of_stages.dampers];
         } else {
             if is_damped {
                 // Halfway the increment of a rotation strains nothing, as a step's own matrix of viscosity.
-                let halfway: Vec<[T; 3]> = match system.has_viscosity() {
-                    true => {
-                        before.u.iter().zip(&state.u).map(|(a, b)| triple(|i| T::of(0.5) * (a[i] + b[i]))).collect()
-                    }
-                    false => before.u.clone(),
-                };
-                let powers = system.damping_powers(&halfway, &change());
+                let part = if system.has_viscosity() { 0.5 } else { 0.0 };
+                write_between(&before.u, &state.u, part, &mut room.other);
+                write_difference(&state.u, &before.u, &mut room.change);
+                let powers = system.damping_powers(&room.other, &room.change, &mut room.unbalanced.force);
                 [work.rayleigh, work.dampers] = powers.map(|power| power / dt);
             }
             if has_motion {
-                (work.motions, last.reactions) = self.work_of_motions();
-                work.motions += integrator.work_of_jump();
+                work.motions = self.work_of_motions(room) + integrator.work_of_jump();
+                std::mem::swap(&mut last.reactions, &mut room.unbalanced.force);
             }
         }
         if system.forces.active().any(|(potential, _)| is_changing_load(potential)) {
-            last.loads = forces_of_loads(system, &state.u, Moment::at(before.time + dt));
-            let change = change();
-            work.loads = dot(&last.loads, &change);
+            forces_of_loads(system, &state.u, Moment::at(before.time + dt), &mut last.loads);
+            write_difference(&state.u, &before.u, &mut room.change);
+            work.loads = dot(&last.loads, &room.change);
             if !takes_forces_at_end(*kind) {
                 let at_start = match last_forces.loads.is_empty() {
-                    true => &forces_of_loads(system, &before.u, Moment::at(before.time)),
+                    true => {
+                        forces_of_loads(system, &before.u, Moment::at(before.time), &mut room.other);
+                        &room.other
+                    }
                     false => &last_forces.loads,
                 };
-                work.loads = 0.5 * (work.loads + dot(at_start, &change));
+                work.loads = 0.5 * (work.loads + dot(at_start, &room.change));
             }
         }
-        (work, last)
+        work
     }
 
-    /// Work of the reactions in a step of an implicit method, J, and the reactions at its end or at its stage, N.
-    fn work_of_motions(&self) -> (f64, Vec<[T; 3]>) {
+    /// Work of the reactions in a step of an implicit method, J. Leaves the reactions at its end or at its stage in the room, N.
+    fn work_of_motions(&self, room: &mut Room<T>) -> f64 {
         let Self { integrator, system, state, last_good: before, substep_dt: dt, kind, last_forces, .. } = self;
-        let mut change = difference(&state.u, &before.u);
-        system.dirichlet.clear_free(&mut change);
-        let end = State { time: before.time + dt, ..state.clone() };
-        let (now, part) = match integrator.last_stage().filter(|_| !takes_forces_at_end(*kind)) {
-            Some(stage) => (unbalanced_at(system, before, &end, (stage.part, stage.acceleration)), stage.part),
-            None => (unbalanced(system, before, &end, Moment::at(end.time)), 1.0),
+        let Room { change, unbalanced, .. } = room;
+        write_difference(&state.u, &before.u, change);
+        system.dirichlet.clear_free(change);
+        let end = End { time: before.time + dt, ..End::of(state) };
+        let part = match integrator.last_stage().filter(|_| !takes_forces_at_end(*kind)) {
+            Some(stage) => {
+                unbalanced.at_stage(system, before, end, (stage.part, stage.acceleration));
+                stage.part
+            }
+            None => {
+                unbalanced.at_end(system, before, end, Moment::at(end.time));
+                1.0
+            }
         };
-        let work = dot(&now, &change);
+        let work = dot(&unbalanced.force, change);
         if takes_forces_at_end(*kind) || last_forces.reactions.is_empty() {
-            return (work, now);
+            return work;
         }
         // Linear between the stage of the last step and that of this one.
-        ((1.5 - part) * work + (part - 0.5) * dot(&last_forces.reactions, &change), now)
+        (1.5 - part) * work + (part - 0.5) * dot(&last_forces.reactions, change)
     }
 
     /// Work of moving obstacles in a step, and the energy that friction on obstacles dissipates, J.
@@ -161,13 +183,13 @@ impl<T: Real> Simulator<T> {
         let Some(contact) = self.contact.as_ref().filter(|contact| contact.does_work()) else { return [0.0; 2] };
         let times = [self.last_good.time, self.last_good.time + self.substep_dt];
         let mut work = [0.0; 2];
-        for on_node in self.contact_forces_on_nodes(times) {
+        self.each_contact_force(times, |on_node| {
             let (plane, node) = (&contact.planes().planes[on_node.plane], on_node.node);
             let travel = plane.displacement(times[1]) - plane.displacement(times[0]);
             let moved = triple(|i| (self.state.u[node][i] - self.last_good.u[node][i]).as_f64());
             work[0] += on_node.force.dot(&travel);
             work[1] -= on_node.force.dot(&Vector3::from(tangential(plane, moved, times)));
-        }
+        });
         work
     }
 }
@@ -177,19 +199,17 @@ fn takes_forces_at_end(kind: IntegratorKind) -> bool {
     !kind.is_explicit() && !IntegratorKind::SECOND_ORDER_IMPLICIT.contains(&kind)
 }
 
-/// Forces of the loads whose work depends on the path, N.
-fn forces_of_loads<T: Real>(system: &System<T>, u: &[[T; 3]], moment: Moment) -> Vec<[T; 3]> {
-    let mut force = vec![[T::default(); 3]; u.len()];
+/// Writes the forces of the loads whose work depends on the path, N.
+fn forces_of_loads<T: Real>(system: &System<T>, u: &[[T; 3]], moment: Moment, force: &mut Vec<[T; 3]>) {
+    set_zero(force, u.len());
     for (potential, _) in system.forces.active().filter(|(potential, _)| is_changing_load(*potential)) {
-        potential.add_gradient(u, moment, &mut force);
+        potential.add_gradient(u, moment, force);
     }
-    for force in force.as_flattened_mut() {
-        *force = -*force;
-    }
-    force
+    scale(-1.0, force);
 }
 
-/// x − y
-fn difference<T: Real>(x: &[[T; 3]], y: &[[T; 3]]) -> Vec<[T; 3]> {
-    x.iter().zip(y).map(|(x, y)| triple(|i| x[i] - y[i])).collect()
+/// Writes x − y.
+fn write_difference<T: Real>(x: &[[T; 3]], y: &[[T; 3]], difference: &mut Vec<[T; 3]>) {
+    difference.clear();
+    difference.extend(x.iter().zip(y).map(|(x, y)| triple(|i| x[i] - y[i])));
 }
