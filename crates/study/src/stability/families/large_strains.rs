@@ -113,6 +113,8 @@ fn keeps_shocks(motion: &EndMotion, model: &str, integrator: &str) -> bool {
     match integrator {
         "implicit_midpoint" | "newmark" => is_twist(motion) || model == "neo_hookean",
         "generalized_alpha" => motion.inverts && model == "neo_hookean",
+        // It gains energy where the rod buckles within a step.
+        "bdf2" => is_twist(motion) && model == "stable_neo_hookean",
         _ => false,
     }
 }
@@ -126,7 +128,8 @@ fn prescribed_and_released(motion: &EndMotion, model: &'static str) -> Case {
     let text = scene(motion, model, "implicit_euler");
     let mesh = motion.mesh.to_owned();
     let free = SceneText { poisson: 0.4, mesh, dt: 0.1, ..SceneText::finer("implicit_euler", model) };
-    let free = free.with(CLAMPED).with(DAMPED);
+    // Buckling: implicit Euler may gain energy in a step across a maximum of the potential, which no convex potential has.
+    let free = free.with(CLAMPED).with(DAMPED).with("[energy]\naccept_gain = true\n");
     let (steps, rest) = (motion.steps, 1000);
     let parameters = format!("nu = 0.4, E = 1e5 Pa, {steps} steps of {} s and {rest} of 0.1 s", motion.dt);
     let case = text.clone().case(FAMILY, format!("{}, then released", motion.name), parameters, move |deadline| {
