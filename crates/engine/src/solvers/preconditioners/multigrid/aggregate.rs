@@ -20,6 +20,9 @@ pub fn aggregate<const D: usize>(A: &Blocks<D, D>, positions: &[[f64; 3]]) -> (V
     let mut aggregates = vec![NONE; A.rows()];
     let mut count = 0;
     for node in 0..A.rows() {
+        if aggregates[node] != NONE {
+            continue;
+        }
         let neighbours = neighbours(A, node, positions);
         if neighbours.iter().all(|&other| aggregates[other as usize] == NONE) {
             neighbours.iter().for_each(|&other| aggregates[other as usize] = count);

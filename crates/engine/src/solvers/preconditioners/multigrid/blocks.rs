@@ -43,6 +43,18 @@ impl<const R: usize, const C: usize, F: Copy + Default> Blocks<R, C, F> {
         Self::zeros(starts, columns)
     }
 
+    /// A zero matrix with this sparsity pattern, but in each row without the blocks right of the last one that B has there.
+    pub fn left_of_last<const K: usize, G: Copy + Default>(self, B: &Blocks<R, K, G>) -> Self {
+        let (mut starts, mut columns) = (vec![0], Vec::with_capacity(self.columns.len()));
+        for row in 0..self.rows() {
+            let last = B.row(row).0.last();
+            columns.extend(self.row(row).0.iter().take_while(|&column| Some(column) <= last));
+            starts.push(columns.len());
+        }
+        columns.shrink_to_fit();
+        Self::zeros(starts, columns)
+    }
+
     /// A zero matrix with the sparsity pattern of Aᵀ, for A of `columns` columns, and the number in A of each block's
     /// transpose.
     pub fn transpose(A: &Blocks<C, R, F>, columns: usize) -> (Self, Vec<u32>) {
@@ -82,7 +94,7 @@ impl<const R: usize, const C: usize, F: Copy + Default> Blocks<R, C, F> {
 /// Up to this many rows one thread computes.
 const ROWS: usize = 256;
 
-/// C = A B in double precision for a C from [`Blocks::product`].
+/// C = A B in double precision for a C from [`Blocks::product`], or those blocks of it that C has at the beginning of each row.
 pub fn multiply<F, G, const R: usize, const K: usize, const C: usize>(
     A: &Blocks<R, K, F>,
     B: &Blocks<K, C, G>,
@@ -92,7 +104,7 @@ pub fn multiply<F, G, const R: usize, const K: usize, const C: usize>(
     G: Copy + Default + Into<f64> + Sync,
 {
     let Blocks { starts, columns, values } = product;
-    Product { A, B, starts, columns, last: |_| u32::MAX, rows: 0..A.rows(), values }.compute();
+    Product { A, B, starts, columns, last: |_, columns| columns.last().copied(), rows: 0..A.rows(), values }.compute();
 }
 
 /// The same where C is symmetric: its lower half, which is copied to the upper one. `slots` is workspace with an entry for each row.
@@ -103,7 +115,7 @@ pub fn multiply_symmetric<const K: usize, const C: usize>(
     slots: &mut [u32],
 ) {
     let Blocks { starts, columns, values } = product;
-    Product { A, B, starts, columns, last: |row| row as u32, rows: 0..A.rows(), values }.compute();
+    Product { A, B, starts, columns, last: |row, _| Some(row as u32), rows: 0..A.rows(), values }.compute();
     // Rows ascend, so the blocks of a column go one after another to the row of that number.
     for row in 0..A.rows() {
         for block in starts[row]..starts[row + 1] {
@@ -126,8 +138,8 @@ struct Product<'a, F, G, const R: usize, const K: usize, const C: usize> {
     /// The pattern of the product.
     starts: &'a [usize],
     columns: &'a [u32],
-    /// The last column that is computed in a row.
-    last: fn(usize) -> u32,
+    /// The last column that is computed in a row, from the number and the columns of the row.
+    last: fn(usize, &[u32]) -> Option<u32>,
     rows: Range<usize>,
     /// The values in these rows.
     values: &'a mut [[[f64; C]; R]],
@@ -167,16 +179,15 @@ where
             let of_row = &of_product[starts[i]..starts[i + 1]];
             let row = &mut values[starts[i] - first..][..of_row.len()];
             row.fill([[0.0; C]; R]);
+            let last = last(i, of_row);
             let (columns, values) = A.row(i);
             for (&k, a) in columns.iter().zip(values) {
-                let a = a.map(|row| row.map(Into::into));
+                let a = double(a);
                 let (columns, values) = B.row(k as usize);
                 let mut place = 0;
-                let count = columns.partition_point(|&column| column <= last(i));
-                for (&column, b) in columns.iter().zip(values).take(count) {
-                    let b = b.map(|row| row.map(Into::into));
+                for (&column, b) in columns.iter().zip(values).take_while(|(column, _)| Some(**column) <= last) {
                     place += of_row[place..].partition_point(|&other| other < column);
-                    add_product(&a, &b, &mut row[place]);
+                    add_product(&a, &double(b), &mut row[place]);
                 }
             }
         }
@@ -191,12 +202,26 @@ pub fn add_product<const R: usize, const K: usize, const C: usize>(
     c: &mut [[f64; C]; R],
 ) {
     for i in 0..R {
+        let mut row = c[i];
         for k in 0..K {
             for j in 0..C {
-                c[i][j] += a[i][k] * b[k][j];
+                row[j] += a[i][k] * b[k][j];
             }
         }
+        c[i] = row;
     }
+}
+
+/// A block in double precision.
+#[inline(always)]
+pub fn double<F: Copy + Into<f64>, const R: usize, const C: usize>(block: &[[F; C]; R]) -> [[f64; C]; R] {
+    let mut double = [[0.0; C]; R];
+    for i in 0..R {
+        for j in 0..C {
+            double[i][j] = block[i][j].into();
+        }
+    }
+    double
 }
 
 /// Row i of A x.

@@ -1,7 +1,7 @@
 //! One level: a matrix, its smoother, and the prolongation from the next coarser level.
 
 use super::aggregate::{aggregate, centres};
-use super::blocks::{Blocks, add_product, multiply, multiply_symmetric, row_times};
+use super::blocks::{Blocks, add_product, double, multiply, multiply_symmetric, row_times};
 use super::cycle::{Rows, Smoother, over_rows, times};
 use super::motions::{Motion, orthonormal};
 use crate::solvers::block::invert;
@@ -36,6 +36,7 @@ pub struct Level<const D: usize> {
     R: Blocks<6, D>,
     /// Number in P of the transpose of each block of R.
     R_sources: Vec<u32>,
+    /// The blocks of A P that the lower half of Pᵀ A P needs.
     AP: Blocks<D, 6, f64>,
     slots: Vec<u32>,
     /// Workspace for a row of A P̂.
@@ -65,6 +66,7 @@ impl<const D: usize> Level<D> {
         let (R, R_sources) = Blocks::transpose(&P, count);
         let AP = Blocks::<D, 6, f64>::product(&A, &P);
         let coarse = Blocks::product(&R, &AP);
+        let AP = AP.left_of_last(&P);
         let rows = A.rows();
         let vector = || vec![[0.0; D]; rows];
         let mut level = Self {
@@ -211,13 +213,13 @@ impl<const D: usize> WithSimd for Smoothing<'_, D> {
             let (columns, values) = exact.row(i);
             for (&k, a) in columns.iter().zip(values) {
                 let k = k as usize;
-                let motion = rigid.values[k].map(|row| row.map(f64::from));
-                add_product(a, &motion, &mut row[slots[rigid.columns[k] as usize] as usize]);
+                add_product(a, &double(&rigid.values[k]), &mut row[slots[rigid.columns[k] as usize] as usize]);
             }
-            let scaled = inverses[i].map(|row| row.map(|entry| -omega * f64::from(entry)));
+            let mut scaled = double(&inverses[i]);
+            scaled.as_flattened_mut().iter_mut().for_each(|entry| *entry *= -omega);
             for ((P, product), &column) in P.values[blocks.clone()].iter_mut().zip(&*row).zip(&P.columns[blocks]) {
                 let is_own = column == rigid.columns[i];
-                let mut smoothed = if is_own { rigid.values[i].map(|row| row.map(f64::from)) } else { [[0.0; 6]; D] };
+                let mut smoothed = if is_own { double(&rigid.values[i]) } else { [[0.0; 6]; D] };
                 add_product(&scaled, product, &mut smoothed);
                 *P = smoothed.map(|row| row.map(|entry| entry as f32));
             }

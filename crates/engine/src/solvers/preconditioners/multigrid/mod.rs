@@ -5,10 +5,12 @@
 mod aggregate;
 mod blocks;
 mod cycle;
+mod fill;
 mod level;
 mod motions;
 
 use blocks::Blocks;
+use fill::is_factor_cheap;
 use level::Level;
 use motions::DISPLACEMENTS;
 
@@ -22,7 +24,8 @@ use fem_elements::tensor::map;
 use fem_elements::vector::norm;
 use fem_scene::simulation::{Breakdown, History};
 
-/// Coarse matrices of up to this many nodes are factorised. One level more would leave too few nodes for the motions of a slender body.
+/// Coarse matrices of up to this many nodes are factored, if their factor is [cheap](is_factor_cheap). One level more would leave too few nodes
+/// for the motions of a slender body.
 const MAX_COARSEST: usize = 1000;
 
 /// A symmetric V-cycle.
@@ -52,7 +55,7 @@ impl Multigrid {
         let motions = vec![DISPLACEMENTS; rest.len()];
         let (fine, mut coarsest, mut motions, mut positions) = Level::new(fine, &motions, &scaled_positions(rest));
         let mut coarser = Vec::new();
-        while coarsest.rows() > MAX_COARSEST {
+        while coarsest.rows() > MAX_COARSEST || !is_factor_cheap(&coarsest, &fine.exact) {
             let before = coarsest.rows();
             let (level, next, next_motions, next_positions) = Level::new(coarsest.clone(), &motions, &positions);
             if 2 * next.rows() > before {
