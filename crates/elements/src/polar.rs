@@ -113,7 +113,12 @@ impl<T: Number> SpaceRotation<T> {
     #[inline(always)]
     pub fn spin(&self, G: &Tensor<T>) -> Tensor<T> {
         let (R, F) = (self.rotation(), plus_identity(G));
-        let S = crate::tensor::product(&crate::tensor::transpose(&R), &F);
+        self.spin_of(&crate::tensor::product(&crate::tensor::transpose(&R), &F))
+    }
+
+    /// The same from S.
+    #[inline(always)]
+    pub fn spin_of(&self, S: &Tensor<T>) -> Tensor<T> {
         let x = constant::<T>(3.0) + self.strain;
         let mut A = from_fn(
             #[inline(always)]

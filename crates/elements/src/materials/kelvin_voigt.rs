@@ -9,10 +9,18 @@
 //! not grow with the stretch: those of a stress of Green's strain grow with the second power, and in elements that are far out of shape damping would
 //! outweigh elasticity.
 
+//!
+//! The same without singular values, as long as R is well-conditioned: with M = RᵀḞ = Ω U + U̇ and the skew Ω = [ω]×, M − Mᵀ = Ω U + U Ω gives
+//! (tr U 1 − U) ω = ax(M), the axial vector of M − Mᵀ, and U̇ = M − Ω U. A stress T conjugate to U̇ is the stress R (T − [(tr U 1 − U)⁻¹ ax(T U)]×)
+//! conjugate to Ḟ.
+
+use pulp::{Simd, WithSimd};
+
 use super::Law;
-use crate::number::{Number, constant};
+use crate::number::{Number, constant, vectorized};
+use crate::polar::SpaceRotation;
 use crate::svd::svd;
-use crate::tensor::{Tensor, Tensor4, plus_identity, product, trace, transpose, zero};
+use crate::tensor::{Tensor, Tensor4, from_fn, half, plus_identity, product, trace, transpose, zero};
 
 /// Lamé's constants of small strain, Pa: the form Σ V Ḟ : H : Ḟ of velocity gradients at a deformation, of which no energy is stored.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +51,63 @@ impl<T: Number> Law<T> for KelvinVoigt<T> {
 
     #[inline(always)]
     fn derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
+        match Stretch::of(G) {
+            Some(stretch) => self.derivative_at(&stretch),
+            None => vectorized(DerivativeOnCrease { law: self, G }),
+        }
+    }
+
+    #[inline(always)]
+    fn derivative_times(&self, G: &Tensor<T>, rate: &Tensor<T>) -> Tensor<T> {
+        match Stretch::of(G) {
+            Some(stretch) => stretch.stress(&self.stress_of(&stretch.rate(rate))),
+            None => vectorized(ProductOnCrease { law: self, G, rate }),
+        }
+    }
+
+    #[inline(always)]
+    fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
+        self.derivative(G)
+    }
+}
+
+impl<T: Number> KelvinVoigt<T> {
+    /// 2μ U̇ + λ tr(U̇) 1
+    #[inline(always)]
+    fn stress_of(&self, rate: &Tensor<T>) -> Tensor<T> {
+        let (two_mu, pressure) = (constant::<T>(2.0) * self.mu, self.lambda * trace(rate));
+        let mut stress = rate.map(
+            #[inline(always)]
+            |row| {
+                row.map(
+                    #[inline(always)]
+                    |entry| two_mu * entry,
+                )
+            },
+        );
+        (0..3).for_each(|i| stress[i][i] += pressure);
+        stress
+    }
+
+    /// H, from the gradients of the components of U̇.
+    #[inline(always)]
+    fn derivative_at(&self, stretch: &Stretch<T>) -> Tensor4<T> {
+        let mut H = [[T::zero(); 9]; 9];
+        for i in 0..3 {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let (mut normal, mut shear) = (zero(), zero());
+            normal[i][i] = T::one();
+            (shear[j][k], shear[k][j]) = (half(), half());
+            add_square(&mut H, constant::<T>(2.0) * self.mu, &entries(&stretch.stress(&normal)));
+            add_square(&mut H, constant::<T>(4.0) * self.mu, &entries(&stretch.stress(&shear)));
+        }
+        add_square(&mut H, self.lambda, &entries(&stretch.R));
+        H
+    }
+
+    /// The same from singular values.
+    #[inline(always)]
+    fn derivative_on_crease(&self, G: &Tensor<T>) -> Tensor4<T> {
         let F = svd(&plus_identity(G));
         let mut H = [[T::zero(); 9]; 9];
         for i in 0..3 {
@@ -56,18 +121,13 @@ impl<T: Number> Law<T> for KelvinVoigt<T> {
             }
             add_square(&mut H, constant::<T>(4.0) * self.mu, &shear);
         }
-        let R = F.with_values(&[T::one(); 3]);
-        add_square(
-            &mut H,
-            self.lambda,
-            &[R[0][0], R[0][1], R[0][2], R[1][0], R[1][1], R[1][2], R[2][0], R[2][1], R[2][2]],
-        );
+        add_square(&mut H, self.lambda, &entries(&F.with_values(&[T::one(); 3])));
         H
     }
 
     /// Σ X_ij u_i⊗v_j with the components X of the derivative of ½ Ḟ : H : Ḟ by those of Ḟ.
     #[inline(always)]
-    fn derivative_times(&self, G: &Tensor<T>, rate: &Tensor<T>) -> Tensor<T> {
+    fn product_on_crease(&self, G: &Tensor<T>, rate: &Tensor<T>) -> Tensor<T> {
         let F = svd(&plus_identity(G));
         let of = product(&product(&F.U, rate), &transpose(&F.V));
         let (two_mu, four_mu) = (constant::<T>(2.0) * self.mu, constant::<T>(4.0) * self.mu);
@@ -82,11 +142,95 @@ impl<T: Number> Law<T> for KelvinVoigt<T> {
         }
         product(&transpose(&F.U), &product(&X, &F.V))
     }
+}
+
+/// H where R is ill-conditioned, compiled once for its callers.
+struct DerivativeOnCrease<'a, T> {
+    law: &'a KelvinVoigt<T>,
+    G: &'a Tensor<T>,
+}
+
+impl<T: Number> WithSimd for DerivativeOnCrease<'_, T> {
+    type Output = Tensor4<T>;
 
     #[inline(always)]
-    fn projected_derivative(&self, G: &Tensor<T>) -> Tensor4<T> {
-        self.derivative(G)
+    fn with_simd<S: Simd>(self, _simd: S) -> Tensor4<T> {
+        self.law.derivative_on_crease(self.G)
     }
+}
+
+/// H : Ḟ there.
+struct ProductOnCrease<'a, T> {
+    law: &'a KelvinVoigt<T>,
+    G: &'a Tensor<T>,
+    rate: &'a Tensor<T>,
+}
+
+impl<T: Number> WithSimd for ProductOnCrease<'_, T> {
+    type Output = Tensor<T>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _simd: S) -> Tensor<T> {
+        self.law.product_on_crease(self.G, self.rate)
+    }
+}
+
+/// The polar decomposition F = R U in closed form.
+struct Stretch<T> {
+    R: Tensor<T>,
+    U: Tensor<T>,
+    /// (tr U 1 − U)⁻¹
+    B: Tensor<T>,
+}
+
+impl<T: Number> Stretch<T> {
+    /// `None` where R is ill-conditioned.
+    #[inline(always)]
+    fn of(G: &Tensor<T>) -> Option<Self> {
+        let rotation = SpaceRotation::of(G)?;
+        let R = rotation.rotation();
+        let U = product(&transpose(&R), &plus_identity(G));
+        Some(Self { R, B: rotation.spin_of(&U), U })
+    }
+
+    /// U̇
+    #[inline(always)]
+    fn rate(&self, rate: &Tensor<T>) -> Tensor<T> {
+        let M = product(&transpose(&self.R), rate);
+        let spin = product(&self.spin(&M), &self.U);
+        from_fn(
+            #[inline(always)]
+            |i, j| half::<T>() * (M[i][j] - spin[i][j] + (M[j][i] - spin[j][i])),
+        )
+    }
+
+    /// The stress conjugate to Ḟ of a stress T conjugate to U̇.
+    #[inline(always)]
+    fn stress(&self, T: &Tensor<T>) -> Tensor<T> {
+        let spin = self.spin(&product(T, &transpose(&self.U)));
+        let difference = from_fn(
+            #[inline(always)]
+            |i, j| T[i][j] - spin[i][j],
+        );
+        product(&self.R, &difference)
+    }
+
+    /// \[B ax(M)\]×
+    #[inline(always)]
+    fn spin(&self, M: &Tensor<T>) -> Tensor<T> {
+        let axial = [M[2][1] - M[1][2], M[0][2] - M[2][0], M[1][0] - M[0][1]];
+        let [x, y, z] = self.B.map(
+            #[inline(always)]
+            |row| row[0] * axial[0] + row[1] * axial[1] + row[2] * axial[2],
+        );
+        [[T::zero(), -z, y], [z, T::zero(), -x], [-y, x, T::zero()]]
+    }
+}
+
+/// Entries row by row.
+#[inline(always)]
+fn entries<T: Number>(a: &Tensor<T>) -> [T; 9] {
+    [a[0][0], a[0][1], a[0][2], a[1][0], a[1][1], a[1][2], a[2][0], a[2][1], a[2][2]]
 }
 
 /// σ_i/(σ_i + σ_j) and σ_j/(σ_i + σ_j). In an inverted element the sum may vanish: it is at least the norm of the two.
