@@ -76,16 +76,13 @@ impl<T: Number> KelvinVoigt<T> {
     #[inline(always)]
     fn stress_of(&self, rate: &Tensor<T>) -> Tensor<T> {
         let (two_mu, pressure) = (constant::<T>(2.0) * self.mu, self.lambda * trace(rate));
-        let mut stress = rate.map(
+        let mut stress = from_fn(
             #[inline(always)]
-            |row| {
-                row.map(
-                    #[inline(always)]
-                    |entry| two_mu * entry,
-                )
-            },
+            |i, j| two_mu * rate[i][j],
         );
-        (0..3).for_each(|i| stress[i][i] += pressure);
+        for i in 0..3 {
+            stress[i][i] += pressure;
+        }
         stress
     }
 
@@ -219,10 +216,11 @@ impl<T: Number> Stretch<T> {
     #[inline(always)]
     fn spin(&self, M: &Tensor<T>) -> Tensor<T> {
         let axial = [M[2][1] - M[1][2], M[0][2] - M[2][0], M[1][0] - M[0][1]];
-        let [x, y, z] = self.B.map(
-            #[inline(always)]
-            |row| row[0] * axial[0] + row[1] * axial[1] + row[2] * axial[2],
-        );
+        let mut spin = [T::zero(); 3];
+        for k in 0..3 {
+            spin[k] = self.B[k][0] * axial[0] + self.B[k][1] * axial[1] + self.B[k][2] * axial[2];
+        }
+        let [x, y, z] = spin;
         [[T::zero(), -z, y], [z, T::zero(), -x], [-y, x, T::zero()]]
     }
 }
