@@ -202,14 +202,7 @@ impl<T: Real> Simulator<T> {
         unreachable!("the last repetition returns")
     }
 
-    /// The force of each obstacle on each node near it in a step between two times (s), in the engine's numbering.
-    pub(super) fn contact_forces_on_nodes(&self, times: [f64; 2]) -> Vec<NodeForce> {
-        let mut forces = Vec::new();
-        self.each_contact_force(times, |force| forces.push(force));
-        forces
-    }
-
-    /// Passes each of them on.
+    /// Passes on the force of each obstacle on each node near it in a step between two times (s), in the engine's numbering.
     pub(super) fn each_contact_force(&self, times: [f64; 2], pass: impl FnMut(NodeForce)) {
         let Self { contact: Some(contact), state, last_good, substep_dt: dt, .. } = self else { return };
         if let Some(impulses) = &contact.impulses {
@@ -240,16 +233,16 @@ impl<T: Real> Simulator<T> {
     /// The force of each obstacle on the body, and the distance of the nearest node.
     pub(super) fn contacts_now(&self) -> Vec<PlaneContact> {
         let Some(contact) = &self.contact else { return Vec::new() };
-        let forces = self.contact_forces_on_nodes([self.last_good.time, self.state.time]);
-        let of_plane = |plane: usize| {
-            let on_nodes = forces.iter().filter(|force| force.plane == plane);
-            PlaneContact {
-                name: format!("planes[{plane}]"),
-                force: on_nodes.map(|force| force.force).sum::<Vector3<f64>>().into(),
-                smallest_gap: contact.planes.nearest(plane, &self.state.u, self.state.time).gap,
-            }
+        let mut forces = vec![Vector3::zeros(); contact.planes.planes.len()];
+        self.each_contact_force([self.last_good.time, self.state.time], |on_node| {
+            forces[on_node.plane] += on_node.force
+        });
+        let of_plane = |(plane, force): (usize, Vector3<f64>)| PlaneContact {
+            name: format!("planes[{plane}]"),
+            force: force.into(),
+            smallest_gap: contact.planes.nearest(plane, &self.state.u, self.state.time).gap,
         };
-        (0..contact.planes.planes.len()).map(of_plane).collect()
+        forces.into_iter().enumerate().map(of_plane).collect()
     }
 
     /// The obstacles where they are now.
@@ -266,11 +259,9 @@ impl<T: Real> Simulator<T> {
     pub(super) fn contact_forces_now(&self) -> Option<Vec<[f64; 3]>> {
         self.contact.as_ref()?;
         let mut forces = vec![[0.0; 3]; self.system.nodes()];
-        for NodeForce { node, force, .. } in self.contact_forces_on_nodes([self.last_good.time, self.state.time]) {
-            for i in 0..3 {
-                forces[node][i] += force[i];
-            }
-        }
+        self.each_contact_force([self.last_good.time, self.state.time], |NodeForce { node, force, .. }| {
+            (0..3).for_each(|i| forces[node][i] += force[i]);
+        });
         Some(self.system.numbering.to_mesh(&forces))
     }
 

@@ -141,9 +141,9 @@ impl Ledger {
         self
     }
 
-    /// Returns true after as many steps as lie between the judgements of an explicit method.
-    pub(super) fn has_enough_steps(&self) -> bool {
-        self.steps >= EXPLICIT
+    /// Returns true if there has been a step whose end can be judged.
+    pub(super) fn has_steps(&self) -> bool {
+        self.steps > 1
     }
 
     /// Returns true while the energy that the method keeps is not yet known: in the first step velocities begin to lie half a step behind, and

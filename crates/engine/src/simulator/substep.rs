@@ -90,7 +90,7 @@ impl<T: Real> Simulator<T> {
         if is_staggered {
             ledger = ledger.without(&self.work.0);
         }
-        let is_due = is_judged(*kind) && !integrator.may_stop_early() && ledger.has_enough_steps();
+        let is_due = is_judged(*kind) && !integrator.may_stop_early() && ledger.has_steps();
         let mut step = Step {
             system,
             integrator: &**integrator,

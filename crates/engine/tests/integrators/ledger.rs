@@ -100,6 +100,21 @@ fn a_body_released_from_a_strain_never_gains_energy_in_steps_far_above_its_perio
 }
 
 #[test]
+fn a_plane_that_hits_a_body_at_rest_does_not_throw_it_under_bdf2() {
+    for dt in [0.02, 2e-3, 5e-4] {
+        let text = format!(
+            "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 2 }}\n[material]\nmodel = \"corotated\"\n\
+             young = 1e6\npoisson = 0.3\ndensity = 1000.0\n[[planes]]\npoint = [0, -0.05, 0]\nnormal = [0, 1, 0]\nvelocity = [0, 1, 0]\n\
+             until = 0.2\n[time]\nintegrator = \"bdf2\"\ndt = {dt}\n"
+        );
+        let mut simulation = build(&text);
+        let account = ledger(&mut *simulation, (0.1 / dt) as usize);
+        assert!(account.obstacles > 100.0, "{dt}: {account:?}");
+        assert!(account.gain < 0.01 * account.turned_over, "{dt}: {account:?}");
+    }
+}
+
+#[test]
 fn a_plane_that_moves_into_a_body_supplies_the_energy_that_it_gets() {
     for method in ["bdf2", "generalized_alpha", "newmark", "implicit_midpoint", "implicit_euler"] {
         let text = format!(

@@ -134,14 +134,20 @@ impl<T: Real> SecondOrder<T> {
         next.dt = Some(dt);
         next.has_acceleration = !next.acceleration.is_empty();
         if next.has_acceleration {
-            let [of_known, of_stage] = of.acceleration;
             next.acceleration.copy_from_slice(acceleration);
-            if let Some(by_obstacles) = start.by_obstacles(system, &state.u, Moment::at(state.time + dt))? {
-                axpy(-of.obstacles, by_obstacles, &mut next.acceleration);
-                if of.beyond > 0.0 {
-                    axpy(-of.beyond, by_obstacles, &mut state.v);
-                }
+        }
+        let has_memory = next.has_acceleration || !next.increment.is_empty();
+        let end = Moment::at(state.time + dt);
+        if let Some(by_obstacles) = if has_memory { start.by_obstacles(system, &state.u, end)? } else { None } {
+            if of.beyond > 0.0 {
+                axpy(-of.beyond, by_obstacles, &mut state.v);
             }
+            // Vectors that are not kept have no nodes.
+            axpy(-of.obstacles, by_obstacles, &mut next.acceleration);
+            axpy(dt, by_obstacles, &mut next.earlier_velocity);
+        }
+        if next.has_acceleration {
+            let [of_known, of_stage] = of.acceleration;
             for (next, known) in next.acceleration.iter_mut().zip(&known.acceleration) {
                 *next = triple(|i| T::of(of_known) * known[i] + T::of(of_stage) * next[i]);
             }
