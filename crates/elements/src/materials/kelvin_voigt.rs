@@ -8,7 +8,6 @@
 //! torque about the deformed body. In the undeformed body it is the stiffness of an isotropic law with these moduli. Its entries do
 //! not grow with the stretch: those of a stress of Green's strain grow with the second power, and in elements that are far out of shape damping would
 //! outweigh elasticity.
-
 //!
 //! The same without singular values, as long as R is well-conditioned: with M = RᵀḞ = Ω U + U̇ and the skew Ω = [ω]×, M − Mᵀ = Ω U + U Ω gives
 //! (tr U 1 − U) ω = ax(M), the axial vector of M − Mᵀ, and U̇ = M − Ω U. A stress T conjugate to U̇ is the stress R (T − [(tr U 1 − U)⁻¹ ax(T U)]×)
