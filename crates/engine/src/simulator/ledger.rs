@@ -24,7 +24,7 @@ use fem_elements::vector::{axpy, dot};
 pub(super) const LARGEST_GAIN: f64 = 0.05;
 
 /// Steps between judgements of an explicit and of an implicit method.
-const EXPLICIT: usize = 32;
+const EXPLICIT: usize = 64;
 const IMPLICIT: usize = 4;
 
 /// Kinetic energy over the energy turned over from which a step fails at once.

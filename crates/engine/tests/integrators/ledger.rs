@@ -78,6 +78,17 @@ fn a_gain_of_more_than_a_twentieth_ends_the_run_unless_the_scene_accepts_it() {
 }
 
 #[test]
+fn a_run_shorter_than_the_steps_between_two_judgements_is_judged_at_its_end() {
+    let of = |method: &str| {
+        let mut simulation = build(&oscillator(method, 0.1 / frequency(), ""));
+        run(&mut *simulation, 20);
+        simulation.unexplained_energy()
+    };
+    assert!(of("explicit_euler").is_some(), "explicit Euler gains 22 % in 20 steps");
+    assert!(of("verlet").is_none() && of("semi_implicit_euler").is_none() && of("rk4").is_none());
+}
+
+#[test]
 fn a_body_released_from_a_strain_never_gains_energy_in_steps_far_above_its_periods() {
     for (method, more) in [
         ("generalized_alpha", ""),
