@@ -5,7 +5,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use fem_mesh::{TetrahedralMesh, box_mesh};
+use fem_mesh::{Pattern, TetrahedralMesh, box_mesh};
 use nalgebra::Vector3;
 
 /// Names and parameters of all laws: Young's modulus 1 MPa and Poisson's ratio 0.3 at small strain.
@@ -39,7 +39,7 @@ fn scene(law: &str, parameters: &str) -> String {
 
 /// The cube of the scene with its inner nodes moved about.
 fn irregular_mesh() -> Result<TetrahedralMesh, Box<dyn Error>> {
-    let mut mesh = box_mesh([1.0; 3], 3)?;
+    let mut mesh = box_mesh([1.0; 3], 3, Pattern::Alternating)?;
     for (i, x) in mesh.vertices.iter_mut().enumerate().filter(|(_, x)| x.iter().all(|&x| x > 0.1 && x < 0.9)) {
         *x += 0.05 * Vector3::new((7.0 * i as f64).sin(), (8.0 * i as f64).sin(), (9.0 * i as f64).sin());
     }

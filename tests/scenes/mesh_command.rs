@@ -1,8 +1,8 @@
 //! `mesh info` and `mesh convert`.
 
 use fem_mesh::{
-    MeshSet, SurfaceMesh, TetrahedralMesh, boundary, box_mesh, read_surface, read_tetrahedra, surface_quality, volumes,
-    write_surface, write_tetrahedra,
+    MeshSet, Pattern, SurfaceMesh, TetrahedralMesh, boundary, box_mesh, read_surface, read_tetrahedra, surface_quality,
+    volumes, write_surface, write_tetrahedra,
 };
 
 use crate::program::{Desk, data};
@@ -56,7 +56,7 @@ fn triangles_in_a_file_of_meshes_are_a_surface() {
 
 /// A box whose file names a side and the whole body.
 fn box_with_sets() -> TetrahedralMesh {
-    let mut mesh = box_mesh([2.0, 1.0, 1.0], 1).unwrap();
+    let mut mesh = box_mesh([2.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
     let side = boundary(&mesh).into_iter().filter(|face| face.iter().all(|&node| mesh.vertices[node].x == 0.0));
     let mut faces: Vec<[usize; 3]> = side.collect();
     faces.iter_mut().for_each(|face| face.sort_unstable());
@@ -208,7 +208,7 @@ fn improvement_keeps_the_body_and_raises_its_worst_element() {
     desk.run_well(&format!("mesh from-surface {} fine.msh --edge 0.03", bunny.display()));
     desk.run_well(&format!("mesh from-surface {} graded.msh --edge 0.03 --grading 3", bunny.display()));
     assert!(4 * count("graded.msh") < 3 * count("fine.msh"), "{} {}", count("graded.msh"), count("fine.msh"));
-    let solid = box_mesh([1.0, 1.0, 1.0], 1).unwrap();
+    let solid = box_mesh([1.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
     let surface = SurfaceMesh::new(solid.vertices.clone(), boundary(&solid));
     write_surface(&desk.path("cube.stl"), &surface).unwrap();
     let text = desk.run_well("mesh from-surface cube.stl cube.vtu --edge 0.17 --features 40").stdout;

@@ -1,6 +1,6 @@
 //! Mesh files as people have them, in commands and in scenes.
 
-use fem_mesh::{box_mesh, read_tetrahedra, volumes, write_tetrahedra};
+use fem_mesh::{Pattern, box_mesh, read_tetrahedra, volumes, write_tetrahedra};
 
 use crate::program::Desk;
 
@@ -39,7 +39,7 @@ fn nodes_of_no_element_are_told_once_by_commands_and_by_scenes() {
 #[test]
 fn conversion_turns_elements_and_leaves_out_faulty_ones_if_asked_to() {
     let desk = Desk::new();
-    let mut mesh = box_mesh([2.0, 1.0, 1.0], 1).unwrap();
+    let mut mesh = box_mesh([2.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
     [3, 7].into_iter().for_each(|element| mesh.elements[element].swap(0, 1));
     write_tetrahedra(&desk.path("mixed.vtu"), &mesh).unwrap();
     let message = desk.refused("mesh convert mixed.vtu m.msh");
@@ -66,7 +66,7 @@ fn conversion_turns_elements_and_leaves_out_faulty_ones_if_asked_to() {
 #[test]
 fn bodies_that_overlap_are_told_with_their_names_and_the_place() {
     let desk = Desk::new();
-    let mut mesh = box_mesh([1.0, 1.0, 1.0], 2).unwrap();
+    let mut mesh = box_mesh([1.0, 1.0, 1.0], 2, Pattern::Alternating).unwrap();
     write_tetrahedra(&desk.path("lower.node"), &mesh).unwrap();
     mesh.vertices.iter_mut().for_each(|x| x.y += 0.75);
     write_tetrahedra(&desk.path("upper.msh"), &mesh).unwrap();

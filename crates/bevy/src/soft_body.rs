@@ -23,7 +23,7 @@ use crate::SoftBodyState;
 /// use bevy::math::DVec3;
 /// use fem_bevy::{SoftBody, SoftBodyMaterial, SoftBodyPinnedParticles};
 ///
-/// let beam = fem_mesh::box_mesh([2.0, 0.5, 0.5], 4)?;
+/// let beam = fem_mesh::box_mesh([2.0, 0.5, 0.5], 4, fem_mesh::Pattern::Alternating)?;
 /// let clamped = (0..beam.vertices.len()).filter(|&node| beam.vertices[node].x < 1e-9).collect();
 /// let bundle = (
 ///     SoftBody::from_mesh(beam).with_dt(0.01).with_gravity(DVec3::new(0.0, -9.81, 0.0)),

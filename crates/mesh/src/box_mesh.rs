@@ -4,7 +4,8 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
-use super::{MeshError, Problem, TetrahedralMesh};
+use super::pattern::{corners, turns};
+use super::{MeshError, Pattern, Problem, TetrahedralMesh};
 
 /// Largest number of elements of a box or a refined mesh. The mesh alone then takes about 5 GB.
 pub(super) const MOST_ELEMENTS: usize = 50_000_000;
@@ -22,16 +23,18 @@ const PERMUTATIONS: [([usize; 3], bool); 6] = [
     ([2, 1, 0], false),
 ];
 
-/// The box from the origin to `size` (m), in cubes of edge 1/`cells_per_unit`.
+/// The box from the origin to `size` (m), in cubes of edge 1/`cells_per_unit` that are cut by `pattern`.
 ///
 /// Node (i, j, k) has the index `i + (nx+1)(j + (ny+1)k)` and the position (i/n, j/n, k/n). Cells run with k outermost, then
 /// j, then i; each gives one tetrahedron per permutation p of the axes: a = (i, j, k), b = a + e_p0, c = b + e_p1,
-/// d = c + e_p2, as `[a, b, c, d]` for even p and `[a, b, d, c]` for odd p, so that all are positive.
+/// d = c + e_p2, as `[a, b, c, d]` for even p and `[a, b, d, c]` for odd p, so that all are positive. A cell that the pattern
+/// mirrors along an axis starts at its far corner there and steps back; with an odd number of such axes the last two nodes change
+/// places.
 ///
 /// Returns an error for sizes that are not whole numbers of cells, and for more than 50 million elements.
-pub fn box_mesh(size: [f64; 3], cells_per_unit: usize) -> Result<TetrahedralMesh, MeshError> {
+pub fn box_mesh(size: [f64; 3], cells_per_unit: usize, pattern: Pattern) -> Result<TetrahedralMesh, MeshError> {
     let cells = count_cells(size, cells_per_unit).map_err(|problem| MeshError::in_file(Path::new("box"), problem))?;
-    Ok(TetrahedralMesh::new(nodes(cells, cells_per_unit), tetrahedra(cells)))
+    Ok(TetrahedralMesh::new(nodes(cells, cells_per_unit), tetrahedra(cells, pattern)))
 }
 
 /// Numbers of cells along the axes, which have to be whole.
@@ -70,24 +73,25 @@ fn nodes([nx, ny, nz]: [usize; 3], n: usize) -> Vec<Vector3<f64>> {
     nodes
 }
 
-fn tetrahedra([nx, ny, nz]: [usize; 3]) -> Vec<[usize; 4]> {
-    let stride = [1, nx + 1, (nx + 1) * (ny + 1)];
+fn tetrahedra([nx, ny, nz]: [usize; 3], pattern: Pattern) -> Vec<[usize; 4]> {
+    let strides = [1, nx + 1, (nx + 1) * (ny + 1)];
     let mut tetrahedra = Vec::with_capacity(6 * nx * ny * nz);
     for k in 0..nz {
         for j in 0..ny {
             for i in 0..nx {
-                let a = i * stride[0] + j * stride[1] + k * stride[2];
-                tetrahedra.extend(PERMUTATIONS.map(|(axes, even)| tetrahedron(a, axes.map(|axis| stride[axis]), even)));
+                let mirrored = pattern.mirrored([i, j, k]);
+                let corners: [usize; 8] = corners([i, j, k], mirrored, strides);
+                let turned = turns(mirrored);
+                tetrahedra.extend(PERMUTATIONS.map(|(axes, even)| tetrahedron(&corners, axes, even != turned)));
             }
         }
     }
     tetrahedra
 }
 
-/// The tetrahedron from the cube's first corner `a` along three of its edges, given as differences of node numbers.
-fn tetrahedron(a: usize, steps: [usize; 3], even: bool) -> [usize; 4] {
-    let b = a + steps[0];
-    let c = b + steps[1];
-    let d = c + steps[2];
+/// The tetrahedron from the cube's corner 0 to corner 7 along its edges, one axis after the other.
+fn tetrahedron(corners: &[usize; 8], axes: [usize; 3], even: bool) -> [usize; 4] {
+    let [a, b, d] = [0, 1 << axes[0], 7].map(|corner| corners[corner]);
+    let c = corners[1 << axes[0] | 1 << axes[1]];
     if even { [a, b, c, d] } else { [a, b, d, c] }
 }

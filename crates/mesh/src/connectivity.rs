@@ -88,7 +88,7 @@ mod tests {
     use crate::TetrahedralMesh;
 
     fn boxes(shift: f64) -> TetrahedralMesh {
-        let mut mesh = crate::box_mesh([2.0, 1.0, 1.0], 2).unwrap();
+        let mut mesh = crate::box_mesh([2.0, 1.0, 1.0], 2, crate::Pattern::Alternating).unwrap();
         let (nodes, elements) = (mesh.vertices.len(), mesh.elements.clone());
         let moved: Vec<_> = mesh.vertices.iter().map(|x| x + Vector3::new(2.0 + shift, 0.0, 0.0)).collect();
         mesh.vertices.extend(moved);
@@ -110,6 +110,6 @@ mod tests {
         assert_eq!(coincident_nodes(&boxes(0.0)), Some(found));
         assert_eq!(coincident_nodes(&boxes(1e-9)), Some(found), "within 1e-9 of 4 m");
         assert_eq!(coincident_nodes(&boxes(1e-7)), None);
-        assert_eq!(coincident_nodes(&crate::box_mesh([1.0, 1.0, 1.0], 20).unwrap()), None);
+        assert_eq!(coincident_nodes(&crate::box_mesh([1.0, 1.0, 1.0], 20, crate::Pattern::Alternating).unwrap()), None);
     }
 }

@@ -33,12 +33,12 @@ fn shifted(set: MeshSet, nodes: usize, elements: usize) -> MeshSet {
 #[cfg(test)]
 mod tests {
     use super::join;
-    use crate::{MeshSet, box_mesh, volumes};
+    use crate::{MeshSet, Pattern, box_mesh, volumes};
 
     #[test]
     fn joined_meshes_follow_one_another_with_their_sets() {
-        let small = box_mesh([1.0, 1.0, 1.0], 1).unwrap();
-        let mut large = box_mesh([2.0, 1.0, 1.0], 1).unwrap();
+        let small = box_mesh([1.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
+        let mut large = box_mesh([2.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
         large.vertices.iter_mut().for_each(|vertex| vertex.y += 5.0);
         let corner = MeshSet { faces: vec![[0, 1, 4]], points: vec![3], ..MeshSet::default() };
         large.sets.insert("corner".to_owned(), corner);

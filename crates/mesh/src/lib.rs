@@ -4,7 +4,7 @@
 //! [`write`](mod@write) writes one. A mesh is plain data; [`check`] tests the properties that computations rely on.
 //!
 //! ```
-//! let mesh = fem_mesh::box_mesh([2.0, 1.0, 1.0], 2)?;
+//! let mesh = fem_mesh::box_mesh([2.0, 1.0, 1.0], 2, fem_mesh::Pattern::Alternating)?;
 //! fem_mesh::check(&mesh, "box".as_ref())?;
 //! let volume: f64 = fem_mesh::volumes(&mesh).iter().sum();
 //! assert!((volume - 2.0).abs() < 1e-12); // m³
@@ -38,6 +38,7 @@ mod join;
 mod measures;
 mod orient;
 mod overlap;
+mod pattern;
 mod quadratic;
 mod quality;
 mod read;
@@ -58,6 +59,7 @@ pub(crate) use measures::signed_volume;
 pub use measures::{area_vector, volumes};
 pub use orient::oriented;
 pub use overlap::overlap;
+pub use pattern::Pattern;
 pub use quadratic::{QuadraticMesh, QuadraticSide, quadratic, quarters_of, sides};
 pub use quality::{
     Distribution, Extreme, Quality, SelfIntersections, SurfaceQuality, TriangleQuality, quality, self_intersections,

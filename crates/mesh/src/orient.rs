@@ -8,9 +8,9 @@ use crate::{SurfaceMesh, area_vector};
 /// such edges. Edges of more than two triangles do not connect, and a Möbius strip keeps an edge at which it is turned both ways.
 ///
 /// ```
-/// use fem_mesh::{SurfaceMesh, boundary, box_mesh, oriented, surface_quality};
+/// use fem_mesh::{Pattern, SurfaceMesh, boundary, box_mesh, oriented, surface_quality};
 ///
-/// let solid = box_mesh([1.0, 1.0, 1.0], 2)?;
+/// let solid = box_mesh([1.0, 1.0, 1.0], 2, Pattern::Alternating)?;
 /// let mut surface = SurfaceMesh::new(solid.vertices.clone(), boundary(&solid));
 /// surface.elements.iter_mut().step_by(3).for_each(|triangle| triangle.swap(1, 2));
 /// assert_eq!(surface_quality(&surface).is_closed(), false);
@@ -87,10 +87,10 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::{boundary, box_mesh, surface_quality};
+    use crate::{Pattern, boundary, box_mesh, surface_quality};
 
     fn cube() -> SurfaceMesh {
-        let mesh = box_mesh([1.0; 3], 4).unwrap();
+        let mesh = box_mesh([1.0; 3], 4, Pattern::Alternating).unwrap();
         SurfaceMesh::new(mesh.vertices.clone(), boundary(&mesh))
     }
 

@@ -63,11 +63,11 @@ fn clipped(polygon: &[Vector3<f64>], outside: impl Fn(&Vector3<f64>) -> f64) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{box_mesh, join};
+    use crate::{Pattern, box_mesh, join};
 
     /// Two boxes, the second one scaled and moved.
     fn two(scale: f64, shift: Vector3<f64>) -> Option<[Vector3<f64>; 2]> {
-        let first = box_mesh([2.0, 1.0, 1.0], 2).unwrap();
+        let first = box_mesh([2.0, 1.0, 1.0], 2, Pattern::Alternating).unwrap();
         let mut second = first.clone();
         second.vertices.iter_mut().for_each(|x| *x = scale * *x + shift);
         let count = first.elements.len();

@@ -37,11 +37,11 @@ mod tests {
     use std::collections::HashMap;
 
     use super::*;
-    use crate::rectangle_mesh;
+    use crate::{Pattern, rectangle_mesh};
 
     #[test]
     fn neighbours_share_the_nodes_of_their_common_edge() {
-        let mesh = quadratic(rectangle_mesh([2.0, 1.0], 2).unwrap());
+        let mesh = quadratic(rectangle_mesh([2.0, 1.0], 2, Pattern::Alternating).unwrap());
         // Euler: V − E + T = 1.
         assert_eq!(mesh.vertices.len(), 15 + (15 + 16 - 1));
         let mut middles: HashMap<[usize; 2], usize> = HashMap::new();
@@ -53,7 +53,7 @@ mod tests {
 
     #[test]
     fn the_quarters_are_the_triangles_of_one_refinement() {
-        let linear = rectangle_mesh([2.0, 1.0], 1).unwrap();
+        let linear = rectangle_mesh([2.0, 1.0], 1, Pattern::Alternating).unwrap();
         let refined = crate::refine_triangles(linear.clone(), 1, std::path::Path::new("rectangle")).unwrap();
         let quadratic = quadratic(linear);
         assert_eq!((&refined.vertices, refined.elements), (&quadratic.vertices, quarters_of(&quadratic.elements)));

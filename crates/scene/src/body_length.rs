@@ -42,7 +42,7 @@ mod tests {
     use crate::BodyMesh;
 
     fn bar() -> TetrahedralMesh {
-        fem_mesh::box_mesh([3.0, 1.0, 0.5], 2).unwrap()
+        fem_mesh::box_mesh([3.0, 1.0, 0.5], 2, fem_mesh::Pattern::Alternating).unwrap()
     }
 
     #[test]

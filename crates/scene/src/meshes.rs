@@ -45,7 +45,7 @@ pub(crate) fn elements(scene: &Scene, data: &Path, notes: &mut Vec<String>) -> R
             Ok(fem_mesh::join(files.iter().map(checked).collect::<Result<Vec<_>, SceneError>>()?).into())
         }
         MeshTable { cuboid: Some(cuboid), .. } => {
-            let mesh = fem_mesh::box_mesh(cuboid.size, cuboid.cells_per_unit);
+            let mesh = fem_mesh::box_mesh(cuboid.size, cuboid.cells_per_unit, cuboid.pattern);
             mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.box", error))
         }
         MeshTable { surface: Some(surface), .. } => {
@@ -60,7 +60,7 @@ pub(crate) fn elements(scene: &Scene, data: &Path, notes: &mut Vec<String>) -> R
             mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.surface", error))
         }
         MeshTable { rectangle: Some(rectangle), .. } => {
-            let mesh = fem_mesh::rectangle_mesh(rectangle.size, rectangle.cells_per_unit);
+            let mesh = fem_mesh::rectangle_mesh(rectangle.size, rectangle.cells_per_unit, rectangle.pattern);
             mesh.map(|triangles| flat_body(scene, triangles))
                 .map_err(|error| mesh_error(scene, "mesh.rectangle", error))
         }

@@ -239,7 +239,7 @@ mod tests {
 
     #[test]
     fn every_bound_holds_on_a_step_and_on_a_stiffness_and_descent_takes_the_most_iterations() {
-        let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 3 }\n[material]\nmodel = \"neo_hookean\"\n\
+        let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 3, pattern = \"kuhn\" }\n[material]\nmodel = \"neo_hookean\"\n\
                     young = 1e5\npoisson = 0.3\ndensity = 1000\n[gravity]\nacceleration = [0, 0, -9.81]\n[fixed]\n\
                     plane = { axis = \"x\", below = 1e-9 }\n[time]\ndt = 0.01\nintegrator = \"implicit_euler\"\n";
         let scene = fem_scene::parse(text, Path::new("beam.toml")).unwrap();

@@ -144,11 +144,14 @@ mod tests {
     }
 
     fn beam() -> Shape {
-        shape(fem_mesh::box_mesh([4.0, 1.0, 1.0], 2).unwrap().into())
+        shape(fem_mesh::box_mesh([4.0, 1.0, 1.0], 2, fem_mesh::Pattern::Alternating).unwrap().into())
     }
 
     fn strip() -> Shape {
-        shape(BodyMesh::Flat { triangles: fem_mesh::rectangle_mesh([2.0, 1.0], 2).unwrap(), thickness: 0.1 })
+        shape(BodyMesh::Flat {
+            triangles: fem_mesh::rectangle_mesh([2.0, 1.0], 2, fem_mesh::Pattern::Alternating).unwrap(),
+            thickness: 0.1,
+        })
     }
 
     fn positions(shape: &Shape) -> Vec<Vec3> {

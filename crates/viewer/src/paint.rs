@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn a_triangle_of_the_boundary_belongs_to_the_element_that_has_its_nodes() {
-        let mesh = fem_mesh::box_mesh([1.0; 3], 2).unwrap();
+        let mesh = fem_mesh::box_mesh([1.0; 3], 2, fem_mesh::Pattern::Alternating).unwrap();
         let (mesh, elements) = (fem_scene::BodyMesh::from(mesh.clone()), mesh.elements);
         let shape = Shape { boundary: mesh.surface(), mesh, display: None, picture: None };
         for (triangle, element) in shape.boundary.iter().zip(elements_of_triangles(&shape)) {

@@ -58,7 +58,7 @@ fn numbers_of_components() {
 fn nodes_and_meshes() {
     let message = refusal((bar(), SoftBodyPinnedParticles(vec![3, 99])));
     assert!(message.starts_with("SoftBodyPinnedParticles: node 99 is not one of the 32 nodes"), "{message}");
-    let mut mesh = fem_mesh::box_mesh([1.0, 1.0, 1.0], 1).unwrap();
+    let mut mesh = fem_mesh::box_mesh([1.0, 1.0, 1.0], 1, fem_mesh::Pattern::Alternating).unwrap();
     mesh.vertices[2].y = f64::NAN;
     let message = refusal(SoftBody::from_mesh(mesh));
     assert!(message.contains("vertex 2"), "{message}");

@@ -28,13 +28,14 @@ impl Beam {
     }
 
     pub fn constrained_where(cells_per_unit: usize, stored: Stored, is_in: impl Fn(&Vector3<f64>) -> bool) -> Self {
-        Self::of_mesh(box_mesh([4.0, 1.0, 1.0], cells_per_unit).unwrap(), stored, is_in)
+        Self::of_mesh(box_mesh([4.0, 1.0, 1.0], cells_per_unit, fem_mesh::Pattern::Alternating).unwrap(), stored, is_in)
     }
 
     /// A beam of so many cells along and across, with this position for each point of the box 1 m × 1 m × 1 m, and its end x = 0 of the box
     /// constrained.
     pub fn mapped([along, across]: [usize; 2], stored: Stored, map: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
-        let mut mesh = box_mesh([along as f64, across as f64, across as f64], 1).unwrap();
+        let mut mesh =
+            box_mesh([along as f64, across as f64, across as f64], 1, fem_mesh::Pattern::Alternating).unwrap();
         let sizes = Vector3::new(along as f64, across as f64, across as f64);
         let boxed: Vec<_> = mesh.vertices.iter().map(|x| x.component_div(&sizes)).collect();
         let is_end: std::collections::HashSet<_> =

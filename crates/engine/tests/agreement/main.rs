@@ -120,7 +120,7 @@ fn a_sagging_beam_of_linear_elasticity_has_the_displacements_of_fenris() {
 /// Its solver's tolerance is what rounding allows: forces of 0.3 N stand against a stiffness of 1e5 N/m.
 const CANTILEVER: &str = r#"pipeline = "engine"
 [mesh]
-box = { size = [4, 1, 1], cells_per_unit = 6 }
+box = { size = [4, 1, 1], cells_per_unit = 6, pattern = "kuhn" }
 [material]
 model = "linear"
 young = 1e5

@@ -36,7 +36,7 @@ impl Random {
 fn patch(model: &str) -> Patch {
     let text = block(model, "").replace("[2, 1, 1], cells_per_unit = 1", "[1, 1, 1], cells_per_unit = 4");
     let scene = scene(&text);
-    let mut mesh = fem_mesh::box_mesh([1.0; 3], 4).unwrap();
+    let mut mesh = fem_mesh::box_mesh([1.0; 3], 4, fem_mesh::Pattern::Alternating).unwrap();
     let is_inner = |X: &Vector3<f64>| X.iter().all(|&x| x > 0.0 && x < 1.0);
     let mut random = Random(7);
     for X in mesh.vertices.iter_mut().filter(|X| is_inner(X)) {

@@ -1,6 +1,6 @@
 //! Flat bodies: triangles in plane strain.
 
-use fem_mesh::{Mesh, rectangle_mesh};
+use fem_mesh::{Mesh, Pattern, rectangle_mesh};
 use fem_scene::MODELS;
 
 use crate::{DYNAMIC, block, build, distance, of_law, run, side, soft};
@@ -30,7 +30,7 @@ pub fn affine<const N: usize>(mesh: &Mesh<3, N>, G: [[f64; 2]; 2]) -> String {
 fn an_affine_state_is_an_equilibrium_with_the_energy_of_a_solid_slab_for_every_law() {
     let G = [[0.08, 0.05], [-0.02, -0.03]];
     for (model, _) in MODELS {
-        let mesh = rectangle_mesh([2.0, 1.0], 3).unwrap();
+        let mesh = rectangle_mesh([2.0, 1.0], 3, Pattern::Alternating).unwrap();
         let mut simulation = build(&flat(&block(model, &affine(&mesh, G))));
         run(&mut *simulation, 1);
         let expected = |node: usize| {
@@ -168,7 +168,7 @@ fn a_traction_on_the_end_of_a_strip_is_balanced_and_stretches_it_as_hooke_says()
 #[test]
 fn a_flat_body_from_a_file_is_that_of_the_rectangle() {
     let folder = tempfile::tempdir().unwrap();
-    let mesh = rectangle_mesh([2.0, 1.0], 3).unwrap();
+    let mesh = rectangle_mesh([2.0, 1.0], 3, Pattern::Alternating).unwrap();
     let rest = "[gravity]\nacceleration = [0, -3, 0]\n[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n";
     let text = flat(&block("neo_hookean", rest));
     let end = |text: &str| {

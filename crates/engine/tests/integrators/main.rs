@@ -86,6 +86,11 @@ integrator = "{integrator}"
     )
 }
 
+/// The same body with its cells cut all in the same way, for figures that belong to that mesh.
+fn of_kuhn(text: &str) -> String {
+    text.replace("cells_per_unit", "pattern = \"kuhn\", cells_per_unit")
+}
+
 fn run(simulation: &mut dyn Simulation, steps: usize) {
     for _ in 0..steps {
         simulation.step().unwrap_or_else(|failure| panic!("{failure}"));

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use crate::{build, distance, run, soft};
+use crate::{build, distance, of_kuhn, run, soft};
 
 const EXTERNAL: &str = r#"[gravity]
 acceleration = [0, -20, 3]
@@ -18,7 +18,7 @@ frequency = 2.0
 
 /// Positions and velocities after so many steps of 0.2 s in all.
 fn end(integrator: &str, steps: usize, rest: &str) -> DVector<f64> {
-    let mut simulation = build(&soft(integrator, 0.2 / steps as f64, rest));
+    let mut simulation = build(&of_kuhn(&soft(integrator, 0.2 / steps as f64, rest)));
     run(&mut *simulation, steps);
     let (q, v) = (simulation.positions(), simulation.velocities());
     DVector::from_iterator(q.len() + v.len(), q.iter().chain(v.iter()).copied())

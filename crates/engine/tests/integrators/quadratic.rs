@@ -1,6 +1,6 @@
 //! Quadratic triangles in equilibrium.
 
-use fem_mesh::{QuadraticMesh, quadratic as with_middles, rectangle_mesh};
+use fem_mesh::{Pattern, QuadraticMesh, quadratic as with_middles, rectangle_mesh};
 use fem_scene::MODELS;
 use fem_scene::simulation::Simulation;
 
@@ -13,7 +13,7 @@ pub fn quadratic(text: &str) -> String {
 }
 
 fn mesh() -> QuadraticMesh {
-    with_middles(rectangle_mesh([2.0, 1.0], 3).unwrap())
+    with_middles(rectangle_mesh([2.0, 1.0], 3, Pattern::Alternating).unwrap())
 }
 
 fn solved(text: &str) -> Box<dyn Simulation> {
@@ -34,7 +34,8 @@ fn an_affine_state_is_an_equilibrium_with_the_energy_and_the_stress_of_linear_tr
             let expected = [0, 1].map(|i| x[i] + G[i][0] * x.x + G[i][1] * x.y);
             (0..2).for_each(|i| assert!((q[3 * node + i] - expected[i]).abs() < 1e-12, "{model}, node {node}"));
         }
-        let linear = solved(&flat(&block(model, &affine(&rectangle_mesh([2.0, 1.0], 3).unwrap(), G))));
+        let linear =
+            solved(&flat(&block(model, &affine(&rectangle_mesh([2.0, 1.0], 3, Pattern::Alternating).unwrap(), G))));
         let [found, expected] = [&simulation, &linear].map(|simulation| simulation.energies().potential);
         assert!((found - expected).abs() < 1e-12 * expected, "{model}: {found} {expected}");
         let [found, expected] = [&simulation, &linear].map(|simulation| simulation.stresses()[5]);

@@ -7,7 +7,7 @@ use fem_scene::simulation::Simulation;
 use nalgebra::Vector3;
 
 use crate::vibrations::{frequency, oscillator};
-use crate::{SECOND_ORDER, build, distance, node_masses, of_law, run, scene, soft};
+use crate::{SECOND_ORDER, build, distance, node_masses, of_kuhn, of_law, run, scene, soft};
 
 const EXTERNAL: &str = r#"[gravity]
 acceleration = [0, -20, 3]
@@ -34,7 +34,7 @@ const MOTION: &str = "[[prescribed]]\non = { axis = \"x\", side = \"min\", withi
 
 /// Positions and velocities after so many steps of 0.2 s in all.
 fn end(integrator: &str, steps: usize, rest: &str) -> DVector<f64> {
-    let mut simulation = build(&soft(integrator, 0.2 / steps as f64, rest));
+    let mut simulation = build(&of_kuhn(&soft(integrator, 0.2 / steps as f64, rest)));
     run(&mut *simulation, steps);
     let (q, v) = (simulation.positions(), simulation.velocities());
     DVector::from_iterator(q.len() + v.len(), q.iter().chain(v.iter()).copied())

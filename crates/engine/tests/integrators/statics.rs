@@ -115,7 +115,7 @@ fn pressure_on_all_sides_shrinks_the_surface_that_it_presses_on() {
         let s = (1.0 - p / 8e4f64).cbrt();
         let F = Matrix3::from_diagonal(&Vector3::repeat(s));
         let error = from_affine(&simulation.positions(), simulation.shape().mesh.vertices(), &F);
-        assert!(error < 1e-11 && simulation.counters().unconverged_steps == 0, "{error:e}");
+        assert!(error < 1e-9 && simulation.counters().unconverged_steps == 0, "{error:e}");
     }
 }
 

@@ -47,7 +47,7 @@ fn an_explicit_method_that_explodes_names_its_step_and_the_remedy() {
         let mut simulation = build(&soft(integrator, 0.5, FALLING));
         let failure = (0..200).find_map(|_| simulation.step().err()).unwrap();
         assert!(!matches!(failure.cause, Cause::Solver(_) | Cause::Stuck { .. }), "{failure}");
-        assert!(failure.to_string().ends_with("implicit_euler"), "{failure}");
+        assert!(failure.to_string().contains("s or less, or implicit_euler"), "{failure}");
         assert!(simulation.positions().iter().all(|x| x.is_finite()), "the last good state stays");
         simulation.reset();
         assert_eq!(simulation.time(), 0.0);

@@ -5,7 +5,7 @@ use std::fmt;
 /// Values of one measure over the elements of a mesh.
 ///
 /// ```
-/// let mesh = fem_mesh::box_mesh([1.0, 1.0, 1.0], 2)?;
+/// let mesh = fem_mesh::box_mesh([1.0, 1.0, 1.0], 2, fem_mesh::Pattern::Alternating)?;
 /// let angles = &fem_mesh::tetrahedron_distributions(&mesh)[0];
 /// assert_eq!((angles.name, angles.unit), ("dihedral angle", "°"));
 /// assert!((angles.quantile(0.0) - 45.0).abs() < 1e-12 && (angles.quantile(1.0) - 90.0).abs() < 1e-12);

@@ -70,7 +70,7 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::box_mesh;
+    use crate::{Pattern, box_mesh};
 
     #[test]
     fn a_regular_tetrahedron_has_the_best_values() {
@@ -102,7 +102,7 @@ mod tests {
         assert_eq!(ratios.count(), 1);
         assert_relative_eq!(ratios.quantile(0.5), 4.0, max_relative = 1e-14);
         // 48 tetrahedra have 192 faces, 48 of them on the boundary.
-        assert_eq!(tetrahedron_distributions(&box_mesh([1.0; 3], 2).unwrap())[4].count(), 72);
+        assert_eq!(tetrahedron_distributions(&box_mesh([1.0; 3], 2, Pattern::Alternating).unwrap())[4].count(), 72);
     }
 
     #[test]

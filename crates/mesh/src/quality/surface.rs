@@ -206,10 +206,10 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::{boundary, box_mesh};
+    use crate::{Pattern, boundary, box_mesh};
 
     fn cube() -> SurfaceMesh {
-        let mesh = box_mesh([1.0, 1.0, 1.0], 2).unwrap();
+        let mesh = box_mesh([1.0, 1.0, 1.0], 2, Pattern::Alternating).unwrap();
         SurfaceMesh::new(mesh.vertices.clone(), boundary(&mesh))
     }
 

@@ -23,8 +23,10 @@ pub(super) fn write<const N: usize>(out: &mut dyn Write, mesh: &Mesh<3, N>) -> i
     }
     let sides = sides(mesh);
     for (name, set) in &mesh.sets {
-        // CalculiX knows no quotation marks; they are for names with blanks alone.
-        let name = if name.contains(char::is_whitespace) { format!("\"{name}\"") } else { name.clone() };
+        // A label begins with a letter and has no blanks, or it stands in quotation marks, which CalculiX takes as a part of the name.
+        // CalculiX 2.20 crashes where a load names a surface `9`, but not at `"9"`.
+        let is_label = name.starts_with(|c: char| c.is_ascii_alphabetic()) && !name.contains([' ', '\t', ',']);
+        let name = if is_label { name.clone() } else { format!("\"{name}\"") };
         if !set.elements.is_empty() {
             writeln!(out, "*ELSET, ELSET={name}")?;
             rows(out, &set.elements)?;

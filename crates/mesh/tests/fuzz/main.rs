@@ -10,7 +10,9 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 use fem_mesh::generate::delaunay::triangulate;
-use fem_mesh::{AnyMesh, MeshError, SurfaceMesh, TetrahedralMesh, boundary, box_mesh, check, quality, surface_quality};
+use fem_mesh::{
+    AnyMesh, MeshError, Pattern, SurfaceMesh, TetrahedralMesh, boundary, box_mesh, check, quality, surface_quality,
+};
 use fem_mesh::{read_mesh, read_points, read_surface, read_tetrahedra, write_mesh};
 use flate2::Compression;
 use flate2::read::MultiGzDecoder;
@@ -38,7 +40,7 @@ fn digits(i: usize) -> f64 {
 }
 
 fn body() -> TetrahedralMesh {
-    let mut mesh = box_mesh([1.0, 1.0, 1.0], 2).unwrap();
+    let mut mesh = box_mesh([1.0, 1.0, 1.0], 2, Pattern::Alternating).unwrap();
     for (i, x) in mesh.vertices.iter_mut().enumerate() {
         *x += 0.1 * Vector3::new(digits(3 * i), digits(3 * i + 1), digits(3 * i + 2));
     }
@@ -217,7 +219,7 @@ fn compressed_files_with_mutated_content_are_read_or_refused() {
 #[test]
 fn a_large_file_takes_at_most_four_times_its_size() {
     let folder = tempdir().unwrap();
-    let mut mesh = box_mesh([1.0, 1.0, 1.0], 16).unwrap();
+    let mut mesh = box_mesh([1.0, 1.0, 1.0], 16, Pattern::Alternating).unwrap();
     for (i, x) in mesh.vertices.iter_mut().enumerate() {
         *x += 0.01 * Vector3::new(digits(3 * i), digits(3 * i + 1), digits(3 * i + 2));
     }

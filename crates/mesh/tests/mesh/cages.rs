@@ -2,7 +2,7 @@
 
 use fem_mesh::generate::cage;
 use fem_mesh::{
-    SurfaceMesh, TetrahedralMesh, boundary, box_mesh, check, quality, read_surface, self_intersections,
+    Pattern, SurfaceMesh, TetrahedralMesh, boundary, box_mesh, check, quality, read_surface, self_intersections,
     surface_quality, volumes,
 };
 use nalgebra::{Matrix3, Vector3};
@@ -61,7 +61,9 @@ fn spikes_sheets_and_long_triangles_are_enclosed() {
     let mut spike = sphere(3, Vector3::zeros());
     spike.vertices[0] *= 3.0;
     encloses(&cage(&spike, 0.5).unwrap(), &spike);
-    let long = box_mesh([4.0, 0.03, 1.0], 1).or_else(|_| box_mesh([4.0, 1.0, 1.0], 1)).unwrap();
+    let long = box_mesh([4.0, 0.03, 1.0], 1, Pattern::Alternating)
+        .or_else(|_| box_mesh([4.0, 1.0, 1.0], 1, Pattern::Alternating))
+        .unwrap();
     let mut thin = SurfaceMesh::new(long.vertices.clone(), boundary(&long));
     thin.vertices.iter_mut().for_each(|x| *x = Vector3::new(x.x, 0.01 * x.y + 0.2 * x.x, x.z));
     encloses(&cage(&thin, 0.5).unwrap(), &thin);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem_mesh::{TetrahedralMesh, box_mesh, check, volumes};
+use fem_mesh::{Pattern, TetrahedralMesh, box_mesh, check, volumes};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::two_tetrahedra;
@@ -112,7 +112,7 @@ fn slivers_of_aspect_a_million_pass() {
 
 #[test]
 fn a_box_passes_at_every_scale_and_a_thousand_kilometres_away() {
-    let mesh = box_mesh([2.0, 1.0, 1.0], 4).unwrap();
+    let mesh = box_mesh([2.0, 1.0, 1.0], 4, Pattern::Alternating).unwrap();
     for (scale, offset) in [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e6), (1.0, -1e6), (1e-3, 1e6)] {
         check(&placed(&mesh, scale, offset), Path::new("some.node")).unwrap();
     }
@@ -122,7 +122,7 @@ fn a_box_passes_at_every_scale_and_a_thousand_kilometres_away() {
 
 #[test]
 fn elements_with_the_same_vertices_are_refused_with_their_number() {
-    let mut mesh = box_mesh([1.0, 1.0, 1.0], 1).unwrap();
+    let mut mesh = box_mesh([1.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
     let [a, b, c, d] = mesh.elements[2];
     mesh.elements.push([b, c, a, d]);
     mesh.elements.push(mesh.elements[5]);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem_mesh::generate::delaunay::triangulate;
-use fem_mesh::{AnyMesh, MeshSet, SurfaceMesh, TetrahedralMesh, boundary, box_mesh};
+use fem_mesh::{AnyMesh, MeshSet, Pattern, SurfaceMesh, TetrahedralMesh, boundary, box_mesh};
 use fem_mesh::{read_mesh, read_surface, read_tetrahedra, surface_quality, write_mesh, write_surface};
 use nalgebra::{Vector2, Vector3};
 use tempfile::tempdir;
@@ -54,7 +54,7 @@ fn plate() -> SurfaceMesh {
 }
 
 fn cube() -> TetrahedralMesh {
-    let mut mesh = box_mesh([1.0, 1.0, 1.0], 2).unwrap();
+    let mut mesh = box_mesh([1.0, 1.0, 1.0], 2, Pattern::Alternating).unwrap();
     for (i, x) in mesh.vertices.iter_mut().enumerate() {
         *x += 0.1 * Vector3::new(digits(3 * i), digits(3 * i + 1), digits(3 * i + 2));
     }

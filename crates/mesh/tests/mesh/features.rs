@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use fem_mesh::generate::{Featured, keep_features, stuff};
-use fem_mesh::{SurfaceMesh, TetrahedralMesh, boundary, box_mesh, check, quality, surface_quality, volumes};
+use fem_mesh::{Pattern, SurfaceMesh, TetrahedralMesh, boundary, box_mesh, check, quality, surface_quality, volumes};
 use nalgebra::{Rotation3, Vector3};
 
 fn turned(mut surface: SurfaceMesh) -> SurfaceMesh {
@@ -13,7 +13,7 @@ fn turned(mut surface: SurfaceMesh) -> SurfaceMesh {
 }
 
 fn cube() -> SurfaceMesh {
-    let mesh = box_mesh([1.0, 1.0, 1.0], 2).unwrap();
+    let mesh = box_mesh([1.0, 1.0, 1.0], 2, Pattern::Alternating).unwrap();
     turned(SurfaceMesh::new(mesh.vertices.clone(), boundary(&mesh)))
 }
 

@@ -5,8 +5,8 @@ use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
 
+use fem_mesh::{Pattern, box_mesh, check, read_surface, read_tetrahedra, write_surface, write_tetrahedra};
 use fem_mesh::{SurfaceMesh, boundary};
-use fem_mesh::{box_mesh, check, read_surface, read_tetrahedra, write_surface, write_tetrahedra};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use tempfile::tempdir;
@@ -16,7 +16,7 @@ use crate::{fixed_seed, folder_with, gmsh, surfaces, vtk};
 /// A good file of each format.
 static VALID: LazyLock<HashMap<&str, Vec<u8>>> = LazyLock::new(|| {
     let folder = tempdir().unwrap();
-    let mesh = box_mesh([1.0, 1.0, 1.0], 1).unwrap();
+    let mesh = box_mesh([1.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
     for name in ["m.node", "m.mesh", "m.msh", "m.vtu"] {
         write_tetrahedra(&folder.path().join(name), &mesh).unwrap();
     }

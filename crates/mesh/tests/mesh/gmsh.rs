@@ -2,7 +2,9 @@
 
 use std::fs;
 
-use fem_mesh::{MeshSet, TetrahedralMesh, box_mesh, check, read_tetrahedra, refine, volumes, write_tetrahedra};
+use fem_mesh::{
+    MeshSet, Pattern, TetrahedralMesh, box_mesh, check, read_tetrahedra, refine, volumes, write_tetrahedra,
+};
 use nalgebra::Vector3;
 
 use crate::folder_with;
@@ -136,7 +138,7 @@ fn groups_of_one_name_or_number_in_two_dimensions_are_one_set_whose_nodes_are_th
 
 #[test]
 fn a_set_keeps_its_part_of_the_body_when_the_mesh_is_refined() {
-    let mut mesh = box_mesh([2.0, 1.0, 1.0], 1).unwrap();
+    let mut mesh = box_mesh([2.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
     let half = |mesh: &TetrahedralMesh, element: &[usize; 4]| element.iter().all(|&node| mesh.vertices[node].x <= 1.0);
     let elements = (0..12).filter(|&element| half(&mesh, &mesh.elements[element])).collect();
     mesh.sets

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use fem_mesh::generate::delaunay::tetrahedralize;
 use fem_mesh::generate::odt::{Improved, improve_graded, improve_inside, improve_tetrahedra};
 use fem_mesh::generate::{Solid, stuff};
-use fem_mesh::{MeshSet, TetrahedralMesh, boundary, box_mesh, check, quality, read_surface, volumes};
+use fem_mesh::{MeshSet, Pattern, TetrahedralMesh, boundary, box_mesh, check, quality, read_surface, volumes};
 use nalgebra::Vector3;
 
 fn random(seed: u64) -> impl FnMut() -> f64 {
@@ -20,7 +20,7 @@ fn random(seed: u64) -> impl FnMut() -> f64 {
 
 /// A box whose inner vertices are moved by up to a part of the cell; the mesh stays valid up to 0.3.
 fn shaken_box(cells: usize, part: f64, seed: u64) -> TetrahedralMesh {
-    let mut mesh = box_mesh([1.0, 1.0, 1.0], cells).unwrap();
+    let mut mesh = box_mesh([1.0, 1.0, 1.0], cells, Pattern::Alternating).unwrap();
     let mut next = random(seed);
     for x in &mut mesh.vertices {
         if x.iter().all(|&x| x > 0.01 && x < 0.99) {
@@ -34,7 +34,7 @@ fn shaken_box(cells: usize, part: f64, seed: u64) -> TetrahedralMesh {
 fn cloud(points: usize, seed: u64) -> TetrahedralMesh {
     let mut next = random(seed);
     let on_side = |x: &Vector3<f64>| x.iter().any(|&x| x == 0.0 || x == 1.0);
-    let grid = box_mesh([1.0, 1.0, 1.0], 6).unwrap().vertices.into_iter().filter(on_side);
+    let grid = box_mesh([1.0, 1.0, 1.0], 6, Pattern::Alternating).unwrap().vertices.into_iter().filter(on_side);
     let inside = (0..points).map(|_| Vector3::from_fn(|_, _| 0.08 + 0.84 * next()));
     tetrahedralize(&grid.chain(inside).collect::<Vec<_>>()).unwrap().mesh
 }

@@ -3,7 +3,9 @@
 use std::fs;
 use std::io::Write;
 
-use fem_mesh::{SurfaceMesh, boundary, box_mesh, read_surface, read_tetrahedra, write_surface, write_tetrahedra};
+use fem_mesh::{
+    Pattern, SurfaceMesh, boundary, box_mesh, read_surface, read_tetrahedra, write_surface, write_tetrahedra,
+};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use tempfile::tempdir;
@@ -19,7 +21,7 @@ fn packed(bytes: &[u8]) -> Vec<u8> {
 #[test]
 fn every_format_is_written_and_read_compressed() {
     let folder = tempdir().unwrap();
-    let mesh = box_mesh([2.0, 1.0, 1.0], 3).unwrap();
+    let mesh = box_mesh([2.0, 1.0, 1.0], 3, Pattern::Alternating).unwrap();
     for name in ["a.node.gz", "b.ele.gz", "c.mesh.gz", "d.msh.gz", "e.vtu.gz", "F.VTU.GZ"] {
         let path = folder.path().join(name);
         write_tetrahedra(&path, &mesh).unwrap();

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use fem_mesh::generate::delaunay::{tetrahedralize, tetrahedralize_with};
 use fem_mesh::generate::odt::{improve_inside, improve_inside_with, improve_tetrahedra, improve_tetrahedra_with};
 use fem_mesh::generate::{Progress, Solid, stuff_graded, stuff_graded_with};
-use fem_mesh::{SurfaceMesh, boundary, box_mesh};
+use fem_mesh::{Pattern, SurfaceMesh, boundary, box_mesh};
 use nalgebra::Vector3;
 
 /// Does the work, asserts that the shares rise from 0 towards 1 and are not too many, and returns the result.
@@ -25,7 +25,7 @@ fn the_share_of_the_work_that_is_done_rises() {
     let found = told(|progress| tetrahedralize_with(&points, progress)).unwrap();
     assert_eq!(found.mesh, tetrahedralize(&points).unwrap().mesh);
 
-    let solid = box_mesh([1.0, 0.7, 0.5], 10).unwrap();
+    let solid = box_mesh([1.0, 0.7, 0.5], 10, Pattern::Alternating).unwrap();
     let surface = SurfaceMesh::new(solid.vertices.clone(), boundary(&solid));
     let stuffed = told(|progress| stuff_graded_with(&surface, 0.1, 1, progress)).unwrap();
     assert_eq!(stuffed, stuff_graded(&surface, 0.1, 1).unwrap());

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use approx::assert_relative_eq;
-use fem_mesh::{TetrahedralMesh, boundary, box_mesh, check, quality, read_tetrahedra, refine, volumes};
+use fem_mesh::{Pattern, TetrahedralMesh, boundary, box_mesh, check, quality, read_tetrahedra, refine, volumes};
 use nalgebra::Vector3;
 
 use crate::box_rule::{assert_closed, enclosed_volume};
@@ -71,7 +71,7 @@ fn a_refined_cage_keeps_its_volume_its_surface_and_its_nodes() {
 #[test]
 fn shapes_stay_bounded_however_often_a_mesh_is_refined() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/stanford/armadillo_coarse.node");
-    for coarse in [box_mesh([1.0, 1.0, 1.0], 1).unwrap(), read_tetrahedra(&path).unwrap()] {
+    for coarse in [box_mesh([1.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap(), read_tetrahedra(&path).unwrap()] {
         let worst = |times: u32| quality(&refined(coarse.clone(), times)).radius_ratio.value;
         let [plain, first, second] = [0, 1, 2].map(worst);
         assert!(first > 0.5 * plain && second > 0.999 * first, "{plain} {first} {second}");
@@ -80,14 +80,14 @@ fn shapes_stay_bounded_however_often_a_mesh_is_refined() {
 
 #[test]
 fn zero_refinements_keep_the_mesh_and_two_are_one_after_another() {
-    let mesh = box_mesh([2.0, 1.0, 1.0], 1).unwrap();
+    let mesh = box_mesh([2.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
     assert_eq!(refined(mesh.clone(), 0), mesh);
     assert_eq!(refined(refined(mesh.clone(), 1), 1), refined(mesh, 2));
 }
 
 #[test]
 fn too_fine_a_mesh_is_refused_with_its_size() {
-    let mesh = box_mesh([2.0, 1.0, 1.0], 1).unwrap();
+    let mesh = box_mesh([2.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
     let message = refine(mesh.clone(), 9, Path::new("m.node")).unwrap_err().to_string();
     assert!(message.starts_with("m.node: refined 9 times the mesh would have 1.610612736e9 elements"), "{message}");
     assert!(refine(mesh, u32::MAX, Path::new("m.node")).is_err());

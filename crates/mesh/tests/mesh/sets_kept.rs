@@ -1,7 +1,8 @@
 //! Named sets in every format that can hold them, and Abaqus's files.
 
 use fem_mesh::{
-    AnyMesh, Mesh, MeshSet, SurfaceMesh, TetrahedralMesh, box_mesh, check, rectangle_mesh, volumes, write::lost_sets,
+    AnyMesh, Mesh, MeshSet, Pattern, SurfaceMesh, TetrahedralMesh, box_mesh, check, rectangle_mesh, volumes,
+    write::lost_sets,
 };
 use fem_mesh::{read_file, read_mesh, read_surface, read_tetrahedra, write_mesh};
 use tempfile::tempdir;
@@ -10,7 +11,7 @@ use crate::folder_with;
 
 /// Disjoint sets of every kind of part, with names and numbers.
 fn body() -> TetrahedralMesh {
-    let mut mesh = box_mesh([2.0, 1.0, 1.0], 1).unwrap();
+    let mut mesh = box_mesh([2.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
     let face = |element: usize, skipped: usize| {
         let mut nodes: Vec<usize> = (0..4).filter(|i| *i != skipped).map(|i| mesh.elements[element][i]).collect();
         nodes.sort_unstable();
@@ -59,7 +60,7 @@ fn sets_survive_every_format_that_can_hold_them() {
 #[test]
 fn sets_of_a_plate_survive_every_format_that_can_hold_them() {
     let folder = tempdir().unwrap();
-    let mut plate = rectangle_mesh([1.0, 1.0], 3).unwrap();
+    let mut plate = rectangle_mesh([1.0, 1.0], 3, Pattern::Alternating).unwrap();
     plate.sets.insert("some".to_owned(), MeshSet { elements: vec![0, 3, 7], ..MeshSet::default() });
     for format in ["msh", "vtu", "vtk", "inp", "mesh", "node", "obj"] {
         let path = folder.path().join(format!("a.{format}"));
@@ -135,6 +136,40 @@ fn included_files_continued_rows_and_quadratic_elements_are_read() {
         "{:?}",
         found.notes
     );
+}
+
+#[test]
+fn quadrangles_become_two_triangles_each_with_their_sets_and_sides() {
+    let nodes =
+        "*NODE\n1, 0, 0\n2, 1, 0\n3, 2, 0\n4, 0, 1\n5, 1, 1\n6, 2, 1\n7, .5, 0\n8, 1, .5\n9, .5, 1\n10, 0, .5\n";
+    let sets =
+        "*ELEMENT, TYPE=CPE3\n12, 2, 3, 6\n13, 2, 6, 5\n*SURFACE, NAME=left\n11, S4\n*SURFACE, NAME=right\n12, S2\n";
+    for element in ["CPS4R, ELSET=quad\n11, 1, 2, 5, 4", "S8R, ELSET=quad\n11, 1, 2, 5, 4, 7, 8, 9, 10"] {
+        let text = format!("{nodes}*ELEMENT, TYPE={element}\n{sets}");
+        let found = read_file(&folder_with(&[("m.inp", text.as_bytes())]).1).unwrap();
+        let AnyMesh::Triangles(mesh) = &found.mesh else { panic!() };
+        let places =
+            |nodes: &[usize]| nodes.iter().map(|&node| mesh.vertices[node].xy().into()).collect::<Vec<[f64; 2]>>();
+        assert_eq!(places(&mesh.elements[0]), [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
+        assert_eq!(places(&mesh.elements[1]), [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        assert_eq!((mesh.elements.len(), &mesh.sets["quad"].elements[..]), (4, &[0, 1][..]));
+        assert_eq!(places(&mesh.sets["left"].edges[0]), [[0.0, 0.0], [0.0, 1.0]]);
+        assert_eq!(places(&mesh.sets["right"].edges[0]), [[2.0, 0.0], [2.0, 1.0]]);
+    }
+}
+
+#[test]
+fn names_that_are_no_labels_of_abaqus_stand_in_quotation_marks_and_come_back() {
+    let mut mesh = box_mesh([2.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
+    let half = MeshSet { elements: (0..6).collect(), faces: vec![[0, 3, 9]], ..MeshSet::default() };
+    mesh.sets = ["7", "left half", "soft"].map(|name| (name.to_owned(), half.clone())).into();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.inp");
+    fem_mesh::write_tetrahedra(&path, &mesh).unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(["=\"7\"\n", "=\"left half\"\n", "=soft\n"].iter().all(|label| text.contains(label)), "{text}");
+    let AnyMesh::Tetrahedra(again) = read_file(&path).unwrap().mesh else { panic!() };
+    assert!(again.sets.keys().eq(mesh.sets.keys()), "{:?}", again.sets.keys());
 }
 
 #[test]

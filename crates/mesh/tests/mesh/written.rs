@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use fem_mesh::write::{Field, Frame, write_glb, write_vtu};
-use fem_mesh::{boundary, box_mesh, read_tetrahedra};
+use fem_mesh::{Pattern, boundary, box_mesh, read_tetrahedra};
 use nalgebra::{Rotation3, Vector3};
 use serde_json::Value;
 use tempfile::tempdir;
@@ -13,7 +13,7 @@ use tempfile::tempdir;
 fn a_vtk_file_with_fields_still_holds_its_mesh() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("a.vtu");
-    let mesh = box_mesh([1.0, 2.0, 1.0], 1).unwrap();
+    let mesh = box_mesh([1.0, 2.0, 1.0], 1, Pattern::Alternating).unwrap();
     let displacement = vec![0.5; 3 * mesh.vertices.len()];
     let stress = vec![1e5; mesh.elements.len()];
     let points = [Field { name: "displacement <m> & \"more\"", components: 3, values: &displacement }];
@@ -24,7 +24,7 @@ fn a_vtk_file_with_fields_still_holds_its_mesh() {
 
 #[test]
 fn a_field_of_the_wrong_size_is_refused_with_both_figures() {
-    let mesh = box_mesh([1.0, 1.0, 1.0], 1).unwrap();
+    let mesh = box_mesh([1.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
     let field = [Field { name: "velocity", components: 3, values: &[0.0; 8] }];
     let message = write_vtu(Path::new("a.vtu"), &mesh, &field, &[]).unwrap_err().to_string();
     assert!(message.contains("`velocity` has 8 numbers, and 24 are needed (3 for each point)"), "{message}");
@@ -34,7 +34,7 @@ fn a_field_of_the_wrong_size_is_refused_with_both_figures() {
 
 /// A box that turns: rest, faces, frames.
 fn turning_box(frames: usize) -> (Vec<Vector3<f64>>, Vec<[usize; 3]>, Vec<Frame>) {
-    let mesh = box_mesh([2.0, 2.0, 2.0], 1).unwrap();
+    let mesh = box_mesh([2.0, 2.0, 2.0], 1, Pattern::Alternating).unwrap();
     let frame = |k: usize| {
         let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 0.1 * k as f64);
         Frame { time: 0.04 * k as f64, positions: mesh.vertices.iter().map(|x| turn * x).collect() }

@@ -116,7 +116,7 @@ mod tests {
 
     /// Displacements of a box under x ↦ F x, stacked.
     fn stretched(F: &Matrix3<f64>) -> (BodyMesh, Vec<f64>) {
-        let mesh = fem_mesh::box_mesh([2.0, 1.0, 1.0], 2).unwrap();
+        let mesh = fem_mesh::box_mesh([2.0, 1.0, 1.0], 2, fem_mesh::Pattern::Alternating).unwrap();
         let u = mesh.vertices.iter().flat_map(|x| <[f64; 3]>::from((F - Matrix3::identity()) * x)).collect();
         (mesh.into(), u)
     }

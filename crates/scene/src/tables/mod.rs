@@ -32,7 +32,7 @@ use std::path::PathBuf;
 use serde::Deserialize;
 
 use crate::overrides::Override;
-use fem_mesh::Side;
+use fem_mesh::{Pattern, Side};
 
 /// A scene file, checked. Tables and keys have the names of the file, quantities are in SI units.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -182,6 +182,9 @@ pub struct Cuboid {
     pub size: [f64; 3],
     /// Number of cubes per metre.
     pub cells_per_unit: usize,
+    /// How the cubes are cut.
+    #[serde(default)]
+    pub pattern: Pattern,
 }
 
 /// `picture`: the region of a picture, filled with triangles.
@@ -212,6 +215,9 @@ pub struct RectangleTable {
     pub size: [f64; 2],
     /// Number of squares per metre.
     pub cells_per_unit: usize,
+    /// How the squares are cut.
+    #[serde(default)]
+    pub pattern: Pattern,
 }
 
 /// `surface`: the inside of a surface, filled with tetrahedra.

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fem_mesh::{TetrahedralMesh, box_mesh, rectangle_mesh};
+use fem_mesh::{Pattern, TetrahedralMesh, box_mesh, rectangle_mesh};
 use fem_scene::{BodyMesh, Override, Scene, SceneError, body_of, load, load_with, warnings};
 use tempfile::tempdir;
 
@@ -93,7 +93,7 @@ fn go_on(found: Result<Scene, SceneError>) {
         Err(error) => return assert_readable(&error),
     };
     scene.mesh.refine = scene.mesh.refine.min(1);
-    let triangles = rectangle_mesh([2.0, 1.0], 2).unwrap();
+    let triangles = rectangle_mesh([2.0, 1.0], 2, Pattern::Alternating).unwrap();
     let flat = BodyMesh::Flat { triangles, thickness: 1.0 };
     for mesh in [BodyMesh::Solid(solid()), flat] {
         match body_of(&scene, mesh, Path::new("no data")) {
@@ -113,7 +113,7 @@ fn assert_readable(error: &SceneError) {
 }
 
 fn solid() -> TetrahedralMesh {
-    box_mesh([2.0, 1.0, 1.0], 2).unwrap()
+    box_mesh([2.0, 1.0, 1.0], 2, Pattern::Alternating).unwrap()
 }
 
 /// Writes a file that is no longer the one before: a file system may wait for its disk when a file is emptied and written again.

@@ -96,7 +96,7 @@ fn the_highest_vertex_is_the_first_of_largest_y() {
 fn several_files_are_bodies_of_one_scene_and_sets_of_their_names() {
     let folder = tempfile::tempdir().unwrap();
     for (name, shift) in [("left.node", 0.0), ("right.vtu", 3.0)] {
-        let mut mesh = fem_mesh::box_mesh([1.0, 1.0, 1.0], 1).unwrap();
+        let mut mesh = fem_mesh::box_mesh([1.0, 1.0, 1.0], 1, fem_mesh::Pattern::Alternating).unwrap();
         mesh.vertices.iter_mut().for_each(|vertex| vertex.x += shift);
         fem_mesh::write_tetrahedra(&folder.path().join(name), &mesh).unwrap();
     }

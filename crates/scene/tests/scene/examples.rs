@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use fem_mesh::Pattern;
 use fem_scene::tables::{Cuboid, DragTable, DragVertex, MassTable, NewtonTable, Plane, SolverTable};
 use fem_scene::{Axis, Integrator, Pipeline, SolverKind};
 
@@ -10,7 +11,7 @@ use crate::{LEAST, edit, read};
 const ALL: &str = r#"about = "one line"
 pipeline = "engine"                     # "course": the 22 functions run it; "engine": the fast engine does
 [mesh]                                  # exactly one source
-box = { size = [4, 1, 1], cells_per_unit = 6 }
+box = { size = [4, 1, 1], cells_per_unit = 6, pattern = "kuhn" }    # "alternating" if left out
 display = "meshes/x.obj"                # optional
 scale = 0.5                             # optional; both meshes, about the origin
 [material]
@@ -47,7 +48,7 @@ fn every_table_of_a_scene_is_read() {
     let scene = read(ALL);
     assert_eq!((scene.name.as_str(), scene.path), ("name", PathBuf::from("folder/name.toml")));
     assert_eq!((scene.about.as_str(), scene.pipeline), ("one line", Pipeline::Engine));
-    assert_eq!(scene.mesh.cuboid, Some(Cuboid { size: [4.0, 1.0, 1.0], cells_per_unit: 6 }));
+    assert_eq!(scene.mesh.cuboid, Some(Cuboid { size: [4.0, 1.0, 1.0], cells_per_unit: 6, pattern: Pattern::Kuhn }));
     assert_eq!((scene.mesh.file, scene.mesh.display, scene.mesh.scale), (None, Some("meshes/x.obj".into()), 0.5));
     let material = scene.material;
     assert_eq!((material.model.as_str(), material.C, material.D), ("neo_hookean", Some(2e5), Some(1e6)));
@@ -159,4 +160,15 @@ fn tables_of_newton_and_solver_may_leave_out_their_numbers() {
         scene.solver,
         Some(SolverTable { kind: SolverKind::Pcg, tolerance: None, preconditioner: None, precision: None })
     );
+}
+
+#[test]
+fn boxes_and_rectangles_alternate_unless_they_say_otherwise_and_another_word_is_refused_with_the_two() {
+    let engine = edit(LEAST, "course", "engine");
+    let flat = |key: &str| edit(&engine, "box = { size = [2, 1, 1]", &format!("rectangle = {{ {key}size = [2, 1]"));
+    assert_eq!(read(LEAST).mesh.cuboid.unwrap().pattern, Pattern::Alternating);
+    assert_eq!(read(&flat("")).mesh.rectangle.unwrap().pattern, Pattern::Alternating);
+    assert_eq!(read(&flat("pattern = \"kuhn\", ")).mesh.rectangle.unwrap().pattern, Pattern::Kuhn);
+    let error = fem_scene::parse(&flat("pattern = \"crossed\", "), "x.toml".as_ref()).unwrap_err().to_string();
+    assert!(error.contains("`alternating` or `kuhn`") && error.contains("line 3"), "{error}");
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use fem_mesh::{box_mesh, write_tetrahedra};
+use fem_mesh::{Pattern, box_mesh, write_tetrahedra};
 use fem_scene::{Body, SceneError, load};
 
 use crate::errors::assert_refused;
@@ -151,7 +151,7 @@ fn a_set_that_does_not_fit_is_refused_with_the_sets_of_the_mesh() {
 #[test]
 fn parts_without_a_condition_and_coincident_nodes_are_warned_of() {
     let warnings = |gap: f64, tables: &str| {
-        let mut mesh = box_mesh([1.0, 1.0, 1.0], 1).unwrap();
+        let mut mesh = box_mesh([1.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
         let (vertices, elements) = (mesh.vertices.clone(), mesh.elements.clone());
         mesh.vertices.extend(vertices.iter().map(|x| x + nalgebra::Vector3::x() * (1.0 + gap)));
         mesh.elements.extend(elements.iter().map(|element| element.map(|node| node + 8)));
@@ -174,7 +174,7 @@ fn parts_without_a_condition_and_coincident_nodes_are_warned_of() {
 #[test]
 fn a_set_keeps_its_part_of_the_body_when_the_mesh_is_scaled_and_refined() {
     let folder = tempfile::tempdir().unwrap();
-    let mut mesh = box_mesh([1.0, 1.0, 1.0], 2).unwrap();
+    let mut mesh = box_mesh([1.0, 1.0, 1.0], 2, Pattern::Alternating).unwrap();
     let floor =
         fem_mesh::boundary(&mesh).into_iter().filter(|face| face.iter().all(|&node| mesh.vertices[node].z == 0.0));
     let edge: Vec<usize> =

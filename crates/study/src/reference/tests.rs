@@ -28,7 +28,7 @@ fn free_fall_is_exact() {
 #[test]
 fn a_node_on_a_spring_follows_the_cosine() {
     // All nodes but one are constrained and the body is too soft to matter: ü = 1 − ω² u, ω² = k/m.
-    let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 1 }\n[material]\n\
+    let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 1, pattern = \"kuhn\" }\n[material]\n\
         model = \"linear\"\nyoung = 1e-9\npoisson = 0.0\ndensity = 1000.0\n[mass]\nlumped = true\n[gravity]\n\
         acceleration = [1, 0, 0]\n[fixed]\nnodes = [0, 1, 2, 3, 4, 6, 7, 8, 9, 10, 11]\n[[springs]]\nnodes = [4, 5]\n\
         stiffness = 1e4\n[time]\ndt = 0.01\nintegrator = \"verlet\"\n";
@@ -42,7 +42,7 @@ fn a_node_on_a_spring_follows_the_cosine() {
 
 #[test]
 fn energy_is_conserved_to_the_self_check() {
-    let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 1 }\n[material]\n\
+    let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 1, pattern = \"kuhn\" }\n[material]\n\
         model = \"neo_hookean\"\nC = 1e4\nD = 4e4\ndensity = 1000.0\n[gravity]\nacceleration = [0, -9.81, 0]\n\
         [fixed]\nplane = { axis = \"x\", below = 1e-9 }\n[time]\ndt = 0.01\nintegrator = \"verlet\"\n";
     let found = reference(&equations(text), 0.3, 60.0).unwrap();
@@ -52,7 +52,7 @@ fn energy_is_conserved_to_the_self_check() {
 /// A box of 12 nodes so soft that only springs and mass matter.
 fn soft_box(tables: &str) -> Equations {
     equations(&format!(
-        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [2, 1, 1], cells_per_unit = 1 }}\n[material]\nmodel = \"linear\"\n\
+        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [2, 1, 1], cells_per_unit = 1, pattern = \"kuhn\" }}\n[material]\nmodel = \"linear\"\n\
          young = 1e-9\npoisson = 0.0\ndensity = 1000.0\n[time]\ndt = 0.01\nintegrator = \"verlet\"\n{tables}"
     ))
 }
@@ -143,7 +143,7 @@ fn a_motion_on_a_sine_has_the_velocities_of_the_sine() {
 
 #[test]
 fn a_release_has_no_reference() {
-    let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 1 }\n[material]\nmodel = \"linear\"\n\
+    let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 1, pattern = \"kuhn\" }\n[material]\nmodel = \"linear\"\n\
         young = 1e3\npoisson = 0.0\ndensity = 1000.0\n[fixed]\nnodes = [0]\nuntil = 1\n[time]\ndt = 0.01\nintegrator = \"verlet\"\n";
     let scene = parse(text, Path::new("folder/name.toml")).unwrap();
     let body = body(&scene, Path::new("no data")).unwrap();
@@ -158,7 +158,7 @@ fn displacements_that_jump_have_no_reference() {
 
 #[test]
 fn explicit_methods_follow_a_turning_clamp_to_the_reference_with_their_order() {
-    let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 1 }\n[material]\n\
+    let text = "pipeline = \"engine\"\n[mesh]\nbox = { size = [2, 1, 1], cells_per_unit = 1, pattern = \"kuhn\" }\n[material]\n\
         model = \"neo_hookean\"\nC = 1e4\nD = 4e4\ndensity = 1000.0\n[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n\
         [[prescribed]]\non = { axis = \"x\", side = \"max\", within = 1e-9 }\n\
         rotation = { axis = \"x\", center = [0, 0.5, 0.5], turns = 0.2 }\ndisplacement = [0.1, 0, 0.2]\n\

@@ -47,7 +47,7 @@ impl Conditioning {
 /// A mesh whose stiffness cannot be assembled or factored, as a sentence.
 ///
 /// ```
-/// let mesh = fem_mesh::box_mesh([1.0, 1.0, 2.0], 3)?;
+/// let mesh = fem_mesh::box_mesh([1.0, 1.0, 2.0], 3, fem_mesh::Pattern::Alternating)?;
 /// let found = fem_study::space::conditioning::conditioning(&mesh).unwrap();
 /// assert!(found.axis == 2 && found.number() > 100.0);
 /// # Ok::<(), fem_mesh::MeshError>(())
@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn the_extreme_eigenvalues_are_those_of_the_full_matrix() {
-        let mut mesh = fem_mesh::box_mesh([1.0, 0.6, 1.4], 5).unwrap();
+        let mut mesh = fem_mesh::box_mesh([1.0, 0.6, 1.4], 5, fem_mesh::Pattern::Alternating).unwrap();
         for (i, x) in mesh.vertices.iter_mut().enumerate() {
             let shift = Vector3::from_fn(|k, _| 0.02 * ((3 * i + k) as f64 * 12.9898).sin());
             *x += shift;

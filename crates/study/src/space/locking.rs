@@ -24,7 +24,7 @@ pub struct TipDeflection {
 /// Solves the beam under a transverse traction at its end.
 pub fn bend(poisson: f64, cells: usize) -> Result<TipDeflection, String> {
     let text = format!(
-        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [8, 1, 1], cells_per_unit = {cells} }}\n[material]\n\
+        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [8, 1, 1], cells_per_unit = {cells}, pattern = \"kuhn\" }}\n[material]\n\
          model = \"linear\"\nyoung = 1e6\npoisson = {poisson}\ndensity = 1000.0\n[fixed]\n\
          plane = {{ axis = \"x\", below = 1e-9 }}\n[[traction]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\n\
          force_per_area = [0, 0, -50]\n[time]\ndt = 1.0\nintegrator = \"static\"\nsteps = 1\n"

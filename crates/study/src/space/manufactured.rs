@@ -163,9 +163,11 @@ fn fixed_body(model: &str, family: Family, cells: usize) -> Result<(Scene, Body)
         _ => "model = \"linear\"\nyoung = 1e5\npoisson = 0.3",
     };
     let mesh = match family {
-        Family::Tetrahedra => format!("box = {{ size = [1, 1, 1], cells_per_unit = {cells} }}"),
-        Family::Triangles => format!("rectangle = {{ size = [1, 1], cells_per_unit = {cells} }}"),
-        Family::QuadraticTriangles => format!("rectangle = {{ size = [1, 1], cells_per_unit = {cells} }}\norder = 2"),
+        Family::Tetrahedra => format!("box = {{ size = [1, 1, 1], cells_per_unit = {cells}, pattern = \"kuhn\" }}"),
+        Family::Triangles => format!("rectangle = {{ size = [1, 1], cells_per_unit = {cells}, pattern = \"kuhn\" }}"),
+        Family::QuadraticTriangles => {
+            format!("rectangle = {{ size = [1, 1], cells_per_unit = {cells}, pattern = \"kuhn\" }}\norder = 2")
+        }
     };
     let text = format!(
         "pipeline = \"engine\"\n[mesh]\n{mesh}\n[material]\n{moduli}\n\

@@ -70,7 +70,7 @@ impl SceneText {
     /// A box of 2 × 1 × 1 m of soft rubber, with cells of 1 m.
     pub fn small(integrator: &'static str, model: &'static str) -> Self {
         Self {
-            mesh: "box = { size = [2, 1, 1], cells_per_unit = 1 }".to_owned(),
+            mesh: "box = { size = [2, 1, 1], pattern = \"kuhn\", cells_per_unit = 1 }".to_owned(),
             model,
             young: 1e5,
             poisson: 0.3,
@@ -83,7 +83,7 @@ impl SceneText {
 
     /// The same box with cells of 0.5 m.
     pub fn finer(integrator: &'static str, model: &'static str) -> Self {
-        let mesh = "box = { size = [2, 1, 1], cells_per_unit = 2 }".to_owned();
+        let mesh = "box = { size = [2, 1, 1], pattern = \"kuhn\", cells_per_unit = 2 }".to_owned();
         Self { mesh, ..Self::small(integrator, model) }
     }
 
@@ -174,7 +174,7 @@ pub fn moved_box(
     cells_per_unit: usize,
     place: impl Fn(&Vector3<f64>) -> Vector3<f64>,
 ) -> Result<TetrahedralMesh, Finding> {
-    let mesh = fem_mesh::box_mesh(size, cells_per_unit);
+    let mesh = fem_mesh::box_mesh(size, cells_per_unit, fem_mesh::Pattern::Kuhn);
     let mut mesh = mesh.map_err(|error| Finding::plain(Outcome::Refused, error.to_string()))?;
     for vertex in &mut mesh.vertices {
         *vertex = place(vertex);

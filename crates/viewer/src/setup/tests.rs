@@ -35,7 +35,7 @@ struct Desk {
 
 impl Desk {
     fn new(mode: Mode) -> Self {
-        let mesh: BodyMesh = fem_mesh::box_mesh([4.0, 1.0, 1.0], 2).unwrap().into();
+        let mesh: BodyMesh = fem_mesh::box_mesh([4.0, 1.0, 1.0], 2, fem_mesh::Pattern::Alternating).unwrap().into();
         let shape = Shape { boundary: mesh.surface(), mesh, display: None, picture: None };
         let positions: Vec<Vec3> = shape.mesh.vertices().iter().map(single).collect();
         let size = Vec2::new(1000.0, 800.0);

@@ -29,7 +29,7 @@ pub type Calls = Arc<Mutex<Vec<(ThreadId, bool)>>>;
 /// 1000 kg/m³ and panics above 2000 kg/m³.
 pub fn start(seconds: f64) -> (Worker, Calls) {
     let calls = Calls::default();
-    let mesh = || fem_mesh::box_mesh([1.0; 3], 1).unwrap().into();
+    let mesh = || fem_mesh::box_mesh([1.0; 3], 1, fem_mesh::Pattern::Alternating).unwrap().into();
     let seen = Arc::clone(&calls);
     let builder = Builder::new(move |scene, shape| {
         seen.lock().unwrap().push((std::thread::current().id(), shape.is_some()));

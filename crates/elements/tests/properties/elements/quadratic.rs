@@ -7,11 +7,11 @@ use fem_elements::elements::Elements;
 use fem_elements::elements::quadratic::{BARYCENTRIC, POINTS};
 use fem_elements::materials::{Law, Linear};
 use fem_elements::tensor::Tensor;
-use fem_mesh::{QuadraticMesh, SurfaceMesh, quadratic, rectangle_mesh};
+use fem_mesh::{Pattern, QuadraticMesh, SurfaceMesh, quadratic, rectangle_mesh};
 
 /// Triangles of 2 × 1 m whose inner nodes are displaced, and whose triangles begin at different corners.
 fn irregular(cells: usize) -> SurfaceMesh {
-    let mut mesh = rectangle_mesh([2.0, 1.0], cells).unwrap();
+    let mut mesh = rectangle_mesh([2.0, 1.0], cells, Pattern::Alternating).unwrap();
     let mut random = random(3);
     for x in &mut mesh.vertices {
         if x.x > 0.0 && x.x < 2.0 && x.y > 0.0 && x.y < 1.0 {

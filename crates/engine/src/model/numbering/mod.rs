@@ -94,11 +94,11 @@ fn extent(nodes: &[u32], vertices: &[Vector3<f64>]) -> Vector3<f64> {
 #[cfg(test)]
 mod tests {
     use super::{Numbering, Ordering};
-    use fem_mesh::box_mesh;
+    use fem_mesh::{Pattern, box_mesh};
 
     #[test]
     fn every_node_has_one_number_and_constrained_nodes_come_last() {
-        let mesh = box_mesh([2.0, 1.0, 1.0], 3).unwrap();
+        let mesh = box_mesh([2.0, 1.0, 1.0], 3, Pattern::Alternating).unwrap();
         let constrained: Vec<bool> = mesh.vertices.iter().map(|x| x.x == 0.0).collect();
         let numbering = Numbering::new(Ordering::FillReducing, &mesh.vertices, &mesh.elements, &constrained);
         let mut all = numbering.mesh_node.clone();
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn nodes_are_sorted_along_the_longest_axis_first() {
-        let mesh = box_mesh([1.0, 3.0, 2.0], 2).unwrap();
+        let mesh = box_mesh([1.0, 3.0, 2.0], 2, Pattern::Alternating).unwrap();
         let constrained = vec![false; mesh.vertices.len()];
         let numbering = Numbering::new(Ordering::Parts, &mesh.vertices, &mesh.elements, &constrained);
         let x = numbering.mesh_node.iter().map(|&node| mesh.vertices[node as usize]).collect::<Vec<_>>();

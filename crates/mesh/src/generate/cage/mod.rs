@@ -42,9 +42,9 @@ const LEVELS: usize = 20;
 /// Those of [`stuff`](super::stuff).
 ///
 /// ```
-/// use fem_mesh::{SurfaceMesh, boundary, box_mesh, generate::cage, volumes};
+/// use fem_mesh::{Pattern, SurfaceMesh, boundary, box_mesh, generate::cage, volumes};
 ///
-/// let solid = box_mesh([1.0, 1.0, 0.2], 5)?;
+/// let solid = box_mesh([1.0, 1.0, 0.2], 5, Pattern::Alternating)?;
 /// let surface = SurfaceMesh::new(solid.vertices.clone(), boundary(&solid));
 /// let around = cage(&surface, 0.4).unwrap();
 /// assert!(around.elements.len() < solid.elements.len());

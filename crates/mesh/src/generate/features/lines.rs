@@ -209,11 +209,11 @@ fn parted(points: Vec<Vector3<f64>>) -> Vec<Curve> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{boundary, box_mesh};
+    use crate::{Pattern, boundary, box_mesh};
 
     #[test]
     fn a_cube_has_twelve_curves_six_patches_and_eight_corners() {
-        let mesh = box_mesh([2.0, 1.0, 1.0], 3).unwrap();
+        let mesh = box_mesh([2.0, 1.0, 1.0], 3, Pattern::Alternating).unwrap();
         let features = Features::new(&SurfaceMesh::new(mesh.vertices.clone(), boundary(&mesh)), 40.0, 0.5);
         assert_eq!((features.curves.len(), features.patches.len()), (12, 6));
         let length: f64 = features.curves.iter().map(Curve::length).sum();

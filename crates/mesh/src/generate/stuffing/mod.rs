@@ -121,9 +121,9 @@ pub fn stuff_graded_with(
 ///
 /// ```
 /// use fem_mesh::generate::{stuff, stuff_sized};
-/// use fem_mesh::{SurfaceMesh, boundary, box_mesh};
+/// use fem_mesh::{Pattern, SurfaceMesh, boundary, box_mesh};
 ///
-/// let solid = box_mesh([1.0, 1.0, 1.0], 1)?;
+/// let solid = box_mesh([1.0, 1.0, 1.0], 1, Pattern::Alternating)?;
 /// let surface = SurfaceMesh::new(solid.vertices.clone(), boundary(&solid));
 /// let fine = stuff(&surface, 0.04).unwrap();
 /// let sized = stuff_sized(&surface, 0.04, |x| 0.02 + 0.5 * x.x).unwrap();

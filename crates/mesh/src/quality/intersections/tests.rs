@@ -3,7 +3,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 
 use super::*;
-use crate::{boundary, box_mesh};
+use crate::{Pattern, boundary, box_mesh};
 
 /// Random cases that are the same in every run.
 fn fixed_seed(cases: u32) -> Config {
@@ -152,7 +152,7 @@ proptest! {
 
 #[test]
 fn a_clean_surface_has_no_crossings_and_two_boxes_through_each_other_have_some() {
-    let mesh = box_mesh([1.0, 2.0, 1.0], 4).unwrap();
+    let mesh = box_mesh([1.0, 2.0, 1.0], 4, Pattern::Alternating).unwrap();
     let mut surface = SurfaceMesh::new(mesh.vertices.clone(), boundary(&mesh));
     assert_eq!(self_intersections(&surface), SelfIntersections::default());
     let count = surface.vertices.len();

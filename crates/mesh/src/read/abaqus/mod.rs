@@ -16,7 +16,7 @@ use self::model::Model;
 use super::content::Content;
 use crate::{MeshError, Problem};
 
-/// Reads nodes, linear and quadratic tetrahedra and triangles by their corners, sets of nodes and elements, and surfaces, of parts with one
+/// Reads nodes, linear and quadratic tetrahedra, triangles and quadrangles (cut into two triangles) by their corners, sets of nodes and elements, and surfaces, of parts with one
 /// instance each. Materials, steps and the like are skipped.
 pub(super) fn read(file: &Path, text: String) -> Result<Content, MeshError> {
     let deck = Deck::read(file, text)?;
@@ -127,7 +127,7 @@ fn elements(model: &mut Model, keyword: &Keyword, rows: Rows) -> Result<(), Mesh
         if let Some(more) = nodes.get(kind.nodes) {
             return Err(row.error(Problem::RowTooLong { word: more.to_string(), last: "the nodes of the element" }));
         }
-        model.add_element(&row, number, kind, &nodes[..kind.corners])?;
+        model.add_element(&row, number, kind, &nodes[..kind.corners()])?;
         numbers.extend(set.map(|_| number));
     }
     match set {

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::super::content::{Content, Parts};
 use super::Member;
 use super::deck::Line;
-use super::kinds::{FACES, Kind};
+use super::kinds::{FACES, Kind, Shape};
 use crate::{MeshError, Problem};
 
 /// The fate of an element. A mesh with more than 2³² elements fits into no memory.
@@ -15,6 +15,8 @@ use crate::{MeshError, Problem};
 enum Element {
     Tetrahedron(u32),
     Triangle(u32),
+    /// The first of its two triangles, a b c and a c d.
+    Quadrangle(u32),
     Line([u32; 2]),
 }
 
@@ -104,18 +106,22 @@ impl Model {
         let part = &mut self.parts[self.part];
         let node = |&tag: &i64| part.nodes.get(&tag).copied().ok_or_else(|| line.error(Problem::UnknownTag { tag }));
         let nodes = nodes.iter().map(node).collect::<Result<Vec<_>, _>>()?;
-        let element = match nodes[..] {
-            [a, b, c, d] => {
+        let element = match (kind.shape, &nodes[..]) {
+            (Shape::Tetrahedron, &[a, b, c, d]) => {
                 self.content.tetrahedra.push([a, b, c, d]);
                 Element::Tetrahedron((self.content.tetrahedra.len() - 1) as u32)
             }
-            [a, b, c] => {
+            (Shape::Quadrangle, &[a, b, c, d]) => {
+                self.content.triangles.extend([[a, b, c], [a, c, d]]);
+                Element::Quadrangle((self.content.triangles.len() - 2) as u32)
+            }
+            (Shape::Triangle, &[a, b, c]) => {
                 self.content.triangles.push([a, b, c]);
                 Element::Triangle((self.content.triangles.len() - 1) as u32)
             }
             _ => Element::Line([nodes[0] as u32, nodes[1] as u32]),
         };
-        self.quadratic += usize::from(kind.nodes > kind.corners);
+        self.quadratic += usize::from(kind.nodes > kind.corners());
         match part.elements.insert(number, element) {
             None => Ok(()),
             Some(_) => {
@@ -197,6 +203,11 @@ impl Model {
                     let triangle = self.content.triangles[index as usize];
                     parts.edges.push([triangle[side - 1], triangle[side % 3]]);
                 }
+                Element::Quadrangle(index) if (1..=4).contains(&side) => {
+                    let [[a, b, c], [.., d]] = [0, 1].map(|half| self.content.triangles[index as usize + half]);
+                    let corners = [a, b, c, d];
+                    parts.edges.push([corners[side - 1], corners[side % 4]]);
+                }
                 _ => return Err(no_side()),
             }
         }
@@ -264,6 +275,7 @@ fn list(parts: &mut Parts, element: Element) {
     match element {
         Element::Tetrahedron(index) => parts.tetrahedra.push(index as usize),
         Element::Triangle(index) => parts.triangles.push(index as usize),
+        Element::Quadrangle(index) => parts.triangles.extend([index as usize, index as usize + 1]),
         Element::Line(edge) => parts.edges.push(edge.map(|node| node as usize)),
     }
 }

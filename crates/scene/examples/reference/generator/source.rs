@@ -65,7 +65,10 @@ impl Source {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let folder = fs::read_dir(root.join("src/tables")).expect("the folder of the tables");
         let mut paths: Vec<PathBuf> = folder.flatten().map(|entry| entry.path()).collect();
-        paths.extend(["src/curve.rs", "src/integrator.rs", "../mesh/src/sides.rs"].map(|path| root.join(path)));
+        paths.extend(
+            ["src/curve.rs", "src/integrator.rs", "../mesh/src/sides.rs", "../mesh/src/pattern.rs"]
+                .map(|path| root.join(path)),
+        );
         let mut source = Self::default();
         for path in paths {
             let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));

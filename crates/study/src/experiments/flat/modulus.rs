@@ -55,7 +55,7 @@ pub fn modulus(model: &str) -> Result<f64, String> {
         )
     };
     let text = format!(
-        "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [2, 1], cells_per_unit = 3 }}\n[material]\nmodel = \"{model}\"\n\
+        "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [2, 1], cells_per_unit = 3, pattern = \"kuhn\" }}\n[material]\nmodel = \"{model}\"\n\
          young = {YOUNG:e}\npoisson = 0\ndensity = 1000\n[time]\nintegrator = \"static\"\nsteps = 1\n{}{}\
          [[prescribed]]\non = {{ axis = \"y\", side = \"min\", within = 1e-9 }}\ndisplacement = [0, 0, 0]\ncomponents = [\"y\"]\n",
         end("min", 0.0),

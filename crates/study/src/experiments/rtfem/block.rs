@@ -1,6 +1,6 @@
 //! A block under uniaxial tension or compression, known in closed form.
 
-use fem_mesh::box_mesh;
+use fem_mesh::{Pattern, box_mesh};
 
 use super::setting::{Setting, displacements, simulation, step};
 
@@ -9,7 +9,7 @@ use super::setting::{Setting, displacements, simulation, step};
 /// # Errors
 /// A load step that does not converge.
 pub fn computed(setting: &Setting, load: f64) -> Result<[f64; 2], String> {
-    let mesh = box_mesh([1.0, 1.0, 1.0], 2).map_err(|error| error.to_string())?;
+    let mesh = box_mesh([1.0, 1.0, 1.0], 2, Pattern::Kuhn).map_err(|error| error.to_string())?;
     let mut text = Setting { integrator: "static", ..setting.clone() }.text();
     for axis in ["x", "y", "z"] {
         text += &format!(

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem_engine::simulator::Simulator;
-use fem_mesh::box_mesh;
+use fem_mesh::{Pattern, box_mesh};
 use fem_scene::simulation::Simulation;
 use fem_scene::{body_of, parse};
 use nalgebra::Vector3;
@@ -37,7 +37,7 @@ pub fn run(_: &Path, _: bool) -> Result<Part, String> {
 /// Shear modulus of a cube whose nodes have the displacement γ y along x.
 fn sheared_cube() -> Result<Mistake, String> {
     const STRAIN: f64 = 1e-3;
-    let mesh = box_mesh([1.0, 1.0, 1.0], 3).map_err(|error| error.to_string())?;
+    let mesh = box_mesh([1.0, 1.0, 1.0], 3, Pattern::Kuhn).map_err(|error| error.to_string())?;
     let moved: Vec<[f64; 3]> = mesh.vertices.iter().map(|x| [STRAIN * x.y, 0.0, 0.0]).collect();
     // The forces that hold the face y = 1 against the block's own.
     let modulus = |force: &dyn Fn(usize) -> f64| -> f64 {
@@ -99,7 +99,7 @@ fn turning_body() -> Result<Mistake, String> {
 }
 
 fn turned(law: &str) -> Result<f64, String> {
-    let mesh = box_mesh([2.0, 0.5, 0.5], 2).map_err(|error| error.to_string())?;
+    let mesh = box_mesh([2.0, 0.5, 0.5], 2, Pattern::Kuhn).map_err(|error| error.to_string())?;
     let text = format!(
         "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 1 }}\n[material]\nmodel = \"{law}\"\nyoung = 1e8\npoisson = {POISSON}\n\
          density = 1000\n[time]\nintegrator = \"verlet\"\ndt = 2e-4\n[[initial_velocity]]\nangular = {{ axis = [0, 0, 1], rate = 1 }}\n"

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use fem_engine::cantilever::{Cantilever, tip_displacement};
 use fem_mesh::generate::picture::{FromPicture, mesh_picture, read_picture};
-use fem_mesh::{SurfaceMesh, box_mesh, read_tetrahedra};
+use fem_mesh::{Pattern, SurfaceMesh, box_mesh, read_tetrahedra};
 use fem_scene::BodyMesh;
 use fem_scene::simulation::Simulation;
 
@@ -82,7 +82,8 @@ pub fn run(data: &Path, quick: bool) -> Result<Part, String> {
 /// Names and meshes.
 fn bodies(data: &Path, quick: bool) -> Result<Vec<(&'static str, BodyMesh)>, String> {
     let solid = |file: &str| read_tetrahedra(&data.join(file)).map(BodyMesh::from).map_err(|error| error.to_string());
-    let beam = box_mesh([1.0, 4.0, 1.0], if quick { 2 } else { 4 }).map_err(|error| error.to_string())?;
+    let beam =
+        box_mesh([1.0, 4.0, 1.0], if quick { 2 } else { 4 }, Pattern::Kuhn).map_err(|error| error.to_string())?;
     let mut bodies = vec![("beam", beam.into()), ("armadillo", solid("own/armadillo_own_coarse.node")?)];
     if !quick {
         bodies.push(("bunny", solid("stanford/bunny_coarse.node")?));
@@ -185,7 +186,7 @@ fn cantilevers(cells: &[usize]) -> Result<(Vec<Vec<String>>, Mark), String> {
     let expected = -beam.under_end_load(BEND);
     let (mut rows, mut errors) = (Vec::new(), Vec::new());
     for &cells in cells {
-        let mesh = box_mesh([4.0, 1.0, 1.0], cells).map_err(|error| error.to_string())?;
+        let mesh = box_mesh([4.0, 1.0, 1.0], cells, Pattern::Kuhn).map_err(|error| error.to_string())?;
         let elements = mesh.elements.len();
         let text = format!(
             "{}[fixed]\non = {{ axis = \"x\", side = \"min\", within = 1e-9 }}\n\

@@ -10,8 +10,8 @@ const FAMILY: &str = "contact";
 
 /// Meshes of a solid and of a flat block.
 pub const BODIES: [(&str, &str); 2] = [
-    ("solid", "box = { size = [1, 1, 1], cells_per_unit = 2 }"),
-    ("flat", "rectangle = { size = [1, 1], cells_per_unit = 3 }"),
+    ("solid", "box = { size = [1, 1, 1], pattern = \"kuhn\", cells_per_unit = 2 }"),
+    ("flat", "rectangle = { size = [1, 1], pattern = \"kuhn\", cells_per_unit = 3 }"),
 ];
 
 /// Adds the family.

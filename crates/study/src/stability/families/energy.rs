@@ -168,7 +168,10 @@ impl Driven {
         let plastic = "[plasticity]\nmodel = \"j2\"\nyield_stress = 1e4\nhardening = 1e4\n";
         let size = length([2.0, 1.0, 1.0]);
         SceneText {
-            mesh: format!("box = {{ size = {size:?}, cells_per_unit = {} }}", (1.0 / scale).round()),
+            mesh: format!(
+                "box = {{ size = {size:?}, pattern = \"kuhn\", cells_per_unit = {} }}",
+                (1.0 / scale).round()
+            ),
             dt: self.dt * scale,
             ..SceneText::small(self.integrator, self.model)
         }

@@ -36,7 +36,7 @@ pub fn add(cases: &mut Vec<Case>, quick: bool) {
 
 /// A rectangle of 2 × 1 m in squares of 0.5 m.
 fn rectangle(integrator: &'static str, model: &'static str) -> SceneText {
-    let mesh = "rectangle = { size = [2, 1], cells_per_unit = 2 }".to_owned();
+    let mesh = "rectangle = { size = [2, 1], pattern = \"kuhn\", cells_per_unit = 2 }".to_owned();
     SceneText { mesh, ..SceneText::small(integrator, model) }
 }
 
@@ -60,7 +60,9 @@ fn meshed_anew(model: &'static str, steps: usize) -> Case {
     text.clone().case(FAMILY, "meshed anew", parameters, move |deadline| {
         let mut least: Option<Finding> = None;
         for (cells, order) in MESHES {
-            let mesh = format!("rectangle = {{ size = [2, 1], cells_per_unit = {cells} }}\norder = {order}");
+            let mesh = format!(
+                "rectangle = {{ size = [2, 1], pattern = \"kuhn\", cells_per_unit = {cells} }}\norder = {order}"
+            );
             let found = march(&mut SceneText { mesh, ..text.clone() }.build()?, steps, deadline).survival();
             if found.outcome != Outcome::Survives {
                 return Err(found);

@@ -43,7 +43,7 @@ fn sagging(text: SceneText, steps: usize) -> Case {
 fn cantilever(poisson: f64, cells: usize) -> Case {
     // Two cells across lock sooner.
     let locks = poisson > if cells > 2 { 0.48 } else { 0.44 };
-    let mesh = format!("box = {{ size = [8, 1, 1], cells_per_unit = {cells} }}");
+    let mesh = format!("box = {{ size = [8, 1, 1], pattern = \"kuhn\", cells_per_unit = {cells} }}");
     let end = "[[traction]]\non = { axis = \"x\", side = \"max\", within = 1e-9 }\nforce_per_area = [0, 0, -50]\n";
     let text = SceneText { mesh, poisson, young: 1e6, dt: 1.0, ..SceneText::small("static", "linear") };
     let text = text.with(CLAMPED).with(end);

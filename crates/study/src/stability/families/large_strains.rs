@@ -32,7 +32,7 @@ struct EndMotion {
 const MOTIONS: [EndMotion; 3] = [
     EndMotion {
         name: "twisted by 10 turns",
-        mesh: "box = { size = [5, 0.25, 0.25], cells_per_unit = 8 }",
+        mesh: "box = { size = [5, 0.25, 0.25], pattern = \"kuhn\", cells_per_unit = 8 }",
         motion: "rotation = { axis = \"x\", center = [5, 0.125, 0.125], turns = 10 }",
         steps: 400,
         dt: 0.05,
@@ -40,7 +40,7 @@ const MOTIONS: [EndMotion; 3] = [
     },
     EndMotion {
         name: "stretched to 10 times its length",
-        mesh: "box = { size = [2, 1, 1], cells_per_unit = 2 }",
+        mesh: "box = { size = [2, 1, 1], pattern = \"kuhn\", cells_per_unit = 2 }",
         motion: "displacement = [18, 0, 0]",
         steps: 100,
         dt: 0.01,
@@ -48,7 +48,7 @@ const MOTIONS: [EndMotion; 3] = [
     },
     EndMotion {
         name: "compressed to 2 % of its length",
-        mesh: "box = { size = [2, 1, 1], cells_per_unit = 2 }",
+        mesh: "box = { size = [2, 1, 1], pattern = \"kuhn\", cells_per_unit = 2 }",
         motion: "displacement = [-1.96, 0, 0]",
         steps: 100,
         dt: 0.01,

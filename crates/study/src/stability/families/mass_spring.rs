@@ -135,7 +135,7 @@ fn moved(name: &str, motion: &str, integrator: &'static str) -> Case {
 
 /// A free flat body in rigid motion without loads, which conserves its momentum.
 fn rigid(integrator: &'static str, steps: usize) -> Case {
-    let mesh = "rectangle = { size = [2, 1], cells_per_unit = 2 }".to_owned();
+    let mesh = "rectangle = { size = [2, 1], pattern = \"kuhn\", cells_per_unit = 2 }".to_owned();
     let text = SceneText { dt: 1e-3, mesh, ..SceneText::small(integrator, MODEL) };
     let case = text.clone().case(FAMILY, "translating and rotating", format!("dt = 1e-3 s, {steps} steps"), {
         move |deadline| {

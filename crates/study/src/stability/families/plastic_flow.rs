@@ -10,8 +10,8 @@ const FAMILY: &str = "plastic flow";
 
 /// Meshes of a solid and of a flat bar of 2 m.
 const BODIES: [(&str, &str); 2] = [
-    ("solid", "box = { size = [2, 1, 1], cells_per_unit = 1 }"),
-    ("flat", "rectangle = { size = [2, 1], cells_per_unit = 2 }"),
+    ("solid", "box = { size = [2, 1, 1], pattern = \"kuhn\", cells_per_unit = 1 }"),
+    ("flat", "rectangle = { size = [2, 1], pattern = \"kuhn\", cells_per_unit = 2 }"),
 ];
 
 /// Adds the family.

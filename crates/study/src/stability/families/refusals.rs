@@ -24,7 +24,8 @@ pub fn add(cases: &mut Vec<Case>) {
     }
     for (name, spoil, names) in MESHES {
         cases.push(case(name, "a box of 12 vertices and 12 tetrahedra".to_owned(), names, move || {
-            let mut mesh = fem_mesh::box_mesh([2.0, 1.0, 1.0], 1).map_err(|error| error.to_string())?;
+            let mut mesh =
+                fem_mesh::box_mesh([2.0, 1.0, 1.0], 1, fem_mesh::Pattern::Kuhn).map_err(|error| error.to_string())?;
             spoil(&mut mesh);
             let text = SceneText::small("implicit_euler", "neo_hookean");
             text.build_on(mesh).map(|_| ()).map_err(|finding| finding.note)

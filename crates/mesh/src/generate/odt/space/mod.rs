@@ -56,7 +56,7 @@ pub struct Improved {
 /// never worse than before: smallest and largest dihedral angle, `3 r / R` and shortest edge over circumradius.
 ///
 /// ```
-/// let mesh = fem_mesh::box_mesh([1.0, 1.0, 1.0], 4)?;
+/// let mesh = fem_mesh::box_mesh([1.0, 1.0, 1.0], 4, fem_mesh::Pattern::Alternating)?;
 /// let improved = fem_mesh::generate::odt::improve_tetrahedra(&mesh, 5);
 /// let volume: f64 = fem_mesh::volumes(&improved.mesh).iter().sum();
 /// assert!((volume - 1.0).abs() < 1e-12);

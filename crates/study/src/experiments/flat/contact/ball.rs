@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use fem_engine::simulator::Simulator;
-use fem_mesh::{TetrahedralMesh, box_mesh};
+use fem_mesh::{Pattern, TetrahedralMesh, box_mesh};
 use fem_scene::BodyMesh;
 use fem_scene::simulation::Simulation;
 use nalgebra::Vector3;
@@ -91,7 +91,7 @@ fn distant_displacement(simulation: &Simulator<f64>, force: f64) -> Result<f64, 
 fn block(h: f64) -> Result<TetrahedralMesh, String> {
     let places = graded(h, 1.3 * RADIUS, GROWTH);
     let cells = places.len() - 1;
-    let mut mesh = box_mesh([1.0; 3], cells).map_err(|error| error.to_string())?;
+    let mut mesh = box_mesh([1.0; 3], cells, Pattern::Kuhn).map_err(|error| error.to_string())?;
     let place = |x: f64| places[((x * cells as f64).round() as usize).min(cells)];
     for vertex in &mut mesh.vertices {
         let [x, t, z] = [vertex.x, vertex.y, vertex.z].map(place);

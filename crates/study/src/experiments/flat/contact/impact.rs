@@ -25,7 +25,7 @@ pub fn bar(method: &str) -> Result<Impact, String> {
     let dt = 4e-4;
     let contact = if method == "implicit_euler" { "[contact]\nactivation_distance = 2e-5\n" } else { "" };
     let text = format!(
-        "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [1, 0.01], cells_per_unit = 100 }}\n\
+        "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [1, 0.01], cells_per_unit = 100, pattern = \"kuhn\" }}\n\
          [material]\nmodel = \"linear\"\nyoung = 1e5\npoisson = 0\ndensity = 1000\n\
          [time]\ndt = {dt:e}\nintegrator = \"{method}\"\n\
          [[planes]]\npoint = [-1e-6, 0, 0]\nnormal = [1, 0, 0]\n{contact}\

@@ -47,7 +47,7 @@ const SUBSTEPS: f64 = 10.0;
 pub fn projection() -> Result<Mistake, String> {
     let dt = 1.0 / FRAMES / SUBSTEPS;
     let text = format!(
-        "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [1, 1], cells_per_unit = 2 }}\n[material]\nmodel = \"corotated\"\nyoung = 112500\n\
+        "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [1, 1], cells_per_unit = 2, pattern = \"kuhn\" }}\n[material]\nmodel = \"corotated\"\nyoung = 112500\n\
          poisson = 0.25\ndensity = 140.5\n[gravity]\nacceleration = [0, -{G}, 0]\n[time]\nintegrator = \"semi_implicit_euler\"\ndt = {dt:e}\n\
          [damping]\nbeta = 1e-3\n[[planes]]\npoint = [0, -1, 0]\nnormal = [0, 1, 0]\n"
     );

@@ -2,7 +2,7 @@
 
 use fem_engine::materials::{Corotated, Law};
 use fem_engine::tensor::Tensor;
-use fem_mesh::rectangle_mesh;
+use fem_mesh::{Pattern, rectangle_mesh};
 use nalgebra::{Matrix2, Vector2};
 
 use crate::experiments::flat::modulus::{STRAIN, YOUNG, modulus};
@@ -24,7 +24,7 @@ pub fn thirds() -> Result<Mistake, String> {
 /// Force of a strip of 2 × 1 m with constant stress on the nodes of its end, over area and strain, Pa. Each node has the forces of the two
 /// edges that meet in it, divided by `divisor`.
 fn strip(divisor: f64) -> Result<f64, String> {
-    let mesh = rectangle_mesh([2.0, 1.0], 3).map_err(|error| error.to_string())?;
+    let mesh = rectangle_mesh([2.0, 1.0], 3, Pattern::Kuhn).map_err(|error| error.to_string())?;
     let stress = YOUNG * STRAIN;
     let mut force = 0.0;
     for triangle in &mesh.elements {

@@ -22,7 +22,7 @@ pub fn verlet() -> Result<Mistake, String> {
 fn strip() -> Result<f64, String> {
     let end = |dt: f64| {
         let text = format!(
-            "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [2, 1], cells_per_unit = 2 }}\n[material]\nmodel = \"corotated\"\nyoung = 112500\n\
+            "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [2, 1], cells_per_unit = 2, pattern = \"kuhn\" }}\n[material]\nmodel = \"corotated\"\nyoung = 112500\n\
              poisson = 0.25\ndensity = 140.5\n[time]\nintegrator = \"verlet\"\ndt = {dt:e}\n\
              [[initial_velocity]]\non = {{ axis = \"x\", side = \"max\", within = 1e-9 }}\nvelocity = [1, 0.2, 0]\n"
         );

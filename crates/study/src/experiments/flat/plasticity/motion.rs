@@ -11,7 +11,7 @@ pub const MAXIMUM: f64 = 0.08;
 /// A strip of 2 × 1 m with λ = μ = 45 000 Pa that flows beyond a strain of 0.02.
 fn strip(method: &str, creep: f64, maximum: f64, rest: &str) -> String {
     format!(
-        "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [2, 1], cells_per_unit = 4 }}\n[material]\nmodel = \"corotated\"\n\
+        "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [2, 1], cells_per_unit = 4, pattern = \"kuhn\" }}\n[material]\nmodel = \"corotated\"\n\
          young = 112500\npoisson = 0.25\ndensity = 140.5\n[plasticity]\nmodel = \"additive\"\nyield_strain = 0.02\ncreep = {creep}\n\
          maximum = {maximum}\n[time]\n{method}\n{rest}"
     )

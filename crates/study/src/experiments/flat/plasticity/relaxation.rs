@@ -81,7 +81,7 @@ impl Theirs {
 
 fn scene(dt: f64) -> String {
     let mut text = format!(
-        "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [2, 1], cells_per_unit = 1 }}\n[material]\nmodel = \"corotated\"\n\
+        "pipeline = \"engine\"\n[mesh]\nrectangle = {{ size = [2, 1], cells_per_unit = 1, pattern = \"kuhn\" }}\n[material]\nmodel = \"corotated\"\n\
          young = 112500\npoisson = 0.25\ndensity = 140.5\n[plasticity]\nmodel = \"additive\"\nyield_strain = {YIELD}\ncreep = {CREEP}\n\
          maximum = {MAXIMUM}\n[time]\nintegrator = \"implicit_euler\"\ndt = {dt:e}\n"
     );
