@@ -5,7 +5,7 @@ use std::path::Path;
 use fem_mesh::write::Frame;
 use fem_scene::output::{self, EXPORTS, EnergyRow, Stats};
 use fem_scene::simulate::{Run, quantile};
-use fem_scene::simulation::{PlaneContact, Reaction, Simulation};
+use fem_scene::simulation::{Failure, PlaneContact, Reaction, Simulation};
 use fem_scene::{IterationSettings, Method, Pipeline, Scene};
 use nalgebra::Vector3;
 
@@ -109,32 +109,39 @@ pub fn finish(finished: &Finished, arguments: &RunArguments) -> Result<(), End> 
     end
 }
 
-/// The failure of the run, a signal, or steps that have not converged unless the scene accepts those.
+/// The failure of the run, a signal, steps that have not converged unless the scene accepts those, or energy from nothing since the last judgement.
 fn end(finished: &Finished, arguments: &RunArguments) -> Result<(), End> {
     let Finished { simulation, scene, run, signal, .. } = finished;
-    if let Some(failure) = run.failure.clone().or_else(|| simulation.unexplained_energy()) {
-        return Err(End::Failed(match simulation.critical_time_step() {
-            Some(critical) => failure.with_critical_time_step(critical),
-            None => failure,
-        }));
+    let failed = |failure: Failure| match simulation.critical_time_step() {
+        Some(critical) => End::Failed(failure.with_critical_time_step(critical)),
+        None => End::Failed(failure),
+    };
+    if let Some(failure) = run.failure.clone() {
+        return Err(failed(failure));
     }
     if let Some(code) = signal {
         return Err(End::Interrupted { code: *code, message: how_to_go_on(*simulation, arguments) });
     }
+    unconverged(*simulation, scene).map_or(Ok(()), |message| Err(End::Stopped(message)))?;
+    simulation.unexplained_energy().map_or(Ok(()), |failure| Err(failed(failure)))
+}
+
+/// The error of steps that have not converged; `None` without any, and if the scene accepts them.
+fn unconverged(simulation: &dyn Simulation, scene: &Scene) -> Option<String> {
     let (unconverged_steps, steps) = (simulation.counters().unconverged_steps, simulation.steps());
     let method = scene.method();
     // The course takes five Newton iterations, converged or not.
     let is_accepted = method.accepts_unconverged() || scene.pipeline == Pipeline::Course;
     if unconverged_steps == 0 || is_accepted {
-        return Ok(());
+        return None;
     }
-    if method.integrator.is_iterated() {
-        return Err(End::Stopped(not_settled(&method, unconverged_steps, steps)));
-    }
-    Err(End::Stopped(format!(
-        "{unconverged_steps} of {steps} steps ended before Newton's method had converged, so the result is not to be trusted; \
-         use a shorter time step or more load steps, a larger newton.max_iterations, or newton.accept_unconverged = true"
-    )))
+    Some(match method.integrator.is_iterated() {
+        true => not_settled(&method, unconverged_steps, steps),
+        false => format!(
+            "{unconverged_steps} of {steps} steps ended before Newton's method had converged, so the result is not to be trusted; \
+             use a shorter time step or more load steps, a larger newton.max_iterations, or newton.accept_unconverged = true"
+        ),
+    })
 }
 
 /// Warning about a run in which the iterations of some steps have not converged.
