@@ -8,7 +8,7 @@ use fem_elements::materials::{Law, NeoHookean, StableNeoHookean};
 use fem_elements::number::{Float, Number};
 use fem_elements::sparse::{Block, Pattern, Stored};
 use fem_elements::tensor::{Tensor, Tensor4};
-use fem_mesh::{Pattern, box_mesh};
+use fem_mesh::box_mesh;
 
 const C: f64 = 2e5;
 const D: f64 = 1e6;
@@ -52,7 +52,7 @@ fn case_of<const D: usize, const E: usize, const N: usize>(
 }
 
 fn tetrahedra(cells: usize) -> Case<3, 3, 4> {
-    let mesh = box_mesh([2.0, 1.0, 1.0], cells, Pattern::Alternating).unwrap();
+    let mesh = box_mesh([2.0, 1.0, 1.0], cells, fem_mesh::Pattern::Alternating).unwrap();
     case(&mesh.vertices, &mesh.elements.iter().map(|element| element.map(|node| node as u32)).collect::<Vec<_>>())
 }
 
@@ -157,7 +157,7 @@ fn one_pass_gives_the_same_energy_and_gradient_as_two() {
 #[test]
 fn chunks_sum_up_to_what_one_chunk_does() {
     // 17 × 9 × 9 nodes a unit: two chunks and more at 14 cells.
-    let mesh = box_mesh([4.0, 1.0, 1.0], 14, Pattern::Alternating).unwrap();
+    let mesh = box_mesh([4.0, 1.0, 1.0], 14, fem_mesh::Pattern::Alternating).unwrap();
     let elements: Vec<[u32; 4]> = mesh.elements.iter().map(|element| element.map(|node| node as u32)).collect();
     let case: Case<3, 3, 4> = case(&mesh.vertices, &elements);
     assert!(case.elements.chunks() > 2);
@@ -213,7 +213,7 @@ fn a_displacement_that_is_not_a_number_is_not_hidden_by_elements_after_it() {
 
 #[test]
 fn rows_beyond_the_pattern_have_forces_but_no_stiffness() {
-    let mesh = box_mesh([1.0, 1.0, 1.0], 1, Pattern::Alternating).unwrap();
+    let mesh = box_mesh([1.0, 1.0, 1.0], 1, fem_mesh::Pattern::Alternating).unwrap();
     let elements: Vec<[u32; 4]> = mesh.elements.iter().map(|element| element.map(|node| node as u32)).collect();
     let pattern = Pattern::new(3, &elements, Stored::Lower);
     let few = Elements::<f64, 3, 3, 4>::new(&mesh.vertices, &elements, &pattern);

@@ -32,7 +32,7 @@ fn sums<T: Float, L: Lanes<Element = T>>(
 }
 
 fn agree<T: Float>(tolerance: f64) {
-    let mesh = box_mesh([2.0, 1.0, 1.0], 3, Pattern::Alternating).unwrap();
+    let mesh = box_mesh([2.0, 1.0, 1.0], 3, fem_mesh::Pattern::Alternating).unwrap();
     let elements: Vec<_> = mesh.elements.iter().map(|element| element.map(|node| node as u32)).collect();
     let splat = |x: f64| (T::Single::splat(T::of(x)), T::Fast::splat(T::of(x)));
     let ((shear, fast_shear), (volume, fast_volume)) = (splat(C), splat(D));
