@@ -42,7 +42,10 @@ struct Linear<T: Real> {
 
 /// Machine epsilon above which a linear solution is refined, and the largest number of refinements.
 const PRECISE: f64 = 1e-12;
-const REFINEMENTS: usize = 4;
+const REFINEMENTS: usize = 100;
+
+/// Change of a refinement, as a part of the displacements, up to which rounding errors are what keeps it from falling.
+const ROUNDING: f64 = 1e-4;
 
 impl<T: Real> Statics<T> {
     /// Allocates its vectors for a body; a linear one keeps only the solver of `newton`.
@@ -92,10 +95,7 @@ impl<T: Real> Integrator<T> for Statics<T> {
         let start = self.moment(state);
         let end = Moment { time: state.time + dt, load_factor: Some(self.load_factor(state.steps + 1)) };
         match &mut self.method {
-            Method::Linear(linear) => {
-                linear.solve(system, end, &mut state.u, counters)?;
-                Ok(Convergence::Converged)
-            }
+            Method::Linear(linear) => linear.solve(system, end, &mut state.u, counters),
             Method::Newton(load_step) => load_step.advance(system, &mut state.u, (start, end), counters),
             Method::ArcLength(path) => path.step(system, &mut state.u, (end.time, state.steps), counters),
         }
@@ -155,7 +155,7 @@ impl<T: Real> Linear<T> {
         moment: Moment,
         u: &mut [[T; 3]],
         counters: &mut Counters,
-    ) -> Result<(), Cause> {
+    ) -> Result<Convergence, Cause> {
         let Self { solver, tolerance, values, workspace, undeformed, right, solution } = self;
         let increment = Increment { start: undeformed, end: moment, inertia: None };
         let potential = IncrementalPotential { system, increment, followers: &[] };
@@ -173,13 +173,14 @@ impl<T: Real> Linear<T> {
         solver.solve(values, right, solution, *tolerance).map_err(Cause::Solver)?;
         system.dirichlet.clear_constrained(solution);
         axpy(1.0, solution, u);
-        if T::EPSILON.as_f64() > PRECISE { self.refine(system, moment, u) } else { Ok(()) }
+        if T::EPSILON.as_f64() > PRECISE { self.refine(system, moment, u) } else { Ok(Convergence::Converged) }
     }
 
     /// Iterative refinement, Wilkinson, Rounding Errors in Algebraic Processes (1963): the factor of an ill-conditioned matrix loses
     /// digits that the forces of the elements keep.
-    fn refine(&mut self, system: &System<T>, moment: Moment, u: &mut [[T; 3]]) -> Result<(), Cause> {
+    fn refine(&mut self, system: &System<T>, moment: Moment, u: &mut [[T; 3]]) -> Result<Convergence, Cause> {
         let Self { solver, tolerance, values, right, solution, .. } = self;
+        let mut before = f64::INFINITY;
         for _ in 0..REFINEMENTS {
             system.gradient(u, moment, right);
             for right in right.as_flattened_mut() {
@@ -190,10 +191,16 @@ impl<T: Real> Linear<T> {
             solver.solve(values, right, solution, *tolerance).map_err(Cause::Solver)?;
             system.dirichlet.clear_constrained(solution);
             axpy(1.0, solution, u);
-            if max_norm(solution) <= T::EPSILON.as_f64() * max_norm(u) {
+            let (change, size) = (max_norm(solution), max_norm(u));
+            if change <= T::EPSILON.as_f64() * size || change >= before && change <= ROUNDING * size {
+                return Ok(Convergence::Converged);
+            }
+            // NaN fails the comparison.
+            if !(change < before) {
                 break;
             }
+            before = change;
         }
-        Ok(())
+        Ok(Convergence::NotConverged)
     }
 }

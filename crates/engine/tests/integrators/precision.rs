@@ -53,12 +53,15 @@ fn slender_bodies_keep_the_digits_that_their_matrix_loses() {
                 "[gravity]\nacceleration = [0, 0, -0.01]\n[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n",
             ),
         );
-        let [double, single] =
-            ends(&of_kuhn(&text).replace("[2, 1, 1]", "[30, 1, 1]").replace("unit = 1", "unit = 2"), 1);
-        let apart = distance(&double.positions(), &single.positions()) / 30.0;
-        // The order of the sums differs between processors: some end below 1e-5, others at 1.5e-5.
-        assert!(apart < 5e-5, "{law}: {apart:e} of the length");
-        assert_eq!(single.counters().unconverged_steps, 0, "{law}");
+        // The large deflections of the softer mesh of alternating cells have more than one equilibrium.
+        let alternating = (law == "linear").then(|| text.clone());
+        for text in alternating.into_iter().chain([of_kuhn(&text)]) {
+            let [double, single] = ends(&text.replace("[2, 1, 1]", "[30, 1, 1]").replace("unit = 1", "unit = 2"), 1);
+            let apart = distance(&double.positions(), &single.positions()) / 30.0;
+            // The order of the sums differs between processors: some end below 1e-5, others at 1.5e-5.
+            assert!(apart < 5e-5, "{law}: {apart:e} of the length");
+            assert_eq!(single.counters().unconverged_steps, 0, "{law}");
+        }
     }
 }
 
