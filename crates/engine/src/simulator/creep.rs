@@ -20,11 +20,11 @@ pub(super) struct Creep {
     steps: f64,
     /// Those in which most of the normal force was on nodes below the transition speed.
     creeping: f64,
-    /// Sum over these of the mean sliding distance, m.
+    /// Sum over these of the mean sliding distance of these nodes, m.
     way: f64,
     /// Their time, s.
     time: f64,
-    /// Sum over these of the friction as a part of Coulomb's.
+    /// Sum over these of their friction as a part of Coulomb's.
     part: f64,
 }
 
@@ -47,18 +47,20 @@ impl Creep {
                 let moved = triple(|i| (after.u[near.node][i] - before.u[near.node][i]).as_f64());
                 let slide = norm(tangential(plane, moved, [before.time, after.time]));
                 bounds += bound;
-                slow += if slide < transition { bound } else { 0.0 };
-                way += bound * slide;
-                friction += bound * slide * slope_over_y(slide, transition);
+                if slide < transition {
+                    slow += bound;
+                    way += bound * slide;
+                    friction += bound * slide * slope_over_y(slide, transition);
+                }
             }
         }
         if bounds > 0.0 {
             self.steps += 1.0;
             if slow > MOST * bounds {
                 self.creeping += 1.0;
-                self.way += way / bounds;
+                self.way += way / slow;
                 self.time += dt;
-                self.part += friction / bounds;
+                self.part += friction / slow;
             }
         }
     }
