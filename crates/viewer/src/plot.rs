@@ -54,7 +54,7 @@ fn legend(ui: &mut Ui, last: Option<&EnergyRow>) {
     }
 }
 
-/// What has been supplied since the start, and where it is.
+/// The line of the energies that were supplied, dissipated, and lost by the method since the start.
 fn balance(ledger: &EnergyLedger) -> String {
     let [supplied, dissipated, lost] =
         [ledger.start + ledger.supplied(), ledger.dissipated(), ledger.numerical()].map(short);
