@@ -3,41 +3,38 @@
 //! `cargo run --release --example 01_patch_test`
 
 use std::error::Error;
-use std::path::Path;
 
 use fem_mesh::{Pattern, TetrahedralMesh, box_mesh};
+use fem_model::{Axis, Body, Elastic, Integrator, Law, Material, Method, Motion, NeoHookean, Selector};
 use nalgebra::Vector3;
 
-/// Names and parameters of all laws: Young's modulus 1 MPa and Poisson's ratio 0.3 at small strain.
-const LAWS: [(&str, &str); 8] = [
-    ("linear", "young = 1e6\npoisson = 0.3"),
-    ("corotated", "young = 1e6\npoisson = 0.3"),
-    ("st_venant_kirchhoff", "young = 1e6\npoisson = 0.3"),
-    ("neo_hookean", "young = 1e6\npoisson = 0.3"),
-    ("stable_neo_hookean", "young = 1e6\npoisson = 0.3"),
-    ("hencky", "young = 1e6\npoisson = 0.3"),
-    ("mooney_rivlin", "C10 = 1.2e5\nC01 = 7.2e4\nD = 4.2e5"),
-    ("yeoh", "C1 = 1.92e5\nC2 = -1e4\nC3 = 1e4\nD = 4.2e5"),
-];
-
-/// A cube between three rollers whose end is pulled out by 20 %.
-fn scene(law: &str, parameters: &str) -> String {
-    let roller = |axis: &str, side: &str, displacement: [f64; 3]| {
-        format!(
-            "[[prescribed]]\non = {{ axis = \"{axis}\", side = \"{side}\", within = 1e-9 }}\n\
-             displacement = {displacement:?}\ncomponents = [\"{axis}\"]\n"
-        )
-    };
-    let rollers = ["x", "y", "z"].map(|axis| roller(axis, "min", [0.0; 3])).concat();
-    format!(
-        "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 3 }}\n\
-         [material]\nmodel = \"{law}\"\n{parameters}\ndensity = 1000\n\
-         [time]\nintegrator = \"static\"\n{rollers}{}",
-        roller("x", "max", [0.2, 0.0, 0.0])
-    )
+/// All laws: Young's modulus 1 MPa and Poisson's ratio 0.3 at small strain.
+fn laws() -> [Law; 8] {
+    let elastic = Elastic::new(1e6, 0.3);
+    [
+        Law::Linear(elastic),
+        Law::Corotated(elastic),
+        Law::StVenantKirchhoff(elastic),
+        Law::NeoHookean(NeoHookean::Elastic(elastic)),
+        Law::StableNeoHookean(elastic),
+        Law::Hencky(elastic),
+        Law::MooneyRivlin { C10: 1.2e5, C01: 7.2e4, D: 4.2e5 },
+        Law::Yeoh { C1: 1.92e5, C2: -1e4, C3: 1e4, D: 4.2e5 },
+    ]
 }
 
-/// The cube of the scene with its inner nodes moved about.
+/// A cube between three rollers whose end is moved out by 20 %.
+fn stretched(law: Law) -> Result<Body, Box<dyn Error>> {
+    let mut body = Body::new(irregular_mesh()?, Material::new(law, 1000.0))?;
+    for (axis, components) in
+        [(Axis::X, [true, false, false]), (Axis::Y, [false, true, false]), (Axis::Z, [false, false, true])]
+    {
+        body = body.prescribe(&Selector::least(axis), components, Motion::by([0.0; 3]))?;
+    }
+    Ok(body.prescribe(&Selector::most(Axis::X), [true, false, false], Motion::by([0.2, 0.0, 0.0]))?)
+}
+
+/// A cube with its inner nodes moved about.
 fn irregular_mesh() -> Result<TetrahedralMesh, Box<dyn Error>> {
     let mut mesh = box_mesh([1.0; 3], 3, Pattern::Alternating)?;
     for (i, x) in mesh.vertices.iter_mut().enumerate().filter(|(_, x)| x.iter().all(|&x| x > 0.1 && x < 0.9)) {
@@ -52,14 +49,12 @@ type Outcome = (&'static str, f64, f64);
 /// The patch test of every law.
 pub fn run() -> Result<Vec<Outcome>, Box<dyn Error>> {
     let mut results = Vec::new();
-    for (law, parameters) in LAWS {
-        let scene = fem_scene::parse(&scene(law, parameters), Path::new("patch.toml"))?;
-        let body = fem_scene::body_of(&scene, irregular_mesh()?, Path::new("data"))?;
-        let mut simulation = fem_engine::simulator::build(&scene, body)?;
+    for law in laws() {
+        let mut simulation = fem_engine::simulator::build(stretched(law)?, &Method::new(Integrator::Static, 1.0))?;
         simulation.step()?;
         let stresses = simulation.stresses();
         let difference = stresses.iter().map(|stress| (stress - stresses[0]).amax()).fold(0.0, f64::max);
-        results.push((law, stresses[0][(0, 0)], difference / stresses[0].amax()));
+        results.push((law.name(), stresses[0][(0, 0)], difference / stresses[0].amax()));
     }
     Ok(results)
 }

@@ -3,17 +3,14 @@
 //! `cargo run --release --example 02_own_potential`
 
 use std::error::Error;
-use std::path::Path;
 
 use fem_engine::forces::{Energy, HessianKind, Moment, Potential};
 use fem_engine::model::numbering::Numbering;
 use fem_engine::simulator::Simulator;
-use fem_engine::sparse::{Block, Pattern};
-use fem_scene::simulation::Simulation;
-
-const SCENE: &str = "pipeline = \"engine\"\n[mesh]\nbox = { size = [1, 1, 1], cells_per_unit = 2 }\n\
-    [material]\nmodel = \"neo_hookean\"\nyoung = 1e5\npoisson = 0.3\ndensity = 1000\n\
-    [gravity]\nacceleration = [0, 0, -9.81]\n[time]\nintegrator = \"implicit_euler\"\ndt = 0.02\n";
+use fem_engine::sparse::{self, Block};
+use fem_mesh::{Pattern, box_mesh};
+use fem_model::simulation::Simulation;
+use fem_model::{Body, Elastic, Integrator, Law, Material, Method, NeoHookean};
 
 /// A floor 0.1 m below the undeformed cube: ½ k z² for every node at a height z < 0 above it.
 struct Floor {
@@ -58,7 +55,7 @@ impl Potential<f64> for Floor {
         u: &[[f64; 3]],
         _: Moment,
         _: HessianKind,
-        pattern: &Pattern,
+        pattern: &sparse::Pattern,
         values: &mut [Block<f64, 3>],
     ) {
         let blocks = self.contacts(u).filter_map(|(node, _)| pattern.find(node, node));
@@ -68,14 +65,16 @@ impl Potential<f64> for Floor {
 
 /// The force of the floor after 6 s, and the weight of the cube, N.
 pub fn run() -> Result<(f64, f64), Box<dyn Error>> {
-    let (scene, stiffness) = (fem_scene::parse(SCENE, Path::new("cube.toml"))?, 1e6);
-    let body = fem_scene::body(&scene, Path::new("data"))?;
+    let (mesh, stiffness) = (box_mesh([1.0; 3], 2, Pattern::default())?, 1e6);
+    let rubber = Material::new(Law::NeoHookean(NeoHookean::Elastic(Elastic::new(1e5, 0.3))), 1000.0);
+    let body = Body::new(mesh, rubber)?.gravity([0.0, 0.0, -9.81]);
+    let method = Method::new(Integrator::ImplicitEuler, 0.02);
     let vertices = body.shape.mesh.vertices().to_vec();
     let floor = |numbering: &Numbering| -> Vec<Box<dyn Potential<f64>>> {
         let heights = numbering.mesh_node.iter().map(|&node| vertices[node as usize].z + 0.1).collect();
         vec![Box::new(Floor { stiffness, heights })]
     };
-    let mut simulation = Simulator::<f64>::with_forces(&scene, body, &floor)?;
+    let mut simulation = Simulator::<f64>::with_forces(body, &method, &floor)?;
     for _ in 0..300 {
         simulation.step()?;
     }

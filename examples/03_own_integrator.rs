@@ -3,19 +3,15 @@
 //! `cargo run --release --example 03_own_integrator`
 
 use std::error::Error;
-use std::path::Path;
 
 use fem_engine::forces::Moment;
 use fem_engine::integrators::{Accelerations, Stage};
 use fem_engine::model::state::State;
 use fem_engine::model::system::System;
 use fem_engine::simulator::Simulator;
-use fem_scene::simulation::{Cause, Counters};
-
-const SCENE: &str = "pipeline = \"engine\"\n[mesh]\nbox = { size = [1, 0.5, 0.5], cells_per_unit = 2 }\n\
-    [material]\nmodel = \"stable_neo_hookean\"\nyoung = 1e4\npoisson = 0.3\ndensity = 1000\n\
-    [gravity]\nacceleration = [0, 0, -1]\n[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n\
-    [time]\nintegrator = \"verlet\"\ndt = 0.01\n";
+use fem_mesh::{Pattern, box_mesh};
+use fem_model::simulation::{Cause, Counters};
+use fem_model::{Axis, Body, Elastic, Integrator, Law, Material, Method, Selector};
 
 /// Adds `factor` x to y.
 fn add(factor: f64, x: &[[f64; 3]], y: &mut [[f64; 3]]) {
@@ -57,8 +53,10 @@ fn largest_energy_error(system: &System<f64>, end: f64, steps: usize) -> Result<
 
 /// The largest error of the energy in 1 s with 80 and with 160 steps, J.
 pub fn run() -> Result<[f64; 2], Box<dyn Error>> {
-    let scene = fem_scene::parse(SCENE, Path::new("beam.toml"))?;
-    let simulator = Simulator::<f64>::new(&scene, fem_scene::body(&scene, Path::new("data"))?)?;
+    let rubber = Material::new(Law::StableNeoHookean(Elastic::new(1e4, 0.3)), 1000.0);
+    let body = Body::new(box_mesh([1.0, 0.5, 0.5], 2, Pattern::default())?, rubber)?;
+    let body = body.gravity([0.0, 0.0, -1.0]).fix(&Selector::least(Axis::X))?;
+    let simulator = Simulator::<f64>::new(body, &Method::new(Integrator::Verlet, 0.01))?;
     let error = |steps| largest_energy_error(simulator.system(), 1.0, steps).map_err(|cause| format!("{cause:?}"));
     Ok([error(80)?, error(160)?])
 }

@@ -5,6 +5,8 @@
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
+use fem_mesh::read_tetrahedra;
+use fem_model::{Axis, Body, Elastic, Integrator, Law, Material, Method, Region, Selector};
 use fem_scene::output::{export, von_mises};
 
 /// The largest von Mises stress, its element, and the reaction force at the feet.
@@ -21,18 +23,13 @@ pub struct Found {
 const DENSITY: f64 = 1000.0;
 
 pub fn run(mesh: &Path, out: &Path) -> Result<Found, Box<dyn Error>> {
-    let text = format!(
-        "pipeline = \"engine\"\n[mesh]\nfile = {:?}\n\
-         [material]\nmodel = \"stable_neo_hookean\"\nyoung = 1e6\npoisson = 0.4\ndensity = {DENSITY:?}\n\
-         [gravity]\nacceleration = [0, -9.81, 0]\n[fixed]\nplane = {{ axis = \"y\", below = 0.1 }}\n\
-         [time]\nintegrator = \"static\"\nsteps = 4\n[static]\nload_steps = 4\n",
-        mesh.display().to_string()
-    );
-    let scene = fem_scene::parse(&text, Path::new("stress.toml"))?;
-    let body = fem_scene::body(&scene, Path::new("data"))?;
+    let rubber = Material::new(Law::StableNeoHookean(Elastic::new(1e6, 0.4)), DENSITY);
+    let feet = Selector::Region(Region::Plane { axis: Axis::Y, below: 0.1 });
+    let body = Body::new(read_tetrahedra(mesh)?, rubber)?.gravity([0.0, -9.81, 0.0]).fix(&feet)?;
+    let method = Method { load_steps: 4, ..Method::new(Integrator::Static, 1.0) };
     let volume: f64 = body.shape.mesh.volumes().iter().sum();
-    let mut simulation = fem_engine::simulator::build(&scene, body)?;
-    for _ in 0..4 {
+    let mut simulation = fem_engine::simulator::build(body, &method)?;
+    for _ in 0..method.load_steps {
         simulation.step()?;
     }
     export(out, &*simulation, &[])?;

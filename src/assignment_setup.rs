@@ -10,8 +10,8 @@ mod simulation;
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use fem_scene::simulation::Shape;
-use fem_scene::{Integrator, Interaction};
+use fem_model::simulation::Shape;
+use fem_model::{Integrator, Interaction};
 use nalgebra::{DVector, Matrix3, Vector3};
 use nalgebra_sparse::CsrMatrix;
 

@@ -60,3 +60,12 @@ fn the_methods_of_the_study_have_their_orders() {
         assert!((order - row.expected_order).abs() < 0.1, "{}: {order}, errors {:?}", row.method, row.errors);
     }
 }
+
+#[test]
+fn the_program_of_the_readme_is_the_one_that_the_engine_s_documentation_runs() {
+    let read = |path: &str| std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap();
+    let (readme, engine) = (read("README.md"), read("crates/engine/src/lib.rs"));
+    let program = readme.split_once("```rust\n").unwrap().1.split_once("```").unwrap().0;
+    let documented: String = program.lines().map(|line| format!("//! {line}").trim_end().to_owned() + "\n").collect();
+    assert!(engine.contains(&documented), "{program}");
+}

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use fem_model::{Preconditioner, SolverKind};
 use fem_scene::tables::SolverTable;
-use fem_scene::{Override, Preconditioner, Scene, SolverKind};
+use fem_scene::{Override, Scene};
 
 /// Times the engine: beside its peers, part by part, by size, by solver and by frames.
 #[derive(Debug, Parser)]

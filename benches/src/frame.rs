@@ -130,6 +130,6 @@ fn substeps(scene: &RunArguments) -> Result<usize, End> {
     let data = &scene.data;
     let scene = scene.scene().map_err(End::unusable)?;
     let body = fem_scene::body(&scene, data).map_err(End::unusable)?;
-    let simulation = fem_engine::simulator::build(&scene, body).map_err(End::unusable)?;
+    let simulation = fem_engine::simulator::build(body, &scene.method()).map_err(End::unusable)?;
     Ok(simulation.critical_time_step().map_or(1, |critical| (FRAME / (PART_OF_CRITICAL * critical)).ceil() as usize))
 }

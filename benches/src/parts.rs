@@ -20,8 +20,10 @@ const LONG_ENOUGH: (f64, usize) = (0.5, 15);
 pub fn run(arguments: &RunArguments) -> Result<(), End> {
     let scene = arguments.scene().map_err(End::unusable)?;
     let body = fem_scene::body(&scene, &arguments.data).map_err(End::unusable)?;
-    let Some(law) = AnyLaw::new(&scene.material) else {
-        return Err(End::unusable(scene.refuse("material", "lacks the parameters of its model")));
+    let Some(law) = AnyLaw::new(&body.material) else {
+        return Err(End::unusable(
+            scene.refuse("material", "is a body of springs, whose parts are others; write a law"),
+        ));
     };
     let name = arguments.solver.unwrap_or(SolverName::Cholesky);
     let system = System::<f64>::new(body, law, choice(name));

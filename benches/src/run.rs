@@ -47,7 +47,7 @@ fn here(arguments: &RunArguments) -> Result<Measurement, End> {
     let steps = scene.time.steps.unwrap_or(DEFAULT_STEPS);
     let start = Instant::now();
     let body = fem_scene::body(&scene, &arguments.data).map_err(End::unusable)?;
-    let mut simulation = fem_engine::simulator::build(&scene, body).map_err(End::unusable)?;
+    let mut simulation = fem_engine::simulator::build(body, &scene.method()).map_err(End::unusable)?;
     let seconds_setup = start.elapsed().as_secs_f64();
 
     let (wall, cpu) = (Instant::now(), processor_seconds()?);

@@ -3,7 +3,8 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use fem_scene::{Body, Integrator, Interaction, Pipeline, Precision, Scene, SceneError};
+use fem_model::{Body, Integrator, Interaction, Law, Precision};
+use fem_scene::{Pipeline, Scene, SceneError};
 use nalgebra::{DVector, Vector3};
 
 use super::constraints::{Constraints, stack};
@@ -23,9 +24,10 @@ impl AssignmentSetup {
                 scene.refuse("mesh", "is flat, which the course's pipeline is not; write pipeline = \"engine\"")
             );
         }
-        let Some((C, D)) = scene.material.neo_hookean() else {
-            unreachable!("a material without moduli is refused when the scene is read")
+        let Law::NeoHookean(law) = body.material.law else {
+            return Err(scene.refuse("material.model", "is not one that the course has; write \"neo_hookean\""));
         };
+        let [C, D] = law.moduli();
         let (V, T) = (body.shape.mesh.vertices(), body.shape.mesh.tetrahedra());
         let constraints = Constraints::new(V, body.fixed_nodes());
         let q = constraints.free_coordinates(stack(V));
@@ -96,9 +98,6 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         return Err(
             scene.refuse("pipeline", "is \"engine\", and these are the functions of the course; write \"course\"")
         );
-    }
-    if scene.material.model != "neo_hookean" {
-        return Err(scene.refuse("material.model", "is not one that the course has; write \"neo_hookean\""));
     }
     if !INTEGRATORS.contains(&scene.time.integrator) {
         let names = INTEGRATORS.map(Integrator::name).join(" or ");

@@ -1,7 +1,7 @@
 //! The parts of the course's pipeline: built or left out, and why.
 
-use fem_scene::Integrator;
-use fem_scene::simulation::Part;
+use fem_model::Integrator;
+use fem_model::simulation::Part;
 
 use super::AssignmentSetup;
 use super::profile::bytes;

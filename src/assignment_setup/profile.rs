@@ -2,8 +2,8 @@
 
 use std::cell::Cell;
 
-use fem_scene::Timer;
-use fem_scene::simulation::Counters;
+use fem_model::Timer;
+use fem_model::simulation::Counters;
 use nalgebra_sparse::CsrMatrix;
 
 /// Counters, and timers of the parts. Closures that share the simulation write to them, hence the cells.

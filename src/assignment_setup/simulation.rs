@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use fem_scene::Integrator;
-use fem_scene::simulation::{
+use fem_model::Integrator;
+use fem_model::simulation::{
     Cause, Checkpoint, Click, Counters, Energies, Failure, Parameter, Part, Pull, Shape, Simulation,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};

@@ -3,8 +3,9 @@
 use std::time::{Duration, Instant};
 
 use fem_engine::batch::Batch;
+use fem_model::{Body, EnvironmentValues};
+use fem_scene::Scene;
 use fem_scene::output::{EnvironmentEnd, write_batch};
-use fem_scene::{Body, EnvironmentValues, Scene};
 
 use super::build;
 use super::cli::RunArguments;
@@ -20,7 +21,8 @@ const TOGETHER: Duration = Duration::from_millis(100);
 pub fn run(scene: &Scene, arguments: &RunArguments) -> Result<(), End> {
     check(arguments)?;
     let body = build::body(scene)?;
-    let mut batch = Batch::new(scene, body.clone()).map_err(End::unusable)?;
+    let mut batch = Batch::new(body.clone(), &scene.method(), scene.environment_values())
+        .map_err(|refusal| End::unusable(scene.refused(refusal)))?;
     warn_of_long_steps(scene, &body)?;
     let steps = build::steps(scene);
     let signals = Signals::catch()?;

@@ -2,8 +2,9 @@
 
 use std::time::Instant;
 
-use fem_scene::simulation::Simulation;
-use fem_scene::{Body, Integrator, Pipeline, Scene};
+use fem_model::simulation::Simulation;
+use fem_model::{Body, Integrator};
+use fem_scene::{Pipeline, Scene};
 use finite_elements_3d::assignment_setup::AssignmentSetup;
 use nalgebra::Vector3;
 
@@ -28,6 +29,7 @@ pub struct Ready {
 pub fn build(scene: &Scene) -> Result<Ready, End> {
     let start = Instant::now();
     let body = body(scene)?;
+    let expected_tip = engine::expected_tip_displacement(scene, &body);
     let simulation = match scene.pipeline {
         Pipeline::Course => course(scene, body)?,
         Pipeline::Engine => engine::build(scene, body)?,
@@ -38,7 +40,6 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
     }
     let seconds_setup = start.elapsed().as_secs_f64();
     let down = scene.gravity.as_ref().and_then(|gravity| Vector3::from(gravity.acceleration).try_normalize(0.0));
-    let expected_tip = engine::expected_tip_displacement(scene);
     // Without gravity a cantilever bends downwards.
     let down = down.or_else(|| expected_tip.and_then(|tip| tip.try_normalize(0.0)));
     let up = down.map_or(Vector3::y(), |down| -down);
@@ -47,7 +48,7 @@ pub fn build(scene: &Scene) -> Result<Ready, End> {
 
 /// Builds the simulation of a scene of the engine that a user has changed, on the shape of the former one if its mesh has not changed.
 #[cfg(feature = "viewer")]
-pub fn rebuild(scene: &Scene, shape: Option<&fem_scene::simulation::Shape>) -> Result<Box<dyn Simulation>, String> {
+pub fn rebuild(scene: &Scene, shape: Option<&fem_model::simulation::Shape>) -> Result<Box<dyn Simulation>, String> {
     let body = match shape {
         Some(shape) => fem_scene::body_of_shape(scene, shape.clone(), &data::folder()),
         None => fem_scene::body(scene, &data::folder()),

@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use fem_model::simulation::Simulation;
 use fem_scene::Scene;
 use fem_scene::output;
-use fem_scene::simulation::Simulation;
 
 use super::cli::RunArguments;
 

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
+use fem_model::Integrator;
+use fem_scene::Override;
 use fem_scene::output::ElementField;
-use fem_scene::{Integrator, Override};
 
 use super::mesh::MeshAction;
 use super::probes::ProbeArgument;

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::process::ExitCode;
 
-use fem_scene::simulation::Failure;
+use fem_model::simulation::Failure;
 
 /// A reason for which the program ends early.
 #[derive(Debug)]

@@ -3,8 +3,9 @@
 use fem_engine::apparent_moduli::apparent_moduli;
 use fem_engine::cantilever;
 use fem_mesh::TetrahedralMesh;
-use fem_scene::simulation::{Part, Simulation};
-use fem_scene::{Body, Scene};
+use fem_model::Body;
+use fem_model::simulation::{Part, Simulation};
+use fem_scene::Scene;
 use fem_study::space::conditioning::conditioning;
 use nalgebra::Vector3;
 
@@ -12,12 +13,13 @@ use super::end::End;
 
 /// The engine's simulation of a scene.
 pub fn build(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, End> {
-    fem_engine::simulator::build(scene, body).map_err(End::unusable)
+    let built = scene.check_one_body().and_then(|()| fem_engine::simulator::build(body, &scene.method()));
+    built.map_err(|refusal| End::unusable(scene.refused(refusal)))
 }
 
 /// The parts of the engine's simulation of a scene, without building it.
 pub fn planned_parts(scene: &Scene, body: &Body) -> Result<Vec<Part>, End> {
-    fem_engine::simulator::planned_parts(scene, body).map_err(End::unusable)
+    fem_engine::simulator::planned_parts(body, &scene.method()).map_err(|refusal| End::unusable(scene.refused(refusal)))
 }
 
 /// Largest number of nodes for which moduli are measured: that needs the whole body.
@@ -46,8 +48,8 @@ pub fn line_of_moduli(body: &Body) -> Result<Option<String>, End> {
 }
 
 /// Timoshenko's displacement of the tip, m, if the scene is a cantilever.
-pub fn expected_tip_displacement(scene: &Scene) -> Option<Vector3<f64>> {
-    cantilever::expected_tip_displacement(scene)
+pub fn expected_tip_displacement(scene: &Scene, body: &Body) -> Option<Vector3<f64>> {
+    cantilever::expected_tip_displacement(body, &scene.method())
 }
 
 /// Prints the tip displacement of a cantilever beside that of Timoshenko's theory, m.

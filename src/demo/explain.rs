@@ -1,8 +1,9 @@
 //! `--explain`: the parts that a scene builds and those that it leaves out.
 
-use fem_scene::simulation::{Part, Simulation, least_stable_substeps};
+use fem_model::simulation::{Part, Simulation, least_stable_substeps};
+use fem_model::{Body, Integrator, SolverKind};
 use fem_scene::tables::BatchTable;
-use fem_scene::{Body, Integrator, Pipeline, Scene, SolverKind};
+use fem_scene::{Pipeline, Scene};
 
 use super::build;
 use super::end::End;
@@ -93,7 +94,7 @@ fn stability(scene: &Scene, body: &Body) -> Result<String, End> {
 pub fn least_stable(scene: &Scene, body: &Body) -> Result<Box<dyn Simulation>, End> {
     let environment = |number: usize| {
         let environment = scene.environment(number);
-        let body = Body { material: environment.material.clone(), ..body.clone() };
+        let body = Body { material: environment.material.value(), ..body.clone() };
         engine::build(&environment, body)
     };
     let mut simulation = environment(0)?;

@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use fem_mesh::write::Frame;
+use fem_model::simulation::Simulation;
 use fem_scene::output::{self, EnergyRow, Probe, Series};
-use fem_scene::simulation::Simulation;
 use fem_scene::{Scene, simulate};
 use indicatif::{ProgressBar, ProgressStyle};
 

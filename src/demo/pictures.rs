@@ -1,6 +1,6 @@
 //! Screenshot and recording of a run without a window.
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
 use super::cli::RunArguments;

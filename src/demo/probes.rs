@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
+use fem_model::simulation::Simulation;
+use fem_model::{BodyMesh, highest_node};
 use fem_scene::output::Probe;
-use fem_scene::simulation::Simulation;
-use fem_scene::{BodyMesh, highest_node};
 
 use super::end::End;
 

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use fem_mesh::write::Frame;
+use fem_model::simulation::{Failure, PlaneContact, Reaction, Simulation};
+use fem_model::{IterationSettings, Method};
 use fem_scene::output::{self, EXPORTS, EnergyRow, Stats};
 use fem_scene::simulate::{Run, quantile};
-use fem_scene::simulation::{Failure, PlaneContact, Reaction, Simulation};
-use fem_scene::{IterationSettings, Method, Pipeline, Scene};
+use fem_scene::{Pipeline, Scene};
 use nalgebra::Vector3;
 
 use super::cli::RunArguments;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use fem_model::simulation::Simulation;
 use fem_scene::output::ElementField;
-use fem_scene::simulation::Simulation;
 use fem_scene::{Scene, output};
 
 use super::build::{Ready, build};

@@ -1,7 +1,8 @@
 //! The course's pipeline and the engine compute the same motion, although they share no element, assembly or solver code.
 
-use fem_scene::simulation::Simulation;
-use fem_scene::{Integrator, Pipeline, Scene, body};
+use fem_model::Integrator;
+use fem_model::simulation::Simulation;
+use fem_scene::{Pipeline, Scene, body};
 
 use crate::program::data;
 use crate::scene_text::{build, shipped};
@@ -18,7 +19,7 @@ fn largest_distance(name: &str, integrator: Integrator, amplitude: f64) -> f64 {
     let course_scene = Scene { pipeline: Pipeline::Course, ..engine_scene.clone() };
     let mut course = build(&course_scene);
     let engine_body = body(&engine_scene, &data()).unwrap();
-    let mut engine = fem_engine::simulator::build(&engine_scene, engine_body).unwrap();
+    let mut engine = fem_engine::simulator::build(engine_body, &engine_scene.method()).unwrap();
     let V = course.shape().mesh.vertices().to_vec();
     let (low, high) = V.iter().fold((V[0], V[0]), |(low, high), x| (low.inf(x), high.sup(x)));
     let mut largest: f64 = 0.0;

@@ -1,7 +1,8 @@
 //! Energy balances: a body without external forces stays at rest, and implicit Euler gains no energy.
 
-use fem_scene::simulation::Simulation;
-use fem_scene::{Integrator, Pipeline, Scene, body};
+use fem_model::Integrator;
+use fem_model::simulation::Simulation;
+use fem_scene::{Pipeline, Scene, body};
 use nalgebra::Vector3;
 
 use crate::program::{course_scenes, data};

@@ -3,7 +3,7 @@
 use std::fs;
 
 use fem_mesh::{read_surface, read_tetrahedra};
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 use crate::program::{Desk, course_scenes};
 use crate::scene_text::{CUBE, build, parse, shipped};

@@ -1,6 +1,6 @@
 //! Free fall, a motion that is known exactly.
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 use crate::program::course_scenes;
 use crate::scene_text::{INTEGRATORS, build, build_with, edit, free_cube, shipped};

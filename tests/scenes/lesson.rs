@@ -2,8 +2,8 @@
 //! for it. The armadillo is small, hence stiff: the spring that pulls it is missing in the stiffness, linearly implicit Euler explodes, and
 //! the line search of implicit Euler survives.
 
-use fem_scene::Integrator;
-use fem_scene::simulation::{Pull, Simulation};
+use fem_model::Integrator;
+use fem_model::simulation::{Pull, Simulation};
 use nalgebra::Vector3;
 
 use crate::program::{Desk, assert_names, assert_one_message, data, numbers};

@@ -1,7 +1,7 @@
 //! Momentum of a free body: without external forces it is conserved, at every size.
 
-use fem_scene::Integrator;
-use fem_scene::simulation::{Pull, Simulation};
+use fem_model::Integrator;
+use fem_model::simulation::{Pull, Simulation};
 use finite_elements_3d::mass_matrix_mesh;
 use nalgebra::Vector3;
 

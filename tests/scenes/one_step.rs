@@ -1,6 +1,6 @@
 //! Whole steps beside those of a second, independent implementation.
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use fem_scene::{Scene, body};
 use nalgebra::{DVector, Vector3};
 
@@ -10,7 +10,8 @@ use crate::scene_text::{CUBE, build, edit, free_cube, parse};
 
 fn model_of(scene: &Scene) -> Model {
     let body = body(scene, &data()).unwrap();
-    let (C, D) = scene.material.neo_hookean().unwrap();
+    let fem_model::Law::NeoHookean(law) = scene.material.value().law else { panic!("the course has one law") };
+    let [C, D] = law.moduli();
     let fixed = body.fixed_nodes().unwrap_or_default().to_vec();
     Model {
         V: body.shape.mesh.vertices().to_vec(),

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use fem_scene::{Integrator, Scene};
+use fem_model::Integrator;
+use fem_scene::Scene;
 use finite_elements_3d::assignment_setup::AssignmentSetup;
 
 use crate::program::data;

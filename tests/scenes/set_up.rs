@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
+use fem_model::{Integrator, Preconditioner, SolverKind};
 use fem_scene::tables::SolverTable;
-use fem_scene::{Integrator, Preconditioner, Scene, SolverKind, output};
+use fem_scene::{Scene, output};
 use fem_viewer::scene_edits::{self, Force};
 use fem_viewer::{Builder, Change, Editing, Motion, SceneEditor};
 use nalgebra::Vector3;
@@ -57,7 +58,7 @@ impl Window {
         let scene = fem_scene::parse(text, "hand.toml".as_ref()).unwrap();
         let build = |scene: &Scene| {
             let body = fem_scene::body(scene, "no data".as_ref()).map_err(|error| error.problem())?;
-            fem_engine::simulator::build(scene, body).map_err(|error| error.to_string())
+            fem_engine::simulator::build(body, &scene.method()).map_err(|refusal| scene.refused(refusal).to_string())
         };
         let simulation = build(&scene).unwrap();
         let builder = Builder::new(move |scene, _| build(scene));

@@ -1,6 +1,6 @@
 //! Every course scene of `data/scenes`, run by the program and by the library.
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 use crate::program::{Desk, course_scenes, data, numbers};
 use crate::scene_text::{build, shipped};

@@ -1,7 +1,7 @@
 //! The display surface follows the tetrahedra.
 
+use fem_model::simulation::Simulation;
 use fem_scene::body;
-use fem_scene::simulation::Simulation;
 use finite_elements_3d::build_skinning_matrix;
 
 use crate::program::{Desk, course_scenes, data};

@@ -1,6 +1,6 @@
 //! `--stats`: its keys are fixed, and its counts prove which parts a scene builds and which it leaves out.
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use serde_json::Value;
 
 use crate::program::{Desk, course_scenes};

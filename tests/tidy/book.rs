@@ -48,13 +48,13 @@ fn every_law_has_a_file_of_its_name_and_a_row_in_the_book() {
 
 #[test]
 fn every_integrator_solver_and_preconditioner_has_a_row_in_the_book() {
-    let (scene, cells) = (sources("crates/scene/src"), first_cells());
+    let (scene, cells) = (sources("crates/model/src"), first_cells());
     let mut problems = Vec::new();
     for (kind, page) in [("Integrator", "integrators"), ("SolverKind", "solvers"), ("Preconditioner", "solvers")] {
         let lines = body(&scene, &format!("pub enum {kind} {{"));
         let is_variant = |line: &&str| line.starts_with(char::is_uppercase);
         let variants: Vec<_> = lines.into_iter().filter(is_variant).map(snake_case).collect();
-        assert!(variants.len() > 1, "no enum {kind} with variants in crates/scene/src");
+        assert!(variants.len() > 1, "no enum {kind} with variants in crates/model/src");
         let missing = variants.into_iter().filter(|name| !cells.contains(&format!("`{name}`")));
         problems.extend(missing.map(|name| format!("docs/book/{page}.md: add a row for `{name}`")));
     }

@@ -62,7 +62,7 @@ fn scene(arguments: &SizesArguments, method: &[&str], count: usize, solver: &[&s
 
 fn built(scene: &Scene, arguments: &SizesArguments) -> Result<Batch, End> {
     let body = fem_scene::body(scene, &arguments.data).map_err(End::unusable)?;
-    Batch::new(scene, body).map_err(End::unusable)
+    Batch::new(body, &scene.method(), scene.environment_values()).map_err(End::unusable)
 }
 
 /// Takes the steps, and waits for them: whether an environment has failed is known after the last one.

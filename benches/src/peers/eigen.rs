@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use fem_model::{Axis, Law};
+use fem_scene::Scene;
 use fem_scene::tables::DragVertex;
-use fem_scene::{Axis, Scene};
 
 use crate::end::End;
 use crate::race::Time;
@@ -72,7 +73,11 @@ fn pair(name: &str, value: f64) -> [String; 2] {
 fn body(scene: &Scene, data: &Path) -> Option<Vec<String>> {
     let node = data.join(scene.mesh.file.as_ref()?);
     let is_whole = scene.mesh.scale == 1.0 && scene.mesh.refine == 0 && scene.mass.lumped != Some(true);
-    let (C, D) = scene.material.neo_hookean().filter(|_| is_whole)?;
+    let Law::NeoHookean(law) = scene.material.value().law else { return None };
+    if !is_whole {
+        return None;
+    }
+    let [C, D] = law.moduli();
     let (mu, lambda) = (2.0 * C, 2.0 * D);
     let young = mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu);
     let poisson = lambda / (2.0 * (lambda + mu));

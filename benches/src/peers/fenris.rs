@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use fem_scene::{Axis, Scene};
+use fem_model::{Axis, Law};
+use fem_scene::Scene;
 use serde::Deserialize;
 
 use crate::end::End;
@@ -51,7 +52,7 @@ fn is_its_beam(scene: &Scene) -> bool {
     let box_size = scene.mesh.cuboid.as_ref().map(|cuboid| cuboid.size);
     let clamp = scene.fixed.as_ref().and_then(|fixed| fixed.plane.as_ref());
     box_size == Some([4.0, 1.0, 1.0])
-        && scene.material.neo_hookean() == Some((2e5, 1e6))
+        && matches!(scene.material.value().law, Law::NeoHookean(law) if law.moduli() == [2e5, 1e6])
         && scene.material.density == 1000.0
         && scene.gravity.as_ref().is_some_and(|gravity| gravity.acceleration == [0.0, 0.0, -9.81])
         && clamp.is_some_and(|plane| plane.axis == Axis::X && plane.below < 1e-6)

@@ -1,9 +1,10 @@
 //! From components to a simulation.
 
 use bevy::math::DVec3;
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use fem_scene::tables::{DampingTable, GravityTable, PlaneTable};
-use fem_scene::{Body, DirichletCondition, Integrator, Material, Pipeline, Scene, SceneError};
+use fem_model::{Body, DirichletCondition, Integrator, Material};
+use fem_scene::{Pipeline, Scene, SceneError};
 
 use crate::soft_body::Source;
 use crate::{SoftBody, SoftBodyError, SoftBodyMaterial, SoftBodyPinnedParticles, SoftBodyPlane, SoftBodyPlanes};
@@ -42,7 +43,8 @@ impl Blueprint {
         if let Some(SoftBodyPinnedParticles(nodes)) = &self.pinned {
             pin(&mut body, nodes)?;
         }
-        Ok(fem_engine::simulator::build(&scene, body)?)
+        let built = scene.check_one_body().and_then(|()| fem_engine::simulator::build(body, &scene.method()));
+        built.map_err(|refusal| scene.refused(refusal).into())
     }
 
     /// The scene with the changes of the components.
@@ -83,8 +85,8 @@ fn check_method(scene: &Scene) -> Result<(), SoftBodyError> {
 }
 
 fn set_material(scene: &mut Scene, material: &SoftBodyMaterial) {
-    let Material { thickness, plane, .. } = scene.material;
-    scene.material = Material {
+    let MaterialTable { thickness, plane, .. } = scene.material;
+    scene.material = MaterialTable {
         model: material.model.clone(),
         density: material.density,
         thickness,

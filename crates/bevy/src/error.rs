@@ -3,7 +3,7 @@
 use bevy::ecs::entity::Entity;
 use bevy::ecs::message::Message;
 use fem_scene::SceneError;
-use fem_scene::simulation::Failure;
+use fem_model::simulation::Failure;
 use thiserror::Error;
 
 /// A soft body was refused, or has stopped. It is written once for each such event.

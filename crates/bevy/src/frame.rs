@@ -1,7 +1,7 @@
 //! The state of a body after one step.
 
 use bevy::math::DVec3;
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 use crate::surface::{Surface, Topology};
 

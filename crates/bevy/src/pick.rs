@@ -2,7 +2,7 @@
 
 use bevy::math::{DVec3, Ray3d, Vec3};
 use bevy::transform::components::GlobalTransform;
-use fem_scene::simulation::Shape;
+use fem_model::simulation::Shape;
 use nalgebra::Vector3;
 
 use crate::surface::{Surface, Topology};

@@ -2,7 +2,7 @@
 
 use bevy::ecs::component::Component;
 use bevy::math::{DVec3, Vec3};
-use fem_scene::simulation::Pull;
+use fem_model::simulation::Pull;
 use nalgebra::Vector3;
 
 use crate::{SoftBodyError, SoftBodyHit, SoftBodyState};

@@ -9,7 +9,7 @@ use bevy::ecs::component::Component;
 use bevy::math::{DVec3, Ray3d};
 use bevy::mesh::Mesh;
 use bevy::transform::components::GlobalTransform;
-use fem_scene::simulation::Shape;
+use fem_model::simulation::Shape;
 
 use crate::clock::Clock;
 use crate::frame::Frame;

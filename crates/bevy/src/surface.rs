@@ -2,7 +2,7 @@
 
 use bevy::asset::RenderAssetUsages;
 use bevy::mesh::{Indices, Mesh, PrimitiveTopology, VertexAttributeValues};
-use fem_scene::simulation::Shape;
+use fem_model::simulation::Shape;
 use nalgebra::Vector3;
 
 /// The triangles of a body's surface.

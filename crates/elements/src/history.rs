@@ -1,6 +1,6 @@
 //! Arrays of numbers in the history of a checkpoint. Single precision becomes double and back without a change.
 
-use fem_scene::simulation::History;
+use fem_model::simulation::History;
 
 use crate::number::Float;
 

@@ -1,7 +1,7 @@
 //! The floats of a simulation, for which this package compiles the loops over elements.
 
 use faer_traits::RealField as FaerReal;
-use fem_scene::Body;
+use fem_model::Body;
 use nalgebra::Vector3;
 
 use crate::materials::{AnyLaw, Law};

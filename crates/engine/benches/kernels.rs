@@ -29,7 +29,7 @@ fn beam(law: &str, cells: usize) -> Scene {
 
 fn system<T: Real>(scene: &Scene, choice: SolverChoice) -> System<T> {
     let body = body(scene, Path::new("")).expect("a box needs no files");
-    let law = AnyLaw::new(&scene.material).expect("a known law with its parameters");
+    let law = AnyLaw::new(&scene.material.value()).expect("a known law with its parameters");
     System::new(body, law, choice)
 }
 

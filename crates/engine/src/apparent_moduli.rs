@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use fem_scene::{Body, DirichletCondition};
+use fem_model::{Body, DirichletCondition};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::forces::{HessianKind, mass_spring};
@@ -137,7 +137,7 @@ fn relaxed(system: &System<f64>, strains: &[[[f64; 3]; 3]]) -> Result<Vec<Vec<[f
     system.dirichlet.eliminate(&system.pattern, &mut values);
     let rest: Vec<[f64; 3]> = system.rest[..system.free()].iter().map(|x| (*x).into()).collect();
     let mut solver = Solver::new(choice(system.nodes()), &Arc::clone(&system.pattern), &rest);
-    let failed = |cause: fem_scene::simulation::Breakdown| format!("the nodes inside have no equilibrium: {cause}");
+    let failed = |cause: fem_model::simulation::Breakdown| format!("the nodes inside have no equilibrium: {cause}");
     solver.prepare(&values).map_err(failed)?;
     for u in &mut moved {
         let (mut force, mut change) = (undeformed.clone(), undeformed.clone());

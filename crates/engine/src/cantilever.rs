@@ -1,12 +1,13 @@
 //! The tip displacement of a cantilever by Timoshenko's beam theory, for comparison with a simulated one.
 
+use std::collections::HashSet;
+
 use nalgebra::Vector3;
 
 use fem_elements::materials::AnyLaw;
 use fem_mesh::{Side, nodes_on_side};
-use fem_scene::simulation::Simulation;
-use fem_scene::tables::TractionTable;
-use fem_scene::{Integrator, Material, Scene};
+use fem_model::simulation::Simulation;
+use fem_model::{Body, BodyMesh, Elastic, Integrator, Material, Method, Traction};
 
 /// A beam of rectangular cross-section, clamped at one end, that bends in one plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,21 +53,24 @@ impl Cantilever {
     }
 }
 
-/// Tip displacement of a cantilever by Timoshenko's theory, m. `None` if the scene is not one: a box along x, clamped at its end of
+/// Tip displacement of a cantilever by Timoshenko's theory, m. `None` if the body is not one: a uniform box along x, clamped at its end of
 /// smallest x, in equilibrium (`static`) under dead loads across x on the whole volume or on the other end.
-pub fn expected_tip_displacement(scene: &Scene) -> Option<Vector3<f64>> {
-    let size = scene.mesh.cuboid.as_ref()?.size.map(|edge| edge * scene.mesh.scale);
-    let is_uniform = scene.materials.is_empty();
-    let is_clamped_alone = is_uniform && is_clamped_at_x_min(scene, size[0]) && scene.prescribed.is_empty();
-    let is_loaded_alone = scene.force.is_empty() && scene.springs.is_empty() && scene.drag.is_none();
-    if scene.time.integrator != Integrator::Static || !is_clamped_alone || !is_loaded_alone {
+pub fn expected_tip_displacement(body: &Body, method: &Method) -> Option<Vector3<f64>> {
+    let size = box_size(&body.shape.mesh)?;
+    let is_loaded_alone = body.pressures.is_empty()
+        && body.nodal_forces.is_empty()
+        && body.springs.is_empty()
+        && body.drag.is_none()
+        && body.contact.is_none();
+    let is_uniform = body.regions.is_empty() && body.stiffness_factors.is_empty() && body.plasticity.is_none();
+    if method.integrator != Integrator::Static || !is_uniform || !is_clamped_alone(body) || !is_loaded_alone {
         return None;
     }
-    let (even, end) = (force_density(scene), end_traction(&scene.traction, size[0])?);
+    let (even, end) = (force_density(body), end_traction(body)?);
     if even.x != 0.0 || end.x != 0.0 {
         return None;
     }
-    let (young, poisson) = moduli(&scene.material)?;
+    let Elastic { young, poisson } = moduli(&body.material)?;
     let area = size[1] * size[2];
     let along = |axis: usize| {
         let beam = Cantilever { length: size[0], height: size[axis], width: area / size[axis], young, poisson };
@@ -84,39 +88,49 @@ pub fn tip_displacement(simulation: &dyn Simulation) -> Vector3<f64> {
     tip.iter().map(displacement).sum::<Vector3<f64>>() / tip.len() as f64
 }
 
-/// Largest distance from an end of the beam, as a part of its length, at which nodes and faces belong to that end.
-const END: f64 = 1e-3;
+/// The edges of a box parallel to the axes that a solid mesh fills, m; `None` for another shape.
+fn box_size(mesh: &BodyMesh) -> Option<Vector3<f64>> {
+    let x = mesh.vertices();
+    let (least, most) = x.iter().fold((x[0], x[0]), |(least, most), x| (least.inf(x), most.sup(x)));
+    let (size, volume) = (most - least, mesh.volumes().iter().sum::<f64>());
+    (!mesh.is_flat() && (volume - size.product()).abs() <= ROUNDING * volume).then_some(size)
+}
 
-fn is_clamped_at_x_min(scene: &Scene, length: f64) -> bool {
-    let plane = scene.fixed.as_ref().and_then(|fixed| fixed.plane.as_ref());
-    plane.is_some_and(|plane| plane.axis as usize == 0 && plane.below <= END * length)
+/// Part of a volume, or of a length, that is a rounding error.
+const ROUNDING: f64 = 1e-9;
+
+/// Returns true if the nodes of smallest x are fixed and no others are constrained.
+fn is_clamped_alone(body: &Body) -> bool {
+    let [condition] = &body.dirichlet[..] else { return false };
+    let end = nodes_on_side(body.shape.mesh.vertices(), 0, Side::Min, 0.0);
+    condition.motion.is_none() && condition.until.is_none() && condition.nodes == end
 }
 
 /// Gravity and body force, N/m³.
-fn force_density(scene: &Scene) -> Vector3<f64> {
-    let gravity = scene.gravity.as_ref().map_or([0.0; 3], |gravity| gravity.acceleration);
-    let force = scene.body_force.as_ref().map_or([0.0; 3], |force| force.density);
-    scene.material.density * Vector3::from(gravity) + Vector3::from(force)
+fn force_density(body: &Body) -> Vector3<f64> {
+    body.material.density * body.gravity.unwrap_or_default() + body.body_force.unwrap_or_default()
 }
 
-/// Sum of all tractions, Pa; `None` unless all are dead loads on the end of largest x.
-fn end_traction(tractions: &[TractionTable], length: f64) -> Option<Vector3<f64>> {
-    let end_load = |traction: &TractionTable| {
-        let on = traction.on.as_ref()?.side()?;
-        let is_end = on.axis as usize == 0 && on.side == Side::Max && on.within <= END * length;
-        traction.force_per_area.filter(|_| is_end).map(Vector3::from)
+/// Sum of all tractions, Pa; `None` unless each of them loads the whole end of largest x.
+fn end_traction(body: &Body) -> Option<Vector3<f64>> {
+    let x = body.shape.mesh.vertices();
+    let end: HashSet<usize> = nodes_on_side(x, 0, Side::Max, 0.0).into_iter().collect();
+    let is_at_end = |face: &[usize]| face.iter().all(|node| end.contains(node));
+    let faces = body.shape.boundary.iter().filter(|face| is_at_end(&face[..])).count();
+    let end_load = |traction: &Traction| {
+        let is_end = traction.faces.len() == faces && traction.faces.iter().all(|face| is_at_end(face));
+        is_end.then_some(traction.force_per_area)
     };
-    tractions.iter().map(end_load).sum()
+    body.tractions.iter().map(end_load).sum()
 }
 
-/// Young's modulus E (Pa) and Poisson's ratio ν at small strain: as the table gives them, or from the law's shear modulus G and
-/// bulk modulus K, E = 9 K G / (3 K + G) and ν = (3 K − 2 G) / (6 K + 2 G). `None` if the table lacks its parameters.
-pub fn moduli(material: &Material) -> Option<(f64, f64)> {
-    if let (Some(young), Some(poisson)) = (material.young, material.poisson) {
-        return Some((young, poisson));
-    }
-    let [G, K] = AnyLaw::<f64>::new(material)?.moduli();
-    Some((9.0 * K * G / (3.0 * K + G), (3.0 * K - 2.0 * G) / (6.0 * K + 2.0 * G)))
+/// Young's modulus and Poisson's ratio at small strain: as given, or from the law's shear modulus G and bulk modulus K,
+/// E = 9 K G / (3 K + G) and ν = (3 K − 2 G) / (6 K + 2 G). `None` for springs.
+pub fn moduli(material: &Material) -> Option<Elastic> {
+    material.law.elastic().or_else(|| {
+        let [G, K] = AnyLaw::<f64>::new(material)?.moduli();
+        Some(Elastic::new(9.0 * K * G / (3.0 * K + G), (3.0 * K - 2.0 * G) / (6.0 * K + 2.0 * G)))
+    })
 }
 
 #[cfg(test)]

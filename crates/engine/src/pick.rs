@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3, Vector4};
 
-use fem_scene::simulation::{Click, Shape};
+use fem_model::simulation::{Click, Shape};
 
 /// Nodes within [`Shape::pick_radius`] of the first point of the boundary under a click, ascending; empty if the click misses it.
 /// `x` are the positions of the nodes now, m.

@@ -1,6 +1,6 @@
 //! Timers of the parts of a body.
 
-use fem_scene::Timer;
+use fem_model::Timer;
 
 /// Timers of a body's parts; their times do not overlap. Each force has a timer of its own beside it.
 #[derive(Debug, Default)]

@@ -1,4 +1,4 @@
-//! The engine's simulation of one scene: a [`System`] and its [`State`], advanced by an integrator, as a [`Simulation`].
+//! The engine's simulation of one body: a [`System`] and its [`State`], advanced by an integrator, as a [`Simulation`].
 
 mod adaptive;
 mod checkpoint;
@@ -27,8 +27,8 @@ mod work;
 
 use std::sync::atomic::AtomicUsize;
 
-use fem_scene::simulation::{Counters, Part, Simulation};
-use fem_scene::{Body, Integrator as IntegratorKind, Material, Method, Precision, Scene, SceneError, Timer};
+use fem_model::simulation::{Counters, Part, Simulation};
+use fem_model::{Body, ContactTreatment, Integrator as IntegratorKind, Material, Method, Precision, Refusal, Timer};
 use nalgebra::Vector3;
 
 use crate::boundary::rigid_modes;
@@ -38,7 +38,6 @@ use crate::integrators::Integrator;
 use crate::model::numbering::Numbering;
 use crate::model::state::State;
 use crate::model::system::{OwnForces, System};
-use crate::refusal::Refusal;
 use crate::skinning::Skinning;
 use crate::solvers::SolverChoice;
 use fem_elements::Real;
@@ -90,83 +89,79 @@ pub struct Simulator<T: Real> {
     reactions_timer: Timer,
 }
 
-/// Builds the simulation of a scene in the precision that it names. Returns an error that names the field if the scene asks for
+/// Builds the simulation of a body in the precision that the method names. Returns an error that names the quantity if they ask for
 /// something impossible.
-pub fn build(scene: &Scene, body: Body) -> Result<Box<dyn Simulation>, SceneError> {
-    Ok(match scene.method().precision {
-        Precision::F64 => Box::new(Simulator::<f64>::new(scene, body)?),
-        Precision::F32 => Box::new(Simulator::<f32>::new(scene, body)?),
+pub fn build(body: Body, method: &Method) -> Result<Box<dyn Simulation>, Refusal> {
+    Ok(match method.precision {
+        Precision::F64 => Box::new(Simulator::<f64>::new(body, method)?),
+        Precision::F32 => Box::new(Simulator::<f32>::new(body, method)?),
     })
 }
 
-/// The parts that the simulation of a scene would have, without building it. Returns the same errors.
-pub fn planned_parts(scene: &Scene, body: &Body) -> Result<Vec<Part>, SceneError> {
-    let method = scene.method();
+/// The parts that the simulation of a body would have, without building it. Returns the same errors.
+pub fn planned_parts(body: &Body, method: &Method) -> Result<Vec<Part>, Refusal> {
     let epsilon = match method.precision {
         Precision::F64 => f64::EPSILON,
         Precision::F32 => f64::from(f32::EPSILON),
     };
     let is_linear = |material: &Material| AnyLaw::<f64>::new(material).is_some_and(|law| law.is_linear());
-    check::<f64>(scene, body, epsilon)?;
+    check::<f64>(body, method, epsilon)?;
     let is_law_linear = is_linear(&body.material) && body.regions.iter().all(|region| is_linear(&region.material));
     let nodes = body.shape.mesh.vertices().len();
     let numbering = Numbering::of_mesh(nodes);
     let forces: Vec<_> = forces::kinds::<f64>().into_iter().filter_map(|kind| (kind.build)(body, &numbering)).collect();
     for force in &forces {
-        path_check::check_force(&method, force.is_conservative())
-            .map_err(|(field, problem)| scene.refuse(field, &problem))?;
+        path_check::check_force(method, force.is_conservative())?;
     }
     let is_linear = is_law_linear && forces.iter().all(|force| force.is_quadratic());
     let mut plan = Plan::new(body);
     plan.add_forces(forces.iter().map(|force| &**force));
-    Ok(plan.parts(method.integrator, &method, integrator::solver_choice(&method, body), is_linear))
+    Ok(plan.parts(method.integrator, method, integrator::solver_choice(method, body), is_linear))
 }
 
 /// The law of a body that the engine can simulate with numbers of this machine epsilon; `None` for a mass-spring body.
-fn check<T: Real>(scene: &Scene, body: &Body, epsilon: f64) -> Result<Option<AnyLaw<T::Single>>, SceneError> {
-    let refuse = |(field, problem): Refusal| scene.refuse(field, &problem);
-    check_instructions().map_err(|problem| scene.refuse("pipeline", &problem))?;
-    let law = AnyLaw::<T::Single>::new(&body.material);
-    if law.is_none() && !body.material.is_mass_spring() {
-        return Err(refuse((
-            "material",
-            "lacks the parameters of its model; see docs/book/materials.md for them".to_owned(),
-        )));
-    }
+fn check<T: Real>(body: &Body, method: &Method, epsilon: f64) -> Result<Option<AnyLaw<T::Single>>, Refusal> {
+    check_instructions().map_err(|problem| Refusal::new("pipeline", problem))?;
     let materials = body.regions.iter().map(|region| (&region.name[..], &region.material));
     for (table, material) in std::iter::once(("material", &body.material)).chain(materials) {
-        range_check::check_shear_modulus(material).map_err(|problem| scene.refuse(table, &problem))?;
+        range_check::check_shear_modulus(material).map_err(|problem| Refusal::new(table, problem))?;
     }
-    let method = scene.method();
-    range_check::check_tolerance(&method, epsilon).map_err(refuse)?;
-    path_check::check(&method, body).map_err(refuse)?;
-    integrator::check_solver(&method, body.shape.mesh.vertices().len()).map_err(refuse)?;
+    check_mass(body, method)?;
+    range_check::check_tolerance(method, epsilon)?;
+    path_check::check(method, body)?;
+    integrator::check_solver(method, body.shape.mesh.vertices().len())?;
     if method.integrator == IntegratorKind::Static {
-        rigid_modes::check(body).map_err(refuse)?;
+        rigid_modes::check(body)?;
     }
-    Ok(law)
+    Ok(AnyLaw::new(&body.material))
+}
+
+/// Refuses a consistent mass where a step needs a mass for each node.
+fn check_mass(body: &Body, method: &Method) -> Result<(), Refusal> {
+    let has_impulses = body.contact.as_ref().is_some_and(|contact| contact.treatment == ContactTreatment::Impulses);
+    if body.lumped_mass || !(method.integrator.needs_node_masses() || has_impulses) {
+        return Ok(());
+    }
+    let name = method.integrator.name();
+    Err(Refusal::new("mass.lumped", format!("is false, and a step of {name} needs a mass for each node; make it true")))
 }
 
 impl<T: Compiled> Simulator<T> {
-    /// Builds the parts that the scene names, in the scene's initial state.
-    pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
-        Self::with_forces(scene, body, &|_| Vec::new())
+    /// Builds the parts that body and method need, in the initial state.
+    pub fn new(body: Body, method: &Method) -> Result<Self, Refusal> {
+        Self::with_forces(body, method, &|_| Vec::new())
     }
 
-    /// The same with forces of one's own beside those that the scene names.
-    pub fn with_forces(scene: &Scene, body: Body, own: OwnForces<T>) -> Result<Self, SceneError> {
-        T::with_forces(scene, body, own)
+    /// The same with forces of one's own beside those of the body.
+    pub fn with_forces(body: Body, method: &Method, own: OwnForces<T>) -> Result<Self, Refusal> {
+        T::with_forces(body, method, own)
     }
 }
 
 impl<T: Real> Simulator<T> {
-    fn assembled(scene: &Scene, body: Body, own: OwnForces<T>) -> Result<Self, SceneError> {
-        if scene.batch.is_some() {
-            let problem = "is a table of many environments, and this is a simulation of one body; run the scene with --headless, or remove it";
-            return Err(scene.refuse("batch", problem));
-        }
-        let law = check::<T>(scene, &body, T::EPSILON.as_f64())?;
-        let method = scene.method();
+    fn assembled(body: Body, method: &Method, own: OwnForces<T>) -> Result<Self, Refusal> {
+        let law = check::<T>(&body, method, T::EPSILON.as_f64())?;
+        let method = method.clone();
         let skinned = body.shape.mesh.solid().zip(body.shape.display.as_ref());
         let skinning = skinned.map(|(mesh, display)| Skinning::new(mesh, &display.vertices));
         let solver = integrator::solver_choice(&method, &body);
@@ -180,11 +175,10 @@ impl<T: Real> Simulator<T> {
             true => System::with_forces(body, law, solver, own),
             false => System::without_matrix(&body, law, own),
         };
-        range_check::check(&method, &system).map_err(|(field, problem)| scene.refuse(field, &problem))?;
+        range_check::check(&method, &system)?;
         let is_conservative = !system.forces.has_followers();
-        path_check::check_force(&method, is_conservative).map_err(|(field, problem)| scene.refuse(field, &problem))?;
-        iterated_check::check_forces(&method, &system.forces)
-            .map_err(|(field, problem)| scene.refuse(field, &problem))?;
+        path_check::check_force(&method, is_conservative)?;
+        iterated_check::check_forces(&method, &system.forces)?;
         plan.add_forces(system.forces.all().map(|(force, _)| force).filter(|force| force.name() != anchors::NAME));
         system.modulus_of_free_body = modulus_of_free_body;
         let contact = Contacts::new(with_obstacles.as_ref(), &mut system);

@@ -1,7 +1,9 @@
 //! The parts of a body on which the Dirichlet conditions and surface loads of a scene act.
 
-use crate::simulation::Shape;
-use crate::values::{DirichletCondition, dirichlet_conditions, loaded_faces};
+use fem_model::DirichletCondition;
+use fem_model::simulation::Shape;
+
+use crate::values::{dirichlet_conditions, faces_of_loads};
 use crate::{Scene, SceneError};
 
 /// Constrained nodes and loaded faces of a body.
@@ -10,15 +12,16 @@ pub struct Conditions {
     /// `[fixed]` first if there is one, then each `[[prescribed]]` in order.
     pub dirichlet: Vec<DirichletCondition>,
     /// Of each `[[traction]]` in order, the nodes of its faces: triangles of a solid body, edges of a flat one, as in
-    /// [`BodyMesh::outline`](crate::BodyMesh::outline).
+    /// [`BodyMesh::outline`](fem_model::BodyMesh::outline).
     pub loaded: Vec<Vec<Vec<usize>>>,
 }
 
 impl Conditions {
     /// The conditions of a scene on the body that was made of it. Returns the first problem.
     pub fn of(scene: &Scene, shape: &Shape) -> Result<Self, SceneError> {
-        let loaded = loaded_faces(scene, &shape.mesh, &shape.boundary)?;
-        Ok(Self { dirichlet: dirichlet_conditions(scene, &shape.mesh)?, loaded })
+        let refused = |refusal| scene.refused(refusal);
+        let loaded = faces_of_loads(scene, shape).map_err(refused)?;
+        Ok(Self { dirichlet: dirichlet_conditions(scene, &shape.mesh).map_err(refused)?, loaded })
     }
 
     /// The nodes of `[fixed]`, ascending; empty without the table.

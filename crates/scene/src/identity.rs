@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use toml::Value;
 
 use crate::Scene;
-use crate::simulation::{Shape, Simulation};
+use fem_model::simulation::{Shape, Simulation};
 
 /// Keys of a scene, properties of its mesh and parameters of its simulation, with their values as text.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

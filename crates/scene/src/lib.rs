@@ -1,7 +1,7 @@
 //! Scene files, the bodies that they describe, and the loop that steps a simulation.
 //!
 //! [`load`] reads and checks a file; [`tables`] are its tables as they stand there. [`body`] reads the meshes that the scene names
-//! and turns the tables into values in the mesh's node numbers; [`Scene::method`] does the same for the numerical method.
+//! and turns the tables into a [`Body`](fem_model::Body); [`Scene::method`] turns them into a [`Method`](fem_model::Method).
 //!
 //! ```
 //! let text = r#"
@@ -39,17 +39,11 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // written so that NaN fails
 
 mod body;
-mod body_length;
-mod body_mesh;
 mod check;
 mod conditions;
-mod curve;
 mod error;
 mod identity;
-mod integrator;
-mod interaction;
 mod load;
-mod mass;
 mod meshes;
 pub mod output;
 mod overrides;
@@ -57,32 +51,15 @@ mod paths;
 mod picture;
 mod save;
 pub mod simulate;
-pub mod simulation;
 pub mod tables;
-mod timer;
 mod values;
 mod warnings;
 
-pub use body::{Body, body, body_of, body_of_shape};
-pub use body_mesh::BodyMesh;
+pub use body::{body, body_of, body_of_shape};
 pub use conditions::Conditions;
-pub use curve::{LoadCurve, is_before};
 pub use error::SceneError;
-pub use integrator::Integrator;
-pub use interaction::{Anchor, Interaction};
 pub use load::{load, load_with, names, parse};
-pub use mass::{CONSISTENT_MASS, lumps_mass};
 pub use overrides::Override;
 pub use save::{SaveError, save};
-pub use tables::{
-    Axis, DampingForm, MODELS, Material, Pipeline, PlaneState, Precision, Preconditioner, Projection, Scene, SolverKind,
-};
-pub use timer::Timer;
-pub use values::{
-    Contact, ContactPlane, ContactTreatment, Damping, DirichletCondition, Drag, EnvironmentValues, IterationSettings,
-    MaterialRegion, Method, Motion, NewmarkParameters, NewtonSettings, NodalForce, PlaneMotion, Plasticity, Pressure,
-    Rotation, SolverSettings, Spring, Traction, highest_node,
-};
+pub use tables::{MODELS, Pipeline, Scene};
 pub use warnings::warnings;
-
-pub use fem_mesh::Side;

@@ -58,7 +58,7 @@ fn parse_with(text: &str, path: &Path, overrides: &[Override]) -> Result<Scene, 
     scene.path = path.to_owned();
     scene.source = source;
     scene.overrides = overrides.to_vec();
-    check(&scene).map_err(|(field, problem)| refused(text, &scene, &field, &format!("{field} {problem}")))?;
+    check(&scene).map_err(|refusal| refused(text, &scene, &refusal.field, &refusal.to_string()))?;
     Ok(scene)
 }
 
@@ -106,7 +106,7 @@ impl Scene {
         scene.source = source;
         let lasts = |earlier: &&Override| !changes.iter().any(|change| change.replaces(earlier));
         scene.overrides = self.overrides.iter().filter(lasts).chain(changes).cloned().collect();
-        check(&scene).map_err(|(field, problem)| refused(&text, &scene, &field, &format!("{field} {problem}")))?;
+        check(&scene).map_err(|refusal| refused(&text, &scene, &refusal.field, &refusal.to_string()))?;
         Ok(scene)
     }
 }

@@ -9,7 +9,8 @@ use fem_mesh::{AnyMesh, MeshError, MeshFile, Problem, SurfaceMesh};
 use crate::load::line_of;
 use crate::paths::find;
 use crate::tables::MeshTable;
-use crate::{BodyMesh, Scene, SceneError};
+use crate::{Scene, SceneError};
+use fem_model::BodyMesh;
 
 /// A mesh file's content; adds its remarks to `notes`.
 fn read(path: &Path, file: &Path, notes: &mut Vec<String>) -> Result<MeshFile, MeshError> {

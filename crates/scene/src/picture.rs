@@ -4,8 +4,8 @@ use std::path::Path;
 
 use fem_mesh::SurfaceMesh;
 
-use crate::simulation::PicturePlace;
 use crate::tables::PictureTable;
+use fem_model::simulation::PicturePlace;
 
 /// The triangles of a picture, its place, and a remark on it.
 type Filled = (SurfaceMesh, PicturePlace, Option<String>);

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use crate::simulation::{Failure, Simulation};
+use fem_model::simulation::{Failure, Simulation};
 
 /// Step times of a run, and the failure that ended it.
 #[derive(Clone, Debug, Default)]

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use crate::Scene;
 use crate::meshes::name_of;
-use crate::{Body, BodyMesh, Material, Scene};
+use fem_model::{Body, BodyMesh, Material};
 
 /// The warnings before a run, each with its remedy: nodes that coincide without being merged, parts that nothing constrains, bodies that
 /// overlap, forces on constrained nodes, and materials in which linear tetrahedra lock.
@@ -24,7 +25,7 @@ fn locking(body: &Body) -> impl Iterator<Item = String> {
     let regions = body.regions.iter().map(|region| (&region.name[..], &region.material));
     let materials = std::iter::once(("material", &body.material)).chain(regions);
     let warning = |(table, material): (&str, &Material)| {
-        let poisson = material.poissons_ratio().filter(|_| material.locks())?;
+        let poisson = material.law.poissons_ratio().filter(|_| material.locks())?;
         let (kind, figures) = match &body.shape.mesh {
             BodyMesh::Solid(_) => ("tetrahedra", format!(": {LOCKING}")),
             BodyMesh::Flat { .. } => ("triangles in plane strain", String::new()),

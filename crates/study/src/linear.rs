@@ -6,8 +6,9 @@ use fem_engine::forces::Moment;
 use fem_engine::simulator::double::{self, Solver, System};
 use fem_engine::solvers::{Preconditioner, SolverChoice};
 use fem_engine::vector::{dot, norm};
-use fem_scene::simulation::Breakdown;
-use fem_scene::{Body, Integrator, Scene};
+use fem_model::simulation::Breakdown;
+use fem_model::{Body, Integrator};
+use fem_scene::Scene;
 
 use crate::experiments::{Experiment, Figure, Mark, Part, Table};
 use crate::machine::Machine;
@@ -97,7 +98,7 @@ impl LinearSystem {
             system.dirichlet.clear_constrained(&mut b);
         }
         let failed =
-            |cause: fem_scene::simulation::Breakdown| format!("{}: its matrix has no factor: {cause}", scene.name);
+            |cause: fem_model::simulation::Breakdown| format!("{}: its matrix has no factor: {cause}", scene.name);
         let mut direct = Solver::new(SolverChoice::Lu, &system);
         direct.prepare(&values).map_err(failed)?;
         let mut exact = undeformed;

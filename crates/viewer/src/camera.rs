@@ -2,7 +2,7 @@
 //!
 //! Its projection is OpenGL's (clip depth −1…1), which kiss3d expects of a camera.
 
-use fem_scene::simulation::{Click, Shape};
+use fem_model::simulation::{Click, Shape};
 use kiss3d::camera::Camera3d;
 use kiss3d::event::WindowEvent;
 use kiss3d::glamx::{Mat4, Pose3, Vec2, Vec3};

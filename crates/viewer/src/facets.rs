@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use fem_scene::simulation::Shape;
+use fem_model::simulation::Shape;
 use kiss3d::glamx::Vec3;
 use nalgebra::Vector3;
 
@@ -134,7 +134,7 @@ fn distance_to_segment(point: Vec3, from: Vec3, to: Vec3) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use fem_scene::BodyMesh;
+    use fem_model::BodyMesh;
 
     use super::*;
     use crate::geometry::single;

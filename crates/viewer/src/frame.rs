@@ -1,7 +1,7 @@
 //! The parts of a state that a picture shows.
 
+use fem_model::simulation::{Plane, Simulation};
 use fem_scene::output::ElementField;
-use fem_scene::simulation::{Plane, Simulation};
 use kiss3d::glamx::Vec3;
 
 use crate::geometry::{points, single};

@@ -44,7 +44,7 @@ impl History {
 
 #[cfg(test)]
 mod tests {
-    use fem_scene::simulation::Energies;
+    use fem_model::simulation::Energies;
 
     use super::*;
 

@@ -2,7 +2,7 @@
 
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-use fem_scene::simulation::Pull;
+use fem_model::simulation::Pull;
 use kiss3d::event::MouseButton;
 use kiss3d::glamx::{Vec2, Vec3};
 use kiss3d::window::Window;

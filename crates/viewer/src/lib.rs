@@ -1,4 +1,4 @@
-//! An interactive window and offscreen pictures of a [`Simulation`](fem_scene::simulation::Simulation).
+//! An interactive window and offscreen pictures of a [`Simulation`](fem_model::simulation::Simulation).
 //!
 //! - [`open`] shows a simulation in a window until it is closed; the simulation runs on a thread of its own.
 //! - [`Editing`] lets the window's panel change the scene; the simulation is built anew on its own thread. [`SceneEditor`] makes and saves
@@ -9,7 +9,7 @@
 //! ```no_run
 //! use std::error::Error;
 //!
-//! use fem_scene::simulation::Simulation;
+//! use fem_model::simulation::Simulation;
 //! use fem_viewer::{DisplayedSurface, OffscreenRenderer, WindowOptions};
 //!
 //! /// `simulation` comes, for example, from `fem_engine::simulator::build`.

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use fem_scene::simulation::Plane;
+use fem_model::simulation::Plane;
 use kiss3d::glamx::Vec3;
 use kiss3d::resource::GpuMesh3d;
 use kiss3d::scene::SceneNode3d;

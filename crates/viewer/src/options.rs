@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicUsize;
 
+use fem_model::simulation::{Shape, Simulation};
 use fem_scene::Scene;
 use fem_scene::output::ElementField;
-use fem_scene::simulation::{Shape, Simulation};
 use nalgebra::Vector3;
 
 /// Builds the simulation of a scene. It is called on the simulation's thread.

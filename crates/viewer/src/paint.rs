@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 use std::collections::HashMap;
 
 use fem_mesh::generate::picture::read_pixels;
-use fem_scene::simulation::{PicturePlace, Shape};
+use fem_model::simulation::{PicturePlace, Shape};
 use kiss3d::glamx::Vec2;
 use nalgebra::Vector3;
 
@@ -119,7 +119,7 @@ mod tests {
     #[test]
     fn a_triangle_of_the_boundary_belongs_to_the_element_that_has_its_nodes() {
         let mesh = fem_mesh::box_mesh([1.0; 3], 2, fem_mesh::Pattern::Alternating).unwrap();
-        let (mesh, elements) = (fem_scene::BodyMesh::from(mesh.clone()), mesh.elements);
+        let (mesh, elements) = (fem_model::BodyMesh::from(mesh.clone()), mesh.elements);
         let shape = Shape { boundary: mesh.surface(), mesh, display: None, picture: None };
         for (triangle, element) in shape.boundary.iter().zip(elements_of_triangles(&shape)) {
             assert!(triangle.iter().all(|node| elements[element].contains(node)));

@@ -9,7 +9,7 @@ mod timers;
 
 use std::path::PathBuf;
 
-use fem_scene::simulation::Shape;
+use fem_model::simulation::Shape;
 use kiss3d::egui::{
     Align2, Area, Button, Color32, Context, CornerRadius, Frame, Grid, Id, Margin, Pos2, Rect, RichText, ScrollArea,
     Ui, vec2,

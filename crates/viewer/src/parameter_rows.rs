@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use fem_scene::simulation::{Parameter, least_stable_substeps};
+use fem_model::simulation::{Parameter, least_stable_substeps};
 use kiss3d::egui::{Align2, ComboBox, FontId, Sense, Slider, SliderClamping, Ui, vec2};
 
 use crate::change::Change;

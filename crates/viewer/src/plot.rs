@@ -2,8 +2,8 @@
 
 use kiss3d::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 
+use fem_model::simulation::EnergyLedger;
 use fem_scene::output::EnergyRow;
-use fem_scene::simulation::EnergyLedger;
 
 use crate::history::SPAN;
 use crate::theme;
@@ -151,7 +151,7 @@ fn digits(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use fem_scene::simulation::Energies;
+    use fem_model::simulation::Energies;
 
     use super::*;
 

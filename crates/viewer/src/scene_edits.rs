@@ -1,7 +1,8 @@
 //! The keys of a scene that are set when nodes are painted, faces loaded, or a method is chosen.
 
+use fem_model::{Integrator, Preconditioner, SolverKind};
 use fem_scene::tables::{FixedTable, IterationsTable, NewtonTable, SolverTable, TractionTable};
-use fem_scene::{Integrator, Override, Preconditioner, Scene, SolverKind};
+use fem_scene::{Override, Scene};
 
 use crate::change::{Edit, Effect};
 
@@ -118,7 +119,7 @@ pub fn solver(table: Option<&SolverTable>) -> Edit {
                 .map_or(String::new(), |kind| format!(", preconditioner = {:?}", preconditioner_name(kind)));
             let precision = precision.filter(|_| *kind == SolverKind::Gpu);
             let precision = precision.map_or(String::new(), |of| {
-                format!(", precision = {:?}", if of == fem_scene::Precision::F64 { "f64" } else { "f32" })
+                format!(", precision = {:?}", if of == fem_model::Precision::F64 { "f64" } else { "f32" })
             });
             vec![set(format!("solver={{kind = {:?}{tolerance}{preconditioner}{precision}}}", solver_name(*kind)))]
         }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use fem_scene::simulation::Parameter;
+use fem_model::simulation::Parameter;
 use fem_scene::tables::MeshTable;
 use fem_scene::{Override, Scene};
 use nalgebra::Vector3;

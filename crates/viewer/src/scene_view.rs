@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use fem_scene::simulation::{Plane, Shape};
+use fem_model::simulation::{Plane, Shape};
 use kiss3d::camera::Camera3d;
 use kiss3d::glamx::Vec3;
 use kiss3d::post_processing::Tonemap;

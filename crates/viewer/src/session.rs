@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use fem_scene::simulation::{Shape, Simulation};
+use fem_model::simulation::{Shape, Simulation};
 use kiss3d::glamx::{Vec2, Vec3};
 use kiss3d::window::Window;
 

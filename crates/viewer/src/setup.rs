@@ -9,7 +9,7 @@ mod tests;
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
 
-use fem_scene::simulation::Shape;
+use fem_model::simulation::Shape;
 use kiss3d::glamx::{Vec2, Vec3};
 
 use crate::camera::Camera;

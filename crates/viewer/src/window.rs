@@ -3,9 +3,9 @@
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use fem_model::simulation::Simulation;
 use fem_scene::Scene;
 use fem_scene::output::EnergyRow;
-use fem_scene::simulation::Simulation;
 use kiss3d::context::Context;
 use kiss3d::window::{CanvasSetup, NumSamples, Window};
 use thiserror::Error;

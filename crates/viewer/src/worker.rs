@@ -17,9 +17,9 @@ use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 
+use fem_model::simulation::{Click, Failure, Parameter, Pull, Shape, Simulation};
 use fem_scene::Scene;
 use fem_scene::output::{ElementField, EnergyRow};
-use fem_scene::simulation::{Click, Failure, Parameter, Pull, Shape, Simulation};
 use nalgebra::Vector3;
 
 use crate::change::Change;

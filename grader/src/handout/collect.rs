@@ -12,7 +12,7 @@ use super::{Files, HandoutError, manifest, stub};
 use crate::rubric::{Role, Rubric};
 
 /// Files and folders that are handed out whole. The tests of the repository, its map and its history are not.
-const WHOLE: [&str; 16] = [
+const WHOLE: [&str; 17] = [
     ".gitignore",
     "LICENSE-APACHE",
     "LICENSE-MIT",
@@ -22,6 +22,7 @@ const WHOLE: [&str; 16] = [
     "crates/chart",
     "crates/features",
     "crates/mesh",
+    "crates/model",
     "crates/scene",
     "crates/viewer",
     "data",

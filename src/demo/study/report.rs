@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use fem_model::simulation::Simulation;
 use fem_scene::Scene;
-use fem_scene::simulation::Simulation;
 use fem_study::experiments::write;
 use fem_study::linear;
 use fem_study::machine::Machine;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::Instant;
 
-use fem_scene::simulation::{Failure, Simulation};
+use fem_model::simulation::{Failure, Simulation};
 
 use super::message::{News, Ready};
 use crate::blueprint::Blueprint;

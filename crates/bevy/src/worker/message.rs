@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use bevy::mesh::Mesh;
-use fem_scene::simulation::Shape;
+use fem_model::simulation::Shape;
 
 use crate::SoftBodyError;
 use crate::SoftBodyPull;

@@ -14,7 +14,7 @@ use crate::app::{BAR, DATA, app, app_with, state, wait_for_bodies, wait_until};
 /// Positions after each step of the engine without Bevy, m.
 fn reference(scene: &Scene, steps: usize) -> Vec<Vec<DVec3>> {
     let body = fem_scene::body(scene, DATA.as_ref()).unwrap();
-    let mut simulation = fem_engine::simulator::build(scene, body).unwrap();
+    let mut simulation = fem_engine::simulator::build(body, &scene.method()).unwrap();
     let mut states = Vec::new();
     for step in 0..=steps {
         if step > 0 {

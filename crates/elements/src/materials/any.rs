@@ -65,11 +65,10 @@ macro_rules! laws {
         }
 
         impl<T: Number> AnyLaw<T> {
-            /// The law of a scene's table; `None` if the table lacks a known name or its parameters, as a checked table
-            /// never does.
-            pub fn new(table: &fem_scene::Material) -> Option<Self> {
-                $(if table.model == $Law::<T>::NAME {
-                    return $Law::from_scene(table).map(Self::$Law);
+            /// The law of a material; `None` if its body consists of springs.
+            pub fn new(material: &fem_model::Material) -> Option<Self> {
+                $(if let Some(law) = $Law::of(material) {
+                    return Some(Self::$Law(law));
                 })*
                 None
             }

@@ -269,9 +269,10 @@ impl<T: Number> Law<T> for Corotated<T> {
 impl<T: Number> NamedLaw<T> for Corotated<T> {
     const NAME: &'static str = "corotated";
 
-    fn from_scene(table: &fem_scene::Material) -> Option<Self> {
-        let (mu, lambda) = table.lame()?;
-        Some(Self { mu: constant(mu), lambda: constant(lambda) })
+    fn of(material: &fem_model::Material) -> Option<Self> {
+        let fem_model::Law::Corotated(elastic) = material.law else { return None };
+        let [mu, lambda] = elastic.lame(material.plane).map(constant);
+        Some(Self { mu, lambda })
     }
 
     fn moduli(&self) -> [T; 2] {

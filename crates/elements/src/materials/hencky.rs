@@ -75,9 +75,10 @@ impl<T: Number> NamedLaw<T> for Hencky<T> {
     const NAME: &'static str = "hencky";
     const ALLOWS_INVERSION: bool = false;
 
-    fn from_scene(table: &fem_scene::Material) -> Option<Self> {
-        let (mu, lambda) = table.lame()?;
-        Some(Self { mu: constant(mu), lambda: constant(lambda) })
+    fn of(material: &fem_model::Material) -> Option<Self> {
+        let fem_model::Law::Hencky(elastic) = material.law else { return None };
+        let [mu, lambda] = elastic.lame(material.plane).map(constant);
+        Some(Self { mu, lambda })
     }
 
     fn moduli(&self) -> [T; 2] {

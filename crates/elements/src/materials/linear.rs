@@ -71,9 +71,10 @@ impl<T: Number> NamedLaw<T> for Linear<T> {
     const NAME: &'static str = "linear";
     const IS_LINEAR: bool = true;
 
-    fn from_scene(table: &fem_scene::Material) -> Option<Self> {
-        let (mu, lambda) = table.lame()?;
-        Some(Self { mu: constant(mu), lambda: constant(lambda) })
+    fn of(material: &fem_model::Material) -> Option<Self> {
+        let fem_model::Law::Linear(elastic) = material.law else { return None };
+        let [mu, lambda] = elastic.lame(material.plane).map(constant);
+        Some(Self { mu, lambda })
     }
 
     fn moduli(&self) -> [T; 2] {

@@ -2,7 +2,7 @@
 //!
 //! A law takes the displacement gradient G = F − 1, because energies computed from F cancel near rest: at strain 1e-7
 //! they would lose all their digits. Stresses are first Piola–Kirchhoff, derivatives are ∂P/∂F, flattened row by row.
-//! [`AnyLaw`] is one of the laws, chosen by a scene.
+//! [`AnyLaw`] is one of the laws, chosen at run time.
 
 mod any;
 mod cauchy;
@@ -119,8 +119,8 @@ pub trait NamedLaw<T: Number>: Law<T> + Copy {
     /// True if the energy is finite for J = det F ≤ 0 too. If not, a step must keep J > 0 in every element.
     const ALLOWS_INVERSION: bool = true;
 
-    /// The law with a scene's parameters; `None` if the table lacks them, as a checked table never does.
-    fn from_scene(table: &fem_scene::Material) -> Option<Self>;
+    /// The law with its parameters; `None` if the material has another law.
+    fn of(material: &fem_model::Material) -> Option<Self>;
 
     /// Shear modulus and bulk modulus of small strain, Pa.
     fn moduli(&self) -> [T; 2];

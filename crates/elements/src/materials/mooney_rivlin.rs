@@ -141,8 +141,9 @@ impl<T: Number> NamedLaw<T> for MooneyRivlin<T> {
     const NAME: &'static str = "mooney_rivlin";
     const ALLOWS_INVERSION: bool = false;
 
-    fn from_scene(table: &fem_scene::Material) -> Option<Self> {
-        Some(Self { C10: constant(table.C10?), C01: constant(table.C01?), D: constant(table.D?) })
+    fn of(material: &fem_model::Material) -> Option<Self> {
+        let fem_model::Law::MooneyRivlin { C10, C01, D } = material.law else { return None };
+        Some(Self { C10: constant(C10), C01: constant(C01), D: constant(D) })
     }
 
     fn moduli(&self) -> [T; 2] {

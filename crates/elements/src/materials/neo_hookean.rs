@@ -56,9 +56,10 @@ impl<T: Number> NamedLaw<T> for NeoHookean<T> {
     const NAME: &'static str = "neo_hookean";
     const ALLOWS_INVERSION: bool = false;
 
-    fn from_scene(table: &fem_scene::Material) -> Option<Self> {
-        let (C, D) = table.neo_hookean()?;
-        Some(Self { C: constant(C), D: constant(D) })
+    fn of(material: &fem_model::Material) -> Option<Self> {
+        let fem_model::Law::NeoHookean(law) = material.law else { return None };
+        let [C, D] = law.moduli().map(constant);
+        Some(Self { C, D })
     }
 
     fn moduli(&self) -> [T; 2] {

@@ -94,9 +94,10 @@ impl<T: Number> Law<T> for StVenantKirchhoff<T> {
 impl<T: Number> NamedLaw<T> for StVenantKirchhoff<T> {
     const NAME: &'static str = "st_venant_kirchhoff";
 
-    fn from_scene(table: &fem_scene::Material) -> Option<Self> {
-        let (mu, lambda) = table.lame()?;
-        Some(Self { mu: constant(mu), lambda: constant(lambda) })
+    fn of(material: &fem_model::Material) -> Option<Self> {
+        let fem_model::Law::StVenantKirchhoff(elastic) = material.law else { return None };
+        let [mu, lambda] = elastic.lame(material.plane).map(constant);
+        Some(Self { mu, lambda })
     }
 
     fn moduli(&self) -> [T; 2] {

@@ -97,9 +97,10 @@ impl<T: Number> Law<T> for StableNeoHookean<T> {
 impl<T: Number> NamedLaw<T> for StableNeoHookean<T> {
     const NAME: &'static str = "stable_neo_hookean";
 
-    fn from_scene(table: &fem_scene::Material) -> Option<Self> {
-        let (mu, lambda) = table.lame()?;
-        Some(Self { mu: constant(mu), lambda: constant(lambda) })
+    fn of(material: &fem_model::Material) -> Option<Self> {
+        let fem_model::Law::StableNeoHookean(elastic) = material.law else { return None };
+        let [mu, lambda] = elastic.lame(material.plane).map(constant);
+        Some(Self { mu, lambda })
     }
 
     fn moduli(&self) -> [T; 2] {

@@ -79,8 +79,9 @@ impl<T: Number> NamedLaw<T> for Yeoh<T> {
     const NAME: &'static str = "yeoh";
     const ALLOWS_INVERSION: bool = false;
 
-    fn from_scene(table: &fem_scene::Material) -> Option<Self> {
-        let [C1, C2, C3, D] = [table.C1?, table.C2?, table.C3?, table.D?].map(constant);
+    fn of(material: &fem_model::Material) -> Option<Self> {
+        let fem_model::Law::Yeoh { C1, C2, C3, D } = material.law else { return None };
+        let [C1, C2, C3, D] = [C1, C2, C3, D].map(constant);
         Some(Self { C1, C2, C3, D })
     }
 

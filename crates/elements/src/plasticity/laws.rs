@@ -1,6 +1,6 @@
 //! The laws of batches of plastic elements.
 
-use fem_scene::Plasticity as Model;
+use fem_model::Plasticity as Model;
 
 use super::{Additive, J2, Plasticity, j2};
 use crate::elements::BatchLaws;

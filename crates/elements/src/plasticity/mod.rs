@@ -11,8 +11,8 @@ pub use additive::Additive;
 pub use j2::J2;
 pub use laws::{PlasticLaw, PlasticLaws, Purpose};
 
-use fem_scene::Plasticity as Model;
-use fem_scene::simulation::History;
+use fem_model::Plasticity as Model;
+use fem_model::simulation::History;
 
 use crate::history::{put, take};
 use crate::number::Float;

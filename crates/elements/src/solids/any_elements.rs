@@ -1,6 +1,6 @@
 //! Elements of either shape.
 
-use fem_scene::BodyMesh;
+use fem_model::BodyMesh;
 use nalgebra::Vector3;
 
 use crate::elements::Elements;

@@ -1,6 +1,6 @@
 //! The elements of a body, grouped by material: the loops over a group are compiled for its law.
 
-use fem_scene::{Body, DampingForm, Material, PlaneState};
+use fem_model::{Body, DampingForm, Material, PlaneState};
 use nalgebra::{Matrix3, Vector3};
 
 use super::Solids;
@@ -65,7 +65,7 @@ impl<T: Float> Groups<T> {
         };
         let count = count * points_per_element;
         let plasticity = body.plasticity.map(|model| Plasticity::new(model, count, body.shape.mesh.is_flat()));
-        let is_in_plane_stress = body.material.plane == Some(PlaneState::Stress);
+        let is_in_plane_stress = body.material.plane == PlaneState::Stress;
         Self {
             groups,
             count,

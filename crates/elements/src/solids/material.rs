@@ -1,6 +1,6 @@
 //! The elements of one material with its law, and the choice of the law and of the lanes for the loops over them.
 
-use fem_scene::{DampingForm, Plasticity as Model};
+use fem_model::{DampingForm, Plasticity as Model};
 
 use super::LawWork;
 use super::any_elements::AnyElements;

@@ -4,7 +4,7 @@ mod any_elements;
 mod groups;
 mod material;
 
-use fem_scene::DampingForm;
+use fem_model::DampingForm;
 use nalgebra::Matrix3;
 
 use crate::materials::{AnyLaw, Law};

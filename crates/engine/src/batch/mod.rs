@@ -1,4 +1,4 @@
-//! Batches: many environments of one scene, `[batch]`, which step together.
+//! Batches: many environments of one body, which step together.
 //!
 //! On the processor each environment is a [`Simulator`](crate::simulator::Simulator) of its own, spread over the threads. With
 //! `solver.kind = "gpu"` whole steps run on a graphics device, and states are read on request.
@@ -7,9 +7,8 @@
 mod device;
 mod processor;
 
-use fem_scene::simulation::Failure;
-use fem_scene::{Body, EnvironmentValues, Scene, SceneError, SolverKind};
-use nalgebra::Vector3;
+use fem_model::simulation::Failure;
+use fem_model::{Batch as Values, Body, EnvironmentValues, Method, Refusal, SolverKind};
 
 use crate::solvers::unusable_device;
 use processor::OnProcessor;
@@ -62,10 +61,10 @@ trait Environments: Send {
     fn place(&self) -> String;
 }
 
-/// Many environments of one scene.
+/// Many environments of one body.
 pub struct Batch {
     environments: Box<dyn Environments>,
-    scene: Scene,
+    values: Values,
     /// Failures after the number of steps at which they were asked for.
     failures: Option<Vec<EnvironmentFailure>>,
     dt: f64,
@@ -73,25 +72,25 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// Builds all environments of a scene; a scene without `[batch]` is one. `body` is that of the scene itself.
+    /// Builds all environments of a body.
     ///
-    /// Returns an error that names the field if the engine, or the device that the scene asks for, does not know something in it.
-    pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
-        let environments: Box<dyn Environments> = match on_device(scene, &body)? {
+    /// Returns an error that names the quantity if the engine, or the device that the method asks for, does not know something in it.
+    pub fn new(body: Body, method: &Method, values: Values) -> Result<Self, Refusal> {
+        let environments: Box<dyn Environments> = match on_device(&body, method, &values)? {
             Some(environments) => environments,
-            None => Box::new(OnProcessor::new(scene, &body)?),
+            None => Box::new(OnProcessor::new(&body, method, &values)?),
         };
-        Ok(Self { environments, dt: scene.method().dt, scene: scene.clone(), failures: None, steps: 0 })
+        Ok(Self { environments, dt: method.dt, values, failures: None, steps: 0 })
     }
 
     /// Number of environments.
     pub fn count(&self) -> usize {
-        self.scene.environments()
+        self.values.0.len()
     }
 
     /// The varied quantities of an environment.
     pub fn values(&self, environment: usize) -> EnvironmentValues {
-        self.scene.batch.as_ref().map_or_else(EnvironmentValues::default, |batch| batch.values(environment))
+        self.values.0[environment]
     }
 
     /// Steps so far.
@@ -154,27 +153,17 @@ impl Batch {
     }
 }
 
-/// The environments on the device that the scene asks for.
-fn on_device(scene: &Scene, body: &Body) -> Result<Option<Box<dyn Environments>>, SceneError> {
-    let Some(solver) = scene.method().solver.filter(|solver| solver.kind == SolverKind::Gpu) else { return Ok(None) };
+/// The environments on the device that the method asks for.
+fn on_device(body: &Body, method: &Method, values: &Values) -> Result<Option<Box<dyn Environments>>, Refusal> {
+    let Some(solver) = method.solver.as_ref().filter(|solver| solver.kind == SolverKind::Gpu) else { return Ok(None) };
     if let Some(problem) = unusable_device(solver.precision) {
-        let problem = format!("is \"gpu\", and {problem}; leave the table out");
-        return Err(scene.refuse("solver.kind", &problem));
+        return Err(Refusal::new("solver.kind", format!("is \"gpu\", and {problem}; leave the table out")));
     }
     #[cfg(feature = "gpu")]
-    return device::build(scene, body, solver.precision).map(Some);
+    return device::build(body, method, values, solver.precision).map(Some);
     #[cfg(not(feature = "gpu"))]
     {
-        let _ = body;
+        let _ = (body, values);
         Ok(None)
-    }
-}
-
-/// The body of an environment of a scene whose own body is `body`.
-fn body_of(environment: &Scene, body: &Body) -> Body {
-    Body {
-        material: environment.material.clone(),
-        gravity: environment.gravity.as_ref().map(|gravity| Vector3::from(gravity.acceleration)),
-        ..body.clone()
     }
 }

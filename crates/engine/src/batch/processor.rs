@@ -1,10 +1,10 @@
 //! Environments on the processor: a simulation each.
 
-use fem_scene::simulation::{Failure, Simulation};
-use fem_scene::{Body, Scene, SceneError};
+use fem_model::simulation::{Failure, Simulation};
+use fem_model::{Batch as Values, Body, Method, Refusal};
 use rayon::prelude::*;
 
-use super::{EnvironmentFailure, EnvironmentState, Environments, body_of};
+use super::{EnvironmentFailure, EnvironmentState, Environments};
 use crate::simulator;
 
 /// Largest number of elements of all environments together; an element takes a few hundred bytes.
@@ -20,22 +20,21 @@ struct OneOf {
 }
 
 impl OnProcessor {
-    /// Builds all simulations of a scene.
-    pub(super) fn new(scene: &Scene, body: &Body) -> Result<Self, SceneError> {
-        let (count, elements) = (scene.environments(), body.shape.mesh.elements());
+    /// Builds all simulations.
+    pub(super) fn new(body: &Body, method: &Method, values: &Values) -> Result<Self, Refusal> {
+        let (count, elements) = (values.0.len(), body.shape.mesh.elements());
         let most = (MOST_ELEMENTS / elements.max(1)).max(1);
         if count > most {
             let problem = format!(
                 "is {count}, and so many bodies of {elements} elements take too much memory; give {most} at most, or a coarser mesh"
             );
-            return Err(scene.refuse("batch.count", &problem));
+            return Err(Refusal::new("batch.count", problem));
         }
-        let of = |number: usize| {
-            let environment = scene.environment(number);
-            let simulation = simulator::build(&environment, body_of(&environment, body))?;
+        let of = |values| {
+            let simulation = simulator::build(body.environment(values), method)?;
             Ok(OneOf { simulation, failure: None })
         };
-        (0..count).into_par_iter().map(of).collect::<Result<_, SceneError>>().map(Self)
+        values.0.par_iter().map(of).collect::<Result<_, Refusal>>().map(Self)
     }
 }
 

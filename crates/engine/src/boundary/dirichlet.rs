@@ -4,7 +4,7 @@
 //! that become free at a time, keep their rows; their constrained degrees of freedom are eliminated from the matrix. A release
 //! therefore changes neither the numbering nor the pattern of the matrix. Nodes of a flat body are constrained along z at all times.
 
-use fem_scene::{Body, DirichletCondition, Motion, is_before};
+use fem_model::{Body, DirichletCondition, Motion, is_before};
 use nalgebra::Vector3;
 
 use crate::forces::Moment;

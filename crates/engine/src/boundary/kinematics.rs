@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use fem_scene::{LoadCurve, Motion};
+use fem_model::{LoadCurve, Motion};
 use nalgebra::Vector3;
 
 use super::dirichlet::DirichletConditions;
@@ -52,7 +52,7 @@ fn rates(motion: &Motion, curve: &LoadCurve, X: &Vector3<f64>, (time, inside): (
 
 #[cfg(test)]
 mod tests {
-    use fem_scene::Rotation;
+    use fem_model::Rotation;
 
     use super::*;
 

@@ -1,8 +1,8 @@
 //! Reactions: the forces of the constraints on the body, M a − f over the constrained degrees of freedom. The reaction of a free node
 //! is zero.
 
-use fem_scene::DirichletCondition;
-use fem_scene::simulation::Reaction;
+use fem_model::DirichletCondition;
+use fem_model::simulation::Reaction;
 
 use crate::forces::Moment;
 use crate::model::state::State;

@@ -1,10 +1,9 @@
 //! Rigid modes: a body that can move without deforming has no unique static equilibrium.
 
-use fem_scene::Body;
+use fem_model::{Body, Refusal};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use super::dirichlet::everywhere;
-use crate::refusal::Refusal;
 use fem_elements::vector::triple;
 
 /// A rigid motion is constrained if its stiffness is more than this part of the largest.
@@ -23,7 +22,7 @@ pub(crate) fn check(body: &Body) -> Result<(), Refusal> {
                 "is static, and the part of the body with node {root} can move or rotate as a rigid body; constrain it by \
                  [fixed] or [[prescribed]], or let it rest on [[planes]]"
             );
-            Err(("time.integrator", text))
+            Err(Refusal::new("time.integrator", text))
         }
         _ => Ok(()),
     }

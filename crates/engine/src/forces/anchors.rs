@@ -3,8 +3,8 @@
 
 use std::sync::Arc;
 
-use fem_scene::simulation::Shape;
-use fem_scene::{Anchor, Body, Interaction};
+use fem_model::simulation::Shape;
+use fem_model::{Anchor, Body, EdgeStiffness, Interaction, Law, NeoHookean};
 
 use super::{Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
@@ -117,5 +117,9 @@ impl<T: Real> Potential<T> for Anchors {
 
 /// Modulus of the anchor springs of a user's interaction, Pa. Times the body's length it gives a stiffness that deforms the body visibly.
 pub fn pull_modulus(body: &Body) -> f64 {
-    body.material.C.or(body.material.young.map(|young| young / 5.0)).unwrap_or(1e5)
+    match body.material.law {
+        Law::NeoHookean(NeoHookean::Moduli { C, .. }) => C,
+        Law::MassSpring { stiffness: EdgeStiffness::Young(young), .. } => young / 5.0,
+        law => law.elastic().map_or(1e5, |elastic| elastic.young / 5.0),
+    }
 }

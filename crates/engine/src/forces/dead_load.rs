@@ -1,6 +1,6 @@
 //! Dead loads: nodal forces that keep their direction, and their size up to a factor of time. Weight, body force, tractions, nodal forces.
 
-use fem_scene::{Body, LoadCurve};
+use fem_model::{Body, LoadCurve};
 use nalgebra::Vector3;
 
 use super::{Energy, Moment, Potential};

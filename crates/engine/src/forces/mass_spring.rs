@@ -6,7 +6,7 @@
 //! Springs transmit central forces, so the stiffness tensor C = Σ k l² n⊗n⊗n⊗n / V of an affine deformation has Cauchy's symmetry: an
 //! isotropic lattice has λ = μ, which is ν = 1/4 in space and ν = 1/3 in the plane (Love, Mathematical Theory of Elasticity, 1927, note B).
 
-use fem_scene::{Body, Spring};
+use fem_model::{Body, EdgeStiffness, Law, Spring};
 
 use super::Potential;
 use super::springs::{Source, Springs};
@@ -28,15 +28,12 @@ pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Pote
 
 /// The spring of each edge of a mass-spring body, with its nodes in the mesh's numbers; empty for a body of elastic elements.
 pub fn edges(body: &Body) -> Vec<Spring> {
-    if !body.material.is_mass_spring() {
-        return Vec::new();
-    }
-    let (mesh, material) = (&body.shape.mesh, &body.material);
-    let stiffness = |share: EdgeVolume, square: f64| match (material.stiffness, material.young) {
+    let Law::MassSpring { stiffness, damping } = body.material.law else { return Vec::new() };
+    let mesh = &body.shape.mesh;
+    let stiffness = |share: EdgeVolume, square: f64| match stiffness {
         // The factors on the moduli of elements scale a common stiffness by their mean over the edge's elements.
-        (Some(stiffness), _) => stiffness * share.weighted / share.volume,
-        (None, Some(young)) => young * share.weighted / square,
-        (None, None) => unreachable!("a mass-spring body without a stiffness is refused when it is read"),
+        EdgeStiffness::Uniform(stiffness) => stiffness * share.weighted / share.volume,
+        EdgeStiffness::Young(young) => young * share.weighted / square,
     };
     let spring = |(nodes, share): ([usize; 2], EdgeVolume)| {
         let [a, b] = nodes.map(|node| mesh.vertices()[node]);
@@ -45,7 +42,7 @@ pub fn edges(body: &Body) -> Vec<Spring> {
             stiffness: stiffness(share, (b - a).norm_squared()),
             rest_length: (b - a).norm(),
             is_initially_relaxed: true,
-            damping: material.damping.unwrap_or(0.0),
+            damping,
         }
     };
     volumes_of_edges(body).into_iter().map(spring).collect()

@@ -8,7 +8,7 @@ pub mod mass_spring;
 pub mod pressure;
 pub mod springs;
 
-use fem_scene::{Body, LoadCurve, Timer};
+use fem_model::{Body, LoadCurve, Timer};
 
 use crate::model::numbering::Numbering;
 use anchors::Anchors;

@@ -5,7 +5,7 @@ mod triangles;
 
 use std::collections::HashSet;
 
-use fem_scene::{Body, LoadCurve};
+use fem_model::{Body, LoadCurve};
 
 use super::{Energy, Moment, Potential};
 use crate::model::numbering::Numbering;
@@ -60,7 +60,7 @@ pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Pote
 }
 
 impl<T: Real> Pressure<T> {
-    fn new(body: &Body, pressure: &fem_scene::Pressure, numbering: &Numbering) -> Self {
+    fn new(body: &Body, pressure: &fem_model::Pressure, numbering: &Numbering) -> Self {
         let mesh = &body.shape.mesh;
         let engine_node = |node: usize| numbering.engine_node[node] as usize;
         let rim = match mesh.thickness() {
@@ -125,8 +125,8 @@ impl<T: Real> Potential<T> for Pressures<T> {
 }
 
 /// Tables of the same pressure and curve as one: the six sides of a box have a potential together, but not alone.
-fn joined(tables: &[fem_scene::Pressure]) -> Vec<fem_scene::Pressure> {
-    let mut joined: Vec<fem_scene::Pressure> = Vec::new();
+fn joined(tables: &[fem_model::Pressure]) -> Vec<fem_model::Pressure> {
+    let mut joined: Vec<fem_model::Pressure> = Vec::new();
     for table in tables {
         match joined.iter_mut().find(|earlier| (earlier.pressure, &earlier.curve) == (table.pressure, &table.curve)) {
             Some(earlier) => earlier.faces.extend(table.faces.iter().cloned()),

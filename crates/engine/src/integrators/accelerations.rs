@@ -1,6 +1,6 @@
 //! Accelerations for explicit methods: a(u, v, t) = M⁻¹ f(u, v, t). They need neither an energy nor a stiffness matrix.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_model::simulation::{Cause, Counters};
 
 use super::mass_inverse::MassInverse;
 use super::prescribed_motion::PrescribedMotion;

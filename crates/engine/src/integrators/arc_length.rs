@@ -5,7 +5,7 @@
 //! The load factor λ is an unknown beside the displacements. A step starts along the tangent, and is corrected by Newton's method in
 //! the plane normal to its increment: Ramm, Strategies for Tracing the Nonlinear Response Near Limit Points (1981).
 
-use fem_scene::simulation::{Cause, Counters, History};
+use fem_model::simulation::{Cause, Counters, History};
 
 use super::Convergence;
 use crate::forces::{HessianKind, Moment};
@@ -240,7 +240,7 @@ impl<T: Real> ArcLength<T> {
         time: f64,
         load_factor: f64,
         counters: &mut Counters,
-    ) -> Result<(), fem_scene::simulation::Breakdown> {
+    ) -> Result<(), fem_model::simulation::Breakdown> {
         let Self { solver, values, workspace, vectors: Vectors { u, of_load, .. }, .. } = self;
         let increment = Increment { start: u, end: Moment { time, load_factor: Some(load_factor) }, inertia: None };
         let potential = IncrementalPotential { system, increment, followers: &[] };

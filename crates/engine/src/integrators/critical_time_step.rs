@@ -1,6 +1,6 @@
 //! The critical time step of explicit methods, from the fastest vibration of the undeformed body.
 
-use fem_scene::{Integrator as IntegratorKind, NewmarkParameters};
+use fem_model::{Integrator as IntegratorKind, NewmarkParameters};
 use nalgebra::{Complex, DMatrix};
 
 use super::MassInverse;

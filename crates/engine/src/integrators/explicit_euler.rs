@@ -1,6 +1,6 @@
 //! Explicit Euler: u⁺ = u + dt v, v⁺ = v + dt a(u, v, t). First order; without damping a motion grows at any time step.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_model::simulation::{Cause, Counters};
 
 use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
 use crate::model::state::State;

@@ -1,6 +1,6 @@
 //! Follower loads in implicit methods: fixed while Newton's method runs, evaluated again until they no longer change.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_model::simulation::{Cause, Counters};
 
 use super::Convergence;
 use crate::model::system::System;

@@ -6,8 +6,8 @@
 //! change by impulses alone, which therefore add up to the change of momentum; positions are projected onto the plane. An impact is of
 //! first order in the time step, whatever the method; a body that rests or slides keeps the method's order.
 
-use fem_scene::simulation::History;
-use fem_scene::{ContactPlane, ContactTreatment, Integrator as IntegratorKind};
+use fem_model::simulation::History;
+use fem_model::{ContactPlane, ContactTreatment, Integrator as IntegratorKind};
 use nalgebra::Vector3;
 
 use crate::forces::contact::planes::{Near, Planes};

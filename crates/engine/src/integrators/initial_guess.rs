@@ -1,6 +1,6 @@
 //! The initial guess of a step of an implicit method: an increment of finite energy that satisfies the Dirichlet conditions.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_model::simulation::{Cause, Counters};
 
 use super::followers::Followers;
 use crate::model::system::System;

@@ -2,7 +2,7 @@
 //! Witkin, Large Steps in Cloth Simulation (1998). First order; no energy, no line search. Follower loads act on the surface at the
 //! start of the step.
 
-use fem_scene::simulation::{Cause, Counters, History};
+use fem_model::simulation::{Cause, Counters, History};
 
 use super::followers::Followers;
 use super::last_change::{extrapolate, finish};

@@ -1,6 +1,6 @@
 //! One load step of a nonlinear body, in smaller parts where Newton's method fails.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_model::simulation::{Cause, Counters};
 
 use super::Convergence;
 use super::followers::Followers;

@@ -55,7 +55,7 @@ pub(crate) use descent::color_nodes;
 #[cfg(feature = "gpu")]
 pub(crate) use projection::shape;
 
-use fem_scene::simulation::{Cause, Counters, History};
+use fem_model::simulation::{Cause, Counters, History};
 
 use crate::forces::Moment;
 use crate::model::state::State;

@@ -1,6 +1,6 @@
 //! PBD, position-based dynamics: Müller, Heidelberger, Hennix and Ratcliff, Position based dynamics (2007), algorithm 1.
 
-use fem_scene::IterationSettings;
+use fem_model::IterationSettings;
 
 use super::projection::{Constraints, Rule};
 use super::relaxation::Relaxed;

@@ -6,8 +6,8 @@
 //! of the method of 2014, equations 8 to 10. For other laws a line search decreases E in every round (2017, section 4), and rounds
 //! converge to the same step of implicit Euler.
 
-use fem_scene::IterationSettings;
-use fem_scene::simulation::{Breakdown, Cause, Counters};
+use fem_model::IterationSettings;
+use fem_model::simulation::{Breakdown, Cause, Counters};
 
 use super::initial_guess::infeasible;
 use super::{Convergence, Integrator, momentum};

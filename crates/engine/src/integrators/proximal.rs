@@ -5,7 +5,7 @@
 //! without a force on it does not occur, since the term keeps the centre of mass of such a body. The term ends with the residual
 //! σ M (uₖ₊₁ − uₖ), which is what forces lack of balance: below a tolerance uₖ₊₁ is an equilibrium without the term.
 
-use fem_scene::simulation::Cause;
+use fem_model::simulation::Cause;
 
 use crate::forces::Moment;
 use crate::model::system::System;

@@ -1,7 +1,7 @@
 //! The explicit midpoint rule, Runge (1895): a half step of explicit Euler, and a whole one with the slopes found there. Second
 //! order; a motion without damping grows, though slowly.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_model::simulation::{Cause, Counters};
 
 use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
 use crate::model::state::State;

@@ -1,6 +1,6 @@
 //! The classical Runge–Kutta method, Kutta (1901): fourth order; stable for ω dt < 2√2 of the fastest vibration.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_model::simulation::{Cause, Counters};
 
 use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
 use crate::model::state::State;

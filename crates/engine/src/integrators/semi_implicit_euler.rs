@@ -2,7 +2,7 @@
 //! vibration, where its energy oscillates about the exact one for all time, Hairer, Lubich, Wanner, Geometric Numerical Integration
 //! (2006), I.1.2.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_model::simulation::{Cause, Counters};
 
 use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
 use crate::model::state::State;

@@ -1,7 +1,7 @@
 //! Static equilibrium, ∇V(u) = 0, by load stepping: loads and prescribed motions grow in equal parts, one in each step, and those with a
 //! curve follow it over the pseudo-time that the steps count.
 
-use fem_scene::simulation::{Cause, Counters, History};
+use fem_model::simulation::{Cause, Counters, History};
 
 use super::arc_length::ArcLength;
 use super::load_step::LoadStep;

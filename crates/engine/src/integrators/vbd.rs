@@ -1,6 +1,6 @@
 //! VBD, vertex block descent: Chen, Liu, Yang and Yuksel, Vertex block descent (2024), algorithm 1.
 
-use fem_scene::IterationSettings;
+use fem_model::IterationSettings;
 
 use super::descent::Descent;
 use super::relaxation::Relaxed;

@@ -1,7 +1,7 @@
 //! Velocity Verlet, Swope et al. (1982): half a kick, a drift, half a kick. Second order; stable for ω dt < 2 of the fastest
 //! vibration; symplectic without damping.
 
-use fem_scene::simulation::{Cause, Counters, History};
+use fem_model::simulation::{Cause, Counters, History};
 
 use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
 use crate::model::state::State;

@@ -1,7 +1,7 @@
 //! XPBD, extended position-based dynamics: Macklin, Müller and Chentanez, XPBD: position-based simulation of compliant constrained
 //! dynamics (2016), algorithm 1, for the material of the body.
 
-use fem_scene::IterationSettings;
+use fem_model::IterationSettings;
 
 use super::projection::{Constraints, Rule};
 use super::relaxation::Relaxed;

@@ -3,7 +3,7 @@
 //! In the form `kelvin_voigt` K is the material part of the stiffness: no velocities of a rigid motion strain the elements, and springs are
 //! damped along themselves. In Rayleigh's form it is the stiffness itself, whose part from the stress turns with no rotation.
 
-use fem_scene::{Damping, DampingForm};
+use fem_model::{Damping, DampingForm};
 
 use super::state::State;
 use super::system::{INTERNAL, System};

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use fem_scene::Body;
+use fem_model::Body;
 use rayon::prelude::*;
 
 use fem_elements::Real;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fem_scene::{Body, BodyMesh};
+use fem_model::{Body, BodyMesh};
 
 use super::numbering::{Numbering, Ordering};
 use super::system::{OwnForces, System};

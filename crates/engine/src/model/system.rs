@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use fem_elements::solids::Solids;
-use fem_scene::simulation::Shape;
-use fem_scene::{Body, BodyMesh, Damping, Interaction};
+use fem_model::simulation::Shape;
+use fem_model::{Body, BodyMesh, Damping, Interaction};
 use nalgebra::{Matrix3, Vector3};
 
 use super::mass::{ElementMass, Mass, element_masses};

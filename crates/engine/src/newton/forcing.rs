@@ -2,7 +2,7 @@
 
 use super::{Factor, Iterate, Newton};
 use fem_elements::Real;
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// Largest relative residual of a direction.
 const LARGEST: f64 = 0.05;

@@ -1,7 +1,7 @@
 //! The Hessian of an iteration and its factor: exact, projected, or with a shifted diagonal.
 
-use fem_scene::Projection;
-use fem_scene::simulation::{Breakdown, Cause, Counters};
+use fem_model::Projection;
+use fem_model::simulation::{Breakdown, Cause, Counters};
 
 use super::incremental_potential::IncrementalPotential;
 use super::{Factor, Newton};

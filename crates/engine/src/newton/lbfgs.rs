@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use fem_scene::simulation::History;
+use fem_model::simulation::History;
 
 use fem_elements::Real;
 use fem_elements::history::{put, take};

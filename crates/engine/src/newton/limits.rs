@@ -1,6 +1,6 @@
 //! Termination of Newton's method.
 
-use fem_scene::Projection;
+use fem_model::Projection;
 
 /// Stopping criteria of Newton's method, and how it assembles its Hessian.
 #[derive(Clone, Copy, Debug, PartialEq)]

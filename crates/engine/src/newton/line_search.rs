@@ -1,6 +1,6 @@
 //! Backtracking line search: sufficient decrease of the energy, and a minimum of det F.
 
-use fem_scene::simulation::Counters;
+use fem_model::simulation::Counters;
 
 use super::{Iterate, Newton};
 use crate::newton::incremental_potential::{IncrementalPotential, Workspace};

@@ -17,7 +17,7 @@ mod second_derivative;
 
 pub use limits::NewtonLimits;
 
-use fem_scene::simulation::{Cause, Counters, History};
+use fem_model::simulation::{Cause, Counters, History};
 
 use crate::forces::{Energy, HessianKind};
 use crate::solvers::Solver;

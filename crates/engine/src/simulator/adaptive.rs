@@ -4,7 +4,7 @@
 //! parts of a step of dt add no more than tolerance · length. The step is chosen by a PI controller: Gustafsson, Lundh, Söderlind, A PI
 //! Stepsize Control for the Numerical Solution of Ordinary Differential Equations (1988).
 
-use fem_scene::simulation::{Cause, Failure, History};
+use fem_model::simulation::{Cause, Failure, History};
 
 use super::Simulator;
 use crate::integrators::Convergence;

@@ -1,6 +1,6 @@
 //! Checkpoints of a simulator: its state, and the data that its integrator keeps from step to step.
 
-use fem_scene::simulation::{Checkpoint, History, Simulation};
+use fem_model::simulation::{Checkpoint, History, Simulation};
 
 use super::{Compiled, Simulator};
 use crate::forces::Moment;

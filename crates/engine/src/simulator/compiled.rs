@@ -3,8 +3,8 @@
 //! A generic function is compiled anew in each crate that calls it, and a simulation holds all elements, laws and solvers. Large
 //! functions are therefore called through a trait with an implementation for each type, which is compiled once, here.
 
-use fem_scene::simulation::{Energies, EnergyLedger, Failure, Reaction};
-use fem_scene::{Body, Scene, SceneError};
+use fem_model::simulation::{Energies, EnergyLedger, Failure, Reaction};
+use fem_model::{Body, Method, Refusal};
 use nalgebra::Matrix3;
 
 use super::Simulator;
@@ -15,7 +15,7 @@ use fem_elements::Real;
 /// A number type that the engine simulates in: `f32` or `f64`. Its functions are the bodies of [`Simulator`]'s of the same names.
 pub trait Compiled: Real {
     #[doc(hidden)]
-    fn with_forces(scene: &Scene, body: Body, own: OwnForces<Self>) -> Result<Simulator<Self>, SceneError>;
+    fn with_forces(body: Body, method: &Method, own: OwnForces<Self>) -> Result<Simulator<Self>, Refusal>;
     #[doc(hidden)]
     fn step(simulator: &mut Simulator<Self>) -> Result<(), Failure>;
     #[doc(hidden)]
@@ -45,8 +45,8 @@ pub trait Compiled: Real {
 macro_rules! compiled {
     ($($number:ty),*) => { $(
         impl Compiled for $number {
-            fn with_forces(scene: &Scene, body: Body, own: OwnForces<Self>) -> Result<Simulator<Self>, SceneError> {
-                Simulator::assembled(scene, body, own)
+            fn with_forces(body: Body, method: &Method, own: OwnForces<Self>) -> Result<Simulator<Self>, Refusal> {
+                Simulator::assembled(body, method, own)
             }
 
             fn step(simulator: &mut Simulator<Self>) -> Result<(), Failure> {

@@ -1,7 +1,7 @@
 //! Contact in a simulation: steps that keep the body outside its obstacles, and the forces of the obstacles.
 
-use fem_scene::simulation::{Cause, History, Plane, PlaneContact};
-use fem_scene::{Body, ContactPlane, ContactTreatment, Timer};
+use fem_model::simulation::{Cause, History, Plane, PlaneContact};
+use fem_model::{Body, ContactPlane, ContactTreatment, Timer};
 use nalgebra::Vector3;
 
 use super::Simulator;

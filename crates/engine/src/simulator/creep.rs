@@ -1,6 +1,6 @@
 //! Friction below its transition speed: how long, and how far nodes have slid there.
 
-use fem_scene::simulation::History;
+use fem_model::simulation::History;
 
 use crate::forces::contact::barrier::Barrier;
 use crate::forces::contact::friction::{norm, slope_over_y, tangential};

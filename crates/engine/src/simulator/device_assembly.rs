@@ -1,6 +1,6 @@
 //! Decides whether a graphics device that solves also assembles the matrix.
 
-use fem_scene::{Body, Integrator as IntegratorKind, Method, Projection};
+use fem_model::{Body, Integrator as IntegratorKind, Method, Projection};
 
 use crate::model::system::System;
 use fem_elements::Real;
@@ -27,7 +27,7 @@ pub(super) fn unknown_in_body(body: &Body) -> Option<String> {
     let in_regions: usize = body.regions.iter().map(|region| region.elements.len()).sum();
     let own = (in_regions < body.shape.mesh.elements()).then_some(&body.material);
     let materials = own.into_iter().chain(body.regions.iter().map(|region| &region.material));
-    let laws: Vec<&str> = materials.map(|material| &material.model[..]).collect();
+    let laws: Vec<&str> = materials.map(|material| material.law.name()).collect();
     unknown_elements(body.shape.mesh.solid().is_some(), body.plasticity.is_some(), &laws)
 }
 

@@ -90,7 +90,7 @@ mod tests {
                 "pipeline=\"engine\"\nmesh.box={{size=[1,1,1],cells_per_unit=1}}\nmaterial={{model=\"{name}\",young=1e5,poisson=0.3,density=1}}\ntime={{dt=1,integrator=\"static\"}}"
             );
             let scene = fem_scene::parse(&text, "laws.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"));
-            law(&AnyLaw::<f64>::new(&scene.material).expect("it has its parameters")).is_some()
+            law(&AnyLaw::<f64>::new(&scene.material.value()).expect("it has its parameters")).is_some()
         };
         assert!(LAWS.iter().all(|name| known(name)));
         assert!(!known("hencky"));

@@ -3,8 +3,8 @@
 //! The generic functions of the same names are compiled anew in each crate that calls them, with all elements, laws and solvers; these
 //! are compiled here, once.
 
-use fem_scene::Body;
-use fem_scene::simulation::{Breakdown, Cause};
+use fem_model::Body;
+use fem_model::simulation::{Breakdown, Cause};
 
 use crate::forces::{Energy, HessianKind, Moment};
 use crate::integrators::MassInverse;

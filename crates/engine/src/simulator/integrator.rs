@@ -1,6 +1,6 @@
 //! The integrator that a scene names, with its limits and its linear solver.
 
-use fem_scene::{Body, Integrator as IntegratorKind, Method, SolverKind};
+use fem_model::{Body, Integrator as IntegratorKind, Method, Refusal, SolverKind};
 
 use super::Simulator;
 use crate::forces::contact::planes::Planes;
@@ -10,7 +10,6 @@ use crate::integrators::{
 };
 use crate::model::system::System;
 use crate::newton::{Newton, NewtonLimits};
-use crate::refusal::Refusal;
 use crate::simulator::device_assembly;
 #[cfg(feature = "gpu")]
 use crate::simulator::device_elements;
@@ -100,7 +99,7 @@ const NEARLY_INCOMPRESSIBLE: f64 = 0.49;
 pub(super) fn solver_choice(method: &Method, body: &Body) -> SolverChoice {
     let nodes = body.shape.mesh.vertices().len();
     let regions = body.regions.iter().map(|region| &region.material);
-    let mut ratios = regions.chain([&body.material]).filter_map(|material| material.poissons_ratio());
+    let mut ratios = regions.chain([&body.material]).filter_map(|material| material.law.poissons_ratio());
     let suits_factor = ratios.any(|ratio| ratio > NEARLY_INCOMPRESSIBLE) && factor_fits(nodes);
     let is_static = method.integrator == IntegratorKind::Static;
     match &method.solver {
@@ -124,7 +123,10 @@ const MOST_DIRECTIONS: usize = 1000;
 pub(super) fn check_solver(method: &Method, nodes: usize) -> Result<(), Refusal> {
     let on_device = method.solver.as_ref().filter(|solver| solver.kind == SolverKind::Gpu);
     if let Some(problem) = on_device.and_then(|solver| unusable_device(solver.precision)) {
-        return Err(("solver.kind", format!("is \"gpu\", and {problem}; write \"pcg\", or leave the table out")));
+        return Err(Refusal::new(
+            "solver.kind",
+            format!("is \"gpu\", and {problem}; write \"pcg\", or leave the table out"),
+        ));
     }
     let is_kept = method.solver.as_ref().is_some_and(|solver| solver.kind == SolverKind::ConjugateDirections);
     if !is_kept || nodes <= MOST_DIRECTIONS {
@@ -134,7 +136,7 @@ pub(super) fn check_solver(method: &Method, nodes: usize) -> Result<(), Refusal>
         "is \"conjugate_directions\", which keeps every direction, and this body has {nodes} nodes, more than {MOST_DIRECTIONS}; write \
          \"cg\", which has the same iterates, or take a coarser mesh"
     );
-    Err(("solver.kind", problem))
+    Err(Refusal::new("solver.kind", problem))
 }
 
 /// Builds the integrator that a running simulation is switched to. An explicit scene has no pattern until an implicit method needs one.

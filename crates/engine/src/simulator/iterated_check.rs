@@ -1,9 +1,8 @@
 //! Forces that the iterated methods refuse.
 
-use fem_scene::Method;
+use fem_model::{Method, Refusal};
 
 use crate::forces::{Forces, anchors, dead_load, springs};
-use crate::refusal::Refusal;
 use fem_elements::Real;
 
 /// Refuses forces that a method which moves nodes one by one does not know: those of a program's own.
@@ -14,7 +13,7 @@ pub(super) fn check_forces<T: Real>(method: &Method, forces: &Forces<T>) -> Resu
     let name = method.integrator.name();
     let known = [dead_load::NAME, springs::NAME, anchors::NAME];
     match forces.all().map(|(force, _)| force.name()).find(|name| !known.contains(name)) {
-        Some(force) => Err((
+        Some(force) => Err(Refusal::new(
             "time.integrator",
             format!("is \"{name}\", which does not know the force `{force}`; use implicit_euler"),
         )),

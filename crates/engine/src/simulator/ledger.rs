@@ -8,7 +8,7 @@
 //! every [`IMPLICIT`] steps. Works that depend on the path are summed in every step, by the rule that is exact for a linear
 //! body: see [`work`](super::work).
 
-use fem_scene::simulation::{Cause, EnergyLedger, History};
+use fem_model::simulation::{Cause, EnergyLedger, History};
 
 use super::energies::{kinetic_of_motions, plastic, rounding, steady_potential, stored};
 use super::work::StepWork;

@@ -1,6 +1,6 @@
 //! The parts of a simulation with the memory and the time that each has taken.
 
-use fem_scene::simulation::Part;
+use fem_model::simulation::Part;
 
 use super::Simulator;
 use crate::forces::anchors;

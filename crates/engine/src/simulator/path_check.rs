@@ -1,16 +1,14 @@
 //! Loads and solvers that `static.arc_length` refuses.
 
-use fem_scene::{Body, Method, SolverKind};
+use fem_model::{Body, Method, Refusal, SolverKind};
 use nalgebra::Vector3;
-
-use crate::refusal::Refusal;
 
 /// Refuses a scene whose loads are not proportional to the load factor, or whose solver needs a positive definite matrix.
 pub(super) fn check(method: &Method, body: &Body) -> Result<(), Refusal> {
     if !method.arc_length {
         return Ok(());
     }
-    let moves = |motion: &fem_scene::Motion| motion.displacement != Vector3::zeros() || motion.rotation.is_some();
+    let moves = |motion: &fem_model::Motion| motion.displacement != Vector3::zeros() || motion.rotation.is_some();
     if let Some(condition) = body.dirichlet.iter().find(|condition| condition.motion.as_ref().is_some_and(moves)) {
         return refuse(format!(
             "follows loads, and {} is a motion; prescribe a load, or remove arc_length",
@@ -24,7 +22,7 @@ pub(super) fn check(method: &Method, body: &Body) -> Result<(), Refusal> {
         None | Some(SolverKind::Lu) => Ok(()),
         Some(_) => {
             let problem = "is for positive definite matrices, and beyond a limit point there is none; remove [solver], or give \"lu\"";
-            Err(("solver.kind", problem.to_owned()))
+            Err(Refusal::new("solver.kind", problem.to_owned()))
         }
     }
 }
@@ -41,5 +39,5 @@ pub(super) fn check_force(method: &Method, is_conservative: bool) -> Result<(), 
 }
 
 fn refuse(problem: String) -> Result<(), Refusal> {
-    Err(("static.arc_length", problem))
+    Err(Refusal::new("static.arc_length", problem))
 }

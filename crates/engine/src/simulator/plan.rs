@@ -1,7 +1,7 @@
 //! Plans the parts of a simulation from its body and its method, before they are built: the parts, those left out, and the reasons.
 
-use fem_scene::simulation::Part;
-use fem_scene::{
+use fem_model::simulation::Part;
+use fem_model::{
     Body, CONSISTENT_MASS, ContactTreatment, Integrator as IntegratorKind, Material, Method, Precision, Projection,
 };
 
@@ -192,8 +192,8 @@ fn material(material: &Material) -> String {
         "damping" => format!(", {name} = {value:.4e} N s/m"),
         _ => format!(", {name} = {value:.4e} Pa"),
     };
-    let parameters: String = material.parameters().map(parameter).collect();
-    format!("{}{parameters}{note}", material.model)
+    let parameters: String = material.law.parameters().into_iter().map(parameter).collect();
+    format!("{}{parameters}{note}", material.law.name())
 }
 
 fn mass(is_lumped: bool, kind: IntegratorKind) -> String {

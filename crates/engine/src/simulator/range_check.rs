@@ -1,10 +1,9 @@
 //! Checks that a scene's numbers, and the quantities derived from them, fit into the number type of the simulation.
 
-use fem_scene::{Material, Method, Precision};
+use fem_model::{Material, Method, Precision, Refusal};
 
 use super::integrator::SMALLEST_TOLERANCE;
 use crate::model::system::System;
-use crate::refusal::Refusal;
 use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
 use fem_elements::number::is_positive;
@@ -17,7 +16,7 @@ pub(super) fn check_tolerance(method: &Method, epsilon: f64) -> Result<(), Refus
             let problem =
                 format!("is {tolerance:e}, which rounding error does not let a step reach; give {least:.1e} or more");
             let remedy = if method.precision == Precision::F32 { ", or remove time.precision" } else { "" };
-            Err(("newton.tolerance", problem + remedy))
+            Err(Refusal::new("newton.tolerance", problem + remedy))
         }
         _ => Ok(()),
     }
@@ -46,7 +45,7 @@ pub(super) fn check<T: Real>(method: &Method, system: &System<T>) -> Result<(), 
     let derived = derived.into_iter().find(|(_, _, fits)| !fits).map(|(field, quantity, _)| (field, quantity));
     let forces = || system.forces.all().find_map(|(potential, _)| potential.out_of_range());
     match derived.or_else(forces) {
-        Some((field, quantity)) => Err((field, problem(method, quantity))),
+        Some((field, quantity)) => Err(Refusal::new(field, problem(method, quantity))),
         None => Ok(()),
     }
 }

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-use fem_scene::Integrator as IntegratorKind;
-use fem_scene::simulation::{
+use fem_model::Integrator as IntegratorKind;
+use fem_model::simulation::{
     Checkpoint, Click, Counters, Energies, EnergyLedger, Failure, Parameter, Part, Plane, PlaneContact, PlasticFlow,
     Pull, Reaction, Shape, Simulation,
 };

@@ -1,6 +1,6 @@
 //! One step of the simulation, in substeps of equal or of adapted size.
 
-use fem_scene::simulation::Failure;
+use fem_model::simulation::Failure;
 
 use super::Simulator;
 use crate::integrators::Convergence;

@@ -1,6 +1,6 @@
 //! Checks of a state that a graphics device has computed.
 
-use fem_scene::simulation::{Failure, Simulation};
+use fem_model::simulation::{Failure, Simulation};
 
 use super::Simulator;
 use super::compiled::Compiled;

@@ -1,7 +1,7 @@
 //! Substeps: one is computed, and accepted or undone.
 
-use fem_scene::Integrator as IntegratorKind;
-use fem_scene::simulation::{Cause, Failure};
+use fem_model::Integrator as IntegratorKind;
+use fem_model::simulation::{Cause, Failure};
 
 use super::Simulator;
 use super::ledger::{Ledger, Step};

@@ -16,8 +16,8 @@ use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::history::put;
 use fem_elements::vector::{dot, scale, set_zero, triple};
-use fem_scene::Integrator as IntegratorKind;
-use fem_scene::simulation::History;
+use fem_model::Integrator as IntegratorKind;
+use fem_model::simulation::History;
 use nalgebra::Vector3;
 
 /// Energies supplied and dissipated, J.

@@ -2,7 +2,7 @@
 
 use fem_elements::number::Float;
 use fem_elements::sparse::Block;
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// Inverse L⁻ᵀ L⁻¹ of a symmetric positive definite block, from its lower triangle.
 #[inline(always)]
@@ -74,7 +74,7 @@ pub(crate) fn invert_lower<T: Float, const D: usize>(L: &Block<T, D>) -> Block<T
 #[cfg(test)]
 mod tests {
     use super::invert;
-    use fem_scene::simulation::Breakdown;
+    use fem_model::simulation::Breakdown;
 
     #[test]
     fn a_block_times_its_inverse_is_the_identity() {

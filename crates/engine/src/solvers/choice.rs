@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-pub use fem_scene::Preconditioner;
+pub use fem_model::Preconditioner;
 
 use crate::model::numbering::Ordering;
 use fem_elements::sparse::Stored;
-use fem_scene::{Precision, SolverKind, SolverSettings};
+use fem_model::{Precision, SolverKind, SolverSettings};
 
 /// A method to solve linear systems.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use super::ApproximateInverse;
 use super::direct::FaerCholesky;
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// The factor of a matrix with which the iterative solver has broken down.
 pub(super) struct DirectFallback<T: Real> {

@@ -5,7 +5,7 @@ use super::assembly::Assembly;
 use super::assembly::DeviceElements;
 use fem_elements::Real;
 use fem_elements::sparse::Block;
-use fem_scene::simulation::{Breakdown, History};
+use fem_model::simulation::{Breakdown, History};
 
 /// An approximate inverse P⁻¹ of a matrix A: a factor, which is exact up to round-off, or a preconditioner. It is created for
 /// one sparsity pattern and prepared for the values of a matrix. Neither `prepare` nor `apply` allocates after the first time.

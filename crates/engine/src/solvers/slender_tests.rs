@@ -5,7 +5,7 @@ use super::fallback::DirectFallback;
 use super::{Preconditioner, Solver, SolverChoice};
 use fem_elements::sparse::Stored;
 use fem_elements::vector::{norm, subtract_from};
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 const MULTIGRID: SolverChoice = SolverChoice::Pcg(Preconditioner::Multigrid);
 

@@ -22,8 +22,8 @@ use super::parts::Part;
 use super::preconditioners::{BlockJacobi, Identity, IncompleteCholesky, Multigrid, Ssor};
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern, Stored};
-use fem_scene::Timer;
-use fem_scene::simulation::Breakdown;
+use fem_model::Timer;
+use fem_model::simulation::Breakdown;
 
 /// A solver for matrices of one sparsity pattern. It allocates nothing after the first [`prepare`](Self::prepare) and
 /// [`solve`](Self::solve), but for the directions that conjugate directions keep.

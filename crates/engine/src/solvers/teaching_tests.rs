@@ -87,7 +87,7 @@ fn conjugate_directions_have_the_iterates_of_conjugate_gradients_and_end_within_
 
 #[test]
 fn an_indefinite_matrix_and_a_tolerance_out_of_reach_are_reported() {
-    use fem_scene::simulation::Breakdown;
+    use fem_model::simulation::Breakdown;
     let beam = Beam::new(2, SolverChoice::Cg.stored());
     let b = random(beam.pattern.rows(), 3);
     let solve = |choice, values: &[[[f64; 3]; 3]]| {

@@ -5,7 +5,7 @@ use super::krylov::{parts, product};
 use super::{Preconditioner, Solver, SolverChoice};
 use fem_elements::Real;
 use fem_elements::vector::{dot, norm, subtract_from};
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// Those for teaching have tests of their own.
 const CHOICES: [SolverChoice; 7] = [

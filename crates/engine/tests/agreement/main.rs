@@ -6,8 +6,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use fem_scene::simulation::Simulation;
-use fem_scene::{Integrator, Scene, body, load, parse};
+use fem_model::Integrator;
+use fem_model::simulation::Simulation;
+use fem_scene::{Scene, body, load, parse};
 use nalgebra::Vector3;
 use serde::Deserialize;
 
@@ -44,7 +45,7 @@ fn data() -> PathBuf {
 /// The scene after so many steps, all of which have converged.
 fn run(scene: &Scene, steps: usize) -> Box<dyn Simulation> {
     let body = body(scene, &data()).unwrap_or_else(|error| panic!("{error}"));
-    let mut simulation = fem_engine::simulator::build(scene, body).unwrap_or_else(|error| panic!("{error}"));
+    let mut simulation = fem_engine::simulator::build(body, &scene.method()).unwrap_or_else(|error| panic!("{error}"));
     for _ in 0..steps {
         simulation.step().unwrap_or_else(|failure| panic!("{failure}"));
     }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem_engine::simulator;
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 const SCENE: &str = r#"
 pipeline = "engine"
@@ -39,7 +39,7 @@ fn allocations_of(scene: &str, more: &str) -> u64 {
     let text = format!("{scene}{more}");
     let scene = fem_scene::parse(&text, Path::new("allocations.toml")).unwrap();
     let body = fem_scene::body(&scene, Path::new("../../data")).unwrap();
-    let mut simulation = simulator::build(&scene, body).unwrap();
+    let mut simulation = simulator::build(body, &scene.method()).unwrap();
     let mut steps = |count: usize| (0..count).for_each(|_| simulation.step().unwrap());
     steps(10);
     allocation_counter::measure(|| steps(20)).count_total
@@ -118,7 +118,7 @@ fn built(text: &str) -> (Box<dyn Simulation>, i64) {
     let info = allocation_counter::measure(|| {
         let scene = fem_scene::parse(text, Path::new("allocations.toml")).unwrap();
         let body = fem_scene::body(&scene, Path::new("no data")).unwrap();
-        simulation = Some(simulator::build(&scene, body).unwrap());
+        simulation = Some(simulator::build(body, &scene.method()).unwrap());
     });
     (simulation.unwrap(), info.bytes_current)
 }

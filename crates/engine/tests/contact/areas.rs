@@ -1,6 +1,6 @@
 //! The area with which a node bears on a plane: that of the faces around it which look at the plane.
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 use crate::{CUBE, build, floor, run, text};
 

@@ -16,7 +16,7 @@ mod turned;
 use std::path::Path;
 
 use fem_engine::simulator::Simulator;
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use fem_scene::{Scene, SceneError, parse};
 
 /// The methods that support contact and move.
@@ -50,7 +50,7 @@ fn scene(text: &str) -> Scene {
 fn try_build(text: &str) -> Result<Simulator<f64>, SceneError> {
     let scene = parse(text, Path::new("folder/name.toml"))?;
     let body = fem_scene::body(&scene, Path::new("no data"))?;
-    Simulator::new(&scene, body)
+    Simulator::new(body, &scene.method()).map_err(|refusal| scene.refused(refusal))
 }
 
 fn build(text: &str) -> Simulator<f64> {

@@ -28,7 +28,7 @@ fn assert_stays_outside(text: &str, seconds: f64) -> usize {
     let scene = scene(text);
     let body = fem_scene::body(&scene, "no data".as_ref()).unwrap();
     let planes = body.contact.as_ref().unwrap().planes.clone();
-    let mut simulation = simulator::build(&scene, body).unwrap();
+    let mut simulation = simulator::build(body, &scene.method()).unwrap();
     let mut touched = false;
     while simulation.time() < seconds {
         simulation.step().unwrap_or_else(|failure| panic!("{failure}\n{text}"));

@@ -1,8 +1,8 @@
 //! A scene that is turned as a whole has the same answer.
 
 use fem_engine::simulator::Simulator;
-use fem_scene::BodyMesh;
-use fem_scene::simulation::{Shape, Simulation};
+use fem_model::BodyMesh;
+use fem_model::simulation::{Shape, Simulation};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::{CUBE, METHODS, is_implicit, run, scene, text};
@@ -33,7 +33,7 @@ fn falling(turn: Rotation3<f64>, method: &str, dt: f64) -> Simulator<f64> {
     if let BodyMesh::Solid(mesh) = &mut shape.mesh {
         mesh.vertices.iter_mut().for_each(|x| *x = turn * *x);
     }
-    Simulator::new(&scene, fem_scene::body_of_shape(&scene, shape, "no data".as_ref()).unwrap()).unwrap()
+    Simulator::new(fem_scene::body_of_shape(&scene, shape, "no data".as_ref()).unwrap(), &scene.method()).unwrap()
 }
 
 #[test]

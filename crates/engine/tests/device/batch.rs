@@ -1,8 +1,8 @@
 //! Steps of many environments on a graphics device beside those on the processor.
 
 use fem_engine::batch::Batch;
+use fem_model::simulation::Cause;
 use fem_scene::parse;
-use fem_scene::simulation::Cause;
 
 pub(crate) const BEAM: &str = r#"pipeline = "engine"
 [mesh]
@@ -56,7 +56,7 @@ pub(crate) fn batch(text: &str) -> Option<Batch> {
 pub(crate) fn build(text: &str) -> Result<Batch, String> {
     let scene = parse(text, "batch.toml".as_ref()).map_err(|error| error.to_string())?;
     let body = fem_scene::body(&scene, "no data".as_ref()).map_err(|error| error.to_string())?;
-    Batch::new(&scene, body).map_err(|error| error.to_string())
+    Batch::new(body, &scene.method(), scene.environment_values()).map_err(|refusal| scene.refused(refusal).to_string())
 }
 
 pub(crate) fn gpu(precision: &str) -> String {

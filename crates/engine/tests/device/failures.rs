@@ -1,6 +1,6 @@
 //! Batches on a graphics device that diverge or do not converge.
 
-use fem_scene::simulation::Cause;
+use fem_model::simulation::Cause;
 
 use crate::batch::{BEAM, ONE, VARIED, batch, build, gpu};
 

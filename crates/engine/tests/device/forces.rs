@@ -2,7 +2,8 @@
 
 use fem_engine::simulator::{Compiled, Simulator};
 use fem_gpu::{Bodies, Body, Device, Environment, Law, Method, Number, Scheme, Tetrahedra};
-use fem_scene::{BodyMesh, parse};
+use fem_model::BodyMesh;
+use fem_scene::parse;
 use nalgebra::{Matrix3, Vector3};
 use rand::{RngExt, SeedableRng};
 
@@ -36,7 +37,7 @@ pub(crate) fn device_laws() -> [(&'static str, Law, [f64; 2]); 5] {
 }
 
 /// The elements of the scene's box, each with four nodes of its own.
-fn parted(model: &str) -> (fem_scene::Scene, fem_scene::Body) {
+fn parted(model: &str) -> (fem_scene::Scene, fem_model::Body) {
     let scene = parse(&SCENE.replace("MODEL", model), "parted.toml".as_ref()).unwrap();
     let whole = fem_scene::body(&scene, "no data".as_ref()).unwrap();
     let BodyMesh::Solid(mut mesh) = whole.shape.mesh else { panic!("a box of tetrahedra") };
@@ -49,7 +50,7 @@ fn parted(model: &str) -> (fem_scene::Scene, fem_scene::Body) {
 }
 
 /// The same elements as arrays, in the mesh's numbering.
-pub(crate) fn tetrahedra(body: &fem_scene::Body) -> Tetrahedra {
+pub(crate) fn tetrahedra(body: &fem_model::Body) -> Tetrahedra {
     let BodyMesh::Solid(mesh) = &body.shape.mesh else { panic!("tetrahedra") };
     let mut arrays = Tetrahedra::default();
     for element in &mesh.elements {
@@ -64,7 +65,7 @@ pub(crate) fn tetrahedra(body: &fem_scene::Body) -> Tetrahedra {
 }
 
 /// Displacements up to an amplitude (m) under which each element has more than so much of its volume.
-fn displacements(body: &fem_scene::Body, amplitude: f64, least: f64) -> Vec<[f64; 3]> {
+fn displacements(body: &fem_model::Body, amplitude: f64, least: f64) -> Vec<[f64; 3]> {
     let mut random = rand::rngs::ChaCha8Rng::seed_from_u64(7);
     let mesh = &body.shape.mesh;
     let mut u = vec![[0.0; 3]; mesh.vertices().len()];
@@ -102,7 +103,7 @@ fn error<T: Compiled, N: Number>(device: &std::sync::Arc<Device>, law: usize, (a
     bodies.set_state(1, &u, &vec![[0.0; 3]; u.len()]).unwrap();
     let found = bodies.elastic_forces(1).unwrap();
     assert!(bodies.elastic_forces(2).unwrap().iter().flatten().all(|force| force.as_f64() == 0.0), "{name}: at rest");
-    let simulator = Simulator::<T>::new(&scene, body).unwrap();
+    let simulator = Simulator::<T>::new(body, &scene.method()).unwrap();
     let system = simulator.system();
     let in_order: Vec<[T; 3]> = system.numbering.mesh_node.iter().map(|&node| u[node as usize].map(T::of)).collect();
     let mut gradient = vec![[T::default(); 3]; u.len()];

@@ -9,7 +9,7 @@ mod stiffness;
 
 use std::path::{Path, PathBuf};
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use fem_scene::{Override, body, load_with};
 use nalgebra::DVector;
 
@@ -25,7 +25,7 @@ fn build(scene: &str, keys: &[&str]) -> Result<Box<dyn Simulation>, String> {
     let keys: Vec<Override> = keys.iter().map(|key| key.parse().unwrap()).collect();
     let scene = load_with(scene, &data(), &keys).unwrap_or_else(|error| panic!("{error}"));
     let body = body(&scene, &data()).unwrap_or_else(|error| panic!("{error}"));
-    fem_engine::simulator::build(&scene, body).map_err(|error| error.to_string())
+    fem_engine::simulator::build(body, &scene.method()).map_err(|refusal| scene.refused(refusal).to_string())
 }
 
 /// The same on the device; `None`, after one line, without one.

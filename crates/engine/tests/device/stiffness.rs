@@ -5,8 +5,9 @@ use std::sync::Arc;
 use fem_engine::simulator::Simulator;
 use fem_engine::sparse::Block;
 use fem_gpu::{BlockPattern, ConjugateGradients, Device, Matrix, Number, Stiffness};
-use fem_scene::simulation::Simulation;
-use fem_scene::{BodyMesh, parse};
+use fem_model::BodyMesh;
+use fem_model::simulation::Simulation;
+use fem_scene::parse;
 use rand::{RngExt, SeedableRng};
 
 use crate::forces::{device_laws, tetrahedra};
@@ -52,7 +53,7 @@ fn error<N: Number>(device: &Arc<Device>, law: usize, amplitude: f64) -> f64 {
     let BodyMesh::Solid(mesh) = &body.shape.mesh else { panic!("a box of tetrahedra") };
     let elements = mesh.elements.len();
     let mut arrays = tetrahedra(&body);
-    let simulator = Simulator::<f64>::new(&scene, body).unwrap();
+    let simulator = Simulator::<f64>::new(body, &scene.method()).unwrap();
     let system = simulator.system();
     let (pattern, nodes) = (&system.pattern, system.nodes());
     for corner in arrays.corners.iter_mut().flatten() {

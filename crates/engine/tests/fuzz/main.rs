@@ -8,8 +8,8 @@ use std::cell::RefCell;
 use std::fs;
 use std::path::Path;
 
+use fem_model::simulation::Simulation;
 use fem_scene::output::{ResumeError, resume, write_state};
-use fem_scene::simulation::Simulation;
 use fem_scene::{Scene, parse};
 use tempfile::tempdir;
 
@@ -39,7 +39,7 @@ integrator = "{integrator}"
 
 fn start(scene: &Scene) -> Box<dyn Simulation> {
     let body = fem_scene::body(scene, Path::new("no data")).unwrap();
-    fem_engine::simulator::build(scene, body).unwrap_or_else(|error| panic!("{error}"))
+    fem_engine::simulator::build(body, &scene.method()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]

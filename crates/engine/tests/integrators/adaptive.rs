@@ -1,7 +1,7 @@
 //! Adaptive steps: errors in proportion to the tolerance, accurate estimates, saved steps, and typed failures.
 
 use fem_engine::simulator::Simulator;
-use fem_scene::simulation::{Cause, Simulation};
+use fem_model::simulation::{Cause, Simulation};
 use nalgebra::DVector;
 
 use crate::{SECOND_ORDER, build, distance, run, scene, soft, try_build};
@@ -20,7 +20,7 @@ fn adaptive(integrator: &str, dt: f64, tolerance: f64) -> String {
 fn simulator(text: &str) -> Simulator<f64> {
     let scene = scene(text);
     let body = fem_scene::body(&scene, std::path::Path::new("no data")).unwrap();
-    Simulator::new(&scene, body).unwrap()
+    Simulator::new(body, &scene.method()).unwrap()
 }
 
 fn rows(values: &DVector<f64>) -> Vec<[f64; 3]> {

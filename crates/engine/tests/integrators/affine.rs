@@ -43,7 +43,7 @@ fn patch(model: &str) -> Patch {
         *X += 0.07 * random.vector();
     }
     let body = fem_scene::body_of(&scene, mesh, Path::new("no data")).unwrap();
-    let law = AnyLaw::new(&scene.material).unwrap();
+    let law = AnyLaw::new(&scene.material.value()).unwrap();
     let system = System::new(body, law, SolverChoice::Cholesky);
     let inner = system.rest.iter().map(is_inner).collect();
     Patch { system, inner }

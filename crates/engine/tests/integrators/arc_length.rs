@@ -4,7 +4,7 @@ use fem_engine::forces::{Energy, HessianKind, Moment, Potential};
 use fem_engine::model::numbering::Numbering;
 use fem_engine::simulator::Simulator;
 use fem_engine::sparse::{Block, Pattern};
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use fem_scene::{Scene, parse};
 use std::path::Path;
 
@@ -69,7 +69,7 @@ fn loaded(scene: &Scene) -> (Simulator<f64>, usize) {
     let load = |numbering: &Numbering| -> Vec<Box<dyn Potential<f64>>> {
         vec![Box::new(PointLoad { node: numbering.engine_node[crown] as usize })]
     };
-    (Simulator::with_forces(scene, body, &load).unwrap_or_else(|error| panic!("{error}")), crown)
+    (Simulator::with_forces(body, &scene.method(), &load).unwrap_or_else(|error| panic!("{error}")), crown)
 }
 
 /// Load factor and way of the crown down, m, after each step up to the full load.
@@ -105,7 +105,7 @@ fn an_arch_snaps_through_along_the_path_that_a_prescribed_displacement_finds() {
         );
         let scene = arch(&format!("[static]\nload_steps = 12\n{moved}"));
         let body = fem_scene::body(&scene, &data()).unwrap();
-        let mut simulation = Simulator::<f64>::new(&scene, body).unwrap();
+        let mut simulation = Simulator::<f64>::new(body, &scene.method()).unwrap();
         run(&mut simulation, 12);
         let reactions = simulation.reactions();
         let reaction = reactions.iter().find(|reaction| reaction.name == "prescribed[1]").unwrap().force[1];
@@ -179,7 +179,7 @@ fn motions_obstacles_and_solvers_of_positive_definite_matrices_are_refused_with_
 fn the_shipped_arch_reaches_its_full_load_within_its_steps() {
     let scene = fem_scene::load("snap", &data()).unwrap();
     let body = fem_scene::body(&scene, Path::new(&data())).unwrap();
-    let mut simulation = fem_engine::simulator::build(&scene, body).unwrap();
+    let mut simulation = fem_engine::simulator::build(body, &scene.method()).unwrap();
     run(&mut *simulation, scene.time.steps.unwrap());
     assert_eq!(simulation.load_factor(), Some(1.0));
 }

@@ -1,7 +1,7 @@
 //! Reactions balance the loads, for every law and any number of load steps.
 
+use fem_model::simulation::Simulation;
 use fem_scene::MODELS;
-use fem_scene::simulation::Simulation;
 
 use crate::{block, build, run};
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::solvers::SolverChoice;
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use nalgebra::DMatrix;
 
 use crate::{build, run, scene};
@@ -51,7 +51,7 @@ integrator = "verlet"
 fn lowest_frequency(cells_per_metre: usize, mass: &str) -> f64 {
     let scene = scene(&bar(cells_per_metre, mass));
     let body = fem_scene::body(&scene, Path::new("no data")).unwrap();
-    let law = AnyLaw::new(&scene.material).unwrap();
+    let law = AnyLaw::new(&scene.material.value()).unwrap();
     let system = System::<f64>::new(body, law, SolverChoice::Cholesky);
     let free: Vec<usize> = (0..system.nodes()).filter(|&node| system.rest[node].x > 0.0).collect();
     let rest = vec![[0.0; 3]; system.nodes()];

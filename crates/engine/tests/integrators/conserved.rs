@@ -1,6 +1,6 @@
 //! Momentum, angular momentum and energy of a free body.
 
-use fem_scene::simulation::{Pull, Simulation};
+use fem_model::simulation::{Pull, Simulation};
 use nalgebra::Vector3;
 
 use crate::{DYNAMIC, build, node_masses, run, soft};

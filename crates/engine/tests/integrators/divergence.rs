@@ -1,7 +1,7 @@
 //! Motions that grow without bound end at the step in which it shows; motions that are driven hard do not.
 
+use fem_model::simulation::{Cause, Failure};
 use fem_scene::MODELS;
-use fem_scene::simulation::{Cause, Failure};
 
 use crate::{DYNAMIC, build, of_law, run, side, soft};
 

@@ -9,7 +9,7 @@ use fem_engine::materials::AnyLaw;
 use fem_engine::model::state::State;
 use fem_engine::model::system::System;
 use fem_engine::solvers::SolverChoice;
-use fem_scene::simulation::Counters;
+use fem_model::simulation::Counters;
 use nalgebra::DVector;
 
 use crate::{build, distance, run, scene, soft};
@@ -65,10 +65,10 @@ fn gained(
     build: fn(&System<f64>) -> Box<dyn Integrator<f64>>,
     steps: usize,
     rest: &str,
-) -> Result<[f64; 2], fem_scene::simulation::Cause> {
+) -> Result<[f64; 2], fem_model::simulation::Cause> {
     let scene = scene(&soft("rk4", 1e-3, rest));
     let body = fem_scene::body(&scene, Path::new("no data")).unwrap();
-    let system = System::<f64>::new(body, AnyLaw::new(&scene.material).unwrap(), SolverChoice::Cholesky);
+    let system = System::<f64>::new(body, AnyLaw::new(&scene.material.value()).unwrap(), SolverChoice::Cholesky);
     let (mut integrator, dt) = (build(&system), 0.2 / steps as f64);
     let (mut state, mut counters) = (State::at_start(system.nodes(), &[]), Counters::default());
     let mut work = 0.0;

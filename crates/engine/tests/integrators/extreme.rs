@@ -1,6 +1,6 @@
 //! Stiff and extreme cases that once failed.
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use fem_scene::{body, parse};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -11,7 +11,7 @@ use crate::{build, of_kuhn, of_law, run, soft};
 fn engine(text: &str) -> fem_engine::simulator::Simulator<f64> {
     let scene = parse(text, Path::new("case.toml")).unwrap();
     let body = body(&scene, Path::new("")).unwrap();
-    fem_engine::simulator::Simulator::new(&scene, body).unwrap()
+    fem_engine::simulator::Simulator::new(body, &scene.method()).unwrap()
 }
 
 /// Puts every node where `place` says, without velocity.
@@ -92,7 +92,7 @@ fn the_half_that_is_stiffer_and_denser_moves_less_and_weighs_more() {
     // The first six elements are those of the cell at x < 1.
     body.stiffness_factors = (0..12).map(|element| if element < 6 { 1.0 } else { 1e6 }).collect();
     body.density_factors = (0..12).map(|element| if element < 6 { 1.0 } else { 3.0 }).collect();
-    let mut simulation = fem_engine::simulator::Simulator::<f64>::new(&scene, body).unwrap();
+    let mut simulation = fem_engine::simulator::Simulator::<f64>::new(body, &scene.method()).unwrap();
     run(&mut simulation, 1);
     let sunk = |node: usize| 1.0 - simulation.positions()[3 * node + 2];
     assert!(sunk(6) > 1e-4 && sunk(8).abs() < 1e-3 * sunk(6), "{} and {}", sunk(6), sunk(8));

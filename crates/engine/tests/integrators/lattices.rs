@@ -7,7 +7,7 @@ use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::solvers::SolverChoice;
 use fem_mesh::{SurfaceMesh, TetrahedralMesh};
-use fem_scene::{Body, BodyMesh};
+use fem_model::{Body, BodyMesh};
 use nalgebra::Vector3;
 
 use crate::scene;

@@ -1,6 +1,6 @@
 //! The energy ledger: its balance, the dissipation of the methods, and gains that end a run.
 
-use fem_scene::simulation::{Cause, EnergyLedger, Simulation};
+use fem_model::simulation::{Cause, EnergyLedger, Simulation};
 
 use crate::vibrations::{frequency, oscillator};
 use crate::{build, of_law, run, soft};

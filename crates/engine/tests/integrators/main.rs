@@ -50,7 +50,7 @@ mod work;
 
 use std::path::Path;
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use fem_scene::{Scene, SceneError, parse};
 
 /// The scene, in memory.
@@ -61,7 +61,7 @@ fn scene(text: &str) -> Scene {
 fn try_build(text: &str) -> Result<Box<dyn Simulation>, SceneError> {
     let scene = scene(text);
     let body = fem_scene::body(&scene, Path::new("no data"))?;
-    fem_engine::simulator::build(&scene, body)
+    fem_engine::simulator::build(body, &scene.method()).map_err(|refusal| scene.refused(refusal))
 }
 
 fn build(text: &str) -> Box<dyn Simulation> {

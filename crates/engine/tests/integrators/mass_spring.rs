@@ -1,7 +1,7 @@
 //! Mass-spring bodies in motion and in equilibrium: closed forms, orders, what is conserved, and what is not built.
 
-use fem_scene::BodyMesh;
-use fem_scene::simulation::Simulation;
+use fem_model::BodyMesh;
+use fem_model::simulation::Simulation;
 use nalgebra::{DVector, Vector3};
 
 use crate::{DYNAMIC, SECOND_ORDER, build, distance, node_masses, of_kuhn, run, scene, soft};
@@ -135,7 +135,7 @@ integrator = "{integrator}"
     let triangles = fem_mesh::SurfaceMesh::new(vertices, vec![[0, 1, 2]]);
     let mesh = BodyMesh::Flat { triangles, thickness: 1.0 };
     let body = fem_scene::body_of(&scene, mesh, std::path::Path::new("no data")).unwrap();
-    fem_engine::simulator::build(&scene, body).unwrap()
+    fem_engine::simulator::build(body, &scene.method()).unwrap()
 }
 
 #[test]
@@ -214,7 +214,7 @@ fn a_mass_spring_body_builds_springs_and_no_element() {
         let rest = if integrator == "static" { "[fixed]\nplane = { axis = \"x\", below = 0.5 }\n" } else { "" };
         let of_springs = build(&springs(integrator, 1e-3, 0.0, rest)).parts();
         let of_elements = build(&soft(integrator, 1e-3, rest)).parts();
-        let find = |parts: &[fem_scene::simulation::Part], name: &str| {
+        let find = |parts: &[fem_model::simulation::Part], name: &str| {
             let part = parts.iter().find(|part| part.name == name).unwrap();
             (part.built, part.bytes)
         };

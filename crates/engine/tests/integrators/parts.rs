@@ -1,6 +1,6 @@
 //! The counter of a part that a scene leaves out stays zero, and rises in a scene with the part.
 
-use fem_scene::simulation::{Part, Simulation};
+use fem_model::simulation::{Part, Simulation};
 
 use crate::{build, run, soft};
 
@@ -143,7 +143,7 @@ fn with_display() -> Box<dyn Simulation> {
     std::fs::write(folder.path().join("a.toml"), text).unwrap();
     let scene = fem_scene::load(folder.path().join("a.toml").to_str().unwrap(), folder.path()).unwrap();
     let body = fem_scene::body(&scene, folder.path()).unwrap();
-    fem_engine::simulator::build(&scene, body).unwrap()
+    fem_engine::simulator::build(body, &scene.method()).unwrap()
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Single precision ends where double precision does, with at most one iteration more in a step, or is refused.
 
+use fem_model::simulation::Simulation;
 use fem_scene::MODELS;
-use fem_scene::simulation::Simulation;
 
 use crate::{DYNAMIC, build, distance, of_kuhn, of_law, run, soft, try_build};
 

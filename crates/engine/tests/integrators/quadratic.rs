@@ -1,8 +1,8 @@
 //! Quadratic triangles in equilibrium.
 
 use fem_mesh::{Pattern, QuadraticMesh, quadratic as with_middles, rectangle_mesh};
+use fem_model::simulation::Simulation;
 use fem_scene::MODELS;
-use fem_scene::simulation::Simulation;
 
 use crate::flat::{affine, flat};
 use crate::{block, build, distance, run, side, soft, try_build};

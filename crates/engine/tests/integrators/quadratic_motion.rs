@@ -1,7 +1,7 @@
 //! Quadratic triangles in motion.
 
+use fem_model::simulation::Simulation;
 use fem_scene::output::{export, resume, write_state};
-use fem_scene::simulation::Simulation;
 use nalgebra::Vector3;
 
 use crate::quadratic::quadratic;

@@ -1,6 +1,6 @@
 //! `static` with curves over the load steps, with planes that move, and with bodies that obstacles alone hold.
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
 use crate::{block, build, node_masses, of_law, run, side, soft, symmetry};

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem_engine::simulator::Simulator;
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
 use crate::{DYNAMIC, distance, node_masses, run, scene, soft};
@@ -32,7 +32,7 @@ const DROPPED: &str = "[fixed]\nplane = { axis = \"x\", below = 1e-9 }\nuntil = 
 fn simulator(integrator: &str, tables: &str) -> Simulator<f64> {
     let scene = scene(&soft(integrator, DT, tables));
     let body = fem_scene::body(&scene, Path::new("no data")).unwrap();
-    Simulator::new(&scene, body).unwrap()
+    Simulator::new(body, &scene.method()).unwrap()
 }
 
 fn momentum(simulation: &dyn Simulation) -> Vector3<f64> {

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use fem_model::simulation::Simulation;
 use fem_scene::output::{resume, write_state};
-use fem_scene::simulation::Simulation;
 use fem_scene::{Scene, body};
 use tempfile::TempDir;
 
@@ -16,7 +16,7 @@ const INTERRUPTED: [usize; 3] = [1, 6, 11];
 
 fn start(scene: &Scene) -> Box<dyn Simulation> {
     let body = body(scene, Path::new("no data")).unwrap();
-    fem_engine::simulator::build(scene, body).unwrap_or_else(|error| panic!("{error}"))
+    fem_engine::simulator::build(body, &scene.method()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Every bit of the state: displacements, velocities, time and steps, and what the next steps depend on.

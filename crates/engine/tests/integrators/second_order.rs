@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use fem_engine::simulator::Simulator;
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
 use crate::vibrations::{frequency, oscillator};
@@ -78,7 +78,7 @@ fn distances(integrator: &str, rest: &str) -> [f64; 4] {
     // A linear spring, whose node starts 1 m from its other end.
     let scene = scene(&text.replace("stiffness = 1e6", "stiffness = 1e6\nrest_length = 0"));
     let body = fem_scene::body(&scene, std::path::Path::new("no data")).unwrap();
-    let mut simulation = Simulator::<f64>::new(&scene, body).unwrap();
+    let mut simulation = Simulator::<f64>::new(body, &scene.method()).unwrap();
     simulation.accept_gain(true);
     let mut away = || {
         run(&mut simulation, 1);

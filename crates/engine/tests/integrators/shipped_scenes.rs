@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use fem_engine::simulator::{build, planned_parts};
-use fem_scene::simulation::{Part, Simulation};
-use fem_scene::{Integrator, Pipeline, Scene, body, load, names};
+use fem_model::Integrator;
+use fem_model::simulation::{Part, Simulation};
+use fem_scene::{Pipeline, Scene, body, load, names};
 
 /// The repository's `data`.
 pub fn data() -> PathBuf {
@@ -63,13 +64,13 @@ fn the_planned_parts_of_every_scene_and_method_are_those_that_are_built() {
             }
             let body = body(&scene, &data()).unwrap();
             // A free body has no equilibrium.
-            let Ok(planned) = planned_parts(&scene, &body) else {
+            let Ok(planned) = planned_parts(&body, &scene.method()) else {
                 assert_eq!(integrator, Integrator::Static, "{}", scene.name);
-                assert!(build(&scene, body).is_err(), "{}", scene.name);
+                assert!(build(body, &scene.method()).is_err(), "{}", scene.name);
                 continue;
             };
             let all = |parts: Vec<Part>| parts.into_iter().map(|part| (part.name, part.built, part.why));
-            let simulation = build(&scene, body).unwrap();
+            let simulation = build(body, &scene.method()).unwrap();
             assert!(all(planned).eq(all(simulation.parts())), "{}, {}", scene.name, integrator.name());
         }
     }
@@ -81,7 +82,7 @@ fn flat_bodies_from_pictures_move_as_their_scenes_say_to_the_end() {
         let scene = load(name, &data()).unwrap();
         let body = body(&scene, &data()).unwrap();
         assert!(triangles.contains(&body.shape.mesh.elements()), "{name}: {}", body.shape.mesh.elements());
-        let mut simulation = build(&scene, body).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let mut simulation = build(body, &scene.method()).unwrap_or_else(|error| panic!("{name}: {error}"));
         let start = simulation.positions();
         let mut farthest = 0.0_f64;
         for step in 1..=scene.time.steps.unwrap() {
@@ -98,7 +99,7 @@ fn flat_bodies_from_pictures_move_as_their_scenes_say_to_the_end() {
 fn ended(name: &str) -> Box<dyn Simulation> {
     let scene = load(name, &data()).unwrap();
     let body = body(&scene, &data()).unwrap();
-    let mut simulation = build(&scene, body).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let mut simulation = build(body, &scene.method()).unwrap_or_else(|error| panic!("{name}: {error}"));
     for step in 1..=scene.time.steps.unwrap() {
         simulation.step().unwrap_or_else(|failure| panic!("{name}, step {step}: {failure}"));
     }

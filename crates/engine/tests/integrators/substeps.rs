@@ -1,6 +1,6 @@
 //! Substeps: a step of several is the motion of as many steps.
 
-use fem_scene::simulation::least_stable_substeps;
+use fem_model::simulation::least_stable_substeps;
 
 use crate::{DYNAMIC, build, of_law, run, soft};
 
@@ -29,7 +29,7 @@ fn a_step_of_four_substeps_is_four_steps_of_a_quarter_of_the_time() {
         assert_eq!(whole.positions(), parts.positions(), "{integrator}");
         assert_eq!(whole.velocities(), parts.velocities(), "{integrator}");
         assert_eq!((whole.time(), whole.steps()), (parts.time(), 6), "{integrator}");
-        let dissipated = |of: &dyn fem_scene::simulation::Simulation| of.plastic_flow().map(|flow| flow.dissipated);
+        let dissipated = |of: &dyn fem_model::simulation::Simulation| of.plastic_flow().map(|flow| flow.dissipated);
         assert_eq!(dissipated(&*whole), dissipated(&*parts), "{integrator}");
         assert_eq!(whole.counters().newton_iterations, parts.counters().newton_iterations, "{integrator}");
     }

@@ -20,7 +20,7 @@ fn nodal_forces(
 ) -> Vec<(Vector3<f64>, Vector3<f64>)> {
     let scene = scene(&soft("rk4", 1e-3, tables));
     let body = fem_scene::body(&scene, Path::new("no data")).unwrap();
-    let system = System::<f64>::new(body, AnyLaw::new(&scene.material).unwrap(), SolverChoice::Cholesky);
+    let system = System::<f64>::new(body, AnyLaw::new(&scene.material.value()).unwrap(), SolverChoice::Cholesky);
     let positions: Vec<_> = system.rest.iter().map(deformed).collect();
     let u: Vec<[f64; 3]> = positions.iter().zip(&system.rest).map(|(x, X)| (x - X).into()).collect();
     let mut gradient = vec![[0.0; 3]; system.nodes()];

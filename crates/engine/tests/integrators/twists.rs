@@ -1,6 +1,6 @@
 //! Thick coarse rods of a law that no element may be turned inside out of, twisted faster than they can follow.
 
-use fem_scene::simulation::{Cause, Simulation};
+use fem_model::simulation::{Cause, Simulation};
 
 use crate::build;
 

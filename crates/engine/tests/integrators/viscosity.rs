@@ -2,7 +2,7 @@
 
 use fem_engine::simulator::double::{self, System};
 use fem_engine::solvers::SolverChoice;
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 

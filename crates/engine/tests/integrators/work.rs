@@ -1,6 +1,6 @@
 //! The work of each method, and its message when it cannot continue.
 
-use fem_scene::simulation::Cause;
+use fem_model::simulation::Cause;
 
 use crate::{DYNAMIC, build, distance, run, soft};
 

@@ -6,8 +6,9 @@ mod unused;
 use std::path::Path;
 
 use fem_engine::simulator;
-use fem_scene::simulation::Simulation;
-use fem_scene::{Integrator, SceneError, parse};
+use fem_model::Integrator;
+use fem_model::simulation::Simulation;
+use fem_scene::{SceneError, parse};
 
 /// The scene with one passage replaced, which must be there once.
 fn edit(text: &str, from: &str, to: &str) -> String {
@@ -82,7 +83,7 @@ frequency = 1.5
 fn try_all(text: &str) -> Result<Box<dyn Simulation>, SceneError> {
     let scene = parse(text, Path::new("folder/name.toml"))?;
     let body = fem_scene::body(&scene, Path::new("no data"))?;
-    simulator::build(&scene, body)
+    simulator::build(body, &scene.method()).map_err(|refusal| scene.refused(refusal))
 }
 
 /// Line (counted from 1), and the bytes in the whole text, of every number that stands outside quotes.

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use fem_scene::{Integrator, SceneError, parse};
+use fem_model::Integrator;
+use fem_scene::{SceneError, parse};
 
 use crate::{ALL, edit};
 

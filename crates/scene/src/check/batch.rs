@@ -1,13 +1,15 @@
 //! Checks of `[batch]`.
 
-use super::numbers::{Problem, check_finite, problem};
 use crate::tables::{RangeTable, Spacing};
-use crate::{Integrator, Pipeline, Scene};
+use crate::{Pipeline, Scene};
+use fem_model::Integrator;
+use fem_model::Refusal;
+use fem_model::numbers::{check_finite, problem};
 
 /// Most environments.
 const MOST: usize = 65_536;
 
-pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     let Some(batch) = &scene.batch else { return Ok(()) };
     if scene.pipeline == Pipeline::Course {
         return problem("batch", "belongs to the engine; the course's pipeline does without, remove it");
@@ -47,7 +49,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     check_end(scene, batch.count - 1)
 }
 
-fn check_range(field: &str, RangeTable { from, to, spacing }: RangeTable) -> Result<(), Problem> {
+fn check_range(field: &str, RangeTable { from, to, spacing }: RangeTable) -> Result<(), Refusal> {
     check_finite(&format!("{field}.from"), &[from])?;
     check_finite(&format!("{field}.to"), &[to])?;
     let smallest = from.min(to);
@@ -61,10 +63,10 @@ fn check_range(field: &str, RangeTable { from, to, spacing }: RangeTable) -> Res
 }
 
 /// Checks the material of the first or the last environment.
-fn check_end(scene: &Scene, number: usize) -> Result<(), Problem> {
+fn check_end(scene: &Scene, number: usize) -> Result<(), Refusal> {
     let environment = scene.environment(number);
-    environment.material.check("material").map_err(|(field, text)| {
-        let varied = field.replace("material.", "batch.vary.");
-        (varied, format!("leads to a value that the material cannot have in environment {number}: it {text}"))
+    environment.material.check("material").map_err(|Refusal { field, problem }| {
+        let text = format!("leads to a value that the material cannot have in environment {number}: it {problem}");
+        Refusal::new(field.replace("material.", "batch.vary."), text)
     })
 }

@@ -1,14 +1,16 @@
 //! Checks of `[fixed]` and `[[prescribed]]`.
 
-use super::numbers::{Problem, check_finite, check_positive, check_vector, problem};
 use super::selector::check_one;
+use crate::Scene;
 use crate::tables::{FixedTable, PrescribedTable, RotationTable};
-use crate::{Axis, Integrator, Scene};
+use fem_model::Refusal;
+use fem_model::numbers::{check_finite, check_positive, check_vector, problem};
+use fem_model::{Axis, Integrator};
 
 /// Largest number of turns: an angle of this size still has ten digits.
 const MOST_TURNS: f64 = 1e6;
 
-pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     scene.fixed.as_ref().map_or(Ok(()), |fixed| {
         check_until(scene, "fixed", fixed.until)?;
         check_fixed(fixed)
@@ -23,7 +25,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
 }
 
 /// Checks the time from which nodes are free.
-fn check_until(scene: &Scene, table: &str, until: Option<f64>) -> Result<(), Problem> {
+fn check_until(scene: &Scene, table: &str, until: Option<f64>) -> Result<(), Refusal> {
     let Some(until) = until else { return Ok(()) };
     let field = format!("{table}.until");
     if scene.time.integrator == Integrator::Static {
@@ -32,11 +34,11 @@ fn check_until(scene: &Scene, table: &str, until: Option<f64>) -> Result<(), Pro
     check_positive(&field, until, " of seconds")
 }
 
-fn check_fixed(fixed: &FixedTable) -> Result<(), Problem> {
+fn check_fixed(fixed: &FixedTable) -> Result<(), Refusal> {
     check_one("fixed", &fixed.selectors(), "plane, on, box, sphere, set and nodes")
 }
 
-fn check_prescribed(table: &str, motion: &PrescribedTable) -> Result<(), Problem> {
+fn check_prescribed(table: &str, motion: &PrescribedTable) -> Result<(), Refusal> {
     check_one(table, &motion.selectors(), "on, box, sphere, set and nodes")?;
     if motion.displacement.is_none() && motion.rotation.is_none() && motion.velocity.is_none() {
         return problem(table, "has no motion; give displacement, rotation or velocity, or use [fixed]");
@@ -52,7 +54,7 @@ fn check_prescribed(table: &str, motion: &PrescribedTable) -> Result<(), Problem
 }
 
 /// Checks a velocity, which is a motion of its own and needs a time.
-fn check_velocity(scene: &Scene, table: &str, motion: &PrescribedTable) -> Result<(), Problem> {
+fn check_velocity(scene: &Scene, table: &str, motion: &PrescribedTable) -> Result<(), Refusal> {
     let Some(velocity) = &motion.velocity else { return Ok(()) };
     let field = format!("{table}.velocity");
     check_vector(&field, velocity)?;
@@ -77,7 +79,7 @@ fn check_velocity(scene: &Scene, table: &str, motion: &PrescribedTable) -> Resul
     }
 }
 
-fn check_rotation(table: &str, rotation: &RotationTable) -> Result<(), Problem> {
+fn check_rotation(table: &str, rotation: &RotationTable) -> Result<(), Refusal> {
     check_vector(&format!("{table}.rotation.center"), &rotation.center)?;
     let (field, turns) = (format!("{table}.rotation.turns"), rotation.turns);
     check_finite(&field, &[turns])?;
@@ -87,7 +89,7 @@ fn check_rotation(table: &str, rotation: &RotationTable) -> Result<(), Problem> 
     problem(&field, format!("is {turns:e}; give at most {MOST_TURNS:e}, beyond which an angle has few digits left"))
 }
 
-fn check_components(table: &str, motion: &PrescribedTable, components: &[Axis]) -> Result<(), Problem> {
+fn check_components(table: &str, motion: &PrescribedTable, components: &[Axis]) -> Result<(), Refusal> {
     let field = format!("{table}.components");
     if components.is_empty() {
         return problem(&field, "is empty; name at least one of \"x\", \"y\" and \"z\", or leave it out for all");

@@ -1,11 +1,13 @@
 //! Checks of `[[planes]]` and `[contact]`.
 
-use super::numbers::{Problem, check_not_negative, check_positive, check_vector, problem};
+use crate::Scene;
 use crate::tables::PlaneTable;
-use crate::{Integrator, Scene};
+use fem_model::Integrator;
+use fem_model::Refusal;
+use fem_model::numbers::{check_not_negative, check_positive, check_vector, problem};
 
 /// Returns the first problem of contact, the combinations with the method included.
-pub(crate) fn check(scene: &Scene) -> Result<(), Problem> {
+pub(crate) fn check(scene: &Scene) -> Result<(), Refusal> {
     for (number, plane) in scene.planes.iter().enumerate() {
         check_plane(&format!("planes[{number}]"), plane, scene.time.integrator)?;
     }
@@ -24,7 +26,7 @@ pub(crate) fn check(scene: &Scene) -> Result<(), Problem> {
     check_method(scene)
 }
 
-fn check_plane(table: &str, plane: &PlaneTable, method: Integrator) -> Result<(), Problem> {
+fn check_plane(table: &str, plane: &PlaneTable, method: Integrator) -> Result<(), Refusal> {
     check_vector(&format!("{table}.point"), &plane.point)?;
     let normal = format!("{table}.normal");
     check_vector(&normal, &plane.normal)?;
@@ -52,7 +54,7 @@ fn check_plane(table: &str, plane: &PlaneTable, method: Integrator) -> Result<()
 }
 
 /// Checks the motion of a plane: a velocity, or a displacement with its curve.
-fn check_motion(table: &str, plane: &PlaneTable) -> Result<(), Problem> {
+fn check_motion(table: &str, plane: &PlaneTable) -> Result<(), Refusal> {
     let field = |key: &str| format!("{table}.{key}");
     plane.velocity.map_or(Ok(()), |vector| check_vector(&field("velocity"), &vector))?;
     plane.displacement.map_or(Ok(()), |vector| check_vector(&field("displacement"), &vector))?;
@@ -79,7 +81,7 @@ fn check_motion(table: &str, plane: &PlaneTable) -> Result<(), Problem> {
 }
 
 /// Refuses methods that cannot keep a body outside an obstacle.
-fn check_method(scene: &Scene) -> Result<(), Problem> {
+fn check_method(scene: &Scene) -> Result<(), Refusal> {
     if scene.planes.is_empty() {
         return Ok(());
     }

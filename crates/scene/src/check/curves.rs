@@ -1,10 +1,12 @@
 //! Checks of `curve` in every table that has it.
 
-use super::numbers::{Problem, problem};
+use crate::Scene;
 use crate::tables::CurveTable;
-use crate::{Integrator, Scene};
+use fem_model::Integrator;
+use fem_model::Refusal;
+use fem_model::numbers::problem;
 
-pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     let gravity = scene.gravity.iter().map(|table| ("gravity".to_owned(), &table.curve));
     let body_force = scene.body_force.iter().map(|table| ("body_force".to_owned(), &table.curve));
     let numbered = |table: &str, number: usize| format!("{table}[{number}]");
@@ -16,7 +18,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     given.into_iter().try_for_each(|(field, curve)| check_curve(scene, &field, curve))
 }
 
-fn check_curve(scene: &Scene, field: &str, curve: &CurveTable) -> Result<(), Problem> {
+fn check_curve(scene: &Scene, field: &str, curve: &CurveTable) -> Result<(), Refusal> {
     curve.check(field)?;
     if scene.time.integrator == Integrator::Static && scene.statics.as_ref().is_some_and(|statics| statics.arc_length) {
         let text = "is a factor of its own, and along an equilibrium path by static.arc_length all loads have one factor; remove the curve \

@@ -1,11 +1,12 @@
 //! Checks that depend on whether the body is flat, which is known when its mesh is.
 
-use super::numbers::{Problem, problem};
 use crate::Scene;
-use crate::tables::{Axis, IN_PLANE_STRESS, InitialVelocityTable, Material, PlaneState, PrescribedTable};
+use crate::tables::{IN_PLANE_STRESS, InitialVelocityTable, MaterialTable, PrescribedTable};
+use fem_model::numbers::problem;
+use fem_model::{Axis, PlaneState, Refusal};
 
 /// Refuses the first key that has no effect on a flat body, or no meaning.
-pub(crate) fn check(scene: &Scene) -> Result<(), Problem> {
+pub(crate) fn check(scene: &Scene) -> Result<(), Refusal> {
     if scene.mesh.display.is_some() {
         return problem("mesh.display", "belongs to solid bodies, and this one is flat; remove it");
     }
@@ -29,12 +30,12 @@ pub(crate) fn check(scene: &Scene) -> Result<(), Problem> {
 }
 
 /// Refuses the first key that has no effect on a solid body.
-pub(crate) fn check_solid(scene: &Scene) -> Result<(), Problem> {
+pub(crate) fn check_solid(scene: &Scene) -> Result<(), Refusal> {
     if scene.mesh.order == 2 {
         let text = "is 2, and this body has tetrahedra, which are linear; write 1, and refine = 1 for more elements";
         return problem("mesh.order", text);
     }
-    let Material { thickness, plane, .. } = &scene.material;
+    let MaterialTable { thickness, plane, .. } = &scene.material;
     match [("material.thickness", thickness.is_some()), ("material.plane", plane.is_some())].iter().find(|key| key.1) {
         Some((key, _)) => problem(key, "belongs to flat bodies, and this one is solid; remove it"),
         None => Ok(()),
@@ -42,7 +43,7 @@ pub(crate) fn check_solid(scene: &Scene) -> Result<(), Problem> {
 }
 
 /// Refuses plane stress of a law without a form for it, and of a body that flows.
-pub(super) fn check_plane(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check_plane(scene: &Scene) -> Result<(), Refusal> {
     if scene.material.plane != Some(PlaneState::Stress) {
         return Ok(());
     }

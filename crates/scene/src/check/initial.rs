@@ -1,11 +1,13 @@
 //! Checks of `[[initial_velocity]]`.
 
-use super::numbers::{Problem, check_finite, check_vector, problem};
 use super::selector::check_one;
+use crate::Scene;
 use crate::tables::{AngularVelocityTable, InitialVelocityTable};
-use crate::{Integrator, Scene};
+use fem_model::Integrator;
+use fem_model::Refusal;
+use fem_model::numbers::{check_finite, check_vector, problem};
 
-pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     for (number, velocity) in scene.initial_velocity.iter().enumerate() {
         let table = format!("initial_velocity[{number}]");
         if scene.time.integrator == Integrator::Static {
@@ -16,7 +18,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     Ok(())
 }
 
-fn check_velocity(table: &str, velocity: &InitialVelocityTable) -> Result<(), Problem> {
+fn check_velocity(table: &str, velocity: &InitialVelocityTable) -> Result<(), Refusal> {
     let selectors = velocity.selectors();
     if !selectors.is_empty() {
         check_one(table, &selectors, "on, box, sphere, set and nodes")?;
@@ -28,7 +30,7 @@ fn check_velocity(table: &str, velocity: &InitialVelocityTable) -> Result<(), Pr
     velocity.angular.as_ref().map_or(Ok(()), |angular| check_angular(&format!("{table}.angular"), angular))
 }
 
-fn check_angular(field: &str, angular: &AngularVelocityTable) -> Result<(), Problem> {
+fn check_angular(field: &str, angular: &AngularVelocityTable) -> Result<(), Refusal> {
     let axis = format!("{field}.axis");
     check_vector(&axis, &angular.axis)?;
     if angular.axis == [0.0; 3] {

@@ -1,14 +1,16 @@
 //! Checks of `[iterations]`, and of what the iterated methods `pbd`, `xpbd`, `vbd` and `projective_dynamics` cannot be combined with.
 
 use super::check_tolerance;
-use super::numbers::{Problem, problem};
 use crate::tables::IterationsTable;
-use crate::{Integrator, Pipeline, Scene};
+use crate::{Pipeline, Scene};
+use fem_model::Integrator;
+use fem_model::Refusal;
+use fem_model::numbers::problem;
 
 /// Largest number of iterations: a run answers to a signal, and the window to its user, after a step.
 const MOST_ITERATIONS: usize = 1_000_000;
 
-pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     let method = scene.time.integrator;
     if let Some(table) = &scene.iterations {
         check_numbers(table)?;
@@ -20,7 +22,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     if method.is_iterated() { check_features(scene) } else { Ok(()) }
 }
 
-fn check_numbers(table: &IterationsTable) -> Result<(), Problem> {
+fn check_numbers(table: &IterationsTable) -> Result<(), Refusal> {
     match table.count {
         Some(0) => return problem("iterations.count", "is 0; give at least one iteration"),
         Some(count) if count > MOST_ITERATIONS => {
@@ -46,7 +48,7 @@ fn check_numbers(table: &IterationsTable) -> Result<(), Problem> {
 }
 
 /// Refuses keys that belong to other methods.
-fn check_keys(table: &IterationsTable, method: Integrator) -> Result<(), Problem> {
+fn check_keys(table: &IterationsTable, method: Integrator) -> Result<(), Refusal> {
     use Integrator::{Pbd, Vbd, Xpbd};
     let keys: [(&str, bool, &[Integrator]); 3] = [
         ("acceleration", table.acceleration.is_some(), &[Vbd]),
@@ -65,7 +67,7 @@ fn check_keys(table: &IterationsTable, method: Integrator) -> Result<(), Problem
 }
 
 /// Refuses what a step of the method does not know.
-fn check_features(scene: &Scene) -> Result<(), Problem> {
+fn check_features(scene: &Scene) -> Result<(), Refusal> {
     let method = scene.time.integrator;
     let name = method.name();
     if method.needs_node_masses() && scene.mass.lumped == Some(false) {

@@ -1,11 +1,12 @@
 //! Checks of the tables of external forces.
 
-use super::numbers::{Problem, check_finite, check_not_negative, check_positive, check_vector, problem};
 use super::selector::check_one;
 use crate::tables::{DragTable, SpringTable, TractionTable};
 use crate::{Pipeline, Scene};
+use fem_model::Refusal;
+use fem_model::numbers::{check_finite, check_not_negative, check_positive, check_vector, problem};
 
-pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     if let Some(gravity) = &scene.gravity {
         check_vector("gravity.acceleration", &gravity.acceleration)?;
     }
@@ -26,7 +27,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     scene.drag.as_ref().map_or(Ok(()), |drag| check_drag(scene.pipeline, drag))
 }
 
-fn check_traction(table: &str, traction: &TractionTable) -> Result<(), Problem> {
+fn check_traction(table: &str, traction: &TractionTable) -> Result<(), Refusal> {
     check_one(table, &traction.selectors(), "on, box, sphere, set, faces and edges")?;
     match (&traction.force_per_area, traction.pressure) {
         (Some(force), None) => check_vector(&format!("{table}.force_per_area"), force),
@@ -35,7 +36,7 @@ fn check_traction(table: &str, traction: &TractionTable) -> Result<(), Problem> 
     }
 }
 
-fn check_spring(table: &str, spring: &SpringTable) -> Result<(), Problem> {
+fn check_spring(table: &str, spring: &SpringTable) -> Result<(), Refusal> {
     check_positive(&format!("{table}.stiffness"), spring.stiffness, " of N/m")?;
     check_not_negative(&format!("{table}.damping"), spring.damping, "N s/m")?;
     if spring.nodes[0] == spring.nodes[1] {
@@ -46,7 +47,7 @@ fn check_spring(table: &str, spring: &SpringTable) -> Result<(), Problem> {
     length.map_or(Ok(()), |length| check_not_negative(&format!("{table}.rest_length"), length, "m"))
 }
 
-fn check_drag(pipeline: Pipeline, drag: &DragTable) -> Result<(), Problem> {
+fn check_drag(pipeline: Pipeline, drag: &DragTable) -> Result<(), Refusal> {
     if pipeline == Pipeline::Engine && drag.in_stiffness == Some(false) {
         let text = "is false, and the engine's stiffness always contains the spring; remove the key, or write pipeline = \"course\"";
         return problem("drag.in_stiffness", text);

@@ -1,9 +1,10 @@
 //! Checks of `[material]` with `model = "mass_spring"`: tables and keys that need elastic elements.
 
-use super::numbers::{Problem, problem};
 use crate::Scene;
+use fem_model::Refusal;
+use fem_model::numbers::problem;
 
-pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     if let Some(number) = scene.materials.iter().position(|table| table.material().is_mass_spring()) {
         let text = "is \"mass_spring\", which is a model of whole bodies: an edge between two materials has no stiffness of its own; \
                     write a law, or make it the model of [material] and remove [[materials]]";

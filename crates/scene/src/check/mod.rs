@@ -10,21 +10,22 @@ mod iterations;
 mod loads;
 mod mass_spring;
 mod materials;
-pub(crate) mod numbers;
 mod plasticity;
 mod second_order;
 mod selector;
 mod unused;
 
+use crate::Scene;
 use crate::tables::{DampingTable, MeshTable, NewtonTable, SolverTable, StaticTable, TimeTable};
-use crate::{Integrator, Scene, SolverKind};
-use numbers::{Problem, check_not_negative, check_positive, problem};
+use fem_model::Refusal;
+use fem_model::numbers::{check_not_negative, check_positive, problem};
+use fem_model::{Integrator, SolverKind};
 
 /// Largest number of refinements: 8⁴ = 4096 tetrahedra for each of the mesh file, or 4⁴ = 256 triangles.
 const MOST_REFINEMENTS: u32 = 4;
 
 /// Returns the first problem of a scene.
-pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     check_mesh(&scene.mesh)?;
     scene.material.check("material")?;
     materials::check(scene)?;
@@ -47,7 +48,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
     scene.solver.as_ref().map_or(Ok(()), check_solver)
 }
 
-fn check_mesh(mesh: &MeshTable) -> Result<(), Problem> {
+fn check_mesh(mesh: &MeshTable) -> Result<(), Refusal> {
     check_positive("mesh.scale", mesh.scale, "")?;
     if mesh.refine > MOST_REFINEMENTS {
         let text = format!("is {}; cut every element at most {MOST_REFINEMENTS} times", mesh.refine);
@@ -80,7 +81,7 @@ fn check_mesh(mesh: &MeshTable) -> Result<(), Problem> {
     }
 }
 
-fn check_time(time: &TimeTable) -> Result<(), Problem> {
+fn check_time(time: &TimeTable) -> Result<(), Refusal> {
     match time.dt {
         Some(dt) => check_positive("time.dt", dt, " of seconds")?,
         None if time.integrator == Integrator::Static => {}
@@ -110,19 +111,19 @@ fn check_time(time: &TimeTable) -> Result<(), Problem> {
 /// Largest number of substeps: a run answers to a signal, and the window to its user, after a step.
 const MOST_SUBSTEPS: usize = 100_000;
 
-fn check_damping(damping: &DampingTable) -> Result<(), Problem> {
+fn check_damping(damping: &DampingTable) -> Result<(), Refusal> {
     check_not_negative("damping.alpha", damping.alpha, "1/s")?;
     check_not_negative("damping.beta", damping.beta, "s")
 }
 
-fn check_static(statics: &StaticTable) -> Result<(), Problem> {
+fn check_static(statics: &StaticTable) -> Result<(), Refusal> {
     match statics.load_steps {
         0 => problem("static.load_steps", "is 0; give at least one load step"),
         _ => Ok(()),
     }
 }
 
-fn check_newton(newton: &NewtonTable) -> Result<(), Problem> {
+fn check_newton(newton: &NewtonTable) -> Result<(), Refusal> {
     if newton.max_iterations == Some(0) {
         return problem("newton.max_iterations", "is 0; give at least one iteration");
     }
@@ -130,12 +131,12 @@ fn check_newton(newton: &NewtonTable) -> Result<(), Problem> {
 }
 
 /// Checks that a relative tolerance lies between 0 and 1.
-fn check_tolerance(field: &str, tolerance: f64) -> Result<(), Problem> {
+fn check_tolerance(field: &str, tolerance: f64) -> Result<(), Refusal> {
     check_positive(field, tolerance, "")?;
     if tolerance < 1.0 { Ok(()) } else { problem(field, format!("is {tolerance}; give a number below 1")) }
 }
 
-fn check_solver(solver: &SolverTable) -> Result<(), Problem> {
+fn check_solver(solver: &SolverTable) -> Result<(), Refusal> {
     solver.tolerance.map_or(Ok(()), |tolerance| check_tolerance("solver.tolerance", tolerance))?;
     if solver.precision.is_some() && solver.kind != SolverKind::Gpu {
         return problem("solver.precision", "belongs to the kind \"gpu\"; write that kind, or time.precision");

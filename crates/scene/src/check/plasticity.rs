@@ -1,10 +1,12 @@
 //! Checks of `[plasticity]`.
 
-use super::numbers::{Problem, check_not_negative, check_positive, problem};
 use crate::tables::{PlasticModel, PlasticityTable};
-use crate::{Integrator, Pipeline, Scene};
+use crate::{Pipeline, Scene};
+use fem_model::Integrator;
+use fem_model::Refusal;
+use fem_model::numbers::{check_not_negative, check_positive, problem};
 
-pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     let Some(table) = &scene.plasticity else { return Ok(()) };
     check_keys(table)?;
     check_numbers(table)?;
@@ -36,7 +38,7 @@ fn keys(table: &PlasticityTable) -> [Key; 5] {
 }
 
 /// Checks that the table has the keys of its model and no others.
-fn check_keys(table: &PlasticityTable) -> Result<(), Problem> {
+fn check_keys(table: &PlasticityTable) -> Result<(), Refusal> {
     let own = table.model;
     let names = keys(table).into_iter().filter(|(_, _, model, _)| *model == own).map(|(name, ..)| name);
     let names = names.collect::<Vec<_>>().join(", ");
@@ -57,7 +59,7 @@ fn check_keys(table: &PlasticityTable) -> Result<(), Problem> {
     Ok(())
 }
 
-fn check_numbers(table: &PlasticityTable) -> Result<(), Problem> {
+fn check_numbers(table: &PlasticityTable) -> Result<(), Refusal> {
     let positive = |name: &str, value: Option<f64>, unit: &str| {
         value.map_or(Ok(()), |value| check_positive(&format!("plasticity.{name}"), value, unit))
     };
@@ -69,7 +71,7 @@ fn check_numbers(table: &PlasticityTable) -> Result<(), Problem> {
 }
 
 /// Checks that every material has the law of the model.
-fn check_laws(scene: &Scene, model: PlasticModel) -> Result<(), Problem> {
+fn check_laws(scene: &Scene, model: PlasticModel) -> Result<(), Refusal> {
     let tables = scene.materials.iter().enumerate();
     let others = tables.map(|(number, material)| (format!("materials[{number}]"), &material.model));
     let mut all = std::iter::once(("material".to_owned(), &scene.material.model)).chain(others);

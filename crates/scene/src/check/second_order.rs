@@ -1,18 +1,20 @@
 //! Checks of `[newmark]`, `[generalized_alpha]` and the adaptive steps of `[time]`.
 
 use super::check_tolerance;
-use super::numbers::{Problem, check_finite, problem};
+use crate::Scene;
 use crate::tables::{GeneralizedAlphaTable, NewmarkTable};
-use crate::{Integrator, Scene};
+use fem_model::Integrator;
+use fem_model::Refusal;
+use fem_model::numbers::{check_finite, problem};
 
 /// Returns the first parameter of an implicit method of second order that is out of range.
-pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     scene.newmark.as_ref().map_or(Ok(()), |table| check_newmark(table, &scene.method().newmark))?;
     scene.generalized_alpha.as_ref().map_or(Ok(()), check_generalized_alpha)?;
     check_adaptive(scene)
 }
 
-fn check_adaptive(scene: &Scene) -> Result<(), Problem> {
+fn check_adaptive(scene: &Scene) -> Result<(), Refusal> {
     let Some(adaptive) = scene.time.adaptive else { return Ok(()) };
     let method = scene.time.integrator;
     if !Integrator::SECOND_ORDER_IMPLICIT.contains(&method) {
@@ -36,11 +38,11 @@ fn check_adaptive(scene: &Scene) -> Result<(), Problem> {
 
 /// Newmark's method is stable at any time step for 2β ≥ γ ≥ ½, and for smaller β below a critical one: Hughes, The Finite Element Method (1987),
 /// 9.1. Periods are most accurate with β = 1/12.
-fn check_newmark(table: &NewmarkTable, values: &crate::NewmarkParameters) -> Result<(), Problem> {
+fn check_newmark(table: &NewmarkTable, values: &fem_model::NewmarkParameters) -> Result<(), Refusal> {
     for (field, value) in [("newmark.beta", table.beta), ("newmark.gamma", table.gamma)] {
         value.map_or(Ok(()), |value| check_finite(field, &[value]))?;
     }
-    let crate::NewmarkParameters { beta, gamma } = *values;
+    let fem_model::NewmarkParameters { beta, gamma } = *values;
     if !(0.5..=1.0).contains(&gamma) {
         let text = format!(
             "is {gamma}; give a number from 0.5 to 1: 0.5 is of second order, more damps and is of first order, and less is unstable"
@@ -59,7 +61,7 @@ fn check_newmark(table: &NewmarkTable, values: &crate::NewmarkParameters) -> Res
     Ok(())
 }
 
-fn check_generalized_alpha(table: &GeneralizedAlphaTable) -> Result<(), Problem> {
+fn check_generalized_alpha(table: &GeneralizedAlphaTable) -> Result<(), Refusal> {
     let Some(radius) = table.spectral_radius else { return Ok(()) };
     if (0.0..=1.0).contains(&radius) {
         return Ok(());

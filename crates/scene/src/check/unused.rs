@@ -1,7 +1,9 @@
 //! Tables that have no effect with the integrator of the scene.
 
-use super::numbers::{Problem, problem};
-use crate::{Integrator, Pipeline, Scene, SolverKind};
+use crate::{Pipeline, Scene};
+use fem_model::Refusal;
+use fem_model::numbers::problem;
+use fem_model::{Integrator, SolverKind};
 
 /// A table, whether the scene has it, whether its integrator uses it, and which integrators do.
 type Use = (&'static str, bool, bool, &'static str);
@@ -51,7 +53,7 @@ fn steps_on_device(scene: &Scene) -> bool {
 }
 
 /// Refuses the first table without effect. The course's pipeline has none of them, and says so itself.
-pub(super) fn check(scene: &Scene) -> Result<(), Problem> {
+pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
     if scene.pipeline == Pipeline::Course {
         return Ok(());
     }

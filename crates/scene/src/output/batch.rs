@@ -4,9 +4,9 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::state::write_list;
-use crate::EnvironmentValues;
 use fem_mesh::MeshError;
 use fem_mesh::write::save;
+use fem_model::EnvironmentValues;
 
 /// The end of one environment.
 pub struct EnvironmentEnd {

@@ -7,15 +7,15 @@ use fem_mesh::{tetrahedron_radius_to_edge, triangle_radius_to_edge};
 use nalgebra::Vector3;
 
 use super::von_mises;
-use crate::BodyMesh;
-use crate::simulation::Simulation;
+use fem_model::BodyMesh;
+use fem_model::simulation::Simulation;
 
 /// A field of one number per element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ElementField {
     /// Von Mises stress of the Cauchy stress, Pa.
     Stress,
-    /// Plastic strain, as in [`PlasticFlow`](crate::simulation::PlasticFlow).
+    /// Plastic strain, as in [`PlasticFlow`](fem_model::simulation::PlasticFlow).
     PlasticStrain,
     /// Circumradius over shortest edge of the deformed element: 1/√3 for an equilateral triangle, √6/4 for a regular tetrahedron,
     /// more for all others.

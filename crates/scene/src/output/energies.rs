@@ -6,7 +6,7 @@ use std::path::Path;
 use fem_mesh::MeshError;
 use fem_mesh::write::save_bytes;
 
-use crate::simulation::{Energies, EnergyLedger, Simulation};
+use fem_model::simulation::{Energies, EnergyLedger, Simulation};
 
 /// Energies at a time, J.
 #[derive(Clone, Copy, Debug, PartialEq)]

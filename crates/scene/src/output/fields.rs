@@ -5,10 +5,10 @@ use std::path::Path;
 use nalgebra::{Matrix3, Vector3};
 
 use super::recovery::stresses_at_nodes;
-use crate::BodyMesh;
-use crate::simulation::Simulation;
 use fem_mesh::MeshError;
 use fem_mesh::write::{Field, write_vtu};
+use fem_model::BodyMesh;
+use fem_model::simulation::Simulation;
 
 /// Writes the undeformed mesh with the fields of the state. Names have neither blanks nor units, so that programs can use them:
 /// point data `displacement` (m), `velocity` (m/s), `nodal_force` (N), `contact_force` (N), `stress_averaged` (Pa), recovered by patches, and `stress_volume_averaged` (Pa), cell data `stress`,

@@ -24,9 +24,9 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::simulate::{Run, quantile};
-use crate::simulation::{EnergyLedger, Part, PlaneContact, PlasticFlow, Simulation};
 use fem_mesh::write::{Frame, save_bytes, write_glb, write_surface};
 use fem_mesh::{MeshError, Problem, SurfaceMesh};
+use fem_model::simulation::{EnergyLedger, Part, PlaneContact, PlasticFlow, Simulation};
 
 /// File extensions that [`export`] supports.
 pub const EXPORTS: [&str; 3] = ["obj", "vtu", "glb"];

@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use crate::simulation::Simulation;
 use fem_mesh::MeshError;
 use fem_mesh::write::save_bytes;
+use fem_model::simulation::Simulation;
 
 /// A table `time,x,y,z,vx,vy,vz,fx,fy,fz` with a row for the first state and for each step, in s, m, m/s and N; in equilibrium with the
 /// column `load_factor` as well.

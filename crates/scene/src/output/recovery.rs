@@ -9,7 +9,7 @@
 
 use nalgebra::{DMatrix, Matrix3, SVector, Vector3};
 
-use crate::BodyMesh;
+use fem_model::BodyMesh;
 
 /// The six different entries of a symmetric stress.
 type Entries = SVector<f64, 6>;

@@ -5,9 +5,9 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use super::fields::export_fields;
-use crate::simulation::Simulation;
 use fem_mesh::write::write_pvd;
 use fem_mesh::{MeshError, Problem};
+use fem_model::simulation::Simulation;
 
 /// Files of a run in a folder: `NAME_000000.vtu` of the first state, one after every so many steps and after the last one, and
 /// `NAME.pvd` with the time of each. NAME is that of the simulation, and files are numbered by the steps since its start.

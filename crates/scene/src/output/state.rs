@@ -8,9 +8,9 @@ use thiserror::Error;
 
 use crate::Scene;
 use crate::identity::Identity;
-use crate::simulation::{Checkpoint, History, Simulation};
 use fem_mesh::MeshError;
 use fem_mesh::write::save;
+use fem_model::simulation::{Checkpoint, History, Simulation};
 
 /// Largest number of steps of a state: more take longer than any computer lasts, and counters go on from it.
 const MOST_STEPS: usize = 1 << 53;

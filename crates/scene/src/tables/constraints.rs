@@ -1,9 +1,11 @@
 //! The tables of Dirichlet conditions: `[fixed]` and `[[prescribed]]`.
 
+use fem_model::{Axis, Selector};
 use serde::Deserialize;
 
+use super::selector::of_keys;
 use super::vectors::{three_numbers, three_numbers_if_any};
-use super::{Axis, BoxTable, CurveTable, On, Plane, Region, Selector, SphereTable};
+use super::{BoxTable, CurveTable, On, Plane, SphereTable};
 
 /// `[fixed]`: nodes that do not move, named by one selector.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
@@ -79,8 +81,8 @@ pub struct RotationTable {
 impl FixedTable {
     /// The selectors that the table gives; exactly one in a checked scene.
     pub fn selectors(&self) -> Vec<Selector> {
-        let mut selectors = Selector::of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
-        selectors.extend(self.plane.clone().map(|plane| Selector::Region(Region::Plane(plane))));
+        let mut selectors = of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
+        selectors.extend(self.plane.as_ref().map(Plane::selector));
         selectors.extend(self.nodes.clone().map(Selector::Nodes));
         selectors
     }
@@ -89,7 +91,7 @@ impl FixedTable {
 impl PrescribedTable {
     /// The selectors that the table gives; exactly one in a checked scene.
     pub fn selectors(&self) -> Vec<Selector> {
-        let mut selectors = Selector::of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
+        let mut selectors = of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
         selectors.extend(self.nodes.clone().map(Selector::Nodes));
         selectors
     }

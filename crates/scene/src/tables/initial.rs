@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
+use fem_model::Selector;
 use serde::Deserialize;
 
+use super::selector::of_keys;
 use super::vectors::{three_numbers, three_numbers_if_any};
-use super::{BoxTable, On, Selector, SphereTable};
+use super::{BoxTable, On, SphereTable};
 
 /// `[[initial_velocity]]`: velocities at the start, the sum of `velocity`, `angular` and `per_node` at the selected nodes. Engine only, and
 /// not with `static`.
@@ -51,7 +53,7 @@ pub struct AngularVelocityTable {
 impl InitialVelocityTable {
     /// The selectors that the table gives; at most one in a checked scene, and all nodes without one.
     pub fn selectors(&self) -> Vec<Selector> {
-        let mut selectors = Selector::of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
+        let mut selectors = of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
         selectors.extend(self.nodes.clone().map(Selector::Nodes));
         selectors
     }

@@ -1,10 +1,12 @@
 //! The tables of external forces: gravity, body force, traction, nodal forces, springs, the scripted drag.
 
+use fem_model::Selector;
 use serde::Deserialize;
 use serde::de::{Error, Visitor};
 
+use super::selector::of_keys;
 use super::vectors::{edges_if_any, three_numbers, three_numbers_if_any, triangles_if_any, two_nodes};
-use super::{BoxTable, CurveTable, On, Plane, Region, Selector, SphereTable};
+use super::{BoxTable, CurveTable, On, Plane, SphereTable};
 
 /// `[gravity]`: the weight of every node.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -62,7 +64,7 @@ pub struct TractionTable {
 impl TractionTable {
     /// The selectors that the table gives; exactly one in a checked scene.
     pub fn selectors(&self) -> Vec<Selector> {
-        let mut selectors = Selector::of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
+        let mut selectors = of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
         selectors.extend(self.faces.clone().map(Selector::Faces));
         selectors.extend(self.edges.clone().map(Selector::Edges));
         selectors
@@ -98,8 +100,8 @@ pub struct ForceTable {
 impl ForceTable {
     /// The selectors that the table gives; exactly one in a checked scene.
     pub fn selectors(&self) -> Vec<Selector> {
-        let mut selectors = Selector::of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
-        selectors.extend(self.plane.clone().map(|plane| Selector::Region(Region::Plane(plane))));
+        let mut selectors = of_keys(&self.on, &self.cuboid, &self.sphere, &self.set);
+        selectors.extend(self.plane.as_ref().map(Plane::selector));
         selectors.extend(self.nodes.clone().map(Selector::Nodes));
         selectors
     }

@@ -1,8 +1,10 @@
 //! `[material]`: the constitutive law by its name, its parameters, and the density.
 
-use crate::check::numbers::{Problem, check_finite, check_not_negative, check_positive, problem};
+use fem_model::numbers::{check_positive, problem};
+use fem_model::{EdgeStiffness, Elastic, Law, Material, NeoHookean, PlaneState, Refusal, Selector};
 
-use super::{BoxTable, On, Selector, SphereTable};
+use super::selector::of_keys;
+use super::{BoxTable, On, SphereTable};
 
 /// The laws: the name of each, and the sets of parameters of which a scene gives one.
 pub const MODELS: &[Model] = &[
@@ -28,30 +30,15 @@ fn models() -> impl Iterator<Item = &'static Model> {
     MODELS.iter().chain(std::iter::once(&MASS_SPRING))
 }
 
-/// Poisson's ratio above which linear tetrahedra lock visibly.
-const LOCKS_ABOVE: f64 = 0.45;
-
 /// Laws with a form for plane stress.
 pub(crate) const IN_PLANE_STRESS: [&str; 2] = ["linear", "corotated"];
-
-/// State of a flat body across its plane.
-#[derive(Clone, Copy, Debug, Default, serde::Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum PlaneState {
-    /// Plane strain: the thickness stays as it is, and a stress acts across the plane.
-    #[default]
-    Strain,
-    /// Plane stress: no stress acts across the plane, and the thickness changes, as in a thin sheet. The laws `linear` and `corotated` have
-    /// it, without plastic flow.
-    Stress,
-}
 
 /// Young's modulus and Poisson's ratio of small strain.
 const ELASTIC: &[&str] = &["young", "poisson"];
 
-/// The table as a struct, with a list of its parameters: `name: range`, where `range` is a function that checks a number.
+/// The table as a struct, with a list of its parameters.
 macro_rules! material {
-    ($($(#[$doc:meta])* $name:ident: $range:ident),* $(,)?) => {
+    ($($(#[$doc:meta])* $name:ident),* $(,)?) => {
         /// `[[materials]]`: another material than `[material]` for a part of the body, named by one selector. The last table that names an
         /// element counts. Engine only, and not with `mass_spring`.
         #[derive(Clone, Debug, serde::Deserialize, PartialEq)]
@@ -75,15 +62,15 @@ macro_rules! material {
 
         impl MaterialsTable {
             /// The material without its place.
-            pub fn material(&self) -> Material {
-                Material { model: self.model.clone(), density: self.density, thickness: None, plane: None, $($name: self.$name,)* }
+            pub fn material(&self) -> MaterialTable {
+                MaterialTable { model: self.model.clone(), density: self.density, thickness: None, plane: None, $($name: self.$name,)* }
             }
         }
 
         /// `[material]`: the constitutive law of the body, the parameters of that law and no others, and the density.
         #[derive(Clone, Debug, serde::Deserialize, PartialEq)]
         #[serde(deny_unknown_fields)]
-        pub struct Material {
+        pub struct MaterialTable {
             /// Constitutive law, by its name, or `"mass_spring"` for springs in place of elastic elements. The pipeline `"course"` has
             /// `"neo_hookean"` alone.
             pub model: String,
@@ -96,18 +83,11 @@ macro_rules! material {
             $($(#[$doc])* pub $name: Option<f64>,)*
         }
 
-        impl Material {
+        impl MaterialTable {
             /// The parameters that the table gives, in the order of its fields.
             pub fn parameters(&self) -> impl Iterator<Item = (&'static str, f64)> {
                 let all = [$((stringify!($name), self.$name)),*];
                 all.into_iter().filter_map(|(name, value)| Some((name, value?)))
-            }
-
-            fn check_ranges(&self, table: &str) -> Result<(), Problem> {
-                $(if let Some(value) = self.$name {
-                    $range(&format!("{table}.{}", stringify!($name)), value)?;
-                })*
-                Ok(())
             }
         }
     };
@@ -115,54 +95,60 @@ macro_rules! material {
 
 material! {
     /// Young's modulus at small strain, Pa; positive.
-    young: positive,
+    young,
     /// Poisson's ratio at small strain, above −1 and below 0.5. Linear tetrahedra lock above 0.45, and a warning says so.
-    poisson: poissons_ratio,
+    poisson,
     /// Neo-Hookean: half the shear modulus at small strain, Pa; positive.
-    C: positive,
+    C,
     /// Mooney–Rivlin: factor of Ī1 − 3, Pa.
-    C10: finite,
+    C10,
     /// Mooney–Rivlin: factor of Ī2 − 3, Pa.
-    C01: finite,
+    C01,
     /// Yeoh: half the shear modulus at small strain, Pa; positive.
-    C1: positive,
+    C1,
     /// Yeoh: factor of (Ī1 − 3)², Pa.
-    C2: finite,
+    C2,
     /// Yeoh: factor of (Ī1 − 3)³, Pa.
-    C3: finite,
+    C3,
     /// Half the bulk modulus at small strain, Pa; positive.
-    D: positive,
+    D,
     /// Mass-spring: stiffness of every edge, N/m; positive. With `young` in its place an edge of length l has the stiffness E ΣV/l², summed
     /// over its elements.
-    stiffness: spring_stiffness,
+    stiffness,
     /// Mass-spring: damping along every edge, N s/m; at least 0. Default: 0.
-    damping: spring_damping,
+    damping,
 }
 
 impl MaterialsTable {
     /// The selectors that the table gives; exactly one in a checked scene.
     pub fn selectors(&self) -> Vec<Selector> {
-        Selector::of_keys(&self.on, &self.cuboid, &self.sphere, &self.set)
+        of_keys(&self.on, &self.cuboid, &self.sphere, &self.set)
     }
 }
 
-impl Material {
-    /// Lamé's constants μ = E/(2(1+ν)) and λ = Eν/((1+ν)(1−2ν)), Pa, of `young` and `poisson`. In plane stress, λ is that of the law after
-    /// the strain across the plane has been eliminated, 2λμ/(λ+2μ) = Eν/(1−ν²): Timoshenko and Goodier, Theory of Elasticity (1970), §15 f.
-    pub fn lame(&self) -> Option<(f64, f64)> {
-        let (E, nu) = (self.young?, self.poisson?);
-        let lambda = match self.plane.unwrap_or_default() {
-            PlaneState::Strain => E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
-            PlaneState::Stress => E * nu / ((1.0 + nu) * (1.0 - nu)),
+impl MaterialTable {
+    /// The material of a checked table.
+    pub fn value(&self) -> Material {
+        let elastic = Elastic { young: self.young.unwrap_or(f64::NAN), poisson: self.poisson.unwrap_or(f64::NAN) };
+        let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
+        let law = match &self.model[..] {
+            "linear" => Law::Linear(elastic),
+            "corotated" => Law::Corotated(elastic),
+            "st_venant_kirchhoff" => Law::StVenantKirchhoff(elastic),
+            "neo_hookean" => Law::NeoHookean(match (self.C, self.D) {
+                (Some(C), Some(D)) => NeoHookean::Moduli { C, D },
+                _ => NeoHookean::Elastic(elastic),
+            }),
+            "stable_neo_hookean" => Law::StableNeoHookean(elastic),
+            "hencky" => Law::Hencky(elastic),
+            "mooney_rivlin" => Law::MooneyRivlin { C10: number(self.C10), C01: number(self.C01), D: number(self.D) },
+            "yeoh" => Law::Yeoh { C1: number(self.C1), C2: number(self.C2), C3: number(self.C3), D: number(self.D) },
+            _ => Law::MassSpring {
+                stiffness: self.stiffness.map_or(EdgeStiffness::Young(elastic.young), EdgeStiffness::Uniform),
+                damping: self.damping.unwrap_or(0.0),
+            },
         };
-        Some((E / (2.0 * (1.0 + nu)), lambda))
-    }
-
-    /// Poisson's ratio at small strain: as given, or (3K − 2G)/(2(3K + G)) of the shear modulus G and the bulk modulus K = 2D.
-    pub fn poissons_ratio(&self) -> Option<f64> {
-        let half_shear = self.C.or(self.C1).or(self.C10.zip(self.C01).map(|(C10, C01)| C10 + C01));
-        let of_moduli = |(C, D): (f64, f64)| (3.0 * D - 2.0 * C) / (2.0 * (3.0 * D + C));
-        self.poisson.or_else(|| half_shear.zip(self.D).map(of_moduli))
+        Material { law, density: self.density, plane: self.plane.unwrap_or_default() }
     }
 
     /// Returns true if every edge of the mesh is a spring, and no element is elastic.
@@ -170,23 +156,8 @@ impl Material {
         self.model == MASS_SPRING.0
     }
 
-    /// Returns true if linear tetrahedra lock: Poisson's ratio is above 0.45.
-    pub fn locks(&self) -> bool {
-        self.poissons_ratio().is_some_and(|poisson| poisson > LOCKS_ABOVE)
-    }
-
-    /// C and D, Pa: as given, or those with the same small-strain moduli as `young` and `poisson`,
-    /// C = E/(4(1+ν)) and D = E/(6(1−2ν)).
-    pub fn neo_hookean(&self) -> Option<(f64, f64)> {
-        match (self.C, self.D, self.young, self.poisson) {
-            (Some(C), Some(D), _, _) => Some((C, D)),
-            (_, _, Some(E), Some(nu)) => Some((E / (4.0 * (1.0 + nu)), E / (6.0 * (1.0 - 2.0 * nu)))),
-            _ => None,
-        }
-    }
-
     /// Checks the material of a table, such as `material` or `materials[0]`.
-    pub(crate) fn check(&self, table: &str) -> Result<(), Problem> {
+    pub(crate) fn check(&self, table: &str) -> Result<(), Refusal> {
         check_positive(&format!("{table}.density"), self.density, " of kg/m³")?;
         self.thickness.map_or(Ok(()), |thickness| check_positive(&format!("{table}.thickness"), thickness, " of m"))?;
         let Some((_, sets)) = models().find(|(name, _)| *name == self.model) else {
@@ -213,7 +184,7 @@ impl Material {
                 }
             };
         }
-        self.check_ranges(table)
+        self.value().check(table)
     }
 }
 
@@ -234,27 +205,4 @@ fn models_with(names: &[&str]) -> String {
     };
     let all = with(names);
     if all.is_empty() { with(&names[..1]).join(", ") } else { all.join(", ") }
-}
-
-fn positive(field: &str, value: f64) -> Result<(), Problem> {
-    check_positive(field, value, " of Pa")
-}
-
-fn spring_stiffness(field: &str, value: f64) -> Result<(), Problem> {
-    check_positive(field, value, " of N/m")
-}
-
-fn spring_damping(field: &str, value: f64) -> Result<(), Problem> {
-    check_not_negative(field, value, "N s/m")
-}
-
-fn finite(field: &str, value: f64) -> Result<(), Problem> {
-    check_finite(field, &[value])
-}
-
-fn poissons_ratio(field: &str, value: f64) -> Result<(), Problem> {
-    if value > -1.0 && value < 0.5 {
-        return Ok(());
-    }
-    problem(field, format!("is {value}; Poisson's ratio lies above -1 and below 0.5"))
 }

@@ -1,8 +1,7 @@
 //! The tables of the numerical method: time steps, load steps, Newton's method, the linear solver, damping.
 
+use fem_model::{DampingForm, Integrator, Precision, Preconditioner, Projection, SolverKind};
 use serde::Deserialize;
-
-use crate::Integrator;
 
 /// `[time]`: the time integration method and its steps.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -41,17 +40,6 @@ impl TimeTable {
     }
 }
 
-/// Number type that the engine computes with.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum Precision {
-    /// 8 bytes, 16 digits.
-    #[default]
-    F64,
-    /// 4 bytes, 7 digits: enough for pictures, not for measurements.
-    F32,
-}
-
 /// `[newton]`: Newton's method of `implicit_euler`, of the implicit methods of second order, and of `static`. Engine only.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
@@ -75,19 +63,6 @@ pub struct EnergyTable {
     /// have supplied.
     #[serde(default)]
     pub accept_gain: bool,
-}
-
-/// The iterations of Newton's method in which element stiffnesses are projected to positive semi-definite ones.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum Projection {
-    /// The iterations whose exact matrix is not positive definite. Newton's method keeps its quadratic convergence.
-    #[default]
-    WhenNeeded,
-    /// All iterations. Every direction is a descent direction, and convergence is linear.
-    Always,
-    /// No iteration. A matrix that is not positive definite ends the step with an error.
-    Never,
 }
 
 /// `[iterations]`: the iterations of the integrators `pbd`, `xpbd`, `vbd` and `projective_dynamics`. Engine only.
@@ -127,42 +102,6 @@ pub struct SolverTable {
     pub precision: Option<Precision>,
 }
 
-/// Linear solvers.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum SolverKind {
-    /// Sparse Cholesky factorization of a symmetric positive definite matrix.
-    Cholesky,
-    /// Sparse LU factorization.
-    Lu,
-    /// Conjugate gradients.
-    Cg,
-    /// Preconditioned conjugate gradients.
-    Pcg,
-    /// Steepest descent, for teaching.
-    SteepestDescent,
-    /// Conjugate directions, for teaching: the iterates of `cg` by Gram–Schmidt's method; it keeps every direction, and is refused for more
-    /// than 1000 nodes.
-    ConjugateDirections,
-    /// Conjugate gradients on the graphics device.
-    Gpu,
-}
-
-/// Preconditioners of the conjugate gradients.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum Preconditioner {
-    /// Block Jacobi: the inverse of each node's 3×3 block.
-    #[default]
-    BlockJacobi,
-    /// A Cholesky factor with the sparsity pattern of the matrix.
-    IncompleteCholesky,
-    /// Multigrid by smoothed aggregation.
-    Multigrid,
-    /// SSOR, symmetric Gauss–Seidel sweeps, with a coarse grid; the iteration runs in single precision.
-    Ssor,
-}
-
 /// `[damping]`: the force −α M v, and a stress β times the rate of the elastic one. Engine only, and not with `static`.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
@@ -176,19 +115,6 @@ pub struct DampingTable {
     /// Form of the force of β: `kelvin_voigt` does no work on rigid motions, `rayleigh` brakes a body that spins.
     #[serde(default)]
     pub form: DampingForm,
-}
-
-/// The force of β, which is −β K v in small motions about the undeformed body.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
-#[serde(rename_all = "snake_case")]
-pub enum DampingForm {
-    /// The stress β (2μ U̇ + λ tr(U̇) 1) of the rate of the stretch, with the elastic moduli of small strain; along springs their
-    /// stiffness. It depends on no rotation and brakes none.
-    #[default]
-    KelvinVoigt,
-    /// Rayleigh's −β K(u) v with the stiffness matrix of the deformed body: linear in the velocities, also in those of a rotation, which
-    /// it brakes where the body is stressed.
-    Rayleigh,
 }
 
 /// `[static]`: the load steps of the integrator `static`. Engine only.

@@ -3,6 +3,7 @@
 mod batch;
 mod constraints;
 mod contact;
+mod curve;
 mod initial;
 mod loads;
 mod material;
@@ -11,7 +12,7 @@ mod plasticity;
 mod selector;
 mod vectors;
 
-pub use crate::curve::{CurveTable, SineTable};
+pub use curve::{CurveTable, SineTable};
 
 pub use batch::{BatchTable, RangeTable, Spacing, VaryTable};
 pub use constraints::{FixedTable, PrescribedTable, RotationTable};
@@ -19,13 +20,13 @@ pub use contact::{ContactTable, PlaneTable};
 pub use initial::{AngularVelocityTable, InitialVelocityTable};
 pub use loads::{BodyForceTable, DragTable, DragVertex, ForceTable, GravityTable, SpringTable, TractionTable};
 pub(crate) use material::IN_PLANE_STRESS;
-pub use material::{MODELS, Material, MaterialsTable, PlaneState};
+pub use material::{MODELS, MaterialTable, MaterialsTable};
 pub use method::{
-    AdaptiveTable, DampingForm, DampingTable, EnergyTable, GeneralizedAlphaTable, IterationsTable, NewmarkTable,
-    NewtonTable, Precision, Preconditioner, Projection, SolverKind, SolverTable, StaticTable, TimeTable,
+    AdaptiveTable, DampingTable, EnergyTable, GeneralizedAlphaTable, IterationsTable, NewmarkTable, NewtonTable,
+    SolverTable, StaticTable, TimeTable,
 };
 pub use plasticity::{PlasticModel, PlasticityTable};
-pub use selector::{BoxTable, On, Plane, Region, Selector, SidePlane, SphereTable};
+pub use selector::{BoxTable, On, Plane, SidePlane, SphereTable};
 
 use std::path::PathBuf;
 
@@ -58,7 +59,7 @@ pub struct Scene {
     /// `[mesh]`
     pub mesh: MeshTable,
     /// `[material]`
-    pub material: Material,
+    pub material: MaterialTable,
     /// `[[materials]]`
     #[serde(default)]
     pub materials: Vec<MaterialsTable>,
@@ -243,16 +244,4 @@ pub struct MassTable {
     /// True if the mass is lumped at the nodes: each row of the mass matrix is summed on the diagonal. Default: `true` for `pbd`, `xpbd`
     /// and `vbd`, and for explicit methods with more than 2000 nodes or with obstacles.
     pub lumped: Option<bool>,
-}
-
-/// A coordinate axis; its number is the index of the coordinate.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum Axis {
-    /// The x axis.
-    X,
-    /// The y axis.
-    Y,
-    /// The z axis.
-    Z,
 }

@@ -1,76 +1,34 @@
 //! Selectors: the keys by which a table names a part of the mesh.
 
+use fem_model::{Axis, Region, Selector};
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, Error, MapAccess, Unexpected, Visitor};
 
+use super::Side;
 use super::vectors::three_numbers;
-use super::{Axis, Side};
 
-/// A part of the mesh, by the one key that a table gives. A selection without a node, an element or a triangle is an error.
-///
-/// A triangle is selected if all of its corners are, an element if its centroid is, an edge of a flat body's outline if its two ends are.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Selector {
-    /// `on`, `plane`, `box` or `sphere`: a region of space.
-    Region(Region),
-    /// `set`: a named set of the mesh: a physical group of a Gmsh file by its name, or by its number if it has no name (`"7"`); a file of
-    /// `[mesh] files` by its name without extension. A set gives the nodes of its triangles, lines and points, or those of its tetrahedra
-    /// if it has nothing else; a traction takes its triangles. `mesh info FILE` lists the sets of a file;
-    /// `scale` and `refine` keep them.
-    Set(String),
-    /// `nodes`: nodes by their index from 0, such as `[0, 4, 7]`.
-    Nodes(Vec<usize>),
-    /// `faces`: triangles of the boundary by their nodes, such as `[[4, 0, 1], [4, 1, 5]]`.
-    Faces(Vec<[usize; 3]>),
-    /// `edges`: edges of a flat body's outline by their two ends, such as `[[0, 1], [1, 2]]`.
-    Edges(Vec<[usize; 2]>),
+/// The selectors among the keys that every table with selectors has.
+pub(super) fn of_keys(
+    on: &Option<On>,
+    cuboid: &Option<BoxTable>,
+    sphere: &Option<SphereTable>,
+    set: &Option<String>,
+) -> Vec<Selector> {
+    let on = on.as_ref().map(|on| match *on {
+        On::All => Region::All,
+        On::Side(SidePlane { axis, side, within }) => Region::Side { axis, side, within },
+    });
+    let cuboid = cuboid.as_ref().map(|&BoxTable { min, max }| Region::Box { min, max });
+    let sphere = sphere.as_ref().map(|&SphereTable { center, radius }| Region::Sphere { center, radius });
+    let regions = [on, cuboid, sphere].into_iter().flatten().map(Selector::Region);
+    regions.chain(set.clone().map(Selector::Set)).collect()
 }
 
-/// A region of space.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Region {
-    /// `on = "all"`: the whole mesh, or its whole boundary.
-    All,
-    /// `on = { axis, side, within }`: near a side of the mesh's bounding box.
-    Side(SidePlane),
-    /// `plane`: near the side of the smallest coordinate.
-    Plane(Plane),
-    /// `box`: inside a box.
-    Box(BoxTable),
-    /// `sphere`: inside a sphere.
-    Sphere(SphereTable),
-}
-
-impl Selector {
-    /// The key that names it in a scene file.
-    pub fn key(&self) -> &'static str {
-        match self {
-            Self::Region(Region::All | Region::Side(_)) => "on",
-            Self::Region(Region::Plane(_)) => "plane",
-            Self::Region(Region::Box(_)) => "box",
-            Self::Region(Region::Sphere(_)) => "sphere",
-            Self::Set(_) => "set",
-            Self::Nodes(_) => "nodes",
-            Self::Faces(_) => "faces",
-            Self::Edges(_) => "edges",
-        }
-    }
-
-    /// The selectors among the keys that every table with selectors has.
-    pub(super) fn of_keys(
-        on: &Option<On>,
-        cuboid: &Option<BoxTable>,
-        sphere: &Option<SphereTable>,
-        set: &Option<String>,
-    ) -> Vec<Self> {
-        let on = on.clone().map(|on| match on {
-            On::All => Region::All,
-            On::Side(side) => Region::Side(side),
-        });
-        let (cuboid, sphere) = (cuboid.clone().map(Region::Box), sphere.clone().map(Region::Sphere));
-        let regions = [on, cuboid, sphere].into_iter().flatten().map(Self::Region);
-        regions.chain(set.clone().map(Self::Set)).collect()
+impl Plane {
+    /// Its selector.
+    pub(super) fn selector(&self) -> Selector {
+        Selector::Region(Region::Plane { axis: self.axis, below: self.below })
     }
 }
 

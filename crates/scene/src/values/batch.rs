@@ -1,29 +1,9 @@
-//! The environments of a batch as values.
+//! The environments of a scene as values.
+
+use fem_model::{Batch, EnvironmentValues, Refusal};
 
 use crate::Scene;
 use crate::tables::{BatchTable, RangeTable, Spacing};
-
-/// The values of one environment; `None` for a quantity that does not vary.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct EnvironmentValues {
-    /// `material.young`, Pa.
-    pub young: Option<f64>,
-    /// `material.poisson`.
-    pub poisson: Option<f64>,
-    /// `material.density`, kg/m³.
-    pub density: Option<f64>,
-    /// Factor on `gravity.acceleration`.
-    pub gravity: Option<f64>,
-}
-
-impl EnvironmentValues {
-    /// The quantities that vary, with their keys in `[batch.vary]`.
-    pub fn varied(&self) -> impl Iterator<Item = (&'static str, f64)> {
-        let all =
-            [("young", self.young), ("poisson", self.poisson), ("density", self.density), ("gravity", self.gravity)];
-        all.into_iter().filter_map(|(key, value)| Some((key, value?)))
-    }
-}
 
 impl RangeTable {
     /// The value of environment `number` of `count`; that of a single environment is `from`.
@@ -72,5 +52,20 @@ impl Scene {
     /// Number of environments; 1 without `[batch]`.
     pub fn environments(&self) -> usize {
         self.batch.as_ref().map_or(1, |batch| batch.count)
+    }
+
+    /// The values of its environments; a scene without `[batch]` is its only one.
+    pub fn environment_values(&self) -> Batch {
+        let values = |batch: &BatchTable| (0..batch.count).map(|number| batch.values(number)).collect();
+        Batch(self.batch.as_ref().map_or(vec![EnvironmentValues::default()], values))
+    }
+
+    /// Refuses a scene of many environments, for those who simulate one body.
+    pub fn check_one_body(&self) -> Result<(), Refusal> {
+        if self.batch.is_none() {
+            return Ok(());
+        }
+        let problem = "is a table of many environments, and this is a simulation of one body; run the scene with --headless, or remove it";
+        Err(Refusal::new("batch", problem))
     }
 }

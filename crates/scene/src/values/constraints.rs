@@ -1,106 +1,18 @@
-//! Dirichlet conditions: nodes that are fixed, or that follow a prescribed motion.
+//! The Dirichlet conditions of a scene.
 
-use std::collections::HashSet;
-use std::f64::consts::TAU;
+use fem_model::{
+    BodyMesh, DirichletCondition, Integrator, LoadCurve, Motion, Refusal, Rotation, check_disjoint, nodes,
+};
+use nalgebra::Vector3;
 
-use nalgebra::{Rotation3, Unit, Vector3};
-
-use super::selection::{self, chosen};
+use super::chosen;
+use crate::Scene;
 use crate::tables::{CurveTable, PrescribedTable, RotationTable};
-use crate::{BodyMesh, Integrator, LoadCurve, Scene, SceneError};
-
-/// Prescribed coordinates of some nodes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DirichletCondition {
-    /// The scene's table: `fixed`, or such as `prescribed[0]`.
-    pub name: String,
-    /// Nodes, ascending and without repeats.
-    pub nodes: Vec<usize>,
-    /// True for each of x, y and z that is prescribed.
-    pub components: [bool; 3],
-    /// Prescribed motion; `None` if the nodes keep their undeformed positions.
-    pub motion: Option<Motion>,
-    /// Time from which the nodes are free, s; `None` if they never are.
-    pub until: Option<f64>,
-}
-
-/// A rotation followed by a displacement, a part of which is reached at each time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Motion {
-    /// Displacement of the full motion, m; a velocity, m/s, where the curve is an integral over time.
-    pub displacement: Vector3<f64>,
-    /// Rotation before the displacement.
-    pub rotation: Option<Rotation>,
-    /// Part of the motion that is reached, a ramp for `over`; `None` if the full motion applies from the first step on.
-    pub curve: Option<LoadCurve>,
-}
-
-/// A rotation about a line.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Rotation {
-    /// Direction of the line.
-    pub axis: Unit<Vector3<f64>>,
-    /// A point of the line, m.
-    pub center: Vector3<f64>,
-    /// Full turns, counter-clockwise seen against `axis`.
-    pub turns: f64,
-}
-
-impl Motion {
-    /// Fraction of the full motion that is reached at a time, s.
-    pub fn fraction(&self, time: f64) -> f64 {
-        self.curve.as_ref().map_or(1.0, |curve| curve.factor(time))
-    }
-
-    /// That fraction and its first and second derivative (1/s, 1/s²) at a part of the time step from `begin` to `end`, s; see
-    /// [`LoadCurve::in_step`].
-    pub fn fraction_in_step(&self, step: [f64; 2], part: f64) -> [f64; 3] {
-        self.curve.as_ref().map_or([1.0, 0.0, 0.0], |curve| curve.in_step(step, part))
-    }
-
-    /// Position of a node at a fraction of the motion, m. `X` is its undeformed position, m.
-    ///
-    /// x = c + R(2π · turns · fraction) (X − c) + fraction · displacement
-    pub fn position(&self, X: &Vector3<f64>, fraction: f64) -> Vector3<f64> {
-        let rotated = self.rotation.as_ref().map_or(*X, |rotation| {
-            let angle = TAU * rotation.turns * fraction;
-            rotation.center + Rotation3::from_axis_angle(&rotation.axis, angle) * (X - rotation.center)
-        });
-        rotated + fraction * self.displacement
-    }
-
-    /// First and second derivative of [`position`](Self::position) by the fraction s, m:
-    /// dx/ds = ω × (R (X − c)) + displacement and d²x/ds² = ω × (ω × (R (X − c))), ω = 2π · turns · axis.
-    pub fn derivatives(&self, X: &Vector3<f64>, fraction: f64) -> [Vector3<f64>; 2] {
-        let Some(rotation) = &self.rotation else { return [self.displacement, Vector3::zeros()] };
-        let omega = TAU * rotation.turns * rotation.axis.into_inner();
-        let arm = Rotation3::from_axis_angle(&rotation.axis, TAU * rotation.turns * fraction) * (X - rotation.center);
-        let first = omega.cross(&arm);
-        [first + self.displacement, omega.cross(&first)]
-    }
-
-    fn new(table: &PrescribedTable, method: Integrator) -> Self {
-        let rotation = |rotation: &RotationTable| Rotation {
-            axis: [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()][rotation.axis as usize],
-            center: rotation.center.into(),
-            turns: rotation.turns,
-        };
-        // Under `static` a motion grows with the load steps.
-        let over = table.over.filter(|_| method != Integrator::Static);
-        let curve = over.map(LoadCurve::Ramp).or_else(|| table.curve.as_ref().map(CurveTable::curve));
-        Self {
-            displacement: table.velocity.or(table.displacement).unwrap_or_default().into(),
-            rotation: table.rotation.as_ref().map(rotation),
-            // A velocity times the integral of its factor is the displacement.
-            curve: if table.velocity.is_some() { Some(LoadCurve::Integral(curve.map(Box::new))) } else { curve },
-        }
-    }
-}
 
 /// The conditions of `[fixed]` and of every `[[prescribed]]`. Refuses a coordinate that two of them prescribe.
-pub(crate) fn dirichlet_conditions(scene: &Scene, mesh: &BodyMesh) -> Result<Vec<DirichletCondition>, SceneError> {
+pub(crate) fn dirichlet_conditions(scene: &Scene, mesh: &BodyMesh) -> Result<Vec<DirichletCondition>, Refusal> {
     let fixed = scene.fixed.iter().map(|table| {
-        let nodes = selection::nodes(scene, "fixed", &chosen(table.selectors()), mesh)?;
+        let nodes = nodes("fixed", &chosen(table.selectors()), mesh)?;
         Ok(DirichletCondition {
             name: "fixed".to_owned(),
             nodes,
@@ -111,33 +23,29 @@ pub(crate) fn dirichlet_conditions(scene: &Scene, mesh: &BodyMesh) -> Result<Vec
     });
     let prescribed = scene.prescribed.iter().enumerate().map(|(number, table)| {
         let name = format!("prescribed[{number}]");
-        let nodes = selection::nodes(scene, &name, &chosen(table.selectors()), mesh)?;
-        let (components, motion) = (table.is_prescribed(), Some(Motion::new(table, scene.time.integrator)));
+        let nodes = nodes(&name, &chosen(table.selectors()), mesh)?;
+        let (components, motion) = (table.is_prescribed(), Some(motion(table, scene.time.integrator)));
         Ok(DirichletCondition { name, nodes, components, motion, until: table.until })
     });
     let conditions = fixed.chain(prescribed).collect::<Result<Vec<_>, _>>()?;
-    check_disjoint(scene, &conditions, mesh.vertices().len())?;
+    check_disjoint(&conditions, mesh.vertices().len())?;
     Ok(conditions)
 }
 
-fn check_disjoint(scene: &Scene, conditions: &[DirichletCondition], nodes: usize) -> Result<(), SceneError> {
-    let (fixed, prescribed): (Vec<_>, Vec<_>) = conditions.iter().partition(|condition| condition.motion.is_none());
-    let fixed: HashSet<usize> = fixed.iter().flat_map(|condition| &condition.nodes).copied().collect();
-    let mut owner = vec![[None; 3]; nodes];
-    for condition in prescribed {
-        for &node in &condition.nodes {
-            if fixed.contains(&node) {
-                let text = format!("moves node {node}, which [fixed] constrains; name each node in one of the two");
-                return Err(scene.refuse(&condition.name, &text));
-            }
-            for axis in (0..3).filter(|&axis| condition.components[axis]) {
-                if let Some(other) = owner[node][axis].replace(&condition.name) {
-                    let axis = ["x", "y", "z"][axis];
-                    let text = format!("moves {axis} of node {node}, and so does {other}; name each coordinate once");
-                    return Err(scene.refuse(&condition.name, &text));
-                }
-            }
-        }
+/// The motion of a table.
+fn motion(table: &PrescribedTable, method: Integrator) -> Motion {
+    let rotation = |rotation: &RotationTable| Rotation {
+        axis: [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()][rotation.axis as usize],
+        center: rotation.center.into(),
+        turns: rotation.turns,
+    };
+    // Under `static` a motion grows with the load steps.
+    let over = table.over.filter(|_| method != Integrator::Static);
+    let curve = over.map(LoadCurve::Ramp).or_else(|| table.curve.as_ref().map(CurveTable::curve));
+    Motion {
+        displacement: table.velocity.or(table.displacement).unwrap_or_default().into(),
+        rotation: table.rotation.as_ref().map(rotation),
+        // A velocity times the integral of its factor is the displacement.
+        curve: if table.velocity.is_some() { Some(LoadCurve::Integral(curve.map(Box::new))) } else { curve },
     }
-    Ok(())
 }

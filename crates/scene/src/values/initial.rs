@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use fem_model::{BodyMesh, Refusal, nodes};
 use nalgebra::Vector3;
 
-use super::selection::{chosen, nodes};
+use super::chosen;
+use crate::Scene;
 use crate::tables::{AngularVelocityTable, InitialVelocityTable};
-use crate::{BodyMesh, Scene, SceneError};
 
 /// The velocity of each node at the start, m/s: the sum over all `[[initial_velocity]]`; empty without such a table. `density` is that
 /// of each element, kg/m³, and `find` turns the path of a file in the scene into the path to open.
@@ -15,7 +16,7 @@ pub(crate) fn initial_velocity(
     mesh: &BodyMesh,
     density: impl Fn(usize) -> f64,
     find: impl Fn(&Path) -> PathBuf,
-) -> Result<Vec<Vector3<f64>>, SceneError> {
+) -> Result<Vec<Vector3<f64>>, Refusal> {
     if scene.initial_velocity.is_empty() {
         return Ok(Vec::new());
     }
@@ -25,12 +26,12 @@ pub(crate) fn initial_velocity(
         let name = format!("initial_velocity[{number}]");
         let nodes = match table.selectors() {
             selectors if selectors.is_empty() => (0..mesh.vertices().len()).collect(),
-            selectors => nodes(scene, &name, &chosen(selectors), mesh)?,
+            selectors => nodes(&name, &chosen(selectors), mesh)?,
         };
         let field = format!("{name}.per_node");
         let path = table.per_node.as_deref().map(&find);
         let per_node =
-            path.map(|path| velocities(&path, mesh.vertices().len()).map_err(|reason| scene.refuse(&field, &reason)));
+            path.map(|path| velocities(&path, mesh.vertices().len()).map_err(|reason| Refusal::new(&field, reason)));
         let per_node = per_node.transpose()?.unwrap_or_default();
         for node in nodes {
             sum[node] += velocity(table, &centre_of_mass, &mesh.vertices()[node]);

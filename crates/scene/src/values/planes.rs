@@ -1,92 +1,35 @@
-//! `[[planes]]` as half-spaces, and their motions.
+//! The obstacles of a scene.
 
-use nalgebra::Vector3;
+use fem_model::{Body, Contact, ContactPlane, PlaneMotion, Refusal};
 
-use crate::LoadCurve;
+use crate::Scene;
+use crate::check::contact::check;
 use crate::tables::PlaneTable;
 
-/// A half-space that the body does not enter.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ContactPlane {
-    /// A point of the plane before its motion, m.
-    pub point: Vector3<f64>,
-    /// Unit normal, towards the body.
-    pub normal: Vector3<f64>,
-    /// Coefficient of Coulomb friction.
-    pub friction: f64,
-    /// How the plane moves.
-    pub motion: PlaneMotion,
+/// The obstacles of `[[planes]]`, if there are some. Refuses a body that lies behind a plane at the start.
+pub(crate) fn contact(scene: &Scene, body: &Body) -> Result<Option<Contact>, Refusal> {
+    if scene.planes.is_empty() {
+        return Ok(None);
+    }
+    // The integrator may be another one than that of the file.
+    check(scene)?;
+    let mut contact = Contact::new(scene.planes.iter().map(plane).collect(), body, &scene.method())?;
+    if let Some(table) = &scene.contact {
+        contact.activation_distance = table.activation_distance.unwrap_or(contact.activation_distance);
+        contact.transition_speed = table.transition_speed.unwrap_or(contact.transition_speed);
+    }
+    Ok(Some(contact))
 }
 
-/// Motion of an obstacle.
-#[derive(Clone, Debug, PartialEq)]
-pub enum PlaneMotion {
-    /// The plane stays where it is.
-    AtRest,
-    /// A constant velocity.
-    Uniform {
-        /// m/s
-        velocity: Vector3<f64>,
-        /// Time at which the motion ends, s; infinite for a motion without end.
-        until: f64,
-    },
-    /// A displacement times a factor of time.
-    Curve {
-        /// m
-        displacement: Vector3<f64>,
-        /// Its factor, without jumps.
-        curve: LoadCurve,
-    },
-}
-
-impl ContactPlane {
-    /// Displacement of the plane at a time (s), m.
-    pub fn displacement(&self, time: f64) -> Vector3<f64> {
-        match &self.motion {
-            PlaneMotion::AtRest => Vector3::zeros(),
-            PlaneMotion::Uniform { velocity, until } => velocity * time.min(*until),
-            PlaneMotion::Curve { displacement, curve } => displacement * curve.factor(time),
+fn plane(table: &PlaneTable) -> ContactPlane {
+    let curve = table.curve.as_ref().map(|curve| curve.curve());
+    let motion = match (table.velocity, table.displacement.zip(curve)) {
+        (_, Some((displacement, curve))) => PlaneMotion::Curve { displacement: displacement.into(), curve },
+        (Some(velocity), None) if velocity != [0.0; 3] => {
+            PlaneMotion::Uniform { velocity: velocity.into(), until: table.until.unwrap_or(f64::INFINITY) }
         }
-    }
-
-    /// Its mean velocity between two times (s), m/s.
-    pub fn mean_velocity(&self, [from, to]: [f64; 2]) -> Vector3<f64> {
-        match &self.motion {
-            PlaneMotion::AtRest => Vector3::zeros(),
-            PlaneMotion::Uniform { velocity, until } if to <= *until => *velocity,
-            _ => (self.displacement(to) - self.displacement(from)) / (to - from),
-        }
-    }
-
-    /// Returns true if the plane never moves.
-    pub fn is_at_rest(&self) -> bool {
-        self.motion == PlaneMotion::AtRest
-    }
-
-    pub(super) fn new(table: &PlaneTable) -> Self {
-        Self {
-            point: table.point.into(),
-            normal: unit(table.normal.into()),
-            friction: table.friction,
-            motion: PlaneMotion::new(table),
-        }
-    }
-}
-
-impl PlaneMotion {
-    fn new(table: &PlaneTable) -> Self {
-        let curve = table.curve.as_ref().map(|curve| curve.curve());
-        match (table.velocity, table.displacement.zip(curve)) {
-            (_, Some((displacement, curve))) => Self::Curve { displacement: displacement.into(), curve },
-            (Some(velocity), None) if velocity != [0.0; 3] => {
-                Self::Uniform { velocity: velocity.into(), until: table.until.unwrap_or(f64::INFINITY) }
-            }
-            _ => Self::AtRest,
-        }
-    }
-}
-
-/// A vector of length 1, without overflow on the way.
-fn unit(vector: Vector3<f64>) -> Vector3<f64> {
-    (vector / vector.amax()).normalize()
+        _ => PlaneMotion::AtRest,
+    };
+    let plane = ContactPlane::new(table.point.into(), table.normal.into());
+    ContactPlane { friction: table.friction, motion, ..plane }
 }

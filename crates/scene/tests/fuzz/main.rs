@@ -9,7 +9,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fem_mesh::{Pattern, TetrahedralMesh, box_mesh, rectangle_mesh};
-use fem_scene::{BodyMesh, Override, Scene, SceneError, body_of, load, load_with, warnings};
+use fem_model::BodyMesh;
+use fem_scene::{Override, Scene, SceneError, body_of, load, load_with, warnings};
 use tempfile::tempdir;
 
 use self::mutation::fuzz;
@@ -169,7 +170,7 @@ fn mutated_velocities_are_read_or_refused() {
     let files = [rows.clone().into_bytes(), format!("x,y,z\n{rows}").into_bytes()];
     let prepare = |bytes: &[u8]| write_anew(&velocities, bytes);
     let read = |_: &()| body_of(&scene, solid(), folder.path());
-    let go_on = |found: Result<fem_scene::Body, SceneError>| match found {
+    let go_on = |found: Result<fem_model::Body, SceneError>| match found {
         Ok(body) => assert!(body.initial_velocity.iter().flatten().all(|x| x.is_finite())),
         Err(error) => assert_readable(&error),
     };

@@ -1,6 +1,6 @@
 //! `curve`: the factor of each kind, and its errors at their lines.
 
-use fem_scene::LoadCurve;
+use fem_model::LoadCurve;
 
 use crate::errors::assert_refused;
 use crate::{LEAST, body, edit};

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use fem_mesh::Pattern;
+use fem_model::{Axis, Integrator, SolverKind};
+use fem_scene::Pipeline;
 use fem_scene::tables::{Cuboid, DragTable, DragVertex, MassTable, NewtonTable, Plane, SolverTable};
-use fem_scene::{Axis, Integrator, Pipeline, SolverKind};
 
 use crate::{LEAST, edit, read};
 

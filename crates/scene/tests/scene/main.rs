@@ -20,7 +20,8 @@ mod tables;
 
 use std::path::{Path, PathBuf};
 
-use fem_scene::{Body, Scene, SceneError, parse};
+use fem_model::Body;
+use fem_scene::{Scene, SceneError, parse};
 
 /// The smallest scene, of mandatory keys only.
 const LEAST: &str = r#"pipeline = "course"

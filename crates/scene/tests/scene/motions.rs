@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use fem_scene::{DirichletCondition, Motion};
+use fem_model::{DirichletCondition, Motion};
 use nalgebra::Vector3;
 
 use crate::errors::assert_refused;
@@ -172,7 +172,7 @@ fn a_prescribed_table_is_checked_at_its_line() {
 
 #[test]
 fn a_velocity_is_integrated_exactly_whatever_its_curve() {
-    use fem_scene::LoadCurve;
+    use fem_model::LoadCurve;
     let curves = [
         None,
         Some(LoadCurve::Ramp(0.7)),

@@ -112,7 +112,7 @@ fn a_changed_scene_is_that_of_the_file_with_the_values() {
 fn a_change_keeps_another_time_step_and_integrator_than_the_files() {
     let mut scene = read(LEAST);
     scene.time.dt = Some(0.003);
-    scene.time.integrator = fem_scene::Integrator::LinearlyImplicitEuler;
+    scene.time.integrator = fem_model::Integrator::LinearlyImplicitEuler;
     let changed = scene.changed(&["material.density=7".parse().unwrap()]).unwrap();
     assert_eq!((changed.time.dt, changed.time.integrator), (scene.time.dt, scene.time.integrator));
     assert_eq!(scene.changed(&["time.dt=0.5".parse().unwrap()]).unwrap().time.dt, Some(0.5));

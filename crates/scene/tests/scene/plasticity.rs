@@ -1,6 +1,6 @@
 //! `[plasticity]`: its values, and its errors at their lines.
 
-use fem_scene::Plasticity;
+use fem_model::Plasticity;
 
 use crate::errors::assert_refused;
 use crate::{body, edit};

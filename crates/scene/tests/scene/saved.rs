@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use fem_scene::{Integrator, Override, Scene, body, load, names, parse, save};
+use fem_model::Integrator;
+use fem_scene::{Override, Scene, body, load, names, parse, save};
 use tempfile::TempDir;
 
 use crate::{LEAST, data, edit, read};

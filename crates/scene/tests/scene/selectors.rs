@@ -3,7 +3,8 @@
 use std::fs;
 
 use fem_mesh::{Pattern, box_mesh, write_tetrahedra};
-use fem_scene::{Body, SceneError, load};
+use fem_model::Body;
+use fem_scene::{SceneError, load};
 
 use crate::errors::assert_refused;
 use crate::{LEAST, body, edit};

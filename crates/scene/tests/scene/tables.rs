@@ -1,7 +1,8 @@
 //! The tables of the engine: their values, and the line of their errors.
 
+use fem_mesh::Side;
+use fem_model::{Axis, DampingForm, Precision, Preconditioner, Projection};
 use fem_scene::tables::{BodyForceTable, DampingTable, On, SidePlane, SpringTable, StaticTable, TractionTable};
-use fem_scene::{Axis, DampingForm, Precision, Preconditioner, Projection, Side};
 
 use crate::errors::assert_refused;
 use crate::{LEAST, body, edit, read};
@@ -234,7 +235,7 @@ fn a_static_scene_may_leave_out_its_time_step_and_no_other_may() {
     assert_eq!((scene.time.dt, scene.method().dt), (None, 1.0));
     assert_eq!(read(&edit(&text, "[time]\n", "[time]\ndt = 0.5\n")).method().dt, 0.5);
     let mut moving = scene;
-    moving.time.integrator = fem_scene::Integrator::Rk4;
+    moving.time.integrator = fem_model::Integrator::Rk4;
     let message = moving.check().unwrap_err().to_string();
     assert!(message.ends_with("time.dt is missing, and rk4 needs a time step; give it in seconds"), "{message}");
     moving.time.dt = Some(0.01);
@@ -263,7 +264,7 @@ fn nodal_forces_take_the_selectors_of_fixed_nodes_and_are_checked() {
     let forces = |table: &str| body(&with(table)).unwrap().nodal_forces;
     let left = forces("plane = { axis = \"x\", below = 1e-9 }\nvalue = [1, 2, 3]\ncurve = { ramp = 2 }\n");
     assert!(!left.is_empty() && left[0].nodes.contains(&0) && left[0].force.as_slice() == [1.0, 2.0, 3.0]);
-    assert_eq!(left[0].curve, Some(fem_scene::LoadCurve::Ramp(2.0)));
+    assert_eq!(left[0].curve, Some(fem_model::LoadCurve::Ramp(2.0)));
     assert_eq!(forces("nodes = [3, 1, 3]\nvalue = [0, 0, 1]\n")[0].nodes, [1, 3]);
     assert_refused(&with("nodes = []\nvalue = [0, 0, 1]\n"), 13, "force[0].nodes is empty; name a node");
     assert_refused(&with("nodes = [1]\nvalue = [0, nan, 1]\n"), 14, "force[0].value is NaN; give finite numbers");

@@ -5,7 +5,7 @@
 use fem_engine::forces::Moment;
 use fem_engine::simulator::double::{self, System};
 use fem_engine::solvers::SolverChoice;
-use fem_scene::{Body, LoadCurve};
+use fem_model::{Body, LoadCurve};
 use nalgebra::Vector3;
 
 use super::mass::{Density, MassInverse};

@@ -1,7 +1,7 @@
 //! The inverse mass matrix of the reference, factorised exactly.
 
 use fem_engine::simulator::double::System;
-use fem_scene::{Body, BodyMesh};
+use fem_model::{Body, BodyMesh};
 
 use super::ldl::Ldl;
 use crate::space::points::points;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use fem_scene::Motion;
+use fem_model::Motion;
 use nalgebra::Vector3;
 
 /// Returns true if the motion is not at rest.

@@ -172,7 +172,8 @@ fn explicit_methods_follow_a_turning_clamp_to_the_reference_with_their_order() {
     for (method, order, steps) in [("verlet", 2.0, 200), ("rk2", 2.0, 400), ("rk4", 4.0, 200)] {
         let error = |steps: usize| {
             let scene = of(method, steps);
-            let mut simulation = fem_engine::simulator::build(&scene, body(&scene, Path::new("")).unwrap()).unwrap();
+            let mut simulation =
+                fem_engine::simulator::build(body(&scene, Path::new("")).unwrap(), &scene.method()).unwrap();
             (0..steps).for_each(|_| simulation.step().unwrap());
             f64::max((simulation.positions() - &exact.q).amax(), 0.1 * (simulation.velocities() - &exact.qdot).amax())
         };

@@ -7,9 +7,9 @@ use nalgebra::DVector;
 
 use crate::machine;
 use crate::runs::plan::PlannedRun;
+use fem_model::simulation::{Counters, Simulation};
 use fem_scene::Scene;
 use fem_scene::simulate::quantile;
-use fem_scene::simulation::{Counters, Simulation};
 
 /// Builds the simulation of a scene with the pipeline that the scene names.
 pub type Factory<'a> = dyn Fn(&Scene) -> Result<Box<dyn Simulation>, String> + 'a;
@@ -209,7 +209,10 @@ mod tests {
 
     fn build(scene: &Scene) -> Result<Box<dyn Simulation>, String> {
         let body = body(scene, Path::new("no data")).map_err(|error| error.to_string())?;
-        fem_engine::simulator::build(scene, body).map_err(|error| error.to_string())
+        scene
+            .check_one_body()
+            .and_then(|()| fem_engine::simulator::build(body, &scene.method()))
+            .map_err(|refusal| scene.refused(refusal).to_string())
     }
 
     fn run(dt: f64, steps: usize) -> PlannedRun {

@@ -1,6 +1,7 @@
 //! Names of methods and solvers in tables.
 
-use fem_scene::{Integrator, Preconditioner, Scene, SolverKind};
+use fem_model::{Integrator, Preconditioner, SolverKind};
+use fem_scene::Scene;
 
 /// Name of an integrator in prose.
 pub fn name(integrator: Integrator) -> &'static str {

@@ -3,8 +3,9 @@
 //! Every integrator runs with a ladder of halved time steps. Explicit integrators start above their stability limit, so that the
 //! failure is shown. Tolerance, solver, projection, precision and mesh vary around one point of the ladder of implicit Euler.
 
+use fem_model::{Integrator, Precision, Preconditioner, Projection, SolverKind};
 use fem_scene::tables::{AdaptiveTable, DragTable, NewmarkTable, NewtonTable, SolverTable, TimeTable};
-use fem_scene::{Integrator, Pipeline, Precision, Preconditioner, Projection, Scene, SolverKind};
+use fem_scene::{Pipeline, Scene};
 
 use super::names::{name, solver_name};
 

@@ -1,6 +1,6 @@
 //! A row of a study: configuration, errors, times and counters of a run. The columns of `runs.csv`.
 
-use fem_scene::simulation::Counters;
+use fem_model::simulation::Counters;
 
 /// The configuration of a run.
 #[derive(Clone, Debug, Default, PartialEq)]

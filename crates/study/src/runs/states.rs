@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use crate::reference::Reference;
 use crate::space::norms;
 use fem_mesh::write::save_bytes;
-use fem_scene::BodyMesh;
+use fem_model::BodyMesh;
 
 /// The state at the end of a run.
 #[derive(Clone, Copy, Debug)]

@@ -1,17 +1,22 @@
 //! Equilibria in closed form.
 
+use std::path::Path;
+
 use crate::space::norms;
 use fem_engine::cantilever::{expected_tip_displacement, tip_displacement};
-use fem_scene::simulation::Simulation;
+use fem_mesh::Side;
+use fem_model::simulation::Simulation;
+use fem_model::{Axis, Integrator, Law};
 use fem_scene::tables::{On, PrescribedTable};
-use fem_scene::{Axis, Integrator, Scene, Side};
+use fem_scene::{Scene, body_of_shape};
 
 /// Relative distance of a simulation from the scene's closed form; `None` for a scene without one.
 ///
 /// Cantilever: relative error of the tip displacement against Timoshenko's beam theory. Stretched bar: root mean square over the nodes
 /// against the uniform state, relative to the body's length.
 pub fn error(scene: &Scene, simulation: &dyn Simulation) -> Option<f64> {
-    if let Some(expected) = expected_tip_displacement(scene) {
+    let body = body_of_shape(scene, (*simulation.shape()).clone(), Path::new("")).ok()?;
+    if let Some(expected) = expected_tip_displacement(&body, &scene.method()) {
         return Some((tip_displacement(simulation) - expected).norm() / expected.norm());
     }
     let (stretch, lateral) = uniaxial(scene)?;
@@ -27,8 +32,7 @@ pub fn error(scene: &Scene, simulation: &dyn Simulation) -> Option<f64> {
 /// Stretches along and across x of a neo-Hookean box on three symmetry planes under a dead traction along x.
 pub fn uniaxial(scene: &Scene) -> Option<(f64, f64)> {
     let is_uniform = scene.materials.is_empty();
-    let is_neo_hookean =
-        is_uniform && scene.material.model == "neo_hookean" && scene.time.integrator == Integrator::Static;
+    let is_static = scene.time.integrator == Integrator::Static;
     let is_without_weight = scene.gravity.is_none() && scene.body_force.is_none();
     let is_alone = is_without_weight && scene.force.is_empty() && scene.springs.is_empty() && scene.drag.is_none();
     let [traction] = &scene.traction[..] else { return None };
@@ -39,10 +43,11 @@ pub fn uniaxial(scene: &Scene) -> Option<(f64, f64)> {
         .all(|&axis| scene.prescribed.iter().any(|condition| is_roller(condition, axis)));
     let is_bar =
         scene.mesh.cuboid.is_some() && scene.prescribed.len() == 3 && scene.fixed.is_none() && on.within >= 0.0;
-    let (C, D) = scene.material.neo_hookean()?;
-    if !(is_neo_hookean && is_alone && rollers && is_bar) {
+    let Law::NeoHookean(law) = scene.material.value().law else { return None };
+    if !(is_uniform && is_static && is_alone && rollers && is_bar) {
         return None;
     }
+    let [C, D] = law.moduli();
     stretches(C, D, load)
 }
 

@@ -62,7 +62,8 @@ pub fn conditioning(mesh: &TetrahedralMesh) -> Result<Conditioning, String> {
     let text = scene(["x", "y", "z"][axis], FIXED * sizes[axis]);
     let scene = parse(&text, Path::new("conditioning")).map_err(|error| error.to_string())?;
     let body = body_of(&scene, mesh.clone(), Path::new("")).map_err(|error| error.to_string())?;
-    let simulator = Simulator::<f64>::new(&scene, body).map_err(|error| error.to_string())?;
+    let simulator =
+        Simulator::<f64>::new(body, &scene.method()).map_err(|refusal| scene.refused(refusal).to_string())?;
     let system = simulator.system();
     let undeformed = vec![[0.0; 3]; system.nodes()];
     let times_stiffness = |x: &[[f64; 3]], y: &mut [[f64; 3]]| add_stiffness_times(system, &undeformed, x, y);

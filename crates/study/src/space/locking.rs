@@ -31,9 +31,10 @@ pub fn bend(poisson: f64, cells: usize) -> Result<TipDeflection, String> {
     );
     let scene = parse(&text, Path::new("locking.toml")).map_err(|error| error.to_string())?;
     let body = body(&scene, Path::new("")).map_err(|error| error.to_string())?;
-    let mut simulation = simulator::build(&scene, body).map_err(|error| error.to_string())?;
+    let mut simulation =
+        simulator::build(body.clone(), &scene.method()).map_err(|refusal| scene.refused(refusal).to_string())?;
     simulation.step().map_err(|failure| failure.to_string())?;
-    let expected = expected_tip_displacement(&scene).ok_or("the beam is no cantilever")?;
+    let expected = expected_tip_displacement(&body, &scene.method()).ok_or("the beam is no cantilever")?;
     Ok(TipDeflection { poisson, cells, ratio: tip_displacement(&*simulation).z / expected.z })
 }
 

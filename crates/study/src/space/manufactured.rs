@@ -16,9 +16,10 @@ use fem_engine::model::numbering::Numbering;
 use fem_engine::simulator::{Simulator, double};
 use fem_engine::tensor::{Tensor, from_fn, inverse};
 use fem_mesh::TetrahedralMesh;
-use fem_scene::simulation::{Counters, Simulation};
+use fem_model::simulation::{Counters, Simulation};
+use fem_model::{Body, BodyMesh};
 use fem_scene::tables::FixedTable;
-use fem_scene::{Body, BodyMesh, Scene, body, parse};
+use fem_scene::{Scene, body, parse};
 
 /// a, m: large enough that the neo-Hookean law is far from linear. The third belongs to the cube.
 pub const AMPLITUDE: [f64; 3] = [0.06, -0.05, 0.04];
@@ -141,11 +142,12 @@ pub fn solve(model: &str, family: Family, cells: usize) -> Result<Solved, String
     let (scene, body) = fixed_body(model, family, cells)?;
     let exact = Exact { dimensions: family.dimensions() };
     let mesh = body.shape.mesh.clone();
-    let lacks = "the material lacks its parameters";
-    let load = nodal_load(&AnyLaw::new(&scene.material).ok_or(lacks)?, &mesh, exact);
+    let lacks = "a body of springs has no stress";
+    let load = nodal_load(&AnyLaw::new(&scene.material.value()).ok_or(lacks)?, &mesh, exact);
     let in_order = |numbering: &Numbering| numbering.mesh_node.iter().map(|&node| load[node as usize]).collect();
-    let simulation =
-        Simulator::<f64>::with_forces(&scene, body, &|numbering| vec![Box::new(DeadLoad::new(in_order(numbering)))]);
+    let simulation = Simulator::<f64>::with_forces(body, &scene.method(), &|numbering| {
+        vec![Box::new(DeadLoad::new(in_order(numbering)))]
+    });
     let mut simulation = simulation.map_err(|error| error.to_string())?;
     let start = std::time::Instant::now();
     simulation.step().map_err(|failure| format!("no equilibrium: {failure}"))?;
@@ -251,7 +253,7 @@ mod tests {
         for (model, family) in
             [("linear", Family::Tetrahedra), ("neo_hookean", Family::Tetrahedra), ("neo_hookean", Family::Triangles)]
         {
-            let law = AnyLaw::<f64>::new(&fixed_body(model, family, 1).unwrap().0.material).unwrap();
+            let law = AnyLaw::<f64>::new(&fixed_body(model, family, 1).unwrap().1.material).unwrap();
             let exact = Exact { dimensions: family.dimensions() };
             let X = Vector3::new(0.31, 0.62, 0.27);
             let stress = |X: &Vector3<f64>| <f64 as fem_engine::Real>::law(&law).stress(&exact.gradient(X));

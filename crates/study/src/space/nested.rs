@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use crate::space::manufactured::element_gradient;
 use crate::space::norms;
 use fem_mesh::{TetrahedralMesh, volumes};
-use fem_scene::BodyMesh;
+use fem_model::BodyMesh;
 
 /// The state of a box on one mesh.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! Distances between two states of a body. The state files contain all their data.
 
-use fem_scene::BodyMesh;
+use fem_model::BodyMesh;
 
 /// Weights of the nodes, m³: their shares of the volume of every adjacent element, which are the row sums of its consistent mass over the
 /// density. Those of corners of quadratic triangles are zero: sums over the nodes are integrals by the rule of mid-sides.

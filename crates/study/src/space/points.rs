@@ -5,7 +5,7 @@ use nalgebra::{Matrix2, Vector3};
 use crate::space::quadrature::Rule;
 use fem_engine::elements::quadratic;
 use fem_engine::tensor::{Tensor, from_fn};
-use fem_scene::BodyMesh;
+use fem_model::BodyMesh;
 
 /// Index of the quadrature rule: exact for polynomials of degree 7.
 const RULE: u32 = 3;

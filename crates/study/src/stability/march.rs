@@ -3,7 +3,7 @@
 use super::case::{Deadline, Finding, Outcome};
 
 use fem_engine::simulator::{Compiled, Simulator};
-use fem_scene::simulation::{Failure, Simulation};
+use fem_model::simulation::{Failure, Simulation};
 
 /// Share of the steps that must converge.
 const CONVERGED: f64 = 0.95;

@@ -134,7 +134,7 @@ impl SceneText {
     pub fn build(&self) -> Result<Simulator<f64>, Finding> {
         let scene = self.scene().map_err(refused)?;
         let body = body(&scene, Path::new("")).map_err(refused)?;
-        Simulator::new(&scene, body).map_err(refused)
+        Simulator::new(body, &scene.method()).map_err(|refusal| refused(scene.refused(refusal)))
     }
 
     /// The simulation on another mesh.
@@ -146,7 +146,7 @@ impl SceneText {
     pub fn build_on_as<T: Compiled>(&self, mesh: TetrahedralMesh) -> Result<Simulator<T>, Finding> {
         let scene = self.scene().map_err(refused)?;
         let body = body_of(&scene, mesh, Path::new("")).map_err(refused)?;
-        Simulator::new(&scene, body).map_err(refused)
+        Simulator::new(body, &scene.method()).map_err(|refusal| refused(scene.refused(refusal)))
     }
 }
 

@@ -6,7 +6,7 @@
 use fem_engine::integrators::MassInverse;
 use fem_engine::simulator::double::{System, add_stiffness_times, solve_mass};
 use fem_engine::vector::{dot, norm};
-use fem_scene::simulation::Cause;
+use fem_model::simulation::Cause;
 
 /// Newmark's method with β = 1/12, Fox and Goodwin's, has this name here: the other β of the study are stable at any time step.
 pub const FOX_GOODWIN: &str = "newmark with beta = 1/12";

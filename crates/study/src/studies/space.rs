@@ -99,7 +99,7 @@ fn solved(settings: &Settings, model: &str, family: Family, cells: usize, number
     write_state(&settings.out.join(&state), &snapshot)?;
     let mesh = &solved.mesh;
     write_reference(&settings.out.join(&reference_state), mesh, scene.material.density, None)?;
-    let moduli = moduli(&scene.material);
+    let moduli = moduli(&scene.material.value());
     let seconds = Some(solved.seconds);
     Ok(Row {
         config: Configuration {
@@ -111,8 +111,8 @@ fn solved(settings: &Settings, model: &str, family: Family, cells: usize, number
             mesh_hash: norms::mesh_hash(mesh),
             nodes: mesh.vertices().len(),
             elements: mesh.elements(),
-            young: moduli.map(|moduli| moduli.0),
-            poisson: moduli.map(|moduli| moduli.1),
+            young: moduli.map(|moduli| moduli.young),
+            poisson: moduli.map(|moduli| moduli.poisson),
             integrator: "static",
             projection: "when_needed",
             solver: names::solver_name(scene),

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use fem_scene::{Pipeline, Scene};
 use fem_study::report::{Report, report};
 use fem_study::runs::row::Row;
@@ -49,7 +49,7 @@ fn found() -> &'static (Report, tempfile::TempDir) {
                 return Err("the tests of the study have no course pipeline".to_owned());
             }
             let body = fem_scene::body(scene, &root().join("data")).map_err(|error| error.to_string())?;
-            fem_engine::simulator::build(scene, body).map_err(|error| error.to_string())
+            fem_engine::simulator::build(body, &scene.method()).map_err(|refusal| scene.refused(refusal).to_string())
         };
         let scenes = ["arma", "beam", "bar", "cantilever"].map(|name| fem_scene::load(name, &data).unwrap());
         let settings = Settings {

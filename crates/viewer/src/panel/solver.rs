@@ -1,7 +1,8 @@
 //! The section of the panel for the method: integrator, Newton's method, linear solver, iterations.
 
+use fem_model::{Integrator, Preconditioner, SolverKind};
+use fem_scene::Scene;
 use fem_scene::tables::{IterationsTable, NewtonTable, SolverTable};
-use fem_scene::{Integrator, Preconditioner, Scene, SolverKind};
 use kiss3d::egui::{ComboBox, DragValue, Ui};
 
 use crate::change::{Change, Edit};

@@ -1,6 +1,6 @@
 //! Marks of painted nodes, picked faces and loads in the picture.
 
-use fem_scene::simulation::Shape;
+use fem_model::simulation::Shape;
 use kiss3d::color::Color;
 use kiss3d::glamx::Vec3;
 use kiss3d::window::Window;

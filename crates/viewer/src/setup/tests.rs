@@ -1,6 +1,7 @@
 //! Tests of the brush and of loads by dragging, without a window.
 
-use fem_scene::{BodyMesh, Conditions, Scene};
+use fem_model::BodyMesh;
+use fem_scene::{Conditions, Scene};
 use kiss3d::camera::Camera3d;
 use kiss3d::glamx::Vec2;
 use nalgebra::Vector3;

@@ -4,8 +4,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fem_scene::simulation::{Parameter, Simulation};
-use fem_scene::{Conditions, Integrator, Override, Scene, lumps_mass};
+use fem_model::Integrator;
+use fem_model::simulation::{Parameter, Simulation};
+use fem_scene::{Conditions, Override, Scene};
 use nalgebra::Vector3;
 
 use crate::change::{Change, Effect};
@@ -70,14 +71,14 @@ impl SceneEditor {
     pub fn scene_of(&self, simulation: &dyn Simulation) -> Result<Scene, String> {
         let mut scene = self.scene.clone();
         let nodes = simulation.shape().mesh.vertices().len();
-        let was_lumped = lumps_mass(&scene, nodes);
+        let was_lumped = scene.lumps_mass(nodes);
         if let Some(kind) = Integrator::from_name(simulation.integrator()).filter(|kind| *kind != scene.time.integrator)
         {
             scene = changed(&scene, &scene_edits::integrator(&scene, kind).overrides)?;
         }
         let mut texts = Vec::new();
         // The mass stays as it was built when a running simulation goes on with another integrator.
-        if lumps_mass(&scene, nodes) != was_lumped {
+        if scene.lumps_mass(nodes) != was_lumped {
             texts.push(format!("mass.lumped={was_lumped}"));
         }
         if simulation.dt() != scene.time.dt() {

@@ -19,7 +19,7 @@ fn painted_nodes_start_the_motion_again_and_loads_do_not() {
     let (worker, _) = start(0.0);
     let before = wait_for(&worker, "some steps on", |s| s.steps >= 10);
     let solver = fem_scene::tables::SolverTable {
-        kind: fem_scene::SolverKind::Pcg,
+        kind: fem_model::SolverKind::Pcg,
         tolerance: None,
         preconditioner: None,
         precision: None,

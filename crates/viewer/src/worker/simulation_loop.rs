@@ -10,8 +10,8 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
+use fem_model::simulation::Simulation;
 use fem_scene::output::{ElementField, EnergyRow};
-use fem_scene::simulation::Simulation;
 use nalgebra::Vector3;
 
 use super::scene_editor::SceneEditor;

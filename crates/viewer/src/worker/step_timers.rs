@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 const INTERVAL: Duration = Duration::from_millis(500); // over which times are averaged
 

@@ -3,8 +3,8 @@
 use std::sync::atomic::AtomicUsize;
 use std::time::{Duration, Instant};
 
-use fem_scene::BodyMesh;
-use fem_scene::simulation::{Cause, Checkpoint, Counters, Energies, Part, Shape};
+use fem_model::BodyMesh;
+use fem_model::simulation::{Cause, Checkpoint, Counters, Energies, Part, Shape};
 use kiss3d::glamx::Vec3;
 use nalgebra::{DVector, Matrix3, Matrix4, Vector4};
 

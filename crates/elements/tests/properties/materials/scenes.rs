@@ -8,12 +8,12 @@ use fem_elements::tensor::zero;
 use fem_scene::MODELS;
 
 /// The table of a scene with these lines.
-fn table(model: &str, parameters: &str) -> fem_scene::Material {
+fn table(model: &str, parameters: &str) -> fem_model::Material {
     let text = format!(
         "pipeline = \"engine\"\n[mesh]\nbox = {{ size = [1, 1, 1], cells_per_unit = 1 }}\n[material]\n\
          model = \"{model}\"\n{parameters}density = 1.0\n[time]\ndt = 1.0\nintegrator = \"verlet\"\n"
     );
-    fem_scene::parse(&text, Path::new("name.toml")).unwrap_or_else(|error| panic!("{error}\n{text}")).material
+    fem_scene::parse(&text, Path::new("name.toml")).unwrap_or_else(|error| panic!("{error}\n{text}")).material.value()
 }
 
 #[test]
@@ -49,7 +49,8 @@ fn young_and_poisson_give_every_model_the_same_stiffness_at_rest() {
 fn c_and_d_are_taken_as_they_are() {
     let table = table("neo_hookean", "C = 2.0\nD = 3.0\n");
     assert_eq!(AnyLaw::new(&table), Some(AnyLaw::NeoHookean(NeoHookean { C: 2.0, D: 3.0 })));
-    assert_eq!(AnyLaw::<f64>::new(&fem_scene::Material { model: "linear".to_owned(), ..table }), None);
+    let springs = fem_model::Law::MassSpring { stiffness: fem_model::EdgeStiffness::Uniform(1.0), damping: 0.0 };
+    assert_eq!(AnyLaw::<f64>::new(&fem_model::Material { law: springs, ..table }), None);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! A body as arrays for a device, in the engine's numbering.
 
 use fem_gpu::{Environment, Law};
-use fem_scene::{Body, BodyMesh, Material, Scene};
+use fem_model::{Body, BodyMesh, EnvironmentValues, Material};
 
 use crate::forces::{Moment, dead_load};
 use crate::integrators::color_nodes;
@@ -14,12 +14,12 @@ pub(super) fn law(material: &Material) -> Option<(Law, [f64; 2])> {
     device_elements::law(&AnyLaw::<f64>::new(material)?)
 }
 
-/// The parameters of an environment beside those of the scene itself. The device knows the law.
-pub(super) fn environment(scene: &Scene, number: usize) -> Environment {
-    let material = scene.environment(number).material;
+/// The parameters of an environment beside those of the body itself. The device knows the law.
+pub(super) fn environment(body: &Body, values: &EnvironmentValues) -> Environment {
+    let material = values.material(&body.material);
     let (_, moduli) = law(&material).expect("other laws are refused");
-    let density = material.density / scene.material.density;
-    let gravity = scene.batch.as_ref().and_then(|batch| batch.values(number).gravity).unwrap_or(1.0);
+    let density = material.density / body.material.density;
+    let gravity = values.gravity.unwrap_or(1.0);
     Environment { moduli, weight: gravity * density, density }
 }
 

@@ -6,22 +6,27 @@ mod refusals;
 use std::sync::Arc;
 
 use fem_gpu::{Bodies, DeviceError, Environment, Method as DeviceMethod, Number, Scheme};
-use fem_scene::simulation::{Cause, Failure};
-use fem_scene::{Body, Method, Precision, Scene, SceneError};
+use fem_model::simulation::{Cause, Failure};
+use fem_model::{Batch as Values, Body, Method, Precision, Refusal};
 use nalgebra::Vector3;
 
-use super::{EnvironmentFailure, EnvironmentState, Environments, body_of};
+use super::{EnvironmentFailure, EnvironmentState, Environments};
 use crate::model::numbering::Numbering;
 use crate::model::system::System;
 use crate::simulator::{Compiled, Simulator};
 use crate::solvers::open_device;
 use fem_elements::materials::AnyLaw;
 
-/// Builds the environments of a scene on the device in a precision.
-pub(super) fn build(scene: &Scene, body: &Body, precision: Precision) -> Result<Box<dyn Environments>, SceneError> {
+/// Builds the environments of a body on the device in a precision.
+pub(super) fn build(
+    body: &Body,
+    method: &Method,
+    values: &Values,
+    precision: Precision,
+) -> Result<Box<dyn Environments>, Refusal> {
     Ok(match precision {
-        Precision::F32 => Box::new(OnDevice::<f32>::new(scene, body)?),
-        Precision::F64 => Box::new(OnDevice::<f64>::new(scene, body)?),
+        Precision::F32 => Box::new(OnDevice::<f32>::new(body, method, values)?),
+        Precision::F64 => Box::new(OnDevice::<f64>::new(body, method, values)?),
     })
 }
 
@@ -34,7 +39,7 @@ struct OnDevice<N: Number> {
     rest: Vec<Vector3<f64>>,
     /// Nodes of the elements in the mesh's numbering.
     body: Body,
-    scene: Scene,
+    values: Values,
     method: Method,
     /// Steps so far.
     steps: usize,
@@ -43,22 +48,19 @@ struct OnDevice<N: Number> {
 }
 
 impl<N: Number> OnDevice<N> {
-    fn new(scene: &Scene, body: &Body) -> Result<Self, SceneError> {
-        let refuse = |(field, problem): (&str, String)| scene.refuse(field, &problem);
-        let method = scene.method();
-        let (law, mut scheme) = refusals::check(scene, body).map_err(refuse)?;
+    fn new(body: &Body, method: &Method, values: &Values) -> Result<Self, Refusal> {
+        let (law, mut scheme) = refusals::check(body, method)?;
         let system = System::<f64>::without_matrix(body, AnyLaw::<f64>::new(&body.material), &|_| Vec::new());
         if let Scheme::VertexBlockDescent { colors, .. } = &mut scheme {
             *colors = arrays::colors(&system, body);
         }
-        let environments: Vec<Environment> =
-            (0..scene.environments()).map(|number| arrays::environment(scene, number)).collect();
+        let environments: Vec<Environment> = values.0.iter().map(|values| arrays::environment(body, values)).collect();
         let failed = |error: &DeviceError| match error {
             DeviceError::TooLarge { .. } => {
                 let problem = format!("is {}: {error}; give fewer environments, or a coarser mesh", environments.len());
-                scene.refuse("batch.count", &problem)
+                Refusal::new("batch.count", problem)
             }
-            _ => scene.refuse("solver.kind", &format!("is \"gpu\": {error}; leave the table out")),
+            _ => Refusal::new("solver.kind", format!("is \"gpu\": {error}; leave the table out")),
         };
         let device = open_device().map_err(failed)?;
         let dt = method.dt / method.substeps as f64;
@@ -71,8 +73,8 @@ impl<N: Number> OnDevice<N> {
             numbering: system.numbering,
             rest: body.shape.mesh.vertices().to_vec(),
             body: body.clone(),
-            scene: scene.clone(),
-            method,
+            values: values.clone(),
+            method: method.clone(),
             steps: 0,
             ends: Vec::new(),
         })
@@ -124,12 +126,11 @@ impl<N: Number> OnDevice<N> {
     /// Takes one more step on the processor from the end of an environment.
     fn step_on_processor(&mut self, environment: usize) -> Result<Result<bool, Failure>, String> {
         let [u, v] = self.motion(environment).map_err(lost)?;
-        let mut scene = self.scene.environment(environment);
-        scene.solver = None;
-        let body = body_of(&scene, &self.body);
-        Ok(match self.method.precision {
-            Precision::F64 => end::<f64>(&scene, body, (self.steps, &u, &v))?,
-            Precision::F32 => end::<f32>(&scene, body, (self.steps, &u, &v))?,
+        let body = self.body.environment(&self.values.0[environment]);
+        let method = Method { solver: None, ..self.method.clone() };
+        Ok(match method.precision {
+            Precision::F64 => end::<f64>(body, &method, (self.steps, &u, &v))?,
+            Precision::F32 => end::<f32>(body, &method, (self.steps, &u, &v))?,
         })
     }
 }
@@ -150,7 +151,7 @@ impl<N: Number> Environments for OnDevice<N> {
     fn check_ends(&mut self) -> Result<(), String> {
         let failed = self.failures()?;
         let has_failed = |environment| failed.iter().any(|failure| failure.environment == environment);
-        let ends = (0..self.scene.environments()).map(|environment| {
+        let ends = (0..self.values.0.len()).map(|environment| {
             if self.steps == 0 || has_failed(environment) {
                 Ok(None)
             } else {
@@ -184,10 +185,10 @@ fn lost(error: DeviceError) -> String {
 
 /// One step on the processor from displacements and velocities after so many steps; whether it has converged.
 fn end<T: Compiled>(
-    scene: &Scene,
     body: Body,
+    method: &Method,
     (steps, u, v): (usize, &[[f64; 3]], &[[f64; 3]]),
 ) -> Result<Result<bool, Failure>, String> {
-    let mut simulator = Simulator::<T>::new(scene, body).map_err(|error| error.to_string())?;
+    let mut simulator = Simulator::<T>::new(body, method).map_err(|error| error.to_string())?;
     Ok(simulator.step_from(steps, u, v))
 }

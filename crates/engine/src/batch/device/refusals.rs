@@ -1,22 +1,24 @@
-//! Refusals of scenes that steps on a device do not support.
+//! Refusals of bodies and methods that steps on a device do not support.
 
 use fem_gpu::{Law, Scheme};
-use fem_scene::{Body, Integrator, LoadCurve, Scene};
+use fem_model::{Body, Integrator, LoadCurve, Method, Refusal};
 
 use super::arrays;
-use crate::refusal::Refusal;
 use crate::simulator::device_assembly::LAWS;
 
-/// The law and the method of a scene; the nodes of vertex block descent are still without colours. Returns the first key that the device does not know, with a remedy.
-pub(super) fn check(scene: &Scene, body: &Body) -> Result<(Law, Scheme), Refusal> {
-    let scheme = scheme(scene)?;
-    if let Some((field, what, remedy)) = unknown(scene, body) {
-        return Err((field, on_device(what, &format!("{remedy}, or leave [solver] out"))));
+/// The law and the scheme on the device; the nodes of vertex block descent are still without colours. Returns the first key that the device does not know, with a remedy.
+pub(super) fn check(body: &Body, method: &Method) -> Result<(Law, Scheme), Refusal> {
+    let scheme = scheme(method)?;
+    if let Some((field, what, remedy)) = unknown(body, method) {
+        return Err(Refusal::new(field, on_device(what, &format!("{remedy}, or leave [solver] out"))));
     }
     let law = arrays::law(&body.material).map(|(law, _)| law).ok_or_else(|| {
-        let what = format!("is \"{}\"", body.material.model);
+        let what = format!("is \"{}\"", body.material.law.name());
         let [laws @ .., last] = &LAWS;
-        ("material.model", on_device(&what, &format!("write {} or {last}, or leave [solver] out", laws.join(", "))))
+        Refusal::new(
+            "material.model",
+            on_device(&what, &format!("write {} or {last}, or leave [solver] out", laws.join(", "))),
+        )
     })?;
     Ok((law, scheme))
 }
@@ -25,19 +27,20 @@ fn on_device(what: &str, remedy: &str) -> String {
     format!("{what}, which steps on a graphics device (solver.kind = \"gpu\") do not know; {remedy}")
 }
 
-fn scheme(scene: &Scene) -> Result<Scheme, Refusal> {
-    match scene.time.integrator {
+fn scheme(method: &Method) -> Result<Scheme, Refusal> {
+    match method.integrator {
         Integrator::ExplicitEuler => Ok(Scheme::ExplicitEuler),
         Integrator::SemiImplicitEuler => Ok(Scheme::SemiImplicitEuler),
         Integrator::Verlet => Ok(Scheme::Verlet),
         Integrator::Rk2 => Ok(Scheme::Rk2),
         Integrator::Rk4 => Ok(Scheme::Rk4),
-        Integrator::Vbd => {
-            Ok(Scheme::VertexBlockDescent { sweeps: scene.method().iterations.count, colors: Vec::new() })
-        }
+        Integrator::Vbd => Ok(Scheme::VertexBlockDescent { sweeps: method.iterations.count, colors: Vec::new() }),
         other => {
             let what = format!("is \"{}\"", other.name());
-            Err(("time.integrator", on_device(&what, "use an explicit method or vbd, or leave [solver] out")))
+            Err(Refusal::new(
+                "time.integrator",
+                on_device(&what, "use an explicit method or vbd, or leave [solver] out"),
+            ))
         }
     }
 }
@@ -45,15 +48,15 @@ fn scheme(scene: &Scene) -> Result<Scheme, Refusal> {
 /// A key, its problem, and the remedy.
 type Unknown = (&'static str, &'static str, &'static str);
 
-fn unknown(scene: &Scene, body: &Body) -> Option<Unknown> {
+fn unknown(body: &Body, method: &Method) -> Option<Unknown> {
     let has_curve = |curve: &Option<LoadCurve>| curve.is_some();
     let has_motion = body.dirichlet.iter().any(|condition| condition.motion.is_some());
     let is_released = body.dirichlet.iter().any(|condition| condition.until.is_some());
     let has_stiffness_damping = body.damping.is_some_and(|damping| damping.beta > 0.0);
     let traction_curve = body.tractions.iter().any(|traction| traction.curve.is_some());
-    let iterations = scene.method().iterations;
+    let iterations = method.iterations;
     let is_accelerated = iterations.acceleration.is_some_and(|radius| radius > 0.0);
-    let keys: [(&'static str, bool, &'static str, &'static str); 19] = [
+    let keys: [(&'static str, bool, &'static str, &'static str); 18] = [
         ("mesh", body.shape.mesh.is_flat(), "is a flat body", "take tetrahedra"),
         ("materials", !body.regions.is_empty(), "gives the body several materials", "remove the tables"),
         ("plasticity", body.plasticity.is_some(), "is a flow of the material", "remove the table"),
@@ -77,12 +80,11 @@ fn unknown(scene: &Scene, body: &Body) -> Option<Unknown> {
         ("prescribed", has_motion, "is a motion of nodes", "use [fixed]"),
         ("fixed.until", is_released, "is a time from which nodes are free", "remove it"),
         ("planes", body.contact.is_some(), "are obstacles", "remove the tables"),
-        ("contact", scene.contact.is_some(), "is a table of obstacles", "remove it"),
         ("damping.beta", has_stiffness_damping, "is the damping of a stiffness matrix", "give damping.alpha alone"),
         ("drag", body.drag.is_some(), "is a force that follows a moving target", "remove the table"),
         ("iterations.tolerance", iterations.tolerance.is_some(), "may end a step early", "give iterations.count alone"),
         ("iterations.acceleration", is_accelerated, "is the radius of Chebyshev acceleration", "remove it"),
-        ("time.adaptive", scene.time.adaptive.is_some(), "are steps of different lengths", "remove it"),
+        ("time.adaptive", method.adaptive.is_some(), "are steps of different lengths", "remove it"),
     ];
     keys.into_iter().find(|(_, is_there, ..)| *is_there).map(|(field, _, what, remedy)| (field, what, remedy))
 }

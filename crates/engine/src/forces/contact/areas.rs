@@ -5,7 +5,7 @@
 //! within it, as the normal forces of friction do: the barrier remains a potential of the distances alone. The energy that a change of the
 //! areas adds from step to step is of the order of the load times d̂ times the angle turned through.
 
-use fem_scene::Body;
+use fem_model::Body;
 use nalgebra::Vector3;
 
 use crate::model::numbering::Numbering;

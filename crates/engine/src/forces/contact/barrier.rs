@@ -3,7 +3,7 @@
 //! A node of the area a at the distance d has the energy κ a d̂ b(d/d̂), b(s) = −(s − 1)² ln s for s < 1, and zero beyond d̂. So its
 //! pressure κ |b'(d/d̂)| depends on the distance alone, and not on the mesh; κ is a pressure that a gap of about d̂/2 carries.
 
-use fem_scene::{Body, Material};
+use fem_model::{Body, Material};
 
 use super::areas::Areas;
 use crate::forces::mass_spring;

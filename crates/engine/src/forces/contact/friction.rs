@@ -4,7 +4,7 @@
 //! smooth below: below the transition speed ε_v friction is smaller than μ N, so that a body at rest on a slope creeps at less than ε_v.
 //! The normal force N is kept fixed while Newton's method runs (lagged), and evaluated again until it no longer changes.
 
-use fem_scene::{Body, ContactPlane, ContactTreatment};
+use fem_model::{Body, ContactPlane, ContactTreatment};
 
 use super::barrier::Barrier;
 use super::planes::Planes;

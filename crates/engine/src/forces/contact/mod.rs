@@ -7,7 +7,7 @@ pub mod friction;
 pub mod planes;
 pub mod start;
 
-use fem_scene::{Body, ContactTreatment};
+use fem_model::{Body, ContactTreatment};
 
 use super::{Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;

@@ -1,6 +1,6 @@
 //! Half-spaces that the body does not enter: the distances of its nodes.
 
-use fem_scene::{Body, ContactPlane};
+use fem_model::{Body, ContactPlane};
 
 use crate::model::numbering::Numbering;
 use fem_elements::Real;

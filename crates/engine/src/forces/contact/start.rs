@@ -4,7 +4,7 @@
 //! without bound as steps become shorter. So a plane that is nearer than the distance at which its barrier bears the body's load stands
 //! back until it has this distance, less than d̂: the body starts in balance, and no energy is released.
 
-use fem_scene::Body;
+use fem_model::Body;
 use nalgebra::Vector3;
 
 use super::barrier::Barrier;

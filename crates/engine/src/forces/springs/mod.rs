@@ -3,7 +3,7 @@
 
 mod spring;
 
-use fem_scene::Body;
+use fem_model::Body;
 
 use super::{Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
@@ -49,7 +49,7 @@ pub fn build<T: Real>(body: &Body, numbering: &Numbering) -> Option<Box<dyn Pote
 
 impl<T: Real> Springs<T> {
     /// Springs between nodes of a body's mesh.
-    pub fn new(source: Source, body: &Body, springs: &[fem_scene::Spring], numbering: &Numbering) -> Self {
+    pub fn new(source: Source, body: &Body, springs: &[fem_model::Spring], numbering: &Numbering) -> Self {
         let mut springs: Vec<_> = springs.iter().map(|spring| Spring::new(body, spring, numbering)).collect();
         // Neighbours in memory are neighbours in the body.
         springs.sort_by_key(|spring| spring.nodes);

@@ -1,6 +1,6 @@
 //! A spring between two nodes, ½ k (|x_b − x_a| − l)², and the damper beside it, whose force is c (v_b − v_a)·n along its direction n.
 
-use fem_scene::{Body, DampingForm};
+use fem_model::{Body, DampingForm};
 
 use crate::forces::{Energy, HessianKind};
 use crate::model::numbering::Numbering;
@@ -51,7 +51,7 @@ impl<T: Real> Spring<T> {
         }
     }
 
-    pub(super) fn new(body: &Body, spring: &fem_scene::Spring, numbering: &Numbering) -> Self {
+    pub(super) fn new(body: &Body, spring: &fem_model::Spring, numbering: &Numbering) -> Self {
         let [a, b] = spring.nodes.map(|node| body.shape.mesh.vertices()[node]);
         let edge = b - a;
         let length = spring.rest_length;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use fem_scene::BodyMesh;
+use fem_model::BodyMesh;
 
 use super::nodes::NodeBatches;
 use super::patches::Patches;

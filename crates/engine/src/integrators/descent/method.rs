@@ -1,6 +1,6 @@
 //! A sweep of vertex block descent: every node once, colour after colour.
 
-use fem_scene::IterationSettings;
+use fem_model::IterationSettings;
 use rayon::prelude::*;
 
 use super::chebyshev::Chebyshev;

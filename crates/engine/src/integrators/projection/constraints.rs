@@ -1,6 +1,6 @@
 //! The constraints of a body, which a sweep corrects one after the other.
 
-use fem_scene::BodyMesh;
+use fem_model::BodyMesh;
 
 use super::anchor_constraints::AnchorConstraints;
 use super::distances::Distances;

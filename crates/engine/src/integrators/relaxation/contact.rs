@@ -5,8 +5,8 @@
 //! section 6 (contact); the projection on Coulomb's disc is that of Jourdan, Alart and Jean, A Gauss–Seidel like algorithm to solve
 //! frictional contact problems (1998).
 
-use fem_scene::ContactPlane;
-use fem_scene::simulation::History;
+use fem_model::ContactPlane;
+use fem_model::simulation::History;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::forces::contact::planes::Planes;

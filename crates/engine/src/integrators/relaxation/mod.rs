@@ -8,8 +8,8 @@ mod particles;
 pub use contact::{ContactStep, PlaneContacts};
 pub use particles::{Particles, largest_difference};
 
-use fem_scene::IterationSettings;
-use fem_scene::simulation::{Cause, Counters, History};
+use fem_model::IterationSettings;
+use fem_model::simulation::{Cause, Counters, History};
 
 use super::{Convergence, Integrator};
 use crate::forces::contact::planes::Planes;

@@ -1,6 +1,6 @@
 //! A step from its coefficients: the equation of its stage, its solution, and its end.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_model::simulation::{Cause, Counters};
 
 use super::SecondOrder;
 use super::coefficients::Coefficients;

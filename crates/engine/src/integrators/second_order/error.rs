@@ -7,7 +7,7 @@ use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::vector::{axpy, max_norm, scale, triple};
-use fem_scene::simulation::Cause;
+use fem_model::simulation::Cause;
 
 impl Scheme {
     /// |C| of the local error C dt³ u‴ of the displacements of a step with this ratio to the one before, small vibrations assumed.

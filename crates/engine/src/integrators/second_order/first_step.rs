@@ -1,6 +1,6 @@
 //! The first step of a method that needs data of an earlier one.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_model::simulation::{Cause, Counters};
 
 use super::coefficients::Coefficients;
 use super::{SecondOrder, bdf2};

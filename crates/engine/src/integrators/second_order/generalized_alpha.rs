@@ -2,7 +2,7 @@
 //! (1993): Newmark's formulas with M ((1 − α_m) a₁ + α_m a₀) = f((1 − α_f) u₁ + α_f u₀, …). Second order; vibrations faster than the step
 //! lose all but the part ρ∞ of their amplitude in each step.
 
-use fem_scene::NewmarkParameters;
+use fem_model::NewmarkParameters;
 
 use super::coefficients::{Coefficients, Combination};
 

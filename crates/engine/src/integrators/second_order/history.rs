@@ -1,6 +1,6 @@
 //! State of earlier steps that a step needs.
 
-use fem_scene::simulation::History;
+use fem_model::simulation::History;
 
 use super::coefficients::Combination;
 use fem_elements::Real;

@@ -16,7 +16,7 @@ mod newmark;
 mod scheme;
 mod start;
 
-use fem_scene::simulation::{Cause, Counters, History};
+use fem_model::simulation::{Cause, Counters, History};
 
 use super::followers::Followers;
 use super::{Convergence, Integrator, LastStage};

@@ -5,7 +5,7 @@
 //! Contact (1999). Their part of u₁ is at least dt²/2 a₁, that of v₁ dt a₁, whatever β and γ. So contact is stable where the elements are
 //! only up to a critical time step, which knows nothing of a barrier's stiffness.
 
-use fem_scene::NewmarkParameters;
+use fem_model::NewmarkParameters;
 
 use super::coefficients::{Coefficients, Combination};
 

@@ -1,6 +1,6 @@
 //! The methods of this family.
 
-use fem_scene::{Integrator, Method, NewmarkParameters};
+use fem_model::{Integrator, Method, NewmarkParameters};
 
 use super::coefficients::Coefficients;
 use super::{bdf2, generalized_alpha, implicit_midpoint, newmark};

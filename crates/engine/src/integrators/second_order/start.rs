@@ -1,6 +1,6 @@
 //! The start of a run, or of a step at which velocities jump: impulses, and accelerations from the equation of motion.
 
-use fem_scene::simulation::{Cause, Counters};
+use fem_model::simulation::{Cause, Counters};
 
 use super::super::mass_inverse::MassInverse;
 use crate::forces::Moment;

@@ -54,7 +54,7 @@ fn the_lumped_mass_of_a_quadratic_triangle_is_its_scaled_diagonal() {
     let ElementMass(shares) = ElementMass::quadratic_triangle();
     let trace: f64 = (0..6).map(|i| shares[i][i]).sum();
     let mesh = fem_mesh::quadratic(fem_mesh::rectangle_mesh([1.0, 1.0], 1, fem_mesh::Pattern::Alternating).unwrap());
-    let lumped = fem_scene::BodyMesh::Quadratic { triangles: mesh, thickness: 1.0 }.lumped_mass_shares();
+    let lumped = fem_model::BodyMesh::Quadratic { triangles: mesh, thickness: 1.0 }.lumped_mass_shares();
     for i in 0..6 {
         assert!((lumped[i] - shares[i][i] / trace).abs() < 1e-15);
     }

@@ -3,8 +3,8 @@
 use std::sync::{Arc, OnceLock};
 
 use fem_gpu::{BlockPattern, CoarseGrid, ConjugateGradients, Device, DeviceError, Matrix, Number, Outcome, Stiffness};
-use fem_scene::Precision;
-use fem_scene::simulation::{Breakdown, History};
+use fem_model::Precision;
+use fem_model::simulation::{Breakdown, History};
 
 use crate::solvers::ApproximateInverse;
 use crate::solvers::assembly::{Assembly, DeviceElements};

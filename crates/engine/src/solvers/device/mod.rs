@@ -13,7 +13,7 @@ pub use absent::{is_software, name, solver, unusable};
 
 #[cfg(not(feature = "gpu"))]
 mod absent {
-    use fem_scene::Precision;
+    use fem_model::Precision;
 
     use crate::solvers::ApproximateInverse;
     use fem_elements::Real;

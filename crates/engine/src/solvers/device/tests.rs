@@ -1,6 +1,6 @@
 //! A device that is lost in the middle of a run.
 
-use fem_scene::simulation::{Breakdown, Cause};
+use fem_model::simulation::{Breakdown, Cause};
 use fem_scene::{body, parse};
 
 use super::device;
@@ -24,7 +24,7 @@ fn a_run_whose_device_is_lost_ends_with_its_last_state_and_says_so() {
     let start = |model: &str| {
         let scene = parse(&SCENE.replace("MODEL", model), "lost.toml".as_ref()).unwrap();
         let body = body(&scene, "no data".as_ref()).unwrap();
-        let mut simulation = crate::simulator::build(&scene, body).unwrap();
+        let mut simulation = crate::simulator::build(body, &scene.method()).unwrap();
         simulation.step().unwrap();
         simulation
     };

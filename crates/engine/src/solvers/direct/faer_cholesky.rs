@@ -15,7 +15,7 @@ use crate::solvers::ApproximateInverse;
 use crate::solvers::block::sqrt_pivot;
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// From this many rows on the factorisation uses several threads.
 const ROWS_FOR_THREADS: usize = 5_000;

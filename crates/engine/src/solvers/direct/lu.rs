@@ -9,7 +9,7 @@ use super::csc::CscMatrix;
 use crate::solvers::ApproximateInverse;
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// The factors with their workspace.
 pub(crate) struct Lu {

@@ -9,7 +9,7 @@ use crate::solvers::krylov::{parts, product};
 use crate::solvers::parts::Part;
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// Largest relative residual of a solution by the factor in single precision: iterations with a better one would not be fewer.
 const LARGEST_RESIDUAL: f64 = 1e-2;

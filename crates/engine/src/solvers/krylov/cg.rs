@@ -3,7 +3,7 @@
 use super::progress::{LinearSystem, Progress, max_iterations};
 use fem_elements::Real;
 use fem_elements::vector::{axpy, dot, norm, subtract_from, xpby};
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// Vectors of the iteration: the residual r, the preconditioned residual z, the direction p and q = A p.
 pub(crate) struct Workspace<T> {

@@ -6,7 +6,7 @@ use super::cg::Workspace;
 use super::progress::{LinearSystem, Progress, max_iterations};
 use fem_elements::Real;
 use fem_elements::vector::{axpy, dot, norm, subtract_from};
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// A kept direction p.
 struct Direction<T> {

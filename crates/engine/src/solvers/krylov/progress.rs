@@ -1,6 +1,6 @@
 //! A linear system, and how far an iteration for it has come.
 
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// A curvature below this multiple of round-off in the largest curvature so far counts as zero.
 const ZERO_CURVATURE: f64 = 8.0;

@@ -4,7 +4,7 @@
 use super::cg::Workspace;
 use fem_elements::Real;
 use fem_elements::vector::{norm, subtract_from};
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// Outcome of the refinement.
 pub(crate) struct Refined {

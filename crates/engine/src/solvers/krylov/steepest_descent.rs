@@ -6,7 +6,7 @@ use super::cg::Workspace;
 use super::progress::{LinearSystem, Progress};
 use fem_elements::Real;
 use fem_elements::vector::{axpy, dot, norm, subtract_from};
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// Iterations after which the residual is computed from its definition, and not by recurrence.
 const REFRESH: usize = 50;

@@ -5,7 +5,7 @@ use crate::solvers::block::invert;
 use fem_elements::Real;
 use fem_elements::history::{put, take};
 use fem_elements::sparse::{Block, Pattern};
-use fem_scene::simulation::{Breakdown, History};
+use fem_model::simulation::{Breakdown, History};
 
 /// The inverse of each diagonal block.
 pub(crate) struct BlockJacobi<T> {

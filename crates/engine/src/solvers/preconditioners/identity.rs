@@ -3,7 +3,7 @@
 use crate::solvers::ApproximateInverse;
 use fem_elements::Real;
 use fem_elements::sparse::Block;
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// P = 1.
 pub(crate) struct Identity;

@@ -9,7 +9,7 @@ use fem_elements::Real;
 use fem_elements::history::{put, take};
 use fem_elements::sparse::{Block, Pattern};
 use fem_elements::vector::triple;
-use fem_scene::simulation::{Breakdown, History};
+use fem_model::simulation::{Breakdown, History};
 
 /// Relative shifts of the diagonal, tried one after the other until the factorisation succeeds.
 const SHIFTS: [f64; 7] = [0.0, 1e-3, 4e-3, 1.6e-2, 6.4e-2, 0.25, 1.0];
@@ -164,7 +164,7 @@ mod tests {
     use crate::solvers::ApproximateInverse;
     use crate::solvers::krylov::{parts, product};
     use fem_elements::sparse::{Pattern, Stored};
-    use fem_scene::simulation::Breakdown;
+    use fem_model::simulation::Breakdown;
 
     fn chain(off: f64) -> (Pattern, Vec<[[f64; 3]; 3]>) {
         let pattern = Pattern::new(3, &[[0, 1], [1, 2]], Stored::Full);

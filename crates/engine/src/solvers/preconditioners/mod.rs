@@ -18,7 +18,7 @@ pub(super) use {coarse::Coarse, lower_half::LowerHalf};
 
 use fem_elements::Real;
 use fem_elements::sparse::Block;
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// The factor that scales the largest diagonal entry of a positive definite matrix to 1, into the range of single precision.
 /// `diagonal` holds the number of each diagonal block.

@@ -4,7 +4,7 @@ use super::Solver;
 use fem_elements::Real;
 use fem_elements::history::{put_flag, take_flag};
 use fem_elements::sparse::Block;
-use fem_scene::simulation::History;
+use fem_model::simulation::History;
 
 impl<T: Real> Solver<T> {
     /// Adds the data of earlier matrices that the next preparation needs, and, if the factor or preconditioner `is_kept`, those that it

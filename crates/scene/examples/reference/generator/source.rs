@@ -60,14 +60,23 @@ pub struct Value {
 }
 
 impl Source {
-    /// Reads the sources of this package, and the sides of a mesh.
+    /// Reads the sources of this package, and the values of its keys.
     pub fn read() -> Self {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let folder = fs::read_dir(root.join("src/tables")).expect("the folder of the tables");
         let mut paths: Vec<PathBuf> = folder.flatten().map(|entry| entry.path()).collect();
         paths.extend(
-            ["src/curve.rs", "src/integrator.rs", "../mesh/src/sides.rs", "../mesh/src/pattern.rs"]
-                .map(|path| root.join(path)),
+            [
+                "model/src/axis",
+                "model/src/integrator",
+                "model/src/material",
+                "model/src/method",
+                "model/src/selector",
+                "model/src/solver",
+                "mesh/src/sides",
+                "mesh/src/pattern",
+            ]
+            .map(|file| root.join(format!("../{file}.rs"))),
         );
         let mut source = Self::default();
         for path in paths {
@@ -134,8 +143,8 @@ impl Source {
 fn expanded(text: &str) -> Option<String> {
     let between = |start: &str, end: &str| Some(text.split_once(start)?.1.split_once(end)?.0);
     let list = between("\nmaterial! {\n", "\n}\n")?;
-    let field = |line: &str| match line.trim().split_once(": ") {
-        Some((name, _)) if !name.starts_with("///") => format!("pub {name}: Option<f64>,"),
+    let field = |line: &str| match line.trim().strip_suffix(',') {
+        Some(name) if !name.starts_with("///") => format!("pub {name}: Option<f64>,"),
         _ => line.to_owned(),
     };
     let parameters = list.lines().map(field).collect::<Vec<_>>().join("\n");

@@ -6,7 +6,7 @@ use std::path::Path;
 use fem_chart::{Axis, Chart, Dot, Series};
 use fem_engine::simulator::Simulator;
 use fem_mesh::generate::picture::PictureMesh;
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use nalgebra::Vector2;
 
 use super::object::{DENSITY, LAME, OBJECTS, meshed, picture, simulator};

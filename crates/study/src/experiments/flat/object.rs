@@ -5,7 +5,7 @@ use std::path::Path;
 use fem_engine::simulator::Simulator;
 use fem_mesh::SurfaceMesh;
 use fem_mesh::generate::picture::{FromPicture, Picture, PictureMesh, mesh_picture, read_picture};
-use fem_scene::BodyMesh;
+use fem_model::BodyMesh;
 
 use super::simulation::simulation;
 

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use fem_engine::simulator::Simulator;
-use fem_scene::simulation::Simulation;
-use fem_scene::{BodyMesh, body, body_of, parse};
+use fem_model::BodyMesh;
+use fem_model::simulation::Simulation;
+use fem_scene::{body, body_of, parse};
 
 /// The simulation of a scene; `mesh` takes the place of the scene's `[mesh]`.
 pub fn simulation(text: &str, mesh: Option<BodyMesh>) -> Result<Simulator<f64>, String> {
@@ -14,7 +15,7 @@ pub fn simulation(text: &str, mesh: Option<BodyMesh>) -> Result<Simulator<f64>, 
         None => body(&scene, Path::new("")),
     };
     let body = body.map_err(|error| error.to_string())?;
-    Simulator::new(&scene, body).map_err(|error| error.to_string())
+    Simulator::new(body, &scene.method()).map_err(|refusal| scene.refused(refusal).to_string())
 }
 
 /// Advances by one step, which must converge.

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use fem_chart::{Axis, Chart, Dot, Guide, Series};
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 use super::object::{LAME, disturb, meshed, picture, simulator};
 use crate::experiments::{Figure, Mark, Part, Table};

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use fem_engine::simulator::Simulator;
 use fem_mesh::{Pattern, box_mesh};
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use fem_scene::{body_of, parse};
 use nalgebra::Vector3;
 
@@ -48,7 +48,8 @@ fn sheared_cube() -> Result<Mistake, String> {
     let f = K * nalgebra::DVector::from_iterator(3 * moved.len(), moved.iter().flatten().copied());
     let scene = parse(&Setting::default().text(), Path::new("rtfem.toml")).map_err(|error| error.to_string())?;
     let body = body_of(&scene, mesh.clone(), Path::new("")).map_err(|error| error.to_string())?;
-    let mut cube = Simulator::<f64>::new(&scene, body).map_err(|error| error.to_string())?;
+    let mut cube =
+        Simulator::<f64>::new(body, &scene.method()).map_err(|refusal| scene.refused(refusal).to_string())?;
     cube.set_state(&moved, &vec![[0.0; 3]; moved.len()]);
     let own = cube.nodal_forces().ok_or("the engine has no nodal forces")?;
     let truth = YOUNG / (2.0 * (1.0 + POISSON));

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem_chart::{Axis, Chart, Dot, Guide, Series};
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 use super::methods::block;
 use super::setting::{one_thread, simulation, step};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
 use super::methods::block;

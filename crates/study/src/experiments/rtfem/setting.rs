@@ -4,8 +4,9 @@ use std::path::Path;
 
 use fem_engine::simulator::build;
 use fem_mesh::TetrahedralMesh;
-use fem_scene::simulation::Simulation;
-use fem_scene::{BodyMesh, body_of, parse};
+use fem_model::BodyMesh;
+use fem_model::simulation::Simulation;
+use fem_scene::{body_of, parse};
 use nalgebra::Vector3;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -132,7 +133,7 @@ const LEAST_SUPPORTS: usize = 4;
 pub fn simulation(text: &str, mesh: impl Into<BodyMesh>) -> Result<Box<dyn Simulation>, String> {
     let scene = parse(text, Path::new("rtfem.toml")).map_err(|error| error.to_string())?;
     let body = body_of(&scene, mesh, Path::new("")).map_err(|error| error.to_string())?;
-    build(&scene, body).map_err(|error| error.to_string())
+    build(body, &scene.method()).map_err(|refusal| scene.refused(refusal).to_string())
 }
 
 /// Advances by one step, which must converge.

@@ -27,7 +27,7 @@ pub fn share(torus: &Torus, wanted: usize, count: usize) -> Result<Vec<Vec<Strin
 fn row(torus: &Torus, wanted: usize, law: &str, count: usize) -> Result<Vec<String>, String> {
     let mut simulation = Setting::of_law(law).torus(&torus.mesh)?;
     simulation.step().map_err(|failure| failure.to_string())?; // factorises
-    let seconds = |parts: &[fem_scene::simulation::Part], names: &[&str]| -> f64 {
+    let seconds = |parts: &[fem_model::simulation::Part], names: &[&str]| -> f64 {
         parts.iter().filter(|part| names.contains(&part.name)).map(|part| part.seconds).sum()
     };
     let before = simulation.parts();

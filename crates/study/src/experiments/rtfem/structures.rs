@@ -6,8 +6,8 @@ use std::time::Instant;
 use fem_engine::cantilever::{Cantilever, tip_displacement};
 use fem_mesh::generate::picture::{FromPicture, mesh_picture, read_picture};
 use fem_mesh::{Pattern, SurfaceMesh, box_mesh, read_tetrahedra};
-use fem_scene::BodyMesh;
-use fem_scene::simulation::Simulation;
+use fem_model::BodyMesh;
+use fem_model::simulation::Simulation;
 
 use super::setting::{DT, LAWS, POISSON, Setting, TRACTION, YOUNG, median_and_p95, one_thread, simulation, step};
 use crate::experiments::{Mark, Part, Table};

@@ -1,6 +1,6 @@
 //! Bodies that hit planes: fast, stiff, with much friction or none. No node is behind a plane after any step.
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 use crate::stability::case::{Case, Deadline, Finding, Outcome};
 use crate::stability::march::march_with;

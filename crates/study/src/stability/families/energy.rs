@@ -1,7 +1,7 @@
 //! Energy from nothing: every method with every damping, driven in every way. The judge is the energy ledger; copies of a scene that are turned,
 //! scaled, or solved by another solver are further judges.
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
 use crate::stability::case::{Case, Deadline, Finding, Outcome};

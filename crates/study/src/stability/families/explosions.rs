@@ -1,6 +1,6 @@
 //! Motions far beyond the critical time step: they end at the step in which it shows, whatever the law.
 
-use fem_scene::simulation::{Cause, Simulation};
+use fem_model::simulation::{Cause, Simulation};
 
 use crate::stability::case::{Case, Deadline, Finding, Outcome};
 use crate::stability::forecast::clamped;

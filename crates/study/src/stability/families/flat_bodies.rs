@@ -1,6 +1,6 @@
 //! Flat bodies: stiffness against time step, inverted triangles, pictures meshed coarsely and finely, momentum.
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
 use super::recovery::MARGIN_IS;

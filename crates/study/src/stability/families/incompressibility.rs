@@ -1,7 +1,10 @@
 //! Nearly incompressible materials: survival, and volumetric locking.
 
+use std::path::Path;
+
 use fem_engine::cantilever::{expected_tip_displacement, tip_displacement};
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
+use fem_scene::body;
 
 use crate::space::locking::RATIOS;
 use crate::stability::case::{Case, Finding, Outcome};
@@ -52,11 +55,13 @@ fn cantilever(poisson: f64, cells: usize) -> Case {
         expected: if locks { Outcome::Locks } else { Outcome::Survives },
         margin_is: "tip deflection over that of theory; 1 is exact, below 0.5 counts as locked",
         ..text.clone().case(FAMILY, CANTILEVER, parameters, move |deadline| {
-            let (scene, mut simulation) = (text.scene().map_err(refused)?, text.build()?);
+            let scene = text.scene().map_err(refused)?;
+            let body = body(&scene, Path::new("")).map_err(refused)?;
+            let mut simulation = text.build()?;
             if let Some(trouble) = march(&mut simulation, 1, deadline).trouble() {
                 return Ok(trouble);
             }
-            let theory = expected_tip_displacement(&scene).unwrap_or_default();
+            let theory = expected_tip_displacement(&body, &scene.method()).unwrap_or_default();
             let part = tip_displacement(&simulation).dot(&theory) / theory.norm_squared();
             let outcome = if part < LOCKED { Outcome::Locks } else { Outcome::Survives };
             let nodes = simulation.shape().mesh.vertices().len();

@@ -79,5 +79,5 @@ fn build(text: &SceneText, contrast: Contrast) -> Result<Simulator<f64>, Finding
     let beyond: Vec<bool> = mesh.corners().map(is_beyond).collect();
     let factors = |factor: f64| beyond.iter().map(|&beyond| if beyond { factor } else { 1.0 }).collect();
     (body.stiffness_factors, body.density_factors) = (factors(contrast.young), factors(contrast.density));
-    Simulator::new(&scene, body).map_err(refused)
+    Simulator::new(body, &scene.method()).map_err(|refusal| refused(scene.refused(refusal)))
 }

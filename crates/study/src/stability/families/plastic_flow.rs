@@ -1,6 +1,6 @@
 //! Plastic flow: fast and slow creep, low yield, stiff bodies, large strains. The dissipated energy never falls.
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 use crate::stability::case::{Case, Deadline, Finding, Outcome};
 use crate::stability::march::march_with;

@@ -7,7 +7,7 @@
 //! distinguish from the undeformed state.
 
 use fem_engine::simulator::Simulator;
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
 use crate::stability::case::{Case, Deadline, Finding, Outcome};

@@ -1,7 +1,7 @@
 //! Single precision compared with double precision.
 
 use fem_engine::simulator::Compiled;
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 use nalgebra::{DVector, Vector3};
 
 use super::stiffness_and_step::{DT, YOUNG};

@@ -1,7 +1,7 @@
 //! Each integrator near its stability limit, and the growth rate of the highest mode.
 
 use fem_engine::simulator::Simulator;
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 use crate::stability::case::{Case, Deadline, Finding, Outcome};
 use crate::stability::forecast::{clamped, excite, forecast, try_forecast};

@@ -10,7 +10,8 @@ use crate::runs::plan::PlannedRun;
 use crate::runs::row::{Configuration, Errors};
 use crate::space::norms;
 use fem_engine::cantilever::moduli;
-use fem_scene::{Integrator, Pipeline, Precision, Projection};
+use fem_model::{Integrator, Precision, Projection};
+use fem_scene::Pipeline;
 
 /// Errors of a completed run.
 pub(super) fn errors(run: &PlannedRun, outcome: &RunResult, body: &StudyMesh, study: &SceneStudy) -> Errors {
@@ -49,7 +50,7 @@ pub(super) fn errors(run: &PlannedRun, outcome: &RunResult, body: &StudyMesh, st
 
 pub(super) fn configuration(id: String, run: &PlannedRun, body: &StudyMesh) -> Configuration {
     let PlannedRun { scene, .. } = run;
-    let moduli = moduli(&scene.material);
+    let moduli = moduli(&scene.material.value());
     let is_newton = scene.time.integrator.has_newton();
     let is_course = scene.pipeline == Pipeline::Course;
     let newton = scene.newton.as_ref();
@@ -71,8 +72,8 @@ pub(super) fn configuration(id: String, run: &PlannedRun, body: &StudyMesh) -> C
         mesh_hash: body.hash.clone(),
         nodes: body.mesh.vertices().len(),
         elements: body.mesh.elements(),
-        young: moduli.map(|moduli| moduli.0),
-        poisson: moduli.map(|moduli| moduli.1),
+        young: moduli.map(|moduli| moduli.young),
+        poisson: moduli.map(|moduli| moduli.poisson),
         integrator: scene.time.integrator.name(),
         projection: if has_matrix { projection } else { "none" },
         solver: if has_matrix { solver } else { "none".to_owned() },

@@ -7,7 +7,8 @@ use super::meshes::{StudyMeshes, most_reference_seconds};
 use crate::runs::plan;
 use crate::space::closed_forms;
 use crate::space::nested::{self, Level, RichardsonEstimate};
-use fem_scene::{Integrator, Scene};
+use fem_model::Integrator;
+use fem_scene::Scene;
 
 /// ω_max dt of a stable step of Verlet, with a margin.
 const STABLE: f64 = 1.2;

@@ -1,6 +1,7 @@
 //! A mesh of a study, with its reference.
 
-use fem_scene::{BodyMesh, Scene};
+use fem_model::BodyMesh;
+use fem_scene::Scene;
 
 use crate::reference::Reference;
 

@@ -14,8 +14,9 @@ use crate::runs::pareto::{Contender, standings};
 use crate::runs::plan::{self, Extent, Ladder, PlannedRun};
 use crate::runs::row::{Row, Times};
 use crate::space::nested::RichardsonEstimate;
+use fem_model::Integrator;
+use fem_scene::Scene;
 use fem_scene::simulate::quantile;
-use fem_scene::{Integrator, Scene};
 use meshes::StudyMeshes;
 
 /// The results of one scene.

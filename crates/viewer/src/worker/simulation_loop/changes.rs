@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use fem_model::simulation::Pull;
 use fem_scene::output::ElementField;
-use fem_scene::simulation::Pull;
 
 use super::SimulationLoop;
 use crate::change::Change;

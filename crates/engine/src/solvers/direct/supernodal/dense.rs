@@ -9,7 +9,7 @@ use pulp::{Simd, WithSimd};
 use crate::solvers::block::sqrt_pivot;
 use fem_elements::number::Float;
 use fem_elements::number::Packed;
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// Columns that a kernel processes together.
 const AT_ONCE: usize = 6;

@@ -15,7 +15,7 @@ use crate::solvers::ApproximateInverse;
 use fem_elements::Real;
 use fem_elements::number::vectorized;
 use fem_elements::sparse::{Block, Pattern};
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// The factor with its workspace.
 pub(crate) struct SupernodalCholesky<T> {

@@ -1,6 +1,6 @@
 //! The coarse matrix in the history of a checkpoint: it may be that of a much earlier step.
 
-use fem_scene::simulation::History;
+use fem_model::simulation::History;
 
 use super::Coarse;
 use crate::solvers::ApproximateInverse;

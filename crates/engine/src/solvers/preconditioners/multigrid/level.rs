@@ -10,7 +10,7 @@ use pulp::{Simd, WithSimd};
 
 use fem_elements::history::{put, take};
 use fem_elements::number::vectorized;
-use fem_scene::simulation::{Breakdown, History};
+use fem_model::simulation::{Breakdown, History};
 
 /// Steps of the power iteration for the largest eigenvalue of D⁻¹A. It starts from the vector of the last preparation.
 const POWER_STEPS: usize = 4;

@@ -22,7 +22,7 @@ use fem_elements::history::{put, put_option, take, take_option};
 use fem_elements::sparse::{Block, Pattern, Stored};
 use fem_elements::tensor::map;
 use fem_elements::vector::norm;
-use fem_scene::simulation::{Breakdown, History};
+use fem_model::simulation::{Breakdown, History};
 
 /// Coarse matrices of up to this many nodes are factored, if their factor is [cheap](is_factor_cheap). One level more would leave too few nodes
 /// for the motions of a slender body.

@@ -22,7 +22,7 @@ use advance::Advance;
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
 use fem_elements::vector::norm;
-use fem_scene::simulation::{Breakdown, History};
+use fem_model::simulation::{Breakdown, History};
 use scaled::Scaled;
 use shares::Shares;
 use sweeps::{Start, Sweeps};

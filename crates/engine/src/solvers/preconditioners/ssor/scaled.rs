@@ -12,7 +12,7 @@ use fem_elements::number::vectorized;
 use fem_elements::sparse::{Block, Pattern};
 use fem_elements::tensor::map;
 use fem_elements::vector::triple;
-use fem_scene::simulation::Breakdown;
+use fem_model::simulation::Breakdown;
 
 /// Fractions of the diagonal's change by an incomplete factorisation, tried one after the other until all blocks are positive
 /// definite. On beams ½ takes the fewest iterations and 1 mostly breaks down; 0 is symmetric Gauss–Seidel.

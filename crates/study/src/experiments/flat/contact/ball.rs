@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use fem_engine::simulator::Simulator;
 use fem_mesh::{Pattern, TetrahedralMesh, box_mesh};
-use fem_scene::BodyMesh;
-use fem_scene::simulation::Simulation;
+use fem_model::BodyMesh;
+use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
 use super::cylinder::graded;

@@ -1,8 +1,8 @@
 //! Hertz's contact of a cylinder with a rigid plane: Johnson, Contact Mechanics (1985), section 4.2.
 
 use fem_mesh::SurfaceMesh;
-use fem_scene::BodyMesh;
-use fem_scene::simulation::Simulation;
+use fem_model::BodyMesh;
+use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
 use crate::experiments::flat::simulation::{simulation, steps};

@@ -1,6 +1,6 @@
 //! A block at rest on the barrier of a floor.
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 use crate::experiments::flat::simulation::simulation;
 

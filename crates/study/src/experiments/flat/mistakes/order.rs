@@ -1,6 +1,6 @@
 //! The order of Verlet's method.
 
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 use crate::experiments::flat::simulation::{simulation, steps};
 use crate::experiments::mistake::Mistake;

@@ -5,8 +5,8 @@ use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
 
 use fem_mesh::SurfaceMesh;
-use fem_scene::BodyMesh;
-use fem_scene::simulation::Simulation;
+use fem_model::BodyMesh;
+use fem_model::simulation::Simulation;
 use nalgebra::Vector3;
 
 use crate::experiments::flat::simulation::{simulation, step};

@@ -1,7 +1,7 @@
 //! Plastic strips that move: the bound of the plastic strain, dissipation, order in the time step, and the shape after a release.
 
 use fem_engine::simulator::Simulator;
-use fem_scene::simulation::Simulation;
+use fem_model::simulation::Simulation;
 
 use crate::experiments::flat::simulation::{simulation, step, steps};
 

@@ -2,7 +2,7 @@
 //! for springs, clamped at one end and bent by their weight.
 
 use fem_mesh::{SurfaceMesh, TetrahedralMesh};
-use fem_scene::BodyMesh;
+use fem_model::BodyMesh;
 use nalgebra::Vector3;
 
 /// Length and height of a body, m.

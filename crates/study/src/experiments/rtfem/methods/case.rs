@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use fem_scene::simulation::Simulation;
-use fem_scene::{BodyMesh, body_of, parse};
+use fem_model::BodyMesh;
+use fem_model::simulation::Simulation;
+use fem_scene::{body_of, parse};
 use nalgebra::DVector;
 
 use super::super::setting::simulation;

@@ -1,4 +1,4 @@
-//! The names of time integration methods.
+//! Time integration methods.
 
 use serde::Deserialize;
 
@@ -39,6 +39,10 @@ pub enum Integrator {
     /// Equilibrium by load steps.
     Static,
 }
+
+/// Largest number of nodes for which an explicit method takes the consistent mass by default. Its linear systems need some thirty
+/// products for each evaluation of the forces, a lumped mass one division.
+pub const CONSISTENT_MASS: usize = 2000;
 
 impl Integrator {
     /// All methods.
@@ -113,6 +117,11 @@ impl Integrator {
     /// Returns true if a step needs a mass for each node, and so a lumped one.
     pub fn needs_node_masses(self) -> bool {
         matches!(self, Self::Pbd | Self::Xpbd | Self::Vbd)
+    }
+
+    /// Returns true if the mass of a body with so many nodes is lumped by default.
+    pub fn lumps_mass(self, nodes: usize, has_obstacles: bool) -> bool {
+        self.needs_node_masses() || self.is_explicit() && (nodes > CONSISTENT_MASS || has_obstacles)
     }
 
     /// Returns true if a step needs Newton's method.

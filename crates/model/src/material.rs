@@ -1,0 +1,267 @@
+//! Materials: the constitutive law with its parameters, and the density.
+
+use serde::Deserialize;
+
+use crate::Refusal;
+use crate::numbers::{check_finite, check_not_negative, check_positive, problem};
+
+/// The material of an element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Constitutive law, or springs along the edges in place of one.
+    pub law: Law,
+    /// Mass per undeformed volume, kg/m³.
+    pub density: f64,
+    /// State of a flat body across its plane.
+    pub plane: PlaneState,
+}
+
+/// A constitutive law with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law {
+    /// Hooke's law of the small strain.
+    Linear(Elastic),
+    /// Hooke's law in axes that turn with each element.
+    Corotated(Elastic),
+    /// Hooke's law of Green's strain.
+    StVenantKirchhoff(Elastic),
+    /// Compressible neo-Hookean.
+    NeoHookean(NeoHookean),
+    /// Neo-Hookean that is defined for inverted elements.
+    StableNeoHookean(Elastic),
+    /// Hooke's law of the logarithmic strain.
+    Hencky(Elastic),
+    /// Mooney–Rivlin.
+    MooneyRivlin {
+        /// Factor of Ī1 − 3, Pa.
+        C10: f64,
+        /// Factor of Ī2 − 3, Pa.
+        C01: f64,
+        /// Half the bulk modulus at small strain, Pa.
+        D: f64,
+    },
+    /// Yeoh.
+    Yeoh {
+        /// Half the shear modulus at small strain, Pa.
+        C1: f64,
+        /// Factor of (Ī1 − 3)², Pa.
+        C2: f64,
+        /// Factor of (Ī1 − 3)³, Pa.
+        C3: f64,
+        /// Half the bulk modulus at small strain, Pa.
+        D: f64,
+    },
+    /// No law: every edge of the mesh is a spring.
+    MassSpring {
+        /// Stiffness of the edges.
+        stiffness: EdgeStiffness,
+        /// Coefficient of the damper along every edge, N s/m.
+        damping: f64,
+    },
+}
+
+/// Moduli of small strain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Elastic {
+    /// Young's modulus, Pa.
+    pub young: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+}
+
+/// Parameters of the neo-Hookean law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NeoHookean {
+    /// Those with the same small-strain moduli: C = E/(4(1+ν)) and D = E/(6(1−2ν)).
+    Elastic(Elastic),
+    /// The law's own.
+    Moduli {
+        /// Half the shear modulus at small strain, Pa.
+        C: f64,
+        /// Half the bulk modulus at small strain, Pa.
+        D: f64,
+    },
+}
+
+/// Stiffness of the edges of a mass-spring body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EdgeStiffness {
+    /// The same for every edge, N/m.
+    Uniform(f64),
+    /// E ΣV/l² of an edge of length l, summed over its elements, with Young's modulus E, Pa.
+    Young(f64),
+}
+
+/// State of a flat body across its plane.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum PlaneState {
+    /// Plane strain: the thickness stays as it is, and a stress acts across the plane.
+    #[default]
+    Strain,
+    /// Plane stress: no stress acts across the plane, and the thickness changes, as in a thin sheet. The laws `linear` and `corotated` have
+    /// it, without plastic flow.
+    Stress,
+}
+
+/// Poisson's ratio above which linear tetrahedra lock visibly.
+const LOCKS_ABOVE: f64 = 0.45;
+
+impl Elastic {
+    /// Moduli from Young's modulus, Pa, and Poisson's ratio.
+    pub fn new(young: f64, poisson: f64) -> Self {
+        Self { young, poisson }
+    }
+
+    /// Lamé's constants μ = E/(2(1+ν)) and λ = Eν/((1+ν)(1−2ν)), Pa. In plane stress, λ is that of the law after the strain across the
+    /// plane has been eliminated, 2λμ/(λ+2μ) = Eν/(1−ν²): Timoshenko and Goodier, Theory of Elasticity (1970), §15 f.
+    pub fn lame(self, plane: PlaneState) -> [f64; 2] {
+        let Self { young: E, poisson: nu } = self;
+        let lambda = match plane {
+            PlaneState::Strain => E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+            PlaneState::Stress => E * nu / ((1.0 + nu) * (1.0 - nu)),
+        };
+        [E / (2.0 * (1.0 + nu)), lambda]
+    }
+}
+
+impl NeoHookean {
+    /// C and D, Pa.
+    pub fn moduli(self) -> [f64; 2] {
+        match self {
+            Self::Moduli { C, D } => [C, D],
+            Self::Elastic(Elastic { young: E, poisson: nu }) => [E / (4.0 * (1.0 + nu)), E / (6.0 * (1.0 - 2.0 * nu))],
+        }
+    }
+}
+
+impl Law {
+    /// The name in scene files.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Linear(_) => "linear",
+            Self::Corotated(_) => "corotated",
+            Self::StVenantKirchhoff(_) => "st_venant_kirchhoff",
+            Self::NeoHookean(_) => "neo_hookean",
+            Self::StableNeoHookean(_) => "stable_neo_hookean",
+            Self::Hencky(_) => "hencky",
+            Self::MooneyRivlin { .. } => "mooney_rivlin",
+            Self::Yeoh { .. } => "yeoh",
+            Self::MassSpring { .. } => "mass_spring",
+        }
+    }
+
+    /// Returns true if the law has a form for plane stress.
+    pub fn has_plane_stress(&self) -> bool {
+        matches!(self, Self::Linear(_) | Self::Corotated(_))
+    }
+
+    /// Young's modulus and Poisson's ratio, where they are the law's parameters.
+    pub fn elastic(&self) -> Option<Elastic> {
+        match *self {
+            Self::Linear(elastic)
+            | Self::Corotated(elastic)
+            | Self::StVenantKirchhoff(elastic)
+            | Self::NeoHookean(NeoHookean::Elastic(elastic))
+            | Self::StableNeoHookean(elastic)
+            | Self::Hencky(elastic) => Some(elastic),
+            Self::NeoHookean(NeoHookean::Moduli { .. }) | Self::MooneyRivlin { .. } | Self::Yeoh { .. } => None,
+            Self::MassSpring { .. } => None,
+        }
+    }
+
+    /// The same law with other moduli, where they are its parameters; a mass-spring body takes Young's modulus alone.
+    pub fn with_moduli(mut self, young: Option<f64>, poisson: Option<f64>) -> Self {
+        match &mut self {
+            Self::Linear(elastic)
+            | Self::Corotated(elastic)
+            | Self::StVenantKirchhoff(elastic)
+            | Self::NeoHookean(NeoHookean::Elastic(elastic))
+            | Self::StableNeoHookean(elastic)
+            | Self::Hencky(elastic) => {
+                elastic.young = young.unwrap_or(elastic.young);
+                elastic.poisson = poisson.unwrap_or(elastic.poisson);
+            }
+            Self::MassSpring { stiffness: EdgeStiffness::Young(own), .. } => *own = young.unwrap_or(*own),
+            Self::NeoHookean(NeoHookean::Moduli { .. }) | Self::MooneyRivlin { .. } | Self::Yeoh { .. } => {}
+            Self::MassSpring { stiffness: EdgeStiffness::Uniform(_), .. } => {}
+        }
+        self
+    }
+
+    /// The parameters with their names in scene files.
+    pub fn parameters(&self) -> Vec<(&'static str, f64)> {
+        if let Some(Elastic { young, poisson }) = self.elastic() {
+            return vec![("young", young), ("poisson", poisson)];
+        }
+        match *self {
+            Self::NeoHookean(law) => {
+                let [C, D] = law.moduli();
+                vec![("C", C), ("D", D)]
+            }
+            Self::MooneyRivlin { C10, C01, D } => vec![("C10", C10), ("C01", C01), ("D", D)],
+            Self::Yeoh { C1, C2, C3, D } => vec![("C1", C1), ("C2", C2), ("C3", C3), ("D", D)],
+            Self::MassSpring { stiffness, damping } => {
+                let stiffness = match stiffness {
+                    EdgeStiffness::Uniform(stiffness) => ("stiffness", stiffness),
+                    EdgeStiffness::Young(young) => ("young", young),
+                };
+                let damping = (damping != 0.0).then_some(("damping", damping));
+                std::iter::once(stiffness).chain(damping).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Poisson's ratio at small strain: as given, or (3K − 2G)/(2(3K + G)) of the shear modulus G and the bulk modulus K = 2D. None for
+    /// springs.
+    pub fn poissons_ratio(&self) -> Option<f64> {
+        let of_moduli = |C: f64, D: f64| (3.0 * D - 2.0 * C) / (2.0 * (3.0 * D + C));
+        match *self {
+            Self::NeoHookean(NeoHookean::Moduli { C, D }) | Self::Yeoh { C1: C, D, .. } => Some(of_moduli(C, D)),
+            Self::MooneyRivlin { C10, C01, D } => Some(of_moduli(C10 + C01, D)),
+            _ => self.elastic().map(|elastic| elastic.poisson),
+        }
+    }
+}
+
+impl Material {
+    /// A material of a density, kg/m³; plane strain if the body is flat.
+    pub fn new(law: Law, density: f64) -> Self {
+        Self { law, density, plane: PlaneState::Strain }
+    }
+
+    /// Lamé's constants μ and λ, Pa, of a law with Young's modulus and Poisson's ratio.
+    pub fn lame(&self) -> Option<[f64; 2]> {
+        self.law.elastic().map(|elastic| elastic.lame(self.plane))
+    }
+
+    /// Returns true if every edge of the mesh is a spring, and no element is elastic.
+    pub fn is_mass_spring(&self) -> bool {
+        matches!(self.law, Law::MassSpring { .. })
+    }
+
+    /// Returns true if linear tetrahedra lock: Poisson's ratio is above 0.45.
+    pub fn locks(&self) -> bool {
+        self.law.poissons_ratio().is_some_and(|poisson| poisson > LOCKS_ABOVE)
+    }
+
+    /// Refuses parameters and a density out of range. `table` names the material, such as `material` or `materials[0]`.
+    pub fn check(&self, table: &str) -> Result<(), Refusal> {
+        check_positive(&format!("{table}.density"), self.density, " of kg/m³")?;
+        for (name, value) in self.law.parameters() {
+            let field = format!("{table}.{name}");
+            match name {
+                "poisson" if value > -1.0 && value < 0.5 => {}
+                "poisson" => {
+                    return problem(&field, format!("is {value}; Poisson's ratio lies above -1 and below 0.5"));
+                }
+                "C10" | "C01" | "C2" | "C3" => check_finite(&field, &[value])?,
+                "stiffness" => check_positive(&field, value, " of N/m")?,
+                "damping" => check_not_negative(&field, value, "N s/m")?,
+                _ => check_positive(&field, value, " of Pa")?,
+            }
+        }
+        Ok(())
+    }
+}
