@@ -57,7 +57,7 @@ fn the_stress_of_a_mesh_balances_its_weight_and_is_written() {
 fn the_methods_of_the_study_have_their_orders() {
     for row in own_study::run().unwrap() {
         let order = row.observed_order();
-        assert!((order - row.expected_order).abs() < 0.1, "{}: {order}, errors {:?}", row.method, row.errors);
+        assert!((order - row.expected_order).abs() < 0.1, "{}: {order}, errors {:?}", row.method.name(), row.errors);
     }
 }
 

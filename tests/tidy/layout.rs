@@ -1,17 +1,6 @@
 //! Length and layout of every file.
 
-use std::path::PathBuf;
-
-use super::{assert_none, files, read, without_unit_tests};
-
-#[test]
-fn no_file_has_more_than_300_lines_apart_from_its_unit_tests() {
-    let lines = |path: &PathBuf| without_unit_tests(&read(path)).lines().count();
-    let too_long = files("rs").into_iter().map(|path| (lines(&path), path)).filter(|(lines, _)| *lines > 300);
-    assert_none(
-        too_long.map(|(n, path)| format!("{}: {n} lines; two things live there, part them", path.display())).collect(),
-    );
-}
+use super::{assert_none, files, read};
 
 #[test]
 fn the_map_of_the_code_has_at_most_150_lines() {

@@ -50,8 +50,3 @@ fn assert_none(problems: Vec<String>) {
 fn stem(path: &Path) -> String {
     path.file_stem().unwrap().to_string_lossy().into_owned()
 }
-
-/// A file's text without its module of unit tests, which stands last.
-fn without_unit_tests(text: &str) -> &str {
-    text.find("\n#[cfg(test)]\nmod ").map_or(text, |end| &text[..end + 1])
-}

@@ -51,7 +51,6 @@ use plan::Plan;
 use work::{LastForces, Room, StepWork};
 
 pub use compiled::Compiled;
-pub use integrator::integrators;
 
 /// A body that the engine moves, in one number type.
 pub struct Simulator<T: Real> {
@@ -259,7 +258,7 @@ impl<T: Real> Simulator<T> {
 
     /// Returns true if the size of steps follows an estimate of their error.
     fn is_adaptive(&self) -> bool {
-        self.control.is_some() && IntegratorKind::SECOND_ORDER_IMPLICIT.contains(&self.kind)
+        self.control.is_some() && self.kind.estimates_error()
     }
 
     /// Updates the Dirichlet conditions that apply in a step from this time, s. Returns whether they have changed.

@@ -9,8 +9,8 @@ use crate::regions::density_factors;
 use crate::selector::{elements, listed, loaded_faces, nodes};
 use crate::simulation::Shape;
 use crate::{
-    BodyMesh, Contact, ContactPlane, Damping, DirichletCondition, Drag, LoadCurve, Material, MaterialRegion, Method,
-    Motion, NodalForce, PlaneState, Plasticity, Pressure, Refusal, Selector, Spring, Traction, check_disjoint,
+    BodyMesh, Contact, Damping, DirichletCondition, Drag, LoadCurve, Material, MaterialRegion, Method, Motion,
+    NodalForce, PlaneState, Plasticity, Pressure, Refusal, Selector, Spring, Traction, check_disjoint,
 };
 
 /// A body as a pipeline simulates it: checked meshes, material, constraints and external forces, in the mesh's node numbers and
@@ -211,13 +211,6 @@ impl Body {
         check_not_negative("damping.alpha", damping.alpha, "1/s")?;
         check_not_negative("damping.beta", damping.beta, "s")?;
         self.damping = Some(damping).filter(|damping| damping.alpha > 0.0 || damping.beta > 0.0);
-        Ok(self)
-    }
-
-    /// Adds obstacles, which the method treats in its way. Constraints, gravity and initial velocity come before, since the speed at
-    /// which friction has its full size follows from them.
-    pub fn obstacles(mut self, planes: Vec<ContactPlane>, method: &Method) -> Result<Self, Refusal> {
-        self.contact = Some(Contact::new(planes, &self, method)?);
         Ok(self)
     }
 

@@ -2,6 +2,8 @@
 
 use serde::Deserialize;
 
+use crate::ContactTreatment;
+
 /// Time integration methods, as scene files and the command line spell them.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
@@ -40,83 +42,155 @@ pub enum Integrator {
     Static,
 }
 
+/// The kind of work in a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// Accelerations from forces alone; stable for short steps only.
+    Explicit,
+    /// Sweeps over constraints, elements or nodes, without a matrix.
+    Sweeps,
+    /// Rounds of local projections and one solve with a constant matrix.
+    Rounds,
+    /// One linear system of equations.
+    Linearized,
+    /// Newton's method.
+    Newton,
+    /// Newton's method without time: load steps.
+    Equilibrium,
+}
+
+/// What is known about a method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Facts {
+    /// The name in scene files.
+    pub name: &'static str,
+    /// The name in prose.
+    pub label: &'static str,
+    /// The kind of work in a step.
+    pub family: Family,
+    /// Order of convergence in the time step; `None` without time.
+    pub order: Option<u32>,
+    /// True if the method is symplectic: without damping its energy error stays bounded.
+    pub is_symplectic: bool,
+    /// Treatment of obstacles; `None` for a method that cannot keep a body outside.
+    pub contact: Option<ContactTreatment>,
+}
+
 /// Largest number of nodes for which an explicit method takes the consistent mass by default. Its linear systems need some thirty
 /// products for each evaluation of the forces, a lumped mass one division.
 pub const CONSISTENT_MASS: usize = 2000;
 
 impl Integrator {
+    /// All methods, with what is known about them.
+    pub const FACTS: [(Self, Facts); 16] = {
+        use ContactTreatment::{Barrier, Impulses, Projection};
+        use Family::{Equilibrium, Explicit, Linearized, Newton, Rounds, Sweeps};
+        const fn facts(
+            name: &'static str,
+            label: &'static str,
+            family: Family,
+            order: Option<u32>,
+            is_symplectic: bool,
+            contact: Option<ContactTreatment>,
+        ) -> Facts {
+            Facts { name, label, family, order, is_symplectic, contact }
+        }
+        [
+            (Self::ExplicitEuler, facts("explicit_euler", "explicit Euler", Explicit, Some(1), false, Some(Impulses))),
+            (
+                Self::SemiImplicitEuler,
+                facts("semi_implicit_euler", "semi-implicit Euler", Explicit, Some(1), true, Some(Impulses)),
+            ),
+            (Self::Rk2, facts("rk2", "RK2", Explicit, Some(2), false, Some(Impulses))),
+            (Self::Rk4, facts("rk4", "RK4", Explicit, Some(4), false, Some(Impulses))),
+            (Self::Verlet, facts("verlet", "Verlet", Explicit, Some(2), true, Some(Impulses))),
+            (
+                Self::LinearlyImplicitEuler,
+                facts("linearly_implicit_euler", "linearly implicit Euler", Linearized, Some(1), false, None),
+            ),
+            (Self::ImplicitEuler, facts("implicit_euler", "implicit Euler", Newton, Some(1), false, Some(Barrier))),
+            (
+                Self::ImplicitMidpoint,
+                facts("implicit_midpoint", "implicit midpoint", Newton, Some(2), true, Some(Barrier)),
+            ),
+            (Self::Newmark, facts("newmark", "Newmark", Newton, Some(2), false, Some(Barrier))),
+            (
+                Self::GeneralizedAlpha,
+                facts("generalized_alpha", "generalized-α", Newton, Some(2), false, Some(Barrier)),
+            ),
+            (Self::Bdf2, facts("bdf2", "BDF2", Newton, Some(2), false, Some(Barrier))),
+            (Self::Pbd, facts("pbd", "PBD", Sweeps, Some(1), false, Some(Projection))),
+            (Self::Xpbd, facts("xpbd", "XPBD", Sweeps, Some(1), false, Some(Projection))),
+            (Self::Vbd, facts("vbd", "VBD", Sweeps, Some(1), false, Some(Projection))),
+            (
+                Self::ProjectiveDynamics,
+                facts("projective_dynamics", "projective dynamics", Rounds, Some(1), false, None),
+            ),
+            (Self::Static, facts("static", "static", Equilibrium, None, false, Some(Barrier))),
+        ]
+    };
+
     /// All methods.
-    pub const ALL: [Self; 16] = [
-        Self::ExplicitEuler,
-        Self::SemiImplicitEuler,
-        Self::Rk2,
-        Self::Rk4,
-        Self::Verlet,
-        Self::LinearlyImplicitEuler,
-        Self::ImplicitEuler,
-        Self::ImplicitMidpoint,
-        Self::Newmark,
-        Self::GeneralizedAlpha,
-        Self::Bdf2,
-        Self::Pbd,
-        Self::Xpbd,
-        Self::Vbd,
-        Self::ProjectiveDynamics,
-        Self::Static,
-    ];
+    pub const ALL: [Self; Self::FACTS.len()] = {
+        let mut all = [Self::Static; Self::FACTS.len()];
+        let mut place = 0;
+        while place < all.len() {
+            all[place] = Self::FACTS[place].0;
+            place += 1;
+        }
+        all
+    };
 
-    /// The implicit methods of second order in time.
-    pub const SECOND_ORDER_IMPLICIT: [Self; 4] =
-        [Self::ImplicitMidpoint, Self::Newmark, Self::GeneralizedAlpha, Self::Bdf2];
-
-    /// The methods that iterate over constraints, nodes or elements, and not over solutions of a linearized system: `[iterations]`.
-    pub const ITERATED: [Self; 4] = [Self::Pbd, Self::Xpbd, Self::Vbd, Self::ProjectiveDynamics];
+    /// What is known about the method.
+    pub fn facts(self) -> &'static Facts {
+        // The table is in the order of the enum, as a test holds.
+        &Self::FACTS[self as usize].1
+    }
 
     /// The name as scene files spell it.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::ExplicitEuler => "explicit_euler",
-            Self::SemiImplicitEuler => "semi_implicit_euler",
-            Self::Rk2 => "rk2",
-            Self::Rk4 => "rk4",
-            Self::Verlet => "verlet",
-            Self::LinearlyImplicitEuler => "linearly_implicit_euler",
-            Self::ImplicitEuler => "implicit_euler",
-            Self::ImplicitMidpoint => "implicit_midpoint",
-            Self::Newmark => "newmark",
-            Self::GeneralizedAlpha => "generalized_alpha",
-            Self::Bdf2 => "bdf2",
-            Self::Pbd => "pbd",
-            Self::Xpbd => "xpbd",
-            Self::Vbd => "vbd",
-            Self::ProjectiveDynamics => "projective_dynamics",
-            Self::Static => "static",
-        }
+        self.facts().name
+    }
+
+    /// The method of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|integrator| integrator.name() == name)
     }
 
     /// Returns true if a step computes accelerations from forces alone, and is stable for short steps only.
     pub fn is_explicit(self) -> bool {
-        match self {
-            Self::ExplicitEuler | Self::SemiImplicitEuler | Self::Rk2 | Self::Rk4 | Self::Verlet => true,
-            Self::LinearlyImplicitEuler | Self::ImplicitEuler | Self::Static => false,
-            Self::ImplicitMidpoint | Self::Newmark | Self::GeneralizedAlpha | Self::Bdf2 => false,
-            Self::Pbd | Self::Xpbd | Self::Vbd | Self::ProjectiveDynamics => false,
-        }
+        self.facts().family == Family::Explicit
     }
 
-    /// Returns true if it is one of [`ITERATED`](Self::ITERATED).
+    /// Returns true if a step iterates over constraints, nodes or elements, and not over solutions of a linearized system:
+    /// `[iterations]`.
     pub fn is_iterated(self) -> bool {
-        Self::ITERATED.contains(&self)
+        matches!(self.facts().family, Family::Sweeps | Family::Rounds)
     }
 
     /// Returns true if a step needs the matrix of a linear system, beside the mass.
     pub fn has_matrix(self) -> bool {
-        !self.is_explicit() && !self.needs_node_masses()
+        !matches!(self.facts().family, Family::Explicit | Family::Sweeps)
     }
 
     /// Returns true if a step needs a mass for each node, and so a lumped one.
     pub fn needs_node_masses(self) -> bool {
-        matches!(self, Self::Pbd | Self::Xpbd | Self::Vbd)
+        self.facts().family == Family::Sweeps
+    }
+
+    /// Returns true if a step needs Newton's method.
+    pub fn has_newton(self) -> bool {
+        matches!(self.facts().family, Family::Newton | Family::Equilibrium)
+    }
+
+    /// Returns true if it is an implicit method of second order, whose steps estimate their error.
+    pub fn estimates_error(self) -> bool {
+        self.facts().family == Family::Newton && self.facts().order == Some(2)
+    }
+
+    /// The implicit methods of second order, whose steps estimate their error.
+    pub fn second_order_implicit() -> impl Iterator<Item = Self> {
+        Self::ALL.into_iter().filter(|integrator| integrator.estimates_error())
     }
 
     /// Returns true if the mass of a body with so many nodes is lumped by default.
@@ -124,25 +198,24 @@ impl Integrator {
         self.needs_node_masses() || self.is_explicit() && (nodes > CONSISTENT_MASS || has_obstacles)
     }
 
-    /// Returns true if a step needs Newton's method.
-    pub fn has_newton(self) -> bool {
-        !self.is_explicit() && self != Self::LinearlyImplicitEuler && !self.is_iterated()
-    }
-
-    /// Returns true if obstacles stop nodes one by one as its iterations go on, without a barrier.
-    pub fn projects_contact(self) -> bool {
-        self.needs_node_masses()
-    }
-
-    /// Returns true if a step can keep a body outside an obstacle.
-    pub fn supports_contact(self) -> bool {
-        match self {
-            Self::ExplicitEuler | Self::SemiImplicitEuler | Self::Rk2 | Self::Rk4 | Self::Verlet => true,
-            Self::ImplicitEuler | Self::Static => true,
-            Self::ImplicitMidpoint | Self::Newmark | Self::GeneralizedAlpha | Self::Bdf2 => true,
-            Self::Pbd | Self::Xpbd | Self::Vbd => true,
-            Self::LinearlyImplicitEuler | Self::ProjectiveDynamics => false,
-        }
+    /// The methods that a running simulation of this one can be switched to, itself included: those of its family, and those that any
+    /// time step suits.
+    pub fn alternatives(self) -> Vec<Self> {
+        let suits_any_step = |family| matches!(family, Family::Linearized | Family::Newton);
+        let own = self.facts().family;
+        let is_alternative = |other: &Self| match other.facts().family {
+            Family::Equilibrium => own == Family::Equilibrium,
+            family if own == Family::Equilibrium => family == own,
+            family => family == own || suits_any_step(family) || own == Family::Sweeps && family == Family::Rounds,
+        };
+        // The family's own first.
+        let mut all: Vec<Self> = Self::ALL.into_iter().filter(is_alternative).collect();
+        all.sort_by_key(|other| match other.facts().family {
+            family if family == own && !suits_any_step(own) => 0,
+            Family::Rounds => 1,
+            _ => 2,
+        });
+        all
     }
 
     /// The method that follows this one in a list, the first after the last.
@@ -150,9 +223,21 @@ impl Integrator {
         let place = list.iter().position(|&integrator| integrator == self);
         list[place.map_or(0, |place| (place + 1) % list.len())]
     }
+}
 
-    /// The method of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|integrator| integrator.name() == name)
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_of_facts_is_in_the_order_of_the_methods() {
+        for (place, (integrator, facts)) in Integrator::FACTS.into_iter().enumerate() {
+            assert_eq!(integrator as usize, place, "{}", facts.name);
+            let name: String = format!("{integrator:?}").chars().fold(String::new(), |name, c| {
+                let gap = if c.is_uppercase() && !name.is_empty() { "_" } else { "" };
+                name + gap + &c.to_lowercase().to_string()
+            });
+            assert_eq!(facts.name, name);
+        }
     }
 }

@@ -61,3 +61,71 @@ pub enum Preconditioner {
     /// SSOR, symmetric Gauss–Seidel sweeps, with a coarse grid; the iteration runs in single precision.
     Ssor,
 }
+
+impl Precision {
+    /// The name in scene files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::F64 => "f64",
+            Self::F32 => "f32",
+        }
+    }
+}
+
+impl SolverKind {
+    /// All solvers, their names in scene files, and a description.
+    pub const FACTS: [(Self, &'static str, &'static str); 7] = [
+        (Self::Cholesky, "cholesky", "Cholesky factorisation, the symbolic part once"),
+        (Self::Lu, "lu", "LU factorisation with partial pivoting"),
+        (Self::Cg, "cg", "conjugate gradients"),
+        (Self::Pcg, "pcg", "conjugate gradients"),
+        (Self::SteepestDescent, "steepest_descent", "steepest descent, for teaching"),
+        (
+            Self::ConjugateDirections,
+            "conjugate_directions",
+            "conjugate directions by Gram–Schmidt's method, for teaching",
+        ),
+        (Self::Gpu, "gpu", "conjugate gradients on the graphics device"),
+    ];
+
+    /// The name in scene files.
+    pub fn name(self) -> &'static str {
+        Self::FACTS[self as usize].1
+    }
+
+    /// A description that begins in lower case.
+    pub fn description(self) -> &'static str {
+        Self::FACTS[self as usize].2
+    }
+}
+
+impl Preconditioner {
+    /// All preconditioners, their names in scene files, and what they are.
+    pub const FACTS: [(Self, &'static str, &'static str); 4] = [
+        (Self::BlockJacobi, "block_jacobi", "a block Jacobi preconditioner"),
+        (Self::IncompleteCholesky, "incomplete_cholesky", "an incomplete Cholesky factor"),
+        (Self::Multigrid, "multigrid", "a multigrid cycle"),
+        (Self::Ssor, "ssor", "SSOR and a coarse grid, in single precision"),
+    ];
+
+    /// The name in scene files.
+    pub fn name(self) -> &'static str {
+        Self::FACTS[self as usize].1
+    }
+
+    /// A description with its article.
+    pub fn description(self) -> &'static str {
+        Self::FACTS[self as usize].2
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tables_of_facts_are_in_the_order_of_the_variants() {
+        assert!(SolverKind::FACTS.iter().enumerate().all(|(place, (kind, ..))| *kind as usize == place));
+        assert!(Preconditioner::FACTS.iter().enumerate().all(|(place, (kind, ..))| *kind as usize == place));
+    }
+}

@@ -6,9 +6,8 @@ use fem_mesh::{SurfaceMesh, TetrahedralMesh};
 use fem_model::simulation::Shape;
 use fem_model::{Body, BodyMesh, Refusal, density_factors};
 
-use crate::check::{check, flat};
-use crate::load::refused;
-use crate::meshes::{elements, flat_body, mesh_error, scale, surface, text};
+use crate::check::flat;
+use crate::meshes::{elements, flat_body, mesh_error, scale, surface};
 use crate::paths::find;
 use crate::picture;
 use crate::tables::{MeshTable, SurfaceTable};
@@ -125,28 +124,5 @@ fn source(scene: &Scene) -> PathBuf {
         MeshTable { picture: Some(picture), .. } => picture.file.clone(),
         MeshTable { rectangle: Some(_), .. } => PathBuf::from("rectangle"),
         _ => PathBuf::from("box"),
-    }
-}
-
-impl Scene {
-    /// Checks the tables again after a change, such as another integrator. Returns the first problem.
-    pub fn check(&self) -> Result<(), SceneError> {
-        check(self).map_err(|refusal| self.refused(refusal))
-    }
-
-    /// The error of a refused value, at its line or override.
-    pub fn refused(&self, Refusal { field, problem }: Refusal) -> SceneError {
-        self.refuse(&field, &problem)
-    }
-
-    /// Returns true if the mass matrix of its body with so many nodes is lumped, see [`Body::lumped_mass`].
-    pub fn lumps_mass(&self, nodes: usize) -> bool {
-        let by_default = self.time.integrator.lumps_mass(nodes, !self.planes.is_empty());
-        self.mass.lumped.unwrap_or(by_default)
-    }
-
-    /// The error of a field, such as `time.integrator`: of its override, or at its line. `problem` continues the sentence that begins with the field.
-    pub fn refuse(&self, field: &str, problem: &str) -> SceneError {
-        refused(&text(self), self, field, &format!("{field} {problem}"))
     }
 }

@@ -4,11 +4,13 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use fem_model::Refusal;
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table};
 
 use crate::check::check;
 use crate::overrides::Override;
+use crate::tables::Text;
 use crate::{Scene, SceneError};
 
 /// Largest scene file, bytes: the tree of a text takes up to a hundred times its memory, so at most 128 MiB.
@@ -56,9 +58,10 @@ fn parse_with(text: &str, path: &Path, overrides: &[Override]) -> Result<Scene, 
     };
     scene.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     scene.path = path.to_owned();
+    scene.text = Text(text.into());
     scene.source = source;
     scene.overrides = overrides.to_vec();
-    check(&scene).map_err(|refusal| refused(text, &scene, &refusal.field, &refusal.to_string()))?;
+    scene.check()?;
     Ok(scene)
 }
 
@@ -103,11 +106,33 @@ impl Scene {
         }
         scene.name.clone_from(&self.name);
         scene.path.clone_from(&self.path);
+        scene.text.clone_from(&self.text);
         scene.source = source;
         let lasts = |earlier: &&Override| !changes.iter().any(|change| change.replaces(earlier));
         scene.overrides = self.overrides.iter().filter(lasts).chain(changes).cloned().collect();
-        check(&scene).map_err(|refusal| refused(&text, &scene, &refusal.field, &refusal.to_string()))?;
+        scene.check()?;
         Ok(scene)
+    }
+}
+
+impl Scene {
+    /// Checks the tables again after a change, such as another integrator. Returns the first problem.
+    pub fn check(&self) -> Result<(), SceneError> {
+        check(self).map_err(|refusal| self.refused(refusal))
+    }
+
+    /// The error of a refused value: of the override that sets it, or else of its line.
+    pub fn refused(&self, Refusal { field, problem }: Refusal) -> SceneError {
+        self.refuse(&field, &problem)
+    }
+
+    /// The error of a field, such as `time.integrator`. `problem` continues the sentence that begins with the field.
+    pub fn refuse(&self, field: &str, problem: &str) -> SceneError {
+        let problem = format!("{field} {problem}");
+        match self.overrides.iter().rev().find(|change| change.concerns(field)) {
+            Some(change) => SceneError::Override { option: change.to_string(), problem },
+            None => SceneError::Line { file: self.path.clone(), line: line_of(&self.text.0, field), problem },
+        }
     }
 }
 
@@ -126,15 +151,6 @@ fn problem_of(error: &toml::de::Error) -> String {
         _ => "correct this line",
     };
     format!("{message}; {remedy}")
-}
-
-/// The error of a field: of the override that sets it, or else of its line in the scene's text.
-pub(super) fn refused(text: &str, scene: &Scene, field: &str, problem: &str) -> SceneError {
-    let problem = problem.to_owned();
-    match scene.overrides.iter().rev().find(|change| change.concerns(field)) {
-        Some(change) => SceneError::Override { option: change.to_string(), problem },
-        None => SceneError::Line { file: scene.path.clone(), line: line_of(text, field), problem },
-    }
 }
 
 /// Names of the scenes in `data/scenes`, sorted.

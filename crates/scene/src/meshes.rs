@@ -114,10 +114,5 @@ pub(crate) fn mesh_error(scene: &Scene, field: &'static str, error: MeshError) -
     if let Some(change) = scene.overrides.iter().rev().find(|change| change.concerns(field)) {
         return SceneError::Override { option: change.to_string(), problem: format!("{field}: {error}") };
     }
-    SceneError::Mesh { file: scene.path.clone(), line: line_of(&text(scene), field), field, error }
-}
-
-/// The text of the scene file, which is read again.
-pub(crate) fn text(scene: &Scene) -> String {
-    std::fs::read_to_string(&scene.path).unwrap_or_default()
+    SceneError::Mesh { file: scene.path.clone(), line: line_of(&scene.text.0, field), field, error }
 }

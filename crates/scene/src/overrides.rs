@@ -3,6 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use serde::Serialize;
 use toml::{Table, Value};
 
 /// An override of one key of a scene, such as `time.dt=0.01`, `traction.0.pressure=5` or `mesh.file=meshes/a.node`.
@@ -37,6 +38,14 @@ impl fmt::Display for Override {
 }
 
 impl Override {
+    /// An override that sets a key, such as `time.dt`, to a number, a text, or a list of them.
+    pub fn to(path: &str, value: impl Serialize) -> Self {
+        // Maps with other keys than texts alone have no TOML.
+        let value = Value::try_from(value).expect("numbers, texts and lists have TOML values");
+        let text = format!("{path}={value}");
+        Self { path: path.split('.').map(str::to_owned).collect(), value: Some(value), text }
+    }
+
     /// An override that removes a key, such as `fixed` or `traction.0`; one that is not there stays away.
     pub fn without(path: &str) -> Self {
         Self { path: path.split('.').map(str::to_owned).collect(), value: None, text: format!("{path} removed") }

@@ -1,8 +1,9 @@
 //! The keys of a scene that are set when nodes are painted, faces loaded, or a method is chosen.
 
-use fem_model::{Integrator, Preconditioner, SolverKind};
+use fem_model::{Integrator, SolverKind};
 use fem_scene::tables::{FixedTable, IterationsTable, NewtonTable, SolverTable, TractionTable};
 use fem_scene::{Override, Scene};
+use serde::Serialize;
 
 use crate::change::{Edit, Effect};
 
@@ -31,11 +32,11 @@ impl Motion {
 /// `[fixed]` with these nodes; without nodes the table is removed.
 pub fn fixed(scene: &Scene, nodes: &[usize]) -> Edit {
     let until = scene.fixed.as_ref().and_then(|FixedTable { until, .. }| *until);
-    let until = until.map_or(String::new(), |until| format!(", until = {until:?}"));
-    let overrides = match nodes {
-        [] => vec![Override::without("fixed")],
-        nodes => vec![set(format!("fixed={{nodes = {nodes:?}{until}}}"))],
-    };
+    let mut overrides = vec![Override::without("fixed")];
+    if !nodes.is_empty() {
+        overrides.push(Override::to("fixed.nodes", nodes));
+        overrides.extend(until.map(|until| Override::to("fixed.until", until)));
+    }
     Edit { table: "fixed".to_owned(), overrides, effect: Effect::Supports }
 }
 
@@ -45,11 +46,12 @@ pub fn prescribed(number: usize, nodes: &[usize], new: Option<(Motion, [f64; 3])
     let overrides = match (nodes, new) {
         ([], _) => vec![Override::without(&table)],
         (nodes, Some((motion, vector))) => {
-            vec![set(format!("{table}={{nodes = {nodes:?}, {} = {vector:?}}}", motion.key()))]
+            let key = |key: &str| format!("{table}.{key}");
+            vec![Override::to(&key("nodes"), nodes), Override::to(&key(motion.key()), vector)]
         }
         (nodes, None) => {
             let others = ["on", "box", "sphere", "set"].map(|key| Override::without(&format!("{table}.{key}")));
-            others.into_iter().chain([set(format!("{table}.nodes={nodes:?}"))]).collect()
+            others.into_iter().chain([Override::to(&format!("{table}.nodes"), nodes)]).collect()
         }
     };
     Edit { table, overrides, effect: Effect::Supports }
@@ -57,8 +59,8 @@ pub fn prescribed(number: usize, nodes: &[usize], new: Option<(Motion, [f64; 3])
 
 /// Another displacement (m) or velocity (m/s) of a `[[prescribed]]`.
 pub fn prescribed_vector(number: usize, motion: Motion, vector: [f64; 3]) -> Edit {
-    let overrides = vec![set(format!("prescribed.{number}.{}={vector:?}", motion.key()))];
-    Edit { table: format!("prescribed.{number}.{}", motion.key()), overrides, effect: Effect::Supports }
+    let table = format!("prescribed.{number}.{}", motion.key());
+    Edit { overrides: vec![Override::to(&table, vector)], table, effect: Effect::Supports }
 }
 
 /// A force on faces of the surface.
@@ -77,12 +79,12 @@ pub fn load(scene: &Scene, number: usize, faces: &[&[usize]], force: Force) -> E
     let (key, ends) = if first.len() == 3 { ("faces", 3) } else { ("edges", 2) };
     let faces: Vec<&[usize]> = faces.iter().map(|face| &face[..ends]).collect();
     let (force, other) = match force {
-        Force::Pressure(pressure) => (format!("{table}.pressure={pressure:?}"), "force_per_area"),
-        Force::PerArea(force) => (format!("{table}.force_per_area={force:?}"), "pressure"),
+        Force::Pressure(pressure) => (Override::to(&format!("{table}.pressure"), pressure), "force_per_area"),
+        Force::PerArea(force) => (Override::to(&format!("{table}.force_per_area"), force), "pressure"),
     };
     let selectors = scene.traction.get(number).map_or(Vec::new(), TractionTable::selectors);
     let others = selectors.iter().map(|selector| selector.key()).filter(|other| *other != key).chain([other]);
-    let mut overrides = vec![set(format!("{table}.{key}={faces:?}")), set(force)];
+    let mut overrides = vec![Override::to(&format!("{table}.{key}"), faces), force];
     overrides.extend(others.map(|key| Override::without(&format!("{table}.{key}"))));
     Edit { table, overrides, effect: Effect::Loads }
 }
@@ -98,11 +100,11 @@ pub fn integrator(scene: &Scene, integrator: Integrator) -> Edit {
     let mut next = scene.clone();
     next.time.integrator = integrator;
     let unused = next.remove_unused_tables();
-    let mut overrides = vec![set(format!("time.integrator={:?}", integrator.name()))];
+    let mut overrides = vec![Override::to("time.integrator", integrator.name())];
     overrides.extend(unused.into_iter().map(Override::without));
     match integrator {
         Integrator::Static => overrides.push(Override::without("time.substeps")),
-        _ if scene.time.dt.is_none() => overrides.push(set(format!("time.dt={DT:?}"))),
+        _ if scene.time.dt.is_none() => overrides.push(Override::to("time.dt", DT)),
         _ => {}
     }
     Edit { table: "time.integrator".to_owned(), overrides, effect: Effect::Method }
@@ -110,73 +112,37 @@ pub fn integrator(scene: &Scene, integrator: Integrator) -> Edit {
 
 /// Another linear solver; `None` leaves the choice to the engine.
 pub fn solver(table: Option<&SolverTable>) -> Edit {
-    let overrides = match table {
-        None => vec![Override::without("solver")],
-        Some(SolverTable { kind, tolerance, preconditioner, precision }) => {
-            let tolerance = tolerance.map_or(String::new(), |tolerance| format!(", tolerance = {tolerance:?}"));
-            let preconditioner = preconditioner.filter(|_| *kind == SolverKind::Pcg);
-            let preconditioner = preconditioner
-                .map_or(String::new(), |kind| format!(", preconditioner = {:?}", preconditioner_name(kind)));
-            let precision = precision.filter(|_| *kind == SolverKind::Gpu);
-            let precision = precision.map_or(String::new(), |of| {
-                format!(", precision = {:?}", if of == fem_model::Precision::F64 { "f64" } else { "f32" })
-            });
-            vec![set(format!("solver={{kind = {:?}{tolerance}{preconditioner}{precision}}}", solver_name(*kind)))]
-        }
-    };
+    let mut overrides = vec![Override::without("solver")];
+    if let Some(SolverTable { kind, tolerance, preconditioner, precision }) = table {
+        overrides.push(Override::to("solver.kind", kind.name()));
+        overrides.extend(tolerance.map(|tolerance| Override::to("solver.tolerance", tolerance)));
+        let preconditioner = preconditioner.filter(|_| *kind == SolverKind::Pcg);
+        overrides.extend(preconditioner.map(|of| Override::to("solver.preconditioner", of.name())));
+        let precision = precision.filter(|_| *kind == SolverKind::Gpu);
+        overrides.extend(precision.map(|of| Override::to("solver.precision", of.name())));
+    }
     Edit { table: "solver".to_owned(), overrides, effect: Effect::Method }
 }
 
 /// Other limits of Newton's method; a number that is `None` has its default.
 pub fn newton(table: &NewtonTable) -> Edit {
-    let keys = [
-        ("newton.max_iterations", table.max_iterations.map(|count| count.to_string())),
-        ("newton.tolerance", table.tolerance.map(|tolerance| format!("{tolerance:?}"))),
-    ];
-    Edit { table: "newton".to_owned(), overrides: keys.map(optional).to_vec(), effect: Effect::Method }
+    let keys = [optional("newton.max_iterations", table.max_iterations), optional("newton.tolerance", table.tolerance)];
+    Edit { table: "newton".to_owned(), overrides: keys.to_vec(), effect: Effect::Method }
 }
 
 /// Other iterations of `pbd`, `xpbd`, `vbd` and `projective_dynamics`; a number that is `None` has its default.
 pub fn iterations(table: &IterationsTable) -> Edit {
-    let number = |value: Option<f64>| value.map(|value| format!("{value:?}"));
     let keys = [
-        ("iterations.count", table.count.map(|count| count.to_string())),
-        ("iterations.tolerance", number(table.tolerance)),
-        ("iterations.acceleration", number(table.acceleration)),
-        ("iterations.stiffness", number(table.stiffness)),
+        optional("iterations.count", table.count),
+        optional("iterations.tolerance", table.tolerance),
+        optional("iterations.acceleration", table.acceleration),
+        optional("iterations.stiffness", table.stiffness),
     ];
-    Edit { table: "iterations".to_owned(), overrides: keys.map(optional).to_vec(), effect: Effect::Method }
+    Edit { table: "iterations".to_owned(), overrides: keys.to_vec(), effect: Effect::Method }
 }
 
-/// The name of a solver in scene files.
-pub fn solver_name(kind: SolverKind) -> &'static str {
-    match kind {
-        SolverKind::Cholesky => "cholesky",
-        SolverKind::Lu => "lu",
-        SolverKind::Cg => "cg",
-        SolverKind::Pcg => "pcg",
-        SolverKind::SteepestDescent => "steepest_descent",
-        SolverKind::ConjugateDirections => "conjugate_directions",
-        SolverKind::Gpu => "gpu",
-    }
-}
-
-/// The name of a preconditioner in scene files.
-pub fn preconditioner_name(kind: Preconditioner) -> &'static str {
-    match kind {
-        Preconditioner::BlockJacobi => "block_jacobi",
-        Preconditioner::IncompleteCholesky => "incomplete_cholesky",
-        Preconditioner::Multigrid => "multigrid",
-        Preconditioner::Ssor => "ssor",
-    }
-}
-
-fn optional((key, value): (&str, Option<String>)) -> Override {
-    value.map_or_else(|| Override::without(key), |value| set(format!("{key}={value}")))
-}
-
-fn set(text: String) -> Override {
-    text.parse().expect("the text has the form TABLE.KEY=VALUE")
+fn optional(key: &str, value: Option<impl Serialize>) -> Override {
+    value.map_or_else(|| Override::without(key), |value| Override::to(key, value))
 }
 
 #[cfg(test)]
@@ -257,7 +223,7 @@ integrator = "implicit_euler"
 
     #[test]
     fn every_solver_and_preconditioner_has_its_name() {
-        use Preconditioner::{BlockJacobi, IncompleteCholesky, Multigrid, Ssor};
+        use fem_model::Preconditioner::{BlockJacobi, IncompleteCholesky, Multigrid, Ssor};
         for kind in [BlockJacobi, IncompleteCholesky, Multigrid, Ssor] {
             let table = SolverTable {
                 kind: SolverKind::Pcg,

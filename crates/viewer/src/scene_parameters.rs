@@ -112,12 +112,11 @@ fn lame(scene: &Scene) -> Option<(f64, f64)> {
 
 /// The keys of a scene that a change sets, with their values.
 pub fn overrides(scene: &Scene, change: &Change, up: &Vector3<f64>) -> Result<Vec<Override>, String> {
-    let texts = match change {
-        Change::Object(file) => vec![format!("mesh.picture.file={:?}", beside(object(scene), file))],
-        Change::Number(key, value) => texts(scene, key, *value, up)?,
-        Change::Edit(edit) => return Ok(edit.overrides.clone()),
-    };
-    texts.iter().map(|text| text.parse()).collect()
+    match change {
+        Change::Object(file) => Ok(vec![Override::to("mesh.picture.file", beside(object(scene), file))]),
+        Change::Number(key, value) => number(scene, key, *value, up),
+        Change::Edit(edit) => Ok(edit.overrides.clone()),
+    }
 }
 
 /// The path of a picture in the folder of another one, as the scene writes it.
@@ -126,49 +125,52 @@ fn beside(present: Option<PathBuf>, file: &Path) -> String {
     folder.join(file.file_name().unwrap_or_default()).to_string_lossy().into_owned()
 }
 
-fn texts(scene: &Scene, key: &str, value: f64, up: &Vector3<f64>) -> Result<Vec<String>, String> {
+/// The keys that another value of a parameter sets.
+fn number(scene: &Scene, key: &str, value: f64, up: &Vector3<f64>) -> Result<Vec<Override>, String> {
     if !value.is_finite() {
         return Err(format!("{key} is {value}; give a finite number"));
     }
     let made = if scene.mesh.picture.is_some() { "mesh.picture" } else { "mesh.surface" };
     let cells = if scene.mesh.cuboid.is_some() { "mesh.box" } else { "mesh.rectangle" };
-    let whole = value.round().max(0.0);
+    let whole = value.round().max(0.0) as u64;
+    let to = |path: &str, value: f64| vec![Override::to(path, value)];
     Ok(match key {
-        "edge" => vec![format!("{made}.edge={value:?}")],
-        "improve" => vec![format!("{made}.improve={whole}")],
-        "cells" => vec![format!("{cells}.cells_per_unit={whole}")],
-        "scale" => vec![format!("mesh.scale={value:?}")],
-        "density" => vec![format!("material.density={value:?}")],
-        "gravity" => vec![gravity(scene, value, up)],
+        "edge" => to(&format!("{made}.edge"), value),
+        "improve" => vec![Override::to(&format!("{made}.improve"), whole)],
+        "cells" => vec![Override::to(&format!("{cells}.cells_per_unit"), whole)],
+        "scale" => to("mesh.scale", value),
+        "density" => to("material.density", value),
+        "gravity" => vec![Override::to("gravity.acceleration", gravity(scene, value, up))],
         "lambda" | "mu" => moduli(scene, key, value)?,
-        "yield" => vec![format!("plasticity.yield_strain={value:?}")],
-        "creep" | "maximum" | "yield_stress" | "hardening" => vec![format!("plasticity.{key}={value:?}")],
-        "friction" => (0..scene.planes.len()).map(|plane| format!("planes.{plane}.friction={value:?}")).collect(),
-        "alpha" | "beta" => vec![format!("damping.{key}={value:?}")],
+        "yield" => to("plasticity.yield_strain", value),
+        "creep" | "maximum" | "yield_stress" | "hardening" => to(&format!("plasticity.{key}"), value),
+        "friction" => {
+            (0..scene.planes.len()).map(|plane| Override::to(&format!("planes.{plane}.friction"), value)).collect()
+        }
+        "alpha" | "beta" => to(&format!("damping.{key}"), value),
         other => return Err(format!("there is no parameter {other}")),
     })
 }
 
 /// Gravity of this size in its direction; downwards if it has none.
-fn gravity(scene: &Scene, size: f64, up: &Vector3<f64>) -> String {
+fn gravity(scene: &Scene, size: f64, up: &Vector3<f64>) -> [f64; 3] {
     let now = scene.gravity.as_ref().map_or(Vector3::zeros(), |gravity| gravity.acceleration.into());
-    let [x, y, z] = (now.try_normalize(0.0).unwrap_or(-up) * size).into();
-    format!("gravity.acceleration=[{x:?}, {y:?}, {z:?}]")
+    (now.try_normalize(0.0).unwrap_or(-up) * size).into()
 }
 
 /// The parameters of the law with another λ or μ: E = μ (3λ + 2μ)/(λ + μ) and ν = λ/(2 (λ + μ)), or C = μ/2 and D = λ/2 + μ/3.
-fn moduli(scene: &Scene, key: &str, value: f64) -> Result<Vec<String>, String> {
+fn moduli(scene: &Scene, key: &str, value: f64) -> Result<Vec<Override>, String> {
     let Some((lambda, mu)) = lame(scene) else { return Err("the law has no λ and μ".to_owned()) };
     let (lambda, mu) = if key == "lambda" { (value, mu) } else { (lambda, value) };
     if !(mu > 0.0 && 3.0 * lambda + 2.0 * mu > 0.0) {
         return Err(format!("λ = {lambda:e} Pa and μ = {mu:e} Pa; give μ > 0 and λ > -2μ/3"));
     }
-    Ok(if scene.material.C.is_some() {
-        vec![format!("material.C={:?}", 0.5 * mu), format!("material.D={:?}", 0.5 * lambda + mu / 3.0)]
+    let [(a, first), (b, second)] = if scene.material.C.is_some() {
+        [("C", 0.5 * mu), ("D", 0.5 * lambda + mu / 3.0)]
     } else {
-        let young = mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu);
-        vec![format!("material.young={young:?}"), format!("material.poisson={:?}", 0.5 * lambda / (lambda + mu))]
-    })
+        [("young", mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu)), ("poisson", 0.5 * lambda / (lambda + mu))]
+    };
+    Ok(vec![Override::to(&format!("material.{a}"), first), Override::to(&format!("material.{b}"), second)])
 }
 
 #[cfg(test)]

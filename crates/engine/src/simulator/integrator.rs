@@ -36,62 +36,6 @@ const MOST_ITERATIONS: (usize, usize) = (200, 2000);
 /// half as long if ν = 0.499.
 const DIRECT: (usize, usize) = (2000, 5000);
 
-/// Methods that a running simulation can be switched to.
-pub fn integrators(kind: IntegratorKind) -> &'static [IntegratorKind] {
-    use IntegratorKind as Kind;
-    match kind {
-        Kind::Static => &[Kind::Static],
-        Kind::LinearlyImplicitEuler
-        | Kind::ImplicitEuler
-        | Kind::ImplicitMidpoint
-        | Kind::Newmark
-        | Kind::GeneralizedAlpha
-        | Kind::Bdf2 => &[
-            Kind::LinearlyImplicitEuler,
-            Kind::ImplicitEuler,
-            Kind::ImplicitMidpoint,
-            Kind::Newmark,
-            Kind::GeneralizedAlpha,
-            Kind::Bdf2,
-        ],
-        Kind::ProjectiveDynamics => &[
-            Kind::ProjectiveDynamics,
-            Kind::LinearlyImplicitEuler,
-            Kind::ImplicitEuler,
-            Kind::ImplicitMidpoint,
-            Kind::Newmark,
-            Kind::GeneralizedAlpha,
-            Kind::Bdf2,
-        ],
-        Kind::Pbd | Kind::Xpbd | Kind::Vbd => &[
-            Kind::Pbd,
-            Kind::Xpbd,
-            Kind::Vbd,
-            Kind::ProjectiveDynamics,
-            Kind::LinearlyImplicitEuler,
-            Kind::ImplicitEuler,
-            Kind::ImplicitMidpoint,
-            Kind::Newmark,
-            Kind::GeneralizedAlpha,
-            Kind::Bdf2,
-        ],
-        // The time step of an explicit scene suits all explicit methods.
-        Kind::ExplicitEuler | Kind::SemiImplicitEuler | Kind::Rk2 | Kind::Rk4 | Kind::Verlet => &[
-            Kind::ExplicitEuler,
-            Kind::SemiImplicitEuler,
-            Kind::Rk2,
-            Kind::Rk4,
-            Kind::Verlet,
-            Kind::LinearlyImplicitEuler,
-            Kind::ImplicitEuler,
-            Kind::ImplicitMidpoint,
-            Kind::Newmark,
-            Kind::GeneralizedAlpha,
-            Kind::Bdf2,
-        ],
-    }
-}
-
 /// Poisson's ratio above which multigrid needs hundreds of iterations: its smoother cannot tell changes of volume from others.
 const NEARLY_INCOMPRESSIBLE: f64 = 0.49;
 
@@ -234,13 +178,10 @@ impl<T: Real> Simulator<T> {
     /// Goes on with the next method that can treat the body.
     pub(super) fn switch_integrator(&mut self) {
         let method = self.method.integrator;
-        let is_usable = |kind: IntegratorKind| {
-            self.contact.is_none()
-                || (kind.supports_contact()
-                    && kind.is_explicit() == method.is_explicit()
-                    && kind.projects_contact() == method.projects_contact())
-        };
-        let methods: Vec<_> = integrators(method).iter().copied().filter(|kind| is_usable(*kind)).collect();
+        // Another treatment of obstacles would need other distances.
+        let treatment = self.contact.as_ref().map(|_| method.facts().contact);
+        let is_usable = |kind: &IntegratorKind| treatment.is_none_or(|treatment| kind.facts().contact == treatment);
+        let methods: Vec<_> = method.alternatives().into_iter().filter(is_usable).collect();
         self.kind = self.kind.next_in(&methods);
         let planes = self.contact.as_ref().map(|contact| contact.planes());
         self.integrator = switched(self.kind, &self.method, &mut self.system, self.solver, planes);

@@ -196,7 +196,7 @@ impl<T: Real> Simulator<T> {
 
 /// Returns true if a method takes all forces at the end of a step.
 fn takes_forces_at_end(kind: IntegratorKind) -> bool {
-    !kind.is_explicit() && !IntegratorKind::SECOND_ORDER_IMPLICIT.contains(&kind)
+    !kind.is_explicit() && !kind.estimates_error()
 }
 
 /// Writes the forces of the loads whose work depends on the path, N.

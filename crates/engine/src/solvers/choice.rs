@@ -80,18 +80,19 @@ impl From<&SolverSettings> for SolverChoice {
 
 impl fmt::Display for SolverChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Cholesky => "Cholesky factorisation, the symbolic part once",
-            Self::Lu => "LU factorisation with partial pivoting",
-            Self::Cg => "conjugate gradients",
-            Self::SteepestDescent => "steepest descent, for teaching",
-            Self::ConjugateDirections => "conjugate directions by Gram–Schmidt's method, for teaching",
-            Self::Gpu(Precision::F32) => "conjugate gradients on the graphics device, in single precision",
-            Self::Gpu(Precision::F64) => "conjugate gradients on the graphics device, in double precision",
-            Self::Pcg(Preconditioner::BlockJacobi) => "conjugate gradients with a block Jacobi preconditioner",
-            Self::Pcg(Preconditioner::IncompleteCholesky) => "conjugate gradients with an incomplete Cholesky factor",
-            Self::Pcg(Preconditioner::Multigrid) => "conjugate gradients with a multigrid cycle",
-            Self::Pcg(Preconditioner::Ssor) => "conjugate gradients with SSOR and a coarse grid, in single precision",
-        })
+        match self {
+            Self::Cholesky => f.write_str(SolverKind::Cholesky.description()),
+            Self::Lu => f.write_str(SolverKind::Lu.description()),
+            Self::Cg => f.write_str(SolverKind::Cg.description()),
+            Self::SteepestDescent => f.write_str(SolverKind::SteepestDescent.description()),
+            Self::ConjugateDirections => f.write_str(SolverKind::ConjugateDirections.description()),
+            Self::Gpu(precision) => {
+                let digits = if *precision == Precision::F32 { "single" } else { "double" };
+                write!(f, "{}, in {digits} precision", SolverKind::Gpu.description())
+            }
+            Self::Pcg(preconditioner) => {
+                write!(f, "{} with {}", SolverKind::Pcg.description(), preconditioner.description())
+            }
+        }
     }
 }

@@ -246,10 +246,12 @@ fn numbers_out_of_range_are_refused_with_field_and_remedy() {
     for &(from, to, beginning) in CASES {
         let text = edit(ALL, from, to);
         let error = try_all(&text).err().unwrap_or_else(|| panic!("taken: {to}")).to_string();
-        // What needs the mesh looks for its line in the file, which is not there; the first stands in for it.
+        // A table stands at its heading, a key at its line.
         let number = ALL.lines().position(|line| line.contains(from)).unwrap() + 1;
+        let heading =
+            ALL.lines().take(number).collect::<Vec<_>>().iter().rposition(|line| line.starts_with('[')).unwrap() + 1;
         let problem = error.strip_prefix(&format!("folder/name.toml, line {number}: "));
-        let problem = problem.or_else(|| error.strip_prefix("folder/name.toml, line 1: "));
+        let problem = problem.or_else(|| error.strip_prefix(&format!("folder/name.toml, line {heading}: ")));
         let problem = problem.unwrap_or_else(|| panic!("not line {number}: {error}"));
         assert!(problem.starts_with(beginning), "{problem}\nis not\n{beginning}");
     }

@@ -86,7 +86,7 @@ fn check_method(scene: &Scene) -> Result<(), Refusal> {
         return Ok(());
     }
     let method = scene.time.integrator;
-    if !method.supports_contact() {
+    if method.facts().contact.is_none() {
         let text = format!(
             "stand beside time.integrator = \"{}\", whose steps cannot keep a body outside an obstacle; use implicit_euler, static, \
              or an explicit method",

@@ -17,8 +17,8 @@ pub(super) fn check(scene: &Scene) -> Result<(), Refusal> {
 fn check_adaptive(scene: &Scene) -> Result<(), Refusal> {
     let Some(adaptive) = scene.time.adaptive else { return Ok(()) };
     let method = scene.time.integrator;
-    if !Integrator::SECOND_ORDER_IMPLICIT.contains(&method) {
-        let names = Integrator::SECOND_ORDER_IMPLICIT.map(Integrator::name).join(", ");
+    if !method.estimates_error() {
+        let names = Integrator::second_order_implicit().map(Integrator::name).collect::<Vec<_>>().join(", ");
         let text =
             format!("needs a method with an estimate of its error, and {} has none; use one of {names}", method.name());
         return problem("time.adaptive", text);

@@ -42,6 +42,12 @@ impl Scene {
 }
 
 impl Scene {
+    /// Returns true if the mass matrix of a body with so many nodes is lumped: as the scene says, or by the method's default.
+    pub fn lumps_mass(&self, nodes: usize) -> bool {
+        let by_default = self.time.integrator.lumps_mass(nodes, !self.planes.is_empty());
+        self.mass.lumped.unwrap_or(by_default)
+    }
+
     /// Makes each substep a step of its own: the same motion, for those who compare time steps.
     pub fn make_substeps_steps(&mut self) {
         let time = &mut self.time;

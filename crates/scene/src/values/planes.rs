@@ -13,7 +13,7 @@ pub(crate) fn contact(scene: &Scene, body: &Body) -> Result<Option<Contact>, Ref
     }
     // The integrator may be another one than that of the file.
     check(scene)?;
-    let mut contact = Contact::new(scene.planes.iter().map(plane).collect(), body, &scene.method())?;
+    let mut contact = body.contact_with(scene.planes.iter().map(plane).collect(), &scene.method())?;
     if let Some(table) = &scene.contact {
         contact.activation_distance = table.activation_distance.unwrap_or(contact.activation_distance);
         contact.transition_speed = table.transition_speed.unwrap_or(contact.transition_speed);

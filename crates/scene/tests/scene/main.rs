@@ -17,6 +17,7 @@ mod plasticity;
 mod saved;
 mod selectors;
 mod tables;
+mod values;
 
 use std::path::{Path, PathBuf};
 

@@ -25,6 +25,7 @@ use crate::studies::space::{self, SpaceOrders, SpaceStudy};
 use crate::studies::{Settings, make_folders};
 use fem_chart::page::page;
 use fem_mesh::write::save_bytes;
+use fem_model::Integrator;
 use fem_scene::{Scene, parse};
 
 /// The results of a report.
@@ -114,12 +115,8 @@ fn orders_in_time(study: &SceneStudy) -> Vec<Observed> {
     let observe = |method: &str| {
         let rows = study.rows.iter().filter(|row| row.config.method == method && row.is_done());
         let pairs: Vec<_> = rows.filter_map(|row| Some((row.config.dt, row.errors.time_l2?))).collect();
-        let expected = match study.rows.iter().find(|row| row.config.method == method)?.config.integrator {
-            "rk4" => 4.0,
-            "rk2" | "verlet" | "implicit_midpoint" | "newmark" | "generalized_alpha" | "bdf2" => 2.0,
-            "static" => return None,
-            _ => 1.0,
-        };
+        let integrator = study.rows.iter().find(|row| row.config.method == method)?.config.integrator;
+        let expected = f64::from(Integrator::from_name(integrator)?.facts().order?);
         let order = asymptotic(&pairs, FINEST, FLOOR).filter(|order| order.points > 2);
         Some(Observed { scene: study.name.clone(), method: method.to_owned(), of: "dt", order, expected })
     };

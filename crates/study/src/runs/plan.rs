@@ -7,7 +7,7 @@ use fem_model::{Integrator, Precision, Preconditioner, Projection, SolverKind};
 use fem_scene::tables::{AdaptiveTable, DragTable, NewmarkTable, NewtonTable, SolverTable, TimeTable};
 use fem_scene::{Pipeline, Scene};
 
-use super::names::{name, solver_name};
+use super::names::solver_name;
 
 /// A run to be made.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,18 +52,24 @@ pub fn dynamic(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     let halvings = if extent.is_quick { -1..=3 } else { -2..=5 };
     let implicit: Vec<usize> = halvings.map(|k: i32| scaled(extent.steps, k)).collect();
     let of_first_order = [Integrator::ImplicitEuler, Integrator::LinearlyImplicitEuler];
-    for integrator in of_first_order.into_iter().chain(Integrator::SECOND_ORDER_IMPLICIT) {
-        ladders.push(ladder("method", name(integrator), &with(integrator), &implicit, extent));
+    for integrator in of_first_order.into_iter().chain(Integrator::second_order_implicit()) {
+        ladders.push(ladder("method", integrator.facts().label, &with(integrator), &implicit, extent));
     }
     let first = (extent.horizon * extent.fastest / ABOVE_THE_LIMIT).ceil().max(1.0) as usize;
     let most = if extent.is_quick { 3 } else { 5 };
     let explicit: Vec<usize> = (0..=most).map(|k| first << k).collect();
     for integrator in [Integrator::SemiImplicitEuler, Integrator::Rk2, Integrator::Rk4, Integrator::Verlet] {
-        ladders.push(ladder("method", name(integrator), &with(integrator), &explicit, extent));
+        ladders.push(ladder("method", integrator.facts().label, &with(integrator), &explicit, extent));
     }
     // Growth by e^(ω² dt T/2) makes most of these runs fail: every other step size shows it.
     let sparse: Vec<usize> = explicit.iter().copied().step_by(2).collect();
-    ladders.push(ladder("method", name(Integrator::ExplicitEuler), &with(Integrator::ExplicitEuler), &sparse, extent));
+    ladders.push(ladder(
+        "method",
+        Integrator::ExplicitEuler.facts().label,
+        &with(Integrator::ExplicitEuler),
+        &sparse,
+        extent,
+    ));
     ladders.extend(course(scene, extent));
     ladders.extend(adaptive(scene, extent));
     ladders.extend(variants(scene, extent));
@@ -79,9 +85,15 @@ fn loose(scene: &Scene, implicit: &[usize], extent: Extent) -> Vec<Ladder> {
     let stable = (extent.horizon * extent.fastest / (0.95 * 6f64.sqrt())).ceil().max(1.0) as usize;
     let accurate = NewmarkTable { beta: Some(1.0 / 12.0), gamma: None };
     let mut ladders = Vec::new();
-    for integrator in [Integrator::ImplicitEuler].into_iter().chain(Integrator::SECOND_ORDER_IMPLICIT) {
+    for integrator in [Integrator::ImplicitEuler].into_iter().chain(Integrator::second_order_implicit()) {
         scene.time.integrator = integrator;
-        ladders.push(ladder("precision", &format!("{} in f32 to 1e-4", name(integrator)), &scene, implicit, extent));
+        ladders.push(ladder(
+            "precision",
+            &format!("{} in f32 to 1e-4", integrator.facts().label),
+            &scene,
+            implicit,
+            extent,
+        ));
     }
     scene.time.integrator = Integrator::Newmark;
     scene.newmark = Some(accurate);
@@ -96,13 +108,16 @@ fn adaptive(scene: &Scene, extent: Extent) -> Vec<Ladder> {
         let mut scene = scene.clone();
         scene.time.integrator = integrator;
         scene.time.adaptive = Some(AdaptiveTable { tolerance });
-        ladder("adaptive", &format!("{}, adaptive to {tolerance:e}", name(integrator)), &scene, &[extent.steps], extent)
+        ladder(
+            "adaptive",
+            &format!("{}, adaptive to {tolerance:e}", integrator.facts().label),
+            &scene,
+            &[extent.steps],
+            extent,
+        )
     };
     let tolerances = [1e-3, 1e-4, 1e-5];
-    Integrator::SECOND_ORDER_IMPLICIT
-        .into_iter()
-        .flat_map(|of| tolerances.map(|tolerance| run((of, tolerance))))
-        .collect()
+    Integrator::second_order_implicit().flat_map(|of| tolerances.map(|tolerance| run((of, tolerance)))).collect()
 }
 
 /// The scene in the course's pipeline, with the spring of its drag in the stiffness, as the engine has it: rows compare methods, and the
@@ -119,7 +134,7 @@ fn course(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     let steps: Vec<_> = halvings.iter().map(|&k| scaled(extent.steps, k)).collect();
     let of = |integrator: Integrator| {
         scene.time.integrator = integrator;
-        ladder("method", &format!("course: {}", name(integrator)), &scene, &steps, extent)
+        ladder("method", &format!("course: {}", integrator.facts().label), &scene, &steps, extent)
     };
     [Integrator::ImplicitEuler, Integrator::LinearlyImplicitEuler].map(of).into()
 }
@@ -155,11 +170,11 @@ fn variants(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     ] {
         let mut scene = single(scene);
         scene.time.integrator = integrator;
-        ladders.push(ladder("precision", &format!("{} in f32", name(integrator)), &scene, &[steps], extent));
+        ladders.push(ladder("precision", &format!("{} in f32", integrator.facts().label), &scene, &[steps], extent));
     }
     ladders.extend(meshes(scene).into_iter().map(|scene| {
         let cells = scene.mesh.cuboid.as_ref().map_or(0, |cuboid| cuboid.cells_per_unit);
-        let method = format!("{}, {cells} cells per metre", name(scene.time.integrator));
+        let method = format!("{}, {cells} cells per metre", scene.time.integrator.facts().label);
         ladder("mesh", &method, &scene, &[extent.steps, at[0]], extent)
     }));
     ladders
@@ -227,9 +242,9 @@ pub fn orders(scene: &Scene, extent: Extent) -> Vec<Ladder> {
     for (integrator, first) in FIRST {
         let mut scene = scene.clone();
         scene.time.integrator = integrator;
-        ladders.push(ladder("order", name(integrator), &scene, &steps(first), extent));
+        ladders.push(ladder("order", integrator.facts().label, &scene, &steps(first), extent));
         if matches!(integrator, Integrator::LinearlyImplicitEuler | Integrator::ImplicitEuler) {
-            let method = format!("course: {}", name(integrator));
+            let method = format!("course: {}", integrator.facts().label);
             ladders.push(ladder("order", &method, &in_course(&scene), &steps(first), extent));
         }
     }

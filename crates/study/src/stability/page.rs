@@ -2,6 +2,7 @@
 
 use fem_chart::page::{details, figure, page, table};
 use fem_chart::{Cell, HeatMap, Picture, Shade};
+use fem_model::Integrator;
 use maud::{Markup, html};
 
 use super::case::{CaseRow, Outcome};
@@ -86,18 +87,11 @@ fn stiffness_and_step(maps: &[Map]) -> Markup {
     }
 }
 
-/// The name of an integrator in prose.
-fn words(name: &str) -> &str {
-    match name {
-        "explicit_euler" => "Explicit Euler",
-        "semi_implicit_euler" => "Semi-implicit Euler",
-        "rk2" => "RK2",
-        "rk4" => "RK4",
-        "verlet" => "Velocity Verlet",
-        "linearly_implicit_euler" => "Linearly implicit Euler",
-        "implicit_euler" => "Implicit Euler",
-        other => other,
-    }
+/// The name of an integrator at the start of a sentence.
+fn words(name: &str) -> String {
+    let label = Integrator::from_name(name).map_or(name, |integrator| integrator.facts().label);
+    let mut letters = label.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// The map of an integrator.

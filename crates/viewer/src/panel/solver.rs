@@ -8,19 +8,7 @@ use kiss3d::egui::{ComboBox, DragValue, Ui};
 use crate::change::{Change, Edit};
 use crate::parameter_rows::label;
 use crate::request::UserRequest;
-use crate::scene_edits::{self, preconditioner_name, solver_name};
-
-const SOLVERS: [SolverKind; 7] = [
-    SolverKind::Cholesky,
-    SolverKind::Lu,
-    SolverKind::Cg,
-    SolverKind::Pcg,
-    SolverKind::SteepestDescent,
-    SolverKind::ConjugateDirections,
-    SolverKind::Gpu,
-];
-const PRECONDITIONERS: [Preconditioner; 4] =
-    [Preconditioner::BlockJacobi, Preconditioner::IncompleteCholesky, Preconditioner::Multigrid, Preconditioner::Ssor];
+use crate::scene_edits;
 
 /// Lays out the choices that `scene` has with its integrator, which is the one in use.
 pub fn show(ui: &mut Ui, scene: &Scene, running: &str, requests: &mut Vec<UserRequest>) {
@@ -55,7 +43,7 @@ fn newton(ui: &mut Ui, scene: &Scene, push: &mut impl FnMut(Edit)) {
 
 fn linear(ui: &mut Ui, scene: &Scene, push: &mut impl FnMut(Edit)) {
     let mut kinds = vec![("by size".to_owned(), None)];
-    kinds.extend(SOLVERS.map(|kind| (solver_name(kind).replace('_', " "), Some(kind))));
+    kinds.extend(SolverKind::FACTS.map(|(kind, name, _)| (name.replace('_', " "), Some(kind))));
     let present = scene.solver.clone();
     if let Some(kind) = choice(ui, "linear solver", &kinds, &present.as_ref().map(|table| table.kind)) {
         let table = kind.map(|kind| SolverTable {
@@ -68,7 +56,7 @@ fn linear(ui: &mut Ui, scene: &Scene, push: &mut impl FnMut(Edit)) {
     }
     let Some(mut table) = present else { return };
     if table.kind == SolverKind::Pcg {
-        let kinds = PRECONDITIONERS.map(|kind| (preconditioner_name(kind).replace('_', " "), kind));
+        let kinds = Preconditioner::FACTS.map(|(kind, name, _)| (name.replace('_', " "), kind));
         if let Some(kind) = choice(ui, "preconditioner", &kinds, &table.preconditioner.unwrap_or_default()) {
             table.preconditioner = Some(kind);
             push(scene_edits::solver(Some(&table)));

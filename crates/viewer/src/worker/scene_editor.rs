@@ -76,25 +76,24 @@ impl SceneEditor {
         {
             scene = changed(&scene, &scene_edits::integrator(&scene, kind).overrides)?;
         }
-        let mut texts = Vec::new();
+        let mut overrides = Vec::new();
         // The mass stays as it was built when a running simulation goes on with another integrator.
         if scene.lumps_mass(nodes) != was_lumped {
-            texts.push(format!("mass.lumped={was_lumped}"));
+            overrides.push(Override::to("mass.lumped", was_lumped));
         }
         if simulation.dt() != scene.time.dt() {
-            texts.push(format!("time.dt={:?}", simulation.dt()));
+            overrides.push(Override::to("time.dt", simulation.dt()));
         }
         if simulation.substeps() != scene.method().substeps {
-            texts.push(format!("time.substeps={}", simulation.substeps()));
+            overrides.push(Override::to("time.substeps", simulation.substeps()));
         }
         let stiffness = simulation.parameters().into_iter().find(|parameter| parameter.key == "drag");
         if let (Some(drag), Some(now)) = (&scene.drag, stiffness)
             && drag.stiffness != now.value
         {
-            texts.push(format!("drag.stiffness={:?}", now.value));
+            overrides.push(Override::to("drag.stiffness", now.value));
         }
-        let overrides: Result<Vec<Override>, String> = texts.iter().map(|text| text.parse()).collect();
-        changed(&scene, &overrides?)
+        changed(&scene, &overrides)
     }
 
     /// The scene with all changes.
