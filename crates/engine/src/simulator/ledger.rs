@@ -10,7 +10,7 @@
 
 use fem_scene::simulation::{Cause, EnergyLedger, History};
 
-use super::energies::{kinetic_of_motions, plastic, rounding, steady_potential, stored};
+use super::energies::{kinetic_of_motions, plastic, rounding, steady_potential, steady_potentials, stored};
 use super::work::StepWork;
 use crate::forces::Moment;
 use crate::integrators::Integrator;
@@ -18,7 +18,7 @@ use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::history::{put_option, take, take_option};
-use fem_elements::vector::{axpy, dot};
+use fem_elements::vector::dot;
 
 /// Largest gain of energy, as a part of the energy turned over.
 pub(super) const LARGEST_GAIN: f64 = 0.05;
@@ -95,15 +95,23 @@ impl<T: Real> Step<'_, T> {
         }
     }
 
-    /// The lowest potential of steady loads, now or after a further step at the present velocities, and the work of changing loads in such a
-    /// step, J: displacements of explicit Euler do not change in its first step.
-    fn ahead(&mut self) -> [f64; 2] {
+    /// An upper bound of it, J, from the masses of nodes: no node's velocity is multiplied by that of another.
+    fn kinetic_bound(&self) -> f64 {
+        let Self { system, before, state, .. } = self;
+        let end = system.mass.kinetic_energy_bound(&state.v);
+        match self.integrator.has_staggered_velocities() {
+            // That of a mean is at most the mean of both.
+            true => 0.5 * (system.mass.kinetic_energy_bound(&before.v) + end),
+            false => end,
+        }
+    }
+
+    /// The potential of steady loads, its lowest value now or after a further step at the present velocities, and the work of changing loads in
+    /// such a step, J: displacements of explicit Euler do not change in its first step.
+    fn ahead(&mut self) -> [f64; 3] {
         let Self { system, before, state, dt, loads, ref mut room, .. } = *self;
-        let moment = Moment::at(before.time + dt);
-        room.clone_from(&state.u);
-        axpy(dt, &state.v, room);
-        let lowest = f64::min(steady_potential(system, &state.u, moment), steady_potential(system, room, moment));
-        [lowest, f64::max(0.0, dt * dot(loads, &state.v))]
+        let [now, then] = steady_potentials(system, state, dt, Moment::at(before.time + dt), room);
+        [now, f64::min(now, then), f64::max(0.0, dt * dot(loads, &state.v))]
     }
 }
 
@@ -172,6 +180,9 @@ impl Ledger {
         then.add(work);
         then.turn_over(step);
         self.turned_over = then.turned_over;
+        if step.kinetic_bound() <= LEAP * self.turned_over {
+            return None;
+        }
         let excess = step.kinetic() - self.turned_over;
         let is_leap = excess > (LEAP - 1.0) * self.turned_over && excess > rounding(system, &state.u);
         is_leap.then_some(Cause::EnergyGained { gained: excess, turned_over: self.turned_over })
@@ -223,13 +234,12 @@ impl Ledger {
     /// a body that has fallen for ten steps.
     fn turn_over<T: Real>(&mut self, step: &mut Step<T>) -> f64 {
         let Some([start, potential]) = self.start else { return 0.0 };
-        let [lowest, work] = step.ahead();
+        let [now, lowest, work] = step.ahead();
         let has_motion = step.system.dirichlet.has_motion();
         let of_motions = if has_motion { kinetic_of_motions(step.system, &step.state.v, step.room) } else { 0.0 };
         let supplied = start + self.sums.supplied() + work + potential - lowest;
         self.turned_over = self.turned_over.max(supplied).max(of_motions);
-        let now = Moment::at(step.before.time + step.dt);
-        steady_potential(step.system, &step.state.u, now) - lowest + work
+        now - lowest + work
     }
 
     /// The ledger as reports show it, of a state.
