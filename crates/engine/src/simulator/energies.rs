@@ -6,6 +6,22 @@ use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::vector::{axpy, dot};
 
+/// Bounds of the motion of a state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    /// Of the squared speed of a node, m²/s².
+    pub squared_speed: f64,
+    /// Of the kinetic energy, J: no node's velocity is multiplied by that of another.
+    pub kinetic: f64,
+}
+
+impl Bounds {
+    /// Those of a state.
+    pub(super) fn of<T: Real>(system: &System<T>, state: &State<T>) -> Self {
+        Self { squared_speed: state.largest_squared_speed(), kinetic: system.mass.kinetic_energy_bound(&state.v) }
+    }
+}
+
 /// Returns true for a force whose energy the body stores: springs, and the barrier of obstacles.
 pub(super) fn is_stored<T: Real>(potential: &dyn Potential<T>) -> bool {
     !potential.is_dissipative()

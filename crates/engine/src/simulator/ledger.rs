@@ -10,7 +10,7 @@
 
 use fem_scene::simulation::{Cause, EnergyLedger, History};
 
-use super::energies::{kinetic_of_motions, plastic, rounding, steady_potential, steady_potentials, stored};
+use super::energies::{Bounds, kinetic_of_motions, plastic, rounding, steady_potential, steady_potentials, stored};
 use super::work::StepWork;
 use crate::forces::Moment;
 use crate::integrators::Integrator;
@@ -95,17 +95,6 @@ impl<T: Real> Step<'_, T> {
         }
     }
 
-    /// An upper bound of it, J, from the masses of nodes: no node's velocity is multiplied by that of another.
-    fn kinetic_bound(&self) -> f64 {
-        let Self { system, before, state, .. } = self;
-        let end = system.mass.kinetic_energy_bound(&state.v);
-        match self.integrator.has_staggered_velocities() {
-            // That of a mean is at most the mean of both.
-            true => 0.5 * (system.mass.kinetic_energy_bound(&before.v) + end),
-            false => end,
-        }
-    }
-
     /// The potential of steady loads, its lowest value now or after a further step at the present velocities, and the work of changing loads in
     /// such a step, J: displacements of explicit Euler do not change in its first step.
     fn ahead(&mut self) -> [f64; 3] {
@@ -167,20 +156,22 @@ impl Ledger {
         is_first || integrator.may_stop_early() || self.steps > 0 && self.steps.is_multiple_of(every)
     }
 
-    /// The cause of failure of a step, not yet accepted, in which the kinetic energy has leapt. A bound of the largest speed comes first: most
-    /// steps need no energy at all.
-    pub(super) fn leap<T: Real>(&mut self, step: &mut Step<T>, work: &StepWork) -> Option<Cause> {
-        let Step { system, before, state, .. } = *step;
-        let speed = f64::max(before.largest_squared_speed(), state.largest_squared_speed());
-        let bound = 0.5 * system.total_mass * speed;
+    /// The cause of failure of a step, not yet accepted, in which the kinetic energy has leapt. Bounds at its start and at its end come
+    /// first: most steps need no energy at all.
+    pub(super) fn leap<T: Real>(&mut self, step: &mut Step<T>, [start, end]: [Bounds; 2]) -> Option<Cause> {
+        let Step { system, state, .. } = *step;
+        let bound = 0.5 * system.total_mass * f64::max(start.squared_speed, end.squared_speed);
         if self.may_gain || bound <= LEAP * self.turned_over {
             return None;
         }
         let mut then = self.clone();
-        then.add(work);
+        then.add(step.work);
         then.turn_over(step);
         self.turned_over = then.turned_over;
-        if step.kinetic_bound() <= LEAP * self.turned_over {
+        // The energy of a mean velocity is at most the larger one.
+        let kinetic =
+            if step.integrator.has_staggered_velocities() { start.kinetic.max(end.kinetic) } else { end.kinetic };
+        if kinetic <= LEAP * self.turned_over {
             return None;
         }
         let excess = step.kinetic() - self.turned_over;
