@@ -128,6 +128,13 @@ impl<T: Real> Potential<T> for DeadLoad<T> {
         self.loads.iter().all(|load| load.curve.is_none())
     }
 
+    fn constant(&self) -> Option<&[[T; 3]]> {
+        match &self.loads[..] {
+            [Load { force, curve: None }] => Some(force),
+            _ => None,
+        }
+    }
+
     fn nodes_of_hessian(&self) -> Option<Vec<u32>> {
         Some(Vec::new())
     }

@@ -125,9 +125,8 @@ pub trait Potential<T: Real>: Send + Sync {
     /// Adds `factor` times the exact Hessian times `d`, N.
     fn add_hessian_times(&self, _factor: T, _u: &[[T; 3]], _moment: Moment, _d: &[[T; 3]], _product: &mut [[T; 3]]) {}
 
-    /// Returns true if the force damps motions by −D(u) v, with a damping matrix D that is positive semi-definite. Implicit methods
-    /// take D at the displacements at which damping takes the stiffness, fixed within a step, so that ½ ẋᵀ D ẋ is a
-    /// dissipation potential.
+    /// Returns true if the force damps motions by −D(u) v, with a positive semi-definite damping matrix D. Implicit methods take D at the
+    /// displacements at which damping takes the stiffness, fixed within a step, so that ½ ẋᵀ D ẋ is a dissipation potential.
     fn has_damping(&self) -> bool {
         false
     }
@@ -141,6 +140,11 @@ pub trait Potential<T: Real>: Send + Sync {
     /// The largest multiple of `direction` up to which `u` plus it is certain to stay feasible.
     fn largest_step(&self, _u: &[[T; 3]], _moment: Moment, _direction: &[[T; 3]]) -> f64 {
         f64::INFINITY
+    }
+
+    /// The forces on all nodes in dynamics, N, if they are constant.
+    fn constant(&self) -> Option<&[[T; 3]]> {
+        None
     }
 
     /// The distance over which the force changes where it is much shorter than the body, m.

@@ -1,8 +1,26 @@
 //! Energies of the parts of a body, for the energy ledger.
 
 use crate::forces::{Moment, Potential};
+use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
+use fem_elements::vector::{axpy, dot};
+
+/// Bounds of the motion of a state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    /// Of the squared speed of a node, m²/s².
+    pub squared_speed: f64,
+    /// Of the kinetic energy, J: no node's velocity is multiplied by that of another.
+    pub kinetic: f64,
+}
+
+impl Bounds {
+    /// Those of a state.
+    pub(super) fn of<T: Real>(system: &System<T>, state: &State<T>) -> Self {
+        Self { squared_speed: state.largest_squared_speed(), kinetic: system.mass.kinetic_energy_bound(&state.v) }
+    }
+}
 
 /// Returns true for a force whose energy the body stores: springs, and the barrier of obstacles.
 pub(super) fn is_stored<T: Real>(potential: &dyn Potential<T>) -> bool {
@@ -28,8 +46,39 @@ pub(super) fn stored<T: Real>(system: &System<T>, u: &[[T; 3]], moment: Moment) 
 
 /// Potential of the loads whose work does not depend on the path, J.
 pub(super) fn steady_potential<T: Real>(system: &System<T>, u: &[[T; 3]], moment: Moment) -> f64 {
-    let steady = system.forces.active().filter(|(potential, _)| is_steady_load(*potential));
-    steady.map(|(potential, _)| potential.energy(u, moment).value).sum()
+    let of_load = |load: &dyn Potential<T>| match load.constant() {
+        Some(force) => -dot(force, u),
+        None => load.energy(u, moment).value,
+    };
+    steady_loads(system).map(of_load).sum()
+}
+
+/// The same potential now and after a further step of `dt` seconds at the present velocities, J. `room` is overwritten.
+pub(super) fn steady_potentials<T: Real>(
+    system: &System<T>,
+    State { u, v, .. }: &State<T>,
+    dt: f64,
+    moment: Moment,
+    room: &mut Vec<[T; 3]>,
+) -> [f64; 2] {
+    let [mut now, mut ahead] = [0.0; 2];
+    for load in steady_loads(system) {
+        if let Some(force) = load.constant() {
+            let potential = -dot(force, u);
+            now += potential;
+            ahead += potential - dt * dot(force, v);
+        } else {
+            room.clone_from(u);
+            axpy(dt, v, room);
+            now += load.energy(u, moment).value;
+            ahead += load.energy(room, moment).value;
+        }
+    }
+    [now, ahead]
+}
+
+fn steady_loads<T: Real>(system: &System<T>) -> impl Iterator<Item = &dyn Potential<T>> {
+    system.forces.active().map(|(potential, _)| potential).filter(|potential| is_steady_load(*potential))
 }
 
 /// Energy that plastic flow has dissipated, J.

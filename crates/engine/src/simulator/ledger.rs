@@ -10,7 +10,7 @@
 
 use fem_model::simulation::{Cause, EnergyLedger, History};
 
-use super::energies::{kinetic_of_motions, plastic, rounding, steady_potential, stored};
+use super::energies::{Bounds, kinetic_of_motions, plastic, rounding, steady_potential, steady_potentials, stored};
 use super::work::StepWork;
 use crate::forces::Moment;
 use crate::integrators::Integrator;
@@ -18,7 +18,7 @@ use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::history::{put_option, take, take_option};
-use fem_elements::vector::{axpy, dot};
+use fem_elements::vector::dot;
 
 /// Largest gain of energy, as a part of the energy turned over.
 pub(super) const LARGEST_GAIN: f64 = 0.05;
@@ -95,15 +95,12 @@ impl<T: Real> Step<'_, T> {
         }
     }
 
-    /// The lowest potential of steady loads, now or after a further step at the present velocities, and the work of changing loads in such a
-    /// step, J: displacements of explicit Euler do not change in its first step.
-    fn ahead(&mut self) -> [f64; 2] {
+    /// The potential of steady loads, its lowest value now or after a further step at the present velocities, and the work of changing loads in
+    /// such a step, J: displacements of explicit Euler do not change in its first step.
+    fn ahead(&mut self) -> [f64; 3] {
         let Self { system, before, state, dt, loads, ref mut room, .. } = *self;
-        let moment = Moment::at(before.time + dt);
-        room.clone_from(&state.u);
-        axpy(dt, &state.v, room);
-        let lowest = f64::min(steady_potential(system, &state.u, moment), steady_potential(system, room, moment));
-        [lowest, f64::max(0.0, dt * dot(loads, &state.v))]
+        let [now, then] = steady_potentials(system, state, dt, Moment::at(before.time + dt), room);
+        [now, f64::min(now, then), f64::max(0.0, dt * dot(loads, &state.v))]
     }
 }
 
@@ -159,19 +156,24 @@ impl Ledger {
         is_first || integrator.may_stop_early() || self.steps > 0 && self.steps.is_multiple_of(every)
     }
 
-    /// The cause of failure of a step, not yet accepted, in which the kinetic energy has leapt. A bound of the largest speed comes first: most
-    /// steps need no energy at all.
-    pub(super) fn leap<T: Real>(&mut self, step: &mut Step<T>, work: &StepWork) -> Option<Cause> {
-        let Step { system, before, state, .. } = *step;
-        let speed = f64::max(before.largest_squared_speed(), state.largest_squared_speed());
-        let bound = 0.5 * system.total_mass * speed;
+    /// The cause of failure of a step, not yet accepted, in which the kinetic energy has leapt. Bounds at its start and at its end come
+    /// first: most steps need no energy at all.
+    pub(super) fn leap<T: Real>(&mut self, step: &mut Step<T>, [start, end]: [Bounds; 2]) -> Option<Cause> {
+        let Step { system, state, .. } = *step;
+        let bound = 0.5 * system.total_mass * f64::max(start.squared_speed, end.squared_speed);
         if self.may_gain || bound <= LEAP * self.turned_over {
             return None;
         }
         let mut then = self.clone();
-        then.add(work);
+        then.add(step.work);
         then.turn_over(step);
         self.turned_over = then.turned_over;
+        // The energy of a mean velocity is at most the larger one.
+        let kinetic =
+            if step.integrator.has_staggered_velocities() { start.kinetic.max(end.kinetic) } else { end.kinetic };
+        if kinetic <= LEAP * self.turned_over {
+            return None;
+        }
         let excess = step.kinetic() - self.turned_over;
         let is_leap = excess > (LEAP - 1.0) * self.turned_over && excess > rounding(system, &state.u);
         is_leap.then_some(Cause::EnergyGained { gained: excess, turned_over: self.turned_over })
@@ -223,13 +225,12 @@ impl Ledger {
     /// a body that has fallen for ten steps.
     fn turn_over<T: Real>(&mut self, step: &mut Step<T>) -> f64 {
         let Some([start, potential]) = self.start else { return 0.0 };
-        let [lowest, work] = step.ahead();
+        let [now, lowest, work] = step.ahead();
         let has_motion = step.system.dirichlet.has_motion();
         let of_motions = if has_motion { kinetic_of_motions(step.system, &step.state.v, step.room) } else { 0.0 };
         let supplied = start + self.sums.supplied() + work + potential - lowest;
         self.turned_over = self.turned_over.max(supplied).max(of_motions);
-        let now = Moment::at(step.before.time + step.dt);
-        steady_potential(step.system, &step.state.u, now) - lowest + work
+        now - lowest + work
     }
 
     /// The ledger as reports show it, of a state.

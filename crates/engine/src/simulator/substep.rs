@@ -4,7 +4,9 @@ use fem_model::Integrator as IntegratorKind;
 use fem_model::simulation::{Cause, Failure};
 
 use super::Simulator;
+use super::energies::Bounds;
 use super::ledger::{Ledger, Step};
+use super::work::LastForces;
 use crate::integrators::Convergence;
 use crate::model::system::System;
 use fem_elements::Real;
@@ -84,24 +86,15 @@ impl<T: Real> Simulator<T> {
 
     /// The failure of a run whose last steps, which no judgement has seen yet, have gained energy that nothing explains.
     pub(super) fn unexplained_energy_now(&self) -> Option<Failure> {
-        let Self { integrator, system, state, last_good: before, substep_dt: dt, kind, last_forces, work, .. } = self;
-        let is_staggered = integrator.has_staggered_velocities();
+        let is_staggered = self.integrator.has_staggered_velocities();
         let mut ledger = self.ledger.clone();
         if is_staggered {
             ledger = ledger.without(&self.work.0);
         }
-        let is_due = is_judged(*kind) && !integrator.may_stop_early() && ledger.has_steps();
-        let mut step = Step {
-            system,
-            integrator: &**integrator,
-            before,
-            state,
-            dt: *dt,
-            loads: &last_forces.loads,
-            work: &work.0,
-            room: &mut Vec::new(),
-        };
-        (is_due && ledger.judge(&mut step)).then(|| self.failure(ledger.cause()))
+        let is_due = is_judged(self.kind) && !self.integrator.may_stop_early() && ledger.has_steps();
+        let mut room = Vec::new();
+        (is_due && ledger.judge(&mut self.last_step(&self.last_forces, &mut room)))
+            .then(|| self.failure(ledger.cause()))
     }
 
     /// Accepts the substep that was computed: the material flows, time goes on, and the energy is judged. After a failure the state is that at
@@ -121,8 +114,7 @@ impl<T: Real> Simulator<T> {
         let were_known = !self.last_forces.reactions.is_empty();
         std::mem::swap(&mut self.last_forces, &mut self.work.1);
         if !were_known && !self.last_forces.reactions.is_empty() {
-            let (ledger, step) = self.ledger_and_step();
-            ledger.explain_jump(&step);
+            self.with_ledger(|simulator| &simulator.last_forces, |ledger, step| ledger.explain_jump(step));
         }
         has_gained |= !is_staggered && self.judge();
         match has_gained {
@@ -134,29 +126,27 @@ impl<T: Real> Simulator<T> {
 
     /// Judges the energy of a step if the method is due for that. Returns true if energy has been gained that nothing explains.
     fn judge(&mut self) -> bool {
-        let kind = self.kind;
-        let (ledger, mut step) = self.ledger_and_step();
-        is_judged(kind) && ledger.is_due(step.integrator, kind.is_explicit()) && ledger.judge(&mut step)
+        let is_due = is_judged(self.kind) && self.ledger.is_due(&*self.integrator, self.kind.is_explicit());
+        is_due && self.with_ledger(|simulator| &simulator.last_forces, |ledger, step| ledger.judge(step))
     }
 
-    /// The ledger, and the last step for it.
-    fn ledger_and_step(&mut self) -> (&mut Ledger, Step<'_, T>) {
-        let Self {
-            integrator, system, state, last_good: before, substep_dt: dt, ledger, last_forces, work, room, ..
-        } = self;
-        (
-            ledger,
-            Step {
-                system,
-                integrator: &**integrator,
-                before,
-                state,
-                dt: *dt,
-                loads: &last_forces.loads,
-                work: &work.0,
-                room: &mut room.other,
-            },
-        )
+    /// Calls `f` with the ledger and the last step, at whose end there are these forces.
+    fn with_ledger<A>(
+        &mut self,
+        forces: impl FnOnce(&Self) -> &LastForces<T>,
+        f: impl FnOnce(&mut Ledger, &mut Step<T>) -> A,
+    ) -> A {
+        let (mut ledger, mut room) = (std::mem::take(&mut self.ledger), std::mem::take(&mut self.room.other));
+        let answer = f(&mut ledger, &mut self.last_step(forces(self), &mut room));
+        (self.ledger, self.room.other) = (ledger, room);
+        answer
+    }
+
+    /// The last step for the ledger, at whose end there are these forces.
+    fn last_step<'a>(&'a self, forces: &'a LastForces<T>, room: &'a mut Vec<[T; 3]>) -> Step<'a, T> {
+        let Self { integrator, system, state, last_good: before, substep_dt: dt, work, .. } = self;
+        let (integrator, loads) = (&**integrator, &forces.loads);
+        Step { system, integrator, before, state, dt: *dt, loads, work: &work.0, room }
     }
 
     /// Returns to the state before a substep that has failed.
@@ -182,18 +172,11 @@ impl<T: Real> Simulator<T> {
         }
         self.ledger.open(&self.system, &self.last_good);
         self.write_work_of_step();
-        let Self { integrator, system, state, last_good: before, substep_dt: dt, ledger, work, room, .. } = self;
-        let mut step = Step {
-            system,
-            integrator: &**integrator,
-            before,
-            state,
-            dt: *dt,
-            loads: &work.1.loads,
-            work: &work.0,
-            room: &mut room.other,
-        };
-        ledger.leap(&mut step, &work.0).map_or(Ok(()), Err)
+        let Self { system, state, last_good, last_forces, work: (_, forces), .. } = self;
+        let start = last_forces.bounds.unwrap_or_else(|| Bounds::of(system, last_good));
+        let end = *forces.bounds.insert(Bounds::of(system, state));
+        let leap = self.with_ledger(|simulator| &simulator.work.1, |ledger, step| ledger.leap(step, [start, end]));
+        leap.map_or(Ok(()), Err)
     }
 
     /// Lets the material flow in a step that has been accepted.

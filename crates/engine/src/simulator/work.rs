@@ -8,7 +8,7 @@
 use std::ops::AddAssign;
 
 use super::Simulator;
-use super::energies::is_changing_load;
+use super::energies::{Bounds, is_changing_load};
 use crate::boundary::reactions::{End, Unbalanced, write_between};
 use crate::forces::Moment;
 use crate::forces::contact::friction::tangential;
@@ -58,13 +58,15 @@ impl AddAssign<&Self> for StepWork {
     }
 }
 
-/// Forces at the end of the last step, which the works of the next one need; empty where they are not known.
+/// Forces and bounds of the motion at the end of the last step, which the ledger of the next one needs; empty where they are not known.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LastForces<T> {
     /// Of changing loads, N.
     pub(super) loads: Vec<[T; 3]>,
     /// Of the prescribed motions on the body, N.
     pub(super) reactions: Vec<[T; 3]>,
+    /// Of the velocities.
+    pub(super) bounds: Option<Bounds>,
 }
 
 impl<T: Real> LastForces<T> {
@@ -72,6 +74,7 @@ impl<T: Real> LastForces<T> {
     pub(super) fn forget(&mut self) {
         self.loads.clear();
         self.reactions.clear();
+        self.bounds = None;
     }
 
     /// Adds them to a history.
@@ -82,6 +85,7 @@ impl<T: Real> LastForces<T> {
 
     /// Restores the forces that [`save`](Self::save) has added.
     pub(super) fn restore(&mut self, history: &History, nodes: usize) -> Result<(), String> {
+        self.bounds = None;
         for (name, vector) in [("ledger.load_forces", &mut self.loads), ("ledger.reactions", &mut self.reactions)] {
             let (found, _) = history.get(name)?.as_chunks::<3>();
             if !found.is_empty() && found.len() != nodes {
