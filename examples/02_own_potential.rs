@@ -5,10 +5,9 @@
 use std::error::Error;
 use std::path::Path;
 
-use fem_engine::forces::{Energy, HessianKind, Moment, Potential};
+use fem_engine::forces::{AddBlock, Energy, HessianKind, Moment, Potential};
 use fem_engine::model::numbering::Numbering;
 use fem_engine::simulator::Simulator;
-use fem_engine::sparse::{Block, Pattern};
 use fem_scene::simulation::Simulation;
 
 const SCENE: &str = "pipeline = \"engine\"\n[mesh]\nbox = { size = [1, 1, 1], cells_per_unit = 2 }\n\
@@ -52,17 +51,9 @@ impl Potential<f64> for Floor {
         self.contacts(u).for_each(|(node, z)| gradient[node][2] += self.stiffness * z);
     }
 
-    fn add_hessian(
-        &self,
-        k: f64,
-        u: &[[f64; 3]],
-        _: Moment,
-        _: HessianKind,
-        pattern: &Pattern,
-        values: &mut [Block<f64, 3>],
-    ) {
-        let blocks = self.contacts(u).filter_map(|(node, _)| pattern.find(node, node));
-        blocks.for_each(|block| values[block][2][2] += k * self.stiffness);
+    fn hessian(&self, u: &[[f64; 3]], _: Moment, _: HessianKind, add: &mut AddBlock<f64>) {
+        let block = [[0.0; 3], [0.0; 3], [0.0, 0.0, self.stiffness]];
+        self.contacts(u).for_each(|(node, _)| add(node, node, block));
     }
 }
 

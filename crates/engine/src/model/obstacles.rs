@@ -11,8 +11,7 @@ impl<T: Real> System<T> {
     pub fn own_potential_and_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) -> Energy {
         gradient.fill([T::default(); 3]);
         let mut energy = Energy::of(self.profile.energies.time(|| self.elements.add_energy_and_gradient(u, gradient)));
-        let is_own = |potential: &dyn Potential<T>| potential.is_conservative() && !potential.is_obstacle();
-        for (potential, timer) in self.forces.active().filter(|(potential, _)| is_own(*potential)) {
+        for (potential, timer) in self.forces.active().filter(|(potential, _)| !potential.is_obstacle()) {
             timer.time(|| potential.add_gradient(u, moment, gradient));
             energy = energy + potential.energy(u, moment);
         }
@@ -38,9 +37,7 @@ impl<T: Real> System<T> {
         kind: HessianKind,
         values: &mut [Block<T, 3>],
     ) {
-        let is_own = |potential: &dyn Potential<T>| {
-            potential.is_conservative() && !potential.is_internal() && !potential.is_obstacle()
-        };
+        let is_own = |potential: &dyn Potential<T>| !potential.is_internal() && !potential.is_obstacle();
         for (potential, timer) in self.forces.active().filter(|(potential, _)| is_own(*potential)) {
             timer.time(|| potential.add_hessian(T::one(), u, moment, kind, &self.pattern, values));
         }
@@ -69,36 +66,16 @@ impl<T: Real> System<T> {
                 move |potential: &dyn Potential<T>| !potential.is_obstacle() && potential.is_internal() == is_internal;
             self.forces.active().map(|(potential, _)| potential).filter(move |potential| is_own(*potential))
         };
-        of_kind(true).for_each(|potential| potential.add_gradient(u, moment, scratch));
+        of_kind(true).for_each(|potential| potential.subtract_force(u, moment, scratch));
         let internal = sum_of_sizes(scratch);
         scratch.fill([T::default(); 3]);
-        of_kind(false).for_each(|potential| potential.add_gradient(u, moment, scratch));
+        of_kind(false).for_each(|potential| potential.subtract_force(u, moment, scratch));
         [internal, sum_of_sizes(scratch)]
     }
 
-    /// The largest multiple of `direction` up to which no force becomes infeasible.
-    pub fn largest_step(&self, u: &[[T; 3]], moment: Moment, direction: &[[T; 3]]) -> f64 {
-        self.largest_step_where(u, moment, direction, |_| true)
-    }
-
-    /// The largest multiple of `direction` up to which no force but those of obstacles becomes infeasible.
-    pub fn own_largest_step(&self, u: &[[T; 3]], moment: Moment, direction: &[[T; 3]]) -> f64 {
-        self.largest_step_where(u, moment, direction, |potential| !potential.is_obstacle())
-    }
-
     /// The largest multiple of `direction` up to which the body stays outside the obstacles.
-    pub fn largest_step_to_obstacles(&self, u: &[[T; 3]], moment: Moment, direction: &[[T; 3]]) -> f64 {
-        self.largest_step_where(u, moment, direction, |potential| potential.is_obstacle())
-    }
-
-    fn largest_step_where(
-        &self,
-        u: &[[T; 3]],
-        moment: Moment,
-        direction: &[[T; 3]],
-        is_chosen: impl Fn(&dyn Potential<T>) -> bool,
-    ) -> f64 {
-        let chosen = self.forces.active().filter(|(potential, _)| is_chosen(*potential));
-        chosen.map(|(potential, _)| potential.largest_step(u, moment, direction)).fold(f64::INFINITY, f64::min)
+    pub fn largest_step(&self, u: &[[T; 3]], moment: Moment, direction: &[[T; 3]]) -> f64 {
+        let barriers = self.forces.active().filter_map(|(potential, _)| potential.barrier());
+        barriers.map(|barrier| barrier.largest_step(u, moment, direction)).fold(f64::INFINITY, f64::min)
     }
 }
