@@ -5,7 +5,7 @@ use fem_scene::simulation::{Cause, Counters, History};
 
 use super::arc_length::ArcLength;
 use super::load_step::LoadStep;
-use super::{Convergence, Integrator};
+use super::{Convergence, Integrator, Memory};
 use crate::forces::{HessianKind, Moment};
 use crate::model::state::State;
 use crate::model::system::System;
@@ -84,29 +84,16 @@ impl<T: Real> Statics<T> {
     }
 }
 
-impl<T: Real> Integrator<T> for Statics<T> {
-    /// One load step.
-    fn step(
-        &mut self,
-        system: &System<T>,
-        state: &mut State<T>,
-        dt: f64,
-        counters: &mut Counters,
-    ) -> Result<Convergence, Cause> {
-        let start = self.moment(state);
-        let end = Moment { time: state.time + dt, load_factor: Some(self.load_factor(state.steps + 1)) };
-        match &mut self.method {
-            Method::Linear(linear) => linear.advance(system, &mut state.u, (start, end), counters),
-            Method::Newton(load_step) => load_step.advance(system, &mut state.u, (start, end), counters),
-            Method::ArcLength(path) => path.step(system, &mut state.u, (end.time, state.steps), counters),
-        }
-    }
+impl<T: Real> Memory for Statics<T> {
+    fn accept(&mut self) {}
 
     fn forget(&mut self) {
         if let Method::Newton(load_step) = &mut self.method {
             load_step.newton.forget();
         }
     }
+
+    fn forget_forces(&mut self) {}
 
     fn save(&self, history: &mut History) {
         match &self.method {
@@ -128,6 +115,25 @@ impl<T: Real> Integrator<T> for Statics<T> {
             }
             Method::Newton(load_step) => load_step.newton.restore(history),
             Method::ArcLength(path) => path.restore(history),
+        }
+    }
+}
+
+impl<T: Real> Integrator<T> for Statics<T> {
+    /// One load step.
+    fn step(
+        &mut self,
+        system: &System<T>,
+        state: &mut State<T>,
+        dt: f64,
+        counters: &mut Counters,
+    ) -> Result<Convergence, Cause> {
+        let start = self.moment(state);
+        let end = Moment { time: state.time + dt, load_factor: Some(self.load_factor(state.steps + 1)) };
+        match &mut self.method {
+            Method::Linear(linear) => linear.advance(system, &mut state.u, (start, end), counters),
+            Method::Newton(load_step) => load_step.advance(system, &mut state.u, (start, end), counters),
+            Method::ArcLength(path) => path.step(system, &mut state.u, (end.time, state.steps), counters),
         }
     }
 
