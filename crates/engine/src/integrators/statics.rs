@@ -45,6 +45,9 @@ struct Linear<T: Real> {
 const PRECISE: f64 = 1e-12;
 const REFINEMENTS: usize = 100;
 
+/// Relative residual of an update whose size alone matters.
+const ESTIMATED: f64 = 1e-2;
+
 /// Change of a refinement, as a part of the displacements, up to which rounding errors are what keeps it from falling.
 const ROUNDING: f64 = 1e-4;
 
@@ -163,7 +166,7 @@ impl<T: Real> Linear<T> {
         let before = u.to_vec();
         let outcome = self.solve(&mut solver, system, end, u, counters);
         let is_solved = match outcome {
-            Ok(_) => self.has_linear_forces(system, end, u),
+            Ok(_) => self.has_linear_forces(&mut solver, system, end, u),
             // The matrix of forces without a Hessian is that of the elements.
             Err(_) => system.forces.nodes_of_hessians().is_some_and(|nodes| nodes.is_empty()),
         };
@@ -179,19 +182,22 @@ impl<T: Real> Linear<T> {
         outcome
     }
 
-    /// Returns true if ∇V(u) = ∇V(0) + ∇²V(0) u for the energy V of the forces: then the one solve has found equilibrium.
-    fn has_linear_forces(&mut self, system: &System<T>, moment: Moment, u: &[[T; 3]]) -> bool {
-        let Self { undeformed, right: linear, limits, .. } = self;
-        let mut exact = vec![[T::default(); 3]; u.len()];
-        system.add_gradient_of_forces(u, moment, &mut exact);
+    /// Returns true if ∇V(u) = ∇V(0) + ∇²V(0) u for the energy V of the forces: then the one solve has found equilibrium. A difference
+    /// counts by the update that it causes, as in Newton's method.
+    fn has_linear_forces(&mut self, solver: &mut Solver<T>, system: &System<T>, moment: Moment, u: &[[T; 3]]) -> bool {
+        let Self { undeformed, right: linear, values, limits, .. } = self;
+        let (mut difference, mut update) = (vec![[T::default(); 3]; u.len()], vec![[T::default(); 3]; u.len()]);
         linear.fill([T::default(); 3]);
         system.add_gradient_of_forces(undeformed, moment, linear);
-        let size = norm(linear).max(norm(&exact));
         system.add_external_hessian_times(undeformed, moment, u, linear);
-        axpy(-1.0, linear, &mut exact);
-        system.dirichlet.clear_constrained(&mut exact);
+        system.add_gradient_of_forces(u, moment, &mut difference);
+        axpy(-1.0, linear, &mut difference);
+        system.dirichlet.clear_constrained(&mut difference);
+        let is_exact = norm(&difference) == 0.0;
+        let is_known = is_exact || solver.solve(values, &difference, &mut update, ESTIMATED).is_ok();
         // NaN fails the comparison.
-        system.energy_of_forces(u, moment).value.is_finite() && norm(&exact) <= limits.tolerance * size
+        let is_small = norm(&update) <= limits.tolerance * system.length;
+        is_known && is_small && system.energy_of_forces(u, moment).value.is_finite()
     }
 
     /// Writes the solution of K u = f into `u`; prescribed displacements move to the right-hand side.

@@ -219,15 +219,25 @@ impl<T: Real> System<T> {
 
     /// Adds `factor` times the Hessian of the springs between the body's nodes, N/m.
     pub fn add_internal_hessian(&self, factor: T, u: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>]) {
-        for (potential, timer) in self.forces.active().filter(|(potential, _)| potential.is_internal()) {
-            timer.time(|| potential.add_hessian(factor, u, INTERNAL, kind, &self.pattern, values));
-        }
+        self.add_hessians_of(|force| force.is_internal(), factor, (u, INTERNAL), kind, values);
     }
 
     /// Adds the Hessian of the external forces, N/m.
     pub fn add_external_hessian(&self, u: &[[T; 3]], moment: Moment, kind: HessianKind, values: &mut [Block<T, 3>]) {
-        for (potential, timer) in self.forces.active().filter(|(potential, _)| !potential.is_internal()) {
-            timer.time(|| potential.add_hessian(T::one(), u, moment, kind, &self.pattern, values));
+        self.add_hessians_of(|force| !force.is_internal(), T::one(), (u, moment), kind, values);
+    }
+
+    /// Adds `factor` times the Hessian of some forces at displacements and a moment, N/m.
+    pub fn add_hessians_of(
+        &self,
+        is_meant: impl Fn(&dyn Potential<T>) -> bool,
+        factor: T,
+        (u, moment): (&[[T; 3]], Moment),
+        kind: HessianKind,
+        values: &mut [Block<T, 3>],
+    ) {
+        for (potential, timer) in self.forces.active().filter(|(potential, _)| is_meant(*potential)) {
+            timer.time(|| potential.add_hessian(factor, u, moment, kind, &self.pattern, values));
         }
     }
 

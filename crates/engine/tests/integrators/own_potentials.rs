@@ -4,8 +4,9 @@ use fem_engine::forces::{AddBlock, Barrier, Energy, Follower, HessianKind, Momen
 use fem_engine::model::numbering::Numbering;
 use fem_engine::simulator::Simulator;
 use fem_scene::simulation::Simulation;
+use nalgebra::Vector3;
 
-use crate::{block, scene, soft, symmetry};
+use crate::{block, scene, side, soft, symmetry};
 
 /// A force along x on each of some nodes, with an energy of its displacement there, times the node's area.
 struct Along {
@@ -77,6 +78,50 @@ impl Follower<f64> for Along {
     }
 }
 
+/// Springs along x of 1e5 N/m between pairs of nodes: ½ k (u_b − u_a)², coupled from a displacement on.
+struct Links {
+    pairs: Vec<[usize; 2]>,
+    /// m
+    from: f64,
+}
+
+const LINK: f64 = 1e5;
+
+impl Potential<f64> for Links {
+    fn name(&self) -> &'static str {
+        "links"
+    }
+
+    fn description(&self) -> String {
+        "springs along x".to_owned()
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(&self.pairs[..])
+    }
+
+    fn energy(&self, u: &[[f64; 3]], _: Moment) -> Energy {
+        self.pairs.iter().map(|&[a, b]| Energy::of(0.5 * LINK * (u[b][0] - u[a][0]).powi(2))).sum()
+    }
+
+    fn add_gradient(&self, u: &[[f64; 3]], _: Moment, gradient: &mut [[f64; 3]]) {
+        for &[a, b] in &self.pairs {
+            let force = LINK * (u[b][0] - u[a][0]);
+            gradient[a][0] -= force;
+            gradient[b][0] += force;
+        }
+    }
+
+    fn hessian(&self, u: &[[f64; 3]], _: Moment, _: HessianKind, add: &mut AddBlock<f64>) {
+        let block = |k: f64| [[k, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+        for &[a, b] in self.pairs.iter().filter(|[_, b]| u[*b][0] >= self.from) {
+            for (row, column, k) in [(a, a, LINK), (b, b, LINK), (a, b, -LINK), (b, a, -LINK)] {
+                add(row, column, block(k));
+            }
+        }
+    }
+}
+
 /// Springs of 1e5 Pa/m³ that harden, to places 1 m away: ¼ k (u − 1)⁴.
 fn hardening(u: f64) -> [f64; 3] {
     let (k, d) = (1e5, u - 1.0);
@@ -100,7 +145,7 @@ fn attraction(u: f64) -> [f64; 3] {
 }
 
 /// A scene whose body has its end at x = 2 m, with a force along x there.
-fn with(text: &str, force: fn(f64) -> [f64; 3], has_barrier: bool, follows: bool) -> Result<Simulator<f64>, String> {
+fn with(text: &str, energy: fn(f64) -> [f64; 3], has_barrier: bool, follows: bool) -> Result<Simulator<f64>, String> {
     let scene = scene(text);
     let body = fem_scene::body(&scene, "no data".as_ref()).unwrap();
     let shape = body.shape.clone();
@@ -109,7 +154,7 @@ fn with(text: &str, force: fn(f64) -> [f64; 3], has_barrier: bool, follows: bool
         let of_face =
             |face: &[usize; 3]| face.map(|node| (numbering.engine_node[node] as usize, shape.mesh.area(face) / 3.0));
         let areas = shape.boundary.iter().filter(is_at_end).flat_map(of_face).collect();
-        vec![Box::new(Along { energy: force, areas, has_barrier, follows })]
+        vec![Box::new(Along { energy, areas, has_barrier, follows })]
     };
     Simulator::with_forces(&scene, body, &own).map_err(|error| error.to_string())
 }
@@ -194,4 +239,43 @@ fn methods_refuse_facets_that_they_do_not_know() {
     let found = refusal(&projective, false, true);
     assert!(found.contains("time.integrator") && found.contains("follower"), "{found}");
     assert_eq!(refusal(&projective, false, false), "");
+}
+
+/// A bar whose side x = 0 moves by 0.1 m, with a link from each of its nodes to the opposite one, after a load step.
+fn linked(model: &str, from: f64) -> Simulator<f64> {
+    let sides = side("x", "min", 0.1) + &side("y", "min", 0.0) + &side("z", "min", 0.0);
+    let scene = scene(&block(model, &sides));
+    let body = fem_scene::body(&scene, "no data".as_ref()).unwrap();
+    let vertices = body.shape.mesh.vertices().to_vec();
+    let own = |numbering: &Numbering| -> Vec<Box<dyn Potential<f64>>> {
+        let node = |X: Vector3<f64>| vertices.iter().position(|other| (other - X).norm() < 1e-9).unwrap();
+        let pair = |X: &Vector3<f64>| [node(*X), node(X + Vector3::new(2.0, 0.0, 0.0))];
+        let pairs = vertices.iter().filter(|X| X.x < 1e-9).map(pair);
+        let pairs = pairs.map(|pair| pair.map(|node| numbering.engine_node[node] as usize)).collect();
+        vec![Box::new(Links { pairs, from })]
+    };
+    let mut simulation = Simulator::with_forces(&scene, body, &own).unwrap_or_else(|error| panic!("{error}"));
+    simulation.step().unwrap_or_else(|failure| panic!("{failure}"));
+    simulation
+}
+
+#[test]
+fn links_to_nodes_that_are_moved_take_part_in_one_linear_solve() {
+    let simulation = linked("linear", f64::NEG_INFINITY);
+    assert_eq!(simulation.counters().factorizations, 1);
+    // The bar moves as a whole. Without the links in the right-hand side, each pulls with up to 1e4 N.
+    let (positions, shape) = (simulation.positions(), simulation.shape());
+    let moved = shape.mesh.vertices().iter().enumerate().map(|(node, X)| positions[3 * node] - X.x);
+    assert!(moved.clone().all(|u| (u - 0.1).abs() < 1e-12), "{:?}", moved.collect::<Vec<_>>());
+}
+
+#[test]
+#[should_panic(expected = "couples nodes")]
+fn a_block_without_a_place_in_the_matrix_is_an_error() {
+    // No link is coupled at u = 0.
+    let simulation = linked("linear", 0.5);
+    let system = simulation.system();
+    let (links, _) = system.forces.all().find(|(force, _)| force.name() == "links").unwrap();
+    let (u, mut values) = (vec![[1.0; 3]; system.nodes()], vec![[[0.0; 3]; 3]; system.pattern.blocks()]);
+    links.add_hessian(1.0, &u, Moment::at(0.0), HessianKind::Exact, &system.pattern, &mut values);
 }

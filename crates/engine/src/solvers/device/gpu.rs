@@ -6,10 +6,10 @@ use fem_gpu::{BlockPattern, CoarseGrid, ConjugateGradients, Device, DeviceError,
 use fem_scene::Precision;
 use fem_scene::simulation::{Breakdown, History};
 
-use crate::solvers::{ApproximateInverse, Memory};
 use crate::solvers::assembly::{Assembly, DeviceElements};
 use crate::solvers::block::invert;
 use crate::solvers::preconditioners::{Coarse, LowerHalf, single_precision_scale};
+use crate::solvers::{ApproximateInverse, Memory};
 use fem_elements::Real;
 use fem_elements::history::{put_option, take_option};
 use fem_elements::sparse::{Block, Pattern};
