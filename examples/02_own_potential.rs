@@ -4,10 +4,9 @@
 
 use std::error::Error;
 
-use fem_engine::forces::{Energy, HessianKind, Moment, Potential};
+use fem_engine::forces::{AddBlock, Energy, HessianKind, Moment, Potential};
 use fem_engine::model::numbering::Numbering;
 use fem_engine::simulator::Simulator;
-use fem_engine::sparse::{self, Block};
 use fem_mesh::{Pattern, box_mesh};
 use fem_model::simulation::Simulation;
 use fem_model::{Body, Elastic, Integrator, Law, Material, Method, NeoHookean};
@@ -49,17 +48,9 @@ impl Potential<f64> for Floor {
         self.contacts(u).for_each(|(node, z)| gradient[node][2] += self.stiffness * z);
     }
 
-    fn add_hessian(
-        &self,
-        k: f64,
-        u: &[[f64; 3]],
-        _: Moment,
-        _: HessianKind,
-        pattern: &sparse::Pattern,
-        values: &mut [Block<f64, 3>],
-    ) {
-        let blocks = self.contacts(u).filter_map(|(node, _)| pattern.find(node, node));
-        blocks.for_each(|block| values[block][2][2] += k * self.stiffness);
+    fn hessian(&self, u: &[[f64; 3]], _: Moment, _: HessianKind, add: &mut AddBlock<f64>) {
+        let block = [[0.0; 3], [0.0; 3], [0.0, 0.0, self.stiffness]];
+        self.contacts(u).for_each(|(node, _)| add(node, node, block));
     }
 }
 

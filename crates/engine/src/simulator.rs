@@ -110,9 +110,9 @@ pub fn planned_parts(body: &Body, method: &Method) -> Result<Vec<Part>, Refusal>
     let numbering = Numbering::of_mesh(nodes);
     let forces: Vec<_> = forces::kinds::<f64>().into_iter().filter_map(|kind| (kind.build)(body, &numbering)).collect();
     for force in &forces {
-        path_check::check_force(method, force.is_conservative())?;
+        path_check::check_force(method, &**force)?;
     }
-    let is_linear = is_law_linear && forces.iter().all(|force| force.is_quadratic());
+    let is_linear = is_law_linear && forces.iter().all(|force| force.may_be_quadratic());
     let mut plan = Plan::new(body);
     plan.add_forces(forces.iter().map(|force| &**force));
     Ok(plan.parts(method.integrator, method, integrator::solver_choice(method, body), is_linear))
@@ -175,8 +175,7 @@ impl<T: Real> Simulator<T> {
             false => System::without_matrix(&body, law, own),
         };
         range_check::check(&method, &system)?;
-        let is_conservative = !system.forces.has_followers();
-        path_check::check_force(&method, is_conservative)?;
+        system.forces.active().try_for_each(|(force, _)| path_check::check_force(&method, force))?;
         iterated_check::check_forces(&method, &system.forces)?;
         plan.add_forces(system.forces.all().map(|(force, _)| force).filter(|force| force.name() != anchors::NAME));
         system.modulus_of_free_body = modulus_of_free_body;

@@ -6,11 +6,10 @@ use std::sync::Arc;
 use fem_model::simulation::Shape;
 use fem_model::{Anchor, Body, EdgeStiffness, Interaction, Law, NeoHookean};
 
-use super::{Energy, HessianKind, Moment, Potential};
+use super::{AddBlock, Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
 use fem_elements::Real;
 use fem_elements::number::is_positive;
-use fem_elements::sparse::{Block, Pattern};
 
 /// Key in the statistics.
 pub const NAME: &str = "drag";
@@ -27,6 +26,11 @@ impl Anchors {
     /// The anchor springs of a body with these meshes.
     pub fn new(interaction: Interaction, shape: &Arc<Shape>, numbering: &Numbering) -> Self {
         Self { interaction, shape: Arc::clone(shape), engine_node: numbering.engine_node.clone() }
+    }
+
+    /// Returns true if there is a spring now.
+    pub fn is_active(&self) -> bool {
+        self.interaction.anchors(self.shape.mesh.vertices(), 0.0).next().is_some()
     }
 
     /// The engine's number of each spring's node, and the displacement at which the spring is at rest, m.
@@ -51,14 +55,6 @@ impl<T: Real> Potential<T> for Anchors {
         size_of_val(&self.engine_node[..])
     }
 
-    fn is_active(&self) -> bool {
-        self.interaction.anchors(self.shape.mesh.vertices(), 0.0).next().is_some()
-    }
-
-    fn is_steady(&self) -> bool {
-        false
-    }
-
     fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy {
         let energy = |(node, target): (usize, [T; 3])| {
             let square = |i: usize| (u[node][i] - target[i]).as_f64().powi(2);
@@ -81,31 +77,10 @@ impl<T: Real> Potential<T> for Anchors {
     }
 
     /// Without it a stiff spring would be integrated explicitly and become unstable.
-    fn add_hessian(
-        &self,
-        factor: T,
-        _: &[[T; 3]],
-        _: Moment,
-        _: HessianKind,
-        pattern: &Pattern,
-        values: &mut [Block<T, 3>],
-    ) {
-        let stiffness = factor * T::of(self.interaction.stiffness);
+    fn hessian(&self, _: &[[T; 3]], _: Moment, _: HessianKind, add: &mut AddBlock<T>) {
+        let (k, zero) = (T::of(self.interaction.stiffness), T::zero());
         for (node, _) in self.springs::<T>(0.0) {
-            if let Some(block) = pattern.find(node, node) {
-                for i in 0..3 {
-                    values[block][i][i] += stiffness;
-                }
-            }
-        }
-    }
-
-    fn add_hessian_times(&self, factor: T, _: &[[T; 3]], _: Moment, d: &[[T; 3]], product: &mut [[T; 3]]) {
-        let stiffness = factor * T::of(self.interaction.stiffness);
-        for (node, _) in self.springs::<T>(0.0) {
-            for i in 0..3 {
-                product[node][i] += stiffness * d[node][i];
-            }
+            add(node, node, [[k, zero, zero], [zero, k, zero], [zero, zero, k]]);
         }
     }
 

@@ -3,7 +3,7 @@
 use fem_model::{Body, LoadCurve};
 use nalgebra::Vector3;
 
-use super::{Energy, Moment, Potential};
+use super::{AddBlock, Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
 use fem_elements::Real;
 use fem_elements::vector::{dot3, triple};
@@ -158,6 +158,8 @@ impl<T: Real> Potential<T> for DeadLoad<T> {
             }
         }
     }
+
+    fn hessian(&self, _: &[[T; 3]], _: Moment, _: HessianKind, _: &mut AddBlock<T>) {}
 
     fn resultant(&self, moment: Moment) -> Option<[f64; 3]> {
         let along = |load: &Load<T>, i: usize| load.force.iter().map(|force| force[i].as_f64()).sum::<f64>();

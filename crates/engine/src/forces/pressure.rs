@@ -7,7 +7,7 @@ use std::collections::HashSet;
 
 use fem_model::{Body, LoadCurve};
 
-use super::{Energy, Moment, Potential};
+use super::{AddBlock, Energy, Follower, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
 use edges::Edges;
 use fem_elements::Real;
@@ -101,26 +101,40 @@ impl<T: Real> Potential<T> for Pressures<T> {
         self.0.iter().map(|pressure| with_surface!(&pressure.surface, surface => surface.bytes())).sum()
     }
 
-    fn is_conservative(&self) -> bool {
-        false
+    /// The whole force follows the body.
+    fn energy(&self, _: &[[T; 3]], _: Moment) -> Energy {
+        Energy::default()
     }
 
-    fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy {
-        let of_one =
-            |pressure: &Pressure<T>| Some(Energy::of(moment.factor(pressure.curve.as_ref()) * pressure.potential(u)?));
-        self.0.iter().filter_map(of_one).sum()
+    fn add_gradient(&self, _: &[[T; 3]], _: Moment, _: &mut [[T; 3]]) {}
+
+    fn hessian(&self, _: &[[T; 3]], _: Moment, _: HessianKind, _: &mut AddBlock<T>) {}
+
+    fn resultant(&self, _: Moment) -> Option<[f64; 3]> {
+        Some([0.0; 3])
     }
 
-    fn add_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
+    fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
+        let is_finite = self.0.iter().all(|pressure| pressure.pressure.as_f64().is_finite());
+        (!is_finite).then_some(("traction", "a pressure"))
+    }
+
+    fn follower(&self) -> Option<&dyn Follower<T>> {
+        Some(self)
+    }
+}
+
+impl<T: Real> Follower<T> for Pressures<T> {
+    fn add_follower_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
         for pressure in &self.0 {
             let factor = pressure.pressure * T::of(moment.factor(pressure.curve.as_ref()));
             with_surface!(&pressure.surface, surface => surface.add_gradient(factor, u, gradient));
         }
     }
 
-    fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
-        let is_finite = self.0.iter().all(|pressure| pressure.pressure.as_f64().is_finite());
-        (!is_finite).then_some(("traction", "a pressure"))
+    fn reported_energy(&self, u: &[[T; 3]], moment: Moment) -> f64 {
+        let of_one = |pressure: &Pressure<T>| Some(moment.factor(pressure.curve.as_ref()) * pressure.potential(u)?);
+        self.0.iter().filter_map(of_one).sum()
     }
 }
 

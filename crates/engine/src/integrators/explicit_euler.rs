@@ -2,7 +2,7 @@
 
 use fem_model::simulation::{Cause, Counters};
 
-use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
+use super::{Accelerations, Convergence, Integrator, Memoryless, Stage, StageWork};
 use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
@@ -20,6 +20,8 @@ impl<T: Real> ExplicitEuler<T> {
         Self { accelerations: Accelerations::new(system), a: vec![[T::default(); 3]; system.nodes()] }
     }
 }
+
+impl<T: Real> Memoryless for ExplicitEuler<T> {}
 
 impl<T: Real> Integrator<T> for ExplicitEuler<T> {
     fn step(

@@ -5,7 +5,7 @@ use fem_model::simulation::{Cause, Counters, History};
 use super::followers::Followers;
 use super::initial_guess::InitialGuess;
 use super::last_change::{extrapolate, finish};
-use super::{Convergence, Integrator, momentum};
+use super::{Convergence, Integrator, Memory, momentum};
 use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
@@ -36,6 +36,27 @@ impl<T: Real> ImplicitEuler<T> {
     }
 }
 
+impl<T: Real> Memory for ImplicitEuler<T> {
+    fn accept(&mut self) {}
+
+    fn forget(&mut self) {
+        self.newton.forget();
+        self.last_change.fill([T::default(); 3]);
+    }
+
+    fn forget_forces(&mut self) {}
+
+    fn save(&self, history: &mut History) {
+        put(history, "implicit_euler.last_change", self.last_change.as_flattened());
+        self.newton.save(history);
+    }
+
+    fn restore(&mut self, history: &History) -> Result<(), String> {
+        take(history, "implicit_euler.last_change", self.last_change.as_flattened_mut())?;
+        self.newton.restore(history)
+    }
+}
+
 impl<T: Real> Integrator<T> for ImplicitEuler<T> {
     fn step(
         &mut self,
@@ -63,26 +84,7 @@ impl<T: Real> Integrator<T> for ImplicitEuler<T> {
         Ok(convergence)
     }
 
-    fn forget(&mut self) {
-        self.newton.forget();
-        self.last_change.fill([T::default(); 3]);
-    }
-
-    fn save(&self, history: &mut History) {
-        put(history, "implicit_euler.last_change", self.last_change.as_flattened());
-        self.newton.save(history);
-    }
-
-    fn restore(&mut self, history: &History) -> Result<(), String> {
-        take(history, "implicit_euler.last_change", self.last_change.as_flattened_mut())?;
-        self.newton.restore(history)
-    }
-
     fn solver(&self) -> Option<&Solver<T>> {
         Some(self.newton.solver())
-    }
-
-    fn has_line_search(&self) -> bool {
-        true
     }
 }

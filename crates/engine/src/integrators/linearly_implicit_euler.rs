@@ -6,7 +6,7 @@ use fem_model::simulation::{Cause, Counters, History};
 
 use super::followers::Followers;
 use super::last_change::{extrapolate, finish};
-use super::{Convergence, Integrator, momentum};
+use super::{Convergence, Integrator, Memory, momentum};
 use crate::forces::{HessianKind, Moment};
 use crate::model::state::State;
 use crate::model::system::System;
@@ -53,6 +53,31 @@ impl<T: Real> LinearlyImplicitEuler<T> {
             last_change: zero(),
             prescribed: zero(),
         }
+    }
+}
+
+impl<T: Real> Memory for LinearlyImplicitEuler<T> {
+    fn accept(&mut self) {}
+
+    fn forget(&mut self) {
+        self.last_change.fill([T::default(); 3]);
+    }
+
+    fn forget_forces(&mut self) {}
+
+    fn save(&self, history: &mut History) {
+        if self.solver.is_iterative() {
+            put(history, "linearly_implicit_euler.last_change", self.last_change.as_flattened());
+        }
+        // Every step has a matrix of its own.
+        self.solver.save(false, history);
+    }
+
+    fn restore(&mut self, history: &History) -> Result<(), String> {
+        if self.solver.is_iterative() {
+            take(history, "linearly_implicit_euler.last_change", self.last_change.as_flattened_mut())?;
+        }
+        self.solver.restore(false, history)
     }
 }
 
@@ -105,25 +130,6 @@ impl<T: Real> Integrator<T> for LinearlyImplicitEuler<T> {
         momentum::restore(&potential, dt, 1.0, step);
         finish(step, dt, state, last_change);
         Ok(Convergence::Converged)
-    }
-
-    fn forget(&mut self) {
-        self.last_change.fill([T::default(); 3]);
-    }
-
-    fn save(&self, history: &mut History) {
-        if self.solver.is_iterative() {
-            put(history, "linearly_implicit_euler.last_change", self.last_change.as_flattened());
-        }
-        // Every step has a matrix of its own.
-        self.solver.save(false, history);
-    }
-
-    fn restore(&mut self, history: &History) -> Result<(), String> {
-        if self.solver.is_iterative() {
-            take(history, "linearly_implicit_euler.last_change", self.last_change.as_flattened_mut())?;
-        }
-        self.solver.restore(false, history)
     }
 
     fn solver(&self) -> Option<&Solver<T>> {

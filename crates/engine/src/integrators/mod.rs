@@ -63,8 +63,44 @@ use crate::model::system::System;
 use crate::solvers::Solver;
 use fem_elements::Real;
 
-/// A time integration method with the vectors and factors that it keeps from step to step.
-pub trait Integrator<T: Real>: Send {
+/// What a time integration method keeps from step to step. Whoever keeps something says for each of these what becomes of it; a method that
+/// keeps nothing is [`Memoryless`].
+pub trait Memory {
+    /// The last step has been accepted: the next one starts where it ended. Until then a step may be repeated from its start.
+    fn accept(&mut self);
+
+    /// Drops everything kept from earlier steps: the state or a parameter has changed.
+    fn forget(&mut self);
+
+    /// Drops what depends on the external forces at the end of the last step: a user's interaction has changed them.
+    fn forget_forces(&mut self);
+
+    /// Adds what it keeps from step to step to a history.
+    fn save(&self, history: &mut History);
+
+    /// Restores the quantities that [`save`](Self::save) has added, so that later steps are equal bit for bit.
+    fn restore(&mut self, history: &History) -> Result<(), String>;
+}
+
+/// A method whose steps depend on the state at their start alone.
+pub trait Memoryless {}
+
+impl<M: Memoryless> Memory for M {
+    fn accept(&mut self) {}
+
+    fn forget(&mut self) {}
+
+    fn forget_forces(&mut self) {}
+
+    fn save(&self, _: &mut History) {}
+
+    fn restore(&mut self, _: &History) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+/// A time integration method. Its methods have a default where that holds for any method, or says that the method has no such quantity.
+pub trait Integrator<T: Real>: Memory + Send {
     /// Advances displacements and velocities of the state by one step of `dt` seconds; time and step number stay. After an error the
     /// state must not be used.
     fn step(
@@ -74,23 +110,6 @@ pub trait Integrator<T: Real>: Send {
         dt: f64,
         counters: &mut Counters,
     ) -> Result<Convergence, Cause>;
-
-    /// The last step has been accepted: the next one starts where it ended. Until then a step may be repeated from its start.
-    fn accept(&mut self) {}
-
-    /// Drops everything kept from earlier steps: the state or a parameter has changed.
-    fn forget(&mut self) {}
-
-    /// Drops what depends on the external forces at the end of the last step: a user's interaction has changed them.
-    fn forget_forces(&mut self) {}
-
-    /// Adds what it keeps from step to step to a history.
-    fn save(&self, _history: &mut History) {}
-
-    /// Restores the quantities that [`save`](Self::save) has added, so that later steps are equal bit for bit.
-    fn restore(&mut self, _history: &History) -> Result<(), String> {
-        Ok(())
-    }
 
     /// The moment at which the forces of a state are evaluated.
     fn moment(&self, state: &State<T>) -> Moment {
@@ -142,16 +161,6 @@ pub trait Integrator<T: Real>: Send {
     /// Contacts with planes of a method that projects nodes onto them in its iterations.
     fn plane_contacts(&self) -> Option<&PlaneContacts> {
         None
-    }
-
-    /// Memory of the constraints of a method that iterates over them, bytes.
-    fn constraint_bytes(&self) -> usize {
-        0
-    }
-
-    /// Returns true if the method has a line search, and so evaluates energies.
-    fn has_line_search(&self) -> bool {
-        false
     }
 }
 

@@ -15,9 +15,9 @@ pub fn restore<T: Real>(potential: &IncrementalPotential<T>, tau: f64, velocity:
     if !system.is_unconstrained() {
         return;
     }
-    let mut conservative = system.forces.active().filter(|(force, _)| force.is_conservative());
+    let mut forces = system.forces.active();
     let add = |sum: [f64; 3], force: [f64; 3]| triple(|i| sum[i] + force[i]);
-    let resultant = conservative.try_fold([0.0; 3], |sum, (force, _)| Some(add(sum, force.resultant(increment.end)?)));
+    let resultant = forces.try_fold([0.0; 3], |sum, (force, _)| Some(add(sum, force.resultant(increment.end)?)));
     let Some(resultant) = resultant else { return };
     let drag = tau * velocity * system.damping.as_ref().map_or(0.0, |damping| damping.alpha);
     let damped = 1.0 + drag;

@@ -7,10 +7,10 @@
 //! converge to the same step of implicit Euler.
 
 use fem_model::IterationSettings;
-use fem_model::simulation::{Breakdown, Cause, Counters};
+use fem_model::simulation::{Breakdown, Cause, Counters, History};
 
 use super::initial_guess::infeasible;
-use super::{Convergence, Integrator, momentum};
+use super::{Convergence, Integrator, Memory, momentum};
 use crate::forces::{Energy, HessianKind, Moment};
 use crate::model::state::State;
 use crate::model::system::System;
@@ -61,15 +61,16 @@ impl<T: Real> ProjectiveDynamics<T> {
         }
     }
 
-    /// Assembles and factors the matrix of the global step.
-    fn factor(&mut self, system: &System<T>, inertia: &Inertia<T>, u: &[[T; 3]], dt: f64) -> Result<(), Breakdown> {
+    /// Assembles and factors the matrix of the global step, that of the undeformed body.
+    fn factor(&mut self, system: &System<T>, inertia: &Inertia<T>, dt: f64) -> Result<(), Breakdown> {
         let values = &mut self.values;
         values.fill([[T::default(); 3]; 3]);
         system.profile.stiffness.time(|| system.elements.add_metric(values));
         for spring in system.forces.all().flat_map(|(force, _)| force.springs()) {
             spring.add_metric(&system.pattern, values);
         }
-        system.add_external_hessian(u, Moment::at(0.0), HessianKind::Projected, values);
+        let undeformed = vec![[T::default(); 3]; system.nodes()];
+        system.add_external_hessian(&undeformed, Moment::at(0.0), HessianKind::Projected, values);
         let mass = inertia.over_dt2 + inertia.damping.map_or(T::default(), |rates| rates.mass);
         system.mass.add_to(mass, &system.pattern, values);
         system.dirichlet.eliminate(&system.pattern, values);
@@ -132,12 +133,12 @@ impl<T: Real> ProjectiveDynamics<T> {
         dt: f64,
         counters: &mut Counters,
     ) -> Result<Convergence, Cause> {
-        let IncrementalPotential { system, increment: Increment { start, end, inertia }, .. } = *potential;
+        let IncrementalPotential { system, increment: Increment { end, inertia, .. }, .. } = *potential;
         let Some(inertia) = inertia else { return Ok(Convergence::Converged) };
         if self.factored_for != Some(dt) {
             counters.stiffness_assemblies += 1;
             counters.factorizations += 1;
-            self.factor(system, &inertia, start, dt).map_err(Cause::Solver)?;
+            self.factor(system, &inertia, dt).map_err(Cause::Solver)?;
         }
         let mut energy = self.start(potential, (inertia.inertial, end), counters)?;
         let tolerance = self.settings.tolerance.unwrap_or(0.0);
@@ -179,6 +180,25 @@ impl<T: Real> ProjectiveDynamics<T> {
     }
 }
 
+impl<T: Real> Memory for ProjectiveDynamics<T> {
+    fn accept(&mut self) {}
+
+    fn forget(&mut self) {
+        self.factored_for = None;
+    }
+
+    fn forget_forces(&mut self) {
+        self.factored_for = None;
+    }
+
+    /// The factor is that of the undeformed body, and computed again.
+    fn save(&self, _: &mut History) {}
+
+    fn restore(&mut self, _: &History) -> Result<(), String> {
+        Ok(())
+    }
+}
+
 impl<T: Real> Integrator<T> for ProjectiveDynamics<T> {
     fn step(
         &mut self,
@@ -206,23 +226,11 @@ impl<T: Real> Integrator<T> for ProjectiveDynamics<T> {
         Ok(convergence)
     }
 
-    fn forget(&mut self) {
-        self.factored_for = None;
-    }
-
-    fn forget_forces(&mut self) {
-        self.factored_for = None;
-    }
-
     fn solver(&self) -> Option<&Solver<T>> {
         Some(&self.solver)
     }
 
     fn may_stop_early(&self) -> bool {
         self.settings.tolerance.is_none()
-    }
-
-    fn has_line_search(&self) -> bool {
-        true
     }
 }

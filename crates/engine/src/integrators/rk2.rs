@@ -3,7 +3,7 @@
 
 use fem_model::simulation::{Cause, Counters};
 
-use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
+use super::{Accelerations, Convergence, Integrator, Memoryless, Stage, StageWork};
 use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
@@ -24,6 +24,8 @@ impl<T: Real> Rk2<T> {
         Self { accelerations: Accelerations::new(system), a: zero(), u: zero(), v: zero() }
     }
 }
+
+impl<T: Real> Memoryless for Rk2<T> {}
 
 impl<T: Real> Integrator<T> for Rk2<T> {
     fn step(

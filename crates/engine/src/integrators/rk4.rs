@@ -2,7 +2,7 @@
 
 use fem_model::simulation::{Cause, Counters};
 
-use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
+use super::{Accelerations, Convergence, Integrator, Memoryless, Stage, StageWork};
 use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
@@ -32,6 +32,8 @@ impl<T: Real> Rk4<T> {
         Self { accelerations: Accelerations::new(system), a: zero(), u: zero(), v: zero(), start: [zero(), zero()] }
     }
 }
+
+impl<T: Real> Memoryless for Rk4<T> {}
 
 impl<T: Real> Integrator<T> for Rk4<T> {
     fn step(

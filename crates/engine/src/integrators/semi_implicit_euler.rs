@@ -4,7 +4,7 @@
 
 use fem_model::simulation::{Cause, Counters};
 
-use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
+use super::{Accelerations, Convergence, Integrator, Memoryless, Stage, StageWork};
 use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
@@ -22,6 +22,8 @@ impl<T: Real> SemiImplicitEuler<T> {
         Self { accelerations: Accelerations::new(system), a: vec![[T::default(); 3]; system.nodes()] }
     }
 }
+
+impl<T: Real> Memoryless for SemiImplicitEuler<T> {}
 
 impl<T: Real> Integrator<T> for SemiImplicitEuler<T> {
     fn step(

@@ -3,7 +3,7 @@
 
 use fem_model::simulation::{Cause, Counters, History};
 
-use super::{Accelerations, Convergence, Integrator, Stage, StageWork};
+use super::{Accelerations, Convergence, Integrator, Memory, Stage, StageWork};
 use crate::model::state::State;
 use crate::model::system::System;
 use fem_elements::Real;
@@ -25,6 +25,28 @@ impl<T: Real> Verlet<T> {
         let zero = || vec![[T::default(); 3]; system.nodes()];
         let accelerations = Accelerations::new(system);
         Self { accelerations, a: zero(), v: zero(), is_known: false }
+    }
+}
+
+impl<T: Real> Memory for Verlet<T> {
+    fn accept(&mut self) {}
+
+    fn forget(&mut self) {
+        self.is_known = false;
+    }
+
+    fn forget_forces(&mut self) {
+        self.is_known = false;
+    }
+
+    fn save(&self, history: &mut History) {
+        let a: &[[T; 3]] = if self.is_known { &self.a } else { &[] };
+        put(history, "verlet.acceleration", a.as_flattened());
+    }
+
+    fn restore(&mut self, history: &History) -> Result<(), String> {
+        self.is_known = !history.get("verlet.acceleration")?.is_empty();
+        if self.is_known { take(history, "verlet.acceleration", self.a.as_flattened_mut()) } else { Ok(()) }
     }
 }
 
@@ -64,23 +86,5 @@ impl<T: Real> Integrator<T> for Verlet<T> {
     /// ½ v₋ᵀ M v₊ of the velocities half a step before and after, v ∓ ½ dt a.
     fn kinetic_energy(&self, system: &System<T>, state: &State<T>, dt: f64) -> f64 {
         system.mass.kinetic_energy(&state.v) - (0.5 * dt).powi(2) * system.mass.kinetic_energy(&self.a)
-    }
-
-    fn save(&self, history: &mut History) {
-        let a: &[[T; 3]] = if self.is_known { &self.a } else { &[] };
-        put(history, "verlet.acceleration", a.as_flattened());
-    }
-
-    fn restore(&mut self, history: &History) -> Result<(), String> {
-        self.is_known = !history.get("verlet.acceleration")?.is_empty();
-        if self.is_known { take(history, "verlet.acceleration", self.a.as_flattened_mut()) } else { Ok(()) }
-    }
-
-    fn forget(&mut self) {
-        self.is_known = false;
-    }
-
-    fn forget_forces(&mut self) {
-        self.is_known = false;
     }
 }

@@ -3,11 +3,11 @@
 //! In the form `kelvin_voigt` K is the material part of the stiffness: no velocities of a rigid motion strain the elements, and springs are
 //! damped along themselves. In Rayleigh's form it is the stiffness itself, whose part from the stress turns with no rotation.
 
-use fem_model::{Damping, DampingForm};
+use fem_model::{Damping, DampingForm, Timer};
 
 use super::state::State;
 use super::system::{INTERNAL, System};
-use crate::forces::HessianKind;
+use crate::forces::{Damped, HessianKind};
 use fem_elements::Real;
 use fem_elements::sparse::Block;
 use fem_elements::vector::{axpy, dot, set_zero};
@@ -42,7 +42,7 @@ impl<T: Real> System<T> {
 
     /// Returns true if a force has a damping matrix.
     pub fn has_dampers(&self) -> bool {
-        self.forces.active().any(|(potential, _)| potential.has_damping())
+        self.forces.active().any(|(potential, _)| potential.damped().is_some())
     }
 
     /// Returns true if the damping of elements is their stiffness times β: that of Rayleigh's form without plastic flow, and that of linear laws.
@@ -165,8 +165,8 @@ impl<T: Real> System<T> {
 
     /// Adds `factor` D(u) v of the forces that damp motions, N.
     pub fn add_dampers_times(&self, factor: T, u: &[[T; 3]], v: &[[T; 3]], product: &mut [[T; 3]]) {
-        for (potential, timer) in self.forces.active().filter(|(potential, _)| potential.has_damping()) {
-            timer.time(|| potential.add_damping_times(factor, u, v, product));
+        for (damped, timer) in self.dampers() {
+            timer.time(|| damped.add_damping_times(factor, u, v, product));
         }
     }
 
@@ -192,8 +192,12 @@ impl<T: Real> System<T> {
 
     /// Adds `factor` D(u) of the forces that damp motions, N/m.
     fn add_damping_matrices_of_forces(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
-        for (potential, timer) in self.forces.active().filter(|(potential, _)| potential.has_damping()) {
-            timer.time(|| potential.add_damping_matrix(factor, u, values));
+        for (damped, timer) in self.dampers() {
+            timer.time(|| damped.add_damping_matrix(factor, u, values));
         }
+    }
+
+    fn dampers(&self) -> impl Iterator<Item = (&dyn Damped<T>, &Timer)> {
+        self.forces.active().filter_map(|(potential, timer)| Some((potential.damped()?, timer)))
     }
 }

@@ -38,7 +38,7 @@ impl<T: Real> System<T> {
     /// Finds the pattern of the stiffness matrix, with the blocks that a solver needs, and the places to which each element adds. The
     /// numbering stays: that of a body without matrix suits sweeps, and a factor of it has more fill-in.
     pub fn prepare_matrix(&mut self, choice: SolverChoice) {
-        let couplings: Vec<[u32; 2]> = self.forces.all().flat_map(|(potential, _)| potential.couplings()).collect();
+        let couplings = self.forces.couplings(self.nodes());
         let (numbering, stored) = (&self.numbering, choice.stored());
         let pattern = match &self.shape.mesh {
             BodyMesh::Solid(mesh) => pattern(numbering, &mesh.elements, &couplings, stored),

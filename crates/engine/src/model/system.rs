@@ -149,9 +149,9 @@ impl<T: Real> System<T> {
         self.dirichlet.is_empty()
     }
 
-    /// Returns true if all energies are quadratic: then one linear solve finds equilibrium.
-    pub fn is_linear(&self) -> bool {
-        self.elements.is_linear() && self.forces.active().all(|(potential, _)| potential.is_quadratic())
+    /// Returns true if one linear solve may find equilibrium: elements are linear, and no force is known to be none of that.
+    pub fn may_be_linear(&self) -> bool {
+        self.elements.is_linear() && self.forces.active().all(|(potential, _)| potential.may_be_quadratic())
     }
 
     /// Potential energy: that of the elements and of all conservative forces, zero in the undeformed body.
@@ -164,14 +164,14 @@ impl<T: Real> System<T> {
     pub fn potential_and_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) -> Energy {
         gradient.fill([T::default(); 3]);
         let elastic = self.profile.energies.time(|| self.elements.add_energy_and_gradient(u, gradient));
-        self.add_gradient_of_forces(true, u, moment, gradient);
+        self.add_gradient_of_forces(u, moment, gradient);
         Energy::of(elastic) + self.energy_of_forces(u, moment)
     }
 
     /// Gradient of [`potential`](Self::potential), N: minus the conservative forces on the nodes.
     pub fn gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
         self.elastic_gradient(u, gradient);
-        self.add_gradient_of_forces(true, u, moment, gradient);
+        self.add_gradient_of_forces(u, moment, gradient);
     }
 
     /// All forces on the nodes, N: elastic, external, follower, contact and damping forces. Damping takes its stiffness at `u_damping`.
@@ -183,8 +183,8 @@ impl<T: Real> System<T> {
     /// The same without damping forces, N.
     pub fn undamped_force(&self, u: &[[T; 3]], moment: Moment, force: &mut [[T; 3]]) {
         self.elastic_gradient(u, force);
-        self.add_gradient_of_forces(true, u, moment, force);
-        self.add_gradient_of_forces(false, u, moment, force);
+        self.add_gradient_of_forces(u, moment, force);
+        self.add_follower_gradient(u, moment, force);
         for force in force.as_flattened_mut() {
             *force = -*force;
         }
@@ -195,7 +195,11 @@ impl<T: Real> System<T> {
 
     /// Adds minus the forces of follower loads on the deformed surface, N.
     pub fn add_follower_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
-        self.add_gradient_of_forces(false, u, moment, gradient);
+        for (potential, timer) in self.forces.active() {
+            if let Some(follower) = potential.follower() {
+                timer.time(|| follower.add_follower_gradient(u, moment, gradient));
+            }
+        }
     }
 
     /// Adds `factor` K(u), the Hessian of the body's own energy: elements and springs between its nodes, N/m.
@@ -215,16 +219,25 @@ impl<T: Real> System<T> {
 
     /// Adds `factor` times the Hessian of the springs between the body's nodes, N/m.
     pub fn add_internal_hessian(&self, factor: T, u: &[[T; 3]], kind: HessianKind, values: &mut [Block<T, 3>]) {
-        for (potential, timer) in self.forces.active().filter(|(potential, _)| potential.is_internal()) {
-            timer.time(|| potential.add_hessian(factor, u, INTERNAL, kind, &self.pattern, values));
-        }
+        self.add_hessians_of(|force| force.is_internal(), factor, (u, INTERNAL), kind, values);
     }
 
     /// Adds the Hessian of the external forces, N/m.
     pub fn add_external_hessian(&self, u: &[[T; 3]], moment: Moment, kind: HessianKind, values: &mut [Block<T, 3>]) {
-        let is_external = |potential: &dyn Potential<T>| potential.is_conservative() && !potential.is_internal();
-        for (potential, timer) in self.forces.active().filter(|(potential, _)| is_external(*potential)) {
-            timer.time(|| potential.add_hessian(T::one(), u, moment, kind, &self.pattern, values));
+        self.add_hessians_of(|force| !force.is_internal(), T::one(), (u, moment), kind, values);
+    }
+
+    /// Adds `factor` times the Hessian of some forces at displacements and a moment, N/m.
+    pub fn add_hessians_of(
+        &self,
+        is_meant: impl Fn(&dyn Potential<T>) -> bool,
+        factor: T,
+        (u, moment): (&[[T; 3]], Moment),
+        kind: HessianKind,
+        values: &mut [Block<T, 3>],
+    ) {
+        for (potential, timer) in self.forces.active().filter(|(potential, _)| is_meant(*potential)) {
+            timer.time(|| potential.add_hessian(factor, u, moment, kind, &self.pattern, values));
         }
     }
 
@@ -236,8 +249,7 @@ impl<T: Real> System<T> {
 
     /// Adds the Hessian of the external forces times d without a matrix, N.
     pub fn add_external_hessian_times(&self, u: &[[T; 3]], moment: Moment, d: &[[T; 3]], product: &mut [[T; 3]]) {
-        let is_external = |potential: &dyn Potential<T>| potential.is_conservative() && !potential.is_internal();
-        for (potential, _) in self.forces.active().filter(|(potential, _)| is_external(*potential)) {
+        for (potential, _) in self.forces.active().filter(|(potential, _)| !potential.is_internal()) {
             potential.add_hessian_times(T::one(), u, moment, d, product);
         }
     }
@@ -261,7 +273,10 @@ impl<T: Real> System<T> {
     pub fn reported_potential(&self, u: &[[T; 3]], moment: Moment) -> f64 {
         let elastic = self.elements.energy(u);
         let potentials = self.forces.active().filter(|(potential, _)| !potential.is_dissipative());
-        let energies = potentials.map(|(potential, _)| potential.energy(u, moment).value);
+        let energies = potentials.map(|(potential, _)| {
+            let of_follower = potential.follower().map_or(0.0, |follower| follower.reported_energy(u, moment));
+            potential.energy(u, moment).value + of_follower
+        });
         // A body that touches an obstacle at the start has no energy of contact yet.
         elastic + energies.filter(|energy| *energy != f64::INFINITY).sum::<f64>()
     }
@@ -273,8 +288,8 @@ impl<T: Real> System<T> {
 
     /// Changes the increment of a step, an initial guess, where a force would be infeasible, m. Constrained entries stay.
     pub fn make_feasible(&self, start: &[[T; 3]], moment: Moment, increment: &mut [[T; 3]]) {
-        let forces = self.forces.active();
-        if forces.fold(false, |changed, (force, _)| changed | force.make_feasible(start, moment, increment)) {
+        let barriers = self.forces.active().filter_map(|(force, _)| force.barrier());
+        if barriers.fold(false, |changed, barrier| changed | barrier.make_feasible(start, moment, increment)) {
             self.prescribe(start, moment, increment);
         }
     }
@@ -284,16 +299,15 @@ impl<T: Real> System<T> {
         self.profile.forces.time(|| self.elements.add_gradient(u, gradient));
     }
 
-    fn energy_of_forces(&self, u: &[[T; 3]], moment: Moment) -> Energy {
-        let conservative = self.forces.active().filter(|(potential, _)| potential.is_conservative());
-        conservative.map(|(potential, _)| potential.energy(u, moment)).sum()
+    /// Energy of the forces beside the body's own elasticity.
+    pub fn energy_of_forces(&self, u: &[[T; 3]], moment: Moment) -> Energy {
+        self.forces.active().map(|(potential, _)| potential.energy(u, moment)).sum()
     }
 
-    fn add_gradient_of_forces(&self, conservative: bool, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
+    /// Adds the gradient of the energies of the forces beside the body's own elasticity, N.
+    pub fn add_gradient_of_forces(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]) {
         for (potential, timer) in self.forces.active() {
-            if potential.is_conservative() == conservative {
-                timer.time(|| potential.add_gradient(u, moment, gradient));
-            }
+            timer.time(|| potential.add_gradient(u, moment, gradient));
         }
     }
 }

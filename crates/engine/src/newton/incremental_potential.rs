@@ -87,15 +87,13 @@ impl<T: Real> IncrementalPotential<'_, T> {
 
     /// The largest multiple of `direction` from w up to which every force stays feasible.
     pub fn largest_step(&self, w: &[[T; 3]], direction: &[[T; 3]], workspace: &mut Workspace<T>) -> f64 {
-        workspace.set_u(self.increment.start, w);
-        let end = self.increment.end;
         let Some(StepEnd { moment, ratio, .. }) = self.end_with_obstacles() else {
-            return self.system.largest_step(&workspace.u, end, direction);
+            workspace.set_u(self.increment.start, w);
+            return self.system.largest_step(&workspace.u, self.increment.end, direction);
         };
         workspace.set_end(self.increment.start, ratio, w);
         // A direction that is longer by a factor can be followed to a smaller multiple of it.
-        let of_obstacles = self.system.largest_step_to_obstacles(&workspace.end, moment, direction) / ratio;
-        self.system.own_largest_step(&workspace.u, end, direction).min(of_obstacles)
+        self.system.largest_step(&workspace.end, moment, direction) / ratio
     }
 
     /// The end of the step, if it is not that of the increment and the body has obstacles.
@@ -189,7 +187,10 @@ impl<T: Real> IncrementalPotential<'_, T> {
         }
         if system.dirichlet.has_motion() {
             let profile = &system.profile;
-            profile.prescribed.time(|| system.add_stiffness_times(stiffness, start, prescribed, gradient));
+            profile.prescribed.time(|| {
+                system.add_stiffness_times(stiffness, start, prescribed, gradient);
+                system.add_external_hessian_times(start, end, prescribed, gradient);
+            });
         }
         system.dirichlet.clear_constrained(gradient);
     }

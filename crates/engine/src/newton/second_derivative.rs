@@ -1,7 +1,7 @@
 //! The second derivative of the incremental potential: assembled here, or as the parts of which a solver assembles it.
 
 use super::incremental_potential::{IncrementalPotential, StepEnd, Workspace};
-use crate::forces::HessianKind;
+use crate::forces::{HessianKind, Potential};
 use crate::model::damping::DampingRates;
 use crate::solvers::Assembly;
 use fem_elements::Real;
@@ -107,8 +107,10 @@ impl<T: Real> IncrementalPotential<'_, T> {
             None => system.add_external_hessian(&workspace.u, self.increment.end, kind, values),
             Some(StepEnd { moment, ratio, weight }) => {
                 workspace.set_end(self.increment.start, ratio, w);
-                system.add_own_external_hessian(&workspace.u, self.increment.end, kind, values);
-                system.add_obstacle_hessian(T::of(weight * ratio), &workspace.end, moment, kind, values);
+                let (stage, end) = ((&workspace.u[..], self.increment.end), (&workspace.end[..], moment));
+                let is_load = |force: &dyn Potential<T>| !force.is_internal() && !force.is_obstacle();
+                system.add_hessians_of(is_load, T::one(), stage, kind, values);
+                system.add_hessians_of(|force| force.is_obstacle(), T::of(weight * ratio), end, kind, values);
             }
         }
     }

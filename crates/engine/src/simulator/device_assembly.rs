@@ -48,5 +48,5 @@ pub(super) fn is_possible<T: Real>(kind: IntegratorKind, method: &Method, system
     let elements = &system.elements;
     let laws: Vec<&str> = elements.laws().map(|law| law.name()).collect();
     let unknown = unknown_elements(system.shape.mesh.solid().is_some(), elements.plasticity().is_some(), &laws);
-    unknown.is_none() && other_method(kind, method, system.is_linear()).is_none()
+    unknown.is_none() && other_method(kind, method, system.may_be_linear()).is_none()
 }

@@ -24,8 +24,7 @@ impl Bounds {
 
 /// Returns true for a force whose energy the body stores: springs, and the barrier of obstacles.
 pub(super) fn is_stored<T: Real>(potential: &dyn Potential<T>) -> bool {
-    !potential.is_dissipative()
-        && (potential.is_internal() || potential.is_obstacle() || !potential.springs().is_empty())
+    !potential.is_dissipative() && (potential.is_internal() || potential.is_obstacle())
 }
 
 /// Returns true for a load whose work depends only on the displacements at the start and now.

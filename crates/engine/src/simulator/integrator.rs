@@ -111,10 +111,10 @@ pub(super) fn build<T: Real>(
     let tolerance = tolerance.max(SMALLEST_RESIDUAL * T::EPSILON.as_f64());
     let newton = || {
         // Inertia bounds the condition number, and a linear body needs one direction alone.
-        let solver = if kind == IntegratorKind::Static && system.is_linear() {
-            // No load makes this matrix indefinite.
+        let solver = if kind == IntegratorKind::Static && system.may_be_linear() {
+            // No dead load makes this matrix indefinite.
             solver().with_direct_fallback()
-        } else if kind == IntegratorKind::Static || system.is_linear() {
+        } else if kind == IntegratorKind::Static || system.may_be_linear() {
             solver()
         } else {
             Solver::for_directions(choice, &system.pattern, &rest())

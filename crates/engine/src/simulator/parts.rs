@@ -12,7 +12,7 @@ type Cost = (usize, (usize, f64));
 /// The planned parts, with their costs so far.
 pub(super) fn parts<T: Real>(simulator: &Simulator<T>) -> Vec<Part> {
     let Simulator { system, method, kind, solver, plan, .. } = simulator;
-    let mut parts = plan.parts(*kind, method, *solver, system.is_linear());
+    let mut parts = plan.parts(*kind, method, *solver, system.may_be_linear());
     // The plan lists them in this order; several forces of one's own may have the same name.
     let mut forces = system.forces.all().filter(|(potential, _)| potential.name() != anchors::NAME).peekable();
     for part in parts.iter_mut().filter(|part| part.built) {

@@ -3,6 +3,9 @@
 use fem_model::{Body, Method, Refusal, SolverKind};
 use nalgebra::Vector3;
 
+use crate::forces::Potential;
+use fem_elements::Real;
+
 /// Refuses a scene whose loads are not proportional to the load factor, or whose solver needs a positive definite matrix.
 pub(super) fn check(method: &Method, body: &Body) -> Result<(), Refusal> {
     if !method.arc_length {
@@ -27,9 +30,12 @@ pub(super) fn check(method: &Method, body: &Body) -> Result<(), Refusal> {
     }
 }
 
-/// Refuses follower loads: their stiffness is not part of the matrix.
-pub(super) fn check_force(method: &Method, is_conservative: bool) -> Result<(), Refusal> {
-    if method.arc_length && !is_conservative {
+/// Refuses follower loads, whose stiffness is not part of the matrix, and obstacles.
+pub(super) fn check_force<T: Real>(method: &Method, force: &dyn Potential<T>) -> Result<(), Refusal> {
+    if method.arc_length && force.is_obstacle() {
+        return refuse(format!("does not know obstacles; remove the force `{}`, or arc_length", force.name()));
+    }
+    if method.arc_length && !force.is_conservative() {
         return refuse(
             "needs loads with a potential, and the edge of a pressure is free; fix it, or give force_per_area"
                 .to_owned(),

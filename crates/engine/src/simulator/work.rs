@@ -207,7 +207,7 @@ fn takes_forces_at_end(kind: IntegratorKind) -> bool {
 fn forces_of_loads<T: Real>(system: &System<T>, u: &[[T; 3]], moment: Moment, force: &mut Vec<[T; 3]>) {
     set_zero(force, u.len());
     for (potential, _) in system.forces.active().filter(|(potential, _)| is_changing_load(*potential)) {
-        potential.add_gradient(u, moment, force);
+        potential.subtract_force(u, moment, force);
     }
     scale(-1.0, force);
 }

@@ -7,9 +7,37 @@ use fem_elements::Real;
 use fem_elements::sparse::Block;
 use fem_model::simulation::{Breakdown, History};
 
+/// The data of earlier matrices on which an approximate inverse P⁻¹ depends; without such data it is [`Memoryless`].
+pub(crate) trait Memory<T: Real> {
+    /// Adds the data of earlier matrices that the next [`prepare`](ApproximateInverse::prepare) needs, and, if P `is_kept`, those that P
+    /// depends on.
+    fn save(&self, is_kept: bool, history: &mut History);
+
+    /// Restores the data that [`save`](Self::save) has added.
+    fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String>;
+
+    /// Computes P after [`restore`](Self::restore), with the matrix that is still in use: P becomes what it was, bit for bit.
+    fn prepare_again(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown>;
+}
+
+/// An approximate inverse that depends on the values of its matrix alone, as a factor does.
+pub(crate) trait Memoryless {}
+
+impl<T: Real, P: Memoryless + ApproximateInverse<T>> Memory<T> for P {
+    fn save(&self, _: bool, _: &mut History) {}
+
+    fn restore(&mut self, _: bool, _: &History) -> Result<(), String> {
+        Ok(())
+    }
+
+    fn prepare_again(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        self.prepare(values)
+    }
+}
+
 /// An approximate inverse P⁻¹ of a matrix A: a factor, which is exact up to round-off, or a preconditioner. It is created for
 /// one sparsity pattern and prepared for the values of a matrix. Neither `prepare` nor `apply` allocates after the first time.
-pub(crate) trait ApproximateInverse<T: Real>: Send + Sync {
+pub(crate) trait ApproximateInverse<T: Real>: Memory<T> + Send + Sync {
     /// Computes P for the values of a matrix. After an error P must be prepared again before it is applied.
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown>;
 
@@ -45,20 +73,6 @@ pub(crate) trait ApproximateInverse<T: Real>: Send + Sync {
     /// Smallest relative residual that a correction is asked for: the next one begins with an exact residual.
     fn smallest_tolerance(&self) -> f64 {
         1e-4
-    }
-
-    /// Adds the data of earlier matrices that the next [`prepare`](Self::prepare) needs, and, if P `is_kept`, those that P depends on. A
-    /// factor needs no such data.
-    fn save(&self, _is_kept: bool, _history: &mut History) {}
-
-    /// Restores the data that [`save`](Self::save) has added.
-    fn restore(&mut self, _is_kept: bool, _history: &History) -> Result<(), String> {
-        Ok(())
-    }
-
-    /// Computes P after [`restore`](Self::restore), with the matrix that is still in use: P becomes what it was, bit for bit.
-    fn prepare_again(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
-        self.prepare(values)
     }
 
     /// Allocated bytes.

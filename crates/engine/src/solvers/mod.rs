@@ -35,4 +35,4 @@ pub(crate) use assembly::DeviceElements;
 pub(crate) use device::device as open_device;
 pub(crate) use device::unusable as unusable_device;
 pub(crate) use fallback::factor_fits;
-pub(crate) use inverse::ApproximateInverse;
+pub(crate) use inverse::{ApproximateInverse, Memory, Memoryless};

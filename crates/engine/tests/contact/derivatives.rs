@@ -104,6 +104,6 @@ fn the_largest_step_ends_at_the_first_plane_and_a_guess_behind_it_is_moved_out()
     let found = system.largest_step(u, end, &down);
     assert!((found - expected).abs() < 1e-9, "{found} {expected}");
     let mut guess: Vectors = down.iter().map(|d| d.map(|d| 0.3 * d)).collect();
-    assert!(contact.make_feasible(u, end, &mut guess));
+    assert!(contact.barrier().unwrap().make_feasible(u, end, &mut guess));
     assert!(contact.energy(&moved(u, 1.0, &guess), end).value.is_finite());
 }

@@ -1,9 +1,8 @@
 //! Equilibrium paths through limit points.
 
-use fem_engine::forces::{Energy, HessianKind, Moment, Potential};
+use fem_engine::forces::{AddBlock, Energy, HessianKind, Moment, Potential};
 use fem_engine::model::numbering::Numbering;
 use fem_engine::simulator::Simulator;
-use fem_engine::sparse::{Block, Pattern};
 use fem_model::simulation::Simulation;
 use fem_scene::{Scene, parse};
 use std::path::Path;
@@ -40,7 +39,7 @@ impl Potential<f64> for PointLoad {
         gradient[self.node][1] += moment.load_factor.unwrap_or(1.0) * LOAD;
     }
 
-    fn add_hessian(&self, _: f64, _: &[[f64; 3]], _: Moment, _: HessianKind, _: &Pattern, _: &mut [Block<f64, 3>]) {}
+    fn hessian(&self, _: &[[f64; 3]], _: Moment, _: HessianKind, _: &mut AddBlock<f64>) {}
 }
 
 /// The scene `snap` without its traction, with other tables in place of `[static]`.

@@ -24,6 +24,7 @@ mod ledger;
 mod mass_spring;
 mod nodal_forces;
 mod orders;
+mod own_potentials;
 mod parts;
 mod plasticity;
 mod position_based;

@@ -25,7 +25,7 @@ fn nodal_forces(
     let u: Vec<[f64; 3]> = positions.iter().zip(&system.rest).map(|(x, X)| (x - X).into()).collect();
     let mut gradient = vec![[0.0; 3]; system.nodes()];
     let (potential, _) = system.forces.all().find(|(potential, _)| potential.name() == name).unwrap();
-    potential.add_gradient(&u, Moment::at(0.0), &mut gradient);
+    potential.subtract_force(&u, Moment::at(0.0), &mut gradient);
     positions.into_iter().zip(gradient).map(|(x, gradient)| (x, -Vector3::from(gradient))).collect()
 }
 

@@ -9,10 +9,9 @@ use fem_model::{Body, ContactPlane, ContactTreatment};
 use super::barrier::Barrier;
 use super::planes::Planes;
 use super::start::Obstacles;
-use crate::forces::{Energy, HessianKind, Moment, Potential};
+use crate::forces::{self, AddBlock, Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
 use fem_elements::Real;
-use fem_elements::sparse::{Block, Pattern};
 use fem_elements::vector::triple;
 
 /// Key in the statistics.
@@ -96,7 +95,7 @@ impl<T: Real> Friction<T> {
     }
 
     /// The Hessian of μ N f(y), N/m: f'(y)/y (1 − n nᵀ − t tᵀ) + f''(y) t tᵀ with the direction t of sliding.
-    fn hessian(&self, lagged: &Lagged, slide: [f64; 3]) -> [[f64; 3]; 3] {
+    fn block(&self, lagged: &Lagged, slide: [f64; 3]) -> [[f64; 3]; 3] {
         let (y, n) = (norm(slide), self.planes.planes[lagged.plane].normal);
         let across = slope_over_y(y, self.transition);
         // Along the direction of sliding the slope no longer grows beyond ε.
@@ -124,43 +123,12 @@ impl<T: Real> Potential<T> for Friction<T> {
         self.planes.bytes() + self.barrier.bytes() + size_of_val(&self.start[..])
     }
 
-    fn is_quadratic(&self) -> bool {
-        false
-    }
-
-    fn is_steady(&self) -> bool {
-        false
-    }
-
-    fn is_dissipative(&self) -> bool {
-        true
-    }
-
-    fn is_obstacle(&self) -> bool {
-        true
-    }
-
     fn begin_step(&mut self, u: &[[T; 3]], start: Moment, dt: f64) {
         self.start.copy_from_slice(u);
         self.barrier.begin_step(u);
         self.times = [start.time, start.time + dt];
         self.transition = self.transition_speed * dt;
         self.evaluate(u, start.time);
-    }
-
-    fn has_lag(&self) -> bool {
-        true
-    }
-
-    fn update_lag(&mut self, u: &[[T; 3]], relaxation: f64) -> f64 {
-        std::mem::swap(&mut self.lagged, &mut self.previous);
-        self.evaluate(u, self.times[1]);
-        let dt = self.times[1] - self.times[0];
-        let change = change(&self.previous, &self.lagged, RESOLUTION * self.mass_times_length / (dt * dt));
-        if relaxation < 1.0 {
-            relax(&self.previous, &mut self.lagged, relaxation);
-        }
-        change
     }
 
     fn energy(&self, u: &[[T; 3]], _: Moment) -> Energy {
@@ -177,35 +145,31 @@ impl<T: Real> Potential<T> for Friction<T> {
         }
     }
 
-    fn add_hessian(
-        &self,
-        factor: T,
-        u: &[[T; 3]],
-        _: Moment,
-        _: HessianKind,
-        pattern: &Pattern,
-        values: &mut [Block<T, 3>],
-    ) {
+    fn hessian(&self, u: &[[T; 3]], _: Moment, _: HessianKind, add: &mut AddBlock<T>) {
         for (lagged, slide) in self.sliding(u) {
-            let H = self.hessian(lagged, slide);
-            if let Some(block) = pattern.find(lagged.node, lagged.node) {
-                for i in 0..3 {
-                    for j in 0..3 {
-                        values[block][i][j] += factor * T::of(H[i][j]);
-                    }
-                }
-            }
+            add(lagged.node, lagged.node, self.block(lagged, slide).map(|row| row.map(T::of)));
         }
     }
 
-    fn add_hessian_times(&self, factor: T, u: &[[T; 3]], _: Moment, d: &[[T; 3]], product: &mut [[T; 3]]) {
-        for (lagged, slide) in self.sliding(u) {
-            let (H, d) = (self.hessian(lagged, slide), d[lagged.node].map(|d| d.as_f64()));
-            for i in 0..3 {
-                let row = H[i][0] * d[0] + H[i][1] * d[1] + H[i][2] * d[2];
-                product[lagged.node][i] += factor * T::of(row);
-            }
+    fn lagged(&self) -> Option<&dyn forces::Lagged<T>> {
+        Some(self)
+    }
+
+    fn lagged_mut(&mut self) -> Option<&mut dyn forces::Lagged<T>> {
+        Some(self)
+    }
+}
+
+impl<T: Real> forces::Lagged<T> for Friction<T> {
+    fn update(&mut self, u: &[[T; 3]], relaxation: f64) -> f64 {
+        std::mem::swap(&mut self.lagged, &mut self.previous);
+        self.evaluate(u, self.times[1]);
+        let dt = self.times[1] - self.times[0];
+        let change = change(&self.previous, &self.lagged, RESOLUTION * self.mass_times_length / (dt * dt));
+        if relaxation < 1.0 {
+            relax(&self.previous, &mut self.lagged, relaxation);
         }
+        change
     }
 }
 

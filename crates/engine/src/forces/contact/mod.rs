@@ -9,11 +9,11 @@ pub mod start;
 
 use fem_model::{Body, ContactTreatment};
 
-use super::{Energy, HessianKind, Moment, Potential};
+use super::{AddBlock, Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
 use barrier::Barrier;
 use fem_elements::Real;
-use fem_elements::sparse::{Block, Pattern};
+use fem_elements::vector::triple;
 use planes::Planes;
 use start::Obstacles;
 
@@ -67,18 +67,6 @@ impl<T: Real> Potential<T> for Contact {
         self.planes.bytes() + self.barrier.bytes()
     }
 
-    fn is_quadratic(&self) -> bool {
-        false
-    }
-
-    fn is_steady(&self) -> bool {
-        self.planes.planes.iter().all(|plane| plane.is_at_rest())
-    }
-
-    fn is_obstacle(&self) -> bool {
-        true
-    }
-
     fn begin_step(&mut self, u: &[[T; 3]], _: Moment, _: f64) {
         self.barrier.begin_step(u);
     }
@@ -96,37 +84,26 @@ impl<T: Real> Potential<T> for Contact {
         }
     }
 
-    fn add_hessian(
-        &self,
-        factor: T,
-        u: &[[T; 3]],
-        moment: Moment,
-        _: HessianKind,
-        pattern: &Pattern,
-        values: &mut [Block<T, 3>],
-    ) {
+    fn hessian(&self, u: &[[T; 3]], moment: Moment, _: HessianKind, add: &mut AddBlock<T>) {
         for (near, area) in self.active(u, moment.time) {
             let (k, n) = (self.barrier.curvature(area, near.gap), self.normal(near.plane));
-            if let Some(block) = pattern.find(near.node, near.node) {
-                for i in 0..3 {
-                    for j in 0..3 {
-                        values[block][i][j] += factor * T::of(k * n[i] * n[j]);
-                    }
-                }
-            }
+            add(near.node, near.node, triple(|i| triple(|j| T::of(k * n[i] * n[j]))));
         }
     }
 
-    fn add_hessian_times(&self, factor: T, u: &[[T; 3]], moment: Moment, d: &[[T; 3]], product: &mut [[T; 3]]) {
-        for (near, area) in self.active(u, moment.time) {
-            let (k, n) = (self.barrier.curvature(area, near.gap), self.normal(near.plane));
-            let along = planes::along(n, &d[near.node]);
-            for i in 0..3 {
-                product[near.node][i] += factor * T::of(k * along * n[i]);
-            }
-        }
+    fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
+        let Barrier { distance, stiffness, .. } = &self.barrier;
+        let fits =
+            fem_elements::number::is_positive(T::of(*distance)) && fem_elements::number::is_positive(T::of(*stiffness));
+        (!fits).then_some(("contact", "a stiffness of the barrier"))
     }
 
+    fn barrier(&self) -> Option<&dyn super::Barrier<T>> {
+        Some(self)
+    }
+}
+
+impl<T: Real> super::Barrier<T> for Contact {
     fn scale(&self) -> f64 {
         self.barrier.distance
     }
@@ -168,12 +145,5 @@ impl<T: Real> Potential<T> for Contact {
             }
         }
         has_changed
-    }
-
-    fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
-        let Barrier { distance, stiffness, .. } = &self.barrier;
-        let fits =
-            fem_elements::number::is_positive(T::of(*distance)) && fem_elements::number::is_positive(T::of(*stiffness));
-        (!fits).then_some(("contact", "a stiffness of the barrier"))
     }
 }

@@ -5,7 +5,7 @@ mod spring;
 
 use fem_model::Body;
 
-use super::{Energy, HessianKind, Moment, Potential};
+use super::{AddBlock, Damped, Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
 use fem_elements::Real;
 use fem_elements::number::is_positive;
@@ -89,16 +89,8 @@ impl<T: Real> Potential<T> for Springs<T> {
         size_of_val(&self.springs[..]) + size_of_val(&self.places[..])
     }
 
-    fn is_internal(&self) -> bool {
-        true
-    }
-
     fn springs(&self) -> &[Spring<T>] {
         &self.springs
-    }
-
-    fn couplings(&self) -> Vec<[u32; 2]> {
-        self.springs.iter().map(|spring| spring.nodes).collect()
     }
 
     fn nodes_of_hessian(&self) -> Option<Vec<u32>> {
@@ -125,6 +117,16 @@ impl<T: Real> Potential<T> for Springs<T> {
         self.springs.iter().for_each(|spring| spring.add_gradient(u, gradient));
     }
 
+    fn hessian(&self, u: &[[T; 3]], _: Moment, kind: HessianKind, add: &mut AddBlock<T>) {
+        for spring in &self.springs {
+            let ([a, b], H) = (spring.ends(), spring.hessian(u, kind));
+            let opposite = H.map(|row| row.map(|entry| -entry));
+            for (row, column, block) in [(a, a, H), (b, b, H), (a, b, opposite), (b, a, opposite)] {
+                add(row, column, block);
+            }
+        }
+    }
+
     fn add_hessian(
         &self,
         factor: T,
@@ -141,16 +143,8 @@ impl<T: Real> Potential<T> for Springs<T> {
         self.springs.iter().for_each(|spring| spring.add_hessian_times(factor, u, d, product));
     }
 
-    fn has_damping(&self) -> bool {
-        self.has_dampers
-    }
-
-    fn add_damping_times(&self, factor: T, u: &[[T; 3]], v: &[[T; 3]], product: &mut [[T; 3]]) {
-        self.springs.iter().for_each(|spring| spring.add_damping_times(factor, u, v, product));
-    }
-
-    fn add_damping_matrix(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
-        self.add_blocks(factor, values, |spring| spring.damping_matrix(u));
+    fn damped(&self) -> Option<&dyn Damped<T>> {
+        self.has_dampers.then_some(self)
     }
 
     /// The two forces of a spring are equal and opposite.
@@ -166,5 +160,15 @@ impl<T: Real> Potential<T> for Springs<T> {
         // A damping that underflows to zero is no damping.
         let fits = self.springs.iter().all(|spring| spring.damping.as_f64().is_finite());
         (!fits).then_some((table, "a damping"))
+    }
+}
+
+impl<T: Real> Damped<T> for Springs<T> {
+    fn add_damping_times(&self, factor: T, u: &[[T; 3]], v: &[[T; 3]], product: &mut [[T; 3]]) {
+        self.springs.iter().for_each(|spring| spring.add_damping_times(factor, u, v, product));
+    }
+
+    fn add_damping_matrix(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]) {
+        self.add_blocks(factor, values, |spring| spring.damping_matrix(u));
     }
 }

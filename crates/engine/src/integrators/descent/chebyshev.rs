@@ -59,11 +59,6 @@ impl<T: Real> Chebyshev<T> {
             u.copy_from_slice(&self.previous);
         }
     }
-
-    /// Memory, bytes.
-    pub fn bytes(&self) -> usize {
-        size_of_val(&self.previous[..]) + size_of_val(&self.older[..])
-    }
 }
 
 #[cfg(test)]

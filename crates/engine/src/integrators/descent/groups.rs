@@ -67,11 +67,6 @@ impl<T: Real> Group<T> {
     ) {
         with_group!(self, patches => patches.add_changes(system, nodes, batches, u, changes));
     }
-
-    /// Memory, bytes.
-    pub fn bytes(&self) -> usize {
-        with_group!(self, patches => patches.bytes())
-    }
 }
 
 /// Nodes of each element of a body, in the engine's numbering.

@@ -113,12 +113,6 @@ impl<T: Real> Links<T> {
             }
         }
     }
-
-    /// Memory, bytes.
-    pub fn bytes(&self) -> usize {
-        let of_ends: usize = self.ends.iter().map(|ends| size_of_val(&ends[..])).sum();
-        of_ends + size_of_val(&self.springs[..])
-    }
 }
 
 /// Adds to the sums of one lane.

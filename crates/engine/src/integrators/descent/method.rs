@@ -188,14 +188,6 @@ impl<T: Real> Relaxation<T> for Descent<T> {
         }
         self.accelerate(step.system, contacts.as_deref(), u);
     }
-
-    fn bytes(&self) -> usize {
-        let of_color = size_of_val(&self.sums[..]) + size_of_val(&self.steps[..]);
-        let of_acceleration = self.acceleration.as_ref().map_or(0, |acceleration| acceleration.bytes());
-        let of_groups: usize = self.groups.iter().map(|group| group.bytes()).sum();
-        let of_nodes = size_of_val(&self.inertial[..]) + self.nodes.bytes();
-        of_groups + of_nodes + of_color + of_acceleration + self.links.bytes()
-    }
 }
 
 /// Finds the steps of some batches of one colour, in the widest lanes of this processor.

@@ -74,12 +74,4 @@ impl<T: Real> NodeBatches<T> {
     pub fn of_batch(&self, batch: usize) -> &[u32] {
         &self.lanes[batch * T::WIDTH..][..self.filled[batch]]
     }
-
-    /// Memory, bytes.
-    pub fn bytes(&self) -> usize {
-        size_of_val(&self.lanes[..])
-            + size_of_val(&self.filled[..])
-            + size_of_val(&self.masses[..])
-            + size_of_val(&self.places[..])
-    }
 }

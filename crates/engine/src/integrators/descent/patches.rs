@@ -98,11 +98,6 @@ impl<T: Real, const E: usize> Patches<T, E> {
     ) {
         system.elements.law_in_lanes(self.material).run(ChangesOfBatches { patches: self, nodes, batches, u, changes });
     }
-
-    /// Memory, bytes.
-    pub fn bytes(&self) -> usize {
-        size_of_val(&self.slots[..]) + size_of_val(&self.others[..]) + size_of_val(&self.starts[..])
-    }
 }
 
 /// The sums of a colour, with the law of a material.

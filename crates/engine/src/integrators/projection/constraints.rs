@@ -74,11 +74,6 @@ impl<T: Real> Relaxation<T> for Constraints<T> {
             contacts.sweep(step.of_contacts(), u);
         }
     }
-
-    fn bytes(&self) -> usize {
-        let of_groups = self.groups.iter().map(|group| with_group!(group, elements => elements.bytes()));
-        of_groups.sum::<usize>() + self.distances.bytes()
-    }
 }
 
 impl<T: Real> Group<T> {

@@ -22,11 +22,6 @@ impl<T: Real> Distances<T> {
         Self { multipliers: vec![[T::default(); 3]; springs.len()], springs }
     }
 
-    /// Memory, bytes.
-    pub fn bytes(&self) -> usize {
-        size_of_val(&self.springs[..]) + size_of_val(&self.multipliers[..])
-    }
-
     /// Sets the multipliers to zero: a step starts.
     pub fn begin_step(&mut self) {
         self.multipliers.fill([T::default(); 3]);

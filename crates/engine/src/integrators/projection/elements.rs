@@ -84,11 +84,6 @@ impl<T: Real, const N: usize> Elements<T, N> {
         let solids = &system.elements;
         solids.law_in_lanes(self.material).run(ColorsOf { elements: self, sweep, u });
     }
-
-    /// Memory, bytes.
-    pub fn bytes(&self) -> usize {
-        size_of_val(&self.corners[..]) + size_of_val(&self.batches[..]) + size_of_val(&self.moves[..])
-    }
 }
 
 /// A sweep over the elements of one material, with its law.

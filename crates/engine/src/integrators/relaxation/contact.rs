@@ -50,11 +50,6 @@ impl PlaneContacts {
         Self { planes, length, multipliers: vec![[0.0; 4]; count], dt2: 1.0 }
     }
 
-    /// Memory, bytes.
-    pub fn bytes(&self) -> usize {
-        self.planes.bytes() + size_of_val(&self.multipliers[..])
-    }
-
     /// The force of each plane on each node in the last step that is not zero, N.
     pub fn forces(&self) -> impl Iterator<Item = (usize, usize, Vector3<f64>)> {
         let nodes = self.planes.nodes();

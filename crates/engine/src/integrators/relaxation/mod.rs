@@ -11,7 +11,7 @@ pub use particles::{Particles, largest_difference};
 use fem_model::IterationSettings;
 use fem_model::simulation::{Cause, Counters, History};
 
-use super::{Convergence, Integrator};
+use super::{Convergence, Integrator, Memory};
 use crate::forces::contact::planes::Planes;
 use crate::model::state::State;
 use crate::model::system::System;
@@ -30,9 +30,6 @@ pub trait Relaxation<T: Real>: Send {
 
     /// Moves every node once.
     fn sweep(&mut self, step: StepOf<T>, contacts: Option<&mut PlaneContacts>, u: &mut [[T; 3]]);
-
-    /// Memory, bytes.
-    fn bytes(&self) -> usize;
 }
 
 /// A step for its sweeps.
@@ -120,6 +117,29 @@ impl<T: Real, R: Relaxation<T>> Relaxed<T, R> {
     }
 }
 
+impl<T: Real, R: Relaxation<T>> Memory for Relaxed<T, R> {
+    fn accept(&mut self) {}
+
+    fn forget(&mut self) {
+        self.has_masses = false;
+        if let Some(contacts) = &mut self.contacts {
+            contacts.begin_step(1.0);
+        }
+    }
+
+    fn forget_forces(&mut self) {}
+
+    fn save(&self, history: &mut History) {
+        if let Some(contacts) = &self.contacts {
+            contacts.save(history);
+        }
+    }
+
+    fn restore(&mut self, history: &History) -> Result<(), String> {
+        self.contacts.as_mut().map_or(Ok(()), |contacts| contacts.restore(history))
+    }
+}
+
 impl<T: Real, R: Relaxation<T>> Integrator<T> for Relaxed<T, R> {
     fn step(
         &mut self,
@@ -147,34 +167,11 @@ impl<T: Real, R: Relaxation<T>> Integrator<T> for Relaxed<T, R> {
         Ok(if has_settled { Convergence::Converged } else { Convergence::NotConverged })
     }
 
-    fn forget(&mut self) {
-        self.has_masses = false;
-        if let Some(contacts) = &mut self.contacts {
-            contacts.begin_step(1.0);
-        }
-    }
-
-    fn save(&self, history: &mut History) {
-        if let Some(contacts) = &self.contacts {
-            contacts.save(history);
-        }
-    }
-
-    fn restore(&mut self, history: &History) -> Result<(), String> {
-        self.contacts.as_mut().map_or(Ok(()), |contacts| contacts.restore(history))
-    }
-
     fn may_stop_early(&self) -> bool {
         self.relaxation.has_material() && self.tolerance.is_none()
     }
 
     fn plane_contacts(&self) -> Option<&PlaneContacts> {
         self.contacts.as_ref()
-    }
-
-    fn constraint_bytes(&self) -> usize {
-        let of_nodes = 9 * size_of::<T>() * self.particles.inverse_masses.len() + size_of_val(&self.before[..]);
-        let of_contacts = self.contacts.as_ref().map_or(0, |contacts| contacts.bytes());
-        self.relaxation.bytes() + of_contacts + of_nodes
     }
 }

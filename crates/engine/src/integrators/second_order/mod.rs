@@ -19,7 +19,7 @@ mod start;
 use fem_model::simulation::{Cause, Counters, History};
 
 use super::followers::Followers;
-use super::{Convergence, Integrator, LastStage};
+use super::{Convergence, Integrator, LastStage, Memory};
 use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
@@ -121,34 +121,7 @@ impl<T: Real> SecondOrder<T> {
     }
 }
 
-impl<T: Real> Integrator<T> for SecondOrder<T> {
-    fn step(
-        &mut self,
-        system: &System<T>,
-        state: &mut State<T>,
-        dt: f64,
-        counters: &mut Counters,
-    ) -> Result<Convergence, Cause> {
-        self.begin(system, state, dt, counters)?;
-        let (before, end) = (self.known.dt, Moment::at(state.time + dt));
-        self.error = None;
-        if self.estimates {
-            self.before.copy_from_slice(&state.v);
-        }
-        let convergence = match self.scheme.coefficients(dt, before) {
-            Some(_) if self.scheme.has_acceleration() && !self.known.has_acceleration => {
-                self.settle(system, state, dt, counters)?
-            }
-            Some(of) => self.advance(system, state, (dt, end), &of, counters)?,
-            None => self.first_step(system, state, dt, counters)?,
-        };
-        if self.estimates {
-            self.keep_mean(system, state, dt)?;
-            self.estimate(system, dt, before.map(|before| dt / before));
-        }
-        Ok(convergence)
-    }
-
+impl<T: Real> Memory for SecondOrder<T> {
     fn accept(&mut self) {
         std::mem::swap(&mut self.known, &mut self.next);
     }
@@ -178,6 +151,35 @@ impl<T: Real> Integrator<T> for SecondOrder<T> {
         self.stage = take_option(history, "second_order.stage")?;
         self.newton.restore(history)
     }
+}
+
+impl<T: Real> Integrator<T> for SecondOrder<T> {
+    fn step(
+        &mut self,
+        system: &System<T>,
+        state: &mut State<T>,
+        dt: f64,
+        counters: &mut Counters,
+    ) -> Result<Convergence, Cause> {
+        self.begin(system, state, dt, counters)?;
+        let (before, end) = (self.known.dt, Moment::at(state.time + dt));
+        self.error = None;
+        if self.estimates {
+            self.before.copy_from_slice(&state.v);
+        }
+        let convergence = match self.scheme.coefficients(dt, before) {
+            Some(_) if self.scheme.has_acceleration() && !self.known.has_acceleration => {
+                self.settle(system, state, dt, counters)?
+            }
+            Some(of) => self.advance(system, state, (dt, end), &of, counters)?,
+            None => self.first_step(system, state, dt, counters)?,
+        };
+        if self.estimates {
+            self.keep_mean(system, state, dt)?;
+            self.estimate(system, dt, before.map(|before| dt / before));
+        }
+        Ok(convergence)
+    }
 
     fn solver(&self) -> Option<&Solver<T>> {
         Some(self.newton.solver())
@@ -206,9 +208,5 @@ impl<T: Real> Integrator<T> for SecondOrder<T> {
             }
             _ => kinetic,
         }
-    }
-
-    fn has_line_search(&self) -> bool {
-        true
     }
 }

@@ -6,10 +6,10 @@ use fem_gpu::{BlockPattern, CoarseGrid, ConjugateGradients, Device, DeviceError,
 use fem_model::Precision;
 use fem_model::simulation::{Breakdown, History};
 
-use crate::solvers::ApproximateInverse;
 use crate::solvers::assembly::{Assembly, DeviceElements};
 use crate::solvers::block::invert;
 use crate::solvers::preconditioners::{Coarse, LowerHalf, single_precision_scale};
+use crate::solvers::{ApproximateInverse, Memory};
 use fem_elements::Real;
 use fem_elements::history::{put_option, take_option};
 use fem_elements::sparse::{Block, Pattern};
@@ -172,6 +172,24 @@ fn power_of_two(scale: f64) -> f64 {
     scale.log2().floor().exp2()
 }
 
+impl<T: Real, N: Number> Memory<T> for OnDevice<N> {
+    fn save(&self, _is_kept: bool, history: &mut History) {
+        self.coarse.save(history);
+        put_option(history, "device.scale", Some(self.scale));
+    }
+
+    fn restore(&mut self, _is_kept: bool, history: &History) -> Result<(), String> {
+        self.scale = take_option(history, "device.scale")?.unwrap_or(1.0);
+        self.coarse.restore(history)
+    }
+
+    /// The scale is that of the time, and the coarse matrix may be that of an earlier matrix: both are restored.
+    fn prepare_again(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        self.invert_diagonal(values)?;
+        self.send(values).and_then(|()| self.send_coarse(true)).map_err(|error| breakdown(&error))
+    }
+}
+
 impl<T: Real, N: Number> ApproximateInverse<T> for OnDevice<N> {
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
         self.scale = power_of_two(single_precision_scale(values, &self.lower.diagonal)?);
@@ -228,22 +246,6 @@ impl<T: Real, N: Number> ApproximateInverse<T> for OnDevice<N> {
             let r = r.map(T::as_f64);
             *z = inverse.map(|row| T::of(self.scale * (row[0] * r[0] + row[1] * r[1] + row[2] * r[2])));
         }
-    }
-
-    fn save(&self, _is_kept: bool, history: &mut History) {
-        self.coarse.save(history);
-        put_option(history, "device.scale", Some(self.scale));
-    }
-
-    fn restore(&mut self, _is_kept: bool, history: &History) -> Result<(), String> {
-        self.scale = take_option(history, "device.scale")?.unwrap_or(1.0);
-        self.coarse.restore(history)
-    }
-
-    /// The scale is that of the time, and the coarse matrix may be that of an earlier matrix: both are restored.
-    fn prepare_again(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
-        self.invert_diagonal(values)?;
-        self.send(values).and_then(|()| self.send_coarse(true)).map_err(|error| breakdown(&error))
     }
 
     /// Bytes on the device, and of the coarse grid here.

@@ -11,8 +11,8 @@ use faer::sparse::linalg::cholesky::{
 use faer::{Conj, MatMut, Par, Side, Spec};
 
 use super::csc::CscMatrix;
-use crate::solvers::ApproximateInverse;
 use crate::solvers::block::sqrt_pivot;
+use crate::solvers::{ApproximateInverse, Memoryless};
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
 use fem_model::simulation::Breakdown;
@@ -70,6 +70,8 @@ fn scratch<T: Real>(symbolic: &SymbolicCholesky<u32>, threads: Par) -> StackReq 
     let factor = symbolic.factorize_numeric_llt_scratch::<T>(threads, Spec::default());
     factor.or(symbolic.solve_in_place_scratch::<T>(1, threads))
 }
+
+impl<T: Real> Memoryless for FaerCholesky<T> {}
 
 impl<T: Real> ApproximateInverse<T> for FaerCholesky<T> {
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {

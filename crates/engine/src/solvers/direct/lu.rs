@@ -6,7 +6,7 @@ use faer::sparse::linalg::lu::{LuRef, NumericLu, SymbolicLu, factorize_symbolic_
 use faer::{Conj, MatMut, Par, Spec};
 
 use super::csc::CscMatrix;
-use crate::solvers::ApproximateInverse;
+use crate::solvers::{ApproximateInverse, Memoryless};
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
 use fem_model::simulation::Breakdown;
@@ -48,6 +48,8 @@ impl Lu {
         }
     }
 }
+
+impl Memoryless for Lu {}
 
 impl<T: Real> ApproximateInverse<T> for Lu {
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {

@@ -4,9 +4,9 @@
 use std::sync::Arc;
 
 use super::cholesky;
-use crate::solvers::ApproximateInverse;
 use crate::solvers::krylov::{parts, product};
 use crate::solvers::parts::Part;
+use crate::solvers::{ApproximateInverse, Memoryless};
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
 use fem_model::simulation::Breakdown;
@@ -76,6 +76,8 @@ impl<T: Real> SingleCholesky<T> {
         f64::from(of_residual / of_test).sqrt()
     }
 }
+
+impl<T: Real> Memoryless for SingleCholesky<T> {}
 
 impl<T: Real> ApproximateInverse<T> for SingleCholesky<T> {
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {

@@ -1,7 +1,7 @@
 //! The block Jacobi preconditioner: the inverse of each diagonal block.
 
-use crate::solvers::ApproximateInverse;
 use crate::solvers::block::invert;
+use crate::solvers::{ApproximateInverse, Memory};
 use fem_elements::Real;
 use fem_elements::history::{put, take};
 use fem_elements::sparse::{Block, Pattern};
@@ -21,20 +21,7 @@ impl<T: Real> BlockJacobi<T> {
     }
 }
 
-impl<T: Real> ApproximateInverse<T> for BlockJacobi<T> {
-    fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
-        for (inverse, &block) in self.inverses.iter_mut().zip(&self.diagonal) {
-            *inverse = invert(&values[block as usize])?;
-        }
-        Ok(())
-    }
-
-    fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
-        for ((z, r), inverse) in z.iter_mut().zip(r).zip(&self.inverses) {
-            *z = inverse.map(|row| row[0] * r[0] + row[1] * r[1] + row[2] * r[2]);
-        }
-    }
-
+impl<T: Real> Memory<T> for BlockJacobi<T> {
     fn save(&self, is_kept: bool, history: &mut History) {
         if !is_kept {
             return;
@@ -52,6 +39,21 @@ impl<T: Real> ApproximateInverse<T> for BlockJacobi<T> {
     /// The inverses may be those of an earlier matrix; they are restored.
     fn prepare_again(&mut self, _values: &[Block<T, 3>]) -> Result<(), Breakdown> {
         Ok(())
+    }
+}
+
+impl<T: Real> ApproximateInverse<T> for BlockJacobi<T> {
+    fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        for (inverse, &block) in self.inverses.iter_mut().zip(&self.diagonal) {
+            *inverse = invert(&values[block as usize])?;
+        }
+        Ok(())
+    }
+
+    fn apply(&mut self, r: &[[T; 3]], z: &mut [[T; 3]]) {
+        for ((z, r), inverse) in z.iter_mut().zip(r).zip(&self.inverses) {
+            *z = inverse.map(|row| row[0] * r[0] + row[1] * r[1] + row[2] * r[2]);
+        }
     }
 
     fn bytes(&self) -> usize {

@@ -1,12 +1,14 @@
 //! No preconditioner: P = 1.
 
-use crate::solvers::ApproximateInverse;
+use crate::solvers::{ApproximateInverse, Memoryless};
 use fem_elements::Real;
 use fem_elements::sparse::Block;
 use fem_model::simulation::Breakdown;
 
 /// P = 1.
 pub(crate) struct Identity;
+
+impl Memoryless for Identity {}
 
 impl<T: Real> ApproximateInverse<T> for Identity {
     fn prepare(&mut self, _values: &[Block<T, 3>]) -> Result<(), Breakdown> {

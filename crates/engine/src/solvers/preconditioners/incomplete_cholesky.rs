@@ -3,8 +3,8 @@
 //! enlarged: Manteuffel, An Incomplete Factorization Technique for Positive Definite Linear Systems (1980).
 
 use super::lower_half::LowerHalf;
-use crate::solvers::ApproximateInverse;
 use crate::solvers::block::{factor, invert_lower};
+use crate::solvers::{ApproximateInverse, Memory};
 use fem_elements::Real;
 use fem_elements::history::{put, take};
 use fem_elements::sparse::{Block, Pattern};
@@ -78,6 +78,29 @@ impl<T: Real> IncompleteCholesky<T> {
     }
 }
 
+impl<T: Real> Memory<T> for IncompleteCholesky<T> {
+    fn save(&self, is_kept: bool, history: &mut History) {
+        if !is_kept {
+            return;
+        }
+        put(history, "incomplete_cholesky.L", self.L.as_flattened().as_flattened());
+        put(history, "incomplete_cholesky.inverses", self.inverses.as_flattened().as_flattened());
+    }
+
+    fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String> {
+        if !is_kept {
+            return Ok(());
+        }
+        take(history, "incomplete_cholesky.L", self.L.as_flattened_mut().as_flattened_mut())?;
+        take(history, "incomplete_cholesky.inverses", self.inverses.as_flattened_mut().as_flattened_mut())
+    }
+
+    /// The factor may be that of an earlier matrix; it is restored.
+    fn prepare_again(&mut self, _values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        Ok(())
+    }
+}
+
 impl<T: Real> ApproximateInverse<T> for IncompleteCholesky<T> {
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
         let mut outcome = Ok(());
@@ -111,27 +134,6 @@ impl<T: Real> ApproximateInverse<T> for IncompleteCholesky<T> {
                 (0..3).for_each(|i| rest[i] -= product[i]);
             }
         }
-    }
-
-    fn save(&self, is_kept: bool, history: &mut History) {
-        if !is_kept {
-            return;
-        }
-        put(history, "incomplete_cholesky.L", self.L.as_flattened().as_flattened());
-        put(history, "incomplete_cholesky.inverses", self.inverses.as_flattened().as_flattened());
-    }
-
-    fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String> {
-        if !is_kept {
-            return Ok(());
-        }
-        take(history, "incomplete_cholesky.L", self.L.as_flattened_mut().as_flattened_mut())?;
-        take(history, "incomplete_cholesky.inverses", self.inverses.as_flattened_mut().as_flattened_mut())
-    }
-
-    /// The factor may be that of an earlier matrix; it is restored.
-    fn prepare_again(&mut self, _values: &[Block<T, 3>]) -> Result<(), Breakdown> {
-        Ok(())
     }
 
     fn bytes(&self) -> usize {

@@ -11,7 +11,7 @@ use dense::{Products, factor_columns};
 use substitute::Substitute;
 use symbolic::{RowRange, Supernode, SymbolicFactor};
 
-use crate::solvers::ApproximateInverse;
+use crate::solvers::{ApproximateInverse, Memoryless};
 use fem_elements::Real;
 use fem_elements::number::vectorized;
 use fem_elements::sparse::{Block, Pattern};
@@ -44,6 +44,8 @@ impl<T: Real> SupernodalCholesky<T> {
         }
     }
 }
+
+impl<T: Real> Memoryless for SupernodalCholesky<T> {}
 
 impl<T: Real> ApproximateInverse<T> for SupernodalCholesky<T> {
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {

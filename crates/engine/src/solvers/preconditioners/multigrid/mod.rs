@@ -15,8 +15,8 @@ use level::Level;
 use motions::DISPLACEMENTS;
 
 use super::single_precision_scale;
-use crate::solvers::ApproximateInverse;
 use crate::solvers::direct::SupernodalCholesky;
+use crate::solvers::{ApproximateInverse, Memory};
 use fem_elements::Real;
 use fem_elements::history::{put, put_option, take, take_option};
 use fem_elements::sparse::{Block, Pattern, Stored};
@@ -118,6 +118,37 @@ impl Multigrid {
     }
 }
 
+impl<T: Real> Memory<T> for Multigrid {
+    fn save(&self, is_kept: bool, history: &mut History) {
+        self.fine.save(is_kept, "multigrid.power.0", history);
+        for (number, level) in self.coarser.iter().enumerate() {
+            level.save(is_kept, &format!("multigrid.power.{}", number + 1), history);
+        }
+        if is_kept {
+            put(history, "multigrid.values", self.fine.exact.values.as_flattened().as_flattened());
+            put_option(history, "multigrid.scale", Some(self.scale));
+        }
+    }
+
+    fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String> {
+        self.fine.restore("multigrid.power.0", history)?;
+        for (number, level) in self.coarser.iter_mut().enumerate() {
+            level.restore(&format!("multigrid.power.{}", number + 1), history)?;
+        }
+        if !is_kept {
+            return Ok(());
+        }
+        take(history, "multigrid.values", self.fine.exact.values.as_flattened_mut().as_flattened_mut())?;
+        self.scale = take_option(history, "multigrid.scale")?.unwrap_or(1.0);
+        self.prepare_levels().map_err(|breakdown| format!("its multigrid levels cannot be prepared again: {breakdown}"))
+    }
+
+    /// The levels may be those of an earlier matrix; they are restored.
+    fn prepare_again(&mut self, _values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        Ok(())
+    }
+}
+
 impl<T: Real> ApproximateInverse<T> for Multigrid {
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
         self.scale = single_precision_scale(values, &self.diagonal)?;
@@ -147,35 +178,6 @@ impl<T: Real> ApproximateInverse<T> for Multigrid {
         for (z, x) in z.iter_mut().zip(&self.fine.x) {
             *z = x.map(|x| T::of(f64::from(x) * scale));
         }
-    }
-
-    fn save(&self, is_kept: bool, history: &mut History) {
-        self.fine.save(is_kept, "multigrid.power.0", history);
-        for (number, level) in self.coarser.iter().enumerate() {
-            level.save(is_kept, &format!("multigrid.power.{}", number + 1), history);
-        }
-        if is_kept {
-            put(history, "multigrid.values", self.fine.exact.values.as_flattened().as_flattened());
-            put_option(history, "multigrid.scale", Some(self.scale));
-        }
-    }
-
-    fn restore(&mut self, is_kept: bool, history: &History) -> Result<(), String> {
-        self.fine.restore("multigrid.power.0", history)?;
-        for (number, level) in self.coarser.iter_mut().enumerate() {
-            level.restore(&format!("multigrid.power.{}", number + 1), history)?;
-        }
-        if !is_kept {
-            return Ok(());
-        }
-        take(history, "multigrid.values", self.fine.exact.values.as_flattened_mut().as_flattened_mut())?;
-        self.scale = take_option(history, "multigrid.scale")?.unwrap_or(1.0);
-        self.prepare_levels().map_err(|breakdown| format!("its multigrid levels cannot be prepared again: {breakdown}"))
-    }
-
-    /// The levels may be those of an earlier matrix; they are restored.
-    fn prepare_again(&mut self, _values: &[Block<T, 3>]) -> Result<(), Breakdown> {
-        Ok(())
     }
 
     fn bytes(&self) -> usize {

@@ -16,8 +16,8 @@ mod sweeps;
 
 use super::coarse::{Coarse, Row};
 use super::single_precision_scale;
-use crate::solvers::ApproximateInverse;
 use crate::solvers::parts::Part;
+use crate::solvers::{ApproximateInverse, Memory};
 use advance::Advance;
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
@@ -161,6 +161,22 @@ impl Ssor {
     }
 }
 
+impl<T: Real> Memory<T> for Ssor {
+    fn save(&self, _is_kept: bool, history: &mut History) {
+        self.coarse.save(history);
+    }
+
+    fn restore(&mut self, _is_kept: bool, history: &History) -> Result<(), String> {
+        self.coarse.restore(history)
+    }
+
+    /// The coarse matrix may be that of an earlier matrix; it is restored.
+    fn prepare_again(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
+        self.matrix.scale = single_precision_scale(values, &self.matrix.pattern.diagonal)?;
+        self.matrix.prepare(values, &self.coarse.free, &self.parts)
+    }
+}
+
 impl<T: Real> ApproximateInverse<T> for Ssor {
     fn prepare(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
         let scale = single_precision_scale(values, &self.matrix.pattern.diagonal)?;
@@ -196,20 +212,6 @@ impl<T: Real> ApproximateInverse<T> for Ssor {
         }
         z.fill([T::default(); 3]);
         self.add_solution(z, size * self.matrix.scale);
-    }
-
-    fn save(&self, _is_kept: bool, history: &mut History) {
-        self.coarse.save(history);
-    }
-
-    fn restore(&mut self, _is_kept: bool, history: &History) -> Result<(), String> {
-        self.coarse.restore(history)
-    }
-
-    /// The coarse matrix may be that of an earlier matrix; it is restored.
-    fn prepare_again(&mut self, values: &[Block<T, 3>]) -> Result<(), Breakdown> {
-        self.matrix.scale = single_precision_scale(values, &self.matrix.pattern.diagonal)?;
-        self.matrix.prepare(values, &self.coarse.free, &self.parts)
     }
 
     fn bytes(&self) -> usize {

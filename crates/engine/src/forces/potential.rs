@@ -1,0 +1,255 @@
+//! The trait behind which every force stands, and the traits that it can opt into.
+
+use fem_model::LoadCurve;
+
+use super::{Energy, springs};
+use fem_elements::Real;
+use fem_elements::sparse::{Block, Pattern, Stored};
+
+/// Takes a block of a matrix of all nodes, given its row and its column. Blocks of the same place add up.
+pub type AddBlock<'a, T> = dyn FnMut(usize, usize, Block<T, 3>) + 'a;
+
+/// A force on the body: minus the gradient of an energy that depends on the displacements and the time.
+///
+/// A new one gives its value, gradient and Hessian. A method has a default only if that follows from these three, if it costs accuracy or
+/// time at most, or if it says that the potential has no such facet: [`Barrier`], [`Lagged`], [`Damped`], [`Follower`].
+///
+/// Nodes have the engine's numbers ([`Numbering`](crate::model::numbering::Numbering)). `u` are the displacements of all nodes, m.
+pub trait Potential<T: Real>: Send + Sync {
+    /// Key in the statistics.
+    fn name(&self) -> &'static str;
+
+    /// One line for `--explain`: the table of the scene, and the resulting quantity.
+    fn description(&self) -> String;
+
+    /// Memory of its data, bytes.
+    fn bytes(&self) -> usize;
+
+    /// Energy, J: infinite where `u` is infeasible.
+    fn energy(&self, u: &[[T; 3]], moment: Moment) -> Energy;
+
+    /// Adds the gradient of [`energy`](Self::energy), N: minus the force on each node.
+    fn add_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]);
+
+    /// Passes the blocks of the Hessian of [`energy`](Self::energy) to `add`, N/m, made positive semi-definite where `kind` asks for that; a
+    /// pair of nodes in both orders. A pair that shares no element has a place in a matrix if its block is passed, be it zero, at u = 0.
+    fn hessian(&self, u: &[[T; 3]], moment: Moment, kind: HessianKind, add: &mut AddBlock<T>);
+
+    /// Adds `factor` times the Hessian to a matrix, N/m.
+    fn add_hessian(
+        &self,
+        factor: T,
+        u: &[[T; 3]],
+        moment: Moment,
+        kind: HessianKind,
+        pattern: &Pattern,
+        values: &mut [Block<T, 3>],
+    ) {
+        self.hessian(u, moment, kind, &mut |row, column, block| match pattern.find(row, column) {
+            Some(place) => {
+                for (value, entry) in values[place].as_flattened_mut().iter_mut().zip(block.as_flattened()) {
+                    *value += factor * *entry;
+                }
+            }
+            None => assert!(
+                is_left_out(pattern, row, column),
+                "the force `{}` couples nodes {row} and {column} without a place in the matrix: it must pass their block at u = 0 as well",
+                self.name()
+            ),
+        });
+    }
+
+    /// Adds `factor` times the exact Hessian times `d`, N.
+    fn add_hessian_times(&self, factor: T, u: &[[T; 3]], moment: Moment, d: &[[T; 3]], product: &mut [[T; 3]]) {
+        self.hessian(u, moment, HessianKind::Exact, &mut |row, column, block| {
+            let d = d[column];
+            for (sum, of) in product[row].iter_mut().zip(&block) {
+                *sum += factor * (of[0] * d[0] + of[1] * d[1] + of[2] * d[2]);
+            }
+        });
+    }
+
+    /// Finds where its Hessian and its damping matrix add to matrices with a pattern, before any of them is assembled, to save time later.
+    fn set_pattern(&mut self, _pattern: &Pattern) {}
+
+    /// The nodes whose blocks its Hessian and its damping matrix may add to; `None` if these may be any.
+    fn nodes_of_hessian(&self) -> Option<Vec<u32>> {
+        None
+    }
+
+    /// Called once before each step of `dt` seconds, with the displacements at its start, for a potential that keeps quantities fixed
+    /// within a step.
+    fn begin_step(&mut self, _u: &[[T; 3]], _start: Moment, _dt: f64) {}
+
+    /// Returns true if the energy depends on the displacements alone: its work is then their difference. Otherwise the energy ledger sums
+    /// the work over the steps, with the error of the time integration.
+    fn is_steady(&self) -> bool {
+        false
+    }
+
+    /// The forces on all nodes in dynamics, N, if they are constant.
+    fn constant(&self) -> Option<&[[T; 3]]> {
+        None
+    }
+
+    /// Sum of the forces on all nodes where that does not depend on `u`, N; `None` where it does, or where it is not known.
+    fn resultant(&self, _moment: Moment) -> Option<[f64; 3]> {
+        None
+    }
+
+    /// The scene's field and the quantity that are out of range of the number type; `None` if all are in range.
+    fn out_of_range(&self) -> Option<(&'static str, &'static str)> {
+        None
+    }
+
+    /// The springs of which it consists, for methods that treat them one by one. A force of springs is an internal one of the body: its
+    /// Hessian is part of the stiffness K in Rayleigh's damping.
+    fn springs(&self) -> &[springs::Spring<T>] {
+        &[]
+    }
+
+    /// Itself, if it is infinite beyond a limit.
+    fn barrier(&self) -> Option<&dyn Barrier<T>> {
+        None
+    }
+
+    /// Itself, if it keeps a quantity fixed within a step that depends on the displacements at its end.
+    fn lagged(&self) -> Option<&dyn Lagged<T>> {
+        None
+    }
+
+    /// The same as [`lagged`](Self::lagged), to be changed.
+    fn lagged_mut(&mut self) -> Option<&mut dyn Lagged<T>> {
+        None
+    }
+
+    /// Itself, if it also damps motions.
+    fn damped(&self) -> Option<&dyn Damped<T>> {
+        None
+    }
+
+    /// Itself, if it also has a force that is the gradient of no energy.
+    fn follower(&self) -> Option<&dyn Follower<T>> {
+        None
+    }
+}
+
+/// A potential that repels the body from infeasible displacements, where its energy is infinite. It is evaluated at the end of a step,
+/// whatever the stage of the other forces, so that the body ends outside. Li et al., Incremental Potential Contact (2020), section 4.
+pub trait Barrier<T: Real> {
+    /// The distance over which the force changes, where it is much shorter than the body, m.
+    fn scale(&self) -> f64;
+
+    /// The largest multiple of `direction` up to which `u` plus it is certain to stay feasible.
+    fn largest_step(&self, u: &[[T; 3]], moment: Moment, direction: &[[T; 3]]) -> f64;
+
+    /// Changes the increment of a step from `start`, an initial guess, where it would be infeasible, m. Returns whether it has.
+    fn make_feasible(&self, start: &[[T; 3]], end: Moment, increment: &mut [[T; 3]]) -> bool;
+}
+
+/// A potential of a single step, such as friction, whose lagged quantity stays fixed while Newton's method runs. The step is repeated
+/// until that no longer changes. The energy of the body does not contain it. Li et al., Incremental Potential Contact (2020), section 5.
+pub trait Lagged<T: Real> {
+    /// Evaluates the lagged quantity again, at the displacements of the end of the step, and applies this part of its change (1 for all of
+    /// it). Returns the whole relative change.
+    fn update(&mut self, u: &[[T; 3]], relaxation: f64) -> f64;
+}
+
+/// A force −D(u) v that damps motions, with a damping matrix D that is positive semi-definite. Implicit methods take D at the displacements
+/// at which damping takes the stiffness, fixed within a step, so that ½ ẋᵀ D ẋ is a dissipation potential.
+pub trait Damped<T: Real> {
+    /// Adds `factor` D(u) v, N.
+    fn add_damping_times(&self, factor: T, u: &[[T; 3]], v: &[[T; 3]], product: &mut [[T; 3]]);
+
+    /// Adds `factor` D(u) to a matrix with the pattern that was [set](Potential::set_pattern), N s/m.
+    fn add_damping_matrix(&self, factor: T, u: &[[T; 3]], values: &mut [Block<T, 3>]);
+}
+
+/// A follower load: a force that turns with the body and need not have an energy. Implicit methods keep it fixed while Newton's method
+/// runs, and evaluate it again until it no longer changes.
+pub trait Follower<T: Real> {
+    /// Adds minus the force on each node, N.
+    fn add_follower_gradient(&self, u: &[[T; 3]], moment: Moment, gradient: &mut [[T; 3]]);
+
+    /// Energy for reports, J: zero for a load without a potential.
+    fn reported_energy(&self, u: &[[T; 3]], moment: Moment) -> f64;
+}
+
+/// What follows from the facets of a force.
+impl<T: Real> dyn Potential<T> + '_ {
+    /// Returns true for a force of springs between the nodes of the body.
+    pub fn is_internal(&self) -> bool {
+        !self.springs().is_empty()
+    }
+
+    /// Returns true for the forces of obstacles, which are evaluated at the end of a step: barriers, and friction on them.
+    pub fn is_obstacle(&self) -> bool {
+        self.barrier().is_some() || self.lagged().is_some()
+    }
+
+    /// Returns true if the energy of the body does not contain that of the force, which belongs to a single step.
+    pub fn is_dissipative(&self) -> bool {
+        self.lagged().is_some()
+    }
+
+    /// Returns true if the whole force is minus the gradient of its energy.
+    pub fn is_conservative(&self) -> bool {
+        self.follower().is_none()
+    }
+
+    /// Returns true if the energy may be quadratic. Whether it is shows where forces are evaluated.
+    pub fn may_be_quadratic(&self) -> bool {
+        !self.is_internal() && !self.is_obstacle() && self.is_conservative()
+    }
+
+    /// Adds minus the whole force on each node, N.
+    pub fn subtract_force(&self, u: &[[T; 3]], moment: Moment, sum: &mut [[T; 3]]) {
+        self.add_gradient(u, moment, sum);
+        if let Some(follower) = self.follower() {
+            follower.add_follower_gradient(u, moment, sum);
+        }
+    }
+}
+
+/// Returns true for a block that no matrix with the pattern stores: one of a fully constrained node, or of an upper half.
+fn is_left_out(pattern: &Pattern, row: usize, column: usize) -> bool {
+    row.max(column) >= pattern.rows() || pattern.stored == Stored::Lower && column > row
+}
+
+/// The moment at which external forces and prescribed motions are evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    /// s
+    pub time: f64,
+    /// Load factor of a load step, 0 to 1: it scales loads and prescribed motions without a curve. `None` in dynamics, where these have
+    /// their full size.
+    pub load_factor: Option<f64>,
+}
+
+impl Moment {
+    /// A moment of a motion, s.
+    pub fn at(time: f64) -> Self {
+        Self { time, load_factor: None }
+    }
+
+    /// Factor of an external load or of a prescribed motion: that of its curve at the time, and without a curve the load factor.
+    pub fn factor(self, curve: Option<&LoadCurve>) -> f64 {
+        curve.map_or(self.load_factor.unwrap_or(1.0), |curve| curve.factor(self.time))
+    }
+
+    /// The moment after this part of the way to another one.
+    pub fn towards(self, end: Self, part: f64) -> Self {
+        let between = |from: f64, to: f64| if part == 1.0 { to } else { from + part * (to - from) };
+        let factors = self.load_factor.zip(end.load_factor);
+        Self { time: between(self.time, end.time), load_factor: factors.map(|(from, to)| between(from, to)) }
+    }
+}
+
+/// Kind of a Hessian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HessianKind {
+    /// The second derivative as it is.
+    Exact,
+    /// The part of each element and of each force is projected to a positive semi-definite matrix.
+    Projected,
+}
