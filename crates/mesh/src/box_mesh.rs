@@ -1,11 +1,11 @@
-//! A box of cubes, six tetrahedra to a cube.
+//! A box of cubes, six tetrahedra to a cube, and a rectangle of squares, two triangles to a square.
 
 use std::path::Path;
 
 use nalgebra::Vector3;
 
 use super::pattern::{corners, turns};
-use super::{MeshError, Pattern, Problem, TetrahedralMesh};
+use super::{MeshError, Pattern, Problem, SurfaceMesh, TetrahedralMesh};
 
 /// Largest number of elements of a box or a refined mesh. The mesh alone then takes about 5 GB.
 pub(super) const MOST_ELEMENTS: usize = 50_000_000;
@@ -33,33 +33,53 @@ const PERMUTATIONS: [([usize; 3], bool); 6] = [
 ///
 /// Returns an error for sizes that are not whole numbers of cells, and for more than 50 million elements.
 pub fn box_mesh(size: [f64; 3], cells_per_unit: usize, pattern: Pattern) -> Result<TetrahedralMesh, MeshError> {
-    let cells = count_cells(size, cells_per_unit).map_err(|problem| MeshError::in_file(Path::new("box"), problem))?;
+    let cells = count_cells(size, cells_per_unit, ["box", "elements"], 6.0)?;
     Ok(TetrahedralMesh::new(nodes(cells, cells_per_unit), tetrahedra(cells, pattern)))
 }
 
-/// Numbers of cells along the axes, which have to be whole.
-pub(super) fn whole_cells<const D: usize>(size: [f64; D], cells_per_unit: usize) -> Result<[f64; D], Problem> {
-    let exact = size.map(|length| length * cells_per_unit as f64);
-    for axis in 0..D {
-        let whole = exact[axis].round();
-        // NaN and ∞ fail both
-        let fits = whole >= 1.0 && (exact[axis] - whole).abs() <= WHOLE * whole;
-        if !fits {
-            return Err(Problem::BoxCells { axis: ['x', 'y', 'z'][axis], size: size[axis], cells_per_unit });
-        }
-    }
-    Ok(exact.map(f64::round))
+/// The rectangle in the plane z = 0 from the origin to `size` (m), in squares of edge 1/`cells_per_unit` that are cut by `pattern`.
+///
+/// Node (i, j) has the index `i + (nx+1) j` and the position (i/n, j/n). Squares run with j outermost; the diagonal of each runs
+/// from its corner nearest the origin, or from another one where the pattern mirrors the square.
+///
+/// Returns an error for sizes that are not whole numbers of cells, and for more than 50 million triangles.
+pub fn rectangle_mesh(size: [f64; 2], cells_per_unit: usize, pattern: Pattern) -> Result<SurfaceMesh, MeshError> {
+    let [nx, ny] = count_cells(size, cells_per_unit, ["rectangle", "triangles"], 2.0)?;
+    let coordinate = |i: usize| i as f64 / cells_per_unit as f64;
+    let nodes = (0..=ny).flat_map(|j| (0..=nx).map(move |i| Vector3::new(coordinate(i), coordinate(j), 0.0)));
+    let square = |i: usize, j: usize| {
+        let mirrored = pattern.mirrored([i, j]);
+        let [a, b, c, d] = corners([i, j], mirrored, [1, nx + 1]);
+        if turns(mirrored) { [[a, d, b], [a, c, d]] } else { [[a, b, d], [a, d, c]] }
+    };
+    let triangles = (0..ny).flat_map(|j| (0..nx).flat_map(move |i| square(i, j)));
+    Ok(SurfaceMesh::new(nodes.collect(), triangles.collect()))
 }
 
-fn count_cells(size: [f64; 3], cells_per_unit: usize) -> Result<[usize; 3], Problem> {
-    let [x, y, z] = whole_cells(size, cells_per_unit)?;
-    // As floating-point numbers, whose product cannot overflow.
-    let elements = 6.0 * x * y * z;
-    if elements > MOST_ELEMENTS as f64 {
-        let cells = format!("{x} × {y} × {z}");
-        return Err(Problem::BoxTooFine { cells, elements, most: MOST_ELEMENTS });
+/// Numbers of cells along the axes, which have to be whole, each of so many elements. The words are the names of the whole and of its elements.
+fn count_cells<const D: usize>(
+    size: [f64; D],
+    cells_per_unit: usize,
+    [whole, elements]: [&'static str; 2],
+    of_cell: f64,
+) -> Result<[usize; D], MeshError> {
+    let refused = |problem| Err(MeshError::in_file(Path::new(whole), problem));
+    let exact = size.map(|length| length * cells_per_unit as f64);
+    let cells = exact.map(f64::round);
+    for axis in 0..D {
+        // NaN and ∞ fail both
+        let fits = cells[axis] >= 1.0 && (exact[axis] - cells[axis]).abs() <= WHOLE * cells[axis];
+        if !fits {
+            return refused(Problem::BoxCells { axis: ['x', 'y', 'z'][axis], size: size[axis], cells_per_unit });
+        }
     }
-    Ok([x as usize, y as usize, z as usize])
+    // As floating-point numbers, whose product cannot overflow.
+    let count = cells.iter().fold(of_cell, |count, cells| count * cells);
+    if count > MOST_ELEMENTS as f64 {
+        let cells = cells.map(|cells| cells.to_string()).join(" × ");
+        return refused(Problem::GridTooFine { whole, cells, count, elements, most: MOST_ELEMENTS });
+    }
+    Ok(cells.map(|cells| cells as usize))
 }
 
 fn nodes([nx, ny, nz]: [usize; 3], n: usize) -> Vec<Vector3<f64>> {
@@ -94,4 +114,34 @@ fn tetrahedron(corners: &[usize; 8], axes: [usize; 3], even: bool) -> [usize; 4]
     let [a, b, d] = [0, 1 << axes[0], 7].map(|corner| corners[corner]);
     let c = corners[1 << axes[0] | 1 << axes[1]];
     if even { [a, b, c, d] } else { [a, b, d, c] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{area_vector, check_plane};
+
+    #[test]
+    fn a_rectangle_has_two_triangles_to_a_cell_and_its_area() {
+        let mesh = rectangle_mesh([2.0, 0.75], 4, Pattern::Alternating).unwrap();
+        assert_eq!((mesh.vertices.len(), mesh.elements.len()), (36, 48));
+        check_plane(&mesh, "rectangle".as_ref()).unwrap();
+        let area: f64 = mesh.elements.iter().map(|e| area_vector(e.map(|i| mesh.vertices[i])).z).sum();
+        assert!((area - 1.5).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_diagonals_of_four_squares_meet_in_their_common_node_and_those_of_kuhn_s_pattern_are_parallel() {
+        let elements = |pattern| rectangle_mesh([2.0, 2.0], 1, pattern).unwrap().elements;
+        let kuhn = [[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4], [3, 4, 7], [3, 7, 6], [4, 5, 8], [4, 8, 7]];
+        assert_eq!(elements(Pattern::Kuhn), kuhn);
+        assert!(elements(Pattern::Alternating).iter().all(|triangle| triangle.contains(&4)));
+    }
+
+    #[test]
+    fn sizes_that_are_no_whole_cells_and_too_many_cells_are_refused_with_their_counts() {
+        let error = |size, cells| rectangle_mesh(size, cells, Pattern::Alternating).unwrap_err().to_string();
+        assert!(error([1.0, 0.3], 4).contains("along y"));
+        assert!(error([1e6, 1e6], 1000).contains("2e18 triangles"));
+    }
 }

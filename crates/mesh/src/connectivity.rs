@@ -1,17 +1,20 @@
 //! Connectivity of a mesh: its edges and connected parts, and nodes that coincide without being merged.
 
-use nalgebra::Vector3;
+use std::collections::{BTreeMap, HashMap};
+
+use nalgebra::{SVector, Vector3};
 
 use super::Mesh;
+
+/// The edges of a tetrahedron, by its corners.
+pub(crate) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 
 /// The first node of each node's connected part. Nodes are connected if an element has both.
 pub fn parts<const N: usize>(mesh: &Mesh<3, N>) -> Vec<usize> {
     let mut parent: Vec<usize> = (0..mesh.vertices.len()).collect();
     for element in &mesh.elements {
         for &node in &element[1..] {
-            let (a, b) = (root(&mut parent, element[0]), root(&mut parent, node));
-            // The first node of a part is its root.
-            parent[a.max(b)] = a.min(b);
+            connect(&mut parent, element[0], node);
         }
     }
     (0..parent.len()).map(|node| root(&mut parent, node)).collect()
@@ -29,8 +32,9 @@ pub(crate) fn edges<const N: usize>(elements: &[[usize; N]]) -> Vec<[usize; 2]> 
     edges
 }
 
-pub(crate) fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
-    [a.min(b), a.max(b)]
+pub(crate) fn sorted<T: Ord, const N: usize>(mut nodes: [T; N]) -> [T; N] {
+    nodes.sort_unstable();
+    nodes
 }
 
 /// The four triangles that the corners a, b, c of a triangle and the middles of its sides a b, b c, c a form.
@@ -38,12 +42,49 @@ pub(crate) fn quarters([a, b, c, ab, bc, ca]: [usize; 6]) -> [[usize; 3]; 4] {
     [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
 }
 
-fn root(parent: &mut [usize], mut node: usize) -> usize {
-    while parent[node] != node {
-        parent[node] = parent[parent[node]];
-        node = parent[node];
+/// The sides of triangles, sorted by their edge, whose smaller node stands first: 3 · triangle + the corner at which the side begins.
+pub(crate) fn sides_by_edge(triangles: &[[usize; 3]]) -> Vec<([usize; 2], usize)> {
+    let of_triangle =
+        |(i, &[a, b, c]): (usize, &[usize; 3])| [([a, b], 3 * i), ([b, c], 3 * i + 1), ([c, a], 3 * i + 2)];
+    let sides = triangles.iter().enumerate().flat_map(of_triangle);
+    let mut sides: Vec<_> = sides.map(|(edge, side)| (sorted(edge), side)).collect();
+    sides.sort_unstable();
+    sides
+}
+
+/// Root of an entry in a forest of sets, the first of its set: Tarjan, Efficiency of a Good But Not Linear Set Union Algorithm (1975).
+pub(crate) fn root(parent: &mut [usize], mut at: usize) -> usize {
+    while parent[at] != at {
+        parent[at] = parent[parent[at]];
+        at = parent[at];
     }
-    node
+    at
+}
+
+/// Joins the sets of two entries.
+pub(crate) fn connect(parent: &mut [usize], a: usize, b: usize) {
+    let (a, b) = (root(parent, a), root(parent, b));
+    parent[a.max(b)] = a.min(b);
+}
+
+/// The groups of so many things that pairs connect, by their first members.
+pub(crate) fn groups(count: usize, pairs: impl Iterator<Item = [usize; 2]>) -> Vec<Vec<usize>> {
+    let mut parent: Vec<usize> = (0..count).collect();
+    pairs.for_each(|[a, b]| connect(&mut parent, a, b));
+    let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    (0..count).for_each(|at| groups.entry(root(&mut parent, at)).or_default().push(at));
+    groups.into_values().collect()
+}
+
+/// Index of the first point at the place of each point.
+pub(crate) fn first_at_each_place<const D: usize>(points: &[SVector<f64, D>]) -> Vec<usize> {
+    let mut first = HashMap::with_capacity(points.len());
+    points.iter().enumerate().map(|(point, x)| *first.entry(bits(x)).or_insert(point)).collect()
+}
+
+/// A place to look up. Adding zero turns −0 into 0.
+pub(crate) fn bits<const D: usize>(x: &SVector<f64, D>) -> [u64; D] {
+    x.map(|x| (x + 0.0).to_bits()).into()
 }
 
 /// Nodes nearer to each other than this part of the mesh's size coincide.

@@ -130,10 +130,6 @@ pub enum Problem {
         "triangle {element} (counted from 0) has no area ({area:e} m² within rounding); move its vertices apart, or leave such triangles out by `mesh convert --clean`"
     )]
     NoArea { element: usize, area: f64 },
-    #[error(
-        "the rectangle would have {elements:e} triangles ({cells} cells), and {most} is the most; lower cells_per_unit or its size"
-    )]
-    RectangleTooFine { cells: String, elements: f64, most: usize },
     #[error("element {element} (counted from 0) is too large to compute its volume; scale the mesh to metres")]
     Huge { element: usize },
     #[error(
@@ -151,9 +147,9 @@ pub enum Problem {
     )]
     BoxCells { axis: char, size: f64, cells_per_unit: usize },
     #[error(
-        "the box would have {elements:e} elements ({cells} cells), and {most} is the most; lower cells_per_unit or its size"
+        "the {whole} would have {count:e} {elements} ({cells} cells), and {most} is the most; lower cells_per_unit or its size"
     )]
-    BoxTooFine { cells: String, elements: f64, most: usize },
+    GridTooFine { whole: &'static str, cells: String, count: f64, elements: &'static str, most: usize },
     #[error("refined {times} times the mesh would have {elements:e} elements, and {most} is the most; refine it less")]
     RefinedTooFine { times: u32, elements: f64, most: usize },
     #[error(

@@ -42,7 +42,6 @@ mod pattern;
 mod quadratic;
 mod quality;
 mod read;
-mod rectangle;
 mod refine;
 mod sets;
 mod sides;
@@ -50,7 +49,7 @@ mod tidy;
 pub mod write;
 
 pub use boundary::boundary;
-pub use box_mesh::box_mesh;
+pub use box_mesh::{box_mesh, rectangle_mesh};
 pub use check::{check, check_plane};
 pub use connectivity::{CoincidentNodes, coincident_nodes, parts};
 pub use error::{MeshError, Place, Problem};
@@ -69,10 +68,9 @@ pub use quality::{
 pub use read::{
     AnyMesh, MeshFile, Points, is_surface, read_file, read_mesh, read_points, read_surface, read_tetrahedra,
 };
-pub use rectangle::rectangle_mesh;
 pub use refine::{refine, refine_triangles};
 pub use sets::MeshSet;
-pub use sides::{Side, faces_on_side, nodes_on_side};
+pub use sides::{Side, nodes_on_side};
 pub use tidy::{turn_inverted, without_faulty_elements};
 pub use write::{write_mesh, write_surface, write_tetrahedra};
 

@@ -1,7 +1,6 @@
 //! Triangles turned alike.
 
-use std::collections::HashMap;
-
+use crate::connectivity::sides_by_edge;
 use crate::{SurfaceMesh, area_vector};
 
 /// Triangles that are turned alike wherever two of them share an edge, as most of them by area were in each part that is connected by
@@ -53,31 +52,17 @@ pub fn oriented(surface: &SurfaceMesh) -> SurfaceMesh {
 /// A triangle at the other side of an edge, and whether it is turned the other way.
 type Neighbour = Option<(usize, bool)>;
 
-/// The triangles at an edge.
-#[derive(Default)]
-struct Sides {
-    /// The first two, as 3 · triangle + side, and whether they run from the smaller to the larger vertex.
-    first_two: [(usize, bool); 2],
-    count: usize,
-}
-
 /// The triangles that share an edge of two triangles with each.
 fn neighbours(surface: &SurfaceMesh) -> Vec<[Neighbour; 3]> {
-    let mut edges: HashMap<[usize; 2], Sides> = HashMap::with_capacity(3 * surface.elements.len() / 2);
-    for (triangle, &[a, b, c]) in surface.elements.iter().enumerate() {
-        for (side, (from, to)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
-            let sides = edges.entry([from.min(to), from.max(to)]).or_default();
-            if sides.count < 2 {
-                sides.first_two[sides.count] = (3 * triangle + side, from < to);
-            }
-            sides.count += 1;
-        }
-    }
+    let is_forward =
+        |side: usize| surface.elements[side / 3][side % 3] < surface.elements[side / 3][(side % 3 + 1) % 3];
     let mut found = vec![[None; 3]; surface.elements.len()];
-    for sides in edges.into_values().filter(|sides| sides.count == 2) {
-        let [(a, forward), (b, other)] = sides.first_two;
-        found[a / 3][a % 3] = Some((b / 3, forward == other));
-        found[b / 3][b % 3] = Some((a / 3, forward == other));
+    for sides in sides_by_edge(&surface.elements).chunk_by(|a, b| a.0 == b.0) {
+        if let &[(_, a), (_, b)] = sides {
+            let is_against = is_forward(a) == is_forward(b);
+            found[a / 3][a % 3] = Some((b / 3, is_against));
+            found[b / 3][b % 3] = Some((a / 3, is_against));
+        }
     }
     found
 }

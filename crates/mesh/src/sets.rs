@@ -2,11 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::connectivity::quarters;
+use super::connectivity::{quarters, sorted};
 use super::{Mesh, Problem};
-
-/// The edges of a tetrahedron, by its corners.
-pub(crate) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 
 /// A named part of a mesh. Every list is ascending and without repeats. In a triangle mesh the elements are triangles, and `faces` is
 /// empty.
@@ -154,7 +151,18 @@ pub(crate) fn parts_of_elements<const N: usize>(mesh: &Mesh<3, N>) -> Found {
     (faces, edges)
 }
 
-pub(crate) fn sorted<const N: usize>(mut nodes: [usize; N]) -> [usize; N] {
-    nodes.sort_unstable();
-    nodes
+/// The combination of sets that each element belongs to, and the sets of each combination, by their place in the mesh.
+pub(crate) fn combinations<const D: usize, const N: usize>(mesh: &Mesh<D, N>) -> (Vec<u32>, Vec<Vec<usize>>) {
+    let mut sets_of_elements = vec![Vec::new(); mesh.elements.len()];
+    for (number, set) in mesh.sets.values().enumerate() {
+        set.elements.iter().for_each(|&element| sets_of_elements[element].push(number));
+    }
+    let (mut numbers, mut combinations) = (HashMap::new(), Vec::new());
+    let of_elements = sets_of_elements.into_iter().map(|sets| {
+        *numbers.entry(sets).or_insert_with_key(|sets| {
+            combinations.push(sets.clone());
+            combinations.len() as u32 - 1
+        })
+    });
+    (of_elements.collect(), combinations)
 }

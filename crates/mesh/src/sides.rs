@@ -1,4 +1,4 @@
-//! The sides of a mesh's bounding box: the nodes and boundary triangles near them.
+//! The sides of a mesh's bounding box: the nodes near them.
 
 use nalgebra::Vector3;
 use serde::Deserialize;
@@ -11,19 +11,6 @@ pub enum Side {
     Min,
     /// The side of the largest coordinate.
     Max,
-}
-
-/// Triangles with all corners within a distance (m) of one side of a mesh, along `axis` 0, 1 or 2, in the order of `faces`.
-pub fn faces_on_side(
-    vertices: &[Vector3<f64>],
-    faces: &[[usize; 3]],
-    axis: usize,
-    side: Side,
-    within: f64,
-) -> Vec<[usize; 3]> {
-    let mut is_on_side = vec![false; vertices.len()];
-    nodes_on_side(vertices, axis, side, within).into_iter().for_each(|node| is_on_side[node] = true);
-    faces.iter().filter(|face| face.iter().all(|&node| is_on_side[node])).copied().collect()
 }
 
 /// Vertices within a distance (m) of one side of a mesh, along `axis` 0, 1 or 2, ascending. The distance is inclusive.

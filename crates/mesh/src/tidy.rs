@@ -1,7 +1,8 @@
 //! Repairs of meshes: what belongs to no element is left out, elements are turned, elements without a size or that repeat others go.
 
 use super::check::{is_inverted, problem_of_size};
-use super::sets::{parts_of_elements, sorted};
+use super::connectivity::sorted;
+use super::sets::parts_of_elements;
 use super::{Mesh, MeshSet, Problem, SurfaceMesh, area_vector};
 
 /// Leaves out the nodes of no element, with those that sets name. Returns their number.

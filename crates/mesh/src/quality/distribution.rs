@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::quantile;
+
 /// Values of one measure over the elements of a mesh.
 ///
 /// ```
@@ -51,8 +53,7 @@ impl Distribution {
     /// The smallest value that this share of the values does not exceed: 0 gives the smallest, 0.5 the median and 1 the largest value.
     /// NaN if there are no values.
     pub fn quantile(&self, share: f64) -> f64 {
-        let rank = (share * self.values.len() as f64).ceil() as usize;
-        self.values.get(rank.saturating_sub(1)).copied().unwrap_or(f64::NAN)
+        quantile(&self.values, share)
     }
 
     /// Name and unit.

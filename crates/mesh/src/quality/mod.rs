@@ -13,8 +13,8 @@ pub use intersections::{SelfIntersections, self_intersections};
 pub(crate) use intersections::{Triangle, meet, segment_meets};
 pub(crate) use surface::branching_places;
 pub use surface::{SurfaceQuality, surface_quality};
+pub(crate) use tetrahedra::extreme_dihedral_angles;
 pub use tetrahedra::{Quality, quality, tetrahedron_radius_to_edge};
-pub(crate) use tetrahedra::{extreme_dihedral_angles, smallest_dihedral_angle};
 pub use triangles::{TriangleQuality, triangle_quality, triangle_radius_to_edge};
 
 /// An extreme value and its element, counted from 0.
@@ -40,4 +40,10 @@ fn extreme<S>(shapes: &[S], value: impl Fn(&S) -> f64) -> Extreme {
         }
     }
     worst
+}
+
+/// The smallest value that a share of sorted values does not exceed; NaN without values.
+fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let rank = (share * sorted.len() as f64).ceil() as usize;
+    sorted.get(rank.saturating_sub(1)).copied().unwrap_or(f64::NAN)
 }

@@ -1,10 +1,11 @@
 //! Measures and faults of a surface: whether it is closed, a manifold, and turned outwards.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
 use std::fmt;
 
 use super::triangles::{TriangleShape, measure};
 use crate::SurfaceMesh;
+use crate::connectivity::{connect, parts, root, sides_by_edge};
 
 /// Measures of a surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,27 +58,30 @@ pub fn surface_quality(mesh: &SurfaceMesh) -> SurfaceQuality {
     let shapes: Vec<TriangleShape> =
         mesh.elements.iter().map(|element| measure(element.map(|i| mesh.vertices[i]))).collect();
     let solid = || shapes.iter().filter(|shape| !shape.is_flat);
-    let edges = edges(mesh);
-    let count = |is_wanted: fn(&Edge) -> bool| edges.values().filter(|edge| is_wanted(edge)).count();
-    let lengths = edges.keys().map(|&[a, b]| (mesh.vertices[a] - mesh.vertices[b]).norm());
+    let sides = sides_by_edge(&mesh.elements);
+    let edges = || sides.chunk_by(|a, b| a.0 == b.0);
+    let is_forward = |side: usize| mesh.elements[side / 3][side % 3] < mesh.elements[side / 3][(side % 3 + 1) % 3];
+    let is_flipped = |edge: &&[Side]| matches!(**edge, [(_, a), (_, b)] if is_forward(a) == is_forward(b));
+    let lengths = edges().map(|edge| edge[0].0).map(|[a, b]| (mesh.vertices[a] - mesh.vertices[b]).norm());
+    let part = parts(mesh);
     // Relative to a vertex, volumes keep their digits far from the origin.
     let origin = mesh.vertices.first().copied().unwrap_or_default();
     let volume = |element: &[usize; 3]| {
         let [a, b, c] = element.map(|i| mesh.vertices[i] - origin);
         a.dot(&b.cross(&c)) / 6.0
     };
-    let used = mesh.elements.iter().flatten().collect::<std::collections::HashSet<_>>().len();
+    let used = mesh.elements.iter().flatten().collect::<HashSet<_>>().len();
     SurfaceQuality {
         vertices: mesh.vertices.len(),
         triangles: mesh.elements.len(),
-        parts: parts(mesh),
-        euler_characteristic: used as i64 - edges.len() as i64 + mesh.elements.len() as i64,
+        parts: mesh.elements.iter().map(|element| part[element[0]]).collect::<HashSet<_>>().len(),
+        euler_characteristic: used as i64 - edges().count() as i64 + mesh.elements.len() as i64,
         area: shapes.iter().map(|shape| shape.area).sum(),
         volume: mesh.elements.iter().map(volume).sum(),
-        open_edges: count(|edge| edge.triangles == 1),
-        branching_edges: count(|edge| edge.triangles > 2),
-        flipped_edges: count(|edge| edge.triangles == 2 && edge.direction != 0),
-        branching_vertices: branching_vertices(mesh, &edges).len(),
+        open_edges: edges().filter(|edge| edge.len() == 1).count(),
+        branching_edges: edges().filter(|edge| edge.len() > 2).count(),
+        flipped_edges: edges().filter(is_flipped).count(),
+        branching_vertices: branching_vertices(mesh, &sides).len(),
         flat_triangles: shapes.iter().filter(|shape| shape.is_flat).count(),
         angles: [
             solid().map(|shape| shape.angles[0]).fold(f64::INFINITY, f64::min),
@@ -90,61 +94,26 @@ pub fn surface_quality(mesh: &SurfaceMesh) -> SurfaceQuality {
 
 /// Vertices at which a surface is no manifold: ends of edges of more than two triangles, and vertices of more than one fan.
 pub(crate) fn branching_places(mesh: &SurfaceMesh) -> Vec<usize> {
-    let edges = edges(mesh);
-    let mut vertices = branching_vertices(mesh, &edges);
-    vertices.extend(edges.iter().filter(|(_, edge)| edge.triangles > 2).flat_map(|(ends, _)| ends));
+    let sides = sides_by_edge(&mesh.elements);
+    let mut vertices = branching_vertices(mesh, &sides);
+    vertices.extend(sides.chunk_by(|a, b| a.0 == b.0).filter(|edge| edge.len() > 2).flat_map(|edge| edge[0].0));
     vertices.sort_unstable();
     vertices.dedup();
     vertices
 }
 
-/// The triangles at an edge.
-struct Edge {
-    triangles: usize,
-    /// Number of triangles that run from the smaller to the larger vertex, less the number of those that run back.
-    direction: i32,
-    /// The first of them.
-    first: usize,
-}
-
-fn edges(mesh: &SurfaceMesh) -> HashMap<[usize; 2], Edge> {
-    let mut edges: HashMap<[usize; 2], Edge> = HashMap::with_capacity(3 * mesh.elements.len() / 2);
-    for (first, &[a, b, c]) in mesh.elements.iter().enumerate() {
-        for (from, to) in [(a, b), (b, c), (c, a)] {
-            let new = Edge { triangles: 0, direction: 0, first };
-            let edge = edges.entry([from.min(to), from.max(to)]).or_insert(new);
-            edge.triangles += 1;
-            edge.direction += if from < to { 1 } else { -1 };
-        }
-    }
-    edges
-}
-
-/// Number of parts that share no vertex.
-fn parts(mesh: &SurfaceMesh) -> usize {
-    let mut parent: Vec<usize> = (0..mesh.vertices.len()).collect();
-    for &[a, b, c] in &mesh.elements {
-        join(&mut parent, a, b);
-        join(&mut parent, b, c);
-    }
-    let mut roots: Vec<usize> = mesh.elements.iter().map(|element| root(&mut parent, element[0])).collect();
-    roots.sort_unstable();
-    roots.dedup();
-    roots.len()
-}
+/// A side of a triangle by its edge, as [`sides_by_edge`] lists it.
+type Side = ([usize; 2], usize);
 
 /// Vertices with more than one fan. Corners of triangles at one vertex belong together if the triangles share an edge there.
-fn branching_vertices(mesh: &SurfaceMesh, edges: &HashMap<[usize; 2], Edge>) -> Vec<usize> {
+fn branching_vertices(mesh: &SurfaceMesh, sides: &[Side]) -> Vec<usize> {
     let corner = |triangle: usize, vertex: usize| {
         3 * triangle + mesh.elements[triangle].iter().position(|&i| i == vertex).unwrap_or(0)
     };
     let mut parent: Vec<usize> = (0..3 * mesh.elements.len()).collect();
-    for (triangle, &[a, b, c]) in mesh.elements.iter().enumerate() {
-        for (from, to) in [(a, b), (b, c), (c, a)] {
-            let first = edges[&[from.min(to), from.max(to)]].first;
-            for end in [from, to] {
-                join(&mut parent, corner(triangle, end), corner(first, end));
-            }
+    for pair in sides.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+        for end in pair[0].0 {
+            connect(&mut parent, corner(pair[0].1 / 3, end), corner(pair[1].1 / 3, end));
         }
     }
     let mut fans = vec![0_usize; mesh.vertices.len()];
@@ -154,20 +123,6 @@ fn branching_vertices(mesh: &SurfaceMesh, edges: &HashMap<[usize; 2], Edge>) -> 
         }
     }
     (0..fans.len()).filter(|&vertex| fans[vertex] > 1).collect()
-}
-
-/// Root of an entry in a forest of sets: Tarjan, Efficiency of a Good But Not Linear Set Union Algorithm (1975).
-fn root(parent: &mut [usize], mut at: usize) -> usize {
-    while parent[at] != at {
-        parent[at] = parent[parent[at]];
-        at = parent[at];
-    }
-    at
-}
-
-fn join(parent: &mut [usize], a: usize, b: usize) {
-    let (a, b) = (root(parent, a), root(parent, b));
-    parent[a] = b;
 }
 
 impl fmt::Display for SurfaceQuality {

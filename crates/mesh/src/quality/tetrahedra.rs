@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 
 use super::{Extreme, extreme};
 use crate::boundary::FACES;
+use crate::connectivity::EDGES;
 use crate::{TetrahedralMesh, area_vector, boundary, signed_volume};
 
 /// Sizes and shapes of a mesh's elements.
@@ -71,11 +72,6 @@ pub fn tetrahedron_radius_to_edge(corners: [Vector3<f64>; 4]) -> f64 {
     shape(corners).radius_to_edge.abs()
 }
 
-/// Smallest dihedral angle of a tetrahedron, degrees.
-pub(crate) fn smallest_dihedral_angle(corners: [Vector3<f64>; 4]) -> f64 {
-    least(&dihedral_angles(FACES.map(|face| area_vector(face.map(|i| corners[i])))))
-}
-
 /// Smallest and largest dihedral angle of a tetrahedron, degrees.
 pub(crate) fn extreme_dihedral_angles(corners: [Vector3<f64>; 4]) -> [f64; 2] {
     let angles = dihedral_angles(FACES.map(|face| area_vector(face.map(|i| corners[i]))));
@@ -87,7 +83,7 @@ pub(super) fn shape(corners: [Vector3<f64>; 4]) -> Shape {
     let volume = signed_volume(corners);
     let normals = FACES.map(|face| area_vector(face.map(|i| corners[i])));
     let areas = normals.map(|normal| normal.norm());
-    let edges = PAIRS.map(|[i, j]| (corners[i] - corners[j]).norm());
+    let edges = EDGES.map(|[i, j]| (corners[i] - corners[j]).norm());
     let inscribed = 3.0 * volume / areas.iter().sum::<f64>();
     let circumscribed = circumradius(corners, volume);
     Shape {
@@ -100,12 +96,9 @@ pub(super) fn shape(corners: [Vector3<f64>; 4]) -> Shape {
     }
 }
 
-/// Pairs of corners, and of the faces opposite to them.
-const PAIRS: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
-
 /// The six dihedral angles, degrees, by the arc tangent: the arc cosine loses half of the digits near 0° and 180°.
 fn dihedral_angles(normals: [Vector3<f64>; 4]) -> [f64; 6] {
-    PAIRS.map(|[i, j]| {
+    EDGES.map(|[i, j]| {
         let between = normals[i].cross(&normals[j]).norm().atan2(normals[i].dot(&normals[j]));
         (PI - between).to_degrees()
     })

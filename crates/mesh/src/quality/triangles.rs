@@ -1,11 +1,11 @@
 //! Sizes and shapes of triangles, in the plane or in space.
 
-use std::collections::HashSet;
 use std::fmt;
 
 use nalgebra::Vector3;
 
-use super::{Extreme, extreme};
+use super::{Extreme, extreme, quantile};
+use crate::connectivity::edges;
 use crate::{Mesh, area_vector};
 
 /// Sizes and shapes of a mesh's triangles.
@@ -51,7 +51,8 @@ pub fn triangle_quality<const D: usize>(mesh: &Mesh<D, 3>) -> TriangleQuality {
     let largest = |value: fn(&TriangleShape) -> f64| extreme(&shapes, |shape| -value(shape)).negated();
     let mut ratios: Vec<f64> = shapes.iter().map(|shape| shape.radius_to_edge).collect();
     ratios.sort_unstable_by(f64::total_cmp);
-    let lengths = edge_lengths(mesh);
+    let length = |&[a, b]: &[usize; 2]| (mesh.vertices[a] - mesh.vertices[b]).norm();
+    let lengths: Vec<f64> = edges(&mesh.elements).iter().map(length).collect();
     TriangleQuality {
         vertices: mesh.vertices.len(),
         triangles: mesh.elements.len(),
@@ -69,18 +70,6 @@ pub fn triangle_quality<const D: usize>(mesh: &Mesh<D, 3>) -> TriangleQuality {
 /// Circumradius over shortest edge of a triangle; infinite or NaN without area.
 pub fn triangle_radius_to_edge(corners: [Vector3<f64>; 3]) -> f64 {
     measure(corners).radius_to_edge
-}
-
-fn edge_lengths<const D: usize>(mesh: &Mesh<D, 3>) -> Vec<f64> {
-    let sides = mesh.elements.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-    let edges: HashSet<[usize; 2]> = sides.map(|[a, b]| [a.min(b), a.max(b)]).collect();
-    edges.into_iter().map(|[a, b]| (mesh.vertices[a] - mesh.vertices[b]).norm()).collect()
-}
-
-/// The smallest value that a share of sorted values does not exceed; NaN without values.
-fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let rank = (share * sorted.len() as f64).ceil() as usize;
-    sorted.get(rank.saturating_sub(1)).copied().unwrap_or(f64::NAN)
 }
 
 /// One triangle's area (m²), smallest and largest angle (degrees), and circumradius over shortest edge.

@@ -1,9 +1,8 @@
 //! VTK's cell types, in old and new files. Source: VTK file formats, «Cell types».
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
-use super::content::{Content, MOST_TAGS, Parts};
+use super::content::{Content, Entry, MOST_TAGS, Parts};
 use crate::Problem;
 
 const POINT: i64 = 1;
@@ -57,15 +56,6 @@ pub(super) struct Cells<'a> {
     pub kinds: &'a [i64],
 }
 
-/// Part of the mesh that a cell becomes.
-enum Part {
-    Nothing,
-    Tetrahedron(usize),
-    Triangles(Range<usize>),
-    Edge([usize; 2]),
-    Point(usize),
-}
-
 /// Adds cells to those found, whose corners are points of the last `points` vertices; polygons become fans of triangles. Fields of
 /// integers make sets.
 pub(super) fn add_all(content: &mut Content, cells: &Cells, points: usize, fields: Vec<Field>) -> Result<(), Problem> {
@@ -82,16 +72,9 @@ pub(super) fn add_all(content: &mut Content, cells: &Cells, points: usize, field
             Problem::Malformed { reason }
         })?;
         start += corners.len();
-        let part = add(content, cell, kind, corners, points)?;
+        let entry = add(content, cell, kind, corners, points)?;
         for (field, parts) in fields.iter().zip(&mut parts).filter(|(_, parts)| parts.len() <= MOST_TAGS) {
-            let parts = parts.entry(field.values[cell]).or_default();
-            match &part {
-                Part::Nothing => {}
-                Part::Tetrahedron(index) => parts.tetrahedra.push(*index),
-                Part::Triangles(range) => parts.triangles.extend(range.clone()),
-                Part::Edge(edge) => parts.edges.push(*edge),
-                Part::Point(point) => parts.points.push(*point),
-            }
+            parts.entry(field.values[cell]).or_default().push(entry);
         }
     }
     if start != connectivity.len() {
@@ -142,7 +125,7 @@ fn name(content: &mut Content, fields: Vec<Field>, parts: Vec<BTreeMap<i64, Part
     }
 }
 
-fn add(content: &mut Content, cell: usize, kind: i64, corners: &[i64], points: usize) -> Result<Part, Problem> {
+fn add(content: &mut Content, cell: usize, kind: i64, corners: &[i64], points: usize) -> Result<Entry, Problem> {
     let first = content.vertices.len() - points;
     let index = |corner: i64| {
         let index = usize::try_from(corner).ok().filter(|&index| index < points);
@@ -150,37 +133,30 @@ fn add(content: &mut Content, cell: usize, kind: i64, corners: &[i64], points: u
         index.map(|index| first + index).ok_or(problem)
     };
     Ok(match (kind, corners) {
-        (TETRAHEDRON, &[a, b, c, d]) => {
-            content.tetrahedra.push([index(a)?, index(b)?, index(c)?, index(d)?]);
-            Part::Tetrahedron(content.tetrahedra.len() - 1)
-        }
+        (TETRAHEDRON, &[a, b, c, d]) => content.tetrahedron([index(a)?, index(b)?, index(c)?, index(d)?]),
         (TRIANGLE, [_, _, _]) | (QUADRANGLE, [_, _, _, _]) | (POLYGON, [_, _, _, ..]) => {
-            let start = content.triangles.len();
-            for pair in corners[1..].windows(2) {
-                content.triangles.push([index(corners[0])?, index(pair[0])?, index(pair[1])?]);
-            }
-            Part::Triangles(start..content.triangles.len())
+            content.polygon(&corners.iter().map(|&corner| index(corner)).collect::<Result<Vec<_>, _>>()?)
         }
         (STRIP, [_, _, _, ..]) => {
-            let start = content.triangles.len();
+            let first = content.triangles.len() as u32;
             for (i, corners) in corners.windows(3).enumerate() {
                 // Every second triangle of a strip is turned.
                 let [a, b] = if i % 2 == 0 { [0, 1] } else { [1, 0] };
                 content.triangles.push([index(corners[a])?, index(corners[b])?, index(corners[2])?]);
             }
-            Part::Triangles(start..content.triangles.len())
+            Entry::Triangles(first, content.triangles.len() as u32 - first)
         }
         (POLYGON | STRIP, _) => {
             content.short_faces += 1;
-            Part::Nothing
+            Entry::Nothing
         }
-        (POINT, &[a]) => Part::Point(index(a)?),
-        (LINE, &[a, b]) => Part::Edge([index(a)?, index(b)?]),
-        _ if CURVES.contains(&kind) => Part::Nothing,
+        (POINT, &[a]) => Entry::Point(index(a)? as u32),
+        (LINE, &[a, b]) => Entry::edge([index(a)?, index(b)?]),
+        _ if CURVES.contains(&kind) => Entry::Nothing,
         _ => match SURFACES.iter().find(|(number, _)| *number == kind) {
             Some((_, name)) => {
                 content.skipped = Some(format!("a surface of {name} (VTK's cell type {kind})"));
-                Part::Nothing
+                Entry::Nothing
             }
             None => return Err(unsupported(cell, kind, corners.len())),
         },

@@ -69,7 +69,34 @@ pub(super) struct Parts {
     pub points: Vec<usize>,
 }
 
+/// What an element of a file becomes. A mesh with more than 2³² nodes or elements fits into no memory.
+#[derive(Clone, Copy)]
+pub(super) enum Entry {
+    Nothing,
+    Tetrahedron(u32),
+    /// The first triangle, and their number.
+    Triangles(u32, u32),
+    Edge([u32; 2]),
+    Point(u32),
+}
+
+impl Entry {
+    pub(super) fn edge(nodes: [usize; 2]) -> Self {
+        Self::Edge(nodes.map(|node| node as u32))
+    }
+}
+
 impl Parts {
+    pub(super) fn push(&mut self, entry: Entry) {
+        match entry {
+            Entry::Nothing => {}
+            Entry::Tetrahedron(index) => self.tetrahedra.push(index as usize),
+            Entry::Triangles(first, count) => self.triangles.extend((first..first + count).map(|index| index as usize)),
+            Entry::Edge(nodes) => self.edges.push(nodes.map(|node| node as usize)),
+            Entry::Point(node) => self.points.push(node as usize),
+        }
+    }
+
     pub(super) fn extend(&mut self, other: Self) {
         self.tetrahedra.extend(other.tetrahedra);
         self.triangles.extend(other.triangles);
@@ -105,6 +132,23 @@ pub(super) struct Content {
 }
 
 impl Content {
+    pub(super) fn tetrahedron(&mut self, corners: [usize; 4]) -> Entry {
+        self.tetrahedra.push(corners);
+        Entry::Tetrahedron(self.tetrahedra.len() as u32 - 1)
+    }
+
+    /// Adds a polygon as triangles around its first corner.
+    pub(super) fn polygon(&mut self, corners: &[usize]) -> Entry {
+        let first = self.triangles.len() as u32;
+        self.triangles.extend(corners[1..].windows(2).map(|pair| [corners[0], pair[0], pair[1]]));
+        Entry::Triangles(first, self.triangles.len() as u32 - first)
+    }
+
+    /// Adds an entry to the part of a tag.
+    pub(super) fn tag(&mut self, tag: i64, entry: Entry) {
+        self.tagged(tag).into_iter().for_each(|parts| parts.push(entry));
+    }
+
     /// The part of a tag; `None` for the tag 0, which stands for no part.
     pub(super) fn tagged(&mut self, tag: i64) -> Option<&mut Parts> {
         if self.tags.len() >= MOST_TAGS && !self.tags.contains_key(&tag) {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::content::Content;
+use super::content::{Content, Entry};
 use super::words::{Words, from_zero};
 use crate::{MeshError, Problem};
 
@@ -50,47 +50,32 @@ pub(super) fn read(file: &Path, text: &str) -> Result<Content, MeshError> {
         }
     }
     // Indices are checked at the end: a file may have its elements before its vertices.
-    let count = content.vertices.len();
     content.tetrahedra.reserve_exact(tetrahedra.len());
     content.triangles.reserve_exact(triangles.len());
-    for row in tetrahedra {
-        let (corners, reference) = element(file, row, count)?;
-        let index = content.tetrahedra.len();
-        content.tetrahedra.push(corners);
-        content.tagged(reference).into_iter().for_each(|parts| parts.tetrahedra.push(index));
-    }
-    for row in triangles {
-        let (corners, reference) = element(file, row, count)?;
-        add_triangle(&mut content, corners, reference);
-    }
-    for row in quadrangles {
-        let ([a, b, c, d], reference) = element(file, row, count)?;
-        add_triangle(&mut content, [a, b, c], reference);
-        add_triangle(&mut content, [a, c, d], reference);
-    }
-    for row in edges {
-        let (corners, reference) = element(file, row, count)?;
-        content.tagged(reference).into_iter().for_each(|parts| parts.edges.push(corners));
-    }
+    elements(&mut content, file, tetrahedra, Content::tetrahedron)?;
+    elements(&mut content, file, triangles, |content, corners| content.polygon(&corners))?;
+    elements(&mut content, file, quadrangles, |content, corners| content.polygon(&corners))?;
+    elements(&mut content, file, edges, |_, corners| Entry::edge(corners))?;
     Ok(content)
 }
 
-fn add_triangle(content: &mut Content, corners: [usize; 3], reference: i64) {
-    let index = content.triangles.len();
-    content.triangles.push(corners);
-    content.tagged(reference).into_iter().for_each(|parts| parts.triangles.push(index));
-}
-
-fn element<const N: usize>(
+fn elements<const N: usize>(
+    content: &mut Content,
     file: &Path,
-    (corners, reference, line): Row<N>,
-    vertices: usize,
-) -> Result<([usize; N], i64), MeshError> {
-    let mut element = [0; N];
-    for (vertex, index) in element.iter_mut().zip(corners) {
-        *vertex = from_zero(index, 1, vertices).map_err(|problem| MeshError::in_line(file, line as usize, problem))?;
+    rows: Vec<Row<N>>,
+    add: impl Fn(&mut Content, [usize; N]) -> Entry,
+) -> Result<(), MeshError> {
+    let vertices = content.vertices.len();
+    for (corners, reference, line) in rows {
+        let mut element = [0; N];
+        for (vertex, index) in element.iter_mut().zip(corners) {
+            let in_line = |problem| MeshError::in_line(file, line as usize, problem);
+            *vertex = from_zero(index, 1, vertices).map_err(in_line)?;
+        }
+        let entry = add(content, element);
+        content.tag(reference.into(), entry);
     }
-    Ok((element, reference.into()))
+    Ok(())
 }
 
 /// The versions differ only in the width of numbers in binary files.

@@ -28,6 +28,7 @@ pub(super) use self::cells::SET;
 use self::content::Content;
 pub use self::content::{AnyMesh, MeshFile};
 pub use self::points::{Points, read_points};
+pub(super) use self::tetgen::pair;
 use super::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
 /// Largest ratio of the sizes of a file unpacked and packed. Meshes have less than 10; gzip can reach 1032.

@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 use super::content::Content;
 use super::readable;
 use super::words::Words;
+use crate::connectivity::bits;
 use crate::{MeshError, Problem};
 
 /// Bytes before the triangles of a binary file: a title and their number.
@@ -129,8 +130,7 @@ fn binary(file: &Path, bytes: &[u8], content: &mut Content) -> Result<Vec<[Vecto
 fn merged(triangles: Vec<[Vector3<f64>; 3]>) -> (Vec<Vector3<f64>>, Vec<[usize; 3]>) {
     let (mut vertices, mut numbers) = (Vec::new(), HashMap::new());
     let mut number = |place: Vector3<f64>| {
-        // Adding zero turns −0 into 0.
-        *numbers.entry(<[f64; 3]>::from(place).map(|x| (x + 0.0).to_bits())).or_insert_with(|| {
+        *numbers.entry(bits(&place)).or_insert_with(|| {
             vertices.push(place);
             vertices.len() - 1
         })

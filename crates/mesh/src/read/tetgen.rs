@@ -1,12 +1,12 @@
 //! Pairs of text files of TetGen (tetrahedra) and of Triangle (triangles in the plane). Sources: H. Si, TetGen manual 1.6, section 5.2.1
 //! (.node), 5.2.4 (.ele) and 5.2.5 (.face); J. R. Shewchuk, Triangle's page on .node and .ele files.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use nalgebra::Vector3;
 
-use super::content::Content;
-use super::words::{Words, no_more, rows};
+use super::content::{Content, Entry};
+use super::words::{Words, rows};
 use super::{extension, text, with_extension};
 use crate::{MeshError, Problem};
 
@@ -24,10 +24,7 @@ pub(super) struct Nodes {
 /// Reads `path`, its partner of the same stem, and the `.face` file beside them if there is one. All numbers count from that of the first
 /// node, 0 or 1. Regions, which are the first attribute of the elements, and boundary markers become sets.
 pub(super) fn read(path: &Path) -> Result<Content, MeshError> {
-    let (node_file, ele_file) = match extension(path).as_str() {
-        "node" => (path.to_owned(), with_extension(path, "ele")),
-        _ => (with_extension(path, "node"), path.to_owned()),
-    };
+    let [node_file, ele_file] = pair(path);
     let partner = if node_file == path { &ele_file } else { &node_file };
     if !partner.exists() {
         return Err(MeshError::in_file(path, Problem::PartnerMissing { partner: partner.clone() }));
@@ -35,19 +32,11 @@ pub(super) fn read(path: &Path) -> Result<Content, MeshError> {
     let mut content = Content::default();
     let nodes = nodes(&node_file, &text(&node_file)?, &mut content)?;
     if nodes.dimension == 2 {
-        let instead = "run triangle without -o2";
-        elements(&ele_file, &nodes, ["triangles", instead], &mut content, |content, corners, tag| {
-            let index = content.triangles.len();
-            content.triangles.push(corners);
-            content.tagged(tag).into_iter().for_each(|parts| parts.triangles.push(index));
-        })?;
+        let words = ["triangles", "run triangle without -o2"];
+        elements(&ele_file, &nodes, words, &mut content, |content, corners: [_; 3]| content.polygon(&corners))?;
     } else {
-        let instead = "run tetgen without -o2";
-        elements(&ele_file, &nodes, ["tetrahedra", instead], &mut content, |content, corners, tag| {
-            let index = content.tetrahedra.len();
-            content.tetrahedra.push(corners);
-            content.tagged(tag).into_iter().for_each(|parts| parts.tetrahedra.push(index));
-        })?;
+        let words = ["tetrahedra", "run tetgen without -o2"];
+        elements(&ele_file, &nodes, words, &mut content, Content::tetrahedron)?;
         let face_file = with_extension(&node_file, "face");
         if face_file.exists() {
             faces(&face_file, &nodes, &mut content)?;
@@ -55,6 +44,14 @@ pub(super) fn read(path: &Path) -> Result<Content, MeshError> {
     }
     (content.vertices, content.node_tags) = (nodes.places, nodes.markers);
     Ok(content)
+}
+
+/// The `.node` and the `.ele` file of a mesh by the name of either.
+pub(crate) fn pair(path: &Path) -> [PathBuf; 2] {
+    match extension(path).as_str() {
+        "node" => [path.to_owned(), with_extension(path, "ele")],
+        _ => [with_extension(path, "node"), path.to_owned()],
+    }
 }
 
 /// The counts of a header, of which those that `default` has may be missing.
@@ -97,7 +94,7 @@ pub(super) fn nodes(file: &Path, text: &str, content: &mut Content) -> Result<No
         content.notes.unread("attributes of nodes");
     }
     let (mut first, mut markers) = (0, Vec::new());
-    let places = rows(file, &mut lines, "nodes", announced, |row, line| {
+    let places = rows(file, lines, "nodes", announced, |row, line| {
         let number = line.integer("the number of a node")?;
         if row == 0 && (number == 0 || number == 1) {
             first = number;
@@ -113,18 +110,17 @@ pub(super) fn nodes(file: &Path, text: &str, content: &mut Content) -> Result<No
         line.end("the last entry of the node")?;
         Ok(place)
     })?;
-    no_more(file, lines, "nodes", announced)?;
     Ok(Nodes { places, first, dimension, markers })
 }
 
 /// `<elements> <nodes of each> <attributes>`, then `<number> <a> <b> <c> … <attributes>` for each. The words are the elements' name
-/// and the remedy if they have more nodes than corners; `add` takes the corners and the region.
+/// and the remedy if they have more nodes than corners; `add` takes the corners.
 fn elements<const N: usize>(
     file: &Path,
     nodes: &Nodes,
     [what, instead]: [&'static str; 2],
     content: &mut Content,
-    add: impl Fn(&mut Content, [usize; N], i64),
+    add: impl Fn(&mut Content, [usize; N]) -> Entry,
 ) -> Result<(), MeshError> {
     let text = text(file)?;
     content.name_tags_from(&text);
@@ -134,7 +130,7 @@ fn elements<const N: usize>(
         let found = format!("a mesh of elements with {corners} nodes, and nodes of dimension {},", N - 1);
         return Err(header.error(Problem::Unsupported { found, instead }));
     }
-    rows(file, &mut lines, what, announced, |row, line| {
+    rows(file, lines, what, announced, |row, line| {
         let number = line.integer("the number of an element")?;
         consecutive(line, number, nodes.first, row)?;
         let (corners, mut region) = (corners_of(line, nodes)?, 0);
@@ -146,10 +142,11 @@ fn elements<const N: usize>(
                 content.notes.unread("attributes of elements that are no integers or not the first");
             }
         }
-        add(content, corners, region);
+        let entry = add(content, corners);
+        content.tag(region, entry);
         line.end("the last entry of the element")
     })?;
-    no_more(file, lines, what, announced)
+    Ok(())
 }
 
 /// `<faces> <markers>`, then `<number> <a> <b> <c> <marker> …` for each; the elements beside a face may follow.
@@ -157,7 +154,7 @@ fn faces(file: &Path, nodes: &Nodes, content: &mut Content) -> Result<(), MeshEr
     let text = text(file)?;
     let mut lines = Words::of_lines(file, &text);
     let (_, [announced, has_markers]) = header(file, &mut lines, "faces", [None, Some(0)])?;
-    rows(file, &mut lines, "faces", announced, |_, line| {
+    rows(file, lines, "faces", announced, |_, line| {
         line.integer("the number of a face")?;
         let corners = corners_of(line, nodes)?;
         if has_markers == 0 {
@@ -174,7 +171,7 @@ fn faces(file: &Path, nodes: &Nodes, content: &mut Content) -> Result<(), MeshEr
         }
         Ok(())
     })?;
-    no_more(file, lines, "faces", announced)
+    Ok(())
 }
 
 fn corners_of<const N: usize>(line: &mut Words, nodes: &Nodes) -> Result<[usize; N], MeshError> {

@@ -145,34 +145,24 @@ pub(super) fn from_zero(index: i64, first: i64, count: usize) -> Result<usize, P
     })
 }
 
-/// Reads exactly the announced number of lines, one entry each; a line that starts with `$` ends a section.
+/// Reads exactly the announced number of lines, one entry each; a line that starts with `$` ends them. No more may follow.
 pub(super) fn rows<'a, R>(
     file: &Path,
-    lines: &mut impl Iterator<Item = Words<'a>>,
+    mut lines: impl Iterator<Item = Words<'a>>,
     what: &'static str,
     announced: usize,
     mut row: impl FnMut(usize, &mut Words<'a>) -> Result<R, MeshError>,
 ) -> Result<Vec<R>, MeshError> {
     let mut entries = Vec::new();
+    let wrong = |found| Err(MeshError::in_file(file, Problem::WrongCount { what, announced, found }));
     while entries.len() < announced {
-        let Some(mut line) = lines.next().filter(|line| !line.rest.trim_start().starts_with('$')) else {
-            let problem = Problem::WrongCount { what, announced, found: entries.len() };
-            return Err(MeshError::in_file(file, problem));
-        };
-        entries.push(row(entries.len(), &mut line)?);
+        match lines.next().filter(|line| !line.rest.trim_start().starts_with('$')) {
+            Some(mut line) => entries.push(row(entries.len(), &mut line)?),
+            None => return wrong(entries.len()),
+        }
     }
-    Ok(entries)
-}
-
-/// Returns an error if lines are left after the announced number of rows.
-pub(super) fn no_more<'a>(
-    file: &Path,
-    lines: impl Iterator<Item = Words<'a>>,
-    what: &'static str,
-    announced: usize,
-) -> Result<(), MeshError> {
     match lines.count() {
-        0 => Ok(()),
-        more => Err(MeshError::in_file(file, Problem::WrongCount { what, announced, found: announced + more })),
+        0 => Ok(entries),
+        more => wrong(announced + more),
     }
 }

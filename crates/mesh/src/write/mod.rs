@@ -46,15 +46,20 @@ pub fn write_mesh(path: &Path, mesh: &AnyMesh) -> Result<(), MeshError> {
 /// `.vtk` (VTK), or `.inp` (Abaqus), each also compressed, with `.gz` after its extension. Reading the file gives the same mesh, bit for
 /// bit, and its named sets but for those that [`lost_sets`] tells.
 pub fn write_tetrahedra(path: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
-    match extension(path).as_str() {
+    write_any(path, mesh).unwrap_or_else(|| Err(no_tetrahedra(path)))
+}
+
+/// Writes a mesh in a format for tetrahedra and triangles; `None` for another extension.
+fn write_any<const N: usize>(path: &Path, mesh: &Mesh<3, N>) -> Option<Result<(), MeshError>> {
+    Some(match extension(path).as_str() {
         "node" | "ele" => tetgen::write(path, mesh),
         "mesh" => save_mesh(path, &mut |out| medit::write(out, mesh)),
         "msh" => save_mesh(path, &mut |out| gmsh::write(out, mesh)),
         "vtu" => vtu::write_with_sets(path, mesh),
         "vtk" => save_mesh(path, &mut |out| vtk::write(out, mesh)),
         "inp" => save_mesh(path, &mut |out| abaqus::write(out, mesh)),
-        _ => Err(no_tetrahedra(path)),
-    }
+        _ => return None,
+    })
 }
 
 /// The error of an extension for which [`write_tetrahedra`] has no format.
@@ -75,13 +80,7 @@ pub fn write_surface(path: &Path, mesh: &SurfaceMesh) -> Result<(), MeshError> {
         "obj" => save_mesh(path, &mut |out| obj::write(out, mesh)),
         "ply" => save_mesh(path, &mut |out| ply::write(out, mesh)),
         "stl" => save_mesh(path, &mut |out| stl::write(out, mesh)),
-        "node" | "ele" => tetgen::write_plane(path, mesh),
-        "mesh" => save_mesh(path, &mut |out| medit::write(out, mesh)),
-        "msh" => save_mesh(path, &mut |out| gmsh::write(out, mesh)),
-        "vtu" => vtu::write_with_sets(path, mesh),
-        "vtk" => save_mesh(path, &mut |out| vtk::write(out, mesh)),
-        "inp" => save_mesh(path, &mut |out| abaqus::write(out, mesh)),
-        _ => Err(unknown_extension(path, SURFACES)),
+        _ => write_any(path, mesh).unwrap_or_else(|| Err(unknown_extension(path, SURFACES))),
     }
 }
 

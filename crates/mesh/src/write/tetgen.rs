@@ -7,29 +7,18 @@ use std::path::Path;
 
 use super::sets::Tags;
 use super::{place, place_in_plane, save_mesh};
-use crate::read::{extension, with_extension};
-use crate::{Mesh, MeshError, Problem, SurfaceMesh, TetrahedralMesh};
+use crate::read::{pair, with_extension};
+use crate::{Mesh, MeshError, Problem};
 
-/// Writes `path` and its partner of the same stem.
-pub(super) fn write(path: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
-    write_pair(path, mesh, 3)
-}
-
-/// Writes a mesh in the plane z = 0 to `path` and its partner of the same stem, with two coordinates. Other surfaces are refused.
-pub(super) fn write_plane(path: &Path, mesh: &SurfaceMesh) -> Result<(), MeshError> {
-    if mesh.vertices.iter().any(|x| x.z != 0.0) {
+/// Writes `path` and its partner of the same stem; triangles with two coordinates, which have to lie in the plane z = 0.
+pub(super) fn write<const N: usize>(path: &Path, mesh: &Mesh<3, N>) -> Result<(), MeshError> {
+    let dimension = N - 1;
+    if dimension == 2 && mesh.vertices.iter().any(|x| x.z != 0.0) {
         let found = "a surface outside of the plane z = 0 in a .node file".to_owned();
         let instead = "write it as .obj, .ply, .stl, .mesh, .msh, .vtu or .vtk";
         return Err(MeshError::in_file(path, Problem::Unsupported { found, instead }));
     }
-    write_pair(path, mesh, 2)
-}
-
-fn write_pair<const N: usize>(path: &Path, mesh: &Mesh<3, N>, dimension: usize) -> Result<(), MeshError> {
-    let (node_file, ele_file) = match extension(path).as_str() {
-        "node" => (path.to_owned(), with_extension(path, "ele")),
-        _ => (with_extension(path, "node"), path.to_owned()),
-    };
+    let [node_file, ele_file] = pair(path);
     let tags = Tags::of(mesh);
     save_mesh(&ele_file, &mut |out| {
         let regions = marks(&tags.elements);

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use fem_mesh::generate::delaunay::tetrahedralize;
-use fem_mesh::generate::odt::{Improved, improve_graded, improve_inside, improve_tetrahedra};
+use fem_mesh::generate::odt::{Improved, improve_inside, improve_tetrahedra};
 use fem_mesh::generate::{Solid, stuff};
 use fem_mesh::{MeshSet, Pattern, TetrahedralMesh, boundary, box_mesh, check, quality, read_surface, volumes};
 use nalgebra::Vector3;
@@ -170,14 +170,4 @@ fn sets_keep_their_volumes_and_the_faces_edges_and_points_that_they_name() {
         let volume = |mesh: &TetrahedralMesh| volumes(&part(mesh)).iter().sum::<f64>();
         assert!((volume(&improved.mesh) / volume(&mesh) - 1.0).abs() < 1e-12, "{name}");
     }
-}
-
-#[test]
-fn a_size_field_draws_vertices_to_where_elements_shall_be_small() {
-    let mesh = shaken_box(8, 0.3, 5);
-    let inside = |mesh: &TetrahedralMesh| mesh.vertices.iter().filter(|x| x.x > 0.01 && x.x < 0.5).count();
-    let improved = improve_graded(&mesh, 15, |x| 0.03 + 0.2 * x.x);
-    is_sound(&mesh, &improved);
-    let (old, new) = (inside(&mesh), inside(&improved.mesh));
-    assert!(new as f64 > 1.1 * old as f64, "{old} {new}");
 }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 use std::f64::consts::PI;
 
-use fem_mesh::generate::{Solid, StuffingError, stuff, stuff_graded, stuff_sized};
+use fem_mesh::generate::{Solid, StuffingError, stuff, stuff_graded};
 use fem_mesh::{SurfaceMesh, TetrahedralMesh, boundary, check, coincident_nodes, quality, surface_quality, volumes};
 use nalgebra::Vector3;
 
@@ -136,21 +136,6 @@ fn a_graded_mesh_has_the_boundary_of_the_uniform_one_and_fewer_elements() {
         assert!(graded.elements.len() * 3 < uniform.elements.len() * 2, "{doublings}: {}", graded.elements.len());
     }
     assert_eq!(stuff_graded(&surface, 0.06, 0).unwrap(), uniform);
-}
-
-#[test]
-fn a_size_field_decides_where_edges_are_long() {
-    let surface = sphere(5, Vector3::zeros());
-    let sized = stuff_sized(&surface, 0.06, |x| if x.x < 0.0 { 0.06 } else { 1.0 }).unwrap();
-    is_sound(&sized);
-    let longest = |is_left: bool| {
-        let inside = sized.elements.iter().map(|element| element.map(|i| sized.vertices[i]));
-        let on_side = inside.filter(|corners| corners.iter().all(|x| (x.x < 0.0) == is_left));
-        on_side.flat_map(|[a, b, c, d]| [(b - a).norm(), (d - c).norm()]).fold(0.0, f64::max)
-    };
-    assert!(longest(true) < 0.1 && longest(false) > 0.2, "{} {}", longest(true), longest(false));
-    // A size below the edge, or none at all, leaves the lattice uniform.
-    assert_eq!(stuff_sized(&surface, 0.06, |_| f64::NAN).unwrap(), stuff(&surface, 0.06).unwrap());
 }
 
 #[test]

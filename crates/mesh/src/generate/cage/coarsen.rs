@@ -4,7 +4,8 @@ use std::collections::{HashMap, HashSet};
 
 use nalgebra::Vector3;
 
-use super::walls::Walls;
+use super::Walls;
+use crate::connectivity::{EDGES, sorted};
 use crate::quality::{Triangle, extreme_dihedral_angles, meet};
 use crate::{Mesh, TetrahedralMesh, boundary, signed_volume};
 
@@ -62,8 +63,8 @@ impl<'a> Coarsened<'a> {
     fn pass(&mut self) -> usize {
         let mut edges = HashSet::new();
         for element in self.elements.iter().flatten() {
-            for (i, j) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
-                let (a, b) = (element[i].min(element[j]), element[i].max(element[j]));
+            for edge in EDGES {
+                let [a, b] = sorted(edge.map(|i| element[i]));
                 if b != BEYOND {
                     edges.insert((a, b));
                 }
@@ -111,17 +112,16 @@ impl<'a> Coarsened<'a> {
 
     /// Returns true if an element may replace the elements `own`.
     fn is_good(&self, element: &[usize; 4], own: &HashSet<usize>) -> bool {
-        if let Some(place) = element.iter().position(|&vertex| vertex == BEYOND) {
-            let face: Vec<usize> = (0..4).filter(|&i| i != place).map(|i| element[i]).collect();
-            return self.is_free([face[0], face[1], face[2]], own);
+        if element.contains(&BEYOND) {
+            return self.is_free(face_of(element), own);
         }
         let corners = element.map(|vertex| self.vertices[vertex]);
-        let longest = (0..4).flat_map(|i| (0..i).map(move |j| (i, j))).map(|(i, j)| (corners[i] - corners[j]).norm());
+        let lengths = EDGES.map(|[i, j]| (corners[i] - corners[j]).norm());
         let [smallest, largest] = extreme_dihedral_angles(corners);
         signed_volume(corners) > 0.0
             && smallest >= ANGLES[0]
             && largest <= ANGLES[1]
-            && longest.fold(0.0, f64::max) <= LONGEST * self.edge
+            && lengths.into_iter().fold(0.0, f64::max) <= LONGEST * self.edge
     }
 
     /// Returns true if a boundary triangle meets neither the walls nor, away from its own corners, the boundary.

@@ -1,7 +1,6 @@
 //! Cages: coarse tetrahedra around a surface, for skinning.
 
 mod coarsen;
-mod walls;
 
 use std::collections::HashSet;
 
@@ -13,10 +12,9 @@ use super::stuffing::octree::Octree;
 use super::stuffing::{StuffingError, lattice_around, stencils};
 use crate::boundary::FACES;
 use crate::boxes::{Bounds, BoxTree};
-use crate::quality::{Triangle, branching_places};
-use crate::{Mesh, SurfaceMesh, TetrahedralMesh, boundary, self_intersections, signed_volume};
+use crate::quality::{Triangle, branching_places, meet, segment_meets};
+use crate::{SurfaceMesh, TetrahedralMesh, boundary, self_intersections, signed_volume};
 use coarsen::coarsen;
-use walls::{Walls, meets};
 
 /// Distance from the surface up to which the lattice is filled, over the wanted edge: room for the collapse of edges.
 const OFFSET: f64 = 0.2;
@@ -53,10 +51,8 @@ const LEVELS: usize = 20;
 /// ```
 pub fn cage(surface: &SurfaceMesh, edge: f64) -> Result<TetrahedralMesh, StuffingError> {
     let fine = enclose(surface, PART * edge, OFFSET * edge)?;
-    let walls = Walls::new(&surface.elements.iter().map(|face| face.map(|i| surface.vertices[i])).collect::<Vec<_>>());
-    let coarse = coarsen(&fine, &walls, edge);
-    let outer = SurfaceMesh::new(coarse.vertices.clone(), boundary(&coarse));
-    let is_good = self_intersections(&outer).count == 0 && not_enclosed(surface, &coarse).is_empty();
+    let coarse = coarsen(&fine, &Walls::new(surface), edge);
+    let is_good = self_intersections(&outer(&coarse)).count == 0 && not_enclosed(surface, &coarse).is_empty();
     Ok(if is_good { coarse } else { fine })
 }
 
@@ -82,9 +78,14 @@ fn enclose(surface: &SurfaceMesh, edge: f64, offset: f64) -> Result<TetrahedralM
     }
 }
 
+/// The boundary of a mesh as a surface.
+fn outer(mesh: &TetrahedralMesh) -> SurfaceMesh {
+    SurfaceMesh::new(mesh.vertices.clone(), boundary(mesh))
+}
+
 /// Small triangles around the vertices in which the boundary of a mesh touches itself.
 fn touching_itself(mesh: &TetrahedralMesh, edge: f64) -> Vec<[Vector3<f64>; 3]> {
-    let outer = SurfaceMesh::new(mesh.vertices.clone(), boundary(mesh));
+    let outer = outer(mesh);
     let around = |x: Vector3<f64>| [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| x + 1e-4 * edge * axis);
     branching_places(&outer).into_iter().map(|vertex| around(outer.vertices[vertex])).collect()
 }
@@ -101,22 +102,21 @@ fn fill(lattice: &mut Lattice, values: &[f64], filled: &[bool]) -> TetrahedralMe
     for (node, sign) in lattice.signs.iter_mut().enumerate() {
         *sign = if filled[node] || values[node] > 0.0 { 1 } else { -1 };
     }
-    let octree = Octree::graded(lattice, LEVELS, |_, _| true);
-    lattice.cut_nodes(|[inside, outside], _| {
+    let octree = Octree::graded(lattice, LEVELS);
+    lattice.cut(|[inside, outside], _| {
         let part = if values[inside] > 0.0 { values[inside] / (values[inside] - values[outside]) } else { 0.0 };
         if filled[inside] { part.max(CUT) } else { part }
     });
     lattice.warp();
-    let (vertices, elements) = stencils::fill(lattice, &octree);
-    Mesh::new(vertices, elements)
+    stencils::fill(lattice, &octree)
 }
 
 /// Triangles of a surface that are not wholly in the inside of a mesh.
 fn not_enclosed(surface: &SurfaceMesh, mesh: &TetrahedralMesh) -> Vec<usize> {
-    let faces = SurfaceMesh::new(mesh.vertices.clone(), boundary(mesh));
+    let faces = outer(mesh);
     let inside = Solid::new(&faces);
     let is_inside: Vec<bool> = surface.vertices.iter().map(|x| inside.contains(x)).collect();
-    let walls = Walls::new(&faces.elements.iter().map(|face| face.map(|i| faces.vertices[i])).collect::<Vec<_>>());
+    let walls = Walls::new(&faces);
     let is_out = |&i: &usize| {
         let element = surface.elements[i];
         element.iter().any(|&vertex| !is_inside[vertex]) || walls.meet(element.map(|i| surface.vertices[i]))
@@ -155,4 +155,38 @@ fn touches(tetrahedron: [Vector3<f64>; 4], triangle: &[Vector3<f64>; 3]) -> bool
     let own = Triangle::new(*triangle);
     let faces = FACES.map(|face| face.map(|i| tetrahedron[i]));
     is_inside || faces.into_iter().filter_map(Triangle::new).any(|face| meets(own.as_ref(), triangle, &face))
+}
+
+/// Triangles that a cage may not cross, in a tree.
+struct Walls {
+    tree: BoxTree,
+    triangles: Vec<Triangle>,
+}
+
+impl Walls {
+    /// Triangles without area are left out.
+    fn new(surface: &SurfaceMesh) -> Self {
+        let corners = surface.elements.iter().map(|face| face.map(|i| surface.vertices[i]));
+        let solid = corners.filter_map(|corners| Some((Bounds::of(&corners), Triangle::new(corners)?)));
+        let (bounds, triangles): (Vec<Bounds>, Vec<Triangle>) = solid.unzip();
+        Self { tree: BoxTree::new(bounds.into_iter().enumerate().collect()), triangles }
+    }
+
+    /// Returns true if a triangle has a common point with one of the walls.
+    fn meet(&self, corners: [Vector3<f64>; 3]) -> bool {
+        let own = Triangle::new(corners);
+        let mut is_met = false;
+        self.tree.touching(&Bounds::of(&corners), |i| {
+            is_met = is_met || meets(own.as_ref(), &corners, &self.triangles[i]);
+        });
+        is_met
+    }
+}
+
+/// Returns true if a triangle, or its edges if it has no area, meets another triangle.
+fn meets(own: Option<&Triangle>, [a, b, c]: &[Vector3<f64>; 3], other: &Triangle) -> bool {
+    match own {
+        Some(own) => meet(own, other),
+        None => [[a, b], [b, c], [c, a]].into_iter().any(|ends| segment_meets(ends, other)),
+    }
 }

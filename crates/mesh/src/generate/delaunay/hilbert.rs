@@ -3,12 +3,14 @@
 
 use nalgebra::Vector3;
 
+use crate::boxes::Bounds;
+
 /// Bits of each coordinate on the curve.
 const BITS: u32 = 20;
 
 /// Indices of the points in the order of insertion. The rounds are a fixed function of the indices, so a mesh is reproducible.
 pub fn insertion_order(points: &[Vector3<f64>]) -> Vec<usize> {
-    let (least, largest) = bounds(points);
+    let Bounds { least, largest } = Bounds::of(points);
     let size = (largest - least).max();
     let scale = if size > 0.0 { f64::from((1_u32 << BITS) - 1) / size } else { 0.0 };
     let mut order: Vec<(u32, u64, usize)> = points
@@ -18,11 +20,6 @@ pub fn insertion_order(points: &[Vector3<f64>]) -> Vec<usize> {
         .collect();
     order.sort_unstable();
     order.into_iter().map(|(_, _, index)| index).collect()
-}
-
-fn bounds(points: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
-    let none = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
-    points.iter().fold(none, |(least, largest), x| (least.inf(x), largest.sup(x)))
 }
 
 /// The round of a point: half of all points are in the last one, a quarter in the one before, and so on.

@@ -4,11 +4,10 @@
 //! Arithmetic and Fast Robust Geometric Predicates (1997). Grids, cospherical, collinear and repeated points need no perturbation.
 
 mod cavity;
-mod constrained;
 mod hilbert;
+mod plane;
 mod refinement;
 mod tetrahedra;
-mod triangles;
 
 use nalgebra::SVector;
 use spade::{MAX_ALLOWED_VALUE, MIN_ALLOWED_VALUE};
@@ -16,11 +15,10 @@ use thiserror::Error;
 
 use crate::Mesh;
 
-pub use constrained::triangulate_region;
-pub(crate) use constrained::triangulate_with;
+pub(crate) use plane::triangulate_with;
+pub use plane::{triangulate, triangulate_region};
 pub(crate) use refinement::{Bounds, cut_encroached, refine};
 pub use tetrahedra::{tetrahedralize, tetrahedralize_with};
-pub use triangles::triangulate;
 
 /// The Delaunay mesh of points.
 #[derive(Clone, Debug, PartialEq)]

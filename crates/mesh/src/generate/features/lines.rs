@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use nalgebra::Vector3;
 
+use crate::connectivity::sorted;
+use crate::connectivity::{first_at_each_place, groups, sides_by_edge};
 use crate::generate::Solid;
 use crate::{SurfaceMesh, area_vector};
 
@@ -70,34 +72,28 @@ impl Features {
     /// where the line turns by more than the angle, is a corner. Lines below a length, m, count if they join others alone.
     pub fn new(surface: &SurfaceMesh, angle: f64, shortest: f64) -> Self {
         let least = angle.to_radians().cos();
-        let vertices = same_places(surface);
+        // A file of loose triangles repeats its vertices.
+        let vertices = first_at_each_place(&surface.vertices);
         let elements: Vec<[usize; 3]> = surface.elements.iter().map(|e| e.map(|i| vertices[i])).collect();
         let normals: Vec<Vector3<f64>> = elements
             .iter()
             .map(|e| area_vector(e.map(|i| surface.vertices[i])).try_normalize(0.0).unwrap_or_default())
             .collect();
-        let mut edges: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
-        for (triangle, &[a, b, c]) in elements.iter().enumerate() {
-            for (i, j) in [(a, b), (b, c), (c, a)] {
-                edges.entry([i.min(j), i.max(j)]).or_default().push(triangle);
-            }
-        }
-        let is_sharp = |triangles: &[usize]| match triangles {
-            [a, b] => normals[*a].dot(&normals[*b]) < least,
+        let sides = sides_by_edge(&elements);
+        let edges = || sides.chunk_by(|a, b| a.0 == b.0);
+        let is_sharp = |edge: &&[([usize; 2], usize)]| match **edge {
+            [(_, a), (_, b)] => normals[a / 3].dot(&normals[b / 3]) < least,
             _ => true,
         };
-        let sharp =
-            edges.iter().filter(|(_, triangles)| is_sharp(triangles)).map(|(&edge, _)| edge).collect::<Vec<_>>();
+        let sharp: Vec<[usize; 2]> = edges().filter(is_sharp).map(|edge| edge[0].0).collect();
         let mut lines = lines(&surface.vertices, &sharp, least);
         leave_out_short(&mut lines, &surface.vertices, shortest);
-        let kept: HashSet<[usize; 2]> = lines
-            .iter()
-            .flat_map(|line| line.windows(2))
-            .map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])])
-            .collect();
-        let smooth = edges.iter().filter(|(edge, _)| !kept.contains(*edge)).map(|(_, triangles)| &triangles[..]);
-        let patches = patches(&elements, smooth)
+        let kept: HashSet<[usize; 2]> =
+            lines.iter().flat_map(|line| line.windows(2)).map(|pair| sorted([pair[0], pair[1]])).collect();
+        let smooth = sides.windows(2).filter(|pair| pair[0].0 == pair[1].0 && !kept.contains(&pair[0].0));
+        let patches = groups(elements.len(), smooth.map(|pair| [pair[0].1 / 3, pair[1].1 / 3]))
             .into_iter()
+            .map(|part| part.into_iter().map(|triangle| elements[triangle]).collect())
             .map(|part| Solid::new(&SurfaceMesh::new(surface.vertices.clone(), part)))
             .collect();
         let points = |line: Vec<usize>| line.into_iter().map(|i| surface.vertices[i]).collect();
@@ -123,34 +119,6 @@ fn leave_out_short(lines: &mut Vec<Vec<usize>>, vertices: &[Vector3<f64>], short
             return;
         }
     }
-}
-
-/// The first vertex at the place of each, as a file of loose triangles repeats them.
-fn same_places(surface: &SurfaceMesh) -> Vec<usize> {
-    let mut first: HashMap<[u64; 3], usize> = HashMap::new();
-    let place = |x: &Vector3<f64>| -> [u64; 3] { x.map(|x| (x + 0.0).to_bits()).into() };
-    surface.vertices.iter().enumerate().map(|(i, x)| *first.entry(place(x)).or_insert(i)).collect()
-}
-
-/// The triangles of each part that smooth edges connect.
-fn patches<'a>(elements: &[[usize; 3]], smooth: impl Iterator<Item = &'a [usize]>) -> Vec<Vec<[usize; 3]>> {
-    let mut of: Vec<usize> = (0..elements.len()).collect();
-    fn root(of: &mut [usize], mut at: usize) -> usize {
-        while of[at] != at {
-            of[at] = of[of[at]];
-            at = of[at];
-        }
-        at
-    }
-    for pair in smooth.flat_map(|triangles| triangles.windows(2)) {
-        let (a, b) = (root(&mut of, pair[0]), root(&mut of, pair[1]));
-        of[a.max(b)] = a.min(b);
-    }
-    let mut parts: BTreeMap<usize, Vec<[usize; 3]>> = BTreeMap::new();
-    for triangle in 0..elements.len() {
-        parts.entry(root(&mut of, triangle)).or_default().push(elements[triangle]);
-    }
-    parts.into_values().collect()
 }
 
 /// Joins sharp edges to lines from corner to corner, and to closed lines.

@@ -6,17 +6,19 @@
 
 mod lines;
 mod paths;
-mod peel;
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::Vector3;
 
 use super::odt::space::{Cells, Floor, Freedom, move_towards, raise_the_worst};
+use crate::boundary::FACES;
+use crate::connectivity::sorted;
+use crate::connectivity::{groups, sides_by_edge};
+use crate::tidy::leave_out_unreferenced;
 use crate::{SurfaceMesh, TetrahedralMesh, boundary};
 use lines::Features;
 use paths::{Graph, Path};
-use peel::peel;
 
 /// Rounds in which vertices move to their curves and the elements around them recover.
 const ROUNDS: usize = 12;
@@ -26,6 +28,9 @@ const SHORTEST: f64 = 4.0;
 
 /// Dihedral angles that no element leaves, degrees.
 const BOUNDS: [f64; 2] = [6.0, 170.0];
+
+/// Sine of a dihedral angle below which an element under a smooth part of the boundary is flat: 17°.
+const FLAT: f64 = 0.3;
 
 /// A mesh with feature lines.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,24 +91,9 @@ pub fn keep_features(mesh: &TetrahedralMesh, surface: &SurfaceMesh, angle: f64) 
         }
     }
     let kept = kept_length(&cells, &features, &paths);
-    Featured { mesh: without_unused(cells.mesh(&mesh.sets)), length, kept }
-}
-
-/// The mesh without the vertices that belong to no element.
-fn without_unused(mut mesh: TetrahedralMesh) -> TetrahedralMesh {
-    let mut is_used = vec![false; mesh.vertices.len()];
-    mesh.elements.iter().flatten().for_each(|&vertex| is_used[vertex] = true);
-    let mut numbers = vec![0; is_used.len()];
-    let used = (0..is_used.len()).filter(|&vertex| is_used[vertex]);
-    used.enumerate().for_each(|(number, vertex)| numbers[vertex] = number);
-    mesh.elements.iter_mut().flatten().for_each(|vertex| *vertex = numbers[*vertex]);
-    for set in mesh.sets.values_mut() {
-        let (faces, edges) = (set.faces.iter_mut().flatten(), set.edges.iter_mut().flatten());
-        faces.chain(edges).chain(&mut set.points).for_each(|vertex| *vertex = numbers[*vertex]);
-    }
-    let mut used = is_used.into_iter();
-    mesh.vertices.retain(|_| used.next().unwrap_or(false));
-    mesh
+    let mut mesh = cells.mesh(&mesh.sets);
+    leave_out_unreferenced(&mut mesh);
+    Featured { mesh, length, kept }
 }
 
 /// The place to which a vertex moves: on a curve, first the one that spreads the path evenly, later the closest.
@@ -127,7 +117,7 @@ fn places(mesh: &TetrahedralMesh, features: &Features, faces: &[[usize; 3]], pat
             let is_end = i == 0 || i == last;
             places.insert(vertex, if is_end { Place::Point(curve.at(part)) } else { Place::Curve(path.curve, part) });
         }
-        between.extend(path.vertices.windows(2).map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])]));
+        between.extend(path.vertices.windows(2).map(|pair| sorted([pair[0] as usize, pair[1] as usize])));
     }
     for part in parts(faces, &between) {
         let vertices: BTreeSet<u32> = part.iter().flat_map(|&face| faces[face]).map(|i| i as u32).collect();
@@ -164,34 +154,10 @@ fn closest_patch(features: &Features, x: &Vector3<f64>) -> usize {
 }
 
 /// The faces of each part of the boundary that some edges enclose.
-fn parts(faces: &[[usize; 3]], between: &BTreeSet<[u32; 2]>) -> Vec<Vec<usize>> {
-    let edges = |face: usize| {
-        let [a, b, c] = faces[face].map(|i| i as u32);
-        [[a, b], [b, c], [c, a]].map(|[i, j]| [i.min(j), i.max(j)])
-    };
-    let mut of_edge: HashMap<[u32; 2], Vec<usize>> = HashMap::new();
-    for face in 0..faces.len() {
-        edges(face).into_iter().for_each(|edge| of_edge.entry(edge).or_default().push(face));
-    }
-    let (mut seen, mut parts) = (vec![false; faces.len()], Vec::new());
-    for start in 0..faces.len() {
-        if std::mem::replace(&mut seen[start], true) {
-            continue;
-        }
-        let (mut part, mut next) = (vec![start], 0);
-        while next < part.len() {
-            for edge in edges(part[next]).into_iter().filter(|edge| !between.contains(edge)) {
-                for &other in &of_edge[&edge] {
-                    if !std::mem::replace(&mut seen[other], true) {
-                        part.push(other);
-                    }
-                }
-            }
-            next += 1;
-        }
-        parts.push(part);
-    }
-    parts
+fn parts(faces: &[[usize; 3]], between: &BTreeSet<[usize; 2]>) -> Vec<Vec<usize>> {
+    let sides = sides_by_edge(faces);
+    let open = sides.windows(2).filter(|pair| pair[0].0 == pair[1].0 && !between.contains(&pair[0].0));
+    groups(faces.len(), open.map(|pair| [pair[0].1 / 3, pair[1].1 / 3]))
 }
 
 /// Length of the edges of paths with both ends on their curve, m.
@@ -208,4 +174,35 @@ fn kept_length(cells: &Cells, features: &Features, paths: &[Path]) -> f64 {
         }
     }
     sum
+}
+
+/// Takes off the elements with two or three faces on the boundary whose four corners are `on_one_patch`, if they are flat. Their other faces
+/// become the boundary, which stays a manifold; a vertex that only three such faces had belongs to no element then.
+fn peel(cells: &mut Cells, on_one_patch: impl Fn([u32; 4]) -> bool) {
+    for cell in 0..cells.corners.len() as u32 {
+        if !cells.is_alive(cell) || cells.shape(cell).sine > FLAT {
+            continue;
+        }
+        let corners = cells.corners[cell as usize];
+        let (outside, inside): (Vec<usize>, Vec<usize>) =
+            (0..4).partition(|&side| cells.neighbour(cell, side).is_none());
+        let leaves_a_manifold = match (&outside[..], &inside[..]) {
+            // The faces opposite two corners meet in the edge of the others; the new boundary has the edge of the two.
+            (&[a, b], _) => !is_on_boundary(cells, [corners[a], corners[b]]),
+            (_, &[apex]) => cells.stars[corners[apex] as usize].len() == 1 && !cells.is_kept(corners[apex]),
+            _ => false,
+        };
+        if leaves_a_manifold && on_one_patch(corners) {
+            cells.remove(cell);
+        }
+    }
+}
+
+fn is_on_boundary(cells: &Cells, [a, b]: [u32; 2]) -> bool {
+    cells.around([a, b]).into_iter().any(|cell| {
+        (0..4).any(|side| {
+            let face = FACES[side].map(|corner| cells.corners[cell as usize][corner]);
+            face.contains(&a) && face.contains(&b) && cells.neighbour(cell, side).is_none()
+        })
+    })
 }

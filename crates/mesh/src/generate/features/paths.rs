@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use nalgebra::Vector3;
 
 use super::lines::Curve;
+use crate::connectivity::bits;
 
 /// Weight of the distance from the curve, squared and over the mean edge squared, in the length of a path.
 const DISTANCE_WEIGHT: f64 = 8.0;
@@ -140,10 +141,6 @@ impl<'a> Graph<'a> {
         let whole = lengths[lengths.len() - 1];
         lengths.into_iter().map(|length| length / whole).collect()
     }
-}
-
-fn bits(point: &Vector3<f64>) -> [u64; 3] {
-    point.map(|x| (x + 0.0).to_bits()).into()
 }
 
 /// A vertex that a path has reached; the shortest path is the greatest.

@@ -1,14 +1,16 @@
 //! Improvement of a mesh of triangles that is given.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::HashSet;
 
 use nalgebra::Vector2;
 use thiserror::Error;
 
 use super::plane::{OdtStep, relax};
 use crate::Mesh;
+use crate::connectivity::sorted;
 use crate::generate::outline::Outline;
 use crate::generate::triangulation::{Triangulation, edge_opposite};
+use crate::sets::combinations;
 
 /// Times that the sizes of neighbours are averaged, so that they follow the grading of the mesh and not its single elements.
 const AVERAGES: usize = 10;
@@ -49,12 +51,14 @@ pub struct NotManifold {
 /// # Ok::<(), fem_mesh::generate::odt::NotManifold>(())
 /// ```
 pub fn improve_triangles(mesh: &Mesh<2, 3>, iterations: usize) -> Result<ImprovedTriangles, NotManifold> {
-    let mut triangulation = Triangulation::new(mesh, &labels(mesh)).map_err(|vertices| NotManifold { vertices })?;
+    let triangles = mesh.elements.iter().map(|element| element.map(|i| i as u32)).collect();
+    let mut triangulation = Triangulation::new(mesh.vertices.clone(), triangles, &combinations(mesh).0)
+        .map_err(|vertices| NotManifold { vertices })?;
     let kept: HashSet<[usize; 2]> = mesh.sets.values().flat_map(|set| set.edges.iter().copied()).collect();
     for triangle in 0..triangulation.triangles.len() {
         for i in 0..3 {
             let [a, b] = edge_opposite(triangulation.triangles[triangle], i).map(|vertex| vertex as usize);
-            if kept.contains(&[a.min(b), a.max(b)]) {
+            if kept.contains(&sorted([a, b])) {
                 triangulation.constrained[triangle] |= 1 << i;
             }
         }
@@ -71,22 +75,6 @@ pub fn improve_triangles(mesh: &Mesh<2, 3>, iterations: usize) -> Result<Improve
     let mut improved = triangulation.into_mesh();
     improved.sets = mesh.sets.clone();
     Ok(ImprovedTriangles { mesh: improved, steps })
-}
-
-/// A number for each triangle, which differs where the sets that it belongs to do.
-fn labels(mesh: &Mesh<2, 3>) -> Vec<u32> {
-    let mut members: Vec<Vec<usize>> = vec![Vec::new(); mesh.elements.len()];
-    for (set, (_, named)) in mesh.sets.iter().enumerate() {
-        named.elements.iter().for_each(|&element| members[element].push(set));
-    }
-    let mut numbers: BTreeMap<Vec<usize>, u32> = BTreeMap::new();
-    members
-        .into_iter()
-        .map(|sets| {
-            let next = numbers.len() as u32;
-            *numbers.entry(sets).or_insert(next)
-        })
-        .collect()
 }
 
 /// Length of the edges at each vertex, averaged with those of its neighbours.

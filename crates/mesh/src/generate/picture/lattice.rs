@@ -11,12 +11,10 @@
 //! Sites keep away from the boundary by a whole h, and the circumradius is 0.577 h. So no point of the boundary lies in the circumscribed circle of a
 //! triangle of the lattice, all of them are Delaunay, and only what is between the lattice and the boundary has to be triangulated.
 
-use std::collections::HashMap;
-
 use nalgebra::Vector2;
 
 use crate::generate::delaunay::triangulate_with;
-use crate::generate::triangulation::{OUTSIDE, Triangulation, edge_opposite};
+use crate::generate::triangulation::{OUTSIDE, Triangulation};
 
 /// Triangles around a site inside the lattice.
 const AROUND: u8 = 6;
@@ -31,8 +29,6 @@ pub struct Lattice {
     /// Sites in a row.
     columns: usize,
     is_site: Vec<bool>,
-    /// Number of each triangle, two for a site; [`OUTSIDE`] if a corner is no site.
-    numbers: Vec<u32>,
     triangles: Vec<Cell>,
 }
 
@@ -42,25 +38,18 @@ impl Lattice {
         let [columns, rows] = [width / spacing, height / (row_height() * spacing)].map(|count| count as usize);
         let is_site =
             (0..rows * columns).map(|site| is_site(place(site / columns, site % columns) * spacing)).collect();
-        let numbers = vec![OUTSIDE; 2 * rows * columns];
-        let mut new = Self { spacing, columns, is_site, numbers, triangles: Vec::new() };
+        let mut new = Self { spacing, columns, is_site, triangles: Vec::new() };
         for row in 0..rows.saturating_sub(1) {
             for column in 0..columns.saturating_sub(1) {
                 for hangs in [false, true] {
                     let cell = (row, column, hangs);
                     if new.corners(cell).iter().all(|&site| new.is_site[site]) {
-                        let index = new.index(cell);
-                        new.numbers[index] = new.triangles.len() as u32;
                         new.triangles.push(cell);
                     }
                 }
             }
         }
         new
-    }
-
-    fn index(&self, (row, column, hangs): Cell) -> usize {
-        2 * (row * self.columns + column) + usize::from(hangs)
     }
 
     /// The sites of a triangle, counter-clockwise.
@@ -74,24 +63,6 @@ impl Lattice {
         }
     }
 
-    /// Numbers of the triangles beside one, across the side opposite each corner.
-    fn neighbours(&self, (row, column, hangs): Cell) -> [u32; 3] {
-        let number = |row: usize, column: usize, hangs: bool| {
-            // One before the first is beyond the largest.
-            let exists = row < self.is_site.len() / self.columns && column < self.columns;
-            if exists { self.numbers[self.index((row, column, hangs))] } else { OUTSIDE }
-        };
-        let (below, left) = (row.wrapping_sub(1), column.wrapping_sub(1));
-        match (row % 2 == 0, hangs) {
-            (true, false) => [number(row, column, true), number(row, left, true), number(below, column, true)],
-            (true, true) => {
-                [number(row + 1, column, false), number(row, column, false), number(row, column + 1, false)]
-            }
-            (false, false) => [number(row, column + 1, true), number(row, column, true), number(below, column, true)],
-            (false, true) => [number(row + 1, column, false), number(row, left, false), number(row, column, false)],
-        }
-    }
-
     /// Returns true if a point lies in a triangle of the lattice.
     fn covers(&self, x: Vector2<f64>) -> bool {
         let up = x.y / (row_height() * self.spacing) - 0.5;
@@ -102,9 +73,10 @@ impl Lattice {
         let along = x.x / self.spacing - shift(row) - 0.5 * up.fract();
         let hangs = along.rem_euclid(1.0) > 1.0 - up.fract();
         let column = along.floor() + f64::from(u8::from(hangs && row % 2 == 1));
-        let is_within = column >= 0.0 && (column as usize) < self.columns;
-        is_within
-            && self.numbers.get(self.index((row, column as usize, hangs))).is_some_and(|&number| number != OUTSIDE)
+        // The last row and column stand on no triangle.
+        let is_within =
+            column >= 0.0 && (column as usize) + 1 < self.columns && row + 1 < self.is_site.len() / self.columns;
+        is_within && self.corners((row, column as usize, hangs)).iter().all(|&site| self.is_site[site])
     }
 
     /// The Delaunay triangulation of the region inside polygons and of the sites, which lie in it, a whole spacing from the polygons. Vertices
@@ -129,7 +101,7 @@ impl Lattice {
         band.points.extend(inner.iter().map(at));
         let mut vertices = vec![OUTSIDE; self.is_site.len()];
         rim.iter().chain(&inner).zip(first as u32..).for_each(|(&site, vertex)| vertices[site] = vertex);
-        self.join(band, first as u32, &vertices).or_else(|| {
+        self.join(band, first, &vertices).or_else(|| {
             let points: Vec<_> = rim.iter().chain(&inner).map(at).collect();
             triangulate_with(polygons, &points).ok()
         })
@@ -137,44 +109,18 @@ impl Lattice {
 
     /// Replaces the triangles of a triangulation of the boundary and the rim that lie within the lattice by those of the lattice. Returns nothing
     /// if they do not fit together.
-    fn join(&self, band: Triangulation, first: u32, vertices: &[u32]) -> Option<Triangulation> {
-        let is_covered = |triangle: usize| {
-            let corners = band.triangles[triangle].map(|vertex| band.points[vertex as usize]);
-            band.triangles[triangle].iter().all(|&vertex| vertex >= first)
-                && self.covers((corners[0] + corners[1] + corners[2]) / 3.0)
+    fn join(&self, band: Triangulation, first: usize, vertices: &[u32]) -> Option<Triangulation> {
+        let is_covered = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|vertex| band.points[vertex as usize]);
+            corners.iter().all(|&vertex| vertex as usize >= first) && self.covers((a + b + c) / 3.0)
         };
-        let own = self.triangles.len() as u32;
-        let mut numbers = vec![OUTSIDE; band.triangles.len()];
-        let kept: Vec<usize> = (0..band.triangles.len()).filter(|&triangle| !is_covered(triangle)).collect();
-        kept.iter().zip(own..).for_each(|(&triangle, number)| numbers[triangle] = number);
-
-        let mut triangles: Vec<_> =
-            self.triangles.iter().map(|&cell| self.corners(cell).map(|site| vertices[site])).collect();
-        let mut neighbours: Vec<_> = self.triangles.iter().map(|&cell| self.neighbours(cell)).collect();
-        let mut sides = HashMap::new();
-        for (triangle, corners) in triangles.iter().enumerate() {
-            for i in (0..3).filter(|&i| neighbours[triangle][i] == OUTSIDE) {
-                sides.insert(edge_opposite(*corners, i), (triangle, i));
-            }
-        }
-        for (&triangle, number) in kept.iter().zip(own..) {
-            let corners = band.triangles[triangle];
-            let mut beside = [OUTSIDE; 3];
-            for (i, &neighbour) in band.neighbours[triangle].iter().enumerate() {
-                if neighbour != OUTSIDE {
-                    beside[i] = numbers[neighbour as usize];
-                    if beside[i] == OUTSIDE {
-                        let [from, to] = edge_opposite(corners, i);
-                        let (across, j) = sides.remove(&[to, from])?;
-                        neighbours[across][j] = number;
-                        beside[i] = across as u32;
-                    }
-                }
-            }
-            triangles.push(corners);
-            neighbours.push(beside);
-        }
-        sides.is_empty().then(|| Triangulation::of(band.points, triangles, neighbours))
+        let own = self.triangles.iter().map(|&cell| self.corners(cell).map(|site| vertices[site]));
+        let beside = band.triangles.iter().copied().filter(|corners| !is_covered(corners));
+        let triangles = own.chain(beside).collect();
+        let joined = Triangulation::new(band.points, triangles, &[]).ok()?;
+        // Each side of the polygons is one of the boundary, and there are no others.
+        let boundary = joined.neighbours.iter().flatten().filter(|&&neighbour| neighbour == OUTSIDE).count();
+        (boundary == first).then_some(joined)
     }
 }
 

@@ -104,13 +104,8 @@ impl Lattice {
         }
     }
 
-    /// Asks for each edge between a node inside and one outside at which part of the way the surface lies.
-    pub fn cut(&mut self, exit: impl Fn(&Vector3<f64>, &Vector3<f64>) -> f64) {
-        self.cut_nodes(|_, [inside, outside]| exit(inside, outside));
-    }
-
-    /// The same, asked by the nodes inside and outside as well as by their positions.
-    pub fn cut_nodes(&mut self, exit: impl Fn([usize; 2], [&Vector3<f64>; 2]) -> f64) {
+    /// Asks for each edge between a node inside and one outside, and their positions, at which part of the way the surface lies.
+    pub fn cut(&mut self, exit: impl Fn([usize; 2], [&Vector3<f64>; 2]) -> f64) {
         for (node, place) in self.places().enumerate() {
             if self.signs[node] != 1 {
                 continue;

@@ -11,12 +11,11 @@ pub(super) mod stencils;
 
 use std::cell::Cell;
 
-use nalgebra::Vector3;
 use thiserror::Error;
 
 use super::Progress;
 use super::solid::Solid;
-use crate::{Mesh, SurfaceMesh, TetrahedralMesh};
+use crate::{SurfaceMesh, TetrahedralMesh};
 use lattice::Lattice;
 use octree::Octree;
 
@@ -25,9 +24,6 @@ const MOST: f64 = 1e8;
 
 /// Mean edge of a tetrahedron of the lattice, over the side of its cubes.
 const MEAN_EDGE: f64 = 0.910_683_602_522_959;
-
-/// Largest number of doublings of an edge: more than a lattice of the largest size has.
-const LEVELS: usize = 20;
 
 /// Times that the progress is told while nodes are found to be inside or outside, and the share of the whole time that this takes.
 const TOLD: usize = 200;
@@ -89,7 +85,7 @@ pub enum StuffingError {
 /// # Errors
 /// Too many tetrahedra or none, and numbers that are not finite.
 pub fn stuff(surface: &SurfaceMesh, edge: f64) -> Result<TetrahedralMesh, StuffingError> {
-    stuff_with(surface, edge, |lattice| Octree::uniform(lattice.cubes()), &|_| ())
+    stuff_graded(surface, edge, 0)
 }
 
 /// Tetrahedra as those of [`stuff`] at the surface, and with edges that double up to `doublings` times towards the inside. The boundary and the
@@ -111,43 +107,6 @@ pub fn stuff_graded_with(
     doublings: usize,
     progress: Progress,
 ) -> Result<TetrahedralMesh, StuffingError> {
-    stuff_with(surface, edge, |lattice| Octree::graded(lattice, doublings, |_, _| true), progress)
-}
-
-/// Tetrahedra as those of [`stuff`] at the surface, and with edges inside that double where they stay below `size` (m) at their place.
-///
-/// # Errors
-/// As [`stuff`].
-///
-/// ```
-/// use fem_mesh::generate::{stuff, stuff_sized};
-/// use fem_mesh::{Pattern, SurfaceMesh, boundary, box_mesh};
-///
-/// let solid = box_mesh([1.0, 1.0, 1.0], 1, Pattern::Alternating)?;
-/// let surface = SurfaceMesh::new(solid.vertices.clone(), boundary(&solid));
-/// let fine = stuff(&surface, 0.04).unwrap();
-/// let sized = stuff_sized(&surface, 0.04, |x| 0.02 + 0.5 * x.x).unwrap();
-/// assert!(sized.elements.len() < fine.elements.len());
-/// # Ok::<(), fem_mesh::MeshError>(())
-/// ```
-pub fn stuff_sized(
-    surface: &SurfaceMesh,
-    edge: f64,
-    size: impl Fn(&Vector3<f64>) -> f64,
-) -> Result<TetrahedralMesh, StuffingError> {
-    let octree = |lattice: &Lattice| {
-        let may_be = |place, level: usize| edge * 2_f64.powi(level as i32) <= size(&lattice.undeformed(place));
-        Octree::graded(lattice, LEVELS, may_be)
-    };
-    stuff_with(surface, edge, octree, &|_| ())
-}
-
-fn stuff_with(
-    surface: &SurfaceMesh,
-    edge: f64,
-    octree: impl FnOnce(&Lattice) -> Octree,
-    progress: Progress,
-) -> Result<TetrahedralMesh, StuffingError> {
     let (solid, mut lattice) = lattice_around(surface, edge, 0.0)?;
     let (nodes, known) = (lattice.places().count(), Cell::new(0));
     let told_after = nodes.div_ceil(TOLD);
@@ -158,16 +117,16 @@ fn stuff_with(
         }
         solid.contains(point)
     });
-    let octree = octree(&lattice);
-    lattice.cut(|inside, outside| solid.exit(inside, outside));
+    let octree = Octree::graded(&lattice, doublings);
+    lattice.cut(|_, [inside, outside]| solid.exit(inside, outside));
     lattice.warp();
     progress(0.5 * (1.0 + SIGNS));
-    let (vertices, elements) = stencils::fill(&lattice, &octree);
-    if elements.is_empty() {
+    let mesh = stencils::fill(&lattice, &octree);
+    if mesh.elements.is_empty() {
         let [least, largest] = solid.bounds();
         return Err(StuffingError::Empty { edge, size: (largest - least).into() });
     }
-    Ok(Mesh::new(vertices, elements))
+    Ok(mesh)
 }
 
 /// The solid of a surface, and a lattice with edges of about `edge` m around it, with a margin (m) on every side.
@@ -187,11 +146,6 @@ pub(super) fn lattice_around(surface: &SurfaceMesh, edge: f64, margin: f64) -> R
         return Err(StuffingError::TooFine { edge, count, most: MOST });
     }
     Ok((solid, Lattice::around([least, largest], side)))
-}
-
-/// Sixfold signed volume; positive for the order of a mesh.
-fn six_volumes([a, b, c, d]: [Vector3<f64>; 4]) -> f64 {
-    (b - a).cross(&(c - a)).dot(&(d - a))
 }
 
 #[cfg(test)]
@@ -225,8 +179,7 @@ mod tests {
         lattice.find_signs(|x| in_box(x) && next() < inside);
         lattice.cut(|_, _| next());
         lattice.warp();
-        let (vertices, elements) = stencils::fill(&lattice, &Octree::uniform(lattice.cubes()));
-        Mesh::new(vertices, elements)
+        stencils::fill(&lattice, &Octree::uniform(lattice.cubes()))
     }
 
     /// The mesh of a graded lattice around a box with random holes and a ragged surface, and that of the uniform one.
@@ -239,13 +192,10 @@ mod tests {
             let in_hole = holes.iter().any(|hole| (hole - x).norm() < 2.5);
             depth > 0.0 && !in_hole && (depth > 1.5 || next() < 0.6)
         });
-        let octree = Octree::graded(&lattice, 3, |_, _| true);
+        let octree = Octree::graded(&lattice, 3);
         lattice.cut(|_, _| next());
         lattice.warp();
-        [octree, Octree::uniform(lattice.cubes())].map(|octree| {
-            let (vertices, elements) = stencils::fill(&lattice, &octree);
-            Mesh::new(vertices, elements)
-        })
+        [octree, Octree::uniform(lattice.cubes())].map(|octree| stencils::fill(&lattice, &octree))
     }
 
     #[test]
@@ -274,7 +224,7 @@ mod tests {
     fn tetrahedra_between_cubes_of_different_sizes_have_angles_from_45_to_120_degrees() {
         let mut lattice = Lattice::around([Vector3::zeros(), Vector3::repeat(30.0)], 1.0);
         lattice.find_signs(|x| x.iter().all(|x| (0.5..29.5).contains(x)));
-        let octree = Octree::graded(&lattice, 3, |_, _| true);
+        let octree = Octree::graded(&lattice, 3);
         let (mut vertices, mut elements) = (Vec::new(), Vec::new());
         octree.tetrahedra(|places| {
             if places.iter().flatten().all(|x| (8..56).contains(x)) {

@@ -23,9 +23,8 @@ impl Octree {
         Self { cubes, split: Vec::new() }
     }
 
-    /// Cubes up to 2 to the power of `levels` times as large as those at the surface of a lattice, where `may_be` allows that for a cube's centre and
-    /// the number of doublings.
-    pub fn graded(lattice: &Lattice, levels: usize, may_be: impl Fn(Place, usize) -> bool) -> Self {
+    /// Cubes up to 2 to the power of `levels` times as large as those at the surface of a lattice.
+    pub fn graded(lattice: &Lattice, levels: usize) -> Self {
         let cubes = lattice.cubes();
         // A cube that contains the whole lattice is the largest of use.
         let most = (1..=levels).take_while(|level| cubes.iter().any(|&n| n > 1 << (level - 1))).count();
@@ -36,11 +35,8 @@ impl Octree {
         let mut octree = Self { cubes, split: (1..=most).map(|level| vec![false; count(level)]).collect() };
         octree.split_at_surface(lattice);
         for level in 1..=most {
-            let unsuitable = all(size(cubes, level)).filter(|&cube| {
-                let is_beyond = (0..3).any(|i| (cube[i] + 1) << level > cubes[i]);
-                is_beyond || !may_be(centre(level, cube), level)
-            });
-            unsuitable.for_each(|cube| octree.mark(level, cube));
+            let beyond = all(size(cubes, level)).filter(|cube| (0..3).any(|i| (cube[i] + 1) << level > cubes[i]));
+            beyond.for_each(|cube| octree.mark(level, cube));
             if level > 1 {
                 octree.balance(level);
             }

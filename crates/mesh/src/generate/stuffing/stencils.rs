@@ -7,8 +7,8 @@ use nalgebra::Vector3;
 
 use super::lattice::{Lattice, Place};
 use super::octree::Octree;
-use super::six_volumes;
-use crate::quality::smallest_dihedral_angle;
+use crate::quality::extreme_dihedral_angles;
+use crate::{TetrahedralMesh, signed_volume};
 
 /// A corner of a tetrahedron of the lattice.
 #[derive(Clone, Copy)]
@@ -29,7 +29,7 @@ struct Filled<'a> {
 }
 
 /// Fills the inside of the surface.
-pub fn fill(lattice: &Lattice, octree: &Octree) -> (Vec<Vector3<f64>>, Vec<[usize; 4]>) {
+pub fn fill(lattice: &Lattice, octree: &Octree) -> TetrahedralMesh {
     let mut filled = Filled {
         lattice,
         nodes: vec![None; lattice.signs.len()],
@@ -43,7 +43,7 @@ pub fn fill(lattice: &Lattice, octree: &Octree) -> (Vec<Vector3<f64>>, Vec<[usiz
             filled.add(&[a, b, c, d]);
         }
     });
-    (filled.vertices, filled.elements)
+    TetrahedralMesh::new(filled.vertices, filled.elements)
 }
 
 impl Filled<'_> {
@@ -104,7 +104,7 @@ impl Filled<'_> {
 
     /// Smallest dihedral angle of the tetrahedra of a prism, degrees.
     fn worst_of_prism(&self, columns: [[usize; 2]; 3], before: [bool; 3]) -> f64 {
-        let angle = |element: [usize; 4]| smallest_dihedral_angle(self.oriented(element).map(|i| self.vertices[i]));
+        let angle = |element: [usize; 4]| extreme_dihedral_angles(self.oriented(element).map(|i| self.vertices[i]))[0];
         tetrahedra_of_prism(columns, before).into_iter().map(angle).fold(f64::INFINITY, f64::min)
     }
 
@@ -131,7 +131,7 @@ impl Filled<'_> {
     }
 
     fn oriented(&self, mut element: [usize; 4]) -> [usize; 4] {
-        if six_volumes(element.map(|i| self.vertices[i])) < 0.0 {
+        if signed_volume(element.map(|i| self.vertices[i])) < 0.0 {
             element.swap(2, 3);
         }
         element

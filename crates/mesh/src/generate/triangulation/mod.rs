@@ -1,7 +1,6 @@
 //! A triangulation that changes: its triangles know their neighbours, points are inserted, edges flipped.
 
 mod insert;
-mod star;
 
 use nalgebra::Vector2;
 use robust::{Coord, incircle, orient2d};
@@ -34,16 +33,15 @@ pub fn edge_opposite(corners: [u32; 3], i: usize) -> [u32; 2] {
 }
 
 impl Triangulation {
-    /// Connects the triangles of a mesh; edges are constrained if the labels of their two triangles differ. Returns an edge of more than two
-    /// triangles, or of two that are turned differently, if there is one.
-    pub fn new(mesh: &Mesh<2, 3>, labels: &[u32]) -> Result<Self, [usize; 2]> {
-        let triangles: Vec<[u32; 3]> = mesh.elements.iter().map(|element| element.map(|i| i as u32)).collect();
+    /// Connects triangles; edges are constrained if the labels of their two triangles differ. Returns an edge of more than two triangles, or of two
+    /// that are turned differently, if there is one.
+    pub fn new(points: Vec<Vector2<f64>>, triangles: Vec<[u32; 3]>, labels: &[u32]) -> Result<Self, [usize; 2]> {
         let mut new = Self {
-            points: mesh.vertices.clone(),
             neighbours: vec![[OUTSIDE; 3]; triangles.len()],
             constrained: vec![0; triangles.len()],
-            triangle_at: vec![OUTSIDE; mesh.vertices.len()],
+            triangle_at: vec![OUTSIDE; points.len()],
             stack: Vec::new(),
+            points,
             triangles,
         };
         // Sides that leave the same vertex form a chain; side 3 t + i is opposite corner i of triangle t.
@@ -68,16 +66,6 @@ impl Triangulation {
             }
         }
         Ok(new)
-    }
-
-    /// Triangles whose neighbours are known; no edge is constrained.
-    pub fn of(points: Vec<Vector2<f64>>, triangles: Vec<[u32; 3]>, neighbours: Vec<[u32; 3]>) -> Self {
-        let mut triangle_at = vec![OUTSIDE; points.len()];
-        for (corners, triangle) in triangles.iter().zip(0..) {
-            corners.iter().for_each(|&vertex| triangle_at[vertex as usize] = triangle);
-        }
-        let constrained = vec![0; triangles.len()];
-        Self { points, triangles, neighbours, constrained, triangle_at, stack: Vec::new() }
     }
 
     /// The triangle that has a side in this direction, and the corner opposite it, among the chains of sides.

@@ -2,13 +2,11 @@
 
 mod predicates;
 
-use std::collections::HashMap;
 use std::ops::ControlFlow;
-
-use nalgebra::Vector3;
 
 use crate::SurfaceMesh;
 use crate::boxes::{Bounds, BoxTree};
+use crate::connectivity::first_at_each_place;
 pub(crate) use predicates::{Triangle, meet, segment_meets};
 use predicates::{meet_beyond_corner, meet_beyond_edge};
 
@@ -33,7 +31,8 @@ pub struct SelfIntersections {
 /// out. The search ends at 10⁶ crossings, or after 2·10⁸ pairs of triangles whose boxes touch; a clean surface has about 10 for each
 /// triangle. Indices have to be in range.
 pub fn self_intersections(mesh: &SurfaceMesh) -> SelfIntersections {
-    let corners = corners_by_place(mesh);
+    let first = first_at_each_place(&mesh.vertices);
+    let corners: Vec<[usize; 3]> = mesh.elements.iter().map(|element| element.map(|i| first[i])).collect();
     let triangles: Vec<Option<Triangle>> =
         mesh.elements.iter().map(|element| Triangle::new(element.map(|i| mesh.vertices[i]))).collect();
     let solid = (0..triangles.len()).filter(|&i| triangles[i].is_some());
@@ -54,15 +53,6 @@ pub fn self_intersections(mesh: &SurfaceMesh) -> SelfIntersections {
         if found.count < MOST[0] && seen < MOST[1] { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
     SelfIntersections { has_more: end.is_break(), ..found }
-}
-
-/// Corners of each triangle by the first vertex at the same place.
-fn corners_by_place(mesh: &SurfaceMesh) -> Vec<[usize; 3]> {
-    let mut firsts: HashMap<[u64; 3], usize> = HashMap::with_capacity(mesh.vertices.len());
-    // Adding zero turns −0 into 0.
-    let key = |x: &Vector3<f64>| [x.x, x.y, x.z].map(|x| (x + 0.0).to_bits());
-    let first: Vec<usize> = mesh.vertices.iter().enumerate().map(|(i, x)| *firsts.entry(key(x)).or_insert(i)).collect();
-    mesh.elements.iter().map(|element| element.map(|i| first[i])).collect()
 }
 
 /// Returns true if two triangles, with the places of their corners, cross.

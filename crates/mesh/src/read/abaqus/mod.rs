@@ -12,7 +12,7 @@ use nalgebra::{Rotation3, Unit, Vector3};
 use self::deck::{Deck, Keyword, Line};
 pub(crate) use self::kinds::FACES;
 use self::kinds::kind;
-use self::model::Model;
+use self::model::{Model, Of};
 use super::content::Content;
 use crate::{MeshError, Problem};
 
@@ -39,34 +39,35 @@ fn section(model: &mut Model, keyword: &Keyword, rows: Rows) -> Result<(), MeshE
     match &keyword.name[..] {
         "NODE" => nodes(model, keyword, rows),
         "ELEMENT" => elements(model, keyword, rows),
-        "NSET" => {
-            members(keyword, rows).and_then(|found| model.add_nodes(name("NSET")?, scope(model, keyword)?, &found))
-        }
-        "ELSET" => {
-            members(keyword, rows).and_then(|found| model.add_elements(name("ELSET")?, scope(model, keyword)?, &found))
-        }
+        "NSET" => set(model, keyword, rows, Of::Nodes),
+        "ELSET" => set(model, keyword, rows, Of::Elements),
         "SURFACE" => surface(model, keyword, rows),
-        "PART" => model.begin_part(name("NAME")?),
         "INSTANCE" => {
             let part = model.begin_instance(&keyword.line, name("NAME")?, keyword.parameter("PART"))?;
             model.place(part, &motion(rows)?);
             Ok(())
         }
-        "END PART" | "END INSTANCE" => model.end_part(),
-        "HEADING" | "ASSEMBLY" | "END ASSEMBLY" | "PREPRINT" | "INCLUDE" => Ok(()),
         other => {
-            model.content.notes.unread(format!("*{other}"));
+            match other {
+                "PART" => model.begin_part(name("NAME")?),
+                "END PART" | "END INSTANCE" => model.part = 0,
+                "HEADING" | "ASSEMBLY" | "END ASSEMBLY" | "PREPRINT" | "INCLUDE" => {}
+                _ => model.content.notes.unread(format!("*{other}")),
+            }
             Ok(())
         }
     }
 }
 
-/// The part that a set of the assembly is of.
-fn scope(model: &Model, keyword: &Keyword) -> Result<usize, MeshError> {
-    match keyword.parameter("INSTANCE") {
-        Some(instance) => model.instance(&keyword.line, instance),
-        None => Ok(model.part),
-    }
+/// A set of nodes or elements; one of the assembly is of an instance.
+fn set(model: &mut Model, keyword: &Keyword, rows: Rows, of: Of) -> Result<(), MeshError> {
+    let members = members(keyword, rows)?;
+    let name = keyword.required(if matches!(of, Of::Nodes) { "NSET" } else { "ELSET" })?;
+    let part = match keyword.parameter("INSTANCE") {
+        Some(instance) => model.instance(&keyword.line, instance)?,
+        None => model.part,
+    };
+    model.add(of, name, part, &members)
 }
 
 /// `<number>, <x>, <y>, <z>`, without z in the plane.
@@ -96,10 +97,8 @@ fn nodes(model: &mut Model, keyword: &Keyword, rows: Rows) -> Result<(), MeshErr
         model.add_node(&row, number, place)?;
         numbers.extend(set.map(|_| number));
     }
-    match set {
-        Some(name) => model.name_nodes(name, &numbers),
-        None => Ok(()),
-    }
+    set.into_iter().for_each(|name| model.name(Of::Nodes, name, model.part, &numbers));
+    Ok(())
 }
 
 /// `<number>, <nodes …>`, over several lines that end in a comma.
@@ -130,10 +129,8 @@ fn elements(model: &mut Model, keyword: &Keyword, rows: Rows) -> Result<(), Mesh
         model.add_element(&row, number, kind, &nodes[..kind.corners()])?;
         numbers.extend(set.map(|_| number));
     }
-    match set {
-        Some(name) => model.name_elements(name, &numbers),
-        None => Ok(()),
-    }
+    set.into_iter().for_each(|name| model.name(Of::Elements, name, model.part, &numbers));
+    Ok(())
 }
 
 /// Members of a set: a number, or the name of another set.
@@ -187,7 +184,7 @@ fn surface(model: &mut Model, keyword: &Keyword, rows: Rows) -> Result<(), MeshE
     let name = keyword.required("NAME")?;
     if keyword.parameter("TYPE").is_some_and(|kind| kind.eq_ignore_ascii_case("NODE")) {
         let members = members(keyword, rows)?;
-        return model.add_nodes(name, model.part, &members);
+        return model.add(Of::Nodes, name, model.part, &members);
     }
     for row in rows {
         let mut entries = row.entries();

@@ -4,31 +4,26 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
-use super::super::content::{Content, Parts};
+use super::super::content::{Content, Entry};
 use super::Member;
 use super::deck::Line;
 use super::kinds::{FACES, Kind, Shape};
 use crate::{MeshError, Problem};
 
-/// The fate of an element. A mesh with more than 2³² elements fits into no memory.
+/// The numbers that a set is of.
 #[derive(Clone, Copy)]
-enum Element {
-    Tetrahedron(u32),
-    Triangle(u32),
-    /// The first of its two triangles, a b c and a c d.
-    Quadrangle(u32),
-    Line([u32; 2]),
+pub(super) enum Of {
+    Nodes,
+    Elements,
 }
 
-/// A part's own numbers and names.
+/// A part's own numbers and names, of nodes and of elements.
 #[derive(Default)]
 struct Part {
     name: String,
     has_instance: bool,
-    nodes: HashMap<i64, usize>,
-    elements: HashMap<i64, Element>,
-    node_sets: HashMap<String, Vec<i64>>,
-    element_sets: HashMap<String, Vec<i64>>,
+    known: [HashMap<i64, Entry>; 2],
+    sets: [HashMap<String, Vec<i64>>; 2],
 }
 
 /// The first part has what stands outside of parts.
@@ -52,15 +47,9 @@ impl Default for Model {
 }
 
 impl Model {
-    pub(super) fn begin_part(&mut self, name: &str) -> Result<(), MeshError> {
+    pub(super) fn begin_part(&mut self, name: &str) {
         self.part = self.parts.len();
         self.parts.push(Part { name: name.to_owned(), ..Part::default() });
-        Ok(())
-    }
-
-    pub(super) fn end_part(&mut self) -> Result<(), MeshError> {
-        self.part = 0;
-        Ok(())
     }
 
     /// Begins an instance of a part, whose own nodes and elements may follow.
@@ -89,40 +78,36 @@ impl Model {
 
     /// Moves the nodes of a part.
     pub(super) fn place(&mut self, part: usize, motion: &impl Fn(Vector3<f64>) -> Vector3<f64>) {
-        for &node in self.parts[part].nodes.values() {
-            self.content.vertices[node] = motion(self.content.vertices[node]);
+        for node in self.parts[part].known[Of::Nodes as usize].values() {
+            if let Entry::Point(node) = *node {
+                self.content.vertices[node as usize] = motion(self.content.vertices[node as usize]);
+            }
         }
     }
 
     pub(super) fn add_node(&mut self, line: &Line, number: i64, place: Vector3<f64>) -> Result<(), MeshError> {
-        match self.parts[self.part].nodes.insert(number, self.content.vertices.len()) {
-            None => self.content.vertices.push(place),
-            Some(_) => return Err(line.error(Problem::RepeatedTag { tag: number })),
+        let node = Entry::Point(self.content.vertices.len() as u32);
+        self.content.vertices.push(place);
+        match self.parts[self.part].known[Of::Nodes as usize].insert(number, node) {
+            None => Ok(()),
+            Some(_) => Err(line.error(Problem::RepeatedTag { tag: number })),
         }
-        Ok(())
     }
 
     pub(super) fn add_element(&mut self, line: &Line, number: i64, kind: Kind, nodes: &[i64]) -> Result<(), MeshError> {
-        let part = &mut self.parts[self.part];
-        let node = |&tag: &i64| part.nodes.get(&tag).copied().ok_or_else(|| line.error(Problem::UnknownTag { tag }));
+        let [known, elements] = &mut self.parts[self.part].known;
+        let node = |&tag: &i64| match known.get(&tag) {
+            Some(Entry::Point(node)) => Ok(*node as usize),
+            _ => Err(line.error(Problem::UnknownTag { tag })),
+        };
         let nodes = nodes.iter().map(node).collect::<Result<Vec<_>, _>>()?;
         let element = match (kind.shape, &nodes[..]) {
-            (Shape::Tetrahedron, &[a, b, c, d]) => {
-                self.content.tetrahedra.push([a, b, c, d]);
-                Element::Tetrahedron((self.content.tetrahedra.len() - 1) as u32)
-            }
-            (Shape::Quadrangle, &[a, b, c, d]) => {
-                self.content.triangles.extend([[a, b, c], [a, c, d]]);
-                Element::Quadrangle((self.content.triangles.len() - 2) as u32)
-            }
-            (Shape::Triangle, &[a, b, c]) => {
-                self.content.triangles.push([a, b, c]);
-                Element::Triangle((self.content.triangles.len() - 1) as u32)
-            }
-            _ => Element::Line([nodes[0] as u32, nodes[1] as u32]),
+            (Shape::Tetrahedron, &[a, b, c, d]) => self.content.tetrahedron([a, b, c, d]),
+            (Shape::Line, nodes) => Entry::edge([nodes[0], nodes[1]]),
+            (_, nodes) => self.content.polygon(nodes),
         };
         self.quadratic += usize::from(kind.nodes > kind.corners());
-        match part.elements.insert(number, element) {
+        match elements.insert(number, element) {
             None => Ok(()),
             Some(_) => {
                 let reason = format!("the number {number} is given to two elements");
@@ -131,51 +116,27 @@ impl Model {
         }
     }
 
-    /// Adds nodes of the current part to a set.
-    pub(super) fn name_nodes(&mut self, name: &str, numbers: &[i64]) -> Result<(), MeshError> {
-        self.parts[self.part].node_sets.entry(name.to_uppercase()).or_default().extend(numbers);
-        let group = self.group(name, self.part);
-        let part = &self.parts[self.part];
-        let points = numbers.iter().filter_map(|number| part.nodes.get(number));
-        self.content.groups.entry(group).or_default().points.extend(points);
-        Ok(())
-    }
-
-    /// Adds elements of the current part to a set.
-    pub(super) fn name_elements(&mut self, name: &str, numbers: &[i64]) -> Result<(), MeshError> {
-        self.parts[self.part].element_sets.entry(name.to_uppercase()).or_default().extend(numbers);
-        let group = self.group(name, self.part);
+    /// Adds nodes or elements of a part to a set.
+    pub(super) fn name(&mut self, of: Of, name: &str, part: usize, numbers: &[i64]) {
+        let group = self.group(name, part);
+        let Part { known, sets, .. } = &mut self.parts[part];
+        sets[of as usize].entry(name.to_uppercase()).or_default().extend(numbers);
         let parts = self.content.groups.entry(group).or_default();
-        for element in numbers.iter().filter_map(|number| self.parts[self.part].elements.get(number)) {
-            list(parts, *element);
+        numbers.iter().filter_map(|number| known[of as usize].get(number)).for_each(|&entry| parts.push(entry));
+    }
+
+    /// Adds members to a set of a part, which has to have them.
+    pub(super) fn add(&mut self, of: Of, name: &str, part: usize, members: &[Member]) -> Result<(), MeshError> {
+        let numbers = self.numbers(of, part, members)?;
+        let known = &self.parts[part].known[of as usize];
+        if let Some((line, number)) = numbers.iter().find(|(_, number)| !known.contains_key(number)) {
+            return Err(line.error(match of {
+                Of::Nodes => Problem::UnknownTag { tag: *number },
+                Of::Elements => no_element(*number),
+            }));
         }
+        self.name(of, name, part, &numbers.iter().map(|(_, number)| *number).collect::<Vec<_>>());
         Ok(())
-    }
-
-    pub(super) fn add_nodes(&mut self, name: &str, part: usize, members: &[Member]) -> Result<(), MeshError> {
-        let numbers = self.numbers(part, members, |part| &part.node_sets, "the name of a set of nodes")?;
-        let known = |(line, tag): &(Line, i64)| match self.parts[part].nodes.contains_key(tag) {
-            true => Ok(*tag),
-            false => Err(line.error(Problem::UnknownTag { tag: *tag })),
-        };
-        let numbers = numbers.iter().map(known).collect::<Result<Vec<_>, _>>()?;
-        let current = std::mem::replace(&mut self.part, part);
-        let added = self.name_nodes(name, &numbers);
-        self.part = current;
-        added
-    }
-
-    pub(super) fn add_elements(&mut self, name: &str, part: usize, members: &[Member]) -> Result<(), MeshError> {
-        let numbers = self.numbers(part, members, |part| &part.element_sets, "the name of a set of elements")?;
-        let known = |(line, number): &(Line, i64)| match self.parts[part].elements.contains_key(number) {
-            true => Ok(*number),
-            false => Err(line.error(no_element(*number))),
-        };
-        let numbers = numbers.iter().map(known).collect::<Result<Vec<_>, _>>()?;
-        let current = std::mem::replace(&mut self.part, part);
-        let added = self.name_elements(name, &numbers);
-        self.part = current;
-        added
     }
 
     /// Adds a side of elements to a surface.
@@ -184,26 +145,26 @@ impl Model {
         let (part, member) = self.scope_of(self.part, member);
         let numbers = match member {
             Some(set) => set.iter().map(|number| (line_of(&members[0]), *number)).collect(),
-            None => self.numbers(part, members, |part| &part.element_sets, "the name of a set of elements")?,
+            None => self.numbers(Of::Elements, part, members)?,
         };
         let group = self.group(name, part);
         for (line, number) in numbers {
-            let element =
-                self.parts[part].elements.get(&number).copied().ok_or_else(|| line.error(no_element(number)))?;
+            let element = self.parts[part].known[Of::Elements as usize].get(&number).copied();
+            let element = element.ok_or_else(|| line.error(no_element(number)))?;
             let no_side = || line.error(Problem::NotA { word: format!("S{side}"), expected: "a side of the element" });
             let parts = self.content.groups.entry(group.clone()).or_default();
             match element {
-                Element::Tetrahedron(index) => {
+                Entry::Tetrahedron(index) => {
                     let face = FACES.get(side - 1).ok_or_else(no_side)?;
                     let tetrahedron = self.content.tetrahedra[index as usize];
                     parts.triangles.push(self.content.triangles.len());
                     self.content.triangles.push(face.map(|corner| tetrahedron[corner]));
                 }
-                Element::Triangle(index) if (1..=3).contains(&side) => {
+                Entry::Triangles(index, 1) if (1..=3).contains(&side) => {
                     let triangle = self.content.triangles[index as usize];
                     parts.edges.push([triangle[side - 1], triangle[side % 3]]);
                 }
-                Element::Quadrangle(index) if (1..=4).contains(&side) => {
+                Entry::Triangles(index, 2) if (1..=4).contains(&side) => {
                     let [[a, b, c], [.., d]] = [0, 1].map(|half| self.content.triangles[index as usize + half]);
                     let corners = [a, b, c, d];
                     parts.edges.push([corners[side - 1], corners[side % 4]]);
@@ -219,18 +180,16 @@ impl Model {
         let Member::Name(_, name) = member else { return (part, None) };
         let plain = name.rsplit('.').next().unwrap_or(name).to_uppercase();
         let scopes = std::iter::once(part).chain(0..self.parts.len());
-        let found = scopes.map(|part| (part, self.parts[part].element_sets.get(&plain)));
+        let found = scopes.map(|part| (part, self.parts[part].sets[Of::Elements as usize].get(&plain)));
         found.filter_map(|(part, set)| Some((part, Some(set?.clone())))).next().unwrap_or((part, None))
     }
 
     /// The numbers of members; names are those of earlier sets, with the name of an instance before them or not.
-    fn numbers<'a>(
-        &self,
-        part: usize,
-        members: &[Member<'a>],
-        sets: fn(&Part) -> &HashMap<String, Vec<i64>>,
-        expected: &'static str,
-    ) -> Result<Vec<(Line<'a>, i64)>, MeshError> {
+    fn numbers<'a>(&self, of: Of, part: usize, members: &[Member<'a>]) -> Result<Vec<(Line<'a>, i64)>, MeshError> {
+        let expected = match of {
+            Of::Nodes => "the name of a set of nodes",
+            Of::Elements => "the name of a set of elements",
+        };
         let mut numbers = Vec::new();
         for member in members {
             match member {
@@ -238,7 +197,7 @@ impl Model {
                 Member::Name(line, name) => {
                     let plain = name.rsplit('.').next().unwrap_or(name).to_uppercase();
                     let problem = || Problem::NotA { word: (*name).to_owned(), expected };
-                    let set = sets(&self.parts[part]).get(&plain).ok_or_else(|| line.error(problem()))?;
+                    let set = self.parts[part].sets[of as usize].get(&plain).ok_or_else(|| line.error(problem()))?;
                     numbers.extend(set.iter().map(|number| (*line, *number)));
                 }
             }
@@ -268,15 +227,6 @@ impl Model {
         // Internal sets of Abaqus/CAE, which its surfaces are made of.
         content.groups.retain(|name, _| !name.rsplit('.').next().unwrap_or(name).starts_with("_"));
         Ok(content)
-    }
-}
-
-fn list(parts: &mut Parts, element: Element) {
-    match element {
-        Element::Tetrahedron(index) => parts.tetrahedra.push(index as usize),
-        Element::Triangle(index) => parts.triangles.push(index as usize),
-        Element::Quadrangle(index) => parts.triangles.extend([index as usize, index as usize + 1]),
-        Element::Line(edge) => parts.edges.push(edge.map(|node| node as usize)),
     }
 }
 

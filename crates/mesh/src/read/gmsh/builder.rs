@@ -4,8 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
-use super::super::content::{Content, Parts};
-use super::index::Index;
+use super::super::content::{Content, Entry, Parts};
 use super::kinds::{Kind, LINE, POINT, TETRAHEDRON, TRIANGLE};
 use crate::Problem;
 
@@ -44,48 +43,34 @@ impl Builder {
         self.content.vertices.len()
     }
 
-    /// Number of elements of this kind so far.
-    pub(super) fn elements(&self, kind: Kind) -> usize {
-        if kind.number == TETRAHEDRON { self.content.tetrahedra.len() } else { self.content.triangles.len() }
-    }
-
-    /// Adds a tetrahedron or a triangle of the mesh to another physical group.
-    pub(super) fn add_to_group(&mut self, kind: Kind, element: usize, group: Group) {
-        let parts = self.groups.entry(group).or_default();
-        let list = if kind.number == TETRAHEDRON { &mut parts.tetrahedra } else { &mut parts.triangles };
-        list.push(element);
+    /// Adds an entry to a physical group.
+    pub(super) fn add_to_group(&mut self, entry: Entry, group: Group) {
+        self.groups.entry(group).or_default().push(entry);
     }
 
     /// Adds an element to its physical groups; a tetrahedron or a triangle to the mesh too.
-    pub(super) fn add_element(&mut self, kind: Kind, tags: &[i64], groups: &[Group]) -> Result<(), Problem> {
+    pub(super) fn add_element(&mut self, kind: Kind, tags: &[i64], groups: &[Group]) -> Result<Entry, Problem> {
         if ![TETRAHEDRON, TRIANGLE].contains(&kind.number) && groups.is_empty() {
             if kind.dimension == 2 {
                 self.content.skipped =
                     Some(format!("a surface of {} (Gmsh's element type {})", kind.name, kind.number));
             }
-            return Ok(());
+            return Ok(Entry::Nothing);
         }
         let node = |&tag: &i64| self.index.get(tag).ok_or(Problem::UnknownTag { tag });
         let nodes = tags.iter().map(node).collect::<Result<Vec<_>, _>>()?;
-        let element = self.elements(kind);
-        let sets = groups.iter().copied();
-        match (kind.number, &nodes[..]) {
-            (TETRAHEDRON, &[a, b, c, d]) => {
-                self.content.tetrahedra.push([a, b, c, d]);
-                sets.for_each(|group| self.add_to_group(kind, element, group));
-            }
-            (TRIANGLE, &[a, b, c]) => {
-                self.content.triangles.push([a, b, c]);
-                sets.for_each(|group| self.add_to_group(kind, element, group));
-            }
-            (LINE, &[a, b]) => sets.for_each(|group| self.groups.entry(group).or_default().edges.push([a, b])),
-            (POINT, &[a]) => sets.for_each(|group| self.groups.entry(group).or_default().points.push(a)),
+        let entry = match (kind.number, &nodes[..]) {
+            (TETRAHEDRON, &[a, b, c, d]) => self.content.tetrahedron([a, b, c, d]),
+            (TRIANGLE, nodes) => self.content.polygon(nodes),
+            (LINE, &[a, b]) => Entry::edge([a, b]),
+            (POINT, &[a]) => Entry::Point(a as u32),
             _ => {
                 let found = format!("a physical group of {} (Gmsh's element type {})", kind.name, kind.number);
                 return Err(Problem::Unsupported { found, instead: FIRST_ORDER });
             }
-        }
-        Ok(())
+        };
+        groups.iter().for_each(|&group| self.add_to_group(entry, group));
+        Ok(entry)
     }
 
     /// The mesh. A group has its name, or its number if it has none.
@@ -96,5 +81,42 @@ impl Builder {
             content.groups.entry(name).or_default().extend(parts);
         }
         content
+    }
+}
+
+/// No node has this index: a mesh with 2³² nodes fits into no memory.
+const NONE: u32 = u32::MAX;
+
+/// The indices of nodes by their tags, any integers: a table for small tags, as most files have them, which is several times as fast as a map, and a map for others.
+#[derive(Default)]
+struct Index {
+    table: Vec<u32>,
+    map: HashMap<i64, u32>,
+    count: usize,
+}
+
+impl Index {
+    /// Adds a tag. Returns false if it is known.
+    fn insert(&mut self, tag: i64, index: usize) -> bool {
+        if self.get(tag).is_some() {
+            return false;
+        }
+        self.count += 1;
+        // Never larger than a few times the nodes so far.
+        match usize::try_from(tag).ok().filter(|tag| *tag < 4 * self.count + 1024) {
+            Some(tag) => {
+                if self.table.len() <= tag {
+                    self.table.resize(tag + 1, NONE);
+                }
+                self.table[tag] = index as u32;
+            }
+            None => drop(self.map.insert(tag, index as u32)),
+        }
+        true
+    }
+
+    fn get(&self, tag: i64) -> Option<usize> {
+        let in_table = usize::try_from(tag).ok().and_then(|tag| self.table.get(tag)).filter(|index| **index != NONE);
+        in_table.or_else(|| self.map.get(&tag)).map(|index| *index as usize)
     }
 }

@@ -1,9 +1,7 @@
 //! Gmsh's files: version 1 and 4.0 as text, versions 2.0 to 2.2 and 4.1 as text and binary. Source: Gmsh reference manual, section «MSH file
 //! format» and its appendix.
 
-mod binary;
 mod builder;
-mod index;
 mod kinds;
 mod numbers;
 mod version2;
@@ -11,9 +9,8 @@ mod version4;
 
 use std::path::Path;
 
-use self::binary::Binary;
 use self::builder::Builder;
-use self::numbers::{Numbers, Text};
+use self::numbers::Numbers;
 use self::version4::{Entities, Layout};
 use super::content::Content;
 use super::readable;
@@ -43,15 +40,14 @@ pub(super) fn read(file: &Path, bytes: Vec<u8>) -> Result<Content, MeshError> {
     if !is_binary {
         // Names and comments may be in any encoding.
         let text = readable(bytes);
-        let mut numbers = Text::new(file, text.trim_start_matches('\u{feff}'));
-        return read_sections(&mut numbers, version, is_binary);
+        return read_sections(&mut Numbers::of_text(file, text.trim_start_matches('\u{feff}')), version);
     }
-    let mut numbers = Binary::new(file, &bytes, end);
+    let mut numbers = Numbers::of_bytes(file, &bytes, end);
     check_byte_order(&mut numbers)?;
-    read_sections(&mut numbers, version, is_binary)
+    read_sections(&mut numbers, version)
 }
 
-fn read_sections(numbers: &mut dyn Numbers, version: Version, is_binary: bool) -> Result<Content, MeshError> {
+fn read_sections(numbers: &mut Numbers, version: Version) -> Result<Content, MeshError> {
     let (mut mesh, mut entities) = (Builder::default(), Entities::new());
     while let Some(section) = numbers.section()? {
         match (&section[..], version) {
@@ -62,7 +58,7 @@ fn read_sections(numbers: &mut dyn Numbers, version: Version, is_binary: bool) -
             ("Elements", Version::V4(layout)) => version4::read_elements(numbers, layout, &entities, &mut mesh)?,
             ("Nodes", Version::V2) | ("NOD", Version::V1) => version2::read_nodes(numbers, &section, &mut mesh)?,
             ("Elements", Version::V2) | ("ELM", Version::V1) => {
-                version2::read_elements(numbers, is_binary, version == Version::V1, &mut mesh)?
+                version2::read_elements(numbers, version == Version::V1, &mut mesh)?
             }
             (other, _) => {
                 numbers.skip(other)?;
@@ -76,7 +72,7 @@ fn read_sections(numbers: &mut dyn Numbers, version: Version, is_binary: bool) -
 }
 
 /// A count, then `<dimension> <number> "<name>"` for each physical group.
-fn read_names(numbers: &mut dyn Numbers, mesh: &mut Builder) -> Result<(), MeshError> {
+fn read_names(numbers: &mut Numbers, mesh: &mut Builder) -> Result<(), MeshError> {
     let announced = numbers.text_count("the number of names")?;
     for _ in 0..announced {
         let line = numbers.text_line("the name of a physical group")?;
@@ -128,7 +124,7 @@ fn read_format(file: &Path, bytes: &[u8]) -> Result<Format, MeshError> {
 }
 
 /// A binary file begins with the integer 1.
-fn check_byte_order(numbers: &mut Binary) -> Result<(), MeshError> {
+fn check_byte_order(numbers: &mut Numbers) -> Result<(), MeshError> {
     match numbers.int("the integer 1 that tells the byte order")? {
         1 => numbers.end("MeshFormat", "", 0, 0),
         0x0100_0000 => {

@@ -5,10 +5,11 @@ use std::collections::HashMap;
 use super::builder::{Builder, Group};
 use super::kinds::{Kind, TETRAHEDRON, TRIANGLE, kind};
 use super::numbers::Numbers;
-use crate::{MeshError, Problem};
+use crate::MeshError;
+use crate::read::content::Entry;
 
 /// A count, then `<tag> <x> <y> <z>` for each node.
-pub(super) fn read_nodes(numbers: &mut dyn Numbers, section: &str, mesh: &mut Builder) -> Result<(), MeshError> {
+pub(super) fn read_nodes(numbers: &mut Numbers, section: &str, mesh: &mut Builder) -> Result<(), MeshError> {
     let announced = numbers.text_count("the number of nodes")?;
     for row in 0..announced {
         numbers.row("nodes", announced, row)?;
@@ -23,13 +24,9 @@ pub(super) fn read_nodes(numbers: &mut dyn Numbers, section: &str, mesh: &mut Bu
 /// A count, then `<tag> <type> <tags> <tag …> <nodes …>` for each element, or in version 1 `<tag> <type> <group> <entity> <number of nodes>
 /// <nodes …>`. In a binary file elements of one type and number of tags follow each other: `<type> <elements> <tags>`, then `<tag> <tag …>
 /// <nodes …>` for each.
-pub(super) fn read_elements(
-    numbers: &mut dyn Numbers,
-    is_binary: bool,
-    is_first: bool,
-    mesh: &mut Builder,
-) -> Result<(), MeshError> {
+pub(super) fn read_elements(numbers: &mut Numbers, is_first: bool, mesh: &mut Builder) -> Result<(), MeshError> {
     let announced = numbers.text_count("the number of elements")?;
+    let is_binary = numbers.is_binary;
     let (mut found, mut known) = (0, Known::new());
     while found < announced {
         numbers.row("elements", announced, found)?;
@@ -37,9 +34,9 @@ pub(super) fn read_elements(
             numbers.int("the tag of an element")?;
         }
         let number = numbers.int("the type of an element")?;
-        let count = if is_binary { amount(numbers, "the number of elements that follow")? } else { 1 };
+        let count = if is_binary { numbers.amount("the number of elements that follow")? } else { 1 };
         // Version 1 has the group, the entity and the number of nodes in place of the tags.
-        let tags = if is_first { 3 } else { amount(numbers, "the number of tags")? };
+        let tags = if is_first { 3 } else { numbers.amount("the number of tags")? };
         let kind = kind(number).map_err(|problem| numbers.error(problem))?;
         for _ in 0..count {
             if is_binary {
@@ -52,12 +49,11 @@ pub(super) fn read_elements(
     numbers.end(if is_first { "ELM" } else { "Elements" }, "elements", announced, found)
 }
 
-/// Tetrahedra and triangles of physical groups so far: index and groups by the type and the tags of the nodes, 0 for the fourth of a
-/// triangle.
-type Known = HashMap<(i64, [i64; 4]), (usize, Vec<Group>)>;
+/// Tetrahedra and triangles of physical groups so far: entry and groups by the type and the tags of the nodes, 0 for the fourth of a triangle.
+type Known = HashMap<(i64, [i64; 4]), (Entry, Vec<Group>)>;
 
 fn read_element(
-    numbers: &mut dyn Numbers,
+    numbers: &mut Numbers,
     kind: Kind,
     tags: usize,
     known: &mut Known,
@@ -74,26 +70,21 @@ fn read_element(
     }
     numbers.end_row("the nodes of the element")?;
     let groups: &[Group] = if group == 0 { &[] } else { &[(kind.dimension, group)] };
-    if [TETRAHEDRON, TRIANGLE].contains(&kind.number)
-        && let &[group] = groups
-    {
-        let mut key = [0; 4];
-        key[..nodes.len()].copy_from_slice(&nodes);
-        key[..nodes.len()].sort_unstable();
-        let (element, earlier) = known.entry((kind.number, key)).or_insert((mesh.elements(kind), Vec::new()));
-        let is_repeated = !earlier.is_empty() && !earlier.contains(&group);
-        earlier.push(group);
-        // An element of several groups stands in the file once for each.
-        if is_repeated {
-            mesh.add_to_group(kind, *element, group);
-            return Ok(());
-        }
+    let mut add = || mesh.add_element(kind, &nodes, groups).map_err(|problem| numbers.error(problem));
+    if groups.is_empty() || ![TETRAHEDRON, TRIANGLE].contains(&kind.number) {
+        return add().map(drop);
     }
-    mesh.add_element(kind, &nodes, groups).map_err(|problem| numbers.error(problem))
-}
-
-/// A count, of 4 bytes in a binary file.
-fn amount(numbers: &mut dyn Numbers, expected: &'static str) -> Result<usize, MeshError> {
-    let count = numbers.int(expected)?;
-    usize::try_from(count).map_err(|_| numbers.error(Problem::NotA { word: count.to_string(), expected }))
+    let mut key = [0; 4];
+    key[..nodes.len()].copy_from_slice(&nodes);
+    key[..nodes.len()].sort_unstable();
+    match known.get_mut(&(kind.number, key)) {
+        // An element of several groups stands in the file once for each.
+        Some((entry, earlier)) if !earlier.contains(&groups[0]) => {
+            earlier.push(groups[0]);
+            mesh.add_to_group(*entry, groups[0]);
+        }
+        Some(_) => drop(add()?),
+        None => drop(known.insert((kind.number, key), (add()?, groups.to_vec()))),
+    }
+    Ok(())
 }

@@ -18,11 +18,7 @@ pub(super) enum Layout {
 pub(super) type Entities = HashMap<(usize, i64), Vec<Group>>;
 
 /// Counts of the entities of each dimension, then the entities.
-pub(super) fn read_entities(
-    numbers: &mut dyn Numbers,
-    layout: Layout,
-    entities: &mut Entities,
-) -> Result<(), MeshError> {
+pub(super) fn read_entities(numbers: &mut Numbers, layout: Layout, entities: &mut Entities) -> Result<(), MeshError> {
     let count = read_list(numbers, layout, entities, |_| Ok(()))?;
     numbers.end("Entities", "entities", count, count)
 }
@@ -30,7 +26,7 @@ pub(super) fn read_entities(
 /// The number of partitions, then that of ghost entities and `<tag> <partition>` of each, then entities that have their parent's
 /// dimension and tag and their partitions after their own tag.
 pub(super) fn read_partitioned(
-    numbers: &mut dyn Numbers,
+    numbers: &mut Numbers,
     layout: Layout,
     entities: &mut Entities,
 ) -> Result<(), MeshError> {
@@ -57,10 +53,10 @@ pub(super) fn read_partitioned(
 /// Counts of the entities of each dimension, then for each: tag, what `middle` reads, bounding box (4.1: points have a position),
 /// physical groups, and for curves to volumes the entities of its boundary. Returns their number.
 fn read_list(
-    numbers: &mut dyn Numbers,
+    numbers: &mut Numbers,
     layout: Layout,
     entities: &mut Entities,
-    middle: impl Fn(&mut dyn Numbers) -> Result<(), MeshError>,
+    middle: impl Fn(&mut Numbers) -> Result<(), MeshError>,
 ) -> Result<usize, MeshError> {
     numbers.row("numbers of entities", 1, 0)?;
     let mut counts = [0; 4];
@@ -96,7 +92,7 @@ fn read_list(
 
 /// `<blocks> <nodes> …`, then blocks of `<dim> <tag> <parametric> <nodes>`; all tags stand before all positions (4.1),
 /// or each tag beside its position (4.0).
-pub(super) fn read_nodes(numbers: &mut dyn Numbers, layout: Layout, mesh: &mut Builder) -> Result<(), MeshError> {
+pub(super) fn read_nodes(numbers: &mut Numbers, layout: Layout, mesh: &mut Builder) -> Result<(), MeshError> {
     let (blocks, announced) = header(numbers, layout)?;
     for block in 0..blocks {
         numbers.row("blocks of nodes", blocks, block)?;
@@ -122,7 +118,7 @@ pub(super) fn read_nodes(numbers: &mut dyn Numbers, layout: Layout, mesh: &mut B
     numbers.end("Nodes", "nodes", announced, mesh.nodes())
 }
 
-fn read_tags(numbers: &mut dyn Numbers, count: usize, mesh: &mut Builder) -> Result<(), MeshError> {
+fn read_tags(numbers: &mut Numbers, count: usize, mesh: &mut Builder) -> Result<(), MeshError> {
     for row in 0..count {
         numbers.row("nodes", count, row)?;
         add_tag(numbers, mesh, row)?;
@@ -133,14 +129,14 @@ fn read_tags(numbers: &mut dyn Numbers, count: usize, mesh: &mut Builder) -> Res
     Ok(())
 }
 
-fn add_tag(numbers: &mut dyn Numbers, mesh: &mut Builder, ahead: usize) -> Result<(), MeshError> {
+fn add_tag(numbers: &mut Numbers, mesh: &mut Builder, ahead: usize) -> Result<(), MeshError> {
     let tag = numbers.long("the tag of a node")?;
     mesh.add_tag(tag, ahead).map_err(|problem| numbers.error(problem))
 }
 
 /// `<blocks> <elements> …`, then blocks of `<dim> <tag> <type> <elements>` (4.0: tag first), then `<tag> <nodes …>` each.
 pub(super) fn read_elements(
-    numbers: &mut dyn Numbers,
+    numbers: &mut Numbers,
     layout: Layout,
     entities: &Entities,
     mesh: &mut Builder,
@@ -174,7 +170,7 @@ pub(super) fn read_elements(
 }
 
 /// Numbers of blocks and of entries; 4.1 adds the smallest and the largest tag.
-fn header(numbers: &mut dyn Numbers, layout: Layout) -> Result<(usize, usize), MeshError> {
+fn header(numbers: &mut Numbers, layout: Layout) -> Result<(usize, usize), MeshError> {
     numbers.row("counts of a section", 1, 0)?;
     let counts = (numbers.count("the number of blocks")?, numbers.count("the number of entries")?);
     if layout == Layout::V41 {
@@ -186,7 +182,7 @@ fn header(numbers: &mut dyn Numbers, layout: Layout) -> Result<(usize, usize), M
 }
 
 /// Dimension and tag of the entity of a block.
-fn entity(numbers: &mut dyn Numbers, layout: Layout) -> Result<(usize, i64), MeshError> {
+fn entity(numbers: &mut Numbers, layout: Layout) -> Result<(usize, i64), MeshError> {
     let (first, second) = (numbers.int("an integer of the block")?, numbers.int("an integer of the block")?);
     let (dimension, tag) = if layout == Layout::V41 { (first, second) } else { (second, first) };
     match usize::try_from(dimension) {

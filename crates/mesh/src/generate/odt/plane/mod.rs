@@ -8,8 +8,7 @@
 //! and Ωᵢ the triangles around vertex i. The factor before the sum over the vertices is 1/3 in the plane; 1/4 belongs to space. A density ρ = h⁻⁴
 //! in front of every triangle's share makes edges of length h optimal.
 
-mod polish;
-mod slide;
+mod moves;
 
 use nalgebra::Vector2;
 
@@ -120,22 +119,16 @@ impl<'a, S: Fn(u32, Vector2<f64>) -> f64> Smoothing<'a, S> {
     fn measure(&self) -> OdtStep {
         let energy = self.shares.iter().map(|[energy, _]| energy).sum();
         let mut shapes: Vec<f64> = self.shares.iter().map(|[_, shape]| *shape).collect();
-        let rank = |share: f64| ((share * shapes.len() as f64).ceil() as usize).saturating_sub(1);
-        let (middle, most) = (rank(0.5), rank(0.99));
-        let (below, radius_to_edge_99, above) = shapes.select_nth_unstable_by(most, f64::total_cmp);
-        let worst = above.iter().fold(*radius_to_edge_99, |worst, shape| worst.max(*shape)).sqrt();
-        let radius_to_edge_99 = radius_to_edge_99.sqrt();
-        // The median is among those up to the other rank.
-        let median = if middle < most {
-            below.select_nth_unstable_by(middle, f64::total_cmp).1.sqrt()
-        } else {
-            radius_to_edge_99
+        let worst = shapes.iter().copied().fold(0.0, f64::max).sqrt();
+        let mut quantile = |share: f64| {
+            let rank = ((share * shapes.len() as f64).ceil() as usize).saturating_sub(1);
+            shapes.select_nth_unstable_by(rank, f64::total_cmp).1.sqrt()
         };
         OdtStep {
             energy,
             smallest_angle: (0.5 / worst).min(1.0).asin().to_degrees(),
-            median_radius_to_edge: median,
-            radius_to_edge_99,
+            median_radius_to_edge: quantile(0.5),
+            radius_to_edge_99: quantile(0.99),
             worst_radius_to_edge: worst,
         }
     }

@@ -1,12 +1,13 @@
 //! A tetrahedral mesh that changes: its elements, those around each vertex, and the parts that stay.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashSet};
 
 use nalgebra::Vector3;
 
 use super::shape::Shape;
 use crate::boundary::FACES;
-use crate::sets::EDGES;
+use crate::connectivity::{EDGES, sorted};
+use crate::sets::combinations;
 use crate::{MeshSet, TetrahedralMesh, boundary};
 
 /// Corners of an element that has been removed.
@@ -52,7 +53,7 @@ impl Cells {
         for (cell, corners) in corners.iter().enumerate() {
             corners.iter().for_each(|&vertex| stars[vertex as usize].push(cell as u32));
         }
-        let (regions, sets_of_regions) = regions(mesh);
+        let (regions, sets_of_regions) = combinations(mesh);
         let mut cells = Self {
             positions: mesh.vertices.clone(),
             corners,
@@ -210,25 +211,4 @@ impl Cells {
         let (sum, count) = lengths.fold((0.0, 0_usize), |(sum, count), length| (sum + length, count + 1));
         sum / count.max(1) as f64
     }
-}
-
-/// The combination of sets of each element, and the sets of each combination.
-fn regions(mesh: &TetrahedralMesh) -> (Vec<u32>, Vec<Vec<usize>>) {
-    let mut sets_of_elements = vec![Vec::new(); mesh.elements.len()];
-    for (number, set) in mesh.sets.values().enumerate() {
-        set.elements.iter().for_each(|&element| sets_of_elements[element].push(number));
-    }
-    let (mut numbers, mut combinations) = (HashMap::new(), Vec::new());
-    let regions = sets_of_elements.into_iter().map(|sets| {
-        *numbers.entry(sets).or_insert_with_key(|sets| {
-            combinations.push(sets.clone());
-            combinations.len() as u32 - 1
-        })
-    });
-    (regions.collect(), combinations)
-}
-
-fn sorted<const N: usize>(mut nodes: [u32; N]) -> [u32; N] {
-    nodes.sort_unstable();
-    nodes
 }

@@ -11,8 +11,6 @@ mod polish;
 mod shape;
 mod smooth;
 
-use nalgebra::Vector3;
-
 use crate::generate::{Progress, Solid};
 use crate::{TetrahedralMesh, boundary, quality};
 pub(crate) use cells::{Cells, Freedom};
@@ -30,7 +28,7 @@ const CONVERGED: f64 = 1e-7;
 /// Measures of a mesh after an iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
-    /// Energy of optimal Delaunay triangulation, m⁵ (times the density).
+    /// Energy of optimal Delaunay triangulation, m⁵.
     pub energy: f64,
     /// Smallest, 1 % and 50 % quantile of the elements' smallest dihedral angles, degrees.
     pub angles: [f64; 3],
@@ -68,15 +66,7 @@ pub fn improve_tetrahedra(mesh: &TetrahedralMesh, iterations: usize) -> Improved
 
 /// The improvement of [`improve_tetrahedra`], which tells how many of the iterations and passes are done.
 pub fn improve_tetrahedra_with(mesh: &TetrahedralMesh, iterations: usize, progress: Progress) -> Improved {
-    improve_with(mesh, Cells::new(mesh), iterations, &|_| 1.0, &|_, _| None, progress)
-}
-
-/// Improves a mesh as [`improve_tetrahedra`] does, towards elements with edges proportional to `size` (m, above 0) at their place. The
-/// density that leads there is `size^-(d + 2)`: Chen and Holst, Efficient Mesh Optimization Schemes Based on Optimal Delaunay Triangulations (2011).
-pub fn improve_graded(mesh: &TetrahedralMesh, iterations: usize, size: impl Fn(&Vector3<f64>) -> f64) -> Improved {
-    let cells = Cells::new(mesh);
-    let unit = cells.mean_edge_of_all();
-    improve_with(mesh, cells, iterations, &|x| (unit / size(x)).powi(5), &|_, _| None, &|_| ())
+    improve_with(mesh, Cells::new(mesh), iterations, &|_, _| None, progress)
 }
 
 /// Improves a mesh as [`improve_tetrahedra`] does, and lets the vertices of its boundary that lie on a surface slide on it, while the worst
@@ -99,28 +89,27 @@ pub fn improve_inside_with(mesh: &TetrahedralMesh, iterations: usize, surface: &
             cells.freedom[vertex] = Freedom::OnSurface;
         }
     }
-    improve_with(mesh, cells, iterations, &|_| 1.0, &|_, x| surface.closest(x), progress)
+    improve_with(mesh, cells, iterations, &|_, x| surface.closest(x), progress)
 }
 
 fn improve_with(
     mesh: &TetrahedralMesh,
     mut cells: Cells,
     iterations: usize,
-    density: &dyn Fn(&Vector3<f64>) -> f64,
     project: Project,
     progress: Progress,
 ) -> Improved {
     // Iterations and passes take about the same time.
     let tell = |done: f64| progress(done / (2.0 * iterations as f64));
-    let mut smoothing: Vec<Iteration> = vec![state(&cells, density)];
+    let mut smoothing: Vec<Iteration> = vec![state(&cells)];
     let floor_of = |cells: &Cells| Floor::of(cells.cells().map(|cell| cells.shape(cell)));
     for iteration in 0..iterations {
         tell(iteration as f64);
         let floor = floor_of(&cells);
-        reconnect(&mut cells, &floor, density);
-        move_vertices(&mut cells, &floor, density);
-        let [before, after] = [smoothing[smoothing.len() - 1].energy, total_energy(&cells, density)];
-        smoothing.push(state(&cells, density));
+        reconnect(&mut cells, &floor);
+        move_vertices(&mut cells, &floor);
+        let [before, after] = [smoothing[smoothing.len() - 1].energy, total_energy(&cells)];
+        smoothing.push(state(&cells));
         if after >= before * (1.0 - CONVERGED) {
             break;
         }
@@ -132,7 +121,7 @@ fn improve_with(
         if raise_the_worst(&mut cells, &floor, project) == 0 {
             break;
         }
-        polishing.push(state(&cells, density));
+        polishing.push(state(&cells));
     }
     let improved = cells.mesh(&mesh.sets);
     // Cosines decide about each change; the angles themselves decide about the result, to the last digit.
@@ -147,7 +136,7 @@ fn is_nowhere_worse(new: &TetrahedralMesh, old: &TetrahedralMesh) -> bool {
         && new.radius_ratio.value >= old.radius_ratio.value
 }
 
-fn state(cells: &Cells, density: &dyn Fn(&Vector3<f64>) -> f64) -> Iteration {
+fn state(cells: &Cells) -> Iteration {
     let shapes: Vec<_> = cells.cells().map(|cell| cells.shape(cell)).collect();
     let mut cosines: Vec<f64> = shapes.iter().map(|shape| shape.cosines[0]).collect();
     cosines.sort_by(|a, b| b.total_cmp(a));
@@ -156,7 +145,7 @@ fn state(cells: &Cells, density: &dyn Fn(&Vector3<f64>) -> f64) -> Iteration {
         cosines.get(place).map_or(f64::NAN, |cosine| cosine.acos().to_degrees())
     };
     Iteration {
-        energy: total_energy(cells, density),
+        energy: total_energy(cells),
         angles: [0.0, 0.01, 0.5].map(angle),
         largest_angle: shapes.iter().map(|shape| shape.cosines[1].acos().to_degrees()).fold(0.0, f64::max),
         radius_ratio: shapes.iter().map(|shape| shape.radius_ratio).fold(f64::INFINITY, f64::min),

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use super::cells::{Cells, Freedom};
 use super::flips::{Objective, flatness, remove_edge, remove_face};
 use super::shape::{Floor, Shape};
-use crate::sets::EDGES;
+use crate::connectivity::EDGES;
 
 /// Sine of a dihedral angle from which an element is good enough: 40°.
 const GOOD: f64 = 0.64;
@@ -55,10 +55,7 @@ fn move_vertex(cells: &mut Cells, vertex: u32, floor: &Floor, project: Project) 
     if cells.freedom[vertex as usize] == Freedom::Fixed {
         return false;
     }
-    let worst = |x: &Vector3<f64>| {
-        let shapes = sines(cells, vertex, x, floor);
-        shapes.into_iter().fold(f64::INFINITY, f64::min)
-    };
+    let worst = |x: &Vector3<f64>| worst(cells, vertex, x, floor);
     let (before, length) = (worst(&here), cells.mean_edge(vertex));
     let direction = ascent(cells, vertex, floor, 1e-4 * length);
     let found = [0.2, 0.08, 0.03, 0.01, 0.003].into_iter().find_map(|part| {
@@ -74,44 +71,36 @@ fn move_vertex(cells: &mut Cells, vertex: u32, floor: &Floor, project: Project) 
 /// Moves a vertex to a place, or as far towards it as the elements around it stay within the bounds. Returns whether it has arrived.
 pub fn move_towards(cells: &mut Cells, vertex: u32, place: &Vector3<f64>, floor: &Floor) -> bool {
     let here = cells.positions[vertex as usize];
-    let worst = |x: &Vector3<f64>| sines(cells, vertex, x, floor).into_iter().fold(f64::INFINITY, f64::min);
-    let fits = |part: &f64| worst(&(here + (place - here) * *part)) > 0.0;
+    let fits = |part: &f64| worst(cells, vertex, &(here + (place - here) * *part), floor) > 0.0;
     let Some(part) = [1.0, 0.7, 0.4, 0.2, 0.1, 0.05].into_iter().find(fits) else { return false };
     cells.positions[vertex as usize] = if part == 1.0 { *place } else { here + (place - here) * part };
     part == 1.0
 }
 
-/// Sines of the elements around a vertex if it were at `x`; −1 for those that leave the bounds.
-fn sines(cells: &Cells, vertex: u32, x: &Vector3<f64>, floor: &Floor) -> Vec<f64> {
-    let shape = |&cell: &u32| {
+/// Shapes of the elements around a vertex if it were at `x`.
+fn shapes(cells: &Cells, vertex: u32, x: &Vector3<f64>) -> impl Iterator<Item = Shape> {
+    cells.stars[vertex as usize].iter().map(move |&cell| {
         let corners = cells.corners[cell as usize];
-        let shape =
-            Shape::new(corners.map(|corner| if corner == vertex { *x } else { cells.positions[corner as usize] }));
-        if floor.admits(&shape) { shape.sine } else { -1.0 }
-    };
-    cells.stars[vertex as usize].iter().map(shape).collect()
+        Shape::new(corners.map(|corner| if corner == vertex { *x } else { cells.positions[corner as usize] }))
+    })
+}
+
+/// The smallest sine of the elements around a vertex if it were at `x`; −1 if one of them leaves the bounds.
+fn worst(cells: &Cells, vertex: u32, x: &Vector3<f64>, floor: &Floor) -> f64 {
+    let sines = shapes(cells, vertex, x).map(|shape| if floor.admits(&shape) { shape.sine } else { -1.0 });
+    sines.fold(f64::INFINITY, f64::min)
 }
 
 /// Unit direction in which a smooth minimum of the sines rises, by central differences over `step`, m.
 fn ascent(cells: &Cells, vertex: u32, floor: &Floor, step: f64) -> Vector3<f64> {
     let here = cells.positions[vertex as usize];
-    let base = sines(cells, vertex, &here, floor).into_iter().fold(f64::INFINITY, f64::min);
-    let smooth = |x: Vector3<f64>| -> f64 {
-        let sines = sines_without_floor(cells, vertex, &x);
-        sines.into_iter().map(|sine| -((base - sine) / WIDTH).exp()).sum()
-    };
+    let base = worst(cells, vertex, &here, floor);
+    let smooth =
+        |x: Vector3<f64>| -> f64 { shapes(cells, vertex, &x).map(|shape| -((base - shape.sine) / WIDTH).exp()).sum() };
     let gradient = Vector3::from_fn(|axis, _| {
         let mut offset = Vector3::zeros();
         offset[axis] = step;
         smooth(here + offset) - smooth(here - offset)
     });
     gradient.try_normalize(0.0).unwrap_or_default()
-}
-
-fn sines_without_floor(cells: &Cells, vertex: u32, x: &Vector3<f64>) -> Vec<f64> {
-    let sine = |&cell: &u32| {
-        let corners = cells.corners[cell as usize];
-        Shape::new(corners.map(|corner| if corner == vertex { *x } else { cells.positions[corner as usize] })).sine
-    };
-    cells.stars[vertex as usize].iter().map(sine).collect()
 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::boundary::FACES;
-use crate::sets::EDGES;
+use crate::connectivity::EDGES;
 
 /// Difference of measures beyond rounding.
 const MARGIN: f64 = 1e-12;

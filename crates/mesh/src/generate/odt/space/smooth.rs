@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::cells::{Cells, Freedom};
 use super::flips::{Objective, remove_edge, remove_face};
 use super::shape::{Floor, Shape, energy};
-use crate::sets::EDGES;
+use crate::connectivity::EDGES;
 
 /// Sine of a dihedral angle below which an element is close to a sliver: 14.5°. The energy does not see slivers, so that no change that
 /// lowers it may make one.
@@ -14,31 +14,26 @@ const SLIVER: f64 = 0.25;
 /// Halvings of a step that does not lower the energy.
 const HALVINGS: u32 = 6;
 
-/// Energy of an element with the density at its centroid, m⁵ times the density.
-fn weighted_energy(corners: [Vector3<f64>; 4], density: &dyn Fn(&Vector3<f64>) -> f64) -> f64 {
-    energy(corners) * density(&(corners.iter().sum::<Vector3<f64>>() / 4.0))
-}
-
 /// Energy of the whole mesh.
-pub fn total_energy(cells: &Cells, density: &dyn Fn(&Vector3<f64>) -> f64) -> f64 {
-    cells.cells().map(|cell| weighted_energy(cells.points(cells.corners[cell as usize]), density)).sum()
+pub fn total_energy(cells: &Cells) -> f64 {
+    cells.cells().map(|cell| energy(cells.points(cells.corners[cell as usize]))).sum()
 }
 
-/// Moves every free vertex towards the average of the circumcentres of its star, weighted by volume and density: Alliez, Cohen-Steiner,
+/// Moves every free vertex towards the average of the circumcentres of its star, weighted by volume: Alliez, Cohen-Steiner,
 /// Yvinec and Desbrun, Variational Tetrahedral Meshing (2005), section 3. The step is halved until the energy of the star falls and no element
 /// leaves the bounds or comes closer to a sliver.
-pub fn move_vertices(cells: &mut Cells, floor: &Floor, density: &dyn Fn(&Vector3<f64>) -> f64) {
+pub fn move_vertices(cells: &mut Cells, floor: &Floor) {
     for vertex in 0..cells.positions.len() as u32 {
         if cells.freedom[vertex as usize] != Freedom::Inside || cells.stars[vertex as usize].is_empty() {
             continue;
         }
         let here = cells.positions[vertex as usize];
-        let Some(target) = average_of_circumcentres(cells, vertex, density) else { continue };
-        let (before, worst) = measure(cells, vertex, floor, density);
+        let Some(target) = average_of_circumcentres(cells, vertex) else { continue };
+        let (before, worst) = measure(cells, vertex, floor);
         let mut way = target - here;
         for _ in 0..HALVINGS {
             cells.positions[vertex as usize] = here + way;
-            let (after, new_worst) = measure(cells, vertex, floor, density);
+            let (after, new_worst) = measure(cells, vertex, floor);
             if after < before && new_worst >= worst.min(SLIVER) {
                 break;
             }
@@ -49,51 +44,46 @@ pub fn move_vertices(cells: &mut Cells, floor: &Floor, density: &dyn Fn(&Vector3
 }
 
 /// Energy of the elements around a vertex, and their smallest sine; infinite energy if one of them leaves the bounds.
-fn measure(cells: &Cells, vertex: u32, floor: &Floor, density: &dyn Fn(&Vector3<f64>) -> f64) -> (f64, f64) {
+fn measure(cells: &Cells, vertex: u32, floor: &Floor) -> (f64, f64) {
     let (mut sum, mut worst) = (0.0, f64::INFINITY);
     for &cell in &cells.stars[vertex as usize] {
         let points = cells.points(cells.corners[cell as usize]);
         let shape = Shape::new(points);
-        sum += if floor.admits(&shape) { weighted_energy(points, density) } else { f64::INFINITY };
+        sum += if floor.admits(&shape) { energy(points) } else { f64::INFINITY };
         worst = worst.min(shape.sine);
     }
     (sum, worst)
 }
 
-fn average_of_circumcentres(
-    cells: &Cells,
-    vertex: u32,
-    density: &dyn Fn(&Vector3<f64>) -> f64,
-) -> Option<Vector3<f64>> {
+fn average_of_circumcentres(cells: &Cells, vertex: u32) -> Option<Vector3<f64>> {
     let here = cells.positions[vertex as usize];
     let (mut sum, mut weights) = (Vector3::zeros(), 0.0);
     for &cell in &cells.stars[vertex as usize] {
         let points = cells.points(cells.corners[cell as usize]);
         let [o, a, b, c] = points;
-        let weight = density(&(points.iter().sum::<Vector3<f64>>() / 4.0));
         let (a, b, c) = (a - o, b - o, c - o);
         // Six volumes times twice the circumcentre relative to the first corner: no division by the volume of a sliver.
         let twice = b.cross(&c) * a.norm_squared() + c.cross(&a) * b.norm_squared() + a.cross(&b) * c.norm_squared();
         let six_volumes = a.dot(&b.cross(&c));
-        sum += (0.5 * twice + (o - here) * six_volumes) * weight;
-        weights += six_volumes * weight;
+        sum += 0.5 * twice + (o - here) * six_volumes;
+        weights += six_volumes;
     }
     let target = here + sum / weights;
     target.iter().all(|x| x.is_finite()).then_some(target)
 }
 
 /// Flips faces and edges that are not locally Delaunay, where that lowers the energy. Returns the number of flips.
-pub fn reconnect(cells: &mut Cells, floor: &Floor, density: &dyn Fn(&Vector3<f64>) -> f64) -> usize {
+pub fn reconnect(cells: &mut Cells, floor: &Floor) -> usize {
     let cost = |cells: &Cells, corners: [u32; 4]| {
         let points = cells.points(corners);
         let shape = Shape::new(points);
         let is_fit = floor.admits(&shape) && shape.sine > SLIVER;
-        if is_fit { weighted_energy(points, density) } else { f64::INFINITY }
+        if is_fit { energy(points) } else { f64::INFINITY }
     };
     // Elements that are to vanish may be slivers themselves.
     let objective = Objective {
         cost: &cost,
-        of_old: &|cells, corners| weighted_energy(cells.points(corners), density),
+        of_old: &|cells, corners| energy(cells.points(corners)),
         both: |a, b| a + b,
         at_most: |old| old * (1.0 - 1e-10),
     };

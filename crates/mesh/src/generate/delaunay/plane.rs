@@ -1,16 +1,36 @@
-//! Constrained Delaunay triangulation of a region that closed polygons bound, by the library spade.
+//! Delaunay triangulation of points in the plane, and of a region that closed polygons bound, by the library spade.
 
 use std::collections::VecDeque;
 
 use nalgebra::Vector2;
 use spade::handles::{FixedFaceHandle, FixedVertexHandle, InnerTag};
-use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+use spade::{ConstrainedDelaunayTriangulation, DelaunayTriangulation, Point2, Triangulation};
 
-use super::{DelaunayError, in_range};
+use super::{Delaunay, DelaunayError, in_range, number_distinct};
 use crate::Mesh;
-use crate::generate::triangulation::{OUTSIDE, Triangulation as Connected};
+use crate::connectivity::first_at_each_place;
+use crate::generate::triangulation::Triangulation as Connected;
 
 type Constrained = ConstrainedDelaunayTriangulation<Point2<f64>>;
+
+/// The Delaunay triangulation of points, m; triangles are counter-clockwise. Where four and more points lie on an empty circle, one of
+/// the possible ones.
+///
+/// # Errors
+/// A coordinate that is not finite, or points on one line.
+pub fn triangulate(points: &[Vector2<f64>]) -> Result<Delaunay<2, 3>, DelaunayError> {
+    let points = in_range(points)?;
+    let (vertices, kept) = number_distinct(&first_at_each_place(&points));
+    let flat = DelaunayError::Flat { points: points.len(), in_what: "on one line" };
+    let places = kept.iter().map(|&point| Point2::new(points[point].x, points[point].y)).collect();
+    // The coordinates are in the range that spade takes.
+    let triangulation = DelaunayTriangulation::<Point2<f64>>::bulk_load_stable(places).map_err(|_| flat.clone())?;
+    if triangulation.all_vertices_on_line() {
+        return Err(flat);
+    }
+    let elements = triangulation.inner_faces().map(|face| face.vertices().map(|vertex| vertex.index())).collect();
+    Ok(Delaunay { mesh: Mesh::new(kept.into_iter().map(|point| points[point]).collect(), elements), vertices })
+}
 
 /// The constrained Delaunay triangulation of the region inside closed polygons, m: of the points with an odd winding number, so that a
 /// polygon within another is a hole, whichever way it runs. Vertices are those of the polygons, one after the other; triangles are
@@ -53,24 +73,13 @@ pub(crate) fn triangulate_with(
         handles.push(vertex);
     }
     constrain(&mut triangulation, polygons, &handles)?;
-    let connected = connect(points, &triangulation);
-    if connected.triangles.is_empty() { Err(flat) } else { Ok(connected) }
-}
-
-/// The triangles inside the polygons, with their neighbours there.
-fn connect(points: Vec<Vector2<f64>>, triangulation: &Constrained) -> Connected {
-    let is_inside = inside(triangulation);
-    let mut number = vec![OUTSIDE; is_inside.len()];
-    let faces = || triangulation.inner_faces().filter(|face| is_inside[face.index()]);
-    faces().zip(0..).for_each(|(face, triangle)| number[face.index()] = triangle);
-    let (mut triangles, mut neighbours) = (Vec::new(), Vec::new());
-    for face in faces() {
-        let edges = face.adjacent_edges();
-        triangles.push(edges.map(|edge| edge.from().index() as u32));
-        // The edge opposite a corner is the one after the edge that leaves the corner.
-        neighbours.push([1, 2, 0].map(|i| number[edges[i].rev().face().index()]));
+    let is_inside = inside(&triangulation);
+    let faces = triangulation.inner_faces().filter(|face| is_inside[face.index()]);
+    let triangles: Vec<_> = faces.map(|face| face.vertices().map(|vertex| vertex.index() as u32)).collect();
+    if triangles.is_empty() {
+        return Err(flat);
     }
-    Connected::of(points, triangles, neighbours)
+    Connected::new(points, triangles, &[]).map_err(|points| DelaunayError::Crossing { points })
 }
 
 fn constrain(
