@@ -13,7 +13,7 @@ use std::fs;
 use std::net::TcpListener;
 
 use attacks::classroom::{Attacked, Classroom, repository};
-use attacks::hostile;
+use attacks::{compiler, hostile};
 
 #[test]
 fn attacks_at_run_time_cost_their_own_function_alone() {
@@ -180,13 +180,15 @@ fn attacks_at_compile_time_cost_their_own_function_alone() {
 }
 
 #[test]
-fn an_honest_submission_beside_them_has_full_marks() {
+fn an_honest_submission_has_full_marks_and_its_compiler_sees_no_line_of_a_solution() {
     let mut room = Classroom::new();
     // A macro that takes no words apart, and names that are harmless where they stand.
     let at = "macro_rules! at { ($i:expr, $j:expr) => { 3 * $i + $j } }";
     let names = "fn names(path: usize) -> usize { let env = at!(1, 2); println!(\"{path} {}\", env); env + path }";
     room.change("assemble_forces", "passed", |text| format!("{text}\n{at}\n{names}\n"));
     room.change("assemble_stiffness", "passed", |text| format!("{text}\nfn link(include: f64) -> f64 {{ include }}\n"));
-    let attacked: Attacked = room.grade();
+    let attacked: Attacked = room.grade_beside_others();
     attacked.is_as_expected();
+    attacked.has_full_marks();
+    compiler::libraries_hold_no_line_of_a_solution();
 }
