@@ -53,7 +53,7 @@ fn spoil(room: &mut Classroom, reach: &str) {
         ("linearly_implicit_euler", "timed_out", "loop { std::hint::spin_loop() }"),
         ("dphi_linear_tetrahedron_dX", "failed", hostile::OWN_MEMORY),
         ("dpsi_neo_hookean_dF", "timed_out", "loop { std::thread::sleep(std::time::Duration::from_secs(1000)) }"),
-        ("d2psi_neo_hookean_dF2", "failed", hostile::FORKS),
+        ("d2psi_neo_hookean_dF2", "failed or timed_out", hostile::FORKS),
         ("T_linear_tetrahedron", "crashed or timed_out", hostile::MEMORY),
         ("build_skinning_matrix", "failed", hostile::FORGED_ROWS),
         ("dV_spring_particle_particle_dq", "timed_out", flood),
