@@ -3,6 +3,7 @@
 
 mod attempt;
 mod diagnostics;
+mod locked;
 mod paths;
 pub mod prebuilt;
 mod read;

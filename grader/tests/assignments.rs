@@ -53,15 +53,6 @@ fn functions(grade: &Value) -> Vec<(&str, &str)> {
 }
 
 #[test]
-fn what_a_later_assignment_asks_for_is_neither_graded_nor_needed() {
-    let folder = submission(&NAMES[..13]);
-    let grade = grade(folder.path(), &repository().join("grader/rubrics/first.toml"));
-    assert_eq!(functions(&grade), NAMES[..13].iter().map(|name| (*name, "passed")).collect::<Vec<_>>());
-    assert_eq!((&grade["score"], &grade["max_score"]), (&Value::from(53.0), &Value::from(53.0)));
-    assert!(grade["simulation"]["message"].as_str().is_some_and(|told| told.contains("later assignment")));
-}
-
-#[test]
 fn the_reference_stands_in_for_what_is_given_also_in_the_simulation() {
     let folder = submission(&NAMES[13..]);
     add(&folder, "psi_neo_hookean", &solution("psi_neo_hookean").replace("- 3.0", "- 2.0"));
@@ -103,7 +94,7 @@ fn a_given_function_that_calls_what_is_asked_for_calls_the_students_own() {
 }
 
 #[test]
-fn one_function_is_graded_again_and_a_deadline_counts_for_a_single_submission() {
+fn what_a_later_assignment_asks_for_is_not_needed_a_deadline_counts_and_one_function_is_graded_again() {
     let folder = submission(&NAMES[..13]);
     let rubric = folder.path().join("rubric.toml");
     let first = fs::read_to_string(repository().join("grader/rubrics/first.toml")).expect("the rubric");
@@ -115,6 +106,9 @@ fn one_function_is_graded_again_and_a_deadline_counts_for_a_single_submission() 
     fs::write(&metadata, who).expect("a file");
     let late = grade_with(folder.path(), &rubric, &["--seed", "5", "--metadata", &metadata.display().to_string()]);
     assert_eq!((&late["score"], &late["account"]["raw_score"]), (&Value::from(26.5), &Value::from(53.0)));
+    assert_eq!(functions(&late), NAMES[..13].iter().map(|name| (*name, "passed")).collect::<Vec<_>>());
+    assert_eq!(late["max_score"], 53.0);
+    assert!(late["simulation"]["message"].as_str().is_some_and(|told| told.contains("later assignment")));
     assert!(late["remarks"].to_string().contains("1 day late: 53 points, less 50 %, are 26.5"), "{}", late["remarks"]);
 
     let mut earlier = late.clone();

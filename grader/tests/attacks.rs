@@ -13,7 +13,7 @@ use std::fs;
 use std::net::TcpListener;
 
 use attacks::classroom::{Attacked, Classroom, repository};
-use attacks::hostile;
+use attacks::{compiler, hostile};
 
 #[test]
 fn attacks_at_run_time_cost_their_own_function_alone() {
@@ -53,7 +53,7 @@ fn spoil(room: &mut Classroom, reach: &str) {
         ("linearly_implicit_euler", "timed_out", "loop { std::hint::spin_loop() }"),
         ("dphi_linear_tetrahedron_dX", "failed", hostile::OWN_MEMORY),
         ("dpsi_neo_hookean_dF", "timed_out", "loop { std::thread::sleep(std::time::Duration::from_secs(1000)) }"),
-        ("d2psi_neo_hookean_dF2", "failed", hostile::FORKS),
+        ("d2psi_neo_hookean_dF2", "failed or timed_out", hostile::FORKS),
         ("T_linear_tetrahedron", "crashed or timed_out", hostile::MEMORY),
         ("build_skinning_matrix", "failed", hostile::FORGED_ROWS),
         ("dV_spring_particle_particle_dq", "timed_out", flood),
@@ -180,13 +180,15 @@ fn attacks_at_compile_time_cost_their_own_function_alone() {
 }
 
 #[test]
-fn an_honest_submission_beside_them_has_full_marks() {
+fn an_honest_submission_has_full_marks_and_its_compiler_sees_no_line_of_a_solution() {
     let mut room = Classroom::new();
     // A macro that takes no words apart, and names that are harmless where they stand.
     let at = "macro_rules! at { ($i:expr, $j:expr) => { 3 * $i + $j } }";
     let names = "fn names(path: usize) -> usize { let env = at!(1, 2); println!(\"{path} {}\", env); env + path }";
     room.change("assemble_forces", "passed", |text| format!("{text}\n{at}\n{names}\n"));
     room.change("assemble_stiffness", "passed", |text| format!("{text}\nfn link(include: f64) -> f64 {{ include }}\n"));
-    let attacked: Attacked = room.grade();
+    let attacked: Attacked = room.grade_beside_others();
     attacked.is_as_expected();
+    attacked.has_full_marks();
+    compiler::libraries_hold_no_line_of_a_solution();
 }

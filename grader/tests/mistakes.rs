@@ -32,7 +32,7 @@ fn a_call_of_a_wrong_function_of_the_same_level_costs_nothing() {
              right(F, C, D) {USES_ITS_NEIGHBOUR}\n}}\n"
         )
     });
-    room.grade().is_as_expected();
+    room.grade_beside_others().is_as_expected();
 }
 
 #[test]
@@ -63,5 +63,5 @@ fn a_file_may_call_into_another_whose_function_is_wrong_below_it_or_beside_it() 
     room.change("V_spring_particle_particle", "passed", |text| {
         format!("{text}\nconst _: fn() -> f64 = crate::mass_matrix_linear_tetrahedron::half;\n")
     });
-    room.grade().is_as_expected();
+    room.grade_beside_others().is_as_expected();
 }

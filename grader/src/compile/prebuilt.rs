@@ -8,6 +8,7 @@ use std::{env, fs, io};
 
 use thiserror::Error;
 
+use super::locked::locked;
 use super::tools::run;
 use crate::sandbox::{Sandbox, system_folders};
 
@@ -200,11 +201,14 @@ fn manifest(root: &Path) -> Result<String, PrebuildError> {
     ))
 }
 
-/// A hash of everything that the libraries are made of.
+/// A hash of everything that the libraries are made of. A repository and its handout have the same.
 fn key(root: &Path, toolchain: &str) -> Result<u64, PrebuildError> {
     let mut hasher = DefaultHasher::new();
     (toolchain, env!("CARGO_PKG_VERSION")).hash(&mut hasher);
-    let mut files = vec![root.join("Cargo.lock"), root.join("grader/child/Cargo.toml")];
+    let lock = root.join("Cargo.lock");
+    let lock = fs::read_to_string(&lock).map_err(io_error(&lock))?;
+    locked(&lock, "grader-child").hash(&mut hasher);
+    let mut files = vec![root.join("grader/child/Cargo.toml")];
     for folder in ["grader/child/src", "src/given"] {
         let folder = root.join(folder);
         let entries = fs::read_dir(&folder).map_err(io_error(&folder))?;

@@ -4,6 +4,8 @@ mod mistakes;
 mod reported;
 mod sentences;
 
+use std::collections::BTreeSet;
+
 use finite_elements_3d as solved;
 use grader::implementation::Local;
 use grader_child::Functions;
@@ -38,7 +40,8 @@ fn known_mistakes_are_named_whatever_the_seed() {
 
 #[test]
 fn right_answers_have_no_diagnosis() {
-    for &(function, ..) in [ELEMENTS, ENERGIES, MESHES, STEPS].into_iter().flatten() {
+    let functions = [ELEMENTS, ENERGIES, MESHES, STEPS].into_iter().flatten().map(|&(function, ..)| function);
+    for function in functions.collect::<BTreeSet<_>>() {
         assert_eq!(named(function, REFERENCE), None, "{function}");
     }
 }

@@ -42,6 +42,7 @@ impl Given {
 }
 
 /// One file of a submission.
+#[derive(Clone)]
 pub struct File {
     pub name: &'static str,
     pub text: String,
@@ -51,6 +52,7 @@ pub struct File {
 }
 
 /// A submission as it is compared.
+#[derive(Clone)]
 pub struct Document {
     pub submission: String,
     pub students: Vec<String>,

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use grader::submission::NAMES;
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
@@ -35,8 +36,17 @@ const DISGUISES: [(&str, Disguise); 4] = [
     ("all three", |text| split(&renamed(&reordered(text)))),
 ];
 
-fn handout() -> Given {
-    given(&crate::handout::files(&repository(), &Rubric::load(None).unwrap()).unwrap())
+static HANDOUT: LazyLock<Given> =
+    LazyLock::new(|| given(&crate::handout::files(&repository(), &Rubric::load(None).unwrap()).unwrap()));
+
+/// A submission in each style, by the author of that number.
+static ORIGINALS: LazyLock<Vec<Document>> =
+    LazyLock::new(|| STYLES.iter().enumerate().map(|(author, style)| document(author, style, str::to_owned)).collect());
+
+/// The work of an author: the solutions in a style, in a disguise.
+fn document(author: usize, style: &str, disguise: Disguise) -> Document {
+    let texts = texts_in(&repository().join(style)).iter().map(|(name, text)| (*name, disguise(text))).collect();
+    Document::new(author.to_string(), vec![author.to_string()], texts, &HANDOUT)
 }
 
 fn texts_in(folder: &Path) -> Vec<(&'static str, String)> {
@@ -113,25 +123,18 @@ fn divided(body: TokenStream) -> String {
 }
 
 /// Originals, and for each author a copy in this disguise; the author of each.
-fn class(disguise: Disguise, handout: &Given) -> (Vec<Document>, Vec<usize>) {
-    let document = |author: usize, style: &str, change: Disguise| {
-        let copy = texts_in(&repository().join(style)).iter().map(|(name, text)| (*name, change(text))).collect();
-        (
-            Document::new(format!("{style} {author}"), vec![format!("{style} {author}")], copy, handout),
-            author % STYLES.len(),
-        )
-    };
-    let originals = STYLES.iter().enumerate().map(|(author, style)| document(author, style, str::to_owned));
+fn class(disguise: Disguise) -> (Vec<Document>, Vec<usize>) {
     let copies = STYLES.iter().enumerate().map(|(author, style)| document(author + STYLES.len(), style, disguise));
-    originals.chain(copies).unzip()
+    let all: Vec<_> = ORIGINALS.iter().cloned().chain(copies).collect();
+    let authors = (0..all.len()).map(|author| author % STYLES.len()).collect();
+    (all, authors)
 }
 
 #[test]
 fn planted_copies_are_found_and_independent_solutions_are_not_taken_for_copies() {
-    let handout = handout();
     let mut table = Vec::new();
     for (disguise, change) in DISGUISES {
-        let (documents, authors) = class(change, &handout);
+        let (documents, authors) = class(change);
         let found = pairs(&documents);
         let is_copy = |pair: &&pairs::Pair| authors[pair.members[0]] == authors[pair.members[1]];
         let told: Vec<_> = found.iter().filter(|pair| pair.share >= LEAST_SHARE).collect();
@@ -150,36 +153,32 @@ fn planted_copies_are_found_and_independent_solutions_are_not_taken_for_copies()
 
 #[test]
 fn half_a_copy_is_found_beside_both_of_its_sources() {
-    let handout = handout();
-    let sources: Vec<_> = STYLES.iter().map(|style| texts_in(&repository().join(style))).collect();
+    let sources = [0, 1].map(|author: usize| texts_in(&repository().join(STYLES[author])));
     let mixed = (0..NAMES.len()).map(|i| (NAMES[i], renamed(&sources[i % 2][i].1))).collect();
-    let document = |i: usize, texts| Document::new(i.to_string(), vec![i.to_string()], texts, &handout);
-    let mut class: Vec<_> = sources.into_iter().enumerate().map(|(i, texts)| document(i, texts)).collect();
-    class.push(document(8, mixed));
+    let mut class = ORIGINALS.clone();
+    class.push(Document::new("8".to_owned(), vec!["8".to_owned()], mixed, &HANDOUT));
     let told = pairs(&class).into_iter().filter(|pair| pair.share >= LEAST_SHARE).map(|pair| pair.members);
     let mut told: Vec<_> = told.collect();
     told.sort();
     assert_eq!(told, [[0, 8], [1, 8]]);
 }
 
-/// Submissions of all authors, those from the second to the last copy as disguised copies of the first.
-fn class_with_copies(copies: usize, change: Disguise, handout: &Given) -> Vec<Document> {
-    let copied: Vec<_> =
-        texts_in(&repository().join(STYLES[0])).iter().map(|(name, text)| (*name, change(text))).collect();
-    let document = |(author, style): (usize, &&str)| {
-        let is_copy = (1..copies).contains(&author);
-        let texts = if is_copy { copied.clone() } else { texts_in(&repository().join(style)) };
-        Document::new(author.to_string(), vec![author.to_string()], texts, handout)
+/// Submissions of all authors, those from the second to the last copy as copies of the first, which is `copied` in its disguise.
+fn class_with_copies(copies: usize, copied: &Document) -> Vec<Document> {
+    let original = |(author, own): (usize, &Document)| {
+        let name = author.to_string();
+        let text = if (1..copies).contains(&author) { copied } else { own };
+        Document { submission: name.clone(), students: vec![name], ..text.clone() }
     };
-    STYLES.iter().enumerate().map(document).collect()
+    ORIGINALS.iter().enumerate().map(original).collect()
 }
 
 #[test]
 fn copies_are_found_from_one_pair_to_the_whole_class() {
-    let handout = handout();
     for (disguise, change) in DISGUISES {
+        let copied = document(0, STYLES[0], change);
         for copies in [2, 5, STYLES.len()] {
-            let class = class_with_copies(copies, change, &handout);
+            let class = class_with_copies(copies, &copied);
             let found = Found::in_class(&class);
             let mut told: Vec<_> =
                 found.pairs.iter().filter(|pair| pair.share >= LEAST_SHARE).map(|pair| pair.members).collect();
@@ -199,7 +198,7 @@ fn copies_are_found_from_one_pair_to_the_whole_class() {
             assert!(all.given_share() < 0.45, "copies are taken for given text: {all:?}");
         }
     }
-    let class = class_with_copies(5, renamed, &handout);
+    let class = class_with_copies(5, &document(0, STYLES[0], renamed));
     let text = similar::text(&class, &Found::in_class(&class));
     assert!(
         text.contains("group of 5: 0, 1, 2, 3, 4\n") && text.contains("8 submissions; 10 pairs share 25 %"),
@@ -210,9 +209,9 @@ fn copies_are_found_from_one_pair_to_the_whole_class() {
 
 #[test]
 fn precision_on_the_independent_solutions_of_the_repository() {
-    let class = class_with_copies(1, str::to_owned, &handout());
-    let found = Found::in_class(&class);
-    println!("{}", similar::text(&class, &found));
+    let class = &ORIGINALS;
+    let found = Found::in_class(class);
+    println!("{}", similar::text(class, &found));
     for pair in found.pairs.iter().take(5) {
         println!(
             "{} and {}: {:.3}, longest run {}",
@@ -257,7 +256,6 @@ fn code_that_was_given_beside_the_handout_is_left_out() {
 
 #[test]
 fn what_the_handout_gave_and_what_a_group_shares_is_no_copy() {
-    let handout = handout();
     let solved = texts_in(&repository().join("src"));
     let document = |students: &[&str], handout: &Given| {
         let students = students.iter().map(|name| (*name).to_owned()).collect();
@@ -266,8 +264,8 @@ fn what_the_handout_gave_and_what_a_group_shares_is_no_copy() {
     let all_given =
         Given { exercises: solved.iter().flat_map(|(_, text)| all_pieces(text)).collect(), ..Given::default() };
     assert!(pairs(&[document(&["anna"], &all_given), document(&["bob"], &all_given)]).is_empty());
-    assert!(pairs(&[document(&["anna", "carl"], &handout), document(&["carl"], &handout)]).is_empty());
-    let whole = pairs(&[document(&["anna"], &handout), document(&["bob"], &handout)]);
+    assert!(pairs(&[document(&["anna", "carl"], &HANDOUT), document(&["carl"], &HANDOUT)]).is_empty());
+    let whole = pairs(&[document(&["anna"], &HANDOUT), document(&["bob"], &HANDOUT)]);
     assert!(whole.len() == 1 && whole[0].share > 0.95, "{}", whole[0].share);
 }
 

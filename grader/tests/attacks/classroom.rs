@@ -17,8 +17,8 @@ const LIMIT: Duration = Duration::from_secs(400);
 /// Files that students may read.
 pub const OPEN: [&str; 4] = ["results.json", "report.md", "report.html", "junit.xml"];
 
-/// The first grading prepares the libraries; only one process may do so at a time.
-pub static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+/// An attack that takes the machine's memory and time does so beside no other that must fail for its own reason.
+static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 /// A submission before it is graded.
 pub struct Classroom {
@@ -76,14 +76,19 @@ impl Classroom {
         });
     }
 
-    /// Grades it, and makes sure that the repository is as before.
+    /// Grades it while no other attack goes on, and makes sure that the repository is as before.
     pub fn grade(self) -> Attacked {
+        let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         self.grade_with(&[])
+    }
+
+    /// Grades it beside others, with the time for an answer that students have.
+    pub fn grade_beside_others(self) -> Attacked {
+        self.grade_with(&[("\nseconds = 1.0", "\nseconds = 5.0")])
     }
 
     /// The same with a rubric in which some lines are others.
     pub fn grade_with(self, lines: &[(&str, &str)]) -> Attacked {
-        let _guard = ONE_AT_A_TIME.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let out = TempDir::new().expect("a folder");
         let rubric = self.folder.path().join("rubric.toml");
         let text = fs::read_to_string(repository().join("grader/rubric.toml")).expect("the rubric");
@@ -137,6 +142,11 @@ impl Attacked {
             }
         }
         assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    }
+
+    /// Asserts all points, those of the simulation too.
+    pub fn has_full_marks(&self) {
+        assert_eq!(self.grade["score"], self.grade["max_score"], "{}", self.grade["simulation"]);
     }
 
     /// The message for the author of a function.

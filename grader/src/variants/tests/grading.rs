@@ -93,8 +93,8 @@ fn mistakes_in_all_other_functions_cost_nothing_in_a_right_one() {
     assert!(wrongly.is_empty(), "{wrongly:#?}");
 }
 
-#[test]
-fn most_mistakes_are_named() {
+/// Asserts the smallest share of the mistakes with a name that the diagnosis names.
+fn assert_most_are_named(seeds: &[u64]) {
     let named = in_parallel(|variants| {
         let with_names = variants.iter().filter_map(|one| Some((one, one.diagnosis?)));
         let told = |(one, wanted, seed): (&'static Variant, &str, u64)| {
@@ -102,9 +102,20 @@ fn most_mistakes_are_named() {
             let found = explanation.diagnosis.map(|found| found.name);
             (found.as_deref() != Some(wanted)).then(|| format!("{}, seed {seed}, but found {found:?}", label(one)))
         };
-        with_names.flat_map(|(one, wanted)| SEEDS.map(|seed| (one, wanted, seed))).map(told).collect()
+        with_names.flat_map(|(one, wanted)| seeds.iter().map(move |&seed| (one, wanted, seed))).map(told).collect()
     });
     let misses: Vec<_> = named.iter().flatten().collect();
     let share = 1.0 - misses.len() as f64 / named.len() as f64;
     assert!(share >= NAMED, "{:.1} % of {} are named; not so: {misses:#?}", 100.0 * share, named.len());
+}
+
+#[test]
+fn most_mistakes_are_named() {
+    assert_most_are_named(&SEEDS[..1]);
+}
+
+#[test]
+#[ignore = "takes a minute; .ci/long runs it"]
+fn most_mistakes_are_named_with_other_seeds() {
+    assert_most_are_named(&SEEDS[1..]);
 }
