@@ -4,9 +4,11 @@ pub mod anchors;
 pub mod contact;
 pub mod dead_load;
 mod energy;
+mod hessian_kind;
 pub mod mass_spring;
 mod potential;
 pub mod pressure;
+mod spring;
 pub mod springs;
 
 use fem_model::{Body, Timer};
@@ -16,7 +18,8 @@ use anchors::Anchors;
 pub use energy::Energy;
 use fem_elements::Real;
 use fem_elements::sparse::Pattern;
-pub use potential::{AddBlock, Barrier, Damped, Follower, HessianKind, Lagged, Moment, Potential};
+pub use hessian_kind::HessianKind;
+pub use potential::{AddBlock, Barrier, Damped, Follower, Lagged, Moment, Potential};
 
 /// A kind of force, which is built if the scene asks for it.
 pub struct Kind<T: Real> {

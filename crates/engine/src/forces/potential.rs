@@ -2,7 +2,8 @@
 
 use fem_model::LoadCurve;
 
-use super::{Energy, springs};
+use super::spring::Spring;
+use super::{Energy, HessianKind};
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern, Stored};
 
@@ -104,7 +105,7 @@ pub trait Potential<T: Real>: Send + Sync {
 
     /// The springs of which it consists, for methods that treat them one by one. A force of springs is an internal one of the body: its
     /// Hessian is part of the stiffness K in Rayleigh's damping.
-    fn springs(&self) -> &[springs::Spring<T>] {
+    fn springs(&self) -> &[Spring<T>] {
         &[]
     }
 
@@ -243,13 +244,4 @@ impl Moment {
         let factors = self.load_factor.zip(end.load_factor);
         Self { time: between(self.time, end.time), load_factor: factors.map(|(from, to)| between(from, to)) }
     }
-}
-
-/// Kind of a Hessian.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HessianKind {
-    /// The second derivative as it is.
-    Exact,
-    /// The part of each element and of each force is projected to a positive semi-definite matrix.
-    Projected,
 }

@@ -1,16 +1,14 @@
 //! Springs between nodes, each with a damper beside it: those of `[[springs]]`, and the edges of a mass-spring body
 //! ([`mass_spring`](super::mass_spring)).
 
-mod spring;
-
 use fem_model::Body;
 
+pub use super::spring::Spring;
 use super::{AddBlock, Damped, Energy, HessianKind, Moment, Potential};
 use crate::model::numbering::Numbering;
 use fem_elements::Real;
 use fem_elements::number::is_positive;
 use fem_elements::sparse::{Block, Pattern};
-pub use spring::Spring;
 
 /// Key in the statistics.
 pub const NAME: &str = "springs";
