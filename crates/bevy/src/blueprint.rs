@@ -99,6 +99,7 @@ fn set_material(scene: &mut Scene, material: &SoftBodyMaterial) {
         C1: None,
         C2: None,
         C3: None,
+        Jm: None,
         D: None,
         stiffness: None,
         damping: None,

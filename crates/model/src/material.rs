@@ -51,6 +51,15 @@ pub enum Law {
         /// Half the bulk modulus at small strain, Pa.
         D: f64,
     },
+    /// Gent.
+    Gent {
+        /// Half the shear modulus at small strain, Pa.
+        C: f64,
+        /// Ī1 − 3 at which the stress has no bound.
+        Jm: f64,
+        /// Half the bulk modulus at small strain, Pa.
+        D: f64,
+    },
     /// No law: every edge of the mesh is a spring.
     MassSpring {
         /// Stiffness of the edges.
@@ -147,6 +156,7 @@ impl Law {
             Self::Hencky(_) => "hencky",
             Self::MooneyRivlin { .. } => "mooney_rivlin",
             Self::Yeoh { .. } => "yeoh",
+            Self::Gent { .. } => "gent",
             Self::MassSpring { .. } => "mass_spring",
         }
     }
@@ -166,7 +176,7 @@ impl Law {
             | Self::StableNeoHookean(elastic)
             | Self::Hencky(elastic) => Some(elastic),
             Self::NeoHookean(NeoHookean::Moduli { .. }) | Self::MooneyRivlin { .. } | Self::Yeoh { .. } => None,
-            Self::MassSpring { .. } => None,
+            Self::Gent { .. } | Self::MassSpring { .. } => None,
         }
     }
 
@@ -184,7 +194,7 @@ impl Law {
             }
             Self::MassSpring { stiffness: EdgeStiffness::Young(own), .. } => *own = young.unwrap_or(*own),
             Self::NeoHookean(NeoHookean::Moduli { .. }) | Self::MooneyRivlin { .. } | Self::Yeoh { .. } => {}
-            Self::MassSpring { stiffness: EdgeStiffness::Uniform(_), .. } => {}
+            Self::Gent { .. } | Self::MassSpring { stiffness: EdgeStiffness::Uniform(_), .. } => {}
         }
         self
     }
@@ -201,6 +211,7 @@ impl Law {
             }
             Self::MooneyRivlin { C10, C01, D } => vec![("C10", C10), ("C01", C01), ("D", D)],
             Self::Yeoh { C1, C2, C3, D } => vec![("C1", C1), ("C2", C2), ("C3", C3), ("D", D)],
+            Self::Gent { C, Jm, D } => vec![("C", C), ("Jm", Jm), ("D", D)],
             Self::MassSpring { stiffness, damping } => {
                 let stiffness = match stiffness {
                     EdgeStiffness::Uniform(stiffness) => ("stiffness", stiffness),
@@ -218,7 +229,9 @@ impl Law {
     pub fn poissons_ratio(&self) -> Option<f64> {
         let of_moduli = |C: f64, D: f64| (3.0 * D - 2.0 * C) / (2.0 * (3.0 * D + C));
         match *self {
-            Self::NeoHookean(NeoHookean::Moduli { C, D }) | Self::Yeoh { C1: C, D, .. } => Some(of_moduli(C, D)),
+            Self::NeoHookean(NeoHookean::Moduli { C, D }) | Self::Yeoh { C1: C, D, .. } | Self::Gent { C, D, .. } => {
+                Some(of_moduli(C, D))
+            }
             Self::MooneyRivlin { C10, C01, D } => Some(of_moduli(C10 + C01, D)),
             _ => self.elastic().map(|elastic| elastic.poisson),
         }
@@ -257,6 +270,7 @@ impl Material {
                     return problem(&field, format!("is {value}; Poisson's ratio lies above -1 and below 0.5"));
                 }
                 "C10" | "C01" | "C2" | "C3" => check_finite(&field, &[value])?,
+                "Jm" => check_positive(&field, value, "")?,
                 "stiffness" => check_positive(&field, value, " of N/m")?,
                 "damping" => check_not_negative(&field, value, "N s/m")?,
                 _ => check_positive(&field, value, " of Pa")?,

@@ -109,4 +109,16 @@ impl<T: Number> Isochoric<T> {
             r: aI * g2 + two * D,
         }
     }
+
+    /// Those of the derivative of f'(Ī − 3) ∂Ī/∂F + 2D j cof, given f' and f'': with ∂Ī/∂F = p F + q cof the products of its terms too.
+    #[inline(always)]
+    pub fn terms_of(&self, G: &Tensor<T>, [slope, curvature]: [T; 2], D: T) -> OfInvariants<T> {
+        let mut terms = self.terms(G, slope, D);
+        let p = constant::<T>(2.0) * self.y * self.y;
+        let q = constant::<T>(-1.0 / 3.0) * p * dot(&terms.F, &terms.F) / self.J;
+        terms.s += curvature * p * p;
+        terms.t += curvature * p * q;
+        terms.r += curvature * q * q;
+        terms
+    }
 }

@@ -7,6 +7,7 @@
 mod any;
 mod cauchy;
 mod corotated;
+mod gent;
 mod hencky;
 mod invariants;
 mod isochoric;
@@ -56,6 +57,7 @@ macro_rules! law_list {
                 hencky::Hencky,
                 mooney_rivlin::MooneyRivlin,
                 yeoh::Yeoh,
+                gent::Gent,
             }
         }
     };

@@ -7,7 +7,7 @@
 use super::isochoric::Isochoric;
 use super::{Law, NamedLaw, OfInvariants, Terms};
 use crate::number::{Number, constant};
-use crate::tensor::{Tensor, Tensor4, dot};
+use crate::tensor::{Tensor, Tensor4};
 
 /// Moduli, Pa. Small strain: μ = 2 C1, bulk modulus 2D; C2 is often negative. Where f' < 0, which negative C2 and C3 allow,
 /// the law yields without resistance.
@@ -32,15 +32,8 @@ impl<T: Number> Yeoh<T> {
     fn of_invariants(&self, G: &Tensor<T>) -> OfInvariants<T> {
         let at = Isochoric::new(G);
         let e = at.excess();
-        let mut terms = at.terms(G, self.slope(e), self.D);
         let curvature = constant::<T>(2.0) * self.C2 + constant::<T>(6.0) * self.C3 * e;
-        // ∂Ī/∂F = p F + q cof
-        let p = constant::<T>(2.0) * at.y * at.y;
-        let q = constant::<T>(-1.0 / 3.0) * p * dot(&terms.F, &terms.F) / at.J;
-        terms.s += curvature * p * p;
-        terms.t += curvature * p * q;
-        terms.r += curvature * q * q;
-        terms
+        at.terms_of(G, [self.slope(e), curvature], self.D)
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod closed_forms;
 mod derivatives;
+mod gent;
 mod kelvin_voigt;
 mod lanes;
 mod mooney_rivlin;
@@ -15,7 +16,7 @@ mod yeoh;
 
 use fem_elements::Real;
 use fem_elements::materials::{
-    AnyLaw, Corotated, Hencky, Law, Linear, MooneyRivlin, NeoHookean, StVenantKirchhoff, StableNeoHookean, Yeoh,
+    AnyLaw, Corotated, Gent, Hencky, Law, Linear, MooneyRivlin, NeoHookean, StVenantKirchhoff, StableNeoHookean, Yeoh,
 };
 use fem_elements::number::{Number, constant};
 use fem_elements::tensor::{Tensor, Tensor4};
@@ -59,6 +60,11 @@ fn yeoh<T: Number>() -> Yeoh<T> {
     Yeoh { C1: C, C2: constant(-0.0625), C3: constant(0.03125), D }
 }
 
+fn gent<T: Number>() -> Gent<T> {
+    let NeoHookean { C, D } = neo_hookean();
+    Gent { C, Jm: constant(200.0), D }
+}
+
 /// All laws.
 fn laws<T: Number>() -> Vec<AnyLaw<T>> {
     vec![
@@ -70,6 +76,7 @@ fn laws<T: Number>() -> Vec<AnyLaw<T>> {
         AnyLaw::Hencky(hencky()),
         AnyLaw::MooneyRivlin(mooney_rivlin()),
         AnyLaw::Yeoh(yeoh()),
+        AnyLaw::Gent(gent()),
     ]
 }
 

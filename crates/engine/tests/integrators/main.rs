@@ -127,6 +127,7 @@ fn of_law(model: &str, scene: &str) -> String {
     let (C, D) = (1e5 / (4.0 * 1.3), 1e5 / (6.0 * 0.4));
     let parameters = match model {
         "mooney_rivlin" => format!("C10 = {}\nC01 = {}\nD = {D}", 0.625 * C, 0.375 * C),
+        "gent" => format!("C = {C}\nJm = 30\nD = {D}"),
         "yeoh" => format!("C1 = {C}\nC2 = {}\nC3 = {}\nD = {D}", -0.05 * C, 0.02 * C),
         _ => "young = 1e5\npoisson = 0.3".to_owned(),
     };

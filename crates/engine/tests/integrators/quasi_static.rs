@@ -95,7 +95,7 @@ fn centre(simulation: &dyn Simulation) -> Vector3<f64> {
 
 #[test]
 fn a_block_rests_on_a_floor_that_bears_its_weight_and_stays_where_it_is() {
-    for model in ["linear", "corotated", "hencky", "yeoh"] {
+    for model in ["linear", "corotated", "hencky", "yeoh", "gent"] {
         for floor in ["0", "-0.3"] {
             let text = block(model, &format!("{}{WEIGHT}", FLOOR.replace("[0, 0, 0]", &format!("[0, {floor}, 0]"))));
             let mut simulation = build(&text.replace("cells_per_unit = 1", "cells_per_unit = 2"));

@@ -16,6 +16,7 @@ pub const MODELS: &[Model] = &[
     ("hencky", &[ELASTIC]),
     ("mooney_rivlin", &[&["C10", "C01", "D"]]),
     ("yeoh", &[&["C1", "C2", "C3", "D"]]),
+    ("gent", &[&["C", "Jm", "D"]]),
 ];
 
 /// The model without a constitutive law, in which every edge of the mesh is a spring.
@@ -98,7 +99,7 @@ material! {
     young,
     /// Poisson's ratio at small strain, above −1 and below 0.5. Linear tetrahedra lock above 0.45, and a warning says so.
     poisson,
-    /// Neo-Hookean: half the shear modulus at small strain, Pa; positive.
+    /// Neo-Hookean and Gent: half the shear modulus at small strain, Pa; positive.
     C,
     /// Mooney–Rivlin: factor of Ī1 − 3, Pa.
     C10,
@@ -110,6 +111,8 @@ material! {
     C2,
     /// Yeoh: factor of (Ī1 − 3)³, Pa.
     C3,
+    /// Gent: the limit of Ī1 − 3, at which the stress has no bound; positive.
+    Jm,
     /// Half the bulk modulus at small strain, Pa; positive.
     D,
     /// Mass-spring: stiffness of every edge, N/m; positive. With `young` in its place an edge of length l has the stiffness E ΣV/l², summed
@@ -143,6 +146,7 @@ impl MaterialTable {
             "hencky" => Law::Hencky(elastic),
             "mooney_rivlin" => Law::MooneyRivlin { C10: number(self.C10), C01: number(self.C01), D: number(self.D) },
             "yeoh" => Law::Yeoh { C1: number(self.C1), C2: number(self.C2), C3: number(self.C3), D: number(self.D) },
+            "gent" => Law::Gent { C: number(self.C), Jm: number(self.Jm), D: number(self.D) },
             _ => Law::MassSpring {
                 stiffness: self.stiffness.map_or(EdgeStiffness::Young(elastic.young), EdgeStiffness::Uniform),
                 damping: self.damping.unwrap_or(0.0),

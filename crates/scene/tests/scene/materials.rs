@@ -75,6 +75,7 @@ fn the_poissons_ratio_of_every_law_s_parameters_is_known() {
         "model = \"neo_hookean\"\nC = 1e5",
         "model = \"mooney_rivlin\"\nC10 = 6e4\nC01 = 4e4",
         "model = \"yeoh\"\nC1 = 1e5\nC2 = 1\nC3 = 1",
+        "model = \"gent\"\nC = 1e5\nJm = 40",
     ] {
         let (usual, close) = (ratio(&format!("{law}\nD = 4e5")), ratio(&format!("{law}\nD = 1e8")));
         assert!((usual.0 - 10.0 / 26.0).abs() < 1e-12 && usual.1 == 0, "{law}: {usual:?}");
