@@ -93,16 +93,7 @@ fn set_material(scene: &mut Scene, material: &SoftBodyMaterial) {
         plane,
         young: Some(material.young),
         poisson: Some(material.poisson),
-        C: None,
-        C10: None,
-        C01: None,
-        C1: None,
-        C2: None,
-        C3: None,
-        Jm: None,
-        D: None,
-        stiffness: None,
-        damping: None,
+        ..MaterialTable::default()
     };
     if let Some([alpha, beta]) = material.damping {
         scene.damping = Some(DampingTable { alpha, beta, ..DampingTable::default() });

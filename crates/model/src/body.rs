@@ -9,7 +9,7 @@ use crate::regions::density_factors;
 use crate::selector::{elements, listed, loaded_faces, nodes};
 use crate::simulation::Shape;
 use crate::{
-    BodyMesh, Contact, Damping, DirichletCondition, Drag, LoadCurve, Material, MaterialRegion, Method, Motion,
+    BodyMesh, Contact, Damping, DirichletCondition, Drag, Law, LoadCurve, Material, MaterialRegion, Method, Motion,
     NodalForce, PlaneState, Plasticity, Pressure, Refusal, Selector, Spring, Traction, check_disjoint,
 };
 
@@ -77,7 +77,9 @@ impl Body {
         };
         checked.map_err(|error| Refusal::new("mesh", format!("cannot be simulated: {error}")))?;
         material.check("material")?;
-        if material.plane == PlaneState::Stress && !(mesh.is_flat() && material.law.has_plane_stress()) {
+        if material.plane == PlaneState::Stress
+            && !(mesh.is_flat() && Law::named(material.law.name()).is_some_and(|facts| facts.has_plane_stress))
+        {
             return problem("material.plane", "is stress, a state of flat bodies whose law is linear or corotated");
         }
         Ok(Self::of_shape(Shape { boundary: mesh.surface(), mesh, display: None, picture: None }, material))

@@ -69,6 +69,59 @@ pub enum Law {
     },
 }
 
+/// Hands all parameters of laws, with their documentation, to another macro.
+#[macro_export]
+macro_rules! law_parameters {
+    ($callback:ident) => {
+        $callback! {
+            /// Young's modulus at small strain, Pa; positive.
+            young,
+            /// Poisson's ratio at small strain, above −1 and below 0.5. Linear tetrahedra lock above 0.45, and a warning says so.
+            poisson,
+            /// Neo-Hookean and Gent: half the shear modulus at small strain, Pa; positive.
+            C,
+            /// Mooney–Rivlin: factor of Ī1 − 3, Pa.
+            C10,
+            /// Mooney–Rivlin: factor of Ī2 − 3, Pa.
+            C01,
+            /// Yeoh: half the shear modulus at small strain, Pa; positive.
+            C1,
+            /// Yeoh: factor of (Ī1 − 3)², Pa.
+            C2,
+            /// Yeoh: factor of (Ī1 − 3)³, Pa.
+            C3,
+            /// Gent: the limit of Ī1 − 3, at which the stress has no bound; positive.
+            Jm,
+            /// Half the bulk modulus at small strain, Pa; positive.
+            D,
+            /// Mass-spring: stiffness of every edge, N/m; positive. With `young` in its place an edge of length l has the stiffness E ΣV/l², summed
+            /// over its elements.
+            stiffness,
+            /// Mass-spring: damping along every edge, N s/m; at least 0. Default: 0.
+            damping,
+        }
+    };
+}
+
+/// The values of parameters by their names.
+pub type Given<'a> = dyn Fn(&str) -> Option<f64> + 'a;
+
+/// What is known about a law before it has parameters.
+#[derive(Clone, Copy, Debug)]
+pub struct LawFacts {
+    /// The name in scene files.
+    pub name: &'static str,
+    /// The sets of parameters of which one is given.
+    pub parameters: &'static [&'static [&'static str]],
+    /// True if the law has a form for plane stress.
+    pub has_plane_stress: bool,
+    /// The law with given parameters; those that are missing are NaN, which [`Material::check`] refuses.
+    pub of: fn(&Given) -> Law,
+}
+
+/// Young's modulus and Poisson's ratio of small strain.
+const ELASTIC: &[&str] = &["young", "poisson"];
+
 /// Moduli of small strain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elastic {
@@ -144,7 +197,75 @@ impl NeoHookean {
     }
 }
 
+fn number(given: &Given, name: &str) -> f64 {
+    given(name).unwrap_or(f64::NAN)
+}
+
+fn elastic(given: &Given) -> Elastic {
+    Elastic::new(number(given, "young"), number(given, "poisson"))
+}
+
 impl Law {
+    /// The constitutive laws.
+    pub const FACTS: [LawFacts; 9] = {
+        const fn of_elastic(name: &'static str, has_plane_stress: bool, of: fn(&Given) -> Law) -> LawFacts {
+            LawFacts { name, parameters: &[ELASTIC], has_plane_stress, of }
+        }
+        const fn of(
+            name: &'static str,
+            parameters: &'static [&'static [&'static str]],
+            of: fn(&Given) -> Law,
+        ) -> LawFacts {
+            LawFacts { name, parameters, has_plane_stress: false, of }
+        }
+        [
+            of_elastic("linear", true, |given| Self::Linear(elastic(given))),
+            of_elastic("corotated", true, |given| Self::Corotated(elastic(given))),
+            of_elastic("st_venant_kirchhoff", false, |given| Self::StVenantKirchhoff(elastic(given))),
+            of("neo_hookean", &[&["C", "D"], ELASTIC], |given| {
+                Self::NeoHookean(match (given("C"), given("D")) {
+                    (Some(C), Some(D)) => NeoHookean::Moduli { C, D },
+                    _ => NeoHookean::Elastic(elastic(given)),
+                })
+            }),
+            of_elastic("stable_neo_hookean", false, |given| Self::StableNeoHookean(elastic(given))),
+            of_elastic("hencky", false, |given| Self::Hencky(elastic(given))),
+            of("mooney_rivlin", &[&["C10", "C01", "D"]], |given| {
+                let [C10, C01, D] = ["C10", "C01", "D"].map(|name| number(given, name));
+                Self::MooneyRivlin { C10, C01, D }
+            }),
+            of("yeoh", &[&["C1", "C2", "C3", "D"]], |given| {
+                let [C1, C2, C3, D] = ["C1", "C2", "C3", "D"].map(|name| number(given, name));
+                Self::Yeoh { C1, C2, C3, D }
+            }),
+            of("gent", &[&["C", "Jm", "D"]], |given| {
+                let [C, Jm, D] = ["C", "Jm", "D"].map(|name| number(given, name));
+                Self::Gent { C, Jm, D }
+            }),
+        ]
+    };
+
+    /// Springs in place of a law.
+    pub const SPRINGS: LawFacts = LawFacts {
+        name: "mass_spring",
+        parameters: &[&["stiffness"], &["young"], &["stiffness", "damping"], &["young", "damping"]],
+        has_plane_stress: false,
+        of: |given| Self::MassSpring {
+            stiffness: given("stiffness").map_or(EdgeStiffness::Young(number(given, "young")), EdgeStiffness::Uniform),
+            damping: given("damping").unwrap_or(0.0),
+        },
+    };
+
+    /// The laws, and springs in place of one.
+    pub fn all_facts() -> impl Iterator<Item = LawFacts> {
+        Self::FACTS.into_iter().chain([Self::SPRINGS])
+    }
+
+    /// The law, or springs, of that name.
+    pub fn named(name: &str) -> Option<LawFacts> {
+        Self::all_facts().find(|facts| facts.name == name)
+    }
+
     /// The name in scene files.
     pub fn name(&self) -> &'static str {
         match self {
@@ -159,11 +280,6 @@ impl Law {
             Self::Gent { .. } => "gent",
             Self::MassSpring { .. } => "mass_spring",
         }
-    }
-
-    /// Returns true if the law has a form for plane stress.
-    pub fn has_plane_stress(&self) -> bool {
-        matches!(self, Self::Linear(_) | Self::Corotated(_))
     }
 
     /// Young's modulus and Poisson's ratio, where they are the law's parameters.

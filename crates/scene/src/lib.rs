@@ -61,5 +61,5 @@ pub use error::SceneError;
 pub use load::{load, load_with, names, parse};
 pub use overrides::Override;
 pub use save::{SaveError, save};
-pub use tables::{MODELS, Pipeline, Scene};
+pub use tables::{Pipeline, Scene};
 pub use warnings::warnings;

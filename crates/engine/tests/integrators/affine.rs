@@ -6,7 +6,7 @@ use fem_engine::forces::Moment;
 use fem_engine::materials::AnyLaw;
 use fem_engine::model::system::System;
 use fem_engine::solvers::SolverChoice;
-use fem_scene::MODELS;
+use fem_model::Law;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::{block, scene};
@@ -77,7 +77,7 @@ const C_AREA: f64 = 1e5 / (4.0 * 1.3);
 #[test]
 fn an_affine_state_of_an_irregular_mesh_leaves_no_force_inside() {
     let mut random = Random(1);
-    for (model, _) in MODELS {
+    for model in Law::FACTS.iter().map(|facts| &facts.name) {
         let patch = patch(model);
         assert_eq!(patch.inner.iter().filter(|&&inner| inner).count(), 27);
         for _ in 0..20 {
@@ -94,7 +94,7 @@ fn an_affine_state_of_an_irregular_mesh_leaves_no_force_inside() {
 
 #[test]
 fn a_state_that_is_not_affine_does_leave_a_force_inside() {
-    for (model, _) in MODELS {
+    for model in Law::FACTS.iter().map(|facts| &facts.name) {
         let patch = patch(model);
         let mut u = patch.displacements(&Matrix3::identity(), &Vector3::zeros());
         let moved = patch.inner.iter().position(|&inner| inner).unwrap();
@@ -108,7 +108,7 @@ fn a_state_that_is_not_affine_does_leave_a_force_inside() {
 #[test]
 fn a_rotation_of_the_body_causes_no_force_unless_the_law_is_linear() {
     let mut random = Random(2);
-    for (model, _) in MODELS {
+    for model in Law::FACTS.iter().map(|facts| &facts.name) {
         let patch = patch(model);
         for _ in 0..20 {
             let R = Rotation3::new(3.0 * random.vector()).into_inner();

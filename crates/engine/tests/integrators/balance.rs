@@ -1,7 +1,7 @@
 //! Reactions balance the loads, for every law and any number of load steps.
 
+use fem_model::Law;
 use fem_model::simulation::Simulation;
-use fem_scene::MODELS;
 
 use crate::{block, build, run};
 
@@ -25,7 +25,7 @@ fn imbalance(simulation: &dyn Simulation, load_factor: f64) -> f64 {
 
 #[test]
 fn reactions_balance_the_loads_after_every_load_step_of_every_law() {
-    for (model, _) in MODELS {
+    for model in Law::FACTS.iter().map(|facts| &facts.name) {
         for prescribed in ["", PRESCRIBED] {
             for load_steps in [1, 2, 5, 10] {
                 let rest = format!("{GRAVITY}{TABLES}{prescribed}[static]\nload_steps = {load_steps}\n");
@@ -44,7 +44,7 @@ fn reactions_balance_the_loads_after_every_load_step_of_every_law() {
 
 #[test]
 fn equilibrium_at_full_load_does_not_depend_on_the_number_of_load_steps() {
-    for (model, _) in MODELS {
+    for model in Law::FACTS.iter().map(|facts| &facts.name) {
         let end = |load_steps: usize, steps: usize| {
             let rest = format!("{GRAVITY}{TABLES}{PRESCRIBED}[static]\nload_steps = {load_steps}\n");
             let mut simulation = build(&block(model, &rest));

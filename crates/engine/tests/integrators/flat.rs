@@ -1,7 +1,7 @@
 //! Flat bodies: triangles in plane strain.
 
 use fem_mesh::{Mesh, Pattern, rectangle_mesh};
-use fem_scene::MODELS;
+use fem_model::Law;
 
 use crate::{DYNAMIC, block, build, distance, of_law, run, side, soft};
 
@@ -29,7 +29,7 @@ pub fn affine<const N: usize>(mesh: &Mesh<3, N>, G: [[f64; 2]; 2]) -> String {
 #[test]
 fn an_affine_state_is_an_equilibrium_with_the_energy_of_a_solid_slab_for_every_law() {
     let G = [[0.08, 0.05], [-0.02, -0.03]];
-    for (model, _) in MODELS {
+    for model in Law::FACTS.iter().map(|facts| &facts.name) {
         let mesh = rectangle_mesh([2.0, 1.0], 3, Pattern::Alternating).unwrap();
         let mut simulation = build(&flat(&block(model, &affine(&mesh, G))));
         run(&mut *simulation, 1);
@@ -105,7 +105,7 @@ fn a_strip_in_plane_stress_pulls_contracts_and_is_stressed_as_a_bar_with_free_si
 #[test]
 fn reactions_of_a_flat_body_carry_its_weight_in_the_plane_for_every_law() {
     let rest = "[gravity]\nacceleration = [1, -3, 0]\n[fixed]\nplane = { axis = \"x\", below = 1e-9 }\n";
-    for (model, _) in MODELS {
+    for model in Law::FACTS.iter().map(|facts| &facts.name) {
         let mut simulation = build(&flat(&block(model, rest)));
         run(&mut *simulation, 1);
         let force = simulation.reactions()[0].force;

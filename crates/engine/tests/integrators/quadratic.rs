@@ -1,8 +1,8 @@
 //! Quadratic triangles in equilibrium.
 
 use fem_mesh::{Pattern, QuadraticMesh, quadratic as with_middles, rectangle_mesh};
+use fem_model::Law;
 use fem_model::simulation::Simulation;
-use fem_scene::MODELS;
 
 use crate::flat::{affine, flat};
 use crate::{block, build, distance, run, side, soft, try_build};
@@ -27,7 +27,7 @@ const WEIGHT: &str = "[gravity]\nacceleration = [1, -3, 0]\n[fixed]\nplane = { a
 #[test]
 fn an_affine_state_is_an_equilibrium_with_the_energy_and_the_stress_of_linear_triangles_for_every_law() {
     let G = [[0.08, 0.05], [-0.02, -0.03]];
-    for (model, _) in MODELS {
+    for model in Law::FACTS.iter().map(|facts| &facts.name) {
         let simulation = solved(&quadratic(&block(model, &affine(&mesh(), G))));
         let q = simulation.positions();
         for (node, x) in mesh().vertices.iter().enumerate() {
@@ -76,7 +76,7 @@ fn pure_bending_is_exact_in_plane_strain_and_in_plane_stress() {
 
 #[test]
 fn reactions_carry_the_weight_with_either_mass() {
-    for (model, _) in MODELS {
+    for model in Law::FACTS.iter().map(|facts| &facts.name) {
         for mass in ["", "[mass]\nlumped = true\n"] {
             let force = solved(&quadratic(&block(model, &format!("{WEIGHT}{mass}")))).reactions()[0].force;
             for (found, weight) in force.iter().zip([600.0, -1800.0, 0.0]) {

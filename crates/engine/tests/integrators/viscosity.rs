@@ -10,8 +10,16 @@ use crate::{build, of_kuhn, of_law, run, scene, soft};
 
 const BOX: &str = "box = { size = [1.5, 0.5, 0.5], cells_per_unit = 4 }";
 const RECTANGLE: &str = "rectangle = { size = [1.5, 0.5], cells_per_unit = 4 }";
-const LAWS: [&str; 8] =
-    ["corotated", "st_venant_kirchhoff", "neo_hookean", "stable_neo_hookean", "hencky", "mooney_rivlin", "yeoh", "gent"];
+const LAWS: [&str; 8] = [
+    "corotated",
+    "st_venant_kirchhoff",
+    "neo_hookean",
+    "stable_neo_hookean",
+    "hencky",
+    "mooney_rivlin",
+    "yeoh",
+    "gent",
+];
 
 /// A body with E = 1e5 Pa and ν = 0.3; `rest` are further tables.
 fn body(law: &str, mesh: &str, integrator: &str, dt: f64, rest: &str) -> String {

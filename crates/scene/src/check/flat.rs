@@ -1,9 +1,9 @@
 //! Checks that depend on whether the body is flat, which is known when its mesh is.
 
 use crate::Scene;
-use crate::tables::{IN_PLANE_STRESS, InitialVelocityTable, MaterialTable, PrescribedTable};
+use crate::tables::{InitialVelocityTable, MaterialTable, PrescribedTable};
 use fem_model::numbers::problem;
-use fem_model::{Axis, PlaneState, Refusal};
+use fem_model::{Axis, Law, PlaneState, Refusal};
 
 /// Refuses the first key that has no effect on a flat body, or no meaning.
 pub(crate) fn check(scene: &Scene) -> Result<(), Refusal> {
@@ -50,8 +50,9 @@ pub(super) fn check_plane(scene: &Scene) -> Result<(), Refusal> {
     let tables =
         scene.materials.iter().enumerate().map(|(number, table)| (format!("materials[{number}]"), &table.model));
     let all = std::iter::once(("material".to_owned(), &scene.material.model)).chain(tables);
-    if let Some((table, model)) = all.into_iter().find(|(_, model)| !IN_PLANE_STRESS.contains(&model.as_str())) {
-        let known = IN_PLANE_STRESS.join(" or ");
+    let known = || Law::FACTS.into_iter().filter(|facts| facts.has_plane_stress).map(|facts| facts.name);
+    if let Some((table, model)) = all.into_iter().find(|(_, model)| !known().any(|name| name == *model)) {
+        let known = known().collect::<Vec<_>>().join(" or ");
         let text = format!(
             "is \"stress\", which {table}.model = \"{model}\" has no form for; write model = {known}, or plane = \"strain\""
         );

@@ -1,41 +1,10 @@
 //! `[material]`: the constitutive law by its name, its parameters, and the density.
 
 use fem_model::numbers::{check_positive, problem};
-use fem_model::{EdgeStiffness, Elastic, Law, Material, NeoHookean, PlaneState, Refusal, Selector};
+use fem_model::{Law, LawFacts, Material, PlaneState, Refusal, Selector};
 
 use super::selector::of_keys;
 use super::{BoxTable, On, SphereTable};
-
-/// The laws: the name of each, and the sets of parameters of which a scene gives one.
-pub const MODELS: &[Model] = &[
-    ("linear", &[ELASTIC]),
-    ("corotated", &[ELASTIC]),
-    ("st_venant_kirchhoff", &[ELASTIC]),
-    ("neo_hookean", &[&["C", "D"], ELASTIC]),
-    ("stable_neo_hookean", &[ELASTIC]),
-    ("hencky", &[ELASTIC]),
-    ("mooney_rivlin", &[&["C10", "C01", "D"]]),
-    ("yeoh", &[&["C1", "C2", "C3", "D"]]),
-    ("gent", &[&["C", "Jm", "D"]]),
-];
-
-/// The model without a constitutive law, in which every edge of the mesh is a spring.
-const MASS_SPRING: Model =
-    ("mass_spring", &[&["stiffness"], &["young"], &["stiffness", "damping"], &["young", "damping"]]);
-
-/// A name, and the sets of parameters of which a scene gives one.
-type Model = (&'static str, &'static [&'static [&'static str]]);
-
-/// The laws, and the model without one.
-fn models() -> impl Iterator<Item = &'static Model> {
-    MODELS.iter().chain(std::iter::once(&MASS_SPRING))
-}
-
-/// Laws with a form for plane stress.
-pub(crate) const IN_PLANE_STRESS: [&str; 2] = ["linear", "corotated"];
-
-/// Young's modulus and Poisson's ratio of small strain.
-const ELASTIC: &[&str] = &["young", "poisson"];
 
 /// The table as a struct, with a list of its parameters.
 macro_rules! material {
@@ -69,7 +38,7 @@ macro_rules! material {
         }
 
         /// `[material]`: the constitutive law of the body, the parameters of that law and no others, and the density.
-        #[derive(Clone, Debug, serde::Deserialize, PartialEq)]
+        #[derive(Clone, Debug, Default, serde::Deserialize, PartialEq)]
         #[serde(deny_unknown_fields)]
         pub struct MaterialTable {
             /// Constitutive law, by its name, or `"mass_spring"` for springs in place of elastic elements. The pipeline `"course"` has
@@ -94,33 +63,7 @@ macro_rules! material {
     };
 }
 
-material! {
-    /// Young's modulus at small strain, Pa; positive.
-    young,
-    /// Poisson's ratio at small strain, above −1 and below 0.5. Linear tetrahedra lock above 0.45, and a warning says so.
-    poisson,
-    /// Neo-Hookean and Gent: half the shear modulus at small strain, Pa; positive.
-    C,
-    /// Mooney–Rivlin: factor of Ī1 − 3, Pa.
-    C10,
-    /// Mooney–Rivlin: factor of Ī2 − 3, Pa.
-    C01,
-    /// Yeoh: half the shear modulus at small strain, Pa; positive.
-    C1,
-    /// Yeoh: factor of (Ī1 − 3)², Pa.
-    C2,
-    /// Yeoh: factor of (Ī1 − 3)³, Pa.
-    C3,
-    /// Gent: the limit of Ī1 − 3, at which the stress has no bound; positive.
-    Jm,
-    /// Half the bulk modulus at small strain, Pa; positive.
-    D,
-    /// Mass-spring: stiffness of every edge, N/m; positive. With `young` in its place an edge of length l has the stiffness E ΣV/l², summed
-    /// over its elements.
-    stiffness,
-    /// Mass-spring: damping along every edge, N s/m; at least 0. Default: 0.
-    damping,
-}
+fem_model::law_parameters! { material }
 
 impl MaterialsTable {
     /// The selectors that the table gives; exactly one in a checked scene.
@@ -132,40 +75,22 @@ impl MaterialsTable {
 impl MaterialTable {
     /// The material of a checked table.
     pub fn value(&self) -> Material {
-        let elastic = Elastic { young: self.young.unwrap_or(f64::NAN), poisson: self.poisson.unwrap_or(f64::NAN) };
-        let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
-        let law = match &self.model[..] {
-            "linear" => Law::Linear(elastic),
-            "corotated" => Law::Corotated(elastic),
-            "st_venant_kirchhoff" => Law::StVenantKirchhoff(elastic),
-            "neo_hookean" => Law::NeoHookean(match (self.C, self.D) {
-                (Some(C), Some(D)) => NeoHookean::Moduli { C, D },
-                _ => NeoHookean::Elastic(elastic),
-            }),
-            "stable_neo_hookean" => Law::StableNeoHookean(elastic),
-            "hencky" => Law::Hencky(elastic),
-            "mooney_rivlin" => Law::MooneyRivlin { C10: number(self.C10), C01: number(self.C01), D: number(self.D) },
-            "yeoh" => Law::Yeoh { C1: number(self.C1), C2: number(self.C2), C3: number(self.C3), D: number(self.D) },
-            "gent" => Law::Gent { C: number(self.C), Jm: number(self.Jm), D: number(self.D) },
-            _ => Law::MassSpring {
-                stiffness: self.stiffness.map_or(EdgeStiffness::Young(elastic.young), EdgeStiffness::Uniform),
-                damping: self.damping.unwrap_or(0.0),
-            },
-        };
+        let given = |name: &str| self.parameters().find(|(own, _)| *own == name).map(|(_, value)| value);
+        let law = (Law::named(&self.model).unwrap_or(Law::SPRINGS).of)(&given);
         Material { law, density: self.density, plane: self.plane.unwrap_or_default() }
     }
 
     /// Returns true if every edge of the mesh is a spring, and no element is elastic.
     pub fn is_mass_spring(&self) -> bool {
-        self.model == MASS_SPRING.0
+        self.model == Law::SPRINGS.name
     }
 
     /// Checks the material of a table, such as `material` or `materials[0]`.
     pub(crate) fn check(&self, table: &str) -> Result<(), Refusal> {
         check_positive(&format!("{table}.density"), self.density, " of kg/m³")?;
         self.thickness.map_or(Ok(()), |thickness| check_positive(&format!("{table}.thickness"), thickness, " of m"))?;
-        let Some((_, sets)) = models().find(|(name, _)| *name == self.model) else {
-            let known: Vec<_> = models().map(|(name, _)| *name).collect();
+        let Some(LawFacts { parameters: sets, .. }) = Law::named(&self.model) else {
+            let known: Vec<_> = Law::all_facts().map(|facts| facts.name).collect();
             let text = format!("is `{}`, which is no law; write one of {}", self.model, known.join(", "));
             return problem(&format!("{table}.model"), text);
         };
@@ -205,7 +130,7 @@ fn alternatives(sets: &[&[&str]]) -> String {
 fn models_with(names: &[&str]) -> String {
     let with = |names: &[&str]| -> Vec<&str> {
         let takes = |sets: &[&[&str]]| sets.iter().any(|set| is_subset(names, set));
-        models().filter(|(_, sets)| takes(sets)).map(|(name, _)| *name).collect()
+        Law::all_facts().filter(|facts| takes(facts.parameters)).map(|facts| facts.name).collect()
     };
     let all = with(names);
     if all.is_empty() { with(&names[..1]).join(", ") } else { all.join(", ") }

@@ -19,8 +19,7 @@ pub use constraints::{FixedTable, PrescribedTable, RotationTable};
 pub use contact::{ContactTable, PlaneTable};
 pub use initial::{AngularVelocityTable, InitialVelocityTable};
 pub use loads::{BodyForceTable, DragTable, DragVertex, ForceTable, GravityTable, SpringTable, TractionTable};
-pub(crate) use material::IN_PLANE_STRESS;
-pub use material::{MODELS, MaterialTable, MaterialsTable};
+pub use material::{MaterialTable, MaterialsTable};
 pub use method::{
     AdaptiveTable, DampingTable, EnergyTable, GeneralizedAlphaTable, IterationsTable, NewmarkTable, NewtonTable,
     SolverTable, StaticTable, TimeTable,

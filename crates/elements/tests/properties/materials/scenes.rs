@@ -5,7 +5,7 @@ use std::path::Path;
 use super::*;
 use fem_elements::Real;
 use fem_elements::tensor::zero;
-use fem_scene::MODELS;
+use fem_model::{Law as Named, LawFacts};
 
 /// The table of a scene with these lines.
 fn table(model: &str, parameters: &str) -> fem_model::Material {
@@ -18,18 +18,18 @@ fn table(model: &str, parameters: &str) -> fem_model::Material {
 
 #[test]
 fn every_model_of_the_scene_format_is_a_law_with_each_set_of_its_parameters() {
-    for (model, sets) in MODELS {
-        for set in *sets {
+    for LawFacts { name: model, parameters, .. } in Named::FACTS {
+        for set in parameters {
             let line = |name: &&str| format!("{name} = {}\n", if *name == "poisson" { 0.25 } else { 1000.0 });
             let law = AnyLaw::<f64>::new(&table(model, &set.iter().map(line).collect::<String>()));
-            assert_eq!(law.map(|law| law.name()), Some(*model), "{set:?}");
+            assert_eq!(law.map(|law| law.name()), Some(model), "{set:?}");
         }
     }
     let sorted = |mut names: Vec<&'static str>| {
         names.sort();
         names
     };
-    let models = sorted(MODELS.iter().map(|(name, _)| *name).collect());
+    let models = sorted(Named::FACTS.iter().map(|facts| facts.name).collect());
     assert_eq!(sorted(AnyLaw::NAMES.to_vec()), models);
     assert_eq!(sorted(laws::<f64>().iter().map(AnyLaw::name).collect()), models);
 }
@@ -38,7 +38,9 @@ fn every_model_of_the_scene_format_is_a_law_with_each_set_of_its_parameters() {
 fn young_and_poisson_give_every_model_the_same_stiffness_at_rest() {
     // μ = λ = E/2.5
     let hooke = Linear { mu: 400.0, lambda: 400.0 }.derivative(&zero());
-    for (model, _) in MODELS.iter().filter(|(_, sets)| sets.iter().any(|set| set.contains(&"young"))) {
+    for LawFacts { name: model, .. } in
+        Named::FACTS.iter().filter(|facts| facts.parameters.iter().any(|set| set.contains(&"young")))
+    {
         let law = AnyLaw::<f64>::new(&table(model, "young = 1000.0\npoisson = 0.25\n")).unwrap();
         let H = f64::law(&law).derivative(&zero());
         assert!(distance(&H, &hooke) < 1e-11, "{model}: {H:?}");

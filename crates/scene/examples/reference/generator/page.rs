@@ -117,8 +117,8 @@ impl Reference {
         text += &format!("\n{}", self.keys(table.keys.iter()));
         if name == "material" {
             text += "\n### Laws\n\nA table gives the parameters of its law and no others; several sets are alternatives.\n\n| model | parameters |\n|---|---|\n";
-            for (law, sets) in &self.source.laws {
-                let sets: Vec<String> = sets.iter().map(|set| format!("`{}`", set.join("`, `"))).collect();
+            for fem_model::LawFacts { name: law, parameters, .. } in fem_model::Law::all_facts() {
+                let sets: Vec<String> = parameters.iter().map(|set| format!("`{}`", set.join("`, `"))).collect();
                 text += &format!("| `\"{law}\"` | {} |\n", sets.join("; or "));
             }
         }

@@ -11,11 +11,8 @@ use syn::{Attribute, Expr, Fields, Item, Lit, LitStr, Meta, Stmt, Token, Type};
 pub struct Source {
     pub tables: BTreeMap<String, Table>,
     pub choices: BTreeMap<String, Choice>,
-    /// The laws of `[material]`: the name of each, and the sets of parameters of which a scene gives one.
-    pub laws: Vec<(String, Vec<Vec<String>>)>,
     /// Functions that return a literal, and that literal.
     literals: BTreeMap<String, String>,
-    constants: BTreeMap<String, Expr>,
 }
 
 /// A struct.
@@ -86,8 +83,6 @@ impl Source {
             let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             file.items.iter().for_each(|item| source.add(item, &stem));
         }
-        source.laws = strings(&source.constants["MODELS"], &source.constants);
-        source.laws.extend(law(&source.constants["MASS_SPRING"], &source.constants));
         source
     }
 
@@ -124,9 +119,6 @@ impl Source {
                     self.literals.insert(item.sig.ident.to_string(), text);
                 }
             }
-            Item::Const(item) => {
-                self.constants.insert(item.ident.to_string(), (*item.expr).clone());
-            }
             _ => {}
         }
     }
@@ -139,17 +131,21 @@ impl Source {
     }
 }
 
-/// The text of a file with the structs of its macro `material!` written out after it.
+/// The text of a file with the structs of its macro `material!` written out after it. The list of parameters is that of fem-model.
 fn expanded(text: &str) -> Option<String> {
-    let between = |start: &str, end: &str| Some(text.split_once(start)?.1.split_once(end)?.0);
-    let list = between("\nmaterial! {\n", "\n}\n")?;
+    fn between<'a>(text: &'a str, start: &str, end: &str) -> Option<&'a str> {
+        Some(text.split_once(start)?.1.split_once(end)?.0)
+    }
+    let body = between(text, "macro_rules! material {", "\n}\n")?;
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../model/src/material.rs");
+    let model = fs::read_to_string(&model).unwrap_or_else(|error| panic!("{}: {error}", model.display()));
+    let list = between(&model, "$callback! {\n", "\n        }\n")?;
     let field = |line: &str| match line.trim().strip_suffix(',') {
         Some(name) if !name.starts_with("///") => format!("pub {name}: Option<f64>,"),
         _ => line.to_owned(),
     };
     let parameters = list.lines().map(field).collect::<Vec<_>>().join("\n");
-    let body =
-        between("macro_rules! material {", "\n}\n")?.replace("$($(#[$doc])* pub $name: Option<f64>,)*", &parameters);
+    let body = body.replace("$($(#[$doc])* pub $name: Option<f64>,)*", &parameters);
     let (_, body) = body.split_once("=> {\n")?;
     let structs: Vec<&str> = body.split("\n\n").filter(|item| item.contains("pub struct ")).collect();
     Some([&[text], &structs[..]].concat().join("\n"))
@@ -231,42 +227,6 @@ fn number(literal: &Lit) -> Option<String> {
         Lit::Int(number) => Some(number.to_string()),
         Lit::Float(number) => Some(number.to_string().trim_end_matches(".0").to_owned()),
         _ => None,
-    }
-}
-
-/// The laws in a list of pairs.
-fn strings(list: &Expr, constants: &BTreeMap<String, Expr>) -> Vec<(String, Vec<Vec<String>>)> {
-    elements(list, constants).iter().filter_map(|pair| law(pair, constants)).collect()
-}
-
-/// A law of a pair: its name, and the sets of its parameters.
-fn law(pair: &Expr, constants: &BTreeMap<String, Expr>) -> Option<(String, Vec<Vec<String>>)> {
-    let Expr::Tuple(pair) = pair else { return None };
-    let sets = elements(pair.elems.get(1)?, constants);
-    let words = |set: &Expr| elements(set, constants).iter().filter_map(text).collect();
-    Some((text(&pair.elems[0])?, sets.iter().map(words).collect()))
-}
-
-fn text(expression: &Expr) -> Option<String> {
-    match expression {
-        Expr::Lit(literal) => match &literal.lit {
-            Lit::Str(text) => Some(text.value()),
-            _ => None,
-        },
-        _ => None,
-    }
-}
-
-/// The elements of a list, or of the constant of that name.
-fn elements(list: &Expr, constants: &BTreeMap<String, Expr>) -> Vec<Expr> {
-    match list {
-        Expr::Reference(reference) => elements(&reference.expr, constants),
-        Expr::Array(array) => array.elems.iter().cloned().collect(),
-        Expr::Path(path) => {
-            let constant = path.path.get_ident().and_then(|name| constants.get(&name.to_string()));
-            constant.map_or(Vec::new(), |list| elements(list, constants))
-        }
-        _ => Vec::new(),
     }
 }
 
