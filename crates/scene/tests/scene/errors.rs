@@ -68,7 +68,7 @@ fn c_and_d_belong_to_the_neo_hookean_model_alone() {
         assert_refused(
             &edit(LEAST, "neo_hookean", model),
             6,
-            "material.C and D belong to neo_hookean; give this model",
+            "material.C and D belong to neo_hookean, gent; give this model",
         );
     }
 }
@@ -81,7 +81,7 @@ fn a_law_takes_its_own_parameters_only_and_the_message_names_them() {
     assert_refused(
         &with("mooney_rivlin", "C = 1e5\nD = 4e5\n"),
         6,
-        "material.C belongs to neo_hookean; give this model C10 and C01",
+        "material.C belongs to neo_hookean, gent; give this model C10 and C01",
     );
     assert_refused(
         &with("linear", "C10 = 1\nC01 = 1\nD = 1\n"),

@@ -37,7 +37,7 @@ fn materials_are_checked_at_their_line() {
     refused("density = 2000.0", "density = 0", 17, "materials[0].density is 0; give a positive number of kg/m³");
     refused("young = 1e3", "young = -1", 15, "materials[0].young is -1; give a positive number of Pa");
     refused("\"linear\"", "\"rubber\"", 14, "materials[0].model is `rubber`, which is no law");
-    refused("young = 1e3", "C = 1e3", 15, "materials[0].C belongs to neo_hookean; give this model");
+    refused("young = 1e3", "C = 1e3", 15, "materials[0].C belongs to neo_hookean, gent; give this model");
     refused(
         "box = { min = [0, 0, 0], max = [1, 1, 1] }\n",
         "",
