@@ -126,8 +126,15 @@ impl<T: Packed, const N: usize> WithSimd for Divide<'_, T, N> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let lanes = lanes::<T, S>();
-        let L = self.L.map(|row| row.map(|entry| T::broadcast(simd, entry)));
-        let inverse = self.inverse.map(|entry| T::broadcast(simd, entry));
+        // Loops: the compiler does not always inline `map` of arrays, and registers would go through memory.
+        let any = T::broadcast(simd, self.inverse[0]);
+        let (mut L, mut inverse) = ([[any; N]; N], [any; N]);
+        for n in 0..N {
+            inverse[n] = T::broadcast(simd, self.inverse[n]);
+            for k in 0..n {
+                L[n][k] = T::broadcast(simd, self.L[n][k]);
+            }
+        }
         for row in (0..self.rows).step_by(lanes) {
             let mut x = inverse;
             for n in 0..N {

@@ -5,6 +5,7 @@ use pulp::{Simd, WithSimd};
 use super::dense::lanes;
 use super::symbolic::{Supernode, SymbolicFactor};
 use fem_elements::Real;
+use fem_elements::vector::triple;
 
 /// z = L⁻ᵀ L⁻¹ z
 pub struct Substitute<'a, T> {
@@ -73,16 +74,21 @@ fn forward<T: Real, S: Simd>(simd: S, L: &[T], inverse: &[T], x: &mut [T]) {
     let stride = x.len();
     let lanes = lanes::<T, S>();
     for j in (0..inverse.len()).step_by(3) {
-        let L = [0, 1, 2].map(|c| &L[(j + c) * stride..][..stride]);
+        let L = triple(
+            #[inline(always)]
+            |c| &L[(j + c) * stride..][..stride],
+        );
         let x0 = x[j] * inverse[j];
         let x1 = (x[j + 1] - L[0][j + 1] * x0) * inverse[j + 1];
         let x2 = (x[j + 2] - L[0][j + 2] * x0 - L[1][j + 2] * x1) * inverse[j + 2];
         // Begins at the register that holds the diagonal entry. The node's own entries are overwritten afterwards.
         let start = j / lanes * lanes;
-        let factors = [-x0, -x1, -x2].map(|x| T::broadcast(simd, x));
-        let columns = L.map(|column| T::packs::<S>(&column[start..]));
+        let factors = [T::broadcast(simd, -x0), T::broadcast(simd, -x1), T::broadcast(simd, -x2)];
         let packs = T::packs_mut::<S>(&mut x[start..]);
-        let columns = columns.map(|column| &column[..packs.len()]);
+        let columns = triple(
+            #[inline(always)]
+            |c| &T::packs::<S>(&L[c][start..])[..packs.len()],
+        );
         for (i, pack) in packs.iter_mut().enumerate() {
             for c in 0..3 {
                 *pack = T::multiply_add(simd, columns[c][i], factors[c], *pack);
@@ -98,21 +104,29 @@ fn backward<T: Real, S: Simd>(simd: S, L: &[T], inverse: &[T], x: &mut [T]) {
     let stride = x.len();
     let lanes = lanes::<T, S>();
     for j in (0..inverse.len()).step_by(3).rev() {
-        let L = [0, 1, 2].map(|c| &L[(j + c) * stride..][..stride]);
+        let L = triple(
+            #[inline(always)]
+            |c| &L[(j + c) * stride..][..stride],
+        );
         let [b0, b1, b2] = [x[j], x[j + 1], x[j + 2]];
         // Begins at the register that holds the diagonal entry, with zeros for the node's own entries.
         x[j..j + 3].fill(T::default());
         let start = j / lanes * lanes;
         let mut sums = [T::broadcast(simd, T::default()); 3];
-        let columns = L.map(|column| T::packs::<S>(&column[start..]));
         let packs = T::packs::<S>(&x[start..]);
-        let columns = columns.map(|column| &column[..packs.len()]);
+        let columns = triple(
+            #[inline(always)]
+            |c| &T::packs::<S>(&L[c][start..])[..packs.len()],
+        );
         for (i, &pack) in packs.iter().enumerate() {
             for c in 0..3 {
                 sums[c] = T::multiply_add(simd, columns[c][i], pack, sums[c]);
             }
         }
-        let known = sums.map(|sum| T::reduce_sum(simd, sum));
+        let known = triple(
+            #[inline(always)]
+            |c| T::reduce_sum(simd, sums[c]),
+        );
         let x2 = (b2 - known[2]) * inverse[j + 2];
         let x1 = (b1 - known[1] - L[1][j + 2] * x2) * inverse[j + 1];
         let x0 = (b0 - known[0] - L[0][j + 1] * x1 - L[0][j + 2] * x2) * inverse[j];
