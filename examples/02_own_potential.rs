@@ -58,7 +58,7 @@ impl Potential<f64> for Floor {
 pub fn run() -> Result<(f64, f64), Box<dyn Error>> {
     let (mesh, stiffness) = (box_mesh([1.0; 3], 2, Pattern::default())?, 1e6);
     let rubber = Material::new(Law::NeoHookean(NeoHookean::Elastic(Elastic::new(1e5, 0.3))), 1000.0);
-    let body = Body::new(mesh, rubber)?.gravity([0.0, 0.0, -9.81]);
+    let body = Body::new(mesh, rubber)?.gravity([0.0, 0.0, -9.81])?;
     let method = Method::new(Integrator::ImplicitEuler, 0.02);
     let vertices = body.shape.mesh.vertices().to_vec();
     let floor = |numbering: &Numbering| -> Vec<Box<dyn Potential<f64>>> {

@@ -55,7 +55,7 @@ fn largest_energy_error(system: &System<f64>, end: f64, steps: usize) -> Result<
 pub fn run() -> Result<[f64; 2], Box<dyn Error>> {
     let rubber = Material::new(Law::StableNeoHookean(Elastic::new(1e4, 0.3)), 1000.0);
     let body = Body::new(box_mesh([1.0, 0.5, 0.5], 2, Pattern::default())?, rubber)?;
-    let body = body.gravity([0.0, 0.0, -1.0]).fix(&Selector::least(Axis::X))?;
+    let body = body.gravity([0.0, 0.0, -1.0])?.fix(&Selector::least(Axis::X))?;
     let simulator = Simulator::<f64>::new(body, &Method::new(Integrator::Verlet, 0.01))?;
     let error = |steps| largest_energy_error(simulator.system(), 1.0, steps).map_err(|cause| format!("{cause:?}"));
     Ok([error(80)?, error(160)?])

@@ -25,7 +25,7 @@ const DENSITY: f64 = 1000.0;
 pub fn run(mesh: &Path, out: &Path) -> Result<Found, Box<dyn Error>> {
     let rubber = Material::new(Law::StableNeoHookean(Elastic::new(1e6, 0.4)), DENSITY);
     let feet = Selector::Region(Region::Plane { axis: Axis::Y, below: 0.1 });
-    let body = Body::new(read_tetrahedra(mesh)?, rubber)?.gravity([0.0, -9.81, 0.0]).fix(&feet)?;
+    let body = Body::new(read_tetrahedra(mesh)?, rubber)?.gravity([0.0, -9.81, 0.0])?.fix(&feet)?;
     let method = Method { load_steps: 4, ..Method::new(Integrator::Static, 1.0) };
     let volume: f64 = body.shape.mesh.volumes().iter().sum();
     let mut simulation = fem_engine::simulator::build(body, &method)?;

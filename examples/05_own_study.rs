@@ -23,7 +23,7 @@ const METHODS: [(Integrator, f64); 4] = [
 fn positions(integrator: Integrator, steps: usize) -> Result<DVector<f64>, Box<dyn Error>> {
     let rubber = Material::new(Law::StableNeoHookean(Elastic::new(1e4, 0.3)), 1000.0);
     let body = Body::new(box_mesh([1.0, 0.5, 0.5], 4, Pattern::default())?, rubber)?;
-    let body = body.gravity([0.0, 0.0, -1.0]).fix(&Selector::least(Axis::X))?;
+    let body = body.gravity([0.0, 0.0, -1.0])?.fix(&Selector::least(Axis::X))?;
     let method = Method::new(integrator, END / steps as f64);
     let mut simulation = fem_engine::simulator::build(body, &method)?;
     for _ in 0..steps {

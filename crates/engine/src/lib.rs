@@ -10,7 +10,7 @@
 //!
 //! let mesh = fem_mesh::box_mesh([2.0, 1.0, 1.0], 2, fem_mesh::Pattern::default())?;
 //! let rubber = Material::new(Law::StableNeoHookean(Elastic::new(1e5, 0.3)), 1000.0);
-//! let body = Body::new(mesh, rubber)?.fix(&Selector::least(Axis::X))?.gravity([0.0, 0.0, -9.81]);
+//! let body = Body::new(mesh, rubber)?.fix(&Selector::least(Axis::X))?.gravity([0.0, 0.0, -9.81])?;
 //! let method = Method::new(Integrator::ImplicitEuler, 0.01);
 //! let mut simulation = fem_engine::simulator::build(body, &method)?;
 //! for _ in 0..20 {

@@ -125,6 +125,7 @@ fn check<T: Real>(body: &Body, method: &Method, epsilon: f64) -> Result<Option<A
     for (table, material) in std::iter::once(("material", &body.material)).chain(materials) {
         range_check::check_shear_modulus(material).map_err(|problem| Refusal::new(table, problem))?;
     }
+    method.check()?;
     check_mass(body, method)?;
     range_check::check_tolerance(method, epsilon)?;
     path_check::check(method, body)?;

@@ -128,15 +128,17 @@ impl Body {
     }
 
     /// Adds gravity: an acceleration, m/s².
-    pub fn gravity(mut self, acceleration: [f64; 3]) -> Self {
+    pub fn gravity(mut self, acceleration: [f64; 3]) -> Result<Self, Refusal> {
+        check_vector("gravity.acceleration", &acceleration)?;
         self.gravity = Some(acceleration.into());
-        self
+        Ok(self)
     }
 
     /// Adds a force per undeformed volume, N/m³.
-    pub fn body_force(mut self, density: [f64; 3]) -> Self {
+    pub fn body_force(mut self, density: [f64; 3]) -> Result<Self, Refusal> {
+        check_vector("body_force.density", &density)?;
         self.body_force = Some(density.into());
-        self
+        Ok(self)
     }
 
     /// Fixes nodes where they are.

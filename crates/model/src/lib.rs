@@ -6,7 +6,7 @@
 //!
 //! let mesh = fem_mesh::box_mesh([2.0, 1.0, 1.0], 2, fem_mesh::Pattern::default())?;
 //! let rubber = Material::new(Law::StableNeoHookean(Elastic::new(1e5, 0.3)), 1000.0);
-//! let body = Body::new(mesh, rubber)?.gravity([0.0, 0.0, -9.81]).fix(&Selector::least(Axis::X))?;
+//! let body = Body::new(mesh, rubber)?.gravity([0.0, 0.0, -9.81])?.fix(&Selector::least(Axis::X))?;
 //! assert_eq!(body.fixed_nodes().map(<[usize]>::len), Some(9));
 //!
 //! // What cannot be simulated is refused at once, with the remedy.

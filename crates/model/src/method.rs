@@ -2,7 +2,8 @@
 
 use serde::Deserialize;
 
-use crate::{Integrator, Precision, SolverSettings};
+use crate::numbers::{check_finite, check_positive, problem};
+use crate::{Integrator, Precision, Refusal, SolverSettings};
 
 /// The numerical method: time integration, Newton's method, linear solver.
 #[derive(Clone, Debug, PartialEq)]
@@ -123,6 +124,35 @@ impl Method {
             newton: NewtonSettings::default(),
             accept_gain: false,
             solver: None,
+        }
+    }
+
+    /// Refuses numbers with which no step can be computed.
+    pub fn check(&self) -> Result<(), Refusal> {
+        check_positive("time.dt", self.dt, " of seconds")?;
+        for (field, count) in [("time.substeps", self.substeps), ("static.load_steps", self.load_steps)] {
+            if count == 0 {
+                return problem(field, "is 0; give at least one");
+            }
+        }
+        let tolerances = [
+            ("time.adaptive.tolerance", self.adaptive),
+            ("newton.tolerance", self.newton.tolerance),
+            ("iterations.tolerance", self.iterations.tolerance),
+            ("solver.tolerance", self.solver.as_ref().and_then(|solver| solver.tolerance)),
+        ];
+        for (field, tolerance) in tolerances {
+            // NaN fails the comparison.
+            if let Some(tolerance) = tolerance.filter(|tolerance| !(*tolerance > 0.0 && *tolerance < 1.0)) {
+                return problem(field, format!("is {tolerance}; give a number above 0 and below 1"));
+            }
+        }
+        check_finite("newmark", &[self.newmark.beta, self.newmark.gamma])?;
+        match (0.0..=1.0).contains(&self.rho_inf) {
+            true => Ok(()),
+            false => {
+                problem("generalized_alpha.spectral_radius", format!("is {}; give a number from 0 to 1", self.rho_inf))
+            }
         }
     }
 

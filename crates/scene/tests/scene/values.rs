@@ -76,7 +76,9 @@ fn a_body_from_values_is_that_of_the_scene_with_the_same_tables() {
         .region(&Selector::Region(Region::Sphere { center: [0.0; 3], radius: 0.5 }), core)
         .unwrap()
         .gravity([0.0, 0.0, -9.81])
+        .unwrap()
         .body_force([1.0, 2.0, 3.0])
+        .unwrap()
         .fix(&Selector::least(Axis::X))
         .unwrap()
         .prescribe(&Selector::most(Axis::X), [false, true, false], Motion::by([0.0, 0.1, 0.0]))
@@ -98,6 +100,21 @@ fn a_body_from_values_is_that_of_the_scene_with_the_same_tables() {
         .lump_mass_for(&method);
     let expected = fem_scene::body(&scene, "no data".as_ref()).unwrap();
     assert_eq!(Body { name: expected.name.clone(), ..body }, expected);
+}
+
+#[test]
+fn a_method_with_a_number_that_no_step_can_have_is_refused() {
+    let method = Method::new(Integrator::GeneralizedAlpha, 0.01);
+    assert_eq!(method.check(), Ok(()));
+    let refused = |method: Method, text: &str| {
+        let error = method.check().unwrap_err().to_string();
+        assert!(error.starts_with(text), "{error}");
+    };
+    refused(Method { dt: -1.0, ..method.clone() }, "time.dt is -1; give a positive number of seconds");
+    refused(Method { dt: f64::NAN, ..method.clone() }, "time.dt is NaN");
+    refused(Method { substeps: 0, ..method.clone() }, "time.substeps is 0");
+    refused(Method { adaptive: Some(1.0), ..method.clone() }, "time.adaptive.tolerance is 1; give a number");
+    refused(Method { rho_inf: f64::NAN, ..method.clone() }, "generalized_alpha.spectral_radius is NaN");
 }
 
 #[test]
@@ -123,6 +140,8 @@ fn values_that_cannot_be_simulated_are_refused_with_the_quantity_and_the_remedy(
     refused(beam().force(&Selector::Nodes(vec![999]), [0.0; 3]), "force[0].nodes names node 999");
     refused(beam().spring([2, 2], 1.0), "springs[0].nodes names node 2 twice");
     refused(beam().traction(&Selector::most(Axis::X), [f64::NAN, 0.0, 0.0]), "traction[0].force_per_area is NaN");
+    refused(beam().gravity([0.0, f64::INFINITY, 0.0]), "gravity.acceleration is inf");
+    refused(beam().body_force([f64::NAN, 0.0, 0.0]), "body_force.density is NaN");
     let fixed = beam().fix(&Selector::least(Axis::X)).unwrap();
     refused(
         fixed.prescribe(&Selector::least(Axis::X), [true; 3], Motion::by([0.1, 0.0, 0.0])),
