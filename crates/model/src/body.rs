@@ -4,7 +4,7 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
-use crate::numbers::{check_not_negative, check_positive, check_vector, problem};
+use crate::numbers::{check_finite, check_not_negative, check_positive, check_vector, problem};
 use crate::regions::density_factors;
 use crate::selector::{elements, listed, loaded_faces, nodes};
 use crate::simulation::Shape;
@@ -76,6 +76,7 @@ impl Body {
             BodyMesh::Quadratic { .. } => Ok(()),
         };
         checked.map_err(|error| Refusal::new("mesh", format!("cannot be simulated: {error}")))?;
+        mesh.thickness().map_or(Ok(()), |thickness| check_positive("material.thickness", thickness, " of m"))?;
         material.check("material")?;
         if material.plane == PlaneState::Stress
             && !(mesh.is_flat() && Law::named(material.law.name()).is_some_and(|facts| facts.has_plane_stress))
@@ -158,6 +159,11 @@ impl Body {
     pub fn prescribe(mut self, selector: &Selector, components: [bool; 3], motion: Motion) -> Result<Self, Refusal> {
         let number = self.dirichlet.iter().filter(|condition| condition.motion.is_some()).count();
         let name = format!("prescribed[{number}]");
+        check_vector(&format!("{name}.displacement"), &motion.displacement.into())?;
+        if let Some(rotation) = &motion.rotation {
+            check_vector(&format!("{name}.rotation.center"), &rotation.center.into())?;
+            check_finite(&format!("{name}.rotation.turns"), &[rotation.turns])?;
+        }
         let nodes = nodes(&name, selector, &self.shape.mesh)?;
         self.dirichlet.push(DirichletCondition { name, nodes, components, motion: Some(motion), until: None });
         self.disjoint()

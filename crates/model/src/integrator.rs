@@ -59,7 +59,7 @@ pub enum Family {
     Equilibrium,
 }
 
-/// What is known about a method.
+/// The properties of a method on which checks, switching, studies and pages rely.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Facts {
     /// The name in scene files.
@@ -141,7 +141,7 @@ impl Integrator {
         all
     };
 
-    /// What is known about the method.
+    /// Its properties.
     pub fn facts(self) -> &'static Facts {
         // The table is in the order of the enum, as a test holds.
         &Self::FACTS[self as usize].1

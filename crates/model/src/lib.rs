@@ -1,4 +1,4 @@
-//! What is simulated, as plain values: bodies, materials, loads, constraints, obstacles, methods; and the trait
+//! Models as plain values: bodies, materials, loads, constraints, obstacles, methods; and the trait
 //! [`Simulation`](simulation::Simulation) of what simulates them. No files and no numerics.
 //!
 //! ```

@@ -58,7 +58,7 @@ pub struct Spring {
 /// A spring of zero rest length from a node to a target that oscillates about the node's undeformed position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drag {
-    /// The node that the spring pulls.
+    /// The node at one end of the spring.
     pub node: usize,
     /// N/m
     pub stiffness: f64,

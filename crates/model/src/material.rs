@@ -106,7 +106,7 @@ macro_rules! law_parameters {
 /// The values of parameters by their names.
 pub type Given<'a> = dyn Fn(&str) -> Option<f64> + 'a;
 
-/// What is known about a law before it has parameters.
+/// The properties of a law before it has parameters.
 #[derive(Clone, Copy, Debug)]
 pub struct LawFacts {
     /// The name in scene files.

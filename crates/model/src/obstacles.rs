@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::numbers::{check_not_negative, check_vector, problem};
 use crate::{Body, Contact, ContactPlane, ContactTreatment, Integrator, Method, PlaneMotion, Refusal};
 
 /// Default of the activation distance, in lengths of the body.
@@ -22,7 +23,7 @@ const OF_SLIDING: f64 = 0.1;
 /// Least sliding in a step at these speeds, in lengths of the body: less is lost in the tolerance of Newton's method.
 const RESOLVED: f64 = 1e-8;
 
-/// Part of a speed along a plane that is a rounding error.
+/// Relative rounding error of a speed along a plane, and of the length of its normal.
 const ROUNDING: f64 = 1e-9;
 
 impl Body {
@@ -53,9 +54,16 @@ impl Body {
     }
 }
 
-/// Refuses planes behind which a node is deeper than a tolerance, m.
+/// Refuses planes without a direction, and those behind which a node is deeper than a tolerance, m.
 fn check_outside(planes: &[ContactPlane], x: &[Vector3<f64>], tolerance: f64) -> Result<(), Refusal> {
     for (number, plane) in planes.iter().enumerate() {
+        let table = format!("planes[{number}]");
+        check_vector(&format!("{table}.point"), &plane.point.into())?;
+        // NaN fails the comparison.
+        if !((plane.normal.norm() - 1.0).abs() <= ROUNDING) {
+            return problem(&format!("{table}.normal"), "has no length of 1; give a direction that is not zero");
+        }
+        check_not_negative(&format!("{table}.friction"), plane.friction, "(no friction)")?;
         let gaps = x.iter().map(|x| plane.normal.dot(&(x - plane.point - plane.displacement(0.0)))).enumerate();
         let (node, gap) = gaps.fold((0, f64::INFINITY), |least, next| if next.1 < least.1 { next } else { least });
         // NaN fails the comparison.
@@ -64,7 +72,7 @@ fn check_outside(planes: &[ContactPlane], x: &[Vector3<f64>], tolerance: f64) ->
                 "has the body behind it at the start: node {node} is {:.3e} m deep; move planes[{number}].point back, or the body away",
                 -gap
             );
-            return Err(Refusal::new(format!("planes[{number}]"), text));
+            return problem(&table, text);
         }
     }
     Ok(())

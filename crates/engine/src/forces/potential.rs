@@ -176,7 +176,7 @@ pub trait Follower<T: Real> {
     fn reported_energy(&self, u: &[[T; 3]], moment: Moment) -> f64;
 }
 
-/// What follows from the facets of a force.
+/// Properties of a force that follow from its facets.
 impl<T: Real> dyn Potential<T> + '_ {
     /// Returns true for a force of springs between the nodes of the body.
     pub fn is_internal(&self) -> bool {

@@ -63,8 +63,8 @@ use crate::model::system::System;
 use crate::solvers::Solver;
 use fem_elements::Real;
 
-/// What a time integration method keeps from step to step. Whoever keeps something says for each of these what becomes of it; a method that
-/// keeps nothing is [`Memoryless`].
+/// The quantities that a time integration method keeps from step to step, such as accelerations. A method that keeps some implements all of
+/// these functions; one that keeps none is [`Memoryless`].
 pub trait Memory {
     /// The last step has been accepted: the next one starts where it ended. Until then a step may be repeated from its start.
     fn accept(&mut self);

@@ -263,7 +263,7 @@ fn linked(model: &str, from: f64) -> Simulator<f64> {
 fn links_to_nodes_that_are_moved_take_part_in_one_linear_solve() {
     let simulation = linked("linear", f64::NEG_INFINITY);
     assert_eq!(simulation.counters().factorizations, 1);
-    // The bar moves as a whole. Without the links in the right-hand side, each pulls with up to 1e4 N.
+    // The bar moves as a whole. Without the links in the right-hand side, each has a force of up to 1e4 N.
     let (positions, shape) = (simulation.positions(), simulation.shape());
     let moved = shape.mesh.vertices().iter().enumerate().map(|(node, X)| positions[3 * node] - X.x);
     assert!(moved.clone().all(|u| (u - 0.1).abs() < 1e-12), "{:?}", moved.collect::<Vec<_>>());

@@ -69,7 +69,7 @@ pub(super) struct Parts {
     pub points: Vec<usize>,
 }
 
-/// What an element of a file becomes. A mesh with more than 2³² nodes or elements fits into no memory.
+/// The part of a mesh that an element of a file becomes. A mesh with more than 2³² nodes or elements fits into no memory.
 #[derive(Clone, Copy)]
 pub(super) enum Entry {
     Nothing,

@@ -149,6 +149,13 @@ fn values_that_cannot_be_simulated_are_refused_with_the_quantity_and_the_remedy(
     );
     let all = Selector::Region(Region::All);
     refused(beam().region(&all, rubber()).unwrap().region(&all, rubber()), "has elements of materials[0]");
+    let nowhere = ContactPlane::new(Vector3::zeros(), Vector3::zeros());
+    refused(
+        beam().obstacles(vec![nowhere], &Method::new(Integrator::ImplicitEuler, 0.01)),
+        "planes[0].normal has no length",
+    );
+    let far = Motion::by([0.0, f64::NAN, 0.0]);
+    refused(beam().prescribe(&Selector::most(Axis::X), [true; 3], far), "prescribed[0].displacement is NaN");
     let behind = ContactPlane::new(Vector3::new(0.0, 0.0, 0.5), Vector3::z());
     refused(beam().obstacles(vec![behind], &Method::new(Integrator::ImplicitEuler, 0.01)), "has the body behind it");
 }
