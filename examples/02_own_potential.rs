@@ -5,7 +5,7 @@
 use std::error::Error;
 
 use fem_engine::forces::{AddBlock, Energy, HessianKind, Moment, Potential};
-use fem_engine::model::numbering::Numbering;
+use fem_engine::numbering::Numbering;
 use fem_engine::simulator::Simulator;
 use fem_mesh::{Pattern, box_mesh};
 use fem_model::simulation::Simulation;

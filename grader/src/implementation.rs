@@ -4,6 +4,7 @@
 pub mod budget;
 mod local;
 pub mod places;
+mod protocol;
 pub mod sandboxed;
 
 use std::fmt;

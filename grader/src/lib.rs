@@ -9,7 +9,6 @@ pub mod check;
 pub mod compile;
 pub mod implementation;
 pub mod properties;
-pub mod protocol;
 pub mod sandbox;
 pub mod status;
 pub mod submission;

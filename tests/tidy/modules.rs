@@ -1,9 +1,9 @@
-//! No two modules need each other.
+//! Folders are layers: no two of them need each other.
 //!
-//! A module is a file, or a `mod` with a body in one. A module needs another one when it names it or an item of it, by a path or
-//! by an import; a re-export leads to the module that it comes from. A module may name the modules that it lies in, and these may
-//! name it. Beyond that, no chain of names from module to module may return to its start. Modules that
-//! stand under `#[cfg(test)]` may name anything.
+//! A module is a folder, a file, or a `mod` with a body in one. A module needs another one beside it when something in it names that one or
+//! something in it, by a path or by an import; a re-export leads to the module that it comes from. A module may name the modules that it
+//! lies in, and these may name it. Beyond that, no chain of names from module to module may return to its start. Modules that stand
+//! under `#[cfg(test)]` may name anything.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -35,6 +35,8 @@ fn a_cycle_is_found_through_imports_paths_and_re_exports() {
     assert!(
         found("mod a { pub fn f() {} #[cfg(test)] mod tests { use crate::b; } } mod b { use crate::a; }").is_empty()
     );
+    let folders = "mod a { mod c { use crate::b::d; } mod e {} } mod b { mod d {} mod f { use crate::a::e; } }";
+    assert_eq!(found(folders), ["src/lib.rs: a -> b -> a; move what both need into a module of its own"]);
     let inner = "mod a { pub struct T; mod c { use crate::{b, d}; } fn f() { c::g() } } mod b { fn f() { crate::a::T } } mod d {}";
     assert_eq!(found(inner).len(), 1);
 }
@@ -163,18 +165,25 @@ impl Crate {
         self.modules.contains_key(&name).then_some(name)
     }
 
-    /// The shortest way around of each group of modules that need each other.
+    /// Modules side by side that need each other, with all that lies in them: the shortest way around of each group.
     fn cycles(&self) -> Vec<String> {
-        let mut needs: BTreeMap<&Name, Vec<Name>> = BTreeMap::new();
+        let mut needs: BTreeMap<Name, Vec<Name>> = BTreeMap::new();
         for (name, module) in &self.modules {
-            let targets = module.paths.iter().filter_map(|path| self.target(name, path, 0));
-            let mut targets: Vec<_> = targets.filter(|target| !name.starts_with(target)).collect();
-            targets.sort();
-            targets.dedup();
-            needs.insert(name, targets);
+            needs.entry(name.clone()).or_default();
+            for target in module.paths.iter().filter_map(|path| self.target(name, path, 0)) {
+                let shared = name.iter().zip(&target).take_while(|(a, b)| a == b).count();
+                // Parent and child may name each other.
+                if shared < name.len().min(target.len()) {
+                    let target = target[..=shared].to_vec();
+                    let targets = needs.entry(name[..=shared].to_vec()).or_default();
+                    if !targets.contains(&target) {
+                        targets.push(target);
+                    }
+                }
+            }
         }
         let mut cycles: Vec<Vec<Name>> = Vec::new();
-        for name in self.modules.keys() {
+        for name in needs.keys() {
             if !cycles.iter().flatten().any(|found| found == name)
                 && let Some(cycle) = way_back(name, &needs)
             {
@@ -190,7 +199,7 @@ impl Crate {
 }
 
 /// The shortest way from a module to itself.
-fn way_back(start: &Name, needs: &BTreeMap<&Name, Vec<Name>>) -> Option<Vec<Name>> {
+fn way_back(start: &Name, needs: &BTreeMap<Name, Vec<Name>>) -> Option<Vec<Name>> {
     let mut ways = vec![vec![start.clone()]];
     let mut seen: Vec<Name> = Vec::new();
     while !ways.is_empty() {

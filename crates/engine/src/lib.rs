@@ -41,6 +41,7 @@ pub mod forces;
 pub mod integrators;
 pub mod model;
 pub mod newton;
+pub mod numbering;
 mod pick;
 pub mod profile;
 pub mod simulator;

@@ -157,9 +157,60 @@ pub enum Problem {
     )]
     FieldSize { name: String, found: usize, expected: usize, components: usize, per: &'static str },
     #[error(transparent)]
-    Stuffing(crate::generate::StuffingError),
+    Stuffing(StuffingError),
     #[error("frame {frame} (counted from 0) {reason}; pass frames of one mesh in the order of their times")]
     Frame { frame: usize, reason: String },
+}
+
+/// Reason why a surface has no tetrahedra inside.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum StuffingError {
+    /// A vertex is NaN or infinite.
+    #[error(
+        "vertex {vertex} (counted from 0) has a coordinate that is not finite; give it a finite position or remove it"
+    )]
+    NotFinite {
+        /// Counted from 0.
+        vertex: usize,
+    },
+    /// The edge length is no length.
+    #[error("an edge of {edge} m; give a length above 0")]
+    Edge {
+        /// m
+        edge: f64,
+    },
+    /// Too many tetrahedra.
+    #[error(
+        "with edges of {edge} m the box around the surface would have {count:.1e} tetrahedra, and {most:.0e} is the most; take longer edges"
+    )]
+    TooFine {
+        /// m
+        edge: f64,
+        /// Number of tetrahedra.
+        count: f64,
+        /// Largest number of them.
+        most: f64,
+    },
+    /// A triangle crosses the boundary of a cage that contains all tetrahedra which it touches: its coordinates are too large for the edge.
+    #[error(
+        "triangle {triangle} (counted from 0) is not enclosed by tetrahedra with edges of {edge} m; take longer edges, or move the surface to the origin"
+    )]
+    NotEnclosed {
+        /// Counted from 0.
+        triangle: usize,
+        /// m
+        edge: f64,
+    },
+    /// The lattice has no node inside the surface.
+    #[error(
+        "with edges of {edge} m no point of the lattice lies inside the surface; take shorter edges (the surface measures {} × {} × {} m), or close it", size[0], size[1], size[2]
+    )]
+    Empty {
+        /// m
+        edge: f64,
+        /// Size of the box around the surface, m.
+        size: [f64; 3],
+    },
 }
 
 /// The first characters of a file's content, which may be long or binary, in one line that a terminal can show.

@@ -13,8 +13,8 @@ use nalgebra_sparse::CsrMatrix;
 
 use super::budget::Budget;
 use super::places::Places;
+use super::protocol::{self, Closures};
 use super::{Answer, Implementation, Trouble};
-use crate::protocol::{self, Closures};
 use crate::sandbox::Running;
 
 /// A program with a submission's functions. It is started for its first call, and again after it has ended.

@@ -8,7 +8,7 @@ use fem_model::{Body, DirichletCondition, Motion, is_before};
 use nalgebra::Vector3;
 
 use crate::forces::Moment;
-use crate::model::numbering::Numbering;
+use crate::numbering::Numbering;
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern, Stored};
 use fem_elements::vector::{scale, triple};

@@ -1,6 +1,5 @@
-//! Dirichlet conditions: fixed nodes, prescribed motions, and the reactions at both.
+//! Dirichlet conditions: fixed nodes and prescribed motions.
 
 pub mod dirichlet;
 mod kinematics;
-pub mod reactions;
 pub mod rigid_modes;

@@ -7,7 +7,7 @@ use fem_model::simulation::Shape;
 use fem_model::{Anchor, Body, EdgeStiffness, Interaction, Law, NeoHookean};
 
 use super::{AddBlock, Energy, HessianKind, Moment, Potential};
-use crate::model::numbering::Numbering;
+use crate::numbering::Numbering;
 use fem_elements::Real;
 use fem_elements::number::is_positive;
 

@@ -4,7 +4,7 @@ use fem_model::{Body, LoadCurve};
 use nalgebra::Vector3;
 
 use super::{AddBlock, Energy, HessianKind, Moment, Potential};
-use crate::model::numbering::Numbering;
+use crate::numbering::Numbering;
 use fem_elements::Real;
 use fem_elements::vector::{dot3, triple};
 

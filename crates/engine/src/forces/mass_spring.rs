@@ -10,7 +10,7 @@ use fem_model::{Body, EdgeStiffness, Law, Spring};
 
 use super::Potential;
 use super::springs::{Source, Springs};
-use crate::model::numbering::Numbering;
+use crate::numbering::Numbering;
 use fem_elements::Real;
 
 /// Key in the statistics.

@@ -13,7 +13,7 @@ pub mod springs;
 
 use fem_model::{Body, Timer};
 
-use crate::model::numbering::Numbering;
+use crate::numbering::Numbering;
 use anchors::Anchors;
 pub use energy::Energy;
 use fem_elements::Real;

@@ -15,7 +15,7 @@ pub type AddBlock<'a, T> = dyn FnMut(usize, usize, Block<T, 3>) + 'a;
 /// A new one gives its value, gradient and Hessian. A method has a default only if that follows from these three, if it costs accuracy or
 /// time at most, or if it says that the potential has no such facet: [`Barrier`], [`Lagged`], [`Damped`], [`Follower`].
 ///
-/// Nodes have the engine's numbers ([`Numbering`](crate::model::numbering::Numbering)). `u` are the displacements of all nodes, m.
+/// Nodes have the engine's numbers ([`Numbering`](crate::numbering::Numbering)). `u` are the displacements of all nodes, m.
 pub trait Potential<T: Real>: Send + Sync {
     /// Key in the statistics.
     fn name(&self) -> &'static str;

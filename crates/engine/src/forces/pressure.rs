@@ -8,7 +8,7 @@ use std::collections::HashSet;
 use fem_model::{Body, LoadCurve};
 
 use super::{AddBlock, Energy, Follower, HessianKind, Moment, Potential};
-use crate::model::numbering::Numbering;
+use crate::numbering::Numbering;
 use edges::Edges;
 use fem_elements::Real;
 use triangles::Triangles;

@@ -3,7 +3,7 @@
 use fem_model::{Body, DampingForm};
 
 use crate::forces::{Energy, HessianKind};
-use crate::model::numbering::Numbering;
+use crate::numbering::Numbering;
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern};
 use fem_elements::vector::triple;

@@ -5,7 +5,7 @@ use fem_model::Body;
 
 pub use super::spring::Spring;
 use super::{AddBlock, Damped, Energy, HessianKind, Moment, Potential};
-use crate::model::numbering::Numbering;
+use crate::numbering::Numbering;
 use fem_elements::Real;
 use fem_elements::number::is_positive;
 use fem_elements::sparse::{Block, Pattern};

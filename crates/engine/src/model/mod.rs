@@ -2,8 +2,8 @@
 
 pub mod damping;
 pub mod mass;
-pub mod numbering;
 mod obstacles;
+pub mod reactions;
 pub mod state;
 mod stiffness_pattern;
 pub mod system;

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use fem_model::{Body, BodyMesh};
 
-use super::numbering::{Numbering, Ordering};
 use super::system::{OwnForces, System};
+use crate::numbering::{Numbering, Ordering};
 use crate::solvers::SolverChoice;
 use fem_elements::Real;
 use fem_elements::materials::AnyLaw;

@@ -9,10 +9,10 @@ use fem_model::{Body, BodyMesh, Damping, Interaction};
 use nalgebra::{Matrix3, Vector3};
 
 use super::mass::{ElementMass, Mass, element_masses};
-use super::numbering::{Numbering, Ordering};
 use crate::boundary::dirichlet::{DirichletConditions, fully_constrained_nodes};
 use crate::forces::anchors::{self, Anchors};
 use crate::forces::{Energy, Forces, HessianKind, Moment, Potential, mass_spring};
+use crate::numbering::{Numbering, Ordering};
 use crate::profile::Profile;
 use fem_elements::Real;
 use fem_elements::materials::AnyLaw;

@@ -12,9 +12,9 @@ use nalgebra::{DVector, Matrix3, Vector3};
 
 use super::substep::is_judged;
 use super::{Compiled, Simulator, checkpoint, parts};
-use crate::boundary::reactions::{reactions, reactions_at};
 use crate::boundary::rigid_modes;
 use crate::integrators::LastStage;
+use crate::model::reactions::{reactions, reactions_at};
 use crate::model::state::State;
 use crate::pick;
 use fem_elements::Real;

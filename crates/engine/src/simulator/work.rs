@@ -9,9 +9,9 @@ use std::ops::AddAssign;
 
 use super::Simulator;
 use super::energies::{Bounds, is_changing_load};
-use crate::boundary::reactions::{End, Unbalanced, write_between};
 use crate::forces::Moment;
 use crate::forces::contact::friction::tangential;
+use crate::model::reactions::{End, Unbalanced, write_between};
 use crate::model::system::System;
 use fem_elements::Real;
 use fem_elements::history::put;

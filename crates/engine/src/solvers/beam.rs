@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::model::numbering::{Numbering, Ordering};
+use crate::numbering::{Numbering, Ordering};
 use fem_elements::Real;
 use fem_elements::sparse::{Pattern, Stored};
 use fem_mesh::{TetrahedralMesh, box_mesh};

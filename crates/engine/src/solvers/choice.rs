@@ -4,7 +4,7 @@ use std::fmt;
 
 pub use fem_model::Preconditioner;
 
-use crate::model::numbering::Ordering;
+use crate::numbering::Ordering;
 use fem_elements::sparse::Stored;
 use fem_model::{Precision, SolverKind, SolverSettings};
 

@@ -1,7 +1,7 @@
 //! Equilibrium paths through limit points.
 
 use fem_engine::forces::{AddBlock, Energy, HessianKind, Moment, Potential};
-use fem_engine::model::numbering::Numbering;
+use fem_engine::numbering::Numbering;
 use fem_engine::simulator::Simulator;
 use fem_model::simulation::Simulation;
 use fem_scene::{Scene, parse};

@@ -1,7 +1,7 @@
 //! Forces of a program's own, through the trait `Potential` and its facets.
 
 use fem_engine::forces::{AddBlock, Barrier, Energy, Follower, HessianKind, Moment, Potential};
-use fem_engine::model::numbering::Numbering;
+use fem_engine::numbering::Numbering;
 use fem_engine::simulator::Simulator;
 use fem_model::simulation::Simulation;
 use nalgebra::Vector3;

@@ -12,7 +12,7 @@ use nalgebra::{DVector, Vector3};
 use crate::space::points::{LocalGradient, points};
 use fem_engine::forces::dead_load::DeadLoad;
 use fem_engine::materials::AnyLaw;
-use fem_engine::model::numbering::Numbering;
+use fem_engine::numbering::Numbering;
 use fem_engine::simulator::{Simulator, double};
 use fem_engine::tensor::{Tensor, from_fn, inverse};
 use fem_mesh::TetrahedralMesh;

@@ -11,8 +11,8 @@ use fem_model::{Batch as Values, Body, Method, Precision, Refusal};
 use nalgebra::Vector3;
 
 use super::{EnvironmentFailure, EnvironmentState, Environments};
-use crate::model::numbering::Numbering;
 use crate::model::system::System;
+use crate::numbering::Numbering;
 use crate::simulator::{Compiled, Simulator};
 use crate::solvers::open_device;
 use fem_elements::materials::AnyLaw;

@@ -8,7 +8,7 @@
 use fem_model::Body;
 use nalgebra::Vector3;
 
-use crate::model::numbering::Numbering;
+use crate::numbering::Numbering;
 use fem_elements::Real;
 use fem_elements::vector::triple;
 

@@ -7,7 +7,7 @@ use fem_model::{Body, Material};
 
 use super::areas::Areas;
 use crate::forces::mass_spring;
-use crate::model::numbering::Numbering;
+use crate::numbering::Numbering;
 use fem_elements::Real;
 use fem_elements::materials::AnyLaw;
 

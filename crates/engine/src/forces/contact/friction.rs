@@ -10,7 +10,7 @@ use super::barrier::Barrier;
 use super::planes::Planes;
 use super::start::Obstacles;
 use crate::forces::{self, AddBlock, Energy, HessianKind, Moment, Potential};
-use crate::model::numbering::Numbering;
+use crate::numbering::Numbering;
 use fem_elements::Real;
 use fem_elements::vector::triple;
 

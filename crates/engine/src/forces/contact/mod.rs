@@ -1,5 +1,5 @@
 //! Contact with planes: a barrier energy, and a friction potential beside it, for implicit methods. Explicit methods use
-//! [impulses](crate::integrators::Impulses) instead.
+//! impulses instead.
 
 pub mod areas;
 pub mod barrier;
@@ -10,7 +10,7 @@ pub mod start;
 use fem_model::{Body, ContactTreatment};
 
 use super::{AddBlock, Energy, HessianKind, Moment, Potential};
-use crate::model::numbering::Numbering;
+use crate::numbering::Numbering;
 use barrier::Barrier;
 use fem_elements::Real;
 use fem_elements::vector::triple;

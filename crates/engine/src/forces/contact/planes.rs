@@ -2,7 +2,7 @@
 
 use fem_model::{Body, ContactPlane};
 
-use crate::model::numbering::Numbering;
+use crate::numbering::Numbering;
 use fem_elements::Real;
 
 /// The obstacles of a body, with data for the distances of its nodes. Nodes have the engine's numbers.

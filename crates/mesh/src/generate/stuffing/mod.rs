@@ -11,10 +11,9 @@ pub(super) mod stencils;
 
 use std::cell::Cell;
 
-use thiserror::Error;
-
 use super::Progress;
 use super::solid::Solid;
+use crate::error::StuffingError;
 use crate::{SurfaceMesh, TetrahedralMesh};
 use lattice::Lattice;
 use octree::Octree;
@@ -28,57 +27,6 @@ const MEAN_EDGE: f64 = 0.910_683_602_522_959;
 /// Times that the progress is told while nodes are found to be inside or outside, and the share of the whole time that this takes.
 const TOLD: usize = 200;
 const SIGNS: f64 = 0.8;
-
-/// Reason why a surface has no tetrahedra inside.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum StuffingError {
-    /// A vertex is NaN or infinite.
-    #[error(
-        "vertex {vertex} (counted from 0) has a coordinate that is not finite; give it a finite position or remove it"
-    )]
-    NotFinite {
-        /// Counted from 0.
-        vertex: usize,
-    },
-    /// The edge length is no length.
-    #[error("an edge of {edge} m; give a length above 0")]
-    Edge {
-        /// m
-        edge: f64,
-    },
-    /// Too many tetrahedra.
-    #[error(
-        "with edges of {edge} m the box around the surface would have {count:.1e} tetrahedra, and {most:.0e} is the most; take longer edges"
-    )]
-    TooFine {
-        /// m
-        edge: f64,
-        /// Number of tetrahedra.
-        count: f64,
-        /// Largest number of them.
-        most: f64,
-    },
-    /// A triangle crosses the boundary of a cage that contains all tetrahedra which it touches: its coordinates are too large for the edge.
-    #[error(
-        "triangle {triangle} (counted from 0) is not enclosed by tetrahedra with edges of {edge} m; take longer edges, or move the surface to the origin"
-    )]
-    NotEnclosed {
-        /// Counted from 0.
-        triangle: usize,
-        /// m
-        edge: f64,
-    },
-    /// The lattice has no node inside the surface.
-    #[error(
-        "with edges of {edge} m no point of the lattice lies inside the surface; take shorter edges (the surface measures {} × {} × {} m), or close it", size[0], size[1], size[2]
-    )]
-    Empty {
-        /// m
-        edge: f64,
-        /// Size of the box around the surface, m.
-        size: [f64; 3],
-    },
-}
 
 /// Tetrahedra with edges of about `edge` m inside a surface, which may have holes, cross itself and have flipped triangles.
 ///

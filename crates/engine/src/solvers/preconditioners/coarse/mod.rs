@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use pulp::{Simd, WithSimd};
 
 use super::lower_half::LowerHalf;
-use crate::model::numbering::{Numbering, Ordering};
+use crate::numbering::{Numbering, Ordering};
 use crate::solvers::ApproximateInverse;
 use crate::solvers::direct::SupernodalCholesky;
 use fem_elements::Real;

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use grader_child::socket::Socket;
 use grader_child::wire::{self, LONGEST_MESSAGE, kind, read};
 
-use crate::implementation::Trouble;
+use super::Trouble;
 use crate::sandbox::Running;
 use crate::submission::NAMES;
 
