@@ -130,7 +130,6 @@ pub struct RunArguments {
 pub enum SolverName {
     Cholesky,
     BlockJacobi,
-    IncompleteCholesky,
     Multigrid,
     Ssor,
 }
@@ -141,7 +140,6 @@ impl SolverName {
         let (kind, preconditioner) = match self {
             Self::Cholesky => (SolverKind::Cholesky, None),
             Self::BlockJacobi => (SolverKind::Pcg, Some(Preconditioner::BlockJacobi)),
-            Self::IncompleteCholesky => (SolverKind::Pcg, Some(Preconditioner::IncompleteCholesky)),
             Self::Multigrid => (SolverKind::Pcg, Some(Preconditioner::Multigrid)),
             Self::Ssor => (SolverKind::Pcg, Some(Preconditioner::Ssor)),
         };
@@ -153,7 +151,6 @@ impl SolverName {
         match self {
             Self::Cholesky => "cholesky",
             Self::BlockJacobi => "block_jacobi",
-            Self::IncompleteCholesky => "incomplete_cholesky",
             Self::Multigrid => "multigrid",
             Self::Ssor => "ssor",
         }

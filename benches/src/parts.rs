@@ -39,7 +39,6 @@ fn choice(name: SolverName) -> SolverChoice {
     match name {
         SolverName::Cholesky => SolverChoice::Cholesky,
         SolverName::BlockJacobi => SolverChoice::Pcg(Preconditioner::BlockJacobi),
-        SolverName::IncompleteCholesky => SolverChoice::Pcg(Preconditioner::IncompleteCholesky),
         SolverName::Multigrid => SolverChoice::Pcg(Preconditioner::Multigrid),
         SolverName::Ssor => SolverChoice::Pcg(Preconditioner::Ssor),
     }

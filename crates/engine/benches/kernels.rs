@@ -70,11 +70,7 @@ fn elements(criterion: &mut Criterion) {
 fn solvers(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("solvers");
     group.sample_size(10).warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(2));
-    let choices = [
-        ("cholesky", SolverChoice::Cholesky),
-        ("incomplete cholesky", SolverChoice::Pcg(Preconditioner::IncompleteCholesky)),
-        ("multigrid", SolverChoice::Pcg(Preconditioner::Multigrid)),
-    ];
+    let choices = [("cholesky", SolverChoice::Cholesky), ("multigrid", SolverChoice::Pcg(Preconditioner::Multigrid))];
     for cells in [6, 10] {
         for (name, choice) in choices {
             let system = system::<f64>(&beam("neo_hookean", cells), choice);

@@ -129,7 +129,7 @@ fn check<T: Real>(body: &Body, method: &Method, epsilon: f64) -> Result<Option<A
     check_mass(body, method)?;
     range_check::check_tolerance(method, epsilon)?;
     path_check::check(method, body)?;
-    integrator::check_solver(method, body.shape.mesh.vertices().len())?;
+    integrator::check_solver(method)?;
     if method.integrator == IntegratorKind::Static {
         rigid_modes::check(body)?;
     }

@@ -38,11 +38,6 @@ pub enum SolverKind {
     Cg,
     /// Preconditioned conjugate gradients.
     Pcg,
-    /// Steepest descent, for teaching.
-    SteepestDescent,
-    /// Conjugate directions, for teaching: the iterates of `cg` by Gram–Schmidt's method; it keeps every direction, and is refused for more
-    /// than 1000 nodes.
-    ConjugateDirections,
     /// Conjugate gradients on the graphics device.
     Gpu,
 }
@@ -54,8 +49,6 @@ pub enum Preconditioner {
     /// Block Jacobi: the inverse of each node's 3×3 block.
     #[default]
     BlockJacobi,
-    /// A Cholesky factor with the sparsity pattern of the matrix.
-    IncompleteCholesky,
     /// Multigrid by smoothed aggregation.
     Multigrid,
     /// SSOR, symmetric Gauss–Seidel sweeps, with a coarse grid; the iteration runs in single precision.
@@ -74,17 +67,11 @@ impl Precision {
 
 impl SolverKind {
     /// All solvers, their names in scene files, and a description.
-    pub const FACTS: [(Self, &'static str, &'static str); 7] = [
+    pub const FACTS: [(Self, &'static str, &'static str); 5] = [
         (Self::Cholesky, "cholesky", "Cholesky factorisation, the symbolic part once"),
         (Self::Lu, "lu", "LU factorisation with partial pivoting"),
         (Self::Cg, "cg", "conjugate gradients"),
         (Self::Pcg, "pcg", "conjugate gradients"),
-        (Self::SteepestDescent, "steepest_descent", "steepest descent, for teaching"),
-        (
-            Self::ConjugateDirections,
-            "conjugate_directions",
-            "conjugate directions by Gram–Schmidt's method, for teaching",
-        ),
         (Self::Gpu, "gpu", "conjugate gradients on the graphics device"),
     ];
 
@@ -101,9 +88,8 @@ impl SolverKind {
 
 impl Preconditioner {
     /// All preconditioners, their names in scene files, and what they are.
-    pub const FACTS: [(Self, &'static str, &'static str); 4] = [
+    pub const FACTS: [(Self, &'static str, &'static str); 3] = [
         (Self::BlockJacobi, "block_jacobi", "a block Jacobi preconditioner"),
-        (Self::IncompleteCholesky, "incomplete_cholesky", "an incomplete Cholesky factor"),
         (Self::Multigrid, "multigrid", "a multigrid cycle"),
         (Self::Ssor, "ssor", "SSOR and a coarse grid, in single precision"),
     ];

@@ -88,16 +88,15 @@ impl Solver {
         self.0.prepare(values)
     }
 
-    /// [`Solver::solve_observed`](solvers::Solver::solve_observed)
+    /// [`Solver::solve`](solvers::Solver::solve)
     pub fn solve(
         &mut self,
         values: &[Block<f64, 3>],
         b: &[[f64; 3]],
         x: &mut [[f64; 3]],
         tolerance: f64,
-        observe: &mut dyn FnMut(&[[f64; 3]]),
     ) -> Result<usize, Breakdown> {
-        self.0.solve_observed(values, b, x, tolerance, observe)
+        self.0.solve(values, b, x, tolerance)
     }
 
     /// [`Solver::apply`](solvers::Solver::apply)

@@ -60,27 +60,16 @@ pub(super) fn solver_choice(method: &Method, body: &Body) -> SolverChoice {
     }
 }
 
-/// Largest number of nodes whose directions conjugate directions may keep: 2 (3n)² numbers, 144 MB.
-const MOST_DIRECTIONS: usize = 1000;
-
-/// Refuses a graphics device that cannot be used, and a solver for teaching that would keep too many vectors.
-pub(super) fn check_solver(method: &Method, nodes: usize) -> Result<(), Refusal> {
+/// Refuses a graphics device that cannot be used.
+pub(super) fn check_solver(method: &Method) -> Result<(), Refusal> {
     let on_device = method.solver.as_ref().filter(|solver| solver.kind == SolverKind::Gpu);
-    if let Some(problem) = on_device.and_then(|solver| unusable_device(solver.precision)) {
-        return Err(Refusal::new(
+    match on_device.and_then(|solver| unusable_device(solver.precision)) {
+        Some(problem) => Err(Refusal::new(
             "solver.kind",
             format!("is \"gpu\", and {problem}; write \"pcg\", or leave the table out"),
-        ));
+        )),
+        None => Ok(()),
     }
-    let is_kept = method.solver.as_ref().is_some_and(|solver| solver.kind == SolverKind::ConjugateDirections);
-    if !is_kept || nodes <= MOST_DIRECTIONS {
-        return Ok(());
-    }
-    let problem = format!(
-        "is \"conjugate_directions\", which keeps every direction, and this body has {nodes} nodes, more than {MOST_DIRECTIONS}; write \
-         \"cg\", which has the same iterates, or take a coarser mesh"
-    );
-    Err(Refusal::new("solver.kind", problem))
 }
 
 /// Builds the integrator that a running simulation is switched to. An explicit scene has no pattern until an implicit method needs one.

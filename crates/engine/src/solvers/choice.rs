@@ -19,10 +19,6 @@ pub enum SolverChoice {
     Cg,
     /// Preconditioned conjugate gradients.
     Pcg(Preconditioner),
-    /// Steepest descent, for teaching.
-    SteepestDescent,
-    /// Conjugate directions by Gram–Schmidt's method, for teaching.
-    ConjugateDirections,
     /// Conjugate gradients on a graphics device, in this precision.
     Gpu(Precision),
 }
@@ -32,9 +28,7 @@ impl SolverChoice {
     pub fn stored(self) -> Stored {
         match self {
             Self::Cholesky | Self::Pcg(Preconditioner::Ssor | Preconditioner::Multigrid) => Stored::Lower,
-            Self::Lu | Self::Cg | Self::Pcg(_) | Self::SteepestDescent | Self::ConjugateDirections | Self::Gpu(_) => {
-                Stored::Full
-            }
+            Self::Lu | Self::Cg | Self::Pcg(_) | Self::Gpu(_) => Stored::Full,
         }
     }
 
@@ -42,9 +36,7 @@ impl SolverChoice {
     pub fn ordering(self) -> Ordering {
         match self {
             Self::Cholesky | Self::Lu => Ordering::FillReducing,
-            Self::Cg | Self::Pcg(_) | Self::SteepestDescent | Self::ConjugateDirections | Self::Gpu(_) => {
-                Ordering::Parts
-            }
+            Self::Cg | Self::Pcg(_) | Self::Gpu(_) => Ordering::Parts,
         }
     }
 
@@ -71,8 +63,6 @@ impl From<&SolverSettings> for SolverChoice {
             SolverKind::Lu => Self::Lu,
             SolverKind::Cg => Self::Cg,
             SolverKind::Pcg => Self::Pcg(settings.preconditioner),
-            SolverKind::SteepestDescent => Self::SteepestDescent,
-            SolverKind::ConjugateDirections => Self::ConjugateDirections,
             SolverKind::Gpu => Self::Gpu(settings.precision),
         }
     }
@@ -84,8 +74,6 @@ impl fmt::Display for SolverChoice {
             Self::Cholesky => f.write_str(SolverKind::Cholesky.description()),
             Self::Lu => f.write_str(SolverKind::Lu.description()),
             Self::Cg => f.write_str(SolverKind::Cg.description()),
-            Self::SteepestDescent => f.write_str(SolverKind::SteepestDescent.description()),
-            Self::ConjugateDirections => f.write_str(SolverKind::ConjugateDirections.description()),
             Self::Gpu(precision) => {
                 let digits = if *precision == Precision::F32 { "single" } else { "double" };
                 write!(f, "{}, in {digits} precision", SolverKind::Gpu.description())

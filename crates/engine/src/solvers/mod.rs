@@ -10,7 +10,7 @@ mod device;
 mod direct;
 mod fallback;
 mod inverse;
-mod krylov;
+pub mod krylov;
 mod parts;
 mod preconditioners;
 mod solver;
@@ -19,8 +19,6 @@ mod solver;
 pub(crate) mod beam;
 #[cfg(test)]
 mod slender_tests;
-#[cfg(test)]
-mod teaching_tests;
 #[cfg(test)]
 mod tests;
 

@@ -15,18 +15,16 @@ use super::choice::{Preconditioner, SolverChoice};
 use super::device;
 use super::direct::{Lu, cholesky, cholesky_for_directions};
 use super::fallback::DirectFallback;
-use super::krylov::{
-    LinearSystem, Workspace, conjugate_directions, conjugate_gradients, parts, product, refine, steepest_descent,
-};
+use super::krylov::{LinearSystem, Workspace, conjugate_gradients, parts, product, refine};
 use super::parts::Part;
-use super::preconditioners::{BlockJacobi, Identity, IncompleteCholesky, Multigrid, Ssor};
+use super::preconditioners::{BlockJacobi, Identity, Multigrid, Ssor};
 use fem_elements::Real;
 use fem_elements::sparse::{Block, Pattern, Stored};
 use fem_model::Timer;
 use fem_model::simulation::Breakdown;
 
 /// A solver for matrices of one sparsity pattern. It allocates nothing after the first [`prepare`](Self::prepare) and
-/// [`solve`](Self::solve), but for the directions that conjugate directions keep.
+/// [`solve`](Self::solve).
 pub struct Solver<T: Real> {
     choice: SolverChoice,
     pattern: Arc<Pattern>,
@@ -49,9 +47,8 @@ impl<T: Real> Solver<T> {
         let inverse: Box<dyn ApproximateInverse<T>> = match choice {
             SolverChoice::Cholesky => cholesky(pattern),
             SolverChoice::Lu => Box::new(Lu::new(pattern)),
-            SolverChoice::Cg | SolverChoice::SteepestDescent | SolverChoice::ConjugateDirections => Box::new(Identity),
+            SolverChoice::Cg => Box::new(Identity),
             SolverChoice::Pcg(Preconditioner::BlockJacobi) => Box::new(BlockJacobi::new(pattern)),
-            SolverChoice::Pcg(Preconditioner::IncompleteCholesky) => Box::new(IncompleteCholesky::new(pattern)),
             SolverChoice::Pcg(Preconditioner::Multigrid) => Box::new(Multigrid::new(pattern, rest)),
             SolverChoice::Pcg(Preconditioner::Ssor) => Box::new(Ssor::new(pattern, rest)),
             SolverChoice::Gpu(precision) => device::solver(precision, pattern, rest),
@@ -64,12 +61,9 @@ impl<T: Real> Solver<T> {
     pub fn for_directions(choice: SolverChoice, pattern: &Arc<Pattern>, rest: &[[f64; 3]]) -> Self {
         match choice {
             SolverChoice::Cholesky => Self::with_inverse(choice, pattern, cholesky_for_directions(pattern)),
-            SolverChoice::Lu
-            | SolverChoice::Cg
-            | SolverChoice::SteepestDescent
-            | SolverChoice::ConjugateDirections
-            | SolverChoice::Gpu(_)
-            | SolverChoice::Pcg(_) => Self::new(choice, pattern, rest),
+            SolverChoice::Lu | SolverChoice::Cg | SolverChoice::Gpu(_) | SolverChoice::Pcg(_) => {
+                Self::new(choice, pattern, rest)
+            }
         }
     }
 
@@ -161,24 +155,11 @@ impl<T: Real> Solver<T> {
         x: &mut [[T; 3]],
         tolerance: f64,
     ) -> Result<usize, Breakdown> {
-        self.solve_observed(values, b, x, tolerance, &mut |_| {})
-    }
-
-    /// The same, and shows each iterate to `observe`, the first one included: those of the methods that iterate with the matrix itself, not
-    /// those of an iteration on a copy of it.
-    pub fn solve_observed(
-        &mut self,
-        values: &[Block<T, 3>],
-        b: &[[T; 3]],
-        x: &mut [[T; 3]],
-        tolerance: f64,
-        observe: &mut dyn FnMut(&[[T; 3]]),
-    ) -> Result<usize, Breakdown> {
         self.counters.solves += 1;
-        match self.iterate(values, b, x, tolerance, observe) {
+        match self.iterate(values, b, x, tolerance) {
             Err(breakdown) => {
                 self.fall_back(values, breakdown)?;
-                self.iterate(values, b, x, tolerance, observe)
+                self.iterate(values, b, x, tolerance)
             }
             solved => solved,
         }
@@ -191,7 +172,6 @@ impl<T: Real> Solver<T> {
         b: &[[T; 3]],
         x: &mut [[T; 3]],
         tolerance: f64,
-        observe: &mut dyn FnMut(&[[T; 3]]),
     ) -> Result<usize, Breakdown> {
         let Self { choice, pattern, parts, inverse, fallback, workspace, solving, .. } = self;
         let mut fallback = fallback.as_mut().filter(|fallback| fallback.is_in_use);
@@ -224,16 +204,7 @@ impl<T: Real> Solver<T> {
             };
             let largest_entry = || largest_entry(pattern, values);
             let system = LinearSystem { A, largest_entry, b, tolerance };
-            let iterations = match choice {
-                SolverChoice::SteepestDescent => steepest_descent(system, x, workspace, observe),
-                SolverChoice::ConjugateDirections => conjugate_directions(system, x, workspace, observe),
-                SolverChoice::Cholesky
-                | SolverChoice::Lu
-                | SolverChoice::Cg
-                | SolverChoice::Gpu(_)
-                | SolverChoice::Pcg(_) => conjugate_gradients(system, P, x, workspace, observe),
-            };
-            Ok(corrections + iterations?)
+            Ok(corrections + conjugate_gradients(system, P, x, workspace, &mut |_| {})?)
         })?;
         self.counters.iterations += iterations;
         Ok(iterations)

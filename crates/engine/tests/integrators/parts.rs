@@ -124,7 +124,7 @@ fn projection_is_counted_where_it_is_asked_for_and_left_out_where_it_is_forbidde
 
 #[test]
 fn a_preconditioner_belongs_to_preconditioned_conjugate_gradients() {
-    for kind in ["pcg\"\npreconditioner = \"block_jacobi", "pcg\"\npreconditioner = \"incomplete_cholesky"] {
+    for kind in ["pcg\"\npreconditioner = \"block_jacobi", "pcg\"\npreconditioner = \"multigrid"] {
         let with = parts(&soft("implicit_euler", 1e-2, &format!("{CLAMP}{WEIGHT}[solver]\nkind = \"{kind}\"\n")));
         assert!(is_at_work(find(&with, "preconditioner")) && find(&with, "preconditioner").bytes > 0, "{kind}");
     }

@@ -135,7 +135,7 @@ fn every_solver_and_single_precision_find_the_same_equilibrium() {
     let expected = end("", "");
     let preconditioned = |name: &str| format!("kind = \"pcg\"\npreconditioner = \"{name}\"");
     let mut solvers = vec!["kind = \"cholesky\"".to_owned(), "kind = \"lu\"".to_owned(), "kind = \"cg\"".to_owned()];
-    solvers.extend(["block_jacobi", "ssor", "incomplete_cholesky", "multigrid"].map(preconditioned));
+    solvers.extend(["block_jacobi", "ssor", "multigrid"].map(preconditioned));
     for solver in solvers {
         let error = distance(&end(&format!("[solver]\n{solver}\n"), ""), &expected);
         assert!(error < 1e-8, "{solver}: {error:e} m");

@@ -115,12 +115,11 @@ fn a_release_before_or_after_the_interruption_is_kept() {
     }
 }
 
-const SOLVERS: [&str; 7] = [
+const SOLVERS: [&str; 6] = [
     "kind = \"cholesky\"",
     "kind = \"lu\"",
     "kind = \"cg\"",
     "kind = \"pcg\"",
-    "kind = \"pcg\"\npreconditioner = \"incomplete_cholesky\"",
     "kind = \"pcg\"\npreconditioner = \"multigrid\"",
     "kind = \"pcg\"\npreconditioner = \"ssor\"",
 ];

@@ -70,7 +70,7 @@ projection = "when_needed"
 [solver]
 kind = "pcg"
 tolerance = 1e-10
-preconditioner = "incomplete_cholesky"
+preconditioner = "multigrid"
 [drag]
 vertex = 7
 stiffness = 1e3

@@ -111,7 +111,7 @@ fn every_name_of_the_engine_s_tables_is_known() {
         let scene = read(&edit(&with_tables(), "beta = 1e-3", &format!("beta = 1e-3\nform = \"{name}\"")));
         assert_eq!(scene.damping.unwrap().form, form);
     }
-    for name in ["block_jacobi", "incomplete_cholesky", "multigrid"] {
+    for name in ["block_jacobi", "ssor", "multigrid"] {
         read(&edit(&with_tables(), "multigrid", name));
     }
     assert_refused(&edit(&with_tables(), "\"f32\"", "\"f16\""), 12, "unknown variant `f16`");

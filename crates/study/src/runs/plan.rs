@@ -209,12 +209,11 @@ pub fn levels(scene: &Scene) -> Result<[usize; 3], String> {
 }
 
 /// Solvers with their preconditioners.
-const SOLVERS: [(SolverKind, Option<Preconditioner>); 7] = [
+const SOLVERS: [(SolverKind, Option<Preconditioner>); 6] = [
     (SolverKind::Cholesky, None),
     (SolverKind::Lu, None),
     (SolverKind::Cg, None),
     (SolverKind::Pcg, Some(Preconditioner::BlockJacobi)),
-    (SolverKind::Pcg, Some(Preconditioner::IncompleteCholesky)),
     (SolverKind::Pcg, Some(Preconditioner::Multigrid)),
     (SolverKind::Pcg, Some(Preconditioner::Ssor)),
 ];

@@ -6,15 +6,16 @@ use fem_elements::vector::{axpy, dot, norm, subtract_from, xpby};
 use fem_model::simulation::Breakdown;
 
 /// Vectors of the iteration: the residual r, the preconditioned residual z, the direction p and q = A p.
-pub(crate) struct Workspace<T> {
+pub struct Workspace<T> {
     pub(super) r: Vec<[T; 3]>,
     z: Vec<[T; 3]>,
-    pub(super) p: Vec<[T; 3]>,
+    p: Vec<[T; 3]>,
     pub(super) q: Vec<[T; 3]>,
 }
 
 impl<T: Real> Workspace<T> {
-    pub(crate) fn new(rows: usize) -> Self {
+    /// Allocates them for so many block rows.
+    pub fn new(rows: usize) -> Self {
         let zeros = || vec![[T::default(); 3]; rows];
         Self { r: zeros(), z: zeros(), p: zeros(), q: zeros() }
     }
@@ -29,7 +30,10 @@ impl<T: Real> Workspace<T> {
 ///
 /// `P(r, z)` sets z = P⁻¹ r. The iteration updates the residual by recurrence. Before it returns as converged, it computes the residual from
 /// its definition and restarts if that is too large. `observe` sees every iterate.
-pub(crate) fn conjugate_gradients<T: Real>(
+///
+/// # Errors
+/// The matrix is not positive definite, or the tolerance is out of reach.
+pub fn conjugate_gradients<T: Real>(
     system: LinearSystem<T, impl Fn(&[[T; 3]], &mut [[T; 3]]), impl Fn() -> f64>,
     mut P: impl FnMut(&[[T; 3]], &mut [[T; 3]]),
     x: &mut [[T; 3]],

@@ -1,16 +1,12 @@
-//! Conjugate gradients, their simpler relatives for teaching, iterative refinement, and the matrix–vector product that all need.
+//! Conjugate gradients, iterative refinement, and the matrix–vector product that both need.
 
 mod cg;
-mod conjugate_directions;
 mod product;
 mod progress;
 mod refine;
-mod steepest_descent;
 
 pub(super) use product::{parts, product};
 
-pub(super) use cg::{Workspace, conjugate_gradients};
-pub(super) use conjugate_directions::conjugate_directions;
-pub(super) use progress::LinearSystem;
+pub use cg::{Workspace, conjugate_gradients};
+pub use progress::{LinearSystem, Progress, max_iterations};
 pub(super) use refine::refine;
-pub(super) use steepest_descent::steepest_descent;

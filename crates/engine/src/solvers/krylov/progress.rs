@@ -15,22 +15,24 @@ const MAX_STAGNATION: usize = 1000;
 const MAX_ITERATIONS: (usize, usize) = (4, 20_000);
 
 /// A x = b, to be solved to ‖b − A x‖ ≤ tolerance ‖b‖.
-pub(crate) struct LinearSystem<'a, T, A, L> {
+pub struct LinearSystem<'a, T, A, L> {
     /// `A(x, y)` sets y = A x.
-    pub(crate) A: A,
+    pub A: A,
     /// The largest entry of A.
-    pub(crate) largest_entry: L,
-    pub(crate) b: &'a [[T; 3]],
-    pub(crate) tolerance: f64,
+    pub largest_entry: L,
+    /// The right-hand side.
+    pub b: &'a [[T; 3]],
+    /// Relative residual.
+    pub tolerance: f64,
 }
 
 /// The largest number of iterations of a solve with so many block rows.
-pub(super) fn max_iterations(rows: usize) -> usize {
+pub fn max_iterations(rows: usize) -> usize {
     (MAX_ITERATIONS.0 * 3 * rows).min(MAX_ITERATIONS.1)
 }
 
 /// Convergence of the iteration.
-pub(super) struct Progress {
+pub struct Progress {
     /// ‖b‖.
     b: f64,
     /// tolerance ‖b‖.
@@ -45,14 +47,18 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    pub(super) fn new(b: f64, tolerance: f64) -> Self {
+    /// That of an iteration whose right-hand side has the norm `b`.
+    pub fn new(b: f64, tolerance: f64) -> Self {
         let infinite = f64::INFINITY;
         Self { b, target: tolerance * b, best: infinite, stagnation: 0, last_true: infinite, largest_curvature: 0.0 }
     }
 
     /// Returns whether the norm of a residual that was computed from its definition is small enough. If it is not below half
     /// of the last one, either round-off has been reached (`round_off()` is that of A x) or the iteration fails.
-    pub(super) fn true_residual(&mut self, residual: f64, round_off: impl Fn() -> f64) -> Result<bool, Breakdown> {
+    ///
+    /// # Errors
+    /// The residual is not finite, or neither smaller nor rounding.
+    pub fn true_residual(&mut self, residual: f64, round_off: impl Fn() -> f64) -> Result<bool, Breakdown> {
         if !residual.is_finite() {
             return Err(Breakdown::Singular);
         }
@@ -71,7 +77,10 @@ impl Progress {
     }
 
     /// Returns whether the norm of the recurrence's residual is small enough.
-    pub(super) fn residual(&mut self, residual: f64) -> Result<bool, Breakdown> {
+    ///
+    /// # Errors
+    /// It is not finite, or has not become smaller for a thousand iterations.
+    pub fn residual(&mut self, residual: f64) -> Result<bool, Breakdown> {
         if !residual.is_finite() {
             return Err(Breakdown::Singular);
         }
@@ -86,7 +95,10 @@ impl Progress {
     }
 
     /// Returns p·Ap if it exceeds round-off.
-    pub(super) fn curvature(&mut self, pq: f64, pp: f64) -> Result<f64, Breakdown> {
+    ///
+    /// # Errors
+    /// It does not: the matrix is not positive definite, or singular.
+    pub fn curvature(&mut self, pq: f64, pp: f64) -> Result<f64, Breakdown> {
         let curvature = pq / pp;
         if !curvature.is_finite() {
             return Err(Breakdown::Singular);
@@ -101,7 +113,7 @@ impl Progress {
     }
 
     /// The error of an iteration that has taken all of its iterations.
-    pub(super) fn failure(&self) -> Breakdown {
+    pub fn failure(&self) -> Breakdown {
         Breakdown::NotConverged { residual: self.best / self.b }
     }
 }

@@ -3,14 +3,12 @@
 mod block_jacobi;
 mod coarse;
 mod identity;
-mod incomplete_cholesky;
 mod lower_half;
 mod multigrid;
 mod ssor;
 
 pub(super) use block_jacobi::BlockJacobi;
 pub(super) use identity::Identity;
-pub(super) use incomplete_cholesky::IncompleteCholesky;
 pub(super) use multigrid::Multigrid;
 pub(super) use ssor::Ssor;
 #[cfg(feature = "gpu")]

@@ -34,7 +34,6 @@ pub const SOLVERS: &[(&str, &str)] = &[
     ("lu", "[solver]\nkind = \"lu\"\n"),
     ("cg", "[solver]\nkind = \"cg\"\n"),
     ("pcg, block_jacobi", "[solver]\nkind = \"pcg\"\n"),
-    ("pcg, incomplete_cholesky", "[solver]\nkind = \"pcg\"\npreconditioner = \"incomplete_cholesky\"\n"),
     ("pcg, multigrid", "[solver]\nkind = \"pcg\"\npreconditioner = \"multigrid\"\n"),
     ("gpu, f32 on the device", "[solver]\nkind = \"gpu\"\n"),
     ("gpu, f64 on the device", "[solver]\nkind = \"gpu\"\nprecision = \"f64\"\n"),

@@ -2,10 +2,8 @@
 //! (1994), §4, equations 10 to 13. In each iteration x moves along the residual to the minimum of ½ xᵀ A x − bᵀ x on that line; the energy
 //! norm of the error falls at least by the factor (κ − 1)/(κ + 1).
 
-use super::cg::Workspace;
-use super::progress::{LinearSystem, Progress};
-use fem_elements::Real;
-use fem_elements::vector::{axpy, dot, norm, subtract_from};
+use fem_engine::solvers::krylov::{LinearSystem, Progress};
+use fem_engine::vector::{axpy, dot, norm, subtract_from};
 use fem_model::simulation::Breakdown;
 
 /// Iterations after which the residual is computed from its definition, and not by recurrence.
@@ -15,17 +13,16 @@ const REFRESH: usize = 50;
 const MAX_ITERATIONS: usize = 100_000;
 
 /// Solves A x = b from the given x. Returns the number of iterations; on failure x is the last iterate. `observe` sees every iterate.
-pub(crate) fn steepest_descent<T: Real>(
-    system: LinearSystem<T, impl Fn(&[[T; 3]], &mut [[T; 3]]), impl Fn() -> f64>,
-    x: &mut [[T; 3]],
-    workspace: &mut Workspace<T>,
-    observe: &mut dyn FnMut(&[[T; 3]]),
+pub(super) fn steepest_descent(
+    system: LinearSystem<f64, impl Fn(&[[f64; 3]], &mut [[f64; 3]]), impl Fn() -> f64>,
+    x: &mut [[f64; 3]],
+    observe: &mut dyn FnMut(&[[f64; 3]]),
 ) -> Result<usize, Breakdown> {
     let LinearSystem { A, largest_entry, b, tolerance } = system;
-    let Workspace { r, q, .. } = workspace;
+    let (mut r, mut q) = (b.to_vec(), b.to_vec());
     let b_norm = norm(b);
     if b_norm == 0.0 {
-        x.fill([T::default(); 3]);
+        x.fill([0.0; 3]);
         return Ok(0);
     }
     let mut progress = Progress::new(b_norm, tolerance);
@@ -33,25 +30,25 @@ pub(crate) fn steepest_descent<T: Real>(
     observe(x);
     for iterations in 0..=MAX_ITERATIONS {
         if is_small || iterations % REFRESH == 0 {
-            A(x, r);
-            subtract_from(b, r);
+            A(x, &mut r);
+            subtract_from(b, &mut r);
         }
         // If the recurrence appears converged too early, the iteration continues from the true residual.
-        if is_small && progress.true_residual(norm(r), || T::EPSILON.as_f64() * largest_entry() * norm(x))? {
+        if is_small && progress.true_residual(norm(&r), || f64::EPSILON * largest_entry() * norm(x))? {
             return Ok(iterations);
         }
-        A(r, q);
-        let rr = dot(r, r);
-        let alpha = rr / progress.curvature(dot(r, q), rr)?;
-        axpy(alpha, r, x);
-        axpy(-alpha, q, r);
+        A(&r, &mut q);
+        let rr = dot(&r, &r);
+        let alpha = rr / progress.curvature(dot(&r, &q), rr)?;
+        axpy(alpha, &r, x);
+        axpy(-alpha, &q, &mut r);
         observe(x);
         // The error falls in every iteration; the residual may grow for many of them.
-        let residual = norm(r);
+        let residual = norm(&r);
         if !residual.is_finite() {
             return Err(Breakdown::Singular);
         }
         is_small = residual <= tolerance * b_norm;
     }
-    Err(Breakdown::NotConverged { residual: norm(r) / b_norm })
+    Err(Breakdown::NotConverged { residual: norm(&r) / b_norm })
 }

@@ -2,37 +2,34 @@
 //! Pain (1994), §7.2, equations 36 and 37, applied to the residuals. Every direction is kept, and every residual made conjugate to all of
 //! them; conjugate gradients need the last one alone, and have the same iterates but for rounding errors.
 
-use super::cg::Workspace;
-use super::progress::{LinearSystem, Progress, max_iterations};
-use fem_elements::Real;
-use fem_elements::vector::{axpy, dot, norm, subtract_from};
+use fem_engine::solvers::krylov::{LinearSystem, Progress, max_iterations};
+use fem_engine::vector::{axpy, dot, norm, subtract_from};
 use fem_model::simulation::Breakdown;
 
 /// A kept direction p.
-struct Direction<T> {
-    p: Vec<[T; 3]>,
+struct Direction {
+    p: Vec<[f64; 3]>,
     /// A p
-    q: Vec<[T; 3]>,
+    q: Vec<[f64; 3]>,
     /// p·A p
     curvature: f64,
 }
 
 /// Solves A x = b from the given x. Returns the number of iterations; on failure x is the last iterate. `observe` sees every iterate.
-pub(crate) fn conjugate_directions<T: Real>(
-    system: LinearSystem<T, impl Fn(&[[T; 3]], &mut [[T; 3]]), impl Fn() -> f64>,
-    x: &mut [[T; 3]],
-    workspace: &mut Workspace<T>,
-    observe: &mut dyn FnMut(&[[T; 3]]),
+pub(super) fn conjugate_directions(
+    system: LinearSystem<f64, impl Fn(&[[f64; 3]], &mut [[f64; 3]]), impl Fn() -> f64>,
+    x: &mut [[f64; 3]],
+    observe: &mut dyn FnMut(&[[f64; 3]]),
 ) -> Result<usize, Breakdown> {
     let LinearSystem { A, largest_entry, b, tolerance } = system;
-    let Workspace { r, p, q, .. } = workspace;
+    let (mut r, mut p, mut q) = (b.to_vec(), b.to_vec(), b.to_vec());
     let b_norm = norm(b);
     if b_norm == 0.0 {
-        x.fill([T::default(); 3]);
+        x.fill([0.0; 3]);
         return Ok(0);
     }
     let mut progress = Progress::new(b_norm, tolerance);
-    let mut kept: Vec<Direction<T>> = Vec::new();
+    let mut kept: Vec<Direction> = Vec::new();
     let mut is_small = true;
     observe(x);
     for iterations in 0..=max_iterations(b.len()) {
@@ -42,23 +39,23 @@ pub(crate) fn conjugate_directions<T: Real>(
             (kept, is_small) = (Vec::new(), true);
         }
         if is_small {
-            A(x, r);
-            subtract_from(b, r);
-            if progress.true_residual(norm(r), || T::EPSILON.as_f64() * largest_entry() * norm(x))? {
+            A(x, &mut r);
+            subtract_from(b, &mut r);
+            if progress.true_residual(norm(&r), || f64::EPSILON * largest_entry() * norm(x))? {
                 return Ok(iterations);
             }
         }
-        p.copy_from_slice(r);
+        p.copy_from_slice(&r);
         for Direction { p: kept, q, curvature } in &kept {
-            axpy(-dot(r, q) / curvature, kept, p);
+            axpy(-dot(&r, q) / curvature, kept, &mut p);
         }
-        A(p, q);
-        let curvature = progress.curvature(dot(p, q), dot(p, p))?;
-        let alpha = dot(p, r) / curvature;
-        axpy(alpha, p, x);
-        axpy(-alpha, q, r);
+        A(&p, &mut q);
+        let curvature = progress.curvature(dot(&p, &q), dot(&p, &p))?;
+        let alpha = dot(&p, &r) / curvature;
+        axpy(alpha, &p, x);
+        axpy(-alpha, &q, &mut r);
         observe(x);
-        is_small = progress.residual(norm(r))?;
+        is_small = progress.residual(norm(&r))?;
         kept.push(Direction { p: p.clone(), q: q.clone(), curvature });
     }
     Err(progress.failure())
