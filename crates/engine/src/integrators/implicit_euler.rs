@@ -9,7 +9,7 @@ use super::{Convergence, Integrator, Memory, momentum};
 use crate::forces::Moment;
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::newton::Newton;
+use crate::newton::{Held, Newton};
 use crate::newton::incremental_potential::{Increment, Inertia};
 use crate::solvers::Solver;
 use fem_elements::Real;
@@ -86,5 +86,9 @@ impl<T: Real> Integrator<T> for ImplicitEuler<T> {
 
     fn solver(&self) -> Option<&Solver<T>> {
         Some(self.newton.solver())
+    }
+
+    fn held(&self) -> Option<&Held<T>> {
+        Some(self.newton.held())
     }
 }

@@ -49,7 +49,7 @@ pub use vbd::vbd;
 pub use verlet::Verlet;
 pub use xpbd::xpbd;
 
-pub use crate::newton::Convergence;
+pub use crate::newton::{Convergence, Held};
 #[cfg(feature = "gpu")]
 pub(crate) use descent::color_nodes;
 #[cfg(feature = "gpu")]
@@ -144,6 +144,11 @@ pub trait Integrator<T: Real>: Memory + Send {
 
     /// Works in the last step, if the method sums them over its stages.
     fn work_of_stages(&self) -> Option<StageWork> {
+        None
+    }
+
+    /// Reactions and damping at the end of the last step, if the method has kept them with the solution of its equation there.
+    fn held(&self) -> Option<&Held<T>> {
         None
     }
 

@@ -25,6 +25,7 @@ use fem_elements::Real;
 use fem_elements::history::{put, put_flag, put_option, take, take_flag, take_option};
 use fem_elements::sparse::Block;
 use fem_elements::vector::{max_norm, norm};
+pub use incremental_potential::Held;
 use incremental_potential::{IncrementalPotential, Workspace};
 use lbfgs::Lbfgs;
 
@@ -172,6 +173,11 @@ impl<T: Real> Newton<T> {
     /// Keeps the linear solver alone.
     pub fn into_solver(self) -> Solver<T> {
         self.solver
+    }
+
+    /// Terms of the last evaluation, which is that of the solution after a step.
+    pub fn held(&self) -> &Held<T> {
+        &self.workspace.held
     }
 
     /// Evaluates the energy and its gradient at w. Returns `None` if the energy is not finite: the iteration cannot start there.

@@ -125,6 +125,15 @@ impl<T: Real> Simulator<T> {
         if let Some(of_stages) = integrator.work_of_stages() {
             work.motions = of_stages.motions + of_stages.jump;
             [work.rayleigh, work.dampers] = [of_stages.rayleigh, of_stages.dampers];
+        } else if let Some(held) = integrator.held().filter(|_| !system.has_dampers() || system.damping.is_none()) {
+            // Twice its energy, whole: of Rayleigh's damping or of dampers.
+            let damped = if system.has_dampers() { &mut work.dampers } else { &mut work.rayleigh };
+            *damped = if is_damped { 2.0 * held.damping } else { 0.0 };
+            if has_motion {
+                write_difference(&state.u, &before.u, &mut room.change);
+                system.dirichlet.clear_free(&mut room.change);
+                work.motions = dot(&held.reactions, &room.change);
+            }
         } else {
             if is_damped {
                 // Halfway the increment of a rotation strains nothing, as a step's own matrix of viscosity.
