@@ -1,6 +1,7 @@
 //! The engine's simulation of one body: a [`System`] and its [`State`], advanced by an integrator, as a [`Simulation`].
 
 mod adaptive;
+mod capabilities;
 mod checkpoint;
 mod compiled;
 mod contact;
@@ -11,10 +12,8 @@ pub(crate) mod device_elements;
 pub mod double;
 mod energies;
 mod integrator;
-mod iterated_check;
 mod ledger;
 mod parts;
-mod path_check;
 mod plan;
 mod range_check;
 mod simulation;
@@ -28,7 +27,7 @@ mod work;
 use std::sync::atomic::AtomicUsize;
 
 use fem_model::simulation::{Counters, Part, Simulation};
-use fem_model::{Body, ContactTreatment, Integrator as IntegratorKind, Material, Method, Precision, Refusal, Timer};
+use fem_model::{Body, Integrator as IntegratorKind, Material, Method, Precision, Refusal, Timer};
 use nalgebra::Vector3;
 
 use crate::boundary::rigid_modes;
@@ -110,7 +109,7 @@ pub fn planned_parts(body: &Body, method: &Method) -> Result<Vec<Part>, Refusal>
     let numbering = Numbering::of_mesh(nodes);
     let forces: Vec<_> = forces::kinds::<f64>().into_iter().filter_map(|kind| (kind.build)(body, &numbering)).collect();
     for force in &forces {
-        path_check::check_force(method, &**force)?;
+        capabilities::check_force(method, &**force)?;
     }
     let is_linear = is_law_linear && forces.iter().all(|force| force.may_be_quadratic());
     let mut plan = Plan::new(body);
@@ -126,24 +125,12 @@ fn check<T: Real>(body: &Body, method: &Method, epsilon: f64) -> Result<Option<A
         range_check::check_shear_modulus(material).map_err(|problem| Refusal::new(table, problem))?;
     }
     method.check()?;
-    check_mass(body, method)?;
+    capabilities::check(method, body)?;
     range_check::check_tolerance(method, epsilon)?;
-    path_check::check(method, body)?;
-    integrator::check_solver(method)?;
     if method.integrator == IntegratorKind::Static {
         rigid_modes::check(body)?;
     }
     Ok(AnyLaw::new(&body.material))
-}
-
-/// Refuses a consistent mass where a step needs a mass for each node.
-fn check_mass(body: &Body, method: &Method) -> Result<(), Refusal> {
-    let has_impulses = body.contact.as_ref().is_some_and(|contact| contact.treatment == ContactTreatment::Impulses);
-    if body.lumped_mass || !(method.integrator.needs_node_masses() || has_impulses) {
-        return Ok(());
-    }
-    let name = method.integrator.name();
-    Err(Refusal::new("mass.lumped", format!("is false, and a step of {name} needs a mass for each node; make it true")))
 }
 
 impl<T: Compiled> Simulator<T> {
@@ -176,8 +163,7 @@ impl<T: Real> Simulator<T> {
             false => System::without_matrix(&body, law, own),
         };
         range_check::check(&method, &system)?;
-        system.forces.active().try_for_each(|(force, _)| path_check::check_force(&method, force))?;
-        iterated_check::check_forces(&method, &system.forces)?;
+        system.forces.all().try_for_each(|(force, _)| capabilities::check_force(&method, force))?;
         plan.add_forces(system.forces.all().map(|(force, _)| force).filter(|force| force.name() != anchors::NAME));
         system.modulus_of_free_body = modulus_of_free_body;
         let contact = Contacts::new(with_obstacles.as_ref(), &mut system);

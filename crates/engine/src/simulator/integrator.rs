@@ -1,6 +1,6 @@
 //! The integrator that a scene names, with its limits and its linear solver.
 
-use fem_model::{Body, Integrator as IntegratorKind, Method, Refusal, SolverKind};
+use fem_model::{Body, Integrator as IntegratorKind, Method};
 
 use super::Simulator;
 use crate::forces::contact::planes::Planes;
@@ -13,7 +13,7 @@ use crate::newton::{Newton, NewtonLimits};
 use crate::simulator::device_assembly;
 #[cfg(feature = "gpu")]
 use crate::simulator::device_elements;
-use crate::solvers::{Preconditioner, Solver, SolverChoice, factor_fits, unusable_device};
+use crate::solvers::{Preconditioner, Solver, SolverChoice, factor_fits};
 use fem_elements::Real;
 
 /// Smallest relative residual that a linear solver can be asked for, in units of the machine epsilon.
@@ -57,18 +57,6 @@ pub(super) fn solver_choice(method: &Method, body: &Body) -> SolverChoice {
         // With inertia the cheapest preconditioner needs few iterations; in equilibrium only multigrid does.
         None if is_static => SolverChoice::Pcg(Preconditioner::Multigrid),
         None => SolverChoice::Pcg(Preconditioner::Ssor),
-    }
-}
-
-/// Refuses a graphics device that cannot be used.
-pub(super) fn check_solver(method: &Method) -> Result<(), Refusal> {
-    let on_device = method.solver.as_ref().filter(|solver| solver.kind == SolverKind::Gpu);
-    match on_device.and_then(|solver| unusable_device(solver.precision)) {
-        Some(problem) => Err(Refusal::new(
-            "solver.kind",
-            format!("is \"gpu\", and {problem}; write \"pcg\", or leave the table out"),
-        )),
-        None => Ok(()),
     }
 }
 

@@ -1,0 +1,93 @@
+//! Bodies and forces that a method or a solver cannot take: one table of what is asked, the quantity that asks for it, and the problem with
+//! its remedy.
+
+use fem_model::{Body, ContactTreatment, Integrator as IntegratorKind, Method, Motion, Refusal, SolverKind};
+use nalgebra::Vector3;
+
+use crate::forces::{Potential, anchors, dead_load, springs};
+use crate::solvers::unusable_device;
+use fem_elements::Real;
+
+/// Forces that methods know which move nodes one by one.
+const OF_NODES: [&str; 3] = [dead_load::NAME, springs::NAME, anchors::NAME];
+
+/// True if it is asked for; the quantity; its problem and the remedy.
+type Row = (bool, &'static str, String);
+
+/// Refuses the first thing that is asked for and cannot be had.
+fn refuse(rows: impl IntoIterator<Item = Row>) -> Result<(), Refusal> {
+    match rows.into_iter().find(|(is_asked, ..)| *is_asked) {
+        Some((_, field, problem)) => Err(Refusal::new(field, problem)),
+        None => Ok(()),
+    }
+}
+
+/// Refuses a body and a solver that the method cannot take.
+pub(super) fn check(method: &Method, body: &Body) -> Result<(), Refusal> {
+    let (name, follows) = (method.integrator.name(), method.arc_length);
+    let solver = method.solver.as_ref();
+    let has_impulses = body.contact.as_ref().is_some_and(|contact| contact.treatment == ContactTreatment::Impulses);
+    let moves = |motion: &Motion| motion.displacement != Vector3::zeros() || motion.rotation.is_some();
+    let moved = body.dirichlet.iter().find(|condition| condition.motion.as_ref().is_some_and(moves));
+    let device = solver.filter(|solver| solver.kind == SolverKind::Gpu);
+    let unusable = device.and_then(|solver| unusable_device(solver.precision));
+    refuse([
+        (
+            !body.lumped_mass && (method.integrator.needs_node_masses() || has_impulses),
+            "mass.lumped",
+            format!("is false, and a step of {name} needs a mass for each node; make it true"),
+        ),
+        (
+            follows && moved.is_some(),
+            "static.arc_length",
+            format!(
+                "follows loads, and {} is a motion; prescribe a load, or remove arc_length",
+                moved.map_or("", |condition| &condition.name)
+            ),
+        ),
+        (
+            follows && body.contact.is_some(),
+            "static.arc_length",
+            "does not know obstacles; remove [[planes]], or arc_length".to_owned(),
+        ),
+        (
+            follows && solver.is_some_and(|solver| solver.kind != SolverKind::Lu),
+            "solver.kind",
+            "is for positive definite matrices, and beyond a limit point there is none; remove [solver], or give \"lu\""
+                .to_owned(),
+        ),
+        (
+            unusable.is_some(),
+            "solver.kind",
+            format!("is \"gpu\", and {}; write \"pcg\", or leave the table out", unusable.unwrap_or_default()),
+        ),
+    ])
+}
+
+/// Refuses a force that the method cannot take.
+pub(super) fn check_force<T: Real>(method: &Method, force: &dyn Potential<T>) -> Result<(), Refusal> {
+    let (name, follows, is_follower) = (method.integrator.name(), method.arc_length, !force.is_conservative());
+    refuse([
+        (
+            follows && force.is_obstacle(),
+            "static.arc_length",
+            format!("does not know obstacles; remove the force `{}`, or arc_length", force.name()),
+        ),
+        (
+            follows && is_follower,
+            "static.arc_length",
+            "needs loads with a potential, and the edge of a pressure is free; fix it, or give force_per_area"
+                .to_owned(),
+        ),
+        (
+            method.integrator == IntegratorKind::ProjectiveDynamics && is_follower,
+            "time.integrator",
+            format!("is \"{name}\", which does not know follower loads; use implicit_euler"),
+        ),
+        (
+            method.integrator.needs_node_masses() && !OF_NODES.contains(&force.name()),
+            "time.integrator",
+            format!("is \"{name}\", which does not know the force `{}`; use implicit_euler", force.name()),
+        ),
+    ])
+}
