@@ -19,7 +19,7 @@ impl AssignmentSetup {
     /// Builds the parts that the scene names. Returns an error for what only the engine can do.
     pub fn new(scene: &Scene, body: Body) -> Result<Self, SceneError> {
         check_pipeline(scene)?;
-        if body.shape.mesh.is_flat() {
+        if body.shape.mesh.dimension() == 2 {
             return Err(
                 scene.refuse("mesh", "is flat, which the course's pipeline is not; write pipeline = \"engine\"")
             );

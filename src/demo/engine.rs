@@ -34,11 +34,12 @@ pub fn line_of_moduli(body: &Body) -> Result<Option<String>, End> {
     }
     let Some(found) = apparent_moduli(body).map_err(End::Stopped)? else { return Ok(None) };
     let [least, most] = found.young_of_directions;
-    let (place, ratio) = if body.shape.mesh.is_flat() { (" in the plane", "1/3") } else { ("", "1/4") };
+    let dimension = body.shape.mesh.dimension();
+    let (place, corners) = (if dimension == 2 { " in the plane" } else { "" }, dimension + 1);
     Ok(Some(format!(
         "apparent moduli{place} at small strain: E = {:.4e} Pa, ν = {:.4} (mean over all directions; E is {least:.4e} to {most:.4e} Pa \
          along single ones), measured with the {} nodes of the boundary in a uniform strain and the {} inside in equilibrium; if these \
-         followed it too, E = {:.4e} Pa, ν = {ratio}",
+         followed it too, E = {:.4e} Pa, ν = 1/{corners}",
         found.young,
         found.poisson,
         nodes - found.inside,

@@ -74,11 +74,7 @@ impl Window {
     fn end(&self, x: f64) -> Vec<Vec<usize>> {
         let shape = self.simulation.shape();
         let is_there = |face: &&Vec<usize>| face.iter().all(|&node| shape.mesh.vertices()[node].x > x - 1e-9);
-        let faces: Vec<Vec<usize>> = match shape.mesh.is_flat() {
-            true => shape.mesh.outline(),
-            false => shape.boundary.iter().map(|face| face.to_vec()).collect(),
-        };
-        faces.iter().filter(is_there).cloned().collect()
+        shape.faces().iter().filter(is_there).cloned().collect()
     }
 
     fn load(&mut self, x: f64, force: Force) -> Motion {

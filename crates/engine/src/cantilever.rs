@@ -93,7 +93,7 @@ fn box_size(mesh: &BodyMesh) -> Option<Vector3<f64>> {
     let x = mesh.vertices();
     let (least, most) = x.iter().fold((x[0], x[0]), |(least, most), x| (least.inf(x), most.sup(x)));
     let (size, volume) = (most - least, mesh.volumes().iter().sum::<f64>());
-    (!mesh.is_flat() && (volume - size.product()).abs() <= ROUNDING * volume).then_some(size)
+    (mesh.dimension() == 3 && (volume - size.product()).abs() <= ROUNDING * volume).then_some(size)
 }
 
 /// Part of a volume, or of a length, that is a rounding error.

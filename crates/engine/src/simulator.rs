@@ -162,8 +162,10 @@ impl<T: Real> Simulator<T> {
     fn assembled(body: Body, method: &Method, own: OwnForces<T>) -> Result<Self, Refusal> {
         let law = check::<T>(&body, method, T::EPSILON.as_f64())?;
         let method = method.clone();
-        let skinned = body.shape.mesh.solid().zip(body.shape.display.as_ref());
-        let skinning = skinned.map(|(mesh, display)| Skinning::new(mesh, &display.vertices));
+        let mesh = &body.shape.mesh;
+        let (X, tetrahedra) = (mesh.vertices(), mesh.tetrahedra());
+        let shown = body.shape.display.as_ref().filter(|_| !tetrahedra.is_empty());
+        let skinning = shown.map(|shown| Skinning::new(X, tetrahedra, &shown.vertices));
         let solver = integrator::solver_choice(&method, &body);
         let velocities = body.initial_velocity.clone();
         let mut plan = Plan::new(&body);

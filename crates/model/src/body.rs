@@ -69,17 +69,13 @@ impl Body {
     /// A uniform body at rest without constraints and loads. Refuses a mesh that cannot be simulated (a node outside the mesh, an element
     /// without volume, …) and parameters out of range.
     pub fn new(mesh: impl Into<BodyMesh>, material: Material) -> Result<Self, Refusal> {
-        let mesh = mesh.into();
-        let checked = match &mesh {
-            BodyMesh::Solid(mesh) => fem_mesh::check(mesh, Path::new("mesh")),
-            BodyMesh::Flat { triangles, .. } => fem_mesh::check_plane(triangles, Path::new("mesh")),
-            BodyMesh::Quadratic { .. } => Ok(()),
-        };
-        checked.map_err(|error| Refusal::new("mesh", format!("cannot be simulated: {error}")))?;
+        let checked = mesh.into().checked(Path::new("mesh"));
+        let mesh = checked.map_err(|error| Refusal::new("mesh", format!("cannot be simulated: {error}")))?;
         mesh.thickness().map_or(Ok(()), |thickness| check_positive("material.thickness", thickness, " of m"))?;
         material.check("material")?;
         if material.plane == PlaneState::Stress
-            && !(mesh.is_flat() && Law::named(material.law.name()).is_some_and(|facts| facts.has_plane_stress))
+            && !(mesh.thickness().is_some()
+                && Law::named(material.law.name()).is_some_and(|facts| facts.has_plane_stress))
         {
             return problem("material.plane", "is stress, a state of flat bodies whose law is linear or corotated");
         }

@@ -27,6 +27,7 @@ mod body_mesh;
 mod conditions;
 mod contact;
 mod curve;
+pub mod element;
 mod integrator;
 mod interaction;
 mod loads;

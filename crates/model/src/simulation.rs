@@ -17,6 +17,7 @@ use nalgebra::{DVector, Matrix3, Vector3};
 use fem_mesh::SurfaceMesh;
 
 use crate::BodyMesh;
+use crate::element::Element;
 
 pub use checkpoint::{Checkpoint, History};
 pub use failure::{Breakdown, Cause, Failure};
@@ -246,6 +247,15 @@ pub struct Shape {
 }
 
 impl Shape {
+    /// The faces of the boundary, as in [`BodyMesh::faces`].
+    pub fn faces(&self) -> Vec<Vec<usize>> {
+        match self.mesh.element() {
+            // The boundary has been found before.
+            Element { dimension: 3, triangles: [_], .. } => self.boundary.iter().map(|face| face.to_vec()).collect(),
+            _ => self.mesh.faces(),
+        }
+    }
+
     /// Distance from a point of the boundary within which its nearest corner lies, m: the longest edge over √3.
     /// `x` are the positions of the nodes now, m.
     pub fn pick_radius(&self, x: &[Vector3<f64>]) -> f64 {

@@ -24,7 +24,7 @@ pub(crate) fn elements(scene: &Scene, data: &Path, notes: &mut Vec<String>) -> R
     match &scene.mesh {
         MeshTable { file: Some(file), .. } if fem_mesh::is_surface(file) => {
             let mesh = fem_mesh::read_tetrahedra(&find(scene, data, file));
-            mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.file", error))
+            mesh.map(BodyMesh::solid).map_err(|error| mesh_error(scene, "mesh.file", error))
         }
         MeshTable { file: Some(file), .. } => {
             let found = read(&find(scene, data, file), file, notes);
@@ -47,7 +47,7 @@ pub(crate) fn elements(scene: &Scene, data: &Path, notes: &mut Vec<String>) -> R
         }
         MeshTable { cuboid: Some(cuboid), .. } => {
             let mesh = fem_mesh::box_mesh(cuboid.size, cuboid.cells_per_unit, cuboid.pattern);
-            mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.box", error))
+            mesh.map(BodyMesh::solid).map_err(|error| mesh_error(scene, "mesh.box", error))
         }
         MeshTable { surface: Some(surface), .. } => {
             let path = find(scene, data, &surface.file);
@@ -58,7 +58,7 @@ pub(crate) fn elements(scene: &Scene, data: &Path, notes: &mut Vec<String>) -> R
                 fem_mesh::check(&mesh, &path)?;
                 Ok(improve_inside(&mesh, surface.improve, &Solid::new(&triangles)).mesh)
             });
-            mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.surface", error))
+            mesh.map(BodyMesh::solid).map_err(|error| mesh_error(scene, "mesh.surface", error))
         }
         MeshTable { rectangle: Some(rectangle), .. } => {
             let mesh = fem_mesh::rectangle_mesh(rectangle.size, rectangle.cells_per_unit, rectangle.pattern);
@@ -71,7 +71,7 @@ pub(crate) fn elements(scene: &Scene, data: &Path, notes: &mut Vec<String>) -> R
 
 /// A flat body of the scene's thickness.
 pub(crate) fn flat_body(scene: &Scene, triangles: SurfaceMesh) -> BodyMesh {
-    BodyMesh::Flat { triangles, thickness: scene.material.thickness.unwrap_or(1.0) }
+    BodyMesh::flat(triangles, scene.material.thickness.unwrap_or(1.0))
 }
 
 /// The name of a mesh file without its extensions: `wheel` of `meshes/wheel.node.gz`.

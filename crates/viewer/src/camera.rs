@@ -30,7 +30,7 @@ pub enum View {
 impl View {
     /// The view of a body.
     pub fn of(shape: &Shape) -> Self {
-        if shape.mesh.is_flat() { View::Front } else { View::Orbit }
+        if shape.mesh.dimension() == 2 { View::Front } else { View::Orbit }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 
+use fem_model::element::Element;
 use fem_model::simulation::Shape;
 use kiss3d::glamx::Vec3;
 use nalgebra::Vector3;
@@ -19,33 +20,28 @@ pub struct Facets {
     area_vectors: Vec<Vector3<f64>>,
     /// The faces that share an edge (a node of a flat body) with each.
     neighbours: Vec<Vec<usize>>,
-    is_flat: bool,
+    element: &'static Element,
     numbers: HashMap<Vec<usize>, usize>,
 }
 
 impl Facets {
     /// The faces of a body.
     pub fn of(shape: &Shape) -> Self {
-        let is_flat = shape.mesh.is_flat();
-        let nodes: Vec<Vec<usize>> = match is_flat {
-            true => shape.mesh.outline(),
-            false => shape.boundary.iter().map(|face| face.to_vec()).collect(),
-        };
-        let x = shape.mesh.vertices();
-        let area_vectors = nodes.iter().map(|face| area_vector(face, |node| x[node], is_flat)).collect();
-        let numbers = nodes.iter().enumerate().map(|(number, face)| (key(face, is_flat), number)).collect();
-        Facets { neighbours: neighbours(&nodes, is_flat), nodes, area_vectors, is_flat, numbers }
+        let (element, nodes, x) = (shape.mesh.element(), shape.faces(), shape.mesh.vertices());
+        let area_vectors = nodes.iter().map(|face| element.area_vector(|i| x[face[i]])).collect();
+        let numbers = nodes.iter().enumerate().map(|(number, face)| (key(corners(face, element)), number)).collect();
+        Facets { neighbours: neighbours(&nodes, element), nodes, area_vectors, element, numbers }
     }
 
     /// The number of the face with these nodes, in any order.
     pub fn number(&self, face: &[usize]) -> Option<usize> {
-        self.numbers.get(&key(face, self.is_flat)).copied()
+        self.numbers.get(&key(corners(face, self.element))).copied()
     }
 
     /// The face that a ray meets first, and the point there; for a flat body the edge nearest to the point in which the ray meets its
     /// plane, if that is within `reach` (m). `positions` are those of the nodes now, m.
     pub fn hit(&self, (origin, ray): (Vec3, Vec3), positions: &[Vec3], reach: f32) -> Option<(usize, Vec3)> {
-        if !self.is_flat {
+        if self.element.dimension == 3 {
             let (number, distance) = first_hit(origin, ray, positions, &self.triangles())?;
             return Some((number, origin + ray * distance));
         }
@@ -57,7 +53,7 @@ impl Facets {
 
     /// The corners of all triangles of a solid body.
     fn triangles(&self) -> Vec<[usize; 3]> {
-        self.nodes.iter().filter_map(|face| face[..].try_into().ok()).collect()
+        self.nodes.iter().filter_map(|face| corners(face, self.element).try_into().ok()).collect()
     }
 
     /// The smooth part of the surface around a face: the connected faces whose undeformed normals differ from its own by at most an
@@ -85,35 +81,33 @@ impl Facets {
 
     /// Centre and outward unit normal of a face now.
     pub fn centre_and_normal(&self, face: usize, positions: &[Vec3]) -> (Vec3, Vec3) {
-        let nodes = &self.nodes[face];
-        let corners = if self.is_flat { &nodes[..2] } else { &nodes[..] };
+        let corners = corners(&self.nodes[face], self.element);
         let centre = corners.iter().map(|&node| positions[node]).sum::<Vec3>() / corners.len() as f32;
-        let double = |node: usize| crate::geometry::double(positions[node]);
-        let normal = area_vector(nodes, double, self.is_flat).try_normalize(0.0).unwrap_or_default();
+        let double = |i: usize| crate::geometry::double(positions[corners[i]]);
+        let normal = self.element.area_vector(double).try_normalize(0.0).unwrap_or_default();
         (centre, crate::geometry::single(&normal))
     }
 }
 
-/// The outward area vector of a triangle, counter-clockwise from outside, or of an edge with the body on its left.
-fn area_vector(face: &[usize], x: impl Fn(usize) -> Vector3<f64>, is_flat: bool) -> Vector3<f64> {
-    let along = x(face[1]) - x(face[0]);
-    if is_flat { Vector3::new(along.y, -along.x, 0.0) } else { along.cross(&(x(face[2]) - x(face[0]))) / 2.0 }
+/// The corners of a face, without nodes in the middle of its edges.
+fn corners<'a>(face: &'a [usize], element: &Element) -> &'a [usize] {
+    &face[..element.dimension]
 }
 
-/// The nodes that name a face, in ascending order: the two ends of an edge, without the node in its middle.
-fn key(face: &[usize], is_flat: bool) -> Vec<usize> {
-    let mut key = if is_flat { face[..2].to_vec() } else { face.to_vec() };
+/// The corners that name a face, in ascending order.
+fn key(corners: &[usize]) -> Vec<usize> {
+    let mut key = corners.to_vec();
     key.sort_unstable();
     key
 }
 
-fn neighbours(nodes: &[Vec<usize>], is_flat: bool) -> Vec<Vec<usize>> {
+fn neighbours(nodes: &[Vec<usize>], element: &Element) -> Vec<Vec<usize>> {
     let rims = |face: &[usize]| -> Vec<[usize; 2]> {
         let ends = |a: usize, b: usize| [a.min(b), a.max(b)];
-        if is_flat {
-            return vec![[face[0]; 2], [face[1]; 2]];
+        match *corners(face, element) {
+            [a, b] => vec![[a; 2], [b; 2]],
+            ref face => (0..face.len()).map(|i| ends(face[i], face[(i + 1) % face.len()])).collect(),
         }
-        vec![ends(face[0], face[1]), ends(face[1], face[2]), ends(face[2], face[0])]
     };
     let mut owners: HashMap<[usize; 2], Vec<usize>> = HashMap::new();
     for (number, face) in nodes.iter().enumerate() {
@@ -148,10 +142,8 @@ mod tests {
     }
 
     fn strip() -> Shape {
-        shape(BodyMesh::Flat {
-            triangles: fem_mesh::rectangle_mesh([2.0, 1.0], 2, fem_mesh::Pattern::Alternating).unwrap(),
-            thickness: 0.1,
-        })
+        let triangles = fem_mesh::rectangle_mesh([2.0, 1.0], 2, fem_mesh::Pattern::Alternating).unwrap();
+        shape(BodyMesh::flat(triangles, 0.1))
     }
 
     fn positions(shape: &Shape) -> Vec<Vec3> {

@@ -1,7 +1,6 @@
 //! The colours of the simulation mesh: plain, those of a field, or those of the picture that the body was made from.
 
 use std::cell::OnceCell;
-use std::collections::HashMap;
 
 use fem_mesh::generate::picture::read_pixels;
 use fem_model::simulation::{PicturePlace, Shape};
@@ -57,7 +56,7 @@ impl Paint {
             return;
         };
         let scale = ColorScale::next(self.scale, *field, values);
-        let elements = self.elements.get_or_init(|| elements_of_triangles(shape));
+        let elements = self.elements.get_or_init(|| shape.mesh.elements_of_surface());
         mesh.set_texture(|triangle, _| Vec2::new(place_of_color(scale.share(values[elements[triangle]])), 0.5));
         self.scale = Some(scale);
         *self.painting.borrow_mut() = Some(self.colors.get_or_init(Texture::colors).clone());
@@ -86,24 +85,6 @@ fn texture_coordinate(place: &PicturePlace, point: &Vector3<f64>, size: Vec2) ->
     Vec2::new(right / size.x, 1.0 - above / size.y)
 }
 
-/// The element of each triangle of the boundary.
-fn elements_of_triangles(shape: &Shape) -> Vec<usize> {
-    if shape.mesh.is_flat() {
-        // All triangles in the mesh's order; a quadratic one is drawn as four.
-        let parts = shape.boundary.len() / shape.mesh.elements().max(1);
-        return (0..shape.boundary.len()).map(|triangle| triangle / parts).collect();
-    }
-    let sorted = |mut nodes: [usize; 3]| {
-        nodes.sort_unstable();
-        nodes
-    };
-    let faces = |[a, b, c, d]: [usize; 4]| [[a, b, c], [a, b, d], [a, c, d], [b, c, d]].map(sorted);
-    let tetrahedra = shape.mesh.tetrahedra().iter().enumerate();
-    let owners: HashMap<[usize; 3], usize> =
-        tetrahedra.flat_map(|(element, nodes)| faces(*nodes).map(|face| (face, element))).collect();
-    shape.boundary.iter().map(|triangle| owners.get(&sorted(*triangle)).copied().unwrap_or(0)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -114,15 +95,5 @@ mod tests {
         let at = |x: f64, y: f64| texture_coordinate(&place, &Vector3::new(x, y, 0.0), Vec2::new(100.0, 50.0));
         assert_eq!(at(0.0, 0.0), Vec2::new(0.08, 0.92));
         assert!((at(0.92, 0.46) - Vec2::new(1.0, 0.0)).length() < 1e-6, "the upper right");
-    }
-
-    #[test]
-    fn a_triangle_of_the_boundary_belongs_to_the_element_that_has_its_nodes() {
-        let mesh = fem_mesh::box_mesh([1.0; 3], 2, fem_mesh::Pattern::Alternating).unwrap();
-        let (mesh, elements) = (fem_model::BodyMesh::from(mesh.clone()), mesh.elements);
-        let shape = Shape { boundary: mesh.surface(), mesh, display: None, picture: None };
-        for (triangle, element) in shape.boundary.iter().zip(elements_of_triangles(&shape)) {
-            assert!(triangle.iter().all(|node| elements[element].contains(node)));
-        }
     }
 }

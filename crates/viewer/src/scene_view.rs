@@ -64,16 +64,16 @@ impl SceneView {
         let environment = Rc::new(RefCell::new(environment(&bounds, up)));
         let paint = Paint::new();
         let shader = |kind| shader(kind, &environment, paint.painting());
-        let is_flat = shape.mesh.is_flat();
-        let floor = (!is_flat).then(|| floor(&environment.borrow(), shader(Kind::Floor)));
+        let is_solid = shape.mesh.dimension() == 3;
+        let floor = is_solid.then(|| floor(&environment.borrow(), shader(Kind::Floor)));
         floor.iter().for_each(|floor| root.add_child(floor.clone()));
-        let body = shader(if is_flat { Kind::Flat } else { Kind::Body });
-        let shadow = (!is_flat).then(|| shader(Kind::Shadow));
+        let body = shader(if is_solid { Kind::Body } else { Kind::Flat });
+        let shadow = is_solid.then(|| shader(Kind::Shadow));
         let materials = (&body, shadow.as_ref());
         let skin =
             shape.display.as_ref().map(|d| Surface::new(&mut root, &shown, &d.elements, Shading::Smooth, materials));
         let mesh = Surface::new(&mut root, &nodes, &shape.boundary, Shading::Flat, materials);
-        let has_faces = !is_flat && !planes.is_empty();
+        let has_faces = is_solid && !planes.is_empty();
         let obstacles = has_faces.then(|| Faces::new(&mut root, planes.len(), shader(Kind::Obstacle)));
         let edges = edges(&shape.boundary);
         let shape = Arc::clone(shape);

@@ -64,7 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
             faults.flipped_edges
         );
     }
-    let parts = fem_mesh::parts(&mesh).into_iter().collect::<HashSet<_>>().len();
+    let parts = fem_mesh::parts(mesh.vertices.len(), &mesh.elements).into_iter().collect::<HashSet<_>>().len();
     if parts != faults.parts {
         eprintln!(
             "warning: {}: the mesh has {parts} connected parts and the surface {}; shorter edges keep thin places",

@@ -68,9 +68,9 @@ fn draw(arguments: &Arguments, surface: &SurfaceMesh, distributions: &[Distribut
 fn info(file: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
     fem_mesh::check(mesh, file)?;
     say!("{}", fem_mesh::quality(mesh).to_string().trim_end());
-    let parts: HashSet<usize> = fem_mesh::parts(mesh).into_iter().collect();
+    let parts: HashSet<usize> = fem_mesh::parts(mesh.vertices.len(), &mesh.elements).into_iter().collect();
     say!("{:<26}{:>12}", "connected parts", parts.len());
-    let coincident = fem_mesh::coincident_nodes(mesh).map_or("0".to_owned(), |found| {
+    let coincident = fem_mesh::coincident_nodes(&mesh.vertices).map_or("0".to_owned(), |found| {
         let [a, b] = found.first;
         format!("{} (the first: {a} and {b})", found.count)
     });
@@ -79,7 +79,7 @@ fn info(file: &Path, mesh: &TetrahedralMesh) -> Result<(), MeshError> {
     say!("{:<26}{:>12}", "duplicate elements", 0);
     boundary_info(&surface_of(mesh));
     for (name, set) in &mesh.sets {
-        say!("set {name:?}: {}, {} nodes", set.counts(), set.nodes(&mesh.elements).len());
+        say!("set {name:?}: {}, {} nodes", set.counts(), set.nodes(|element| &mesh.elements[element]).len());
     }
     Ok(())
 }
@@ -122,7 +122,11 @@ fn surface_info(mesh: &SurfaceMesh) {
     ];
     rows.iter().for_each(|(name, figure)| say!("{name:<26}{figure:>12}"));
     for (name, set) in &mesh.sets {
-        say!("set {name:?}: {}, {} nodes", set.counts_of_triangles(), set.nodes(&mesh.elements).len());
+        say!(
+            "set {name:?}: {}, {} nodes",
+            set.counts_of_triangles(),
+            set.nodes(|element| &mesh.elements[element]).len()
+        );
     }
 }
 

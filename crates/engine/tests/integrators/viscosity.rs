@@ -1,5 +1,6 @@
 //! Stiffness-proportional damping: it brakes vibrations and no rigid motion, and depends on no rounding error.
 
+use fem_engine::elements::shares::lumped_mass_shares;
 use fem_engine::simulator::double::{self, System};
 use fem_engine::solvers::SolverChoice;
 use fem_model::simulation::Simulation;
@@ -40,8 +41,9 @@ fn angular_momentum(simulation: &dyn Simulation) -> Vector3<f64> {
     let (shape, x, v) = (simulation.shape(), simulation.positions(), simulation.velocities());
     let at = |values: &nalgebra::DVector<f64>, node: usize| -> Vector3<f64> { values.fixed_rows::<3>(3 * node).into() };
     let mut sum = Vector3::zeros();
+    let shares = lumped_mass_shares(shape.mesh.element());
     for (element, volume) in shape.mesh.corners().zip(shape.mesh.volumes()) {
-        for (&node, share) in element.iter().zip(shape.mesh.lumped_mass_shares()) {
+        for (&node, share) in element.iter().zip(&shares) {
             sum += 1000.0 * volume * share * at(&x, node).cross(&at(&v, node));
         }
     }

@@ -64,7 +64,7 @@ fn every(surface: &SurfaceMesh, n: usize, k: usize) -> impl Iterator<Item = usiz
 /// characteristic.
 fn is_sound(mesh: &TetrahedralMesh) -> (f64, i64) {
     check(mesh, "stuffed".as_ref()).unwrap();
-    assert_eq!(coincident_nodes(mesh), None);
+    assert_eq!(coincident_nodes(&mesh.vertices), None);
     let [smallest, largest] = quality(mesh).dihedral_angles.map(|angle| angle.value);
     assert!(smallest >= 10.7 && largest <= 164.8, "{smallest} {largest}");
     let surface = surface_quality(&SurfaceMesh::new(mesh.vertices.clone(), boundary(mesh)));

@@ -31,10 +31,6 @@ pub(crate) fn check(scene: &Scene) -> Result<(), Refusal> {
 
 /// Refuses the first key that has no effect on a solid body.
 pub(crate) fn check_solid(scene: &Scene) -> Result<(), Refusal> {
-    if scene.mesh.order == 2 {
-        let text = "is 2, and this body has tetrahedra, which are linear; write 1, and refine = 1 for more elements";
-        return problem("mesh.order", text);
-    }
     let MaterialTable { thickness, plane, .. } = &scene.material;
     match [("material.thickness", thickness.is_some()), ("material.plane", plane.is_some())].iter().find(|key| key.1) {
         Some((key, _)) => problem(key, "belongs to flat bodies, and this one is solid; remove it"),

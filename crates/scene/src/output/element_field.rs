@@ -7,7 +7,6 @@ use fem_mesh::{tetrahedron_radius_to_edge, triangle_radius_to_edge};
 use nalgebra::Vector3;
 
 use super::von_mises;
-use fem_model::BodyMesh;
 use fem_model::simulation::Simulation;
 
 /// A field of one number per element.
@@ -91,16 +90,13 @@ impl FromStr for ElementField {
 fn radius_to_edge(simulation: &dyn Simulation) -> Vec<f64> {
     let q = simulation.positions();
     let x = |node: usize| -> Vector3<f64> { q.fixed_rows::<3>(3 * node).into_owned() };
-    match &simulation.shape().mesh {
-        BodyMesh::Solid(mesh) => mesh.elements.iter().map(|nodes| tetrahedron_radius_to_edge(nodes.map(x))).collect(),
-        BodyMesh::Flat { triangles, .. } => {
-            triangles.elements.iter().map(|nodes| triangle_radius_to_edge(nodes.map(x))).collect()
-        }
-        BodyMesh::Quadratic { triangles, .. } => {
-            let of_corners = |&[a, b, c, ..]: &[usize; 6]| triangle_radius_to_edge([a, b, c].map(x));
-            triangles.elements.iter().map(of_corners).collect()
-        }
-    }
+    let of_corners = |corners: &[usize]| match *corners {
+        [a, b, c] => triangle_radius_to_edge([a, b, c].map(x)),
+        [a, b, c, d] => tetrahedron_radius_to_edge([a, b, c, d].map(x)),
+        _ => f64::NAN,
+    };
+    let mesh = &simulation.shape().mesh;
+    (0..mesh.elements()).map(|element| of_corners(mesh.corners_of(element))).collect()
 }
 
 #[cfg(test)]

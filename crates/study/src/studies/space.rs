@@ -79,8 +79,8 @@ fn sequence(settings: &Settings, model: &str, family: Family, rows: &mut Vec<Row
 /// Edge of a cell of the unit cube or square, m: six tetrahedra or two triangles fill a cell.
 pub fn spacing(row: &Row) -> f64 {
     let elements = row.config.elements as f64;
-    let is_flat = ["-triangles", "-quadratic"].iter().any(|ending| row.config.scene.ends_with(ending));
-    if is_flat { (2.0 / elements).sqrt() } else { (6.0 / elements).cbrt() }
+    let is_in_plane = ["-triangles", "-quadratic"].iter().any(|ending| row.config.scene.ends_with(ending));
+    if is_in_plane { (2.0 / elements).sqrt() } else { (6.0 / elements).cbrt() }
 }
 
 fn solved(settings: &Settings, model: &str, family: Family, cells: usize, number: usize) -> Result<Row, String> {

@@ -39,7 +39,7 @@ pub fn show(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, state: &ViewStat
     ui.checkbox(&mut setup.brush.erases, "erase (Ctrl does the other thing)");
     targets(ui, scene, setup);
     if let Target::Prescribed(number) = setup.brush.target {
-        vector(ui, scene, setup, (number, state.shape.mesh.is_flat()), requests);
+        vector(ui, scene, setup, (number, state.shape.mesh.dimension()), requests);
     }
     let hint = "Drag over the body: nodes of the surface in a ball of this radius. The motion starts again.";
     ui.label(RichText::new(setup.message.as_deref().unwrap_or(hint)).size(12.0).color(match setup.message {
@@ -76,7 +76,7 @@ fn vector(
     ui: &mut Ui,
     scene: &SceneSetup,
     setup: &mut Setup,
-    (number, is_flat): (usize, bool),
+    (number, dimension): (usize, usize),
     requests: &mut Vec<UserRequest>,
 ) {
     let table = scene.scene.prescribed.get(number);
@@ -96,8 +96,7 @@ fn vector(
     let mut is_changed = false;
     ui.horizontal(|ui| {
         label(ui, &format!("{name} ({unit})"));
-        let numbers = if is_flat { 2 } else { 3 };
-        for number in &mut vector[..numbers] {
+        for number in &mut vector[..dimension] {
             is_changed |= ui.add(DragValue::new(number).speed(0.01)).changed();
         }
     });

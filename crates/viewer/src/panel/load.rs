@@ -28,7 +28,7 @@ pub fn show(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, state: &ViewStat
     if setup.loads.is_used() {
         traction(ui, scene, setup, requests);
     }
-    let kind = if state.shape.mesh.is_flat() { "an edge of the outline" } else { "a face" };
+    let kind = if state.shape.mesh.dimension() == 2 { "an edge of the outline" } else { "a face" };
     let hint = format!(
         "Click on {kind}; Ctrl adds and removes. Drag a picked one along its normal to pull or push it. Smooth parts and the normal of \
          a load that keeps its direction are those of the undeformed body."

@@ -19,11 +19,11 @@ const LONGEST_ARROW: f32 = 0.35; // in radii of the body, of a load at the end o
 impl Setup {
     /// The picked faces of a solid body, by their nodes.
     pub fn picked_triangles(&self, shape: &Shape) -> Vec<[usize; 3]> {
-        if self.mode != Mode::Load || self.loads.faces.is_empty() || shape.mesh.is_flat() {
+        if self.mode != Mode::Load || self.loads.faces.is_empty() || shape.mesh.dimension() == 2 {
             return Vec::new();
         }
         let facets = &self.body(shape).facets;
-        self.loads.faces.iter().filter_map(|&face| facets.nodes[face][..].try_into().ok()).collect()
+        self.loads.faces.iter().filter_map(|&face| facets.nodes[face][..3].try_into().ok()).collect()
     }
 
     /// Draws the marks into the next frame.
@@ -39,7 +39,7 @@ impl Setup {
         }
         match self.mode {
             Mode::Fix => self.draw_brush(window, body, camera),
-            Mode::Load if shape.mesh.is_flat() => self.draw_edges(window, body, positions, camera),
+            Mode::Load if shape.mesh.dimension() == 2 => self.draw_edges(window, body, positions, camera),
             Mode::Load | Mode::Pull => {}
         }
     }

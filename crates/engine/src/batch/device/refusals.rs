@@ -57,7 +57,7 @@ fn unknown(body: &Body, method: &Method) -> Option<Unknown> {
     let iterations = method.iterations;
     let is_accelerated = iterations.acceleration.is_some_and(|radius| radius > 0.0);
     let keys: [(&'static str, bool, &'static str, &'static str); 18] = [
-        ("mesh", body.shape.mesh.is_flat(), "is a flat body", "take tetrahedra"),
+        ("mesh", body.shape.mesh.dimension() == 2, "is a flat body", "take tetrahedra"),
         ("materials", !body.regions.is_empty(), "gives the body several materials", "remove the tables"),
         ("plasticity", body.plasticity.is_some(), "is a flow of the material", "remove the table"),
         (

@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use fem_model::BodyMesh;
-
 use super::nodes::NodeBatches;
 use super::patches::Patches;
 use super::search::Change;
@@ -31,16 +29,15 @@ impl<T: Real> Group<T> {
     /// The elements of a material.
     pub fn new(system: &System<T>, material: usize, nodes: &NodeBatches<T>) -> Self {
         let numbers = system.elements.numbers(material);
-        match &system.shape.mesh {
-            BodyMesh::Solid(mesh) => {
-                let corners = system.numbering.elements(numbers.iter().map(|&number| &mesh.elements[number]));
-                Self::Tetrahedra(Patches::new(system, material, &corners, &numbers, nodes))
-            }
-            BodyMesh::Flat { triangles, .. } => {
-                let corners = system.numbering.elements(numbers.iter().map(|&number| &triangles.elements[number]));
-                Self::Triangles(Patches::new(system, material, &corners, &numbers, nodes))
-            }
-            BodyMesh::Quadratic { .. } => unreachable!("quadratic elements are refused when the scene is loaded"),
+        let mesh = &system.shape.mesh;
+        if let Some(elements) = mesh.arrays::<4>() {
+            let corners = system.numbering.elements(numbers.iter().map(|&number| &elements[number]));
+            Self::Tetrahedra(Patches::new(system, material, &corners, &numbers, nodes))
+        } else if let Some(elements) = mesh.arrays::<3>() {
+            let corners = system.numbering.elements(numbers.iter().map(|&number| &elements[number]));
+            Self::Triangles(Patches::new(system, material, &corners, &numbers, nodes))
+        } else {
+            unreachable!("quadratic elements are refused when the scene is loaded")
         }
     }
 

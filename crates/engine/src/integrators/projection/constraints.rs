@@ -1,7 +1,5 @@
 //! The constraints of a body, which a sweep corrects one after the other.
 
-use fem_model::BodyMesh;
-
 use super::anchor_constraints::AnchorConstraints;
 use super::distances::Distances;
 use super::elements::Elements;
@@ -79,16 +77,15 @@ impl<T: Real> Relaxation<T> for Constraints<T> {
 impl<T: Real> Group<T> {
     fn new(system: &System<T>, material: usize) -> Self {
         let numbers = system.elements.numbers(material);
-        match &system.shape.mesh {
-            BodyMesh::Solid(mesh) => {
-                let corners = system.numbering.elements(numbers.iter().map(|&number| &mesh.elements[number]));
-                Self::Tetrahedra(Elements::new(system, material, &corners, &numbers))
-            }
-            BodyMesh::Flat { triangles, .. } => {
-                let corners = system.numbering.elements(numbers.iter().map(|&number| &triangles.elements[number]));
-                Self::Triangles(Elements::new(system, material, &corners, &numbers))
-            }
-            BodyMesh::Quadratic { .. } => unreachable!("quadratic elements are refused when the scene is loaded"),
+        let mesh = &system.shape.mesh;
+        if let Some(elements) = mesh.arrays::<4>() {
+            let corners = system.numbering.elements(numbers.iter().map(|&number| &elements[number]));
+            Self::Tetrahedra(Elements::new(system, material, &corners, &numbers))
+        } else if let Some(elements) = mesh.arrays::<3>() {
+            let corners = system.numbering.elements(numbers.iter().map(|&number| &elements[number]));
+            Self::Triangles(Elements::new(system, material, &corners, &numbers))
+        } else {
+            unreachable!("quadratic elements are refused when the scene is loaded")
         }
     }
 }

@@ -140,7 +140,7 @@ fn is_torus(mesh: &TetrahedralMesh) -> bool {
     let mut nodes: Vec<usize> = faces.iter().flatten().copied().collect();
     nodes.sort_unstable();
     nodes.dedup();
-    2 * nodes.len() == faces.len() && parts(mesh).iter().all(|part| *part == 0)
+    2 * nodes.len() == faces.len() && parts(mesh.vertices.len(), &mesh.elements).iter().all(|part| *part == 0)
 }
 
 /// Adds the sets `left` and `right`.

@@ -55,7 +55,7 @@ pub fn contact(h: f64) -> Result<Hertz, String> {
         side("y", "max", -depth),
         -FLOOR
     );
-    let mut simulation = simulation(&text, Some(BodyMesh::Solid(block(h)?)))?;
+    let mut simulation = simulation(&text, Some(BodyMesh::solid(block(h)?)))?;
     steps(&mut simulation, LOAD_STEPS)?;
     let contact = &simulation.contacts()[0];
     let support = simulation.reactions()[2].force[1];
