@@ -172,14 +172,11 @@ impl BodyMesh {
     pub fn nodes_of_set(&self, set: &MeshSet) -> Vec<usize> {
         let mut all: BTreeSet<usize> = set.nodes(|element| self.nodes_of(element)).into_iter().collect();
         let edges: BTreeSet<[usize; 2]> = set.edges.iter().copied().collect();
-        let middles = self.middles().filter(|(ends, _)| edges.contains(&[ends[0].min(ends[1]), ends[0].max(ends[1])]));
+        let middles = (0..self.elements())
+            .flat_map(|element| self.middles_of(element))
+            .filter(|(ends, _)| edges.contains(&[ends[0].min(ends[1]), ends[0].max(ends[1])]));
         all.extend(middles.map(|(_, middle)| middle));
         all.into_iter().collect()
-    }
-
-    /// The ends of each edge of each element that has a node at its middle, and that node.
-    fn middles(&self) -> impl Iterator<Item = ([usize; 2], usize)> {
-        (0..self.elements()).flat_map(|element| self.middles_of(element))
     }
 
     /// The ends of each edge of an element that has a node at its middle, and that node.
@@ -203,27 +200,36 @@ impl BodyMesh {
     /// G = F − 1 of an element for displacements `u` of its nodes, m: the mean over the element of the displacement gradient, which is the
     /// gradient at its centroid.
     pub fn displacement_gradient(&self, element: usize, u: impl Fn(usize) -> Vector3<f64>) -> Matrix3<f64> {
+        let corners = self.element.corners();
+        self.displacement_gradient_at(element, &[1.0 / corners as f64; 4][..corners], u)
+    }
+
+    /// The same at barycentric coordinates.
+    pub fn displacement_gradient_at(
+        &self,
+        element: usize,
+        L: &[f64],
+        u: impl Fn(usize) -> Vector3<f64>,
+    ) -> Matrix3<f64> {
         let (nodes, corners) = (self.nodes_of(element), self.element.corners());
         let undeformed = [1, 2, 3].map(|k| match k < corners {
             true => self.vertices[nodes[k]] - self.vertices[nodes[0]],
             false => Vector3::z(),
         });
-        let change = [1, 2, 3].map(|k| if k < corners { self.derivative(nodes, k, &u) } else { Vector3::zeros() });
+        let change = [1, 2, 3].map(|k| if k < corners { self.derivative(nodes, k, L, &u) } else { Vector3::zeros() });
         // A checked mesh has no element without volume.
         let inverse = Matrix3::from_columns(&undeformed).try_inverse();
         inverse.map_or(Matrix3::zeros(), |inverse| Matrix3::from_columns(&change) * inverse)
     }
 
-    /// The derivative of displacements along the edge from the first corner of an element to another one, per length of the edge, at the
-    /// centroid: m.
-    fn derivative(&self, nodes: &[usize], corner: usize, u: impl Fn(usize) -> Vector3<f64>) -> Vector3<f64> {
-        if self.element.order == 1 {
-            return u(nodes[corner]) - u(nodes[0]);
-        }
-        let centroid = vec![1.0 / self.element.corners() as f64; self.element.corners()];
+    /// The derivative of displacements along the edge from the first corner of an element to another one, times the length of the edge, m.
+    fn derivative(&self, nodes: &[usize], corner: usize, L: &[f64], u: impl Fn(usize) -> Vector3<f64>) -> Vector3<f64> {
         let first = u(nodes[0]);
+        if self.element.order == 1 {
+            return u(nodes[corner]) - first;
+        }
         let term = |(&node, function): (&usize, &ShapeFunction)| {
-            let [along, back] = [corner, 0].map(|by| function.derivative(by, &centroid).unwrap_or(0.0));
+            let [along, back] = [corner, 0].map(|by| function.derivative(by, L).unwrap_or(0.0));
             (along - back) * (u(node) - first)
         };
         nodes.iter().zip(self.element.shape_functions).map(term).sum()
@@ -289,7 +295,8 @@ impl BodyMesh {
     /// are those of the mesh, the others follow in the order of their edges, which [`refined`](Self::refined) has too. Named sets keep their
     /// lists: their edges are named by their ends.
     pub fn of_order(self, order: usize) -> Option<Self> {
-        let element = self.element.of_order(order)?;
+        let is_meant = |other: &&Element| other.dimension == self.dimension() && other.order == order;
+        let element = Element::ALL.into_iter().find(is_meant)?;
         if element == self.element {
             return Some(self);
         }
@@ -312,4 +319,21 @@ impl From<TetrahedralMesh> for BodyMesh {
     fn from(mesh: TetrahedralMesh) -> Self {
         Self::solid(mesh)
     }
+}
+
+/// Evaluates an expression with the nodes of each element of a [`BodyMesh`] as arrays: code that is compiled for each number of nodes.
+#[macro_export]
+macro_rules! with_elements {
+    ($mesh:expr, $elements:ident => $value:expr) => {{
+        let mesh: &$crate::BodyMesh = $mesh;
+        if let Some($elements) = mesh.arrays::<3>() {
+            $value
+        } else if let Some($elements) = mesh.arrays::<4>() {
+            $value
+        } else if let Some($elements) = mesh.arrays::<6>() {
+            $value
+        } else {
+            unreachable!("no element has {} nodes", mesh.element().nodes())
+        }
+    }};
 }

@@ -117,11 +117,7 @@ pub fn loaded_faces(table: &str, selector: &Selector, shape: &Shape) -> Result<V
     let corners = mesh.dimension();
     let [kind, one] =
         if corners == 3 { ["triangles", "triangle of the boundary"] } else { ["edges", "edge of the outline"] };
-    let mut keep = |wanted: &[usize]| {
-        let keys: HashSet<_> = wanted.chunks_exact(corners).map(sorted).collect();
-        faces.retain(|face| keys.contains(&sorted(&face[..corners])));
-    };
-    match selector {
+    let wanted = match selector {
         Selector::Set(name) => {
             let set = set(table, name, mesh)?;
             let wanted = if corners == 3 { set.faces.as_flattened() } else { set.edges.as_flattened() };
@@ -129,20 +125,10 @@ pub fn loaded_faces(table: &str, selector: &Selector, shape: &Shape) -> Result<V
                 let text = format!("is {name:?}, which has {} and no {kind}; name a set of {kind}", set.counts());
                 return Err(Refusal::new(format!("{table}.set"), text));
             }
-            keep(wanted);
-            // A set of edges of a flat body may have inner ones.
-            if corners == 3 {
-                check_known(&format!("{table}.set"), wanted, corners, &faces, one)?;
-            }
+            wanted
         }
-        Selector::Faces(wanted) if corners == 3 => {
-            keep(wanted.as_flattened());
-            check_known(&format!("{table}.faces"), wanted.as_flattened(), corners, &faces, one)?;
-        }
-        Selector::Edges(wanted) if corners == 2 => {
-            keep(wanted.as_flattened());
-            check_known(&format!("{table}.edges"), wanted.as_flattened(), corners, &faces, one)?;
-        }
+        Selector::Faces(wanted) if corners == 3 => wanted.as_flattened(),
+        Selector::Edges(wanted) if corners == 2 => wanted.as_flattened(),
         Selector::Faces(_) => {
             let text = "names triangles of the boundary, and a flat body has edges; name them by edges";
             return Err(Refusal::new(format!("{table}.faces"), text));
@@ -155,7 +141,17 @@ pub fn loaded_faces(table: &str, selector: &Selector, shape: &Shape) -> Result<V
             let mut is_selected = vec![false; mesh.vertices().len()];
             nodes(table, selector, mesh)?.into_iter().for_each(|node| is_selected[node] = true);
             faces.retain(|face| face[..corners].iter().all(|&node| is_selected[node]));
+            return not_empty(table, selector, mesh, faces, one);
         }
+    };
+    let keys: HashSet<_> = wanted.chunks_exact(corners).map(sorted).collect();
+    faces.retain(|face| keys.contains(&sorted(&face[..corners])));
+    let known: HashSet<_> = faces.iter().map(|face| sorted(&face[..corners])).collect();
+    let other = wanted.chunks_exact(corners).find(|face| !known.contains(&sorted(face)));
+    // A set of edges of a flat body may have inner ones.
+    if let Some(face) = other.filter(|_| corners == 3 || !matches!(selector, Selector::Set(_))) {
+        let text = format!("names {face:?}, which is no {one}; correct it");
+        return Err(Refusal::new(format!("{table}.{}", selector.key()), text));
     }
     not_empty(table, selector, mesh, faces, one)
 }
@@ -225,15 +221,6 @@ fn set<'a>(table: &str, name: &str, mesh: &'a BodyMesh) -> Result<&'a MeshSet, R
         };
         Refusal::new(format!("{table}.set"), text)
     })
-}
-
-/// Refuses the first of the wanted faces, by their corners, that is not among the others.
-fn check_known(field: &str, wanted: &[usize], corners: usize, faces: &[Vec<usize>], one: &str) -> Result<(), Refusal> {
-    let known: HashSet<_> = faces.iter().map(|face| sorted(&face[..corners])).collect();
-    match wanted.chunks_exact(corners).find(|face| !known.contains(&sorted(face))) {
-        Some(face) => Err(Refusal::new(field, format!("names {face:?}, which is no {one}; correct it"))),
-        None => Ok(()),
-    }
 }
 
 fn sorted(nodes: &[usize]) -> Vec<usize> {

@@ -41,13 +41,13 @@ impl<T: Float> AnyElements<T> {
             None if factors.is_empty() => Vec::new(),
             thickness => numbers.iter().map(|element| thickness.unwrap_or(1.0) * factor(element)).collect(),
         };
-        if let Some(elements) = mesh.arrays() {
+        if let Some(elements) = mesh.arrays::<4>() {
             let corners = renumbered(numbers, elements, node_numbers);
             Self::Tetrahedra(Elements::stiffened(rest, &corners, &factors, pattern))
-        } else if let Some(elements) = mesh.arrays() {
+        } else if let Some(elements) = mesh.arrays::<3>() {
             let corners = renumbered(numbers, elements, node_numbers);
             Self::Triangles(Elements::stiffened(rest, &corners, &factors, pattern))
-        } else if let Some(elements) = mesh.arrays() {
+        } else if let Some(elements) = mesh.arrays::<6>() {
             let nodes = renumbered(numbers, elements, node_numbers);
             Self::QuadraticTriangles(Elements::at_points(mesh.element(), rest, &nodes, &factors, pattern))
         } else {

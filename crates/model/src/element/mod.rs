@@ -41,9 +41,9 @@ pub struct Element {
 impl Element {
     /// All elements.
     pub const ALL: [&Self; 3] = [
+        &linear_tetrahedron::LINEAR_TETRAHEDRON,
         &linear_triangle::LINEAR_TRIANGLE,
         &quadratic_triangle::QUADRATIC_TRIANGLE,
-        &linear_tetrahedron::LINEAR_TETRAHEDRON,
     ];
 
     /// The element with so many nodes. Panics if there is none, when the program is compiled.
@@ -53,11 +53,6 @@ impl Element {
             i += 1;
         }
         Self::ALL[i]
-    }
-
-    /// The element of the same shape and another order.
-    pub fn of_order(&self, order: usize) -> Option<&'static Self> {
-        Self::ALL.into_iter().find(|other| other.dimension == self.dimension && other.order == order)
     }
 
     /// Number of nodes.
@@ -89,24 +84,6 @@ impl Element {
     pub fn gradients<const D: usize>(&self, corners: &[[f64; D]], L: &[f64]) -> Vec<[f64; D]> {
         self.shape_functions.iter().map(|function| function.gradient(corners, L)).collect()
     }
-}
-
-/// Evaluates an expression with the nodes of each element of a [`BodyMesh`](crate::BodyMesh) as arrays: code that is compiled for each number
-/// of nodes.
-#[macro_export]
-macro_rules! with_elements {
-    ($mesh:expr, $elements:ident => $value:expr) => {{
-        let mesh: &$crate::BodyMesh = $mesh;
-        if let Some($elements) = mesh.arrays::<3>() {
-            $value
-        } else if let Some($elements) = mesh.arrays::<4>() {
-            $value
-        } else if let Some($elements) = mesh.arrays::<6>() {
-            $value
-        } else {
-            unreachable!("no element has {} nodes", mesh.element().nodes())
-        }
-    }};
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::anchor_constraints::AnchorConstraints;
 use super::distances::Distances;
-use super::elements::Elements;
+use super::elements::{Elements, Group};
 use super::rule::{Rule, Sweep};
 use crate::forces::springs::Spring;
 use crate::integrators::relaxation::{PlaneContacts, Relaxation, StepOf};
@@ -12,31 +12,15 @@ use fem_elements::Real;
 /// The constraints of a body.
 pub struct Constraints<T: Real> {
     rule: Rule,
-    groups: Vec<Group<T>>,
+    groups: Vec<Box<dyn Group<T>>>,
     distances: Distances<T>,
     anchors: AnchorConstraints<T>,
-}
-
-/// The elements of one material.
-enum Group<T: Real> {
-    Tetrahedra(Elements<T, 4>),
-    Triangles(Elements<T, 3>),
-}
-
-/// Evaluates an expression for the elements of a group.
-macro_rules! with_group {
-    ($group:expr, $name:ident => $value:expr) => {
-        match $group {
-            Group::Tetrahedra($name) => $value,
-            Group::Triangles($name) => $value,
-        }
-    };
 }
 
 impl<T: Real> Constraints<T> {
     /// Constraints for all elements of a body, and for these springs.
     pub fn new(system: &System<T>, springs: &[Spring<T>], rule: Rule) -> Self {
-        let groups = (0..system.elements.materials()).map(|material| Group::new(system, material)).collect();
+        let groups = (0..system.elements.materials()).map(|material| group(system, material)).collect();
         let distances = Distances::new(system.nodes(), springs);
         Self { rule, groups, distances, anchors: AnchorConstraints::new() }
     }
@@ -45,7 +29,7 @@ impl<T: Real> Constraints<T> {
 impl<T: Real> Relaxation<T> for Constraints<T> {
     fn set_masses(&mut self, inverse_masses: &[[T; 3]]) {
         for group in &mut self.groups {
-            with_group!(group, elements => elements.set_masses(inverse_masses));
+            group.set_masses(inverse_masses);
         }
     }
 
@@ -54,7 +38,7 @@ impl<T: Real> Relaxation<T> for Constraints<T> {
     }
 
     fn begin_step(&mut self, step: StepOf<T>, _u: &[[T; 3]]) {
-        self.groups.iter_mut().for_each(|group| with_group!(group, elements => elements.begin_step()));
+        self.groups.iter_mut().for_each(|group| group.begin_step());
         self.distances.begin_step();
         self.anchors.begin_step(&step.system.forces.anchors, step.times[1]);
     }
@@ -64,7 +48,7 @@ impl<T: Real> Relaxation<T> for Constraints<T> {
         let StepOf { system, particles, dt2, .. } = step;
         let (sweep, masses) = (Sweep { rule: *rule, dt2 }, &particles.inverse_masses);
         for group in groups {
-            system.profile.forces.time(|| with_group!(group, elements => elements.sweep(system, sweep, u)));
+            system.profile.forces.time(|| group.sweep(system, sweep, u));
         }
         distances.sweep(sweep, masses, u);
         system.forces.anchors_timer.time(|| anchors.sweep(dt2, masses, u));
@@ -74,18 +58,14 @@ impl<T: Real> Relaxation<T> for Constraints<T> {
     }
 }
 
-impl<T: Real> Group<T> {
-    fn new(system: &System<T>, material: usize) -> Self {
-        let numbers = system.elements.numbers(material);
-        let mesh = &system.shape.mesh;
-        if let Some(elements) = mesh.arrays::<4>() {
-            let corners = system.numbering.elements(numbers.iter().map(|&number| &elements[number]));
-            Self::Tetrahedra(Elements::new(system, material, &corners, &numbers))
-        } else if let Some(elements) = mesh.arrays::<3>() {
-            let corners = system.numbering.elements(numbers.iter().map(|&number| &elements[number]));
-            Self::Triangles(Elements::new(system, material, &corners, &numbers))
-        } else {
-            unreachable!("quadratic elements are refused when the scene is loaded")
-        }
+/// The constraints of the elements of a material.
+fn group<T: Real>(system: &System<T>, material: usize) -> Box<dyn Group<T>> {
+    let mesh = &system.shape.mesh;
+    if let Some(tetrahedra) = mesh.arrays::<4>() {
+        Box::new(Elements::new(system, material, tetrahedra))
+    } else if let Some(triangles) = mesh.arrays::<3>() {
+        Box::new(Elements::new(system, material, triangles))
+    } else {
+        unreachable!("quadratic elements are refused when the scene is loaded")
     }
 }
