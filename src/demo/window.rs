@@ -80,14 +80,14 @@ pub fn run(ready: Ready, scene: &Scene, arguments: &RunArguments) -> Result<(), 
 /// The scene for a panel that changes it. The course's pipeline has its own parameters.
 #[cfg(feature = "viewer")]
 fn editing(scene: &Scene) -> Option<fem_viewer::Editing> {
-    use fem_viewer::{Builder, Editing};
+    use fem_viewer::Editing;
 
     let is_engine = scene.pipeline == fem_scene::Pipeline::Engine;
     is_engine.then(|| Editing {
         scene: scene.clone(),
         objects: super::data::pictures(),
         data: super::data::folder(),
-        builder: Builder::new(super::build::rebuild),
+        builder: std::sync::Arc::new(super::build::rebuild),
     })
 }
 

@@ -1,16 +1,16 @@
 //! The section of the panel for Dirichlet conditions: the brush and the painted condition.
 
-use kiss3d::egui::{DragValue, RichText, Slider, Ui};
+use kiss3d::egui::{DragValue, Slider, Ui};
 
-use super::ViewState;
-use crate::change::Change;
-use crate::parameter_rows::label;
-use crate::request::UserRequest;
-use crate::scene_edits::{self, Motion};
+use super::request::UserRequest;
+use super::rows::label;
+use super::{ViewState, message};
+use crate::editing::change::Change;
+use crate::editing::editor::SceneSetup;
+use crate::editing::edits::{self, Motion};
+use crate::picture::numbers;
 use crate::setup::brush::Target;
 use crate::setup::{Mode, Setup};
-use crate::worker::scene_editor::SceneSetup;
-use crate::{plot, theme};
 
 /// Ends of the range of the brush's radius, in radii of the body.
 const RADII: (f32, f32) = (0.005, 1.0);
@@ -31,21 +31,16 @@ pub fn show(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, state: &ViewStat
     ui.horizontal(|ui| {
         label(ui, "brush radius (m)");
         let range = RADII.0 * size..=RADII.1 * size;
-        let slider = Slider::new(&mut radius, range).logarithmic(true).custom_formatter(|r, _| plot::short(r));
+        let slider = Slider::new(&mut radius, range).logarithmic(true).custom_formatter(|r, _| numbers::short(r));
         if ui.add(slider).changed() {
             setup.brush.radius = Some(radius);
         }
     });
     ui.checkbox(&mut setup.brush.erases, "erase (Ctrl does the other thing)");
     targets(ui, scene, setup);
-    if let Target::Prescribed(number) = setup.brush.target {
-        vector(ui, scene, setup, (number, state.shape.mesh.is_flat()), requests);
-    }
+    vector(ui, scene, setup, state.shape.mesh.is_flat(), requests);
     let hint = "Drag over the body: nodes of the surface in a ball of this radius. The motion starts again.";
-    ui.label(RichText::new(setup.message.as_deref().unwrap_or(hint)).size(12.0).color(match setup.message {
-        Some(_) => theme::FAILURE,
-        None => theme::SECONDARY_TEXT,
-    }));
+    message(ui, setup, hint);
 }
 
 /// The choice of the condition that is painted.
@@ -72,13 +67,8 @@ fn targets(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup) {
 }
 
 /// The three numbers of a prescribed motion.
-fn vector(
-    ui: &mut Ui,
-    scene: &SceneSetup,
-    setup: &mut Setup,
-    (number, is_flat): (usize, bool),
-    requests: &mut Vec<UserRequest>,
-) {
+fn vector(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, is_flat: bool, requests: &mut Vec<UserRequest>) {
+    let Target::Prescribed(number) = setup.brush.target else { return };
     let table = scene.scene.prescribed.get(number);
     let own = table.and_then(|table| {
         let displacement = table.displacement.filter(|_| table.rotation.is_none());
@@ -103,7 +93,7 @@ fn vector(
     });
     match table {
         Some(_) if is_changed => {
-            let edit = scene_edits::prescribed_vector(number, motion, vector);
+            let edit = edits::prescribed_vector(number, motion, vector);
             requests.push(UserRequest::Change(Change::Edit(edit)));
         }
         None => setup.brush.new = Some((motion, vector)),

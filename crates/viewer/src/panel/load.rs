@@ -1,13 +1,13 @@
 //! The section of the panel for loads: picked faces and their traction.
 
-use kiss3d::egui::{DragValue, RichText, Slider, SliderClamping, Ui};
+use kiss3d::egui::{DragValue, Slider, SliderClamping, Ui};
 
-use super::ViewState;
-use crate::parameter_rows::{label, parse};
-use crate::request::UserRequest;
+use super::request::UserRequest;
+use super::rows::label;
+use super::{ViewState, message};
+use crate::editing::editor::SceneSetup;
+use crate::picture::numbers;
 use crate::setup::{Mode, Setup, loads};
-use crate::worker::scene_editor::SceneSetup;
-use crate::{plot, theme};
 
 /// Lays out the section below the sliders of the scene.
 pub fn show(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, state: &ViewState, requests: &mut Vec<UserRequest>) {
@@ -33,18 +33,15 @@ pub fn show(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, state: &ViewStat
         "Click on {kind}; Ctrl adds and removes. Drag a picked one along its normal to pull or push it. Smooth parts and the normal of \
          a load that keeps its direction are those of the undeformed body."
     );
-    ui.label(RichText::new(setup.message.clone().unwrap_or(hint)).size(12.0).color(match setup.message {
-        Some(_) => theme::FAILURE,
-        None => theme::SECONDARY_TEXT,
-    }));
+    message(ui, setup, &hint);
 }
 
 /// The loads of the scene, to be picked.
 fn list(ui: &mut Ui, scene: &SceneSetup, setup: &Setup, requests: &mut Vec<UserRequest>) {
     for (number, table) in scene.scene.traction.iter().enumerate() {
         let force = match (table.pressure, table.force_per_area) {
-            (Some(pressure), _) => format!("pressure {} Pa", plot::short(pressure)),
-            (_, Some(force)) => format!("({}) Pa", force.map(plot::short).join(", ")),
+            (Some(pressure), _) => format!("pressure {} Pa", numbers::short(pressure)),
+            (_, Some(force)) => format!("({}) Pa", force.map(numbers::short).join(", ")),
             (None, None) => String::new(),
         };
         let faces = scene.conditions.loaded.get(number).map_or(0, Vec::len);
@@ -66,8 +63,8 @@ fn traction(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, requests: &mut V
         let slider = Slider::new(&mut loads.traction, -range..=range)
             .update_while_editing(false)
             .clamping(SliderClamping::Never)
-            .custom_formatter(|value, _| plot::short(value))
-            .custom_parser(parse);
+            .custom_formatter(|value, _| numbers::short(value))
+            .custom_parser(numbers::parse);
         is_changed |= ui.add(slider).changed();
     });
     let is_loaded = loads.current.is_some();

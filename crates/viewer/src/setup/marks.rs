@@ -7,10 +7,11 @@ use kiss3d::window::Window;
 
 use super::brush::Target;
 use super::{Body, Mode, Setup, loads};
-use crate::camera::Camera;
-use crate::geometry::single;
-use crate::theme;
-use crate::worker::scene_editor::SceneSetup;
+use crate::editing::editor::SceneSetup;
+use crate::picture::camera::Camera;
+use crate::picture::geometry::single;
+use crate::picture::obstacles::draw_arrow;
+use crate::picture::theme;
 
 const CORNERS: usize = 40; // of the circle that shows the brush
 const MOST_ARROWS: usize = 60; // of a load
@@ -98,7 +99,6 @@ fn draw_arrows(
     camera: &Camera,
 ) {
     let faces = loads::loaded_faces(body, scene, load, positions);
-    let width = 2.0 * window.scale_factor() as f32;
     let range = loads::range(scene).max(f64::MIN_POSITIVE);
     let every = faces.len().div_ceil(MOST_ARROWS).max(1);
     for (centre, normal, force) in faces.into_iter().step_by(every) {
@@ -108,10 +108,6 @@ fn draw_arrows(
         let outward = camera.nearer(centre, 0.01);
         // Compression is drawn outside too, because the body would hide arrows inside.
         let (tail, tip) = if normal.dot(shaft) < 0.0 { (outward - shaft, outward) } else { (outward, outward + shaft) };
-        let side = shaft.cross(camera.direction()).normalize_or_zero();
-        let head = shaft.normalize_or_zero() * (0.35 * shaft.length()).min(0.06 * body.radius);
-        window.draw_line(tail, tip, color, width, false);
-        window.draw_line(tip, tip - head + side * (0.5 * head.length()), color, width, false);
-        window.draw_line(tip, tip - head - side * (0.5 * head.length()), color, width, false);
+        draw_arrow(window, [tail, tip], 0.06 * body.radius, color, camera);
     }
 }
