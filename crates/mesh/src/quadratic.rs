@@ -1,7 +1,6 @@
 //! Quadratic triangles: six nodes, three of them at the middles of the sides.
 
-use super::connectivity::edges;
-use super::connectivity::{quarters, sorted};
+use super::connectivity::{edges, quarters, sorted};
 use super::{Mesh, SurfaceMesh};
 
 /// Straight-sided triangles with the nodes a, b, c, and those at the middles of the sides a b, b c, c a: VTK's type 22, Gmsh's type 9.

@@ -2,20 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use fem_mesh::{SurfaceMesh, TetrahedralMesh};
+use fem_mesh::{Mesh, MeshError};
 use fem_model::simulation::Shape;
 use fem_model::{Body, BodyMesh, Refusal, density_factors};
 
 use crate::check::flat;
 use crate::meshes::{elements, flat_body, mesh_error, scale, surface};
 use crate::paths::find;
-use crate::picture;
 use crate::tables::{MeshTable, SurfaceTable};
 use crate::values::{
     contact, curve, damping, dirichlet_conditions, drag, initial_velocity, nodal_forces, plasticity, regions, springs,
     surface_loads,
 };
-use crate::{Scene, SceneError};
+use crate::{Scene, SceneError, picture};
 
 /// Reads and checks the meshes of a scene, and builds the body. A mesh file is searched beside the scene, then in `data`.
 pub fn body(scene: &Scene, data: &Path) -> Result<Body, SceneError> {
@@ -78,9 +77,9 @@ fn values(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, Refusal> {
 /// Scales, checks and refines the mesh.
 fn checked(scene: &Scene, mesh: BodyMesh) -> Result<BodyMesh, SceneError> {
     match mesh {
-        BodyMesh::Solid(mesh) => tetrahedra(scene, mesh).map(BodyMesh::Solid),
+        BodyMesh::Solid(mesh) => refined(scene, mesh, fem_mesh::check, fem_mesh::refine).map(BodyMesh::Solid),
         BodyMesh::Flat { triangles, thickness } => {
-            let triangles = in_plane(scene, triangles)?;
+            let triangles = refined(scene, triangles, fem_mesh::check_plane, fem_mesh::refine_triangles)?;
             Ok(match scene.mesh.order {
                 2 => BodyMesh::Quadratic { triangles: fem_mesh::quadratic(triangles), thickness },
                 _ => BodyMesh::Flat { triangles, thickness },
@@ -91,28 +90,25 @@ fn checked(scene: &Scene, mesh: BodyMesh) -> Result<BodyMesh, SceneError> {
     }
 }
 
-fn in_plane(scene: &Scene, mesh: SurfaceMesh) -> Result<SurfaceMesh, SceneError> {
-    let mesh = scale(mesh, scene.mesh.scale);
-    let source = source(scene);
-    fem_mesh::check_plane(&mesh, &source).map_err(|error| mesh_error(scene, "mesh", error))?;
-    if scene.mesh.refine == 0 {
-        return Ok(mesh);
-    }
-    let refined = fem_mesh::refine_triangles(mesh, scene.mesh.refine, &source);
-    let checked = refined.and_then(|mesh| fem_mesh::check_plane(&mesh, &source).map(|()| mesh));
-    checked.map_err(|error| mesh_error(scene, "mesh.refine", error))
-}
+/// The checks of a mesh of simplices, and its refinement.
+type Check<const N: usize> = fn(&Mesh<3, N>, &Path) -> Result<(), MeshError>;
+type Refine<const N: usize> = fn(Mesh<3, N>, u32, &Path) -> Result<Mesh<3, N>, MeshError>;
 
-fn tetrahedra(scene: &Scene, mesh: TetrahedralMesh) -> Result<TetrahedralMesh, SceneError> {
+fn refined<const N: usize>(
+    scene: &Scene,
+    mesh: Mesh<3, N>,
+    check: Check<N>,
+    refine: Refine<N>,
+) -> Result<Mesh<3, N>, SceneError> {
     let mesh = scale(mesh, scene.mesh.scale);
     let source = source(scene);
-    fem_mesh::check(&mesh, &source).map_err(|error| mesh_error(scene, "mesh", error))?;
+    check(&mesh, &source).map_err(|error| mesh_error(scene, "mesh", error))?;
     if scene.mesh.refine == 0 {
         return Ok(mesh);
     }
-    let refined = fem_mesh::refine(mesh, scene.mesh.refine, &source);
+    let refined = refine(mesh, scene.mesh.refine, &source);
     // Small elements far from the origin can lose their volume to rounding.
-    let checked = refined.and_then(|mesh| fem_mesh::check(&mesh, &source).map(|()| mesh));
+    let checked = refined.and_then(|mesh| check(&mesh, &source).map(|()| mesh));
     checked.map_err(|error| mesh_error(scene, "mesh.refine", error))
 }
 

@@ -1,6 +1,6 @@
 //! The error of scene files.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
@@ -44,7 +44,7 @@ pub enum SceneError {
         problem: String,
     },
     /// A mesh of the scene has a problem.
-    #[error("{}, line {line}: {field}: {error}", file.display())]
+    #[error("{}, line {line}: {}", file.display(), of_field(field, error))]
     Mesh {
         /// The scene file.
         file: PathBuf,
@@ -65,5 +65,13 @@ impl SceneError {
             Self::Mesh { error, .. } => error.to_string(),
             Self::Unknown { .. } | Self::Unreadable { .. } => self.to_string(),
         }
+    }
+}
+
+/// The problem of a mesh at a field, which also names the file, unless the mesh is made by the field alone.
+pub(crate) fn of_field(field: &str, error: &MeshError) -> String {
+    match field.strip_prefix("mesh.") {
+        Some(key) if error.file == Path::new(key) => format!("{field}: {}", error.problem),
+        _ => format!("{field}: {error}"),
     }
 }

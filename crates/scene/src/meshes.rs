@@ -6,6 +6,7 @@ use fem_mesh::generate::odt::improve_inside;
 use fem_mesh::generate::{Solid, stuff_graded};
 use fem_mesh::{AnyMesh, MeshError, MeshFile, Problem, SurfaceMesh};
 
+use crate::error::of_field;
 use crate::load::line_of;
 use crate::paths::find;
 use crate::tables::MeshTable;
@@ -112,7 +113,7 @@ pub(crate) fn scale<const N: usize>(mut mesh: fem_mesh::Mesh<3, N>, factor: f64)
 /// The error of a mesh, at the line of its field or with the override that set it.
 pub(crate) fn mesh_error(scene: &Scene, field: &'static str, error: MeshError) -> SceneError {
     if let Some(change) = scene.overrides.iter().rev().find(|change| change.concerns(field)) {
-        return SceneError::Override { option: change.to_string(), problem: format!("{field}: {error}") };
+        return SceneError::Override { option: change.to_string(), problem: of_field(field, &error) };
     }
     SceneError::Mesh { file: scene.path.clone(), line: line_of(&scene.text.0, field), field, error }
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 use toml::{Table, Value};
 
+use crate::check::missing_tables;
 use crate::load::{MOST_BYTES, parse};
 use crate::paths::move_paths;
 use crate::{Scene, SceneError};
@@ -86,18 +87,7 @@ impl Scene {
     /// The keys and values as they are now: with the integrator, time step and number of steps in use.
     fn tables(&self) -> Table {
         let mut tables = self.source.clone();
-        let optional = [
-            ("static", self.statics.is_some()),
-            ("newmark", self.newmark.is_some()),
-            ("generalized_alpha", self.generalized_alpha.is_some()),
-            ("newton", self.newton.is_some()),
-            ("iterations", self.iterations.is_some()),
-            ("solver", self.solver.is_some()),
-            ("contact", self.contact.is_some()),
-            ("damping", self.damping.is_some()),
-            ("energy", self.energy.is_some()),
-        ];
-        optional.iter().filter(|(_, is_there)| !is_there).for_each(|(name, _)| drop(tables.remove(*name)));
+        missing_tables(self).for_each(|name| drop(tables.remove(name)));
         tables.retain(|_, value| !value.as_array().is_some_and(Vec::is_empty));
         if let Some(Value::Table(time)) = tables.get_mut("time") {
             time.insert("integrator".to_owned(), Value::from(self.time.integrator.name()));

@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 
 use fem_model::simulation::Simulation;
 use fem_scene::output::EnergyRow;
+use fem_scene::simulate::quantile;
 use nalgebra::Vector3;
 
 use super::history::History;
@@ -236,7 +237,7 @@ impl SimulationLoop {
             weight: simulation.weight(),
             time: simulation.time(),
             steps: self.step_seconds.len(),
-            step_seconds: median(&self.recent),
+            step_seconds: quantile(self.recent.make_contiguous(), 0.5).unwrap_or(0.0),
             rate: self.rate.factor(),
             integrator: simulation.integrator(),
             parameters: simulation.parameters(),
@@ -259,10 +260,4 @@ fn contact_force(simulation: &dyn Simulation) -> Option<f64> {
     let contacts = simulation.contacts();
     let sum: Vector3<f64> = contacts.iter().map(|contact| Vector3::from(contact.force)).sum();
     (!contacts.is_empty()).then(|| sum.norm())
-}
-
-fn median(values: &VecDeque<f64>) -> f64 {
-    let mut sorted: Vec<f64> = values.iter().copied().collect();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }
