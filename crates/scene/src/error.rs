@@ -8,53 +8,23 @@ use fem_mesh::MeshError;
 
 /// A problem with a scene, in one message with file, line, field and remedy.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[allow(missing_docs)] // the messages are the documentation of the fields
 pub enum SceneError {
     /// No scene has this name.
     #[error("there is no scene `{name}`; {known}, or the path of a .toml file")]
-    Unknown {
-        /// The requested name.
-        name: String,
-        /// The names of all scenes.
-        known: String,
-    },
+    Unknown { name: String, known: String },
     /// The file cannot be read.
     #[error("{}: cannot be read: {reason}; check the path and that you may read it", file.display())]
-    Unreadable {
-        /// The scene file.
-        file: PathBuf,
-        /// The error of the operating system.
-        reason: String,
-    },
+    Unreadable { file: PathBuf, reason: String },
     /// A line of the file has a problem.
     #[error("{}, line {line}: {problem}", file.display())]
-    Line {
-        /// The scene file.
-        file: PathBuf,
-        /// Counted from 1.
-        line: usize,
-        /// The field, its problem and the remedy.
-        problem: String,
-    },
+    Line { file: PathBuf, line: usize, problem: String },
     /// A key that is overridden has a problem.
     #[error("--set {option}: {problem}")]
-    Override {
-        /// The override as it was given.
-        option: String,
-        /// The field, its problem and the remedy.
-        problem: String,
-    },
+    Override { option: String, problem: String },
     /// A mesh of the scene has a problem.
     #[error("{}, line {line}: {}", file.display(), of_field(field, error))]
-    Mesh {
-        /// The scene file.
-        file: PathBuf,
-        /// Counted from 1.
-        line: usize,
-        /// The key that names the mesh.
-        field: &'static str,
-        /// The problem of the mesh.
-        error: MeshError,
-    },
+    Mesh { file: PathBuf, line: usize, field: &'static str, error: MeshError },
 }
 
 impl SceneError {

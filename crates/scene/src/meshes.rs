@@ -54,10 +54,10 @@ pub(crate) fn elements(scene: &Scene, data: &Path, notes: &mut Vec<String>) -> R
             let path = find(scene, data, &surface.file);
             let triangles = read(&path, &surface.file, notes).and_then(|found| found.triangles(&path));
             let mesh = triangles.and_then(|triangles| {
-                let mesh = stuff_graded(&triangles, surface.edge, surface.grading)
+                let mesh = stuff_graded(&triangles, surface.edge, surface.grading, &|_| ())
                     .map_err(|error| MeshError::in_file(&path, Problem::Stuffing(error)))?;
                 fem_mesh::check(&mesh, &path)?;
-                Ok(improve_inside(&mesh, surface.improve, &Solid::new(&triangles)).mesh)
+                Ok(improve_inside(&mesh, surface.improve, &Solid::new(&triangles), &|_| ()).mesh)
             });
             mesh.map(BodyMesh::Solid).map_err(|error| mesh_error(scene, "mesh.surface", error))
         }

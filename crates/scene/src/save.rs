@@ -48,15 +48,11 @@ const ORDER: [&str; 28] = [
 
 /// A scene that was not saved.
 #[derive(Debug, Error)]
+#[allow(missing_docs)] // the messages are the documentation of the fields
 pub enum SaveError {
     /// The path cannot be that of a new scene file.
     #[error("{}: {problem}", file.display())]
-    Path {
-        /// The path.
-        file: PathBuf,
-        /// The problem and its remedy.
-        problem: String,
-    },
+    Path { file: PathBuf, problem: String },
     /// The text does not read back to the scene.
     #[error("the scene was not saved, as its file would not be read: {0}")]
     Unreadable(SceneError),

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem_mesh::generate::Progress;
-use fem_mesh::generate::delaunay::{DelaunayError, tetrahedralize_with, triangulate};
+use fem_mesh::generate::delaunay::{DelaunayError, tetrahedralize, triangulate};
 use fem_mesh::{Points, SurfaceMesh};
 
 use super::{write_surface, write_tetrahedra};
@@ -23,7 +23,7 @@ pub fn run(points: &Path, out: &Path) -> Result<(), End> {
         }
         Points::InSpace(points) => {
             fem_mesh::write::check_tetrahedra(out).map_err(End::unusable)?;
-            let connect = |progress: Progress| tetrahedralize_with(&points, progress);
+            let connect = |progress: Progress| tetrahedralize(&points, progress);
             let found = progress::with_share("connecting the points", connect).map_err(unusable)?.mesh;
             write_tetrahedra(out, &found).map_err(End::unusable)?;
             (points.len(), found.vertices.len())

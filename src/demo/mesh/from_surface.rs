@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 use std::path::PathBuf;
 
-use fem_mesh::generate::odt::{improve_inside_with, improve_tetrahedra_with};
-use fem_mesh::generate::{Solid, cage, keep_features, stuff_graded_with};
+use fem_mesh::generate::odt::{improve_inside, improve_tetrahedra};
+use fem_mesh::generate::{Solid, cage, keep_features, stuff_graded};
 use fem_mesh::{MeshError, Problem, SurfaceMesh, TetrahedralMesh};
 
 use super::{tell, write_tetrahedra};
@@ -42,7 +42,7 @@ pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
     let made = if *is_cage {
         progress::during("enclosing the surface", || cage(&surface, *edge))
     } else {
-        progress::with_share("filling the surface", |told| stuff_graded_with(&surface, *edge, *grading, told))
+        progress::with_share("filling the surface", |told| stuff_graded(&surface, *edge, *grading, told))
     };
     let mesh = made.map_err(|error| MeshError::in_file(file, Problem::Stuffing(error)))?;
     fem_mesh::check(&mesh, file)?;
@@ -50,8 +50,8 @@ pub fn run(arguments: &Arguments) -> Result<(), MeshError> {
         return write_tetrahedra(out, &mesh);
     }
     let mesh = progress::with_share("improving the elements", |told| match features {
-        None => improve_inside_with(&mesh, *improve, &Solid::new(&surface), told).mesh,
-        Some(angle) => improve_tetrahedra_with(&with_features(&mesh, &surface, *angle), *improve, told).mesh,
+        None => improve_inside(&mesh, *improve, &Solid::new(&surface), told).mesh,
+        Some(angle) => improve_tetrahedra(&with_features(&mesh, &surface, *angle), *improve, told).mesh,
     });
     let faults = fem_mesh::surface_quality(&surface);
     if !faults.is_closed() {

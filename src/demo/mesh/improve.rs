@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use fem_mesh::generate::odt::{improve_tetrahedra_with, improve_triangles};
+use fem_mesh::generate::odt::{improve_tetrahedra, improve_triangles};
 use fem_mesh::{AnyMesh, Mesh, MeshError, MeshFile, Quality, SurfaceMesh, TetrahedralMesh, TriangleQuality};
 use fem_mesh::{quality, triangle_quality};
 
@@ -35,7 +35,7 @@ fn tetrahedra(arguments: &Arguments, mesh: &TetrahedralMesh) -> Result<(), MeshE
     fem_mesh::write::check_tetrahedra(&arguments.out)?;
     fem_mesh::check(mesh, &arguments.mesh)?;
     let improved = progress::with_share("improving the elements", |progress| {
-        improve_tetrahedra_with(mesh, arguments.iterations, progress)
+        improve_tetrahedra(mesh, arguments.iterations, progress)
     });
     write_tetrahedra(&arguments.out, &improved.mesh)?;
     print_both(&quality(mesh), &quality(&improved.mesh));

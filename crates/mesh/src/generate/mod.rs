@@ -13,7 +13,7 @@ mod triangulation;
 pub use cage::cage;
 pub use features::{Featured, keep_features};
 pub use solid::Solid;
-pub use stuffing::{StuffingError, stuff, stuff_graded, stuff_graded_with};
+pub use stuffing::{StuffingError, stuff, stuff_graded};
 
 /// Receives the share of the work that is done, from 0 to 1, a few hundred times at most.
 pub type Progress<'a> = &'a dyn Fn(f64);

@@ -130,12 +130,12 @@ fn a_graded_mesh_has_the_boundary_of_the_uniform_one_and_fewer_elements() {
         boundary(mesh).into_iter().map(place).collect::<BTreeSet<_>>()
     };
     for doublings in [1, 3, 60] {
-        let graded = stuff_graded(&surface, 0.06, doublings).unwrap();
+        let graded = stuff_graded(&surface, 0.06, doublings, &|_| ()).unwrap();
         is_sound(&graded);
         assert!(places(&graded) == places(&uniform), "{doublings}");
         assert!(graded.elements.len() * 3 < uniform.elements.len() * 2, "{doublings}: {}", graded.elements.len());
     }
-    assert_eq!(stuff_graded(&surface, 0.06, 0).unwrap(), uniform);
+    assert_eq!(stuff_graded(&surface, 0.06, 0, &|_| ()).unwrap(), uniform);
 }
 
 #[test]

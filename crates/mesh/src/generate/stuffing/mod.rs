@@ -31,53 +31,31 @@ const SIGNS: f64 = 0.8;
 
 /// Reason why a surface has no tetrahedra inside.
 #[derive(Clone, Debug, Error, PartialEq)]
+#[allow(missing_docs)] // the messages are the documentation of the fields
 pub enum StuffingError {
     /// A vertex is NaN or infinite.
     #[error(
         "vertex {vertex} (counted from 0) has a coordinate that is not finite; give it a finite position or remove it"
     )]
-    NotFinite {
-        /// Counted from 0.
-        vertex: usize,
-    },
+    NotFinite { vertex: usize },
     /// The edge length is no length.
     #[error("an edge of {edge} m; give a length above 0")]
-    Edge {
-        /// m
-        edge: f64,
-    },
+    Edge { edge: f64 },
     /// Too many tetrahedra.
     #[error(
         "with edges of {edge} m the box around the surface would have {count:.1e} tetrahedra, and {most:.0e} is the most; take longer edges"
     )]
-    TooFine {
-        /// m
-        edge: f64,
-        /// Number of tetrahedra.
-        count: f64,
-        /// Largest number of them.
-        most: f64,
-    },
+    TooFine { edge: f64, count: f64, most: f64 },
     /// A triangle crosses the boundary of a cage that contains all tetrahedra which it touches: its coordinates are too large for the edge.
     #[error(
         "triangle {triangle} (counted from 0) is not enclosed by tetrahedra with edges of {edge} m; take longer edges, or move the surface to the origin"
     )]
-    NotEnclosed {
-        /// Counted from 0.
-        triangle: usize,
-        /// m
-        edge: f64,
-    },
+    NotEnclosed { triangle: usize, edge: f64 },
     /// The lattice has no node inside the surface.
     #[error(
         "with edges of {edge} m no point of the lattice lies inside the surface; take shorter edges (the surface measures {} × {} × {} m), or close it", size[0], size[1], size[2]
     )]
-    Empty {
-        /// m
-        edge: f64,
-        /// Size of the box around the surface, m.
-        size: [f64; 3],
-    },
+    Empty { edge: f64, size: [f64; 3] },
 }
 
 /// Tetrahedra with edges of about `edge` m inside a surface, which may have holes, cross itself and have flipped triangles.
@@ -85,23 +63,16 @@ pub enum StuffingError {
 /// # Errors
 /// Too many tetrahedra or none, and numbers that are not finite.
 pub fn stuff(surface: &SurfaceMesh, edge: f64) -> Result<TetrahedralMesh, StuffingError> {
-    stuff_graded(surface, edge, 0)
+    stuff_graded(surface, edge, 0, &|_| ())
 }
 
 /// Tetrahedra as those of [`stuff`] at the surface, and with edges that double up to `doublings` times towards the inside. The boundary and the
-/// bounds of the dihedral angles are those of [`stuff`].
+/// bounds of the dihedral angles are those of [`stuff`]. Tells how far it is: for most of the time, of how many nodes of the lattice it knows whether
+/// they are inside.
 ///
 /// # Errors
 /// As [`stuff`].
-pub fn stuff_graded(surface: &SurfaceMesh, edge: f64, doublings: usize) -> Result<TetrahedralMesh, StuffingError> {
-    stuff_graded_with(surface, edge, doublings, &|_| ())
-}
-
-/// The tetrahedra of [`stuff_graded`]. Tells how far it is: for most of the time, of how many nodes of the lattice it knows whether they are inside.
-///
-/// # Errors
-/// As [`stuff`].
-pub fn stuff_graded_with(
+pub fn stuff_graded(
     surface: &SurfaceMesh,
     edge: f64,
     doublings: usize,

@@ -111,7 +111,7 @@ fn filled(edge: f64, turn: f64) -> Result<TetrahedralMesh, String> {
 
 /// The improved mesh, turned back.
 fn finished(mesh: TetrahedralMesh, turn: f64) -> TetrahedralMesh {
-    let mut mesh = improve_inside(&mesh, IMPROVE, &Solid::new(&turned_surface(turn))).mesh;
+    let mut mesh = improve_inside(&mesh, IMPROVE, &Solid::new(&turned_surface(turn)), &|_| ()).mesh;
     let back = Rotation3::from_axis_angle(&Vector3::x_axis(), -turn);
     mesh.vertices.iter_mut().for_each(|x| *x = back * *x);
     mesh
