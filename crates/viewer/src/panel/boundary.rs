@@ -4,7 +4,7 @@ use kiss3d::egui::{DragValue, Slider, Ui};
 
 use super::request::UserRequest;
 use super::rows::label;
-use super::{ViewState, message};
+use super::{ViewState, message, offer};
 use crate::editing::change::Change;
 use crate::editing::editor::SceneSetup;
 use crate::editing::edits::{self, Motion};
@@ -18,13 +18,8 @@ const RADII: (f32, f32) = (0.005, 1.0);
 /// Lays out the section below the sliders of the scene.
 pub fn show(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, state: &ViewState, requests: &mut Vec<UserRequest>) {
     if setup.mode != Mode::Fix {
-        ui.horizontal(|ui| {
-            ui.label(format!("fixed: {} nodes", scene.conditions.fixed().len()));
-            if ui.button("Paint nodes").clicked() {
-                requests.push(UserRequest::Choose(Mode::Fix));
-            }
-        });
-        return;
+        let text = format!("fixed: {} nodes", scene.conditions.fixed().len());
+        return offer(ui, text, "Paint nodes", Mode::Fix, requests);
     }
     let body = setup.body(state.shape);
     let (mut radius, size) = (setup.brush.radius_on(body), body.radius);

@@ -1,10 +1,10 @@
 //! The section of the panel for loads: picked faces and their traction.
 
-use kiss3d::egui::{DragValue, Slider, SliderClamping, Ui};
+use kiss3d::egui::{DragValue, Ui};
 
 use super::request::UserRequest;
-use super::rows::label;
-use super::{ViewState, message};
+use super::rows::{label, number_slider};
+use super::{ViewState, message, offer};
 use crate::editing::editor::SceneSetup;
 use crate::picture::numbers;
 use crate::setup::{Mode, Setup, loads};
@@ -12,13 +12,8 @@ use crate::setup::{Mode, Setup, loads};
 /// Lays out the section below the sliders of the scene.
 pub fn show(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, state: &ViewState, requests: &mut Vec<UserRequest>) {
     if setup.mode != Mode::Load {
-        ui.horizontal(|ui| {
-            ui.label(format!("loads on faces: {}", scene.scene.traction.len()));
-            if ui.button("Pick faces").clicked() {
-                requests.push(UserRequest::Choose(Mode::Load));
-            }
-        });
-        return;
+        let text = format!("loads on faces: {}", scene.scene.traction.len());
+        return offer(ui, text, "Pick faces", Mode::Load, requests);
     }
     ui.horizontal(|ui| {
         ui.checkbox(&mut setup.loads.grows, "the smooth part, within");
@@ -60,12 +55,7 @@ fn traction(ui: &mut Ui, scene: &SceneSetup, setup: &mut Setup, requests: &mut V
     let mut is_changed = false;
     ui.horizontal(|ui| {
         label(ui, "− pushes, + pulls");
-        let slider = Slider::new(&mut loads.traction, -range..=range)
-            .update_while_editing(false)
-            .clamping(SliderClamping::Never)
-            .custom_formatter(|value, _| numbers::short(value))
-            .custom_parser(numbers::parse);
-        is_changed |= ui.add(slider).changed();
+        is_changed |= ui.add(number_slider(&mut loads.traction, -range..=range)).changed();
     });
     let is_loaded = loads.current.is_some();
     ui.horizontal(|ui| {

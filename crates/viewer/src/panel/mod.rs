@@ -235,6 +235,16 @@ fn help(context: &Context, text: &str) {
     });
 }
 
+/// A row that offers a tool.
+fn offer(ui: &mut Ui, text: String, button: &str, mode: Mode, requests: &mut Vec<UserRequest>) {
+    ui.horizontal(|ui| {
+        ui.label(text);
+        if ui.button(button).clicked() {
+            requests.push(UserRequest::Choose(mode));
+        }
+    });
+}
+
 /// The reason why the last use of a tool had no effect, or else a hint.
 fn message(ui: &mut Ui, setup: &Setup, hint: &str) {
     let (text, color) = match &setup.message {

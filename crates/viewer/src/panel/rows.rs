@@ -1,5 +1,6 @@
 //! The rows of the panel that change parameters.
 
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -98,12 +99,7 @@ impl ParameterRows {
         let changed = ui.horizontal(|ui| {
             label(ui, name);
             ui.spacing_mut().slider_width = (ui.available_width() - VALUE_WIDTH).max(40.0);
-            let slider = Slider::new(&mut value, low..=high)
-                .logarithmic(parameter.logarithmic)
-                .update_while_editing(false) // a number that is being typed has no meaning yet
-                .clamping(SliderClamping::Never) // the simulation refuses a typed value outside, with a message
-                .custom_formatter(|value, _| numbers::short(value))
-                .custom_parser(numbers::parse);
+            let slider = number_slider(&mut value, low..=high).logarithmic(parameter.logarithmic);
             let slider = if WHOLE.contains(&parameter.key) { slider.integer() } else { slider };
             ui.add(slider).changed()
         });
@@ -131,6 +127,15 @@ pub fn label(ui: &mut Ui, text: &str) {
     let (place, _) = ui.allocate_exact_size(vec2(LABEL_WIDTH, 18.0), Sense::hover());
     let font = FontId::proportional(12.5);
     ui.painter().text(place.left_center(), Align2::LEFT_CENTER, text, font, theme::TEXT);
+}
+
+/// A slider whose number is shown and typed with three digits.
+pub fn number_slider(value: &mut f64, range: RangeInclusive<f64>) -> Slider<'_> {
+    Slider::new(value, range)
+        .update_while_editing(false) // a number that is being typed has no meaning yet
+        .clamping(SliderClamping::Never) // the simulation refuses a typed value outside, with a message
+        .custom_formatter(|value, _| numbers::short(value))
+        .custom_parser(numbers::parse)
 }
 
 /// The choice of the picture that the body is made from.

@@ -13,13 +13,12 @@ use kiss3d::context::Context;
 use kiss3d::window::{CanvasSetup, NumSamples, Window};
 use thiserror::Error;
 
-use crate::editing::editor::SceneEditor;
 use crate::picture::display::{display_available, without_panic, without_wayland_message};
 use crate::picture::files::{FRAMES_PER_SECOND, NotWritten, Recorder, check_writable};
 use crate::picture::theme;
-use crate::worker::{LoopOptions, Outcome, Stepping, Worker};
+use crate::worker::{LoopOptions, Outcome, Stepping};
 use options::WindowOptions;
-use session::{Session, Start};
+use session::Session;
 
 /// Errors on opening a window.
 #[derive(Debug, Error)]
@@ -64,10 +63,7 @@ pub fn open(simulation: Box<dyn Simulation>, options: WindowOptions) -> Result<O
         steps: options.quit_after_steps,
         log_energies: options.log_energies,
     };
-    let start = Start::of(&*simulation);
-    let editor = options.editing.clone().map(|editing| SceneEditor::new(editing, options.up));
-    let worker = Worker::start(simulation, loop_options, editor);
-    let (worker, not_written) = Session::new(window, worker, start, recorder, &options).run();
+    let (worker, not_written) = Session::new(window, simulation, loop_options, recorder, &options).run();
     Ok(Outcome { not_written, ..worker.finish() })
 }
 

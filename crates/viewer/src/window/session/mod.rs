@@ -12,6 +12,7 @@ use fem_model::simulation::{Shape, Simulation};
 use kiss3d::glamx::{Vec2, Vec3};
 use kiss3d::window::Window;
 
+use crate::editing::editor::SceneEditor;
 use crate::panel::{self, Panel, ViewState};
 use crate::picture::camera::{Camera, View};
 use crate::picture::files::{NotWritten, Picture, Recorder};
@@ -23,7 +24,7 @@ use crate::setup::Setup;
 use crate::window::interaction::Interaction;
 use crate::window::options::WindowOptions;
 use crate::window::scene_changes::SceneChanges;
-use crate::worker::{Command, Snapshot, Worker};
+use crate::worker::{Command, LoopOptions, Snapshot, Worker};
 
 const IDLE_INTERVAL: Duration = Duration::from_millis(15); // between polls for input while the picture does not change
 const LONGEST_IDLE: Duration = Duration::from_secs(1); // after which a frame is drawn in any case
@@ -67,38 +68,26 @@ pub struct Session {
     close: Arc<AtomicUsize>,
 }
 
-/// The simulation as it starts.
-pub struct Start {
-    name: String,
-    shape: Arc<Shape>,
-    frame: Frame,
-}
-
-impl Start {
-    /// The name, body and state of a simulation.
-    pub fn of(simulation: &dyn Simulation) -> Self {
-        let frame = Frame::of(simulation, Wanted::default());
-        Start { name: simulation.name().to_owned(), shape: simulation.shape(), frame }
-    }
-}
-
 impl Session {
-    /// A session in a new window, with the body at rest.
+    /// A session in a new window, with the body at rest, and the thread of its simulation.
     pub fn new(
         mut window: Window,
-        worker: Worker,
-        start: Start,
+        simulation: Box<dyn Simulation>,
+        loop_options: LoopOptions,
         recorder: Option<Recorder>,
         options: &WindowOptions,
     ) -> Self {
         let up = single(&options.up).try_normalize().unwrap_or(Vec3::Y);
-        let Start { name, shape, frame } = start;
+        let (name, shape) = (simulation.name().to_owned(), simulation.shape());
+        let frame = Frame::of(&*simulation, Wanted::default());
         let view_kind = View::of(&shape);
         prepare(&mut window, view_kind);
         let view = SceneView::new(&shape, &frame.planes, up);
         let framed = obstacles::arena(view.bounds(), &frame.planes);
         let camera = Camera::framing(view_kind, &framed, up, size(&window), covered(&window));
         let wanted = Wanted { field: options.color, contact_forces: true };
+        let editor = options.editing.clone().map(|editing| SceneEditor::new(editing, options.up));
+        let worker = Worker::start(simulation, loop_options, editor);
         worker.send(Command::Want(wanted));
         Session {
             framed: Some(framed),
