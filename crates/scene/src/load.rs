@@ -114,9 +114,7 @@ impl Scene {
         scene.check()?;
         Ok(scene)
     }
-}
 
-impl Scene {
     /// Checks the tables again after a change, such as another integrator. Returns the first problem.
     pub fn check(&self) -> Result<(), SceneError> {
         check(self).map_err(|refusal| self.refused(refusal))

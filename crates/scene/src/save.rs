@@ -68,18 +68,6 @@ impl Scene {
         text(self, &self.tables())
     }
 
-    /// Returns true if all tables and keys are the same, whatever the file and the overrides that gave them.
-    pub fn has_same_tables(&self, other: &Self) -> bool {
-        let bare = |scene: &Self| Self {
-            name: String::new(),
-            path: PathBuf::new(),
-            source: Table::new(),
-            overrides: Vec::new(),
-            ..scene.clone()
-        };
-        bare(self) == bare(other)
-    }
-
     /// The keys and values as they are now: with the integrator, time step and number of steps in use.
     fn tables(&self) -> Table {
         let mut tables = self.source.clone();

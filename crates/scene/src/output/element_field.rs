@@ -26,30 +26,28 @@ impl ElementField {
     /// All fields.
     pub const ALL: [Self; 3] = [Self::Stress, Self::PlasticStrain, Self::Quality];
 
+    /// Names for the command line and on the screen, and SI unit, which is empty for a field without one.
+    fn facts(self) -> [&'static str; 3] {
+        match self {
+            Self::Stress => ["stress", "von Mises stress", "Pa"],
+            Self::PlasticStrain => ["plastic_strain", "plastic strain", ""],
+            Self::Quality => ["quality", "circumradius / edge", ""],
+        }
+    }
+
     /// Name for the command line.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Stress => "stress",
-            Self::PlasticStrain => "plastic_strain",
-            Self::Quality => "quality",
-        }
+        self.facts()[0]
     }
 
     /// Name on the screen.
     pub fn label(self) -> &'static str {
-        match self {
-            Self::Stress => "von Mises stress",
-            Self::PlasticStrain => "plastic strain",
-            Self::Quality => "circumradius / edge",
-        }
+        self.facts()[1]
     }
 
     /// SI unit; empty for a field without one.
     pub fn unit(self) -> &'static str {
-        match self {
-            Self::Stress => "Pa",
-            Self::PlasticStrain | Self::Quality => "",
-        }
+        self.facts()[2]
     }
 
     /// The fields that a body has.

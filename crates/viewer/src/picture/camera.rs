@@ -86,8 +86,7 @@ impl Camera {
     /// The smallest distance at which every corner of `bounds` is inside the picture, m.
     fn distance_for(&self, bounds: &Bounds) -> f32 {
         let towards_eye = self.direction();
-        let right = self.right();
-        let above = towards_eye.cross(right);
+        let (right, above) = (self.right(), self.above());
         let vertical = (FIELD_OF_VIEW / 2.0).tan();
         let horizontal = vertical * (self.size.x - self.covered).max(1.0) / self.size.y;
         let needed = |corner: Vec3| {
@@ -118,8 +117,7 @@ impl Camera {
     /// Moves parallel to the picture so that the target follows a mouse motion of `pixels` (right, down).
     pub fn pan(&mut self, pixels: Vec2) {
         let metres_per_pixel = self.metres_per_pixel();
-        let right = self.right();
-        let above = self.direction().cross(right);
+        let (right, above) = (self.right(), self.above());
         self.target += (above * pixels.y - right * pixels.x) * metres_per_pixel;
     }
 
@@ -214,8 +212,7 @@ impl Camera {
     pub fn ray(&self, cursor: Vec2) -> (Vec3, Vec3) {
         let centre = Vec2::new((self.size.x + self.covered) / 2.0, self.size.y / 2.0);
         let from_centre = (cursor - centre) * 2.0 * (FIELD_OF_VIEW / 2.0).tan() / self.size.y;
-        let right = self.right();
-        let above = self.direction().cross(right);
+        let (right, above) = (self.right(), self.above());
         let lateral = right * from_centre.x - above * from_centre.y;
         match self.view {
             View::Orbit => (self.eye(), (lateral - self.direction()).normalize()),

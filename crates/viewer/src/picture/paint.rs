@@ -28,11 +28,6 @@ pub struct Paint {
 }
 
 impl Paint {
-    /// No picture on the body.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
     /// The picture that shaders draw.
     pub fn painting(&self) -> &Painting {
         &self.painting
@@ -62,9 +57,7 @@ impl Paint {
         self.scale = Some(scale);
         *self.painting.borrow_mut() = Some(self.colors.get_or_init(Texture::colors).clone());
     }
-}
 
-impl Paint {
     /// The picture that the body was made from. Its place on an undeformed triangle stays there.
     fn picture(&self, shape: &Shape, mesh: &mut Surface) -> Option<Texture> {
         let place = shape.picture.as_ref()?;

@@ -62,7 +62,7 @@ impl SceneView {
         };
         let bounds = Bounds::of(&shown);
         let environment = Rc::new(RefCell::new(environment(&bounds, up)));
-        let paint = Paint::new();
+        let paint = Paint::default();
         let shader = |kind| shader(kind, &environment, paint.painting());
         let is_flat = shape.mesh.is_flat();
         let floor = (!is_flat).then(|| floor(&mut root, &environment.borrow(), &shader(Kind::Floor)));
