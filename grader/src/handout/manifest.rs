@@ -165,8 +165,9 @@ mod tests {
         let (text, gone) = program_manifest(program, has).unwrap();
         assert_eq!(text, "[features]\nwindow = []\n\n[dependencies]\nmesh = { path = \"../mesh\" }\n");
         assert_eq!(gone, ["fem-cli/engine"]);
-        let root = "[features]\ndefault = [\"engine\", \"window\"]\nengine = [\"fem-cli/engine\"]\nwindow = [\"fem-cli/window\"]\n";
-        let expected = "[features]\ndefault = [ \"window\"]\nwindow = [\"fem-cli/window\"]\n";
+        let root = "[workspace]\nmembers = []\n\n[features]\ndefault = [\"engine\", \"window\"]\nengine = [\"fem-cli/engine\"]\nwindow = [\"fem-cli/window\"]\n";
+        let expected =
+            "[workspace]\nmembers = []\n\n[features]\ndefault = [ \"window\"]\nwindow = [\"fem-cli/window\"]\n";
         assert_eq!(root_manifest(root, has, &gone).unwrap(), expected);
     }
 
