@@ -132,10 +132,9 @@ fn check_pipeline(scene: &Scene) -> Result<(), SceneError> {
         ("prescribed", !scene.prescribed.is_empty()),
         ("initial_velocity", !scene.initial_velocity.is_empty()),
     ];
-    match engine_only.iter().find(|(_, present)| *present) {
-        Some((field, _)) => {
-            Err(scene.refuse(field, "belongs to the engine; the course's pipeline does without, remove it"))
-        }
+    let field = scene.fields().tables().next();
+    match engine_only.iter().find(|(_, present)| *present).map(|(field, _)| *field).or(field) {
+        Some(field) => Err(scene.refuse(field, "belongs to the engine; the course's pipeline does without, remove it")),
         None => Ok(()),
     }
 }

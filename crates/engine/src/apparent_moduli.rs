@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use fem_model::{Body, DirichletCondition};
+use fem_model::{Body, DirichletCondition, ForceFields};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use crate::forces::{HessianKind, mass_spring};
@@ -94,6 +94,7 @@ fn with_fixed_boundary(body: &Body) -> Body {
         tractions: Vec::new(),
         nodal_forces: Vec::new(),
         pressures: Vec::new(),
+        fields: ForceFields::default(),
         springs: Vec::new(),
         contact: None,
         drag: None,

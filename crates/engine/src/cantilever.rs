@@ -59,6 +59,7 @@ pub fn expected_tip_displacement(body: &Body, method: &Method) -> Option<Vector3
     let size = box_size(&body.shape.mesh)?;
     let is_loaded_alone = body.pressures.is_empty()
         && body.nodal_forces.is_empty()
+        && body.fields.tables().next().is_none()
         && body.springs.is_empty()
         && body.drag.is_none()
         && body.contact.is_none();

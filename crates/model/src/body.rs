@@ -9,8 +9,8 @@ use crate::regions::density_factors;
 use crate::selector::{elements, listed, loaded_faces, nodes};
 use crate::simulation::Shape;
 use crate::{
-    BodyMesh, Contact, Damping, DirichletCondition, Drag, Law, LoadCurve, Material, MaterialRegion, Method, Motion,
-    NodalForce, PlaneState, Plasticity, Pressure, Refusal, Selector, Spring, Traction, check_disjoint,
+    BodyMesh, Contact, Damping, DirichletCondition, Drag, ForceFields, Law, LoadCurve, Material, MaterialRegion,
+    Method, Motion, NodalForce, PlaneState, Plasticity, Pressure, Refusal, Selector, Spring, Traction, check_disjoint,
 };
 
 /// A body as a pipeline simulates it: checked meshes, material, constraints and external forces, in the mesh's node numbers and
@@ -55,6 +55,8 @@ pub struct Body {
     pub nodal_forces: Vec<NodalForce>,
     /// Follower loads on the surface.
     pub pressures: Vec<Pressure>,
+    /// Force fields.
+    pub fields: ForceFields,
     /// Springs between nodes.
     pub springs: Vec<Spring>,
     /// Obstacles.
@@ -107,6 +109,7 @@ impl Body {
             tractions: Vec::new(),
             nodal_forces: Vec::new(),
             pressures: Vec::new(),
+            fields: ForceFields::default(),
             springs: Vec::new(),
             contact: None,
             drag: None,
@@ -203,6 +206,15 @@ impl Body {
         Ok(self)
     }
 
+    /// Adds a force field, such as [`CentralGravity`](crate::CentralGravity).
+    pub fn field(mut self, field: impl Into<ForceFields>) -> Result<Self, Refusal> {
+        let field = field.into();
+        field.check()?;
+        field.check_on(&self.shape.mesh)?;
+        self.fields.extend(field);
+        Ok(self)
+    }
+
     /// Joins two nodes by a spring of a stiffness, N/m, that is relaxed in the undeformed body.
     pub fn spring(mut self, [a, b]: [usize; 2], stiffness: f64) -> Result<Self, Refusal> {
         let table = format!("springs[{}]", self.springs.len());
@@ -228,6 +240,18 @@ impl Body {
     pub fn lump_mass_for(mut self, method: &Method) -> Self {
         self.lumped_mass = method.integrator.lumps_mass(self.shape.mesh.vertices().len(), self.contact.is_some());
         self
+    }
+
+    /// The mass that each node carries, kg: row sums of the mass matrix.
+    pub fn node_masses(&self) -> Vec<f64> {
+        let mesh = &self.shape.mesh;
+        let shares = if self.lumped_mass { mesh.lumped_mass_shares() } else { mesh.load_shares() };
+        let mut masses = vec![0.0; mesh.vertices().len()];
+        for (element, (nodes, volume)) in mesh.corners().zip(mesh.volumes()).enumerate() {
+            let mass = volume * self.material.density * self.density_factors.get(element).copied().unwrap_or(1.0);
+            nodes.iter().zip(shares).for_each(|(&node, &share)| masses[node] += share * mass);
+        }
+        masses
     }
 
     /// The fixed nodes, ascending and without repeats; `None` if there are none.

@@ -68,6 +68,8 @@ fn values(scene: &Scene, shape: Shape, data: &Path) -> Result<Body, Refusal> {
     body.plasticity = plasticity(scene);
     body.lumped_mass = scene.lumps_mass(mesh.vertices().len());
     body.nodal_forces = nodal_forces(scene, mesh)?;
+    body.fields = scene.fields();
+    body.fields.check_on(mesh)?;
     body.springs = springs(scene, mesh)?;
     body.drag = drag(scene, mesh)?;
     body.damping = damping(scene);

@@ -14,7 +14,7 @@ use fem_mesh::MeshError;
 const LINE: usize = 120;
 
 /// The order of the tables in a file.
-const ORDER: [&str; 28] = [
+const ORDER: [&str; 29] = [
     "about",
     "pipeline",
     "mesh",
@@ -26,6 +26,7 @@ const ORDER: [&str; 28] = [
     "body_force",
     "traction",
     "force",
+    "central_gravity",
     "springs",
     "fixed",
     "prescribed",

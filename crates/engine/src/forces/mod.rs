@@ -1,6 +1,7 @@
 //! Forces on the body beside its own elasticity: the trait [`Potential`], and one file for each force.
 
 pub mod anchors;
+mod central_gravity;
 pub mod contact;
 pub mod dead_load;
 mod energy;
@@ -35,12 +36,13 @@ pub struct Kind<T: Real> {
 pub type Builder<T> = fn(&Body, &Numbering) -> Option<Box<dyn Potential<T>>>;
 
 /// Every force that a scene can ask for; `[drag]` and the user's interaction are [`Anchors`].
-pub fn kinds<T: Real>() -> [Kind<T>; 6] {
+pub fn kinds<T: Real>() -> [Kind<T>; 7] {
     [
         Kind { name: mass_spring::NAME, tables: "[material] with model \"mass_spring\"", build: mass_spring::build },
         Kind { name: springs::NAME, tables: "[[springs]]", build: springs::build },
         Kind { name: dead_load::NAME, tables: "dead load", build: dead_load::build },
         Kind { name: pressure::NAME, tables: "[[traction]] with pressure", build: pressure::build },
+        Kind { name: central_gravity::NAME, tables: "[central_gravity]", build: central_gravity::build },
         Kind { name: contact::NAME, tables: "[[planes]]", build: contact::build },
         Kind { name: contact::friction::NAME, tables: "[[planes]] with friction", build: contact::friction::build },
     ]

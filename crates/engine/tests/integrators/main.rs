@@ -9,6 +9,7 @@ mod arc_length;
 mod balance;
 mod bars;
 mod cantilever;
+mod central_gravity;
 mod closed_scenes;
 mod conserved;
 mod curves;
